@@ -1,0 +1,224 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Files and folders: whole texts in and out, and the few POSIX calls that Fortran lacks
+module ehl_files
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, &
+                                          c_ptr
+   use ehl_status, only: ehl_file, status_t
+   use ehl_text, only: to_text
+   implicit none (type, external)
+   private
+   public :: read_text, write_text, file_exists, make_folder, remove_folder, remove_file
+   public :: rename_path, absolute_path, real_path, folder_of, process_mark
+
+   interface
+      integer(c_int) function posix_mkdir(path, mode) bind(c, name="mkdir")
+         import :: c_char, c_int
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: mode
+      end function posix_mkdir
+
+      integer(c_int) function posix_rmdir(path) bind(c, name="rmdir")
+         import :: c_char, c_int
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: path(*)
+      end function posix_rmdir
+
+      integer(c_int) function posix_unlink(path) bind(c, name="unlink")
+         import :: c_char, c_int
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: path(*)
+      end function posix_unlink
+
+      integer(c_int) function posix_access(path, mode) bind(c, name="access")
+         import :: c_char, c_int
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: mode
+      end function posix_access
+
+      integer(c_int) function posix_rename(from, to) bind(c, name="rename")
+         import :: c_char, c_int
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: from(*), to(*)
+      end function posix_rename
+
+      type(c_ptr) function posix_getcwd(buffer, length) bind(c, name="getcwd")
+         use, intrinsic :: iso_c_binding, only: c_size_t
+         import :: c_char, c_ptr
+         implicit none (type, external)
+         character(kind=c_char), intent(out) :: buffer(*)
+         integer(c_size_t), value :: length
+      end function posix_getcwd
+
+      type(c_ptr) function posix_realpath(path, resolved) bind(c, name="realpath")
+         import :: c_char, c_ptr
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: path(*)
+         character(kind=c_char), intent(out) :: resolved(*)
+      end function posix_realpath
+
+      integer(c_int) function posix_getpid() bind(c, name="getpid")
+         import :: c_int
+         implicit none (type, external)
+      end function posix_getpid
+   end interface
+
+contains
+
+   !> The whole text of a file of at most `largest` bytes
+   subroutine read_text(path, largest, text, status)
+      character(len=*), intent(in) :: path
+      integer, intent(in) :: largest
+      character(len=:), allocatable, intent(out) :: text
+      type(status_t), intent(inout) :: status
+      character(len=256) :: reason
+      integer :: lun, stat
+      integer(8) :: length
+
+      text = ""
+      if (.not. file_exists(path)) then
+         call status%fail(ehl_file, path // ": error: there is no such file")
+         return
+      end if
+      if (file_exists(path // "/.")) then
+         call status%fail(ehl_file, path // ": error: this is a folder, not a file")
+         return
+      end if
+      open (newunit=lun, file=path, status="old", action="read", access="stream", &
+            form="unformatted", iostat=stat, iomsg=reason)
+      if (stat /= 0) then
+         call status%fail(ehl_file, path // ": error: cannot open: " // trim(reason))
+         return
+      end if
+      inquire (unit=lun, size=length)
+      if (length < 0 .or. length > largest) then
+         call status%fail(ehl_file, path // ": error: not a file of at most " &
+                          // to_text(largest) // " bytes")
+      else
+         deallocate (text)
+         allocate (character(len=int(length)) :: text)
+         if (length > 0) then
+            read (lun, iostat=stat, iomsg=reason) text
+            if (stat /= 0) call status%fail(ehl_file, path // ": error: cannot read: " // trim(reason))
+         end if
+      end if
+      close (lun, iostat=stat)
+   end subroutine read_text
+
+   !> Write a text to a file, replacing what was there
+   subroutine write_text(path, text, status)
+      character(len=*), intent(in) :: path, text
+      type(status_t), intent(inout) :: status
+      character(len=256) :: reason
+      integer :: lun, stat
+
+      open (newunit=lun, file=path, status="replace", action="write", access="stream", &
+            form="unformatted", iostat=stat, iomsg=reason)
+      if (stat == 0) write (lun, iostat=stat, iomsg=reason) text
+      if (stat == 0) close (lun, iostat=stat, iomsg=reason)
+      if (stat /= 0) call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
+   end subroutine write_text
+
+   !> Whether a file or folder is there
+   logical function file_exists(path)
+      character(len=*), intent(in) :: path
+      integer(c_int), parameter :: there = 0
+
+      file_exists = posix_access(c_text(path), there) == 0
+   end function file_exists
+
+   !> Make a folder; false when that is not possible or it is there already
+   logical function make_folder(path)
+      character(len=*), intent(in) :: path
+      integer(c_int), parameter :: for_all = int(o"777", c_int)
+
+      make_folder = posix_mkdir(c_text(path), for_all) == 0
+   end function make_folder
+
+   !> Remove an empty folder; false when it is not empty or not there
+   logical function remove_folder(path)
+      character(len=*), intent(in) :: path
+
+      remove_folder = posix_rmdir(c_text(path)) == 0
+   end function remove_folder
+
+   !> Remove a file; false when it is not there
+   logical function remove_file(path)
+      character(len=*), intent(in) :: path
+
+      remove_file = posix_unlink(c_text(path)) == 0
+   end function remove_file
+
+   !> Rename a file or folder in one step. A folder replaces another only when that is empty.
+   logical function rename_path(from, to)
+      character(len=*), intent(in) :: from, to
+
+      rename_path = posix_rename(c_text(from), c_text(to)) == 0
+   end function rename_path
+
+   !> The path from the root: relative ones start at the working directory
+   function absolute_path(path) result(absolute)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: absolute
+      character(kind=c_char) :: buffer(4096)
+      type(c_ptr) :: answer
+
+      absolute = path
+      if (len(path) > 0) then
+         if (path(1:1) == "/") return
+      end if
+      answer = posix_getcwd(buffer, size(buffer, kind=8))
+      if (.not. c_associated(answer)) return
+      absolute = fortran_text(buffer) // "/" // path
+   end function absolute_path
+
+   !> The path of what is there, without links and dots; the path itself when nothing is there
+   function real_path(path) result(real_one)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: real_one
+      character(kind=c_char) :: buffer(4097)
+
+      real_one = path
+      if (c_associated(posix_realpath(c_text(path), buffer))) real_one = fortran_text(buffer)
+   end function real_path
+
+   !> The folder part of a path with its '/'; empty when there is none
+   pure function folder_of(path) result(folder)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: folder
+
+      folder = path(:index(path, "/", back=.true.))
+   end function folder_of
+
+   !> A text that differs from process to process, for the names of temporary folders
+   function process_mark() result(mark)
+      character(len=:), allocatable :: mark
+
+      mark = to_text(int(posix_getpid()))
+   end function process_mark
+
+   !> The text in a buffer that C has filled
+   pure function fortran_text(buffer) result(text)
+      character(kind=c_char), intent(in) :: buffer(:)
+      character(len=:), allocatable :: text
+      integer :: i
+
+      allocate (character(len=findloc(buffer, c_null_char, dim=1) - 1) :: text)
+      do i = 1, len(text)
+         text(i:i) = buffer(i)
+      end do
+   end function fortran_text
+
+   !> A text as C takes it
+   pure function c_text(text) result(answer)
+      character(len=*), intent(in) :: text
+      character(kind=c_char) :: answer(len(text) + 1)
+      integer :: i
+
+      do i = 1, len(text)
+         answer(i) = text(i:i)
+      end do
+      answer(len(text) + 1) = c_null_char
+   end function c_text
+end module ehl_files

@@ -1,0 +1,157 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Arrays of real(dp) as .npy files (NumPy format 1.0), the file that both drivers share
+module ehl_npy
+   use, intrinsic :: iso_fortran_env, only: int32, int8
+   use ehl_kinds, only: dp
+   use ehl_status, only: ehl_file, status_t
+   use ehl_text, only: newline, to_text
+   implicit none (type, external)
+   private
+   public :: write_npy, read_npy
+
+   !> Write a vector or a matrix; a matrix keeps Fortran order, so that values(i, j) in Fortran
+   !> is values[i - 1, j - 1] in Python
+   interface write_npy
+      module procedure write_vector
+      module procedure write_matrix
+   end interface write_npy
+
+   character(len=*), parameter :: magic = char(147) // "NUMPY"
+
+contains
+
+   subroutine write_vector(path, values, status)
+      character(len=*), intent(in) :: path
+      real(dp), intent(in) :: values(:)
+      type(status_t), intent(inout) :: status
+
+      call write_values(path, header("False", "(" // to_text(size(values)) // ",)"), &
+                        reshape(values, [size(values), 1]), status)
+   end subroutine write_vector
+
+   subroutine write_matrix(path, values, status)
+      character(len=*), intent(in) :: path
+      real(dp), intent(in) :: values(:, :)
+      type(status_t), intent(inout) :: status
+
+      call write_values(path, header("True", "(" // to_text(size(values, 1)) // ", " &
+                                     // to_text(size(values, 2)) // ")"), values, status)
+   end subroutine write_matrix
+
+   !> Magic, version, length and description, padded to a multiple of 64 bytes
+   pure function header(fortran_order, shape_text) result(text)
+      character(len=*), intent(in) :: fortran_order, shape_text
+      character(len=:), allocatable :: text
+      integer :: length
+
+      text = "{'descr': '<f8', 'fortran_order': " // fortran_order // ", 'shape': " &
+             // shape_text // ", }"
+      length = 64*((10 + len(text) + 1 + 63)/64) - 10
+      text = text // repeat(" ", length - len(text) - 1) // newline
+      text = magic // char(1) // char(0) // char(mod(length, 256)) // char(length/256) // text
+   end function header
+
+   !> Header and numbers; machines with the other byte order are not served
+   subroutine write_values(path, head, values, status)
+      character(len=*), intent(in) :: path, head
+      real(dp), intent(in) :: values(:, :)
+      type(status_t), intent(inout) :: status
+      character(len=256) :: reason
+      integer :: lun, stat
+
+      if (transfer(1_int32, 0_int8) /= 1_int8) then
+         call status%fail(ehl_file, path // ": this machine is not little-endian")
+         return
+      end if
+      open (newunit=lun, file=path, status="replace", action="write", access="stream", &
+            form="unformatted", iostat=stat, iomsg=reason)
+      if (stat == 0) write (lun, iostat=stat, iomsg=reason) head, values
+      if (stat == 0) close (lun, iostat=stat, iomsg=reason)
+      if (stat /= 0) call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
+   end subroutine write_values
+
+   !> Read a matrix of little-endian float64 in either order, format 1.0 to 3.0;
+   !> values(i, j) is the file's [i - 1, j - 1]
+   subroutine read_npy(path, values, status)
+      character(len=*), intent(in) :: path
+      real(dp), allocatable, intent(out) :: values(:, :)
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: head, problem
+      character(len=10) :: front
+      character(len=2) :: more
+      character(len=256) :: reason
+      real(dp), allocatable :: rows(:, :)
+      integer :: lun, stat, length, n(2)
+      integer(8) :: bytes
+
+      allocate (values(0, 0))
+      head = ""
+      open (newunit=lun, file=path, status="old", action="read", access="stream", &
+            form="unformatted", iostat=stat, iomsg=reason)
+      if (stat /= 0) then
+         call status%fail(ehl_file, path // ": cannot open: " // trim(reason))
+         return
+      end if
+      problem = "it is not an .npy file"
+      inquire (unit=lun, size=bytes)
+      read (lun, iostat=stat) front
+      if (stat == 0 .and. front(1:6) == magic) then
+         length = iachar(front(9:9)) + 256*iachar(front(10:10))
+         if (iachar(front(7:7)) > 1) then
+            read (lun, iostat=stat) more
+            length = length + 65536*iachar(more(1:1))
+         end if
+         if (stat == 0 .and. length < 65536) then
+            head = repeat(" ", length)
+            read (lun, iostat=stat) head
+            if (stat == 0) call read_header(head, n, problem)
+         end if
+      end if
+      if (problem == "" .and. 8*int(n(1), 8)*n(2) > bytes) problem = "it is shorter than it says"
+      if (problem == "") then
+         deallocate (values)
+         if (index(head, "'fortran_order': True") > 0) then
+            allocate (values(n(1), n(2)))
+            read (lun, iostat=stat) values
+         else
+            allocate (rows(n(2), n(1)))
+            read (lun, iostat=stat) rows
+            values = transpose(rows)
+         end if
+         if (stat /= 0) problem = "it is shorter than it says"
+      end if
+      if (problem /= "") call status%fail(ehl_file, path // ": cannot read the array: " // problem)
+      close (lun, iostat=stat)
+   end subroutine read_npy
+
+   !> Shape of the array that a header describes; problem becomes empty when it can be read
+   subroutine read_header(head, n, problem)
+      character(len=*), intent(in) :: head
+      integer, intent(out) :: n(2)
+      character(len=:), allocatable, intent(inout) :: problem
+      integer :: first, last, stat
+
+      n = 0
+      if (index(head, "'descr': '<f8'") == 0) then
+         problem = "its numbers are not little-endian float64"
+         return
+      end if
+      problem = "it is not a matrix"
+      first = index(head, "(")
+      last = index(head, ")")
+      if (first == 0 .or. last < first + 4) return
+      if (head(last - 1:last - 1) == ",") return
+      read (head(first + 1:last - 1), *, iostat=stat) n
+      if (stat == 0 .and. all(n > 0) .and. count_commas(head(first:last)) == 1) problem = ""
+   end subroutine read_header
+
+   pure integer function count_commas(text)
+      character(len=*), intent(in) :: text
+      integer :: i
+
+      count_commas = 0
+      do i = 1, len(text)
+         if (text(i:i) == ",") count_commas = count_commas + 1
+      end do
+   end function count_commas
+end module ehl_npy

@@ -1,0 +1,132 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Named values in the order in which they were set, written as one JSON object
+module ehl_record
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ehl_kinds, only: dp
+   use ehl_text, only: newline, to_text
+   implicit none (type, external)
+   private
+   public :: record_t
+
+   !> One name and its value, already as JSON
+   type :: item_t
+      character(len=:), allocatable :: name
+      character(len=:), allocatable :: value
+   end type item_t
+
+   !> A small ordered collection of named values
+   type :: record_t
+      private
+      type(item_t), allocatable :: items(:)
+   contains
+      !> call record%set(name, value): real(dp), integer, logical or character;
+      !> a name that is there already gets the new value
+      generic :: set => set_real, set_integer, set_logical, set_text
+      procedure, private :: set_real
+      procedure, private :: set_integer
+      procedure, private :: set_logical
+      procedure, private :: set_text
+      procedure, private :: put
+      procedure :: to_json
+   end type record_t
+
+contains
+
+   !> Set a real value; nan and inf become null
+   subroutine set_real(self, name, value)
+      class(record_t), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      real(dp), intent(in) :: value
+
+      if (ieee_is_finite(value)) then
+         call self%put(name, to_text(value))
+      else
+         call self%put(name, "null")
+      end if
+   end subroutine set_real
+
+   !> Set an integer value
+   subroutine set_integer(self, name, value)
+      class(record_t), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      integer, intent(in) :: value
+      call self%put(name, to_text(value))
+   end subroutine set_integer
+
+   !> Set a truth value
+   subroutine set_logical(self, name, value)
+      class(record_t), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      logical, intent(in) :: value
+
+      if (value) then
+         call self%put(name, "true")
+      else
+         call self%put(name, "false")
+      end if
+   end subroutine set_logical
+
+   !> Set a text; trailing blanks are dropped
+   subroutine set_text(self, name, value)
+      class(record_t), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: value
+      call self%put(name, json_text(trim(value)))
+   end subroutine set_text
+
+   !> Store a value that is JSON already
+   subroutine put(self, name, value)
+      class(record_t), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: value
+      integer :: k
+
+      if (.not. allocated(self%items)) allocate (self%items(0))
+      do k = 1, size(self%items)
+         if (self%items(k)%name == name) then
+            self%items(k)%value = value
+            return
+         end if
+      end do
+      self%items = [self%items, item_t(name, value)]
+   end subroutine put
+
+   !> The record as a JSON object, one value a line. Reals have as many digits as they need to
+   !> read back as the same number.
+   function to_json(self) result(text)
+      class(record_t), intent(in) :: self
+      character(len=:), allocatable :: text
+      integer :: k
+
+      text = "{"
+      if (allocated(self%items)) then
+         do k = 1, size(self%items)
+            if (k > 1) text = text // ","
+            text = text // newline // "  " // json_text(self%items(k)%name) // ": " &
+                   // self%items(k)%value
+         end do
+      end if
+      text = text // newline // "}" // newline
+   end function to_json
+
+   !> A JSON string with its escapes
+   pure function json_text(value) result(text)
+      character(len=*), intent(in) :: value
+      character(len=:), allocatable :: text
+      character(len=*), parameter :: hex = "0123456789abcdef"
+      integer :: i, code
+
+      text = '"'
+      do i = 1, len(value)
+         code = iachar(value(i:i))
+         if (value(i:i) == '"' .or. value(i:i) == "\") then
+            text = text // "\" // value(i:i)
+         else if (code < 32) then
+            text = text // "\u00" // hex(code/16 + 1:code/16 + 1) // hex(mod(code, 16) + 1:mod(code, 16) + 1)
+         else
+            text = text // value(i:i)
+         end if
+      end do
+      text = text // '"'
+   end function json_text
+end module ehl_record

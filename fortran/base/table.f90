@@ -1,0 +1,160 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> A table of numbers that grows row by row and is written as CSV
+module ehl_table
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ehl_kinds, only: dp
+   use ehl_status, only: ehl_file, ehl_internal, status_t
+   use ehl_text, only: to_text
+   implicit none (type, external)
+   private
+   public :: table_t, column_name_length
+
+   !> Longest name of a column
+   integer, parameter :: column_name_length = 32
+
+   !> Rows of real numbers under named columns
+   type :: table_t
+      private
+      character(len=column_name_length), allocatable :: names(:)
+      !> Stored column-major: values(column, row); rows beyond the last one are spare
+      real(dp), allocatable :: values(:, :)
+      integer :: rows = 0
+   contains
+      procedure :: init
+      procedure :: append
+      procedure :: n_rows
+      procedure :: n_columns
+      procedure :: column
+      procedure :: write_csv
+   end type table_t
+
+contains
+
+   !> Name the columns and drop all rows
+   subroutine init(self, names)
+      class(table_t), intent(inout) :: self
+      character(len=*), intent(in) :: names(:)
+      integer :: k
+
+      if (allocated(self%values)) deallocate (self%values)
+      if (allocated(self%names)) deallocate (self%names)
+      allocate (self%names(size(names)))
+      do k = 1, size(names)
+         self%names(k) = adjustl(names(k))
+      end do
+      allocate (self%values(size(names), 64))
+      self%rows = 0
+   end subroutine init
+
+   !> Add a row; values(:) has one number per column
+   subroutine append(self, values)
+      class(table_t), intent(inout) :: self
+      real(dp), intent(in) :: values(:)
+      real(dp), allocatable :: larger(:, :)
+
+      if (self%rows == size(self%values, 2)) then
+         allocate (larger(size(self%values, 1), 2*self%rows))
+         larger(:, :self%rows) = self%values
+         call move_alloc(larger, self%values)
+      end if
+      self%rows = self%rows + 1
+      self%values(:, self%rows) = values
+   end subroutine append
+
+   !> Number of rows
+   pure integer function n_rows(self)
+      class(table_t), intent(in) :: self
+      n_rows = self%rows
+   end function n_rows
+
+   !> Number of columns
+   pure integer function n_columns(self)
+      class(table_t), intent(in) :: self
+
+      n_columns = 0
+      if (allocated(self%names)) n_columns = size(self%names)
+   end function n_columns
+
+   !> Values of the column with this name, one per row; no values when there is no such column
+   pure function column(self, name) result(values)
+      class(table_t), intent(in) :: self
+      character(len=*), intent(in) :: name
+      real(dp), allocatable :: values(:)
+      integer :: k
+
+      do k = 1, self%n_columns()
+         if (self%names(k) == name) then
+            values = self%values(k, :self%rows)
+            return
+         end if
+      end do
+      allocate (values(0))
+   end function column
+
+   !> Write a heading and one line per row. A column of whole numbers is written without a
+   !> point; values that are not finite are left empty.
+   subroutine write_csv(self, path, status)
+      class(table_t), intent(in) :: self
+      character(len=*), intent(in) :: path
+      type(status_t), intent(inout) :: status
+      logical, allocatable :: whole(:)
+      character(len=:), allocatable :: line
+      character(len=256) :: reason
+      integer :: lun, stat, i, k
+
+      if (.not. allocated(self%names)) then
+         call status%fail(ehl_internal, "the table for " // path // " has no columns")
+         return
+      end if
+      open (newunit=lun, file=path, status="replace", action="write", access="stream", &
+            form="formatted", iostat=stat, iomsg=reason)
+      if (stat /= 0) then
+         call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
+         return
+      end if
+      allocate (whole(size(self%names)))
+      line = ""
+      do k = 1, size(self%names)
+         whole(k) = all(is_whole(self%values(k, :self%rows)))
+         if (k > 1) line = line // ","
+         line = line // trim(self%names(k))
+      end do
+      write (lun, "(a)", iostat=stat, iomsg=reason) line
+      do i = 1, self%rows
+         if (stat /= 0) exit
+         line = ""
+         do k = 1, size(self%names)
+            if (k > 1) line = line // ","
+            line = line // cell(self%values(k, i), whole(k))
+         end do
+         write (lun, "(a)", iostat=stat, iomsg=reason) line
+      end do
+      if (stat == 0) close (lun, iostat=stat, iomsg=reason)
+      if (stat /= 0) call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
+   end subroutine write_csv
+
+   !> Whether a number has no fraction (and fits an integer)
+   elemental logical function is_whole(x)
+      real(dp), intent(in) :: x
+
+      is_whole = .false.
+      if (ieee_is_finite(x)) then
+         if (abs(x) < 2.0e9_dp) is_whole = .not. abs(x - anint(x)) > 0.0_dp
+      end if
+   end function is_whole
+
+   !> One value as text
+   pure function cell(x, whole) result(text)
+      real(dp), intent(in) :: x
+      logical, intent(in) :: whole
+      character(len=:), allocatable :: text
+
+      if (whole) then
+         text = to_text(nint(x))
+      else if (ieee_is_finite(x)) then
+         text = to_text(x)
+      else
+         text = ""
+      end if
+   end function cell
+end module ehl_table

@@ -1,0 +1,51 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Elastic deflection of the half-space: what every engine offers
+module ehl_deflection
+   use ehl_kinds, only: dp
+   use ehl_grid, only: grid_t
+   use ehl_status, only: status_t
+   implicit none (type, external)
+   private
+   public :: deflection_t
+
+   !> Elastic deflection W = (2/pi^2) iint P dX' dY' / r on one grid, P piecewise constant on
+   !> cells of hx x hy centred at the nodes. P is scaled by the Hertz pressure, W by a^2/R.
+   type, abstract :: deflection_t
+   contains
+      !> Prepare for a grid: kernels, plans, work arrays
+      procedure(setup_i), deferred :: setup
+      !> W = K P
+      procedure(apply_i), deferred :: apply
+      !> Allocated bytes
+      procedure(bytes_i), deferred :: bytes
+   end type deflection_t
+
+   abstract interface
+      !> Prepare for a grid
+      subroutine setup_i(self, grid, accuracy, threads, status)
+         import :: deflection_t, grid_t, dp, status_t
+         class(deflection_t), intent(inout) :: self
+         type(grid_t), intent(in) :: grid
+         !> Largest error allowed, relative to the largest deflection; engines that are exact
+         !> to rounding ignore it
+         real(dp), intent(in) :: accuracy
+         !> OpenMP threads to use; the result does not depend on it
+         integer, intent(in) :: threads
+         type(status_t), intent(inout) :: status
+      end subroutine setup_i
+
+      !> W = K P over the whole contact (mirror image included on a folded grid)
+      subroutine apply_i(self, p, w)
+         import :: deflection_t, dp
+         class(deflection_t), intent(inout) :: self
+         real(dp), intent(in) :: p(:, :)
+         real(dp), intent(out) :: w(:, :)
+      end subroutine apply_i
+
+      !> Allocated bytes
+      pure integer(8) function bytes_i(self)
+         import :: deflection_t
+         class(deflection_t), intent(in) :: self
+      end function bytes_i
+   end interface
+end module ehl_deflection

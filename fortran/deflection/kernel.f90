@@ -1,0 +1,73 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Influence coefficients of the elastic half-space: the deflection at a node caused by a unit
+!> pressure on one cell of hx x hy (Love 1929; Venner & Lubrecht 2000, eq. 5.4)
+module ehl_kernel
+   use ehl_kinds, only: dp, pi
+   implicit none (type, external)
+   private
+   public :: kernel_coefficient, fill_kernel
+
+   !> 2/pi^2, the factor in front of the integral in Hertz units
+   real(dp), parameter :: factor = 2.0_dp/pi**2
+   !> Cells further away than this many mesh sizes are integrated by Gauss points: the exact
+   !> formula is a second difference and loses (r/h)^2 in accuracy there, the quadrature
+   !> is off by less than 4e-4 (h/r)^6 = 4e-13
+   real(dp), parameter :: far = 32.0_dp
+   !> Three-point Gauss-Legendre rule on [-1/2, 1/2]
+   real(dp), parameter :: node = 0.387298334620741688517926539978239961_dp
+   real(dp), parameter :: outer = 5.0_dp/18.0_dp, inner = 8.0_dp/18.0_dp
+
+contains
+
+   !> (2/pi^2) times the integral of 1/r over a cell of hx x hy whose centre is at
+   !> (di*hx, dj*hy) from the node; even in di and in dj
+   elemental real(dp) function kernel_coefficient(di, dj, hx, hy)
+      integer, intent(in) :: di, dj
+      real(dp), intent(in) :: hx, hy
+      real(dp) :: x, y
+
+      x = abs(di)*hx
+      y = abs(dj)*hy
+      if (x*x + y*y > (far*max(hx, hy))**2) then
+         kernel_coefficient = factor*hx*hy*gauss(x, y, node*hx, node*hy)
+      else
+         kernel_coefficient = factor*( &
+            corner(x + 0.5_dp*hx, y + 0.5_dp*hy) - corner(x - 0.5_dp*hx, y + 0.5_dp*hy) &
+            - corner(x + 0.5_dp*hx, y - 0.5_dp*hy) + corner(x - 0.5_dp*hx, y - 0.5_dp*hy))
+      end if
+   end function kernel_coefficient
+
+   !> Table of coefficients: k(1 + di, 1 + dj) for all offsets that the array has room for
+   pure subroutine fill_kernel(k, hx, hy)
+      real(dp), intent(out) :: k(:, :)
+      real(dp), intent(in) :: hx, hy
+      integer :: i, j
+
+      do j = 1, size(k, 2)
+         do i = 1, size(k, 1)
+            k(i, j) = kernel_coefficient(i - 1, j - 1, hx, hy)
+         end do
+      end do
+   end subroutine fill_kernel
+
+   !> Twofold antiderivative of 1/r, odd in x and in y; x and y are never zero at a corner
+   elemental real(dp) function corner(x, y)
+      real(dp), intent(in) :: x, y
+      corner = x*asinh(y/abs(x)) + y*asinh(x/abs(y))
+   end function corner
+
+   !> Mean of 1/r over a cell at (x, y) by 3 x 3 Gauss points at distances (gx, gy)
+   elemental real(dp) function gauss(x, y, gx, gy)
+      real(dp), intent(in) :: x, y, gx, gy
+
+      gauss = inner*line(x, y, gx) + outer*(line(x, y - gy, gx) + line(x, y + gy, gx))
+   end function gauss
+
+   !> Mean of 1/r over three Gauss points on a line in x
+   elemental real(dp) function line(x, y, gx)
+      real(dp), intent(in) :: x, y, gx
+
+      line = inner/sqrt(x*x + y*y) &
+             + outer*(1.0_dp/sqrt((x - gx)**2 + y*y) + 1.0_dp/sqrt((x + gx)**2 + y*y))
+   end function line
+end module ehl_kernel

@@ -1,0 +1,171 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Transfer weights and local corrections of multilevel multi-integration
+!>
+!> A kernel value midway between coarse points is interpolated from the 2t nearest ones,
+!>    K(d) = sum over k = 1..t of omega(k)*(K(d + 2k-1) + K(d - (2k-1))) + c(d),
+!> along one axis. The remainder c falls off like the 2t-th derivative of 1/r, and is kept
+!> where it matters: the largest values, until the sum of the magnitudes left out is within
+!> the tolerance. What is left out is added up, for odd and even d along the axis apart, and
+!> spread over the values kept: a smooth pressure then hardly feels the truncation (the
+!> error for the Hertz pressure falls to a half or a seventh).
+module ehl_mlmi_stencil
+   use ehl_kinds, only: dp
+   use ehl_kernel, only: kernel_coefficient
+   implicit none (type, external)
+   private
+   public :: stencil_t, transfer_weights
+
+   !> Corrections are looked for this far from the source, in mesh sizes
+   integer, parameter :: reach = 48
+
+   !> Local corrections of one halving, even in both offsets. "Along" is the axis that is
+   !> halved, "across" the other one.
+   type :: stencil_t
+      !> Largest offset across
+      integer :: width = 0
+      !> For each offset across 0..width: how many pairs of odd (1, 3, ...) and of even
+      !> (2, 4, ...) offsets along
+      integer, allocatable :: n_odd(:), n_even(:)
+      !> odd(k, across): at 2k-1 along, k >= 1; even(k, across): at 2k along, k >= 0
+      real(dp), allocatable :: odd(:, :), even(:, :)
+   contains
+      procedure :: make
+      procedure :: length
+      procedure :: taps
+   end type stencil_t
+
+contains
+
+   !> Weights of 2t-point interpolation midway between two points: omega(k) belongs to the
+   !> two points at distance 2k-1 half meshes
+   pure function transfer_weights(t) result(omega)
+      integer, intent(in) :: t
+      real(dp) :: omega(t)
+      integer :: k, m, node
+
+      do k = 1, t
+         omega(k) = 1.0_dp
+         do m = 1 - t, t
+            if (m == k) cycle
+            node = 2*m - 1
+            omega(k) = omega(k)*node/real(node - (2*k - 1), dp)
+         end do
+      end do
+   end function transfer_weights
+
+   !> Corrections for the kernel K(d) = kernel_coefficient(step(1)*di, step(2)*dj, hx, hy),
+   !> halved along an axis (1: X, 2: Y), with the tolerance in units of K; not met when even
+   !> all corrections within reach do not suffice
+   subroutine make(self, axis, step, hx, hy, omega, tolerance, met)
+      class(stencil_t), intent(inout) :: self
+      integer, intent(in) :: axis, step(2)
+      real(dp), intent(in) :: hx, hy, omega(:), tolerance
+      logical, intent(out) :: met
+      real(dp), allocatable :: table(:, :), c(:, :), copies(:, :)
+      real(dp) :: low, high, middle, spread
+      integer :: a, b, k, far, parity, trial
+      logical, allocatable :: kept(:, :)
+
+      far = reach + 2*size(omega)
+      allocate (table(0:far, 0:reach), c(0:reach, 0:reach), copies(0:reach, 0:reach), &
+                kept(0:reach, 0:reach))
+      do b = 0, reach
+         do a = 0, far
+            if (axis == 1) then
+               table(a, b) = kernel_coefficient(step(1)*a, step(2)*b, hx, hy)
+            else
+               table(a, b) = kernel_coefficient(step(1)*b, step(2)*a, hx, hy)
+            end if
+         end do
+      end do
+      do b = 0, reach
+         do a = 0, reach
+            c(a, b) = table(a, b)
+            do k = 1, size(omega)
+               c(a, b) = c(a, b) - omega(k)*(table(a + 2*k - 1, b) + table(abs(a - 2*k + 1), b))
+            end do
+         end do
+      end do
+      copies = 4.0_dp
+      copies(0, :) = 0.5_dp*copies(0, :)
+      copies(:, 0) = 0.5_dp*copies(:, 0)
+
+      ! the largest threshold that leaves out no more than the tolerance
+      low = 0.0_dp
+      high = maxval(abs(c))
+      do trial = 1, 60
+         middle = 0.5_dp*(low + high)
+         if (sum(copies*abs(c), mask=abs(c) < middle) <= tolerance) then
+            low = middle
+         else
+            high = middle
+         end if
+      end do
+      call fit(self, abs(c) >= max(low, tiny(low)))
+      met = self%width < reach .and. self%length() < reach
+
+      do b = 0, reach
+         do a = 0, reach
+            kept(a, b) = b <= self%width
+            if (kept(a, b)) then
+               if (mod(a, 2) == 0) then
+                  kept(a, b) = a/2 <= self%n_even(b)
+               else
+                  kept(a, b) = (a + 1)/2 <= self%n_odd(b)
+               end if
+            end if
+         end do
+      end do
+      do parity = 0, 1
+         spread = sum(copies(parity::2, :)*c(parity::2, :), mask=.not. kept(parity::2, :)) &
+                  /sum(copies(parity::2, :), mask=kept(parity::2, :))
+         where (kept(parity::2, :)) c(parity::2, :) = c(parity::2, :) + spread
+      end do
+      do b = 0, self%width
+         do k = 1, self%n_odd(b)
+            self%odd(k, b) = c(2*k - 1, b)
+         end do
+         do k = 0, self%n_even(b)
+            self%even(k, b) = c(2*k, b)
+         end do
+      end do
+   end subroutine make
+
+   !> Room for the wanted values (0:reach, 0:reach) and all nearer ones
+   subroutine fit(self, wanted)
+      class(stencil_t), intent(inout) :: self
+      logical, intent(in) :: wanted(0:, 0:)
+      integer :: b
+
+      self%width = 0
+      do b = 0, ubound(wanted, 2)
+         if (any(wanted(:, b))) self%width = b
+      end do
+      if (allocated(self%n_odd)) deallocate (self%n_odd, self%n_even, self%odd, self%even)
+      allocate (self%n_odd(0:self%width), self%n_even(0:self%width))
+      do b = 0, self%width
+         self%n_odd(b) = findloc(wanted(1::2, b), .true., dim=1, back=.true.)
+         self%n_even(b) = max(0, findloc(wanted(0::2, b), .true., dim=1, back=.true.) - 1)
+      end do
+      ! at least one value of each kind, to carry what is left out
+      self%n_odd(0) = max(1, self%n_odd(0))
+      allocate (self%odd(maxval(self%n_odd), 0:self%width), source=0.0_dp)
+      allocate (self%even(0:maxval(self%n_even), 0:self%width), source=0.0_dp)
+   end subroutine fit
+
+   !> Largest offset along the axis
+   pure integer function length(self)
+      class(stencil_t), intent(in) :: self
+      length = max(2*maxval(self%n_odd) - 1, 2*maxval(self%n_even))
+   end function length
+
+   !> Number of corrections, mirror images counted
+   pure integer function taps(self)
+      class(stencil_t), intent(in) :: self
+      integer :: b
+      taps = 0
+      do b = 0, self%width
+         taps = taps + merge(1, 2, b == 0)*(2*self%n_odd(b) + 2*self%n_even(b) + 1)
+      end do
+   end function taps
+end module ehl_mlmi_stencil

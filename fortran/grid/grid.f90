@@ -1,0 +1,117 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> A uniform grid over the contact, whole or folded at the symmetry line Y = 0
+module ehl_grid
+   use ehl_kinds, only: dp
+   implicit none (type, external)
+   private
+   public :: grid_t, new_grid
+
+   !> Uniform node-centred grid; fields on it are real(dp) arrays of shape (nx, ny), X first.
+   !> Lengths are dimensionless, scaled by the Hertz radius a.
+   type :: grid_t
+      !> Stored nodes in X and in Y
+      integer :: nx = 0, ny = 0
+      !> Coordinates of node (1, 1)
+      real(dp) :: x0 = 0.0_dp, y0 = 0.0_dp
+      !> Mesh sizes
+      real(dp) :: hx = 0.0_dp, hy = 0.0_dp
+      !> Only Y >= 0 is stored: row 1 lies on Y = 0 and the field continues as its mirror image
+      logical :: mirror = .false.
+   contains
+      procedure :: x => x_of
+      procedure :: y => y_of
+      procedure :: can_coarsen
+      procedure :: coarser
+      procedure :: finer
+      procedure :: weight
+      procedure :: full_ny
+   end type grid_t
+
+contains
+
+   !> Grid of points x points nodes over [x_inlet, x_outlet] x [-y_extent, y_extent];
+   !> with mirror only the (points+1)/2 rows with Y >= 0 are stored
+   pure function new_grid(points, x_inlet, x_outlet, y_extent, mirror) result(grid)
+      integer, intent(in) :: points
+      real(dp), intent(in) :: x_inlet, x_outlet, y_extent
+      logical, intent(in) :: mirror
+      type(grid_t) :: grid
+
+      grid%nx = points
+      grid%hx = (x_outlet - x_inlet)/(points - 1)
+      grid%hy = 2.0_dp*y_extent/(points - 1)
+      grid%x0 = x_inlet
+      grid%mirror = mirror
+      if (mirror) then
+         grid%ny = (points + 1)/2
+         grid%y0 = 0.0_dp
+      else
+         grid%ny = points
+         grid%y0 = -y_extent
+      end if
+   end function new_grid
+
+   !> X of column i
+   elemental real(dp) function x_of(self, i)
+      class(grid_t), intent(in) :: self
+      integer, intent(in) :: i
+      x_of = self%x0 + (i - 1)*self%hx
+   end function x_of
+
+   !> Y of row j
+   elemental real(dp) function y_of(self, j)
+      class(grid_t), intent(in) :: self
+      integer, intent(in) :: j
+      y_of = self%y0 + (j - 1)*self%hy
+   end function y_of
+
+   !> Whether every second node in both directions makes a grid of the same extent
+   pure logical function can_coarsen(self)
+      class(grid_t), intent(in) :: self
+      can_coarsen = mod(self%nx, 2) == 1 .and. mod(self%ny, 2) == 1 &
+                    .and. self%nx >= 5 .and. self%ny >= 5
+   end function can_coarsen
+
+   !> The grid of every second node
+   pure function coarser(self) result(grid)
+      class(grid_t), intent(in) :: self
+      type(grid_t) :: grid
+
+      grid%nx = (self%nx + 1)/2
+      grid%ny = (self%ny + 1)/2
+      grid%x0 = self%x0
+      grid%y0 = self%y0
+      grid%hx = 2.0_dp*self%hx
+      grid%hy = 2.0_dp*self%hy
+      grid%mirror = self%mirror
+   end function coarser
+
+   !> The grid of half the mesh size
+   pure function finer(self) result(grid)
+      class(grid_t), intent(in) :: self
+      type(grid_t) :: grid
+
+      grid%nx = 2*self%nx - 1
+      grid%ny = 2*self%ny - 1
+      grid%x0 = self%x0
+      grid%y0 = self%y0
+      grid%hx = 0.5_dp*self%hx
+      grid%hy = 0.5_dp*self%hy
+      grid%mirror = self%mirror
+   end function finer
+
+   !> Area that row j stands for in a sum over the whole contact, per node:
+   !> hx*hy, twice that for rows that have a mirror image
+   elemental real(dp) function weight(self, j)
+      class(grid_t), intent(in) :: self
+      integer, intent(in) :: j
+      weight = self%hx*self%hy
+      if (self%mirror .and. j > 1) weight = 2.0_dp*weight
+   end function weight
+
+   !> Rows of the unfolded grid
+   pure integer function full_ny(self)
+      class(grid_t), intent(in) :: self
+      full_ny = merge(2*self%ny - 1, self%ny, self%mirror)
+   end function full_ny
+end module ehl_grid

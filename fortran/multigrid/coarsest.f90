@@ -1,0 +1,312 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Newton solution of the coarsest level, force balance included: the only place where H00 changes
+module ehl_coarsest
+   use ehl_film, only: pressure_sum, reynolds_operator, update_coefficients
+   use ehl_grid, only: grid_t
+   use ehl_kernel, only: kernel_coefficient
+   use ehl_kinds, only: dp
+   use ehl_level, only: level_t
+   use ehl_status, only: ehl_no_memory, status_t
+   implicit none (type, external)
+   private
+   public :: coarsest_t
+
+   !> Factors serve while a step with them brings the residual down to this share
+   real(dp), parameter :: slow = 0.3_dp
+   integer, parameter :: most_halvings = 12
+
+   !> Work space of the dense Newton iteration. Unknowns are the pressures of the interior nodes,
+   !> column by column of the grid's storage, and H00 as the last one.
+   type :: coarsest_t
+      integer :: n = 0, first = 0, last = 0
+      !> Deflection at any node (nx*ny) by a unit pressure at an unknown's node (n)
+      real(dp), allocatable :: k(:, :)
+      !> LU factors of the Jacobian (n+1, n+1), its transpose, and row exchanges
+      real(dp), allocatable :: lu(:, :), jacobian(:, :)
+      integer, allocatable :: pivot(:)
+      !> Right-hand side and solution of a Newton step, and the state before it
+      real(dp), allocatable :: residual(:), direction(:), p_before(:, :)
+      real(dp) :: h00_before = 0.0_dp
+      !> Nodes held at zero pressure, now and in the step being made
+      logical, allocatable :: cavitated(:), held(:)
+      !> Whether lu holds a factorisation
+      logical :: factored = .false.
+      !> Factorisations made so far
+      integer :: factorisations = 0
+   contains
+      procedure :: setup
+      procedure :: solve
+      procedure, private :: film
+      procedure, private :: find_residual
+      procedure, private :: move
+      procedure :: bytes
+      procedure, private :: assemble
+   end type coarsest_t
+
+contains
+
+   !> Tabulate the kernel
+   subroutine setup(self, grid, status)
+      class(coarsest_t), intent(inout) :: self
+      type(grid_t), intent(in) :: grid
+      type(status_t), intent(inout) :: status
+      integer :: i, j, k, l, col, stat
+
+      if (status%failed()) return
+      self%first = merge(1, 2, grid%mirror)
+      self%last = grid%ny - 1
+      self%n = (grid%nx - 2)*(self%last - self%first + 1)
+      allocate (self%k(grid%nx*grid%ny, self%n), self%lu(self%n + 1, self%n + 1), &
+                self%jacobian(self%n + 1, self%n + 1), self%pivot(self%n + 1), &
+                self%residual(self%n + 1), self%direction(self%n + 1), &
+                self%p_before(grid%nx, grid%ny), self%cavitated(self%n), self%held(self%n), stat=stat)
+      if (stat /= 0) then
+         call status%fail(ehl_no_memory, "no memory for the coarsest level")
+         return
+      end if
+      do l = self%first, self%last
+         do k = 2, grid%nx - 1
+            col = unknown(self, grid%nx, k, l)
+            do j = 1, grid%ny
+               do i = 1, grid%nx
+                  self%k(i + (j - 1)*grid%nx, col) = kernel_coefficient(i - k, j - l, grid%hx, grid%hy)
+                  if (grid%mirror .and. l > 1) self%k(i + (j - 1)*grid%nx, col) = &
+                     self%k(i + (j - 1)*grid%nx, col) + kernel_coefficient(i - k, j + l - 2, grid%hx, grid%hy)
+               end do
+            end do
+         end do
+      end do
+      self%factored = .false.
+   end subroutine setup
+
+   !> Allocated bytes
+   pure integer(8) function bytes(self)
+      class(coarsest_t), intent(in) :: self
+      bytes = 8*(size(self%k, kind=8) + 2*size(self%lu, kind=8))
+   end function bytes
+
+   !> Number of the unknown at node (i, j)
+   pure integer function unknown(self, nx, i, j)
+      class(coarsest_t), intent(in) :: self
+      integer, intent(in) :: nx, i, j
+      unknown = (i - 1) + (j - self%first)*(nx - 2)
+   end function unknown
+
+   !> Newton iteration with an active set of cavitated nodes, from the level's present state until
+   !> the residual has fallen to `reduction` of its start, or for `max_steps` steps. The
+   !> factors are kept from step to step and from call to call while they serve.
+   subroutine solve(self, level, reduction, max_steps)
+      class(coarsest_t), intent(inout) :: self
+      type(level_t), intent(inout) :: level
+      real(dp), intent(in) :: reduction
+      integer, intent(in) :: max_steps
+      real(dp) :: norm, norm_start, norm_before
+      integer :: step
+      logical :: fresh
+
+      call self%film(level)
+      call self%find_residual(level, norm_start)
+      norm = norm_start
+      do step = 1, max_steps
+         if (norm <= reduction*norm_start .or. norm <= tiny(1.0_dp)) exit
+         fresh = .not. self%factored
+         if (fresh) call self%assemble(level)
+         self%direction = self%residual
+         call back_substitute(self%lu, self%pivot, self%direction)
+         self%p_before = level%p
+         self%h00_before = level%h00
+         norm_before = norm
+         call self%move(level, fresh, norm)
+         if (fresh) then
+            if (norm > slow*norm_before) self%factored = .false.
+         else if (norm > slow*norm_before .or. .not. minval(level%h) > 0.0_dp) then
+            ! the old factors no longer serve: take the step back and factor anew
+            level%p = self%p_before
+            level%h00 = self%h00_before
+            call self%film(level)
+            call self%find_residual(level, norm)
+            self%factored = .false.
+         end if
+      end do
+   end subroutine solve
+
+   !> Step along the direction; with fresh factors it is halved until the film is positive
+   subroutine move(self, level, fresh, norm)
+      class(coarsest_t), intent(inout) :: self
+      type(level_t), intent(inout) :: level
+      logical, intent(in) :: fresh
+      real(dp), intent(out) :: norm
+      real(dp) :: damping
+      integer :: half, i, j, u
+
+      self%held = self%cavitated
+      damping = 1.0_dp
+      do half = 1, merge(most_halvings, 1, fresh)
+         do j = self%first, self%last
+            do i = 2, level%grid%nx - 1
+               u = unknown(self, level%grid%nx, i, j)
+               level%p(i, j) = self%p_before(i, j) + damping*self%direction(u)
+               ! exactly zero, lest rounding frees the node
+               if (self%held(u) .and. damping >= 1.0_dp) level%p(i, j) = 0.0_dp
+            end do
+         end do
+         level%h00 = self%h00_before + damping*self%direction(self%n + 1)
+         call self%film(level)
+         if (minval(level%h) > 0.0_dp) exit
+         damping = 0.5_dp*damping
+      end do
+      call self%find_residual(level, norm)
+   end subroutine move
+
+   !> Film and coefficients for the present pressure
+   subroutine film(self, level)
+      class(coarsest_t), intent(in) :: self
+      type(level_t), intent(inout) :: level
+
+      call level%engine%apply(level%p, level%w)
+      level%h = level%h00 + level%geometry + level%w
+      call update_coefficients(level)
+   end subroutine film
+
+   !> Right-hand side of the Newton step, and its norm; cavitated nodes count only when they
+   !> ask for pressure
+   subroutine find_residual(self, level, norm)
+      class(coarsest_t), intent(inout) :: self
+      type(level_t), intent(inout) :: level
+      real(dp), intent(out) :: norm
+      integer :: i, j, u
+
+      do j = self%first, self%last
+         call reynolds_operator(level, j, level%residual(:, j))
+         do i = 2, level%grid%nx - 1
+            u = unknown(self, level%grid%nx, i, j)
+            self%residual(u) = level%rhs(i, j) - level%residual(i, j)
+            if (level%p(i, j) < 0.0_dp .or. (level%p(i, j) == 0.0_dp .and. self%residual(u) >= 0.0_dp)) then
+               self%cavitated(u) = .true.
+               self%residual(u) = -level%p(i, j)
+            else
+               self%cavitated(u) = .false.
+            end if
+         end do
+      end do
+      self%residual(self%n + 1) = level%load - pressure_sum(level, level%p)
+      norm = sqrt(sum(self%residual(1:self%n)**2)/self%n + self%residual(self%n + 1)**2)
+   end subroutine find_residual
+
+   !> Jacobian of the residual's operator, factored
+   subroutine assemble(self, level)
+      class(coarsest_t), intent(inout) :: self
+      type(level_t), intent(inout) :: level
+      real(dp) :: rate(4), c(0:2), own, drop, direct
+      integer :: i, j, m, u, nx, at, nb(2, 4), below
+
+      nx = level%grid%nx
+      rate = 0.5_dp/[level%grid%hx**2, level%grid%hx**2, level%grid%hy**2, level%grid%hy**2]
+      ! transposed, so that a row is contiguous
+      self%jacobian = 0.0_dp
+      do j = self%first, self%last
+         do i = 2, nx - 1
+            u = unknown(self, nx, i, j)
+            if (self%cavitated(u)) then
+               self%jacobian(u, u) = 1.0_dp
+               cycle
+            end if
+            at = i + (j - 1)*nx
+            below = merge(2, j - 1, j == 1)
+            nb = reshape([i + 1, j, i - 1, j, i, j + 1, i, below], [2, 4])
+            own = 0.0_dp
+            do m = 1, 4
+               associate (e => level%eps(i, j), en => level%eps(nb(1, m), nb(2, m)), &
+                          pn => level%p(nb(1, m), nb(2, m)))
+                  drop = rate(m)*(pn - level%p(i, j))
+                  own = own + 3.0_dp*e/level%h(i, j)*drop
+                  direct = rate(m)*(e + en) + en*level%gain(nb(1, m), nb(2, m))*drop
+                  call add_pressure(nb(1, m), nb(2, m), direct)
+                  call add_pressure(i, j, -rate(m)*(e + en) + e*level%gain(i, j)*drop)
+                  call add_film(nb(1, m), nb(2, m), 3.0_dp*en/level%h(nb(1, m), nb(2, m))*drop)
+               end associate
+            end do
+            c = merge(level%wedge_first, level%wedge, i == 2)
+            call add_film(i, j, own - c(0)*level%rho(i, j))
+            call add_pressure(i, j, -c(0)*level%stiffness(i, j))
+            do m = 1, 2
+               if (i - m < 1) cycle
+               call add_film(i - m, j, -c(m)*level%rho(i - m, j))
+               call add_pressure(i - m, j, -c(m)*level%stiffness(i - m, j))
+            end do
+         end do
+      end do
+      do j = self%first, self%last
+         do i = 2, nx - 1
+            self%jacobian(unknown(self, nx, i, j), self%n + 1) = level%grid%weight(j)
+         end do
+      end do
+      self%lu = transpose(self%jacobian)
+      call factor(self%lu, self%pivot)
+      self%factored = .true.
+      self%factorisations = self%factorisations + 1
+
+   contains
+
+      subroutine add_pressure(ii, jj, value)
+         integer, intent(in) :: ii, jj
+         real(dp), intent(in) :: value
+         if (ii < 2 .or. ii > nx - 1 .or. jj < self%first .or. jj > self%last) return
+         self%jacobian(unknown(self, nx, ii, jj), u) = self%jacobian(unknown(self, nx, ii, jj), u) + value
+      end subroutine add_pressure
+
+      subroutine add_film(ii, jj, value)
+         integer, intent(in) :: ii, jj
+         real(dp), intent(in) :: value
+         self%jacobian(1:self%n, u) = self%jacobian(1:self%n, u) + value*self%k(ii + (jj - 1)*nx, :)
+         self%jacobian(self%n + 1, u) = self%jacobian(self%n + 1, u) + value
+      end subroutine add_film
+   end subroutine assemble
+
+   !> LU factors in place, partial pivoting
+   pure subroutine factor(a, pivot)
+      real(dp), intent(inout) :: a(:, :)
+      integer, intent(out) :: pivot(:)
+      real(dp) :: row(size(a, 2))
+      integer :: i, j, k, n
+
+      n = size(a, 1)
+      do k = 1, n
+         pivot(k) = k - 1 + maxloc(abs(a(k:n, k)), dim=1)
+         if (pivot(k) /= k) then
+            row = a(k, :)
+            a(k, :) = a(pivot(k), :)
+            a(pivot(k), :) = row
+         end if
+         a(k + 1:n, k) = a(k + 1:n, k)/a(k, k)
+         do j = k + 1, n
+            do i = k + 1, n
+               a(i, j) = a(i, j) - a(i, k)*a(k, j)
+            end do
+         end do
+      end do
+   end subroutine factor
+
+   !> Solve with the factors, in place
+   pure subroutine back_substitute(a, pivot, b)
+      real(dp), intent(in) :: a(:, :)
+      integer, intent(in) :: pivot(:)
+      real(dp), intent(inout) :: b(:)
+      real(dp) :: t
+      integer :: k, n
+
+      n = size(b)
+      do k = 1, n
+         t = b(pivot(k))
+         b(pivot(k)) = b(k)
+         b(k) = t
+      end do
+      do k = 1, n
+         b(k + 1:) = b(k + 1:) - b(k)*a(k + 1:, k)
+      end do
+      do k = n, 1, -1
+         b(k) = b(k)/a(k, k)
+         b(:k - 1) = b(:k - 1) - b(k)*a(:k - 1, k)
+      end do
+   end subroutine back_substitute
+end module ehl_coarsest

@@ -1,0 +1,66 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The operating point of a circular contact: Moes parameters, Hertz scales and the groups of
+!> the dimensionless Reynolds equation
+module ehl_moes
+   use ehl_kinds, only: dp, pi
+   implicit none (type, external)
+   private
+   public :: operating_t, operating_from_moes, operating_from_si
+
+   !> Operating point. Dimensionless unless a unit is given.
+   type :: operating_t
+      !> Moes load M = W2 (2U)^(-3/4) and material L = G (2U)^(1/4) parameters
+      real(dp) :: moes_m = 0.0_dp, moes_l = 0.0_dp
+      !> alpha_bar = alpha p_h = (L/pi) (3M/2)^(1/3)
+      real(dp) :: alpha_bar = 0.0_dp
+      !> Speed parameter lambda_bar = 12 eta0 u R^2/(a^3 p_h) = (128 pi^3/(3 M^4))^(1/3)
+      real(dp) :: speed_parameter = 0.0_dp
+      !> Hertz pressure p_h [Pa]
+      real(dp) :: hertz_pressure = 0.0_dp
+      !> Hertz radius a [m], 0 when the input was dimensionless
+      real(dp) :: hertz_radius = 0.0_dp
+      !> Film scale a^2/R [m], 0 when the input was dimensionless
+      real(dp) :: film_scale = 0.0_dp
+   end type operating_t
+
+contains
+
+   !> Operating point from M and L; the Hertz pressure follows from alpha_bar and
+   !> alpha [1/Pa] (it is 0 for L = 0, where neither viscosity nor density varies)
+   pure function operating_from_moes(moes_m, moes_l, alpha) result(point)
+      real(dp), intent(in) :: moes_m, moes_l, alpha
+      type(operating_t) :: point
+
+      point%moes_m = moes_m
+      point%moes_l = moes_l
+      point%alpha_bar = moes_l/pi*(1.5_dp*moes_m)**(1.0_dp/3.0_dp)
+      point%speed_parameter = (128.0_dp*pi**3/(3.0_dp*moes_m**4))**(1.0_dp/3.0_dp)
+      point%hertz_pressure = point%alpha_bar/alpha
+   end function operating_from_moes
+
+   !> Operating point from SI input; 2/E' = sum (1 - nu^2)/E (Zhang et al. 2019, notation)
+   pure function operating_from_si(load, mean_velocity, radius, reduced_modulus, viscosity, &
+                                   alpha) result(point)
+      !> Normal load w [N]
+      real(dp), intent(in) :: load
+      !> Mean velocity (u1 + u2)/2 [m/s]
+      real(dp), intent(in) :: mean_velocity
+      !> Reduced radius R [m]
+      real(dp), intent(in) :: radius
+      !> Reduced modulus E' [Pa]
+      real(dp), intent(in) :: reduced_modulus
+      !> Viscosity eta0 [Pa s] and pressure-viscosity coefficient alpha [1/Pa] at ambient pressure
+      real(dp), intent(in) :: viscosity, alpha
+      type(operating_t) :: point
+      real(dp) :: speed, load_2d
+
+      speed = viscosity*mean_velocity/(reduced_modulus*radius)
+      load_2d = load/(reduced_modulus*radius**2)
+      point = operating_from_moes(load_2d*(2.0_dp*speed)**(-0.75_dp), &
+                                  alpha*reduced_modulus*(2.0_dp*speed)**0.25_dp, alpha)
+      point%hertz_radius = (1.5_dp*load*radius/reduced_modulus)**(1.0_dp/3.0_dp)
+      point%hertz_pressure = 1.5_dp*load/(pi*point%hertz_radius**2)
+      point%film_scale = point%hertz_radius**2/radius
+      point%alpha_bar = alpha*point%hertz_pressure
+   end function operating_from_si
+end module ehl_moes

@@ -1,0 +1,145 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> One grid of the hierarchy with everything that lives on it
+module ehl_level
+   use ehl_deflection, only: deflection_t
+   use ehl_grid, only: grid_t
+   use ehl_kernel, only: kernel_coefficient
+   use ehl_kinds, only: dp
+   use ehl_lubricant, only: lubricant_t
+   use ehl_status, only: ehl_no_memory, status_t
+   implicit none (type, external)
+   private
+   public :: level_t, near_reach, line_width, band_lower, band_upper
+
+   !> The line systems know the deflection kernel up to this distance along X
+   integer, parameter :: near_reach = 2
+   !> Sub- and super-diagonals of the line systems
+   integer, parameter :: band_lower = near_reach + 2, band_upper = near_reach
+   !> Lines relaxed side by side
+   integer, parameter :: line_width = 8
+   !> Grids with fewer nodes are worked on by one thread
+   integer, parameter :: parallel_from = 4096
+
+   !> Work space of one thread's line systems: bands a(line, -lower:upper, node),
+   !> right-hand sides d(line, node), and 1 where a node changes distributively
+   type :: line_work_t
+      real(dp), allocatable :: a(:, :, :), d(:, :), dipole(:, :)
+   end type line_work_t
+
+   !> Fields of one level, arrays of shape (nx, ny). Dimensionless: P by p_h, lengths by a,
+   !> films by a^2/R.
+   !>
+   !> The discrete Reynolds equation reads, for every node with P > 0,
+   !>
+   !>    div(eps grad P) - c(0) (rho H)_i - c(1) (rho H)_(i-1) - c(2) (rho H)_(i-2) = rhs
+   !>
+   !> where c holds the implicit part of the wedge and squeeze terms (second-order upstream
+   !> steady: (1.5, -2, 0.5)/hx), rhs the explicit part and the multigrid right-hand side;
+   !> where P = 0 the left-hand side may be smaller.
+   type :: level_t
+      type(grid_t) :: grid
+      type(lubricant_t) :: lubricant
+      class(deflection_t), allocatable :: engine
+      !> 1/lambda_bar
+      real(dp) :: inverse_speed = 0.0_dp
+      !> Wedge and squeeze coefficients c(0:2), and those of the first interior column
+      real(dp) :: wedge(0:2) = 0.0_dp, wedge_first(0:2) = 0.0_dp
+      !> Rigid separation H00
+      real(dp) :: h00 = 0.0_dp
+      !> Value that the pressure sum must take (2 pi/3 on the finest grid)
+      real(dp) :: load = 0.0_dp
+      !> Pressure, film, deflection, and the film less H00 and deflection
+      real(dp), allocatable :: p(:, :), h(:, :), w(:, :), geometry(:, :)
+      !> Right-hand side of the Reynolds equation, and the residual
+      real(dp), allocatable :: rhs(:, :), residual(:, :)
+      !> Conductance eps = rho H^3/(eta lambda_bar), d ln(eps)/dP at constant film, density, and H d rho/dP
+      real(dp), allocatable :: eps(:, :), gain(:, :), rho(:, :), stiffness(:, :)
+      !> Pressure as restricted from the next finer level
+      real(dp), allocatable :: p_start(:, :)
+      !> Change of pressure in the distributive points of a sweep
+      real(dp), allocatable :: change(:, :)
+      !> Kernel near the source: itself, and for the distributive (dipole) change
+      real(dp) :: near(-near_reach:near_reach) = 0.0_dp
+      real(dp) :: near_dipole(-near_reach:near_reach) = 0.0_dp
+      !> Line systems, one a thread
+      type(line_work_t), allocatable :: work(:)
+      integer :: threads = 1
+      !> Whether the grid is large enough for more than one thread
+      logical :: parallel = .false.
+   contains
+      procedure :: setup
+      procedure :: set_upstream
+      procedure :: bytes
+   end type level_t
+
+contains
+
+   !> Allocate the fields and tabulate the near kernel; grid, lubricant, speed parameter and
+   !> threads are known
+   subroutine setup(self, status)
+      class(level_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+      integer :: d, stat
+
+      if (status%failed()) return
+      associate (nx => self%grid%nx, ny => self%grid%ny)
+         allocate (self%p(nx, ny), self%h(nx, ny), self%w(nx, ny), self%geometry(nx, ny), &
+                   self%rhs(nx, ny), self%residual(nx, ny), self%eps(nx, ny), self%gain(nx, ny), &
+                   self%rho(nx, ny), self%stiffness(nx, ny), self%p_start(nx, ny), &
+                   self%change(nx, ny), source=0.0_dp, stat=stat)
+      end associate
+      if (stat /= 0) then
+         call status%fail(ehl_no_memory, "no memory for a grid level")
+         return
+      end if
+      self%parallel = self%threads > 1 .and. self%grid%nx*self%grid%ny >= parallel_from
+      allocate (self%work(self%threads))
+      do d = 1, self%threads
+         allocate (self%work(d)%a(line_width, -band_lower:band_upper, self%grid%nx + band_lower), &
+                   self%work(d)%d(line_width, self%grid%nx + band_lower), &
+                   self%work(d)%dipole(line_width, 0:self%grid%nx + band_upper), source=0.0_dp, stat=stat)
+         if (stat /= 0) then
+            call status%fail(ehl_no_memory, "no memory for the line systems")
+            return
+         end if
+         ! unused lines stay an identity
+         self%work(d)%a(:, 0, :) = 1.0_dp
+      end do
+      associate (hx => self%grid%hx, hy => self%grid%hy)
+         do d = -near_reach, near_reach
+            self%near(d) = kernel_coefficient(d, 0, hx, hy)
+            self%near_dipole(d) = self%near(d) - 0.25_dp*(kernel_coefficient(d - 1, 0, hx, hy) &
+                                                          + kernel_coefficient(d + 1, 0, hx, hy) &
+                                                          + 2.0_dp*kernel_coefficient(d, 1, hx, hy))
+         end do
+      end associate
+   end subroutine setup
+
+   !> Steady wedge term, upstream of first or second order (first in the first interior column)
+   subroutine set_upstream(self, order)
+      class(level_t), intent(inout) :: self
+      integer, intent(in) :: order
+
+      self%wedge_first = [1.0_dp, -1.0_dp, 0.0_dp]/self%grid%hx
+      if (order == 1) then
+         self%wedge = self%wedge_first
+      else
+         self%wedge = [1.5_dp, -2.0_dp, 0.5_dp]/self%grid%hx
+      end if
+   end subroutine set_upstream
+   !> Allocated bytes, the engine's apart
+   pure integer(8) function bytes(self)
+      class(level_t), intent(in) :: self
+      integer(8) :: numbers
+      integer :: k
+
+      numbers = 0
+      if (allocated(self%p)) numbers = 12*size(self%p, kind=8)
+      if (allocated(self%work)) then
+         do k = 1, size(self%work)
+            numbers = numbers + size(self%work(k)%a) + size(self%work(k)%d) + size(self%work(k)%dipole)
+         end do
+      end if
+      bytes = 8*numbers
+   end function bytes
+end module ehl_level

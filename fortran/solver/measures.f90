@@ -1,0 +1,73 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What is read off a solution: film thicknesses, pressure, friction, load
+module ehl_measures
+   use ehl_film, only: pressure_sum
+   use ehl_kinds, only: dp
+   use ehl_level, only: level_t
+   implicit none (type, external)
+   private
+   public :: measures_t, measure
+
+   !> Results of one state. Dimensionless: films by a^2/R, pressure by p_h.
+   type :: measures_t
+      !> Film at X = Y = 0, smallest film, largest pressure
+      real(dp) :: film_central = 0.0_dp, film_minimum = 0.0_dp, pressure_maximum = 0.0_dp
+      !> Friction integral F/Delta U = iint eta/(eta0 H) dX dY (Zhang et al. 2019, eq. 5)
+      real(dp) :: friction = 0.0_dp
+      !> Relative error of the force balance
+      real(dp) :: load_error = 0.0_dp
+      !> Whether every number is finite, and every film positive
+      logical :: finite = .false., positive = .false.
+   end type measures_t
+
+contains
+
+   !> Read off the present state of a level whose film is up to date
+   function measure(level) result(m)
+      type(level_t), intent(in) :: level
+      type(measures_t) :: m
+      real(dp), dimension(level%grid%ny) :: smallest, largest, friction
+      real(dp) :: log_eta(level%grid%nx), slope(level%grid%nx)
+      integer :: j
+
+      !$omp parallel do default(none) shared(level, smallest, largest, friction) private(log_eta, slope) &
+      !$omp num_threads(level%threads) if(level%parallel) schedule(static)
+      do j = 1, level%grid%ny
+         smallest(j) = minval(level%h(:, j))
+         largest(j) = maxval(level%p(:, j))
+         call level%lubricant%log_viscosity(level%p(:, j), log_eta, slope)
+         friction(j) = sum(exp(log_eta)/level%h(:, j))*level%grid%weight(j)
+      end do
+      !$omp end parallel do
+      m%film_minimum = minval(smallest)
+      m%pressure_maximum = maxval(largest)
+      m%friction = sum(friction)
+      m%load_error = pressure_sum(level, level%p)/level%load - 1.0_dp
+      m%film_central = central(level)
+      ! a NaN fails every comparison
+      m%finite = abs(m%load_error) < huge(1.0_dp) .and. abs(m%film_central) < huge(1.0_dp) &
+                 .and. m%friction < huge(1.0_dp) .and. abs(m%film_minimum) < huge(1.0_dp)
+      m%positive = all(smallest > 0.0_dp)
+   end function measure
+
+   !> Film at X = Y = 0; between two nodes by cubic interpolation along X
+   pure real(dp) function central(level)
+      type(level_t), intent(in) :: level
+      real(dp) :: t
+      integer :: i, j
+
+      j = 1 + nint((0.0_dp - level%grid%y0)/level%grid%hy)
+      t = (0.0_dp - level%grid%x0)/level%grid%hx
+      i = nint(t)
+      if (abs(t - i) < 1.0e-9_dp) then
+         central = level%h(i + 1, j)
+         return
+      end if
+      i = int(t) + 1
+      t = t - (i - 1)
+      associate (h => level%h(i - 1:i + 2, j))
+         central = -t*(t - 1.0_dp)*(t - 2.0_dp)/6.0_dp*h(1) + (t*t - 1.0_dp)*(t - 2.0_dp)/2.0_dp*h(2) &
+                   - t*(t + 1.0_dp)*(t - 2.0_dp)/2.0_dp*h(3) + t*(t*t - 1.0_dp)/6.0_dp*h(4)
+      end associate
+   end function central
+end module ehl_measures

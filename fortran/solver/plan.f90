@@ -1,0 +1,190 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The plan of a run: what this scene needs, decided once. The only reader of option words.
+module ehl_plan
+   use ehl_case, only: case_t
+   use ehl_cycle, only: cycle_options_t
+   use ehl_film_formula, only: film_central_formula
+   use ehl_grid, only: grid_t, new_grid
+   use ehl_kinds, only: dp
+   use ehl_lubricant, only: density_constant, density_dowson_higginson, lubricant_t, new_lubricant, &
+                            viscosity_barus, viscosity_roelands
+   use ehl_moes, only: operating_from_moes, operating_from_si, operating_t
+   use ehl_status, only: ehl_bad_input, status_t
+   use ehl_text, only: to_text
+   implicit none (type, external)
+   private
+   public :: plan_t, make_plan, plan_text, relative_wedge_error
+
+   !> Fewest and most intervals per side of the coarsest grid, which is solved directly
+   integer, parameter :: coarsest_fewest = 16, coarsest_most = 32
+   !> Nested iteration starts on a grid of at least that many nodes a side ...
+   integer, parameter :: start_fewest = 33
+   !> ... whose wedge error, relative to the central film, is at most this
+   real(dp), parameter :: start_error = 0.6_dp
+
+   type :: plan_t
+      type(operating_t) :: point
+      type(lubricant_t) :: lubricant
+      !> Coarsest and finest grid
+      type(grid_t) :: coarsest, finest
+      !> Levels, and the one nested iteration starts on
+      integer :: levels = 0, start = 0
+      character(len=:), allocatable :: engine
+      type(cycle_options_t) :: cycle
+      !> Algebraic error wanted as a share of the discretisation error
+      real(dp) :: accuracy = 0.1_dp
+      integer :: max_cycles = 30
+      integer :: threads = 1
+      !> Relative error of H_c wanted; 0: none, solve on the finest grid
+      real(dp) :: target_error = 0.0_dp
+      !> Central film expected, scaled by a^2/R
+      real(dp) :: film_expected = 0.0_dp
+   end type plan_t
+
+contains
+
+   !> Decide how a case is solved
+   subroutine make_plan(input, plan, status)
+      type(case_t), intent(in) :: input
+      type(plan_t), intent(out) :: plan
+      type(status_t), intent(inout) :: status
+      real(dp) :: rho(1), slope(1)
+
+      if (input%contact%si) then
+         plan%point = operating_from_si(input%contact%load, input%contact%mean_velocity, &
+                                        input%contact%radius, input%contact%reduced_modulus, &
+                                        input%lubricant%viscosity, input%lubricant%pressure_viscosity)
+      else
+         plan%point = operating_from_moes(input%contact%moes_m, input%contact%moes_l, &
+                                          input%lubricant%pressure_viscosity)
+      end if
+      plan%lubricant = new_lubricant( &
+                       merge(viscosity_barus, viscosity_roelands, input%lubricant%viscosity_law == "barus"), &
+                       merge(density_constant, density_dowson_higginson, &
+                             input%lubricant%density_law == "incompressible"), &
+                       plan%point%alpha_bar, plan%point%hertz_pressure, input%lubricant%roelands_z, &
+                       input%lubricant%roelands_p0)
+      call plan%lubricant%density([1.0_dp], rho, slope)
+      plan%film_expected = film_central_formula(plan%point%moes_m, plan%point%moes_l)/rho(1)
+      plan%engine = trim(input%solver%deflection)
+      call pick_cycle(input, plan)
+      plan%accuracy = input%solver%accuracy
+      plan%max_cycles = input%solver%max_cycles
+      plan%threads = input%solver%threads
+      plan%target_error = input%grid%target_error
+      call pick_grids(input, plan, status)
+   end subroutine make_plan
+
+   !> Kind of cycle
+   subroutine pick_cycle(input, plan)
+      type(case_t), intent(in) :: input
+      type(plan_t), intent(inout) :: plan
+
+      select case (input%solver%cycle)
+      case ("V")
+         plan%cycle%gamma = 1
+      case ("F")
+         plan%cycle%gamma = 1
+         plan%cycle%full = .true.
+      case default
+         plan%cycle%gamma = 2
+      end select
+   end subroutine pick_cycle
+
+   !> Half or whole domain, levels, start of the nested iteration
+   subroutine pick_grids(input, plan, status)
+      type(case_t), intent(in) :: input
+      type(plan_t), intent(inout) :: plan
+      type(status_t), intent(inout) :: status
+      type(grid_t) :: grid
+      logical :: mirror
+      integer :: intervals, points
+
+      mirror = input%solver%symmetry == "auto"
+      points = input%grid%points
+      intervals = points - 1
+      plan%levels = 1
+      do while (intervals > coarsest_most .or. (intervals >= 2*coarsest_fewest .and. mod(intervals, 4) == 0))
+         if (mod(intervals, 4) /= 0) exit
+         intervals = intervals/2
+         plan%levels = plan%levels + 1
+      end do
+      if (intervals > coarsest_most .or. mod(intervals, 2) /= 0) then
+         call status%fail(ehl_bad_input, "grid of "//to_text(points)//" points cannot be coarsened far enough")
+         return
+      end if
+      if (plan%target_error > 0.0_dp) then
+         plan%levels = 1
+         do while (intervals*2**plan%levels + 1 <= input%grid%max_points)
+            plan%levels = plan%levels + 1
+         end do
+      end if
+      plan%coarsest = new_grid(intervals + 1, input%grid%x_inlet, input%grid%x_outlet, input%grid%y_extent, mirror)
+      grid = plan%coarsest
+      plan%start = 0
+      do points = 1, plan%levels
+         if (points > 1) grid = grid%finer()
+         if (plan%start == 0 .and. grid%nx >= start_fewest .and. &
+             relative_wedge_error(plan%point, grid) <= start_error) plan%start = points
+      end do
+      if (plan%start == 0) plan%start = plan%levels
+      plan%finest = grid
+   end subroutine pick_grids
+
+   !> Rough a-priori error of H_c by the second-order wedge term, relative: 0.16 M h^2
+   !> (fitted to grids of 65^2 to 513^2 for 20 <= M <= 1000, 10 <= L <= 15)
+   pure real(dp) function relative_wedge_error(point, grid)
+      type(operating_t), intent(in) :: point
+      type(grid_t), intent(in) :: grid
+      relative_wedge_error = 0.16_dp*point%moes_m*grid%hx**2
+   end function relative_wedge_error
+   !> The plan for a person: a few lines and a table of the levels
+   function plan_text(plan) result(text)
+      type(plan_t), intent(in) :: plan
+      character(len=:), allocatable :: text
+      type(grid_t) :: grid
+      character(len=128) :: line
+      integer :: k
+
+      write (line, "(a,g0.5,a,g0.5,a,g0.5,a,es9.3)") "contact    M = ", plan%point%moes_m, ", L = ", plan%point%moes_l, &
+         ", alpha p_h = ", plan%point%alpha_bar, ", speed parameter = ", plan%point%speed_parameter
+      text = trim(line)//new_line("a")
+      if (plan%point%hertz_radius > 0.0_dp) then
+         write (line, "(a,es10.4,a,es10.4,a)") "           a = ", plan%point%hertz_radius, " m, p_h = ", &
+            plan%point%hertz_pressure, " Pa"
+         text = text//trim(line)//new_line("a")
+      end if
+      text = text//"scene      smooth and steady: no time levels, no roughness"//new_line("a")
+      if (plan%coarsest%mirror) then
+         text = text//"domain     symmetric in Y: the half Y >= 0 is solved"//new_line("a")
+      else
+         text = text//"domain     the whole of it is solved, as asked for"//new_line("a")
+      end if
+      text = text//"deflection "//plan%engine//", threads "//to_text(plan%threads)//new_line("a")
+      if (plan%target_error > 0.0_dp) then
+         write (line, "(a,es8.1)") "stop       at the first grid whose relative error of H_c is below ", plan%target_error
+      else
+         write (line, "(a,f5.2,a)") "stop       on the finest grid, algebraic error below ", plan%accuracy, &
+            " of the discretisation error, load error below 1e-6"
+      end if
+      text = text//trim(line)//new_line("a")
+      text = text//"level  points    stored nodes  mesh size   use"
+      grid = plan%coarsest
+      do k = 1, plan%levels
+         if (k > 1) grid = grid%finer()
+         write (line, "(i5,i8,i16,f11.6,3x,a)") k, grid%nx, grid%nx*grid%ny, grid%hx, trim(use_of(k))
+         text = text//new_line("a")//trim(line)
+      end do
+
+   contains
+
+      function use_of(level) result(words)
+         integer, intent(in) :: level
+         character(len=48) :: words
+         words = "correction"
+         if (level == 1) words = "correction, solved directly"
+         if (level >= plan%start) words = "solution"
+         if (level == plan%start) words = "solution, from the Hertz pressure"
+      end function use_of
+   end function plan_text
+end module ehl_plan

@@ -1,0 +1,247 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The smooth, steady solution by full multigrid (nested iteration), one cycle at a time
+module ehl_steady
+   use ehl_cycle, only: prolong_solution, refresh
+   use ehl_film, only: update_residual
+   use ehl_hierarchy, only: hierarchy_t
+   use ehl_kinds, only: dp, pi
+   use ehl_level, only: level_t
+   use ehl_measures, only: measure, measures_t
+   use ehl_plan, only: plan_t
+   use ehl_status, only: status_t
+   implicit none (type, external)
+   private
+   public :: steady_t, outcome_names
+   public :: outcome_running, outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, &
+             outcome_target_missed, outcome_interrupted
+
+   !> How a run stands
+   integer, parameter :: outcome_running = 0, outcome_converged = 1, outcome_cycle_limit = 2, &
+                         outcome_diverged = 3, outcome_negative_film = 4, outcome_target_missed = 5, &
+                         outcome_interrupted = 6
+   character(len=*), parameter :: outcome_names(0:6) = [character(len=13) :: "running", "converged", &
+                                                        "cycle limit", "diverged", "negative film", &
+                                                        "target missed", "interrupted"]
+
+   !> Largest relative error of the force balance of a converged solution
+   real(dp), parameter :: load_tolerance = 1.0e-6_dp
+   !> The error after a cycle is at most q/(1 - q) of the last change, q being the reduction per
+   !> cycle; no better reduction than this is believed
+   real(dp), parameter :: least_reduction = 0.3_dp
+   !> Relative discretisation errors below this are not believed, as two levels may agree by chance
+   real(dp), parameter :: least_error = 2.0e-5_dp
+   !> Relative algebraic error wanted on the first grid, where no discretisation error is known yet
+   real(dp), parameter :: start_tolerance = 1.0e-3_dp
+
+   !> What is known of the solution on one level
+   type :: level_result_t
+      logical :: solved = .false.
+      type(measures_t) :: m
+      !> Algebraic errors of H_c and H_min, as estimated
+      real(dp) :: algebraic(2) = 0.0_dp
+      !> Cycles made, residual (rms) at the end
+      integer :: cycles = 0
+      real(dp) :: residual = 0.0_dp
+   end type level_result_t
+
+   !> March of the nested iteration
+   type :: steady_t
+      !> Present level
+      integer :: n = 0
+      logical :: entered = .false.
+      integer :: outcome = outcome_running
+      !> Restarts on a finer grid after a failure on a coarse one
+      integer :: restarts = 0
+      type(level_result_t), allocatable :: results(:)
+      !> Changes of H_c and H_min in the last cycle
+      real(dp) :: change(2) = 0.0_dp
+   contains
+      procedure :: start
+      procedure :: advance
+      procedure :: discretisation_error
+      procedure :: extrapolated
+      procedure, private :: enter_level
+      procedure, private :: judge
+      procedure, private :: fail_level
+   end type steady_t
+
+contains
+
+   !> Ready for the first cycle
+   subroutine start(self, plan)
+      class(steady_t), intent(inout) :: self
+      type(plan_t), intent(in) :: plan
+
+      self%n = plan%start
+      self%entered = .false.
+      self%outcome = outcome_running
+      self%restarts = 0
+      if (allocated(self%results)) deallocate (self%results)
+      allocate (self%results(plan%levels))
+   end subroutine start
+
+   !> One cycle on the present level, the step to the next level when this one is done
+   subroutine advance(self, plan, hierarchy, status)
+      class(steady_t), intent(inout) :: self
+      type(plan_t), intent(in) :: plan
+      type(hierarchy_t), intent(inout) :: hierarchy
+      type(status_t), intent(inout) :: status
+      type(measures_t) :: before
+      real(dp) :: change(2), q
+
+      if (self%outcome /= outcome_running) return
+      if (.not. self%entered) call self%enter_level(plan, hierarchy, status)
+      if (status%failed()) return
+      associate (result => self%results(self%n), level => hierarchy%levels(self%n))
+         before = result%m
+         call hierarchy%cycle(self%n)
+         result%cycles = result%cycles + 1
+         result%m = measure(level)
+         if (.not. result%m%finite .or. .not. result%m%positive) then
+            call self%fail_level(plan, merge(outcome_negative_film, outcome_diverged, result%m%finite))
+            return
+         end if
+         call update_residual(level, result%residual)
+         change = abs([result%m%film_central - before%film_central, result%m%film_minimum - before%film_minimum])
+         if (result%cycles == 1) then
+            ! part of this change is discretisation error, so that its size says little of the next
+            q = least_reduction
+         else
+            q = max(least_reduction, min(maxval(change/max(self%change, tiny(1.0_dp))), 0.95_dp))
+         end if
+         result%algebraic = change*q/(1.0_dp - q)
+         self%change = change
+      end associate
+      call self%judge(plan)
+   end subroutine advance
+
+   !> First approximation on the present level
+   subroutine enter_level(self, plan, hierarchy, status)
+      class(steady_t), intent(inout) :: self
+      type(plan_t), intent(in) :: plan
+      type(hierarchy_t), intent(inout) :: hierarchy
+      type(status_t), intent(inout) :: status
+      logical :: have_coarse
+      integer :: i, j
+
+      call hierarchy%grow(self%n, status)
+      if (status%failed()) return
+      have_coarse = .false.
+      if (self%n > 1) have_coarse = self%results(self%n - 1)%solved
+      associate (level => hierarchy%levels(self%n), grid => hierarchy%levels(self%n)%grid)
+         do j = 1, grid%ny
+            do i = 1, grid%nx
+               level%geometry(i, j) = 0.5_dp*(grid%x(i)**2 + grid%y(j)**2)
+            end do
+         end do
+         level%rhs = 0.0_dp
+         level%load = 2.0_dp*pi/3.0_dp
+         if (have_coarse) then
+            call prolong_solution(hierarchy%levels(self%n - 1), level)
+         else
+            call guess(level, plan%film_expected)
+         end if
+         call refresh(level)
+         self%results(self%n)%m = measure(level)
+         self%results(self%n)%cycles = 0
+      end associate
+      self%entered = .true.
+   end subroutine enter_level
+
+   !> Hertz pressure and the film of the formula
+   subroutine guess(level, film)
+      type(level_t), intent(inout) :: level
+      real(dp), intent(in) :: film
+      integer :: i, j
+
+      do j = 1, level%grid%ny
+         do i = 1, level%grid%nx
+            level%p(i, j) = sqrt(max(0.0_dp, 1.0_dp - level%grid%x(i)**2 - level%grid%y(j)**2))
+         end do
+      end do
+      level%h00 = film - 1.0_dp
+   end subroutine guess
+
+   !> Whether the level is solved, and what to do then
+   subroutine judge(self, plan)
+      class(steady_t), intent(inout) :: self
+      type(plan_t), intent(in) :: plan
+      real(dp) :: wanted(2), values(2)
+      logical :: met, finest
+
+      finest = self%n == plan%levels
+      associate (result => self%results(self%n))
+         values = [result%m%film_central, result%m%film_minimum]
+         if (.not. has_coarser(self)) then
+            wanted = start_tolerance*values
+            if (finest) wanted = plan%accuracy*least_error*values
+         else
+            wanted = plan%accuracy*max(self%discretisation_error(self%n), least_error*values)
+         end if
+         met = all(result%algebraic <= wanted)
+         if (finest .or. plan%target_error > 0.0_dp) met = met .and. abs(result%m%load_error) <= load_tolerance
+         if (.not. met .and. result%cycles < plan%max_cycles) return
+         result%solved = .true.
+         if (met .and. plan%target_error > 0.0_dp .and. has_coarser(self)) then
+            values = self%discretisation_error(self%n) + result%algebraic
+            if (values(1) <= plan%target_error*result%m%film_central) then
+               self%outcome = outcome_converged
+               return
+            end if
+         end if
+         if (finest) then
+            self%outcome = merge(outcome_converged, outcome_cycle_limit, met)
+            if (met .and. plan%target_error > 0.0_dp) self%outcome = outcome_target_missed
+         else
+            self%n = self%n + 1
+            self%entered = .false.
+         end if
+      end associate
+   end subroutine judge
+
+   !> Failure on a level: begin anew on the next finer one, where the discrete problem is better posed
+   subroutine fail_level(self, plan, outcome)
+      class(steady_t), intent(inout) :: self
+      type(plan_t), intent(in) :: plan
+      integer, intent(in) :: outcome
+
+      if (self%n == plan%levels) then
+         self%outcome = outcome
+         return
+      end if
+      self%results%solved = .false.
+      self%restarts = self%restarts + 1
+      self%n = self%n + 1
+      self%entered = .false.
+   end subroutine fail_level
+
+   pure logical function has_coarser(self)
+      class(steady_t), intent(in) :: self
+      has_coarser = .false.
+      if (self%n > 1) has_coarser = self%results(self%n - 1)%solved
+   end function has_coarser
+
+   !> Discretisation errors of H_c and H_min on level n from the next coarser one, order 2
+   pure function discretisation_error(self, n) result(error)
+      class(steady_t), intent(in) :: self
+      integer, intent(in) :: n
+      real(dp) :: error(2)
+
+      associate (fine => self%results(n), coarse => self%results(n - 1))
+         error = abs([fine%m%film_central - coarse%m%film_central, &
+                      fine%m%film_minimum - coarse%m%film_minimum])/3.0_dp
+      end associate
+   end function discretisation_error
+
+   !> H_c and H_min extrapolated from levels n and n-1, order 2
+   pure function extrapolated(self, n) result(values)
+      class(steady_t), intent(in) :: self
+      integer, intent(in) :: n
+      real(dp) :: values(2)
+
+      associate (fine => self%results(n)%m, coarse => self%results(n - 1)%m)
+         values = ([4.0_dp*fine%film_central, 4.0_dp*fine%film_minimum] &
+                   - [coarse%film_central, coarse%film_minimum])/3.0_dp
+      end associate
+   end function extrapolated
+end module ehl_steady
