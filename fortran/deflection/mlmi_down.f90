@@ -25,7 +25,7 @@ contains
       !$omp shared(n, stage, p, work)
       me = 1
       !$ me = omp_get_thread_num() + 1
-      !$omp do schedule(static)
+      !$omp do schedule(dynamic, 8)
       do j = 0, stage%high(2)
          call find_sources(n, p(:, j), first, last)
          if (first <= last) then
@@ -62,7 +62,7 @@ contains
       !$omp shared(fine, coarse, omega, work)
       me = 1
       !$ me = omp_get_thread_num() + 1
-      !$omp do schedule(static)
+      !$omp do schedule(dynamic, 8)
       do j = coarse%low(2), coarse%high(2)
          if (fine%axis == 1) then
             call descend_row_x(fine, coarse, j, omega, work(:, 1, me))
@@ -107,6 +107,7 @@ contains
       real(dp), intent(inout) :: sums(*)
       integer :: t, first, last, a, b, count
       integer :: upper(size(omega)), lower(size(omega)), place(size(omega))
+      real(dp) :: c(size(omega))
 
       t = size(omega)
       call sources_near(fine, 2*j, 2*t - 1, first, last)
@@ -114,8 +115,8 @@ contains
       if (a > b) return
       call rows_near(fine, 2*j, 1, t, a, count, upper, lower, place)
       sums(1:b - a + 1) = fine%source(a:b, stored_row(fine, 2*j))
-      call add_row_pairs(b - a + 1, count, omega(place(:count)), fine%source, &
-                         upper, lower, .false., sums)
+      c(:count) = omega(place(:count))
+      call add_row_pairs(b - a + 1, count, c, fine%source, upper, lower, .false., sums)
       call put(coarse, j, first, last, a, sums)
    end subroutine descend_row_y
 
@@ -144,7 +145,7 @@ contains
       !$omp parallel num_threads(threads) default(none) private(j, me) shared(stage, work, w)
       me = 1
       !$ me = omp_get_thread_num() + 1
-      !$omp do schedule(static)
+      !$omp do schedule(dynamic, 8)
       do j = stage%low(2), stage%high(2)
          call sum_row(stage, j, work(:, 1, me), w(:, j))
       end do

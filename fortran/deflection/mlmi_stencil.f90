@@ -13,7 +13,7 @@ module ehl_mlmi_stencil
    use ehl_kernel, only: kernel_coefficient
    implicit none (type, external)
    private
-   public :: stencil_t, transfer_weights
+   public :: stencil_t, transfer_weights, reach
 
    !> Corrections are looked for this far from the source, in mesh sizes
    integer, parameter :: reach = 48
@@ -31,7 +31,6 @@ module ehl_mlmi_stencil
    contains
       procedure :: make
       procedure :: length
-      procedure :: taps
    end type stencil_t
 
 contains
@@ -158,14 +157,4 @@ contains
       class(stencil_t), intent(in) :: self
       length = max(2*maxval(self%n_odd) - 1, 2*maxval(self%n_even))
    end function length
-
-   !> Number of corrections, mirror images counted
-   pure integer function taps(self)
-      class(stencil_t), intent(in) :: self
-      integer :: b
-      taps = 0
-      do b = 0, self%width
-         taps = taps + merge(1, 2, b == 0)*(2*self%n_odd(b) + 2*self%n_even(b) + 1)
-      end do
-   end function taps
 end module ehl_mlmi_stencil

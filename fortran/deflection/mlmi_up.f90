@@ -3,6 +3,7 @@
 !> corrections where there are sources
 module ehl_mlmi_up
    use ehl_kinds, only: dp
+   use ehl_mlmi_stencil, only: reach
    use ehl_mlmi_stage, only: stage_t, stored_row, sources_near, rows_near
    use ehl_mlmi_rows, only: add_pairs, add_centred, add_row_pairs, add_row_pairs_to_three, &
       interpolate_and_merge
@@ -12,7 +13,7 @@ module ehl_mlmi_up
    public :: ascend
 
    !> Most pairs of rows that a stencil can have
-   integer, parameter :: many = 64
+   integer, parameter :: most = reach + 2
 
 contains
 
@@ -44,7 +45,7 @@ contains
       !$omp shared(stage, omega, work, w)
       me = 1
       !$ me = omp_get_thread_num() + 1
-      !$omp do schedule(static)
+      !$omp do schedule(dynamic, 8)
       do j = stage%low(2), stage%high(2)
          call ascend_row_x(stage, j, omega, work(:, 1, me), work(:, 2, me), work(:, 3, me), &
                            stage%coarse(:, j), w(:, j))
@@ -64,16 +65,16 @@ contains
       real(dp), intent(inout) :: s_odd(stage%coarse_low(1) - stage%margin:*)
       real(dp), intent(inout) :: even(stage%coarse_low(1):stage%coarse_high(1))
       real(dp), intent(out) :: w(stage%low(1):stage%high(1))
-      integer :: a, b, d, l, r, first, last, reach, upper, lower
+      integer :: a, b, d, l, r, first, last, half, upper, lower
 
       odd(stage%coarse_low(1):stage%coarse_high(1)) = 0.0_dp
       call sources_near(stage, j, stage%stencil%width, first, last)
       if (first <= last) then
-         reach = stage%stencil%length()/2 + 1
-         a = max(shifta(first, 1) - reach, stage%coarse_low(1))
-         b = min(shifta(last, 1) + reach, stage%coarse_high(1))
-         l = a - reach
-         r = b + reach
+         half = stage%stencil%length()/2 + 1
+         a = max(shifta(first, 1) - half, stage%coarse_low(1))
+         b = min(shifta(last, 1) + half, stage%coarse_high(1))
+         l = a - half
+         r = b + half
          do d = 0, stage%stencil%width
             upper = stored_row(stage, j + d)
             lower = stored_row(stage, j - d)
@@ -132,13 +133,13 @@ contains
       !$omp shared(stage, omega, work, w)
       me = 1
       !$ me = omp_get_thread_num() + 1
-      !$omp do schedule(static)
+      !$omp do schedule(dynamic, 8)
       do j = stage%coarse_low(2), stage%coarse_high(2)
          call correct_row_y(stage, 2*j, work(:, :, me), stage%coarse(:, j))
          if (2*j >= stage%low(2) .and. 2*j <= stage%high(2)) w(:, 2*j) = stage%coarse(:, j)
       end do
       !$omp end do
-      !$omp do schedule(static)
+      !$omp do schedule(dynamic, 8)
       do j = stage%low(2) + 1 - modulo(stage%low(2), 2), stage%high(2), 2
          call interpolate_row(stage, j, omega, w(:, j))
          call correct_row_y(stage, j, work(:, :, me), w(:, j))
@@ -174,8 +175,8 @@ contains
       real(dp), intent(inout) :: sums(:, :)
       real(dp), intent(inout) :: w(stage%low(1):stage%high(1))
       integer :: a, b, k, m, n, x, x_last, count, count_even, pairs, first, last
-      integer :: upper(2*many), lower(2*many), place(2*many)
-      real(dp) :: c(2*many, 3)
+      integer :: upper(most), lower(most), place(most)
+      real(dp) :: c(most, 3)
 
       associate (stencil => stage%stencil)
          call sources_near(stage, j, stencil%length(), first, last)

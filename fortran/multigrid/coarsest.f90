@@ -145,9 +145,9 @@ contains
          do j = self%first, self%last
             do i = 2, level%grid%nx - 1
                u = unknown(self, level%grid%nx, i, j)
-               level%p(i, j) = self%p_before(i, j) + damping*self%direction(u)
+               level%p(i, j) = max(0.0_dp, self%p_before(i, j) + damping*self%direction(u))
                ! exactly zero, lest rounding frees the node
-               if (self%held(u) .and. damping >= 1.0_dp) level%p(i, j) = 0.0_dp
+               if (self%held(u)) level%p(i, j) = 0.0_dp
             end do
          end do
          level%h00 = self%h00_before + damping*self%direction(self%n + 1)

@@ -69,6 +69,7 @@ module ehl_level
    contains
       procedure :: setup
       procedure :: set_upstream
+      procedure :: set_transient
       procedure :: bytes
    end type level_t
 
@@ -127,6 +128,24 @@ contains
          self%wedge = [1.5_dp, -2.0_dp, 0.5_dp]/self%grid%hx
       end if
    end subroutine set_upstream
+   !> Implicit part of wedge and squeeze terms for a time step. Narrow upstream: both terms
+   !> together along the characteristic, 1.5 (rho H)_i/dT. Otherwise second-order upstream in X and
+   !> second-order backward in T, of first order in X in the first interior column.
+   subroutine set_transient(self, narrow, time_step)
+      class(level_t), intent(inout) :: self
+      logical, intent(in) :: narrow
+      real(dp), intent(in) :: time_step
+
+      if (narrow) then
+         self%wedge = [1.5_dp, 0.0_dp, 0.0_dp]/time_step
+         self%wedge_first = [1.0_dp, 0.0_dp, 0.0_dp]/time_step
+      else
+         call self%set_upstream(2)
+         self%wedge(0) = self%wedge(0) + 1.5_dp/time_step
+         self%wedge_first(0) = self%wedge_first(0) + 1.5_dp/time_step
+      end if
+   end subroutine set_transient
+
    !> Allocated bytes, the engine's apart
    pure integer(8) function bytes(self)
       class(level_t), intent(in) :: self

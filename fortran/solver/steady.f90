@@ -30,6 +30,8 @@ module ehl_steady
    real(dp), parameter :: least_reduction = 0.3_dp
    !> Relative discretisation errors below this are not believed, as two levels may agree by chance
    real(dp), parameter :: least_error = 2.0e-5_dp
+   !> Largest residual (rms; the wedge term is of order 1 in the inlet) of a converged solution
+   real(dp), parameter :: residual_tolerance = 2.0e-3_dp
    !> Relative algebraic error wanted on the first grid, where no discretisation error is known yet
    real(dp), parameter :: start_tolerance = 1.0e-3_dp
 
@@ -174,12 +176,13 @@ contains
          values = [result%m%film_central, result%m%film_minimum]
          if (.not. has_coarser(self)) then
             wanted = start_tolerance*values
-            if (finest) wanted = plan%accuracy*least_error*values
+            if (finest) wanted = plan%accuracy*start_tolerance*values
          else
             wanted = plan%accuracy*max(self%discretisation_error(self%n), least_error*values)
          end if
          met = all(result%algebraic <= wanted)
-         if (finest .or. plan%target_error > 0.0_dp) met = met .and. abs(result%m%load_error) <= load_tolerance
+         if (finest .or. plan%target_error > 0.0_dp) met = met .and. abs(result%m%load_error) <= load_tolerance &
+                                                           .and. result%residual <= residual_tolerance
          if (.not. met .and. result%cycles < plan%max_cycles) return
          result%solved = .true.
          if (met .and. plan%target_error > 0.0_dp .and. has_coarser(self)) then

@@ -1,0 +1,136 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The command line of the program
+module ehl_arguments
+   use ehl_status, only: ehl_bad_input, status_t
+   use ehl_text, only: nearest_word, newline
+   implicit none (type, external)
+   private
+   public :: arguments_t, get_arguments, help_text
+
+   !> What the command line asks for
+   type :: arguments_t
+      !> Case file and result folder
+      character(len=:), allocatable :: case_file, folder
+      !> Texts group.key=value of the --set options, one a line
+      character(len=:), allocatable :: options
+      logical :: quiet = .false., version = .false., help = .false., keys = .false.
+   end type arguments_t
+
+   character(len=*), parameter :: switches(*) = [character(len=12) :: &
+      "-o", "--output", "--set", "--quiet", "--version", "--help", "--options"]
+
+contains
+
+   !> Read the command line
+   subroutine get_arguments(arguments, status)
+      type(arguments_t), intent(out) :: arguments
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: word, value
+      integer :: k
+
+      arguments%case_file = ""
+      arguments%folder = ""
+      arguments%options = ""
+      k = 0
+      do while (k < command_argument_count() .and. .not. status%failed())
+         k = k + 1
+         word = argument(k)
+         select case (word)
+         case ("-o", "--output")
+            call next_argument(k, word, arguments%folder, status)
+         case ("--set")
+            call next_argument(k, word, value, status)
+            if (index(value, newline) > 0) call refuse("--set: more than one line", status)
+            arguments%options = arguments%options // value // newline
+         case ("-q", "--quiet")
+            arguments%quiet = .true.
+         case ("--version")
+            arguments%version = .true.
+         case ("-h", "--help")
+            arguments%help = .true.
+         case ("--options")
+            arguments%keys = .true.
+         case default
+            call take_other(word, arguments, status)
+         end select
+      end do
+      if (status%failed()) return
+      if (arguments%help .or. arguments%version .or. arguments%keys) return
+      if (arguments%case_file == "") then
+         call refuse("no case file", status)
+      else if (arguments%folder == "") then
+         call refuse("no result folder: -o DIR is missing", status)
+      end if
+   end subroutine get_arguments
+
+   !> The case file, or an option that does not exist
+   subroutine take_other(word, arguments, status)
+      character(len=*), intent(in) :: word
+      type(arguments_t), intent(inout) :: arguments
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: near
+
+      if (index(word, "-") == 1 .and. len(word) > 1) then
+         near = nearest_word(word, switches)
+         if (near /= "") near = "; did you mean '" // near // "'?"
+         call refuse("unknown option '" // word // "'" // near, status)
+      else if (word == "") then
+         call refuse("the name of the case file is empty", status)
+      else if (arguments%case_file /= "") then
+         call refuse("second case file '" // word // "'", status)
+      else
+         arguments%case_file = word
+      end if
+   end subroutine take_other
+
+   !> The argument that belongs to an option
+   subroutine next_argument(k, option, value, status)
+      integer, intent(inout) :: k
+      character(len=*), intent(in) :: option
+      character(len=:), allocatable, intent(out) :: value
+      type(status_t), intent(inout) :: status
+
+      k = k + 1
+      value = ""
+      if (k <= command_argument_count()) then
+         value = argument(k)
+      else
+         call refuse("nothing behind " // option, status)
+      end if
+   end subroutine next_argument
+
+   !> Argument number k
+   function argument(k) result(text)
+      integer, intent(in) :: k
+      character(len=:), allocatable :: text
+      integer :: length
+
+      call get_command_argument(k, length=length)
+      allocate (character(len=length) :: text)
+      if (length > 0) call get_command_argument(k, text)
+   end function argument
+
+   subroutine refuse(what, status)
+      character(len=*), intent(in) :: what
+      type(status_t), intent(inout) :: status
+
+      call status%fail(ehl_bad_input, "ehl: error: " // what // newline &
+                       // "expected: ehl CASE.nml -o DIR [--set group.key=value ...]")
+   end subroutine refuse
+
+   !> What --help prints
+   function help_text() result(text)
+      character(len=:), allocatable :: text
+
+      text = "Solve an elastohydrodynamically lubricated point contact." // newline // newline &
+             // "  ehl CASE.nml -o DIR [--set group.key=value ...] [--quiet]" // newline // newline &
+             // "  CASE.nml   namelist file; every key has a default" // newline &
+             // "  -o DIR     folder for the results: new, empty, or of an earlier run" // newline &
+             // "  --set      replace a value of the case, as often as wanted" // newline &
+             // "  --quiet    print nothing but errors" // newline &
+             // "  --options  list all keys: unit, default, allowed values, meaning" // newline &
+             // "  --version  print the version and how it was built" // newline // newline &
+             // "Exit status: 0 converged, 1 not converged or failed, 2 bad input, 130 interrupted." &
+             // newline
+   end function help_text
+end module ehl_arguments

@@ -1,0 +1,93 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> ehl CASE.nml -o DIR: solve a case and write the result folder
+program ehl
+   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use ehl_arguments, only: arguments_t, get_arguments, help_text
+   use ehl_case, only: case_t
+   use ehl_case_reader, only: read_case_file
+   use ehl_case_writer, only: options_text
+   use ehl_clock, only: clock_t, start_clock
+   use ehl_kinds, only: dp
+   use ehl_outputs, only: check_folder, write_results
+   use ehl_signals, only: stop_wanted, watch_signals
+   use ehl_solver, only: solver_t
+   use ehl_status, only: ehl_bad_input, status_t
+   use ehl_version, only: build_text, version
+   implicit none (type, external)
+
+   integer, parameter :: exit_ok = 0, exit_failed = 1, exit_usage = 2, exit_interrupted = 130
+   !> Seconds between progress lines
+   real(dp), parameter :: progress_interval = 2.0_dp
+   type(arguments_t) :: arguments
+   type(case_t) :: input
+   type(solver_t) :: solver
+   type(status_t) :: status
+   type(clock_t) :: clock
+   character(len=:), allocatable :: note
+
+   call get_arguments(arguments, status)
+   call end_if_failed()
+   if (arguments%help .or. arguments%version .or. arguments%keys) then
+      if (arguments%help) write (output_unit, "(a)", advance="no") help_text()
+      if (arguments%version) write (output_unit, "(a)") "ehl " // version, build_text()
+      if (arguments%keys) write (output_unit, "(a)", advance="no") options_text()
+      stop exit_ok, quiet=.true.
+   end if
+
+   clock = start_clock()
+   call read_case_file(arguments%case_file, arguments%options, input, status)
+   call end_if_failed()
+   call check_folder(arguments%folder, status)
+   call end_if_failed()
+   call watch_signals()
+   call solver%start(input, status)
+   call end_if_failed()
+   call say(solver%describe())
+   call march()
+   call write_results(arguments%folder, input, solver, clock%seconds(), note, status)
+   call end_if_failed()
+   if (note /= "") call say("note: " // note)
+   call say("results: " // arguments%folder)
+   if (stop_wanted() .and. .not. solver%converged()) stop exit_interrupted, quiet=.true.
+   if (solver%converged()) stop exit_ok, quiet=.true.
+   stop exit_failed, quiet=.true.
+
+contains
+
+   !> Cycle by cycle or step by step to the end
+   subroutine march()
+      type(clock_t) :: since_line
+
+      since_line = start_clock()
+      do while (.not. solver%done())
+         if (stop_wanted()) then
+            call solver%interrupt()
+         else
+            call solver%advance(status)
+            call end_if_failed()
+         end if
+         if (since_line%seconds() > progress_interval) then
+            call say(solver%progress())
+            since_line = start_clock()
+         end if
+      end do
+      call say(solver%progress())
+   end subroutine march
+
+   !> A line to the terminal, unless it shall be quiet
+   subroutine say(text)
+      character(len=*), intent(in) :: text
+
+      if (arguments%quiet) return
+      write (output_unit, "(a)") text
+      flush (output_unit)
+   end subroutine say
+
+   !> Report a failure and end the program
+   subroutine end_if_failed()
+      if (.not. status%failed()) return
+      write (error_unit, "(a)") status%message
+      if (status%code == ehl_bad_input) stop exit_usage, quiet=.true.
+      stop exit_failed, quiet=.true.
+   end subroutine end_if_failed
+end program ehl

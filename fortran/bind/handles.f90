@@ -1,0 +1,87 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Solvers by number: what Python holds is an index into this table
+module ehl_handles
+   use ehl_case, only: case_t
+   use ehl_clock, only: clock_t, start_clock
+   use ehl_solver, only: solver_t
+   use ehl_status, only: ehl_closed, ehl_no_memory, status_t
+   use ehl_text, only: to_text
+   implicit none (type, external)
+   private
+   public :: run_t, new_handle, drop_handle, run_of
+
+   !> A case on its way: the resolved input, the solver, the time since it was opened
+   type :: run_t
+      type(case_t) :: input
+      type(solver_t) :: solver
+      type(clock_t) :: clock
+   end type run_t
+
+   !> A place of the table
+   type :: slot_t
+      type(run_t), pointer :: run => null()
+      !> Handles of this place; a handle is never used twice
+      integer :: generation = 0
+   end type slot_t
+
+   integer, parameter :: places = 64
+   type(slot_t), save :: table(places)
+
+contains
+
+   !> A new run in a free place
+   subroutine new_handle(handle, run, status)
+      integer, intent(out) :: handle
+      type(run_t), pointer, intent(out) :: run
+      type(status_t), intent(inout) :: status
+      integer :: k, stat
+
+      handle = 0
+      nullify (run)
+      !$omp critical (ehl_handle_table)
+      do k = 1, places
+         if (associated(table(k)%run)) cycle
+         allocate (run, stat=stat)
+         if (stat /= 0) exit
+         run%clock = start_clock()
+         table(k)%run => run
+         table(k)%generation = table(k)%generation + 1
+         handle = places*table(k)%generation + k
+         exit
+      end do
+      !$omp end critical (ehl_handle_table)
+      if (handle == 0) call status%fail(ehl_no_memory, "no room for another solver: close one of " &
+                                        // to_text(places))
+   end subroutine new_handle
+
+   !> The run of a handle; a failure when the handle was closed or never opened
+   subroutine run_of(handle, run, status)
+      integer, intent(in) :: handle
+      type(run_t), pointer, intent(out) :: run
+      type(status_t), intent(inout) :: status
+      integer :: k
+
+      nullify (run)
+      if (handle > places) then
+         k = modulo(handle - 1, places) + 1
+         !$omp critical (ehl_handle_table)
+         if (places*table(k)%generation + k == handle) run => table(k)%run
+         !$omp end critical (ehl_handle_table)
+      end if
+      if (.not. associated(run)) call status%fail(ehl_closed, "the solver is closed")
+   end subroutine run_of
+
+   !> Free a run and its place; nothing happens when the handle is closed already
+   subroutine drop_handle(handle)
+      integer, intent(in) :: handle
+      type(run_t), pointer :: run
+      type(status_t) :: status
+
+      call run_of(handle, run, status)
+      if (.not. associated(run)) return
+      !$omp critical (ehl_handle_table)
+      nullify (table(modulo(handle - 1, places) + 1)%run)
+      !$omp end critical (ehl_handle_table)
+      deallocate (run)
+   end subroutine drop_handle
+end module ehl_handles

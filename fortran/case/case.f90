@@ -1,0 +1,174 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Everything a case file can say, one type per namelist group, with the defaults
+module ehl_case
+   use ehl_kinds, only: dp
+   implicit none (type, external)
+   private
+   public :: case_t, word_length, path_length
+
+   !> Longest option word
+   integer, parameter :: word_length = 32
+   !> Longest file name
+   integer, parameter :: path_length = 1024
+
+   !> &contact: the operating point, by its Moes numbers or in SI units
+   type :: contact_case_t
+      !> Whether the case was given in SI: then load, mean_velocity, radius and reduced_modulus
+      !> hold, else moes_m and moes_l. Not a key; set by the reader.
+      logical :: si = .true.
+      !> [-] M = W2 (2U)^(-3/4), default 1000
+      real(dp) :: moes_m = 1000.0_dp
+      !> [-] L = G (2U)^(1/4), default 10; 0 is the isoviscous elastic limit
+      real(dp) :: moes_l = 10.0_dp
+      !> [N] load w, default 600
+      real(dp) :: load = 600.0_dp
+      !> [m/s] mean velocity of the surfaces (u1 + u2)/2, default 0.84
+      real(dp) :: mean_velocity = 0.84_dp
+      !> [m] reduced radius R, default 0.018
+      real(dp) :: radius = 0.018_dp
+      !> [Pa] reduced modulus E', 2/E' = sum of (1 - nu^2)/E of the bodies, default 2.26e11
+      real(dp) :: reduced_modulus = 2.26e11_dp
+   end type contact_case_t
+
+   !> &lubricant: viscosity and density under pressure
+   type :: lubricant_case_t
+      !> [Pa s] viscosity at ambient pressure eta0, default 0.04
+      real(dp) :: viscosity = 0.04_dp
+      !> [1/Pa] pressure-viscosity coefficient alpha, default 2.2e-8
+      real(dp) :: pressure_viscosity = 2.2e-8_dp
+      !> 'roelands' (default) or 'barus'
+      character(len=word_length) :: viscosity_law = "roelands"
+      !> [-] Roelands exponent z, default alpha p0/(ln eta0 + 9.67); set by the reader
+      real(dp) :: roelands_z = 0.0_dp
+      !> [Pa] Roelands pressure p0, default 1.96e8
+      real(dp) :: roelands_p0 = 1.96e8_dp
+      !> 'dowson-higginson' (default) or 'incompressible'
+      character(len=word_length) :: density_law = "dowson-higginson"
+   end type lubricant_case_t
+
+   !> &grid: the domain in Hertz radii a and its finest grid
+   type :: grid_case_t
+      !> [-] nodes per side, odd and coarsenable, default 513
+      integer :: points = 513
+      !> [a] inlet boundary X, default -2.5
+      real(dp) :: x_inlet = -2.5_dp
+      !> [a] outlet boundary X, default 1.5
+      real(dp) :: x_outlet = 1.5_dp
+      !> [a] the domain is -y_extent <= Y <= y_extent, default 2
+      real(dp) :: y_extent = 2.0_dp
+      !> [-] relative error of the central film wanted; 0 (default): use `points` as it is, else
+      !> grids of the family of `points` are refined until the estimated error is below it
+      real(dp) :: target_error = 0.0_dp
+      !> [-] largest number of nodes per side that target_error may choose, default 2049
+      integer :: max_points = 2049
+   end type grid_case_t
+
+   !> &surface: the moving roughness
+   type :: surface_case_t
+      !> 'smooth' (default), 'harmonic', 'map' or 'fractal'
+      character(len=word_length) :: kind = "smooth"
+      !> Whether `amplitude` holds and not `amplitude_over_film`. Not a key; set by the reader.
+      logical :: amplitude_given = .false.
+      !> [a^2/R] harmonic amplitude A_i; no default
+      real(dp) :: amplitude = 0.0_dp
+      !> [-] harmonic amplitude as a share of the smooth central film, A_i/H_c, default 0.4
+      real(dp) :: amplitude_over_film = 0.4_dp
+      !> [a] wavelength, default 0.5
+      real(dp) :: wavelength = 0.5_dp
+      !> [a] wavelengths along X and Y, default `wavelength`; set by the reader
+      real(dp) :: wavelength_x = 0.5_dp, wavelength_y = 0.5_dp
+      !> [-] velocity of the rough surface over the mean velocity, default 1.01
+      real(dp) :: velocity_ratio = 1.01_dp
+      !> [a] where the roughness begins at time 0, default grid x_inlet; set by the reader
+      real(dp) :: x_start = -2.5_dp
+      !> Height map of kind 'map', .npy or text, heights in m, peaks positive; made absolute by
+      !> the reader (a relative name starts at the folder of the case file)
+      character(len=path_length) :: file = ""
+      !> [m] size of the tile of a map or fractal surface, default 8.29e-4
+      real(dp) :: length_x = 8.29e-4_dp, length_y = 8.29e-4_dp
+      !> [m] rms height of a fractal surface, default 0.05e-6
+      real(dp) :: rms_height = 0.05e-6_dp
+      !> [-] Hurst exponent of a fractal surface, default 0.8
+      real(dp) :: hurst = 0.8_dp
+      !> [rad/m] wavenumber below which the spectrum is flat; 0 (default): none
+      real(dp) :: rolloff_wavenumber = 0.0_dp
+      !> [-] pixels per side of a fractal surface, default 256
+      integer :: pixels = 256
+      !> [-] seed of the random phases, default 1
+      integer :: seed = 1
+      !> 'deterministic' (default) or 'gaussian' modulus of the Fourier components
+      character(len=word_length) :: modulus = "deterministic"
+   end type surface_case_t
+
+   !> &time: the march of a moving surface
+   type :: time_case_t
+      !> 'narrow' (default) or 'paper': how wedge and squeeze terms are discretised
+      character(len=word_length) :: scheme = "narrow"
+      !> [-] relative change of the mean mu_r/mu_s between periods at which to stop, default 1e-3
+      real(dp) :: tolerance = 1.0e-3_dp
+      !> [-] most periods; 0 (default): automatic
+      integer :: max_periods = 0
+      !> [-] exactly that many steps; 0 (default): until the friction is periodic
+      integer :: steps = 0
+   end type time_case_t
+
+   !> &solver: how the equations are solved
+   type :: solver_case_t
+      !> 'mlmi' (default), 'fft' or 'direct': how the elastic deflection is evaluated
+      character(len=word_length) :: deflection = "mlmi"
+      !> 'classical' (default) or 'alcouffe' transfers of the multigrid
+      character(len=word_length) :: coarsening = "classical"
+      !> 'auto' (default): half the domain where the scene is symmetric in Y; 'full': never
+      character(len=word_length) :: symmetry = "auto"
+      !> 'W' (default), 'V' or 'F' cycles
+      character(len=word_length) :: cycle = "W"
+      !> [-] algebraic error wanted as a share of the discretisation error, default 0.1
+      real(dp) :: accuracy = 0.1_dp
+      !> [-] most cycles per level, default 30
+      integer :: max_cycles = 30
+      !> [-] OpenMP threads, default 1; results do not depend on it
+      integer :: threads = 1
+   end type solver_case_t
+
+   !> &psd: the friction prediction from the surface spectrum, made by pyehl alone
+   type :: psd_case_t
+      !> [m] central film; 0 (default): from the Nijenbanning-Venner-Moes formula
+      real(dp) :: film_thickness = 0.0_dp
+      !> 'wavevector' (default), 'pattern' or 'components': the wavelength of a component
+      character(len=word_length) :: wavelength_convention = "wavevector"
+      !> 'exact' (default) or 'paper' stiffness of the half-space
+      character(len=word_length) :: stiffness = "exact"
+      !> 'roelands' or 'barus'; default '': as in &lubricant, set by the reader
+      character(len=word_length) :: viscosity_law = ""
+      !> whether the pressure is rebalanced to carry the load, default .false.
+      logical :: load_balance = .false.
+      !> 'newtonian' (default), 'eyring' or 'limiting' shear stress
+      character(len=word_length) :: friction = "newtonian"
+      !> [Pa] Eyring stress, default 5e6
+      real(dp) :: eyring_stress = 5.0e6_dp
+      !> [-] limiting shear stress over pressure, default 0.06
+      real(dp) :: limiting_coefficient = 0.06_dp
+      !> [-] slide-to-roll ratio, default 0.01
+      real(dp) :: slide_to_roll = 0.01_dp
+      !> [-] positions of the surface over one passage; 0 (default): automatic
+      integer :: positions = 0
+   end type psd_case_t
+
+   !> &output: what is written
+   type :: output_case_t
+      !> whether the fields X, Y, P, H are written, default .true.
+      logical :: fields = .true.
+   end type output_case_t
+
+   !> A whole case
+   type :: case_t
+      type(contact_case_t) :: contact
+      type(lubricant_case_t) :: lubricant
+      type(grid_case_t) :: grid
+      type(surface_case_t) :: surface
+      type(time_case_t) :: time
+      type(solver_case_t) :: solver
+      type(psd_case_t) :: psd
+      type(output_case_t) :: output
+   end type case_t
+end module ehl_case

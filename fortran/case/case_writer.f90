@@ -1,0 +1,96 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The resolved case as namelist text, and the list of all options
+module ehl_case_writer
+   use ehl_case, only: case_t
+   use ehl_schema, only: key_t, schema_t
+   use ehl_text, only: newline
+   implicit none (type, external)
+   private
+   public :: case_text, options_text
+
+contains
+
+   !> A case as namelist text that reads back as the same case, every value spelled out. Of keys
+   !> that exclude each other only the one that holds is written.
+   function case_text(input) result(text)
+      type(case_t), intent(in) :: input
+      character(len=:), allocatable :: text
+      type(case_t), target :: copy
+      type(schema_t) :: schema
+      integer :: k
+
+      copy = input
+      call schema%bind(copy)
+      text = ""
+      do k = 1, size(schema%keys)
+         if (opens_group(schema, k)) text = text // "&" // trim(schema%keys(k)%group) // newline
+         if (holds(input, schema%keys(k))) text = text // key_line(schema%keys(k))
+         if (closes_group(schema, k)) text = text // "/" // newline
+      end do
+   end function case_text
+
+   !> Whether a key carries a value, and its rival does not
+   pure logical function holds(input, key)
+      type(case_t), intent(in) :: input
+      type(key_t), intent(in) :: key
+
+      select case (key%full_name())
+      case ("contact.moes_m", "contact.moes_l")
+         holds = .not. input%contact%si
+      case ("contact.load", "contact.mean_velocity", "contact.radius", "contact.reduced_modulus")
+         holds = input%contact%si
+      case ("surface.amplitude")
+         holds = input%surface%amplitude_given
+      case ("surface.amplitude_over_film")
+         holds = input%surface%kind == "harmonic" .and. .not. input%surface%amplitude_given
+      case default
+         holds = .true.
+      end select
+   end function holds
+
+   !> One key with its value and its meaning
+   function key_line(key) result(line)
+      type(key_t), intent(in) :: key
+      character(len=:), allocatable :: line
+
+      line = "   " // trim(key%name) // " = " // key%value_text()
+      line = line // repeat(" ", max(1, 44 - len(line))) // "! "
+      if (key%unit /= "-") line = line // "[" // trim(key%unit) // "] "
+      line = line // trim(key%meaning) // newline
+   end function key_line
+
+   pure logical function opens_group(schema, k)
+      type(schema_t), intent(in) :: schema
+      integer, intent(in) :: k
+
+      opens_group = k == 1
+      if (k > 1) opens_group = schema%keys(k)%group /= schema%keys(k - 1)%group
+   end function opens_group
+
+   pure logical function closes_group(schema, k)
+      type(schema_t), intent(in) :: schema
+      integer, intent(in) :: k
+
+      closes_group = k == size(schema%keys)
+      if (.not. closes_group) closes_group = opens_group(schema, k + 1)
+   end function closes_group
+
+   !> All keys, one a line with tabs between the columns:
+   !> group.key, unit, default, allowed values, meaning
+   function options_text() result(text)
+      character(len=:), allocatable :: text
+      type(case_t), target :: defaults
+      type(schema_t) :: schema
+      character(len=1), parameter :: tab = achar(9)
+      integer :: k
+
+      call schema%bind(defaults)
+      text = ""
+      do k = 1, size(schema%keys)
+         associate (key => schema%keys(k))
+            text = text // key%full_name() // tab // trim(key%unit) // tab // key%value_text() &
+                   // tab // trim(key%allowed) // tab // trim(key%meaning) // newline
+         end associate
+      end do
+   end function options_text
+end module ehl_case_writer

@@ -1,0 +1,392 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The one table of all keys: group, name, unit, allowed values, meaning, and where the value
+!> lives in a case. Reading, checking, writing and documenting all walk this table; the
+!> defaults are those of the types in ehl_case.
+module ehl_schema
+   use ehl_case, only: case_t, path_length, word_length
+   use ehl_kinds, only: dp
+   use ehl_text, only: quoted, to_text
+   implicit none (type, external)
+   private
+   public :: key_t, schema_t, name_length
+   public :: kind_real, kind_integer, kind_logical, kind_word, kind_path
+
+   integer, parameter :: name_length = 24
+   integer, parameter :: kind_real = 1, kind_integer = 2, kind_logical = 3
+   !> One of a list of words; a file name
+   integer, parameter :: kind_word = 4, kind_path = 5
+
+   !> One key
+   type :: key_t
+      character(len=name_length) :: group = "", name = ""
+      integer :: kind = 0
+      character(len=8) :: unit = ""
+      !> Numbers: an interval such as '(0, 10]', '0 or [1, 5]'; words: 'this|that'
+      character(len=48) :: allowed = ""
+      character(len=96) :: meaning = ""
+      !> The value inside the case, one of these
+      real(dp), pointer :: real_value => null()
+      integer, pointer :: integer_value => null()
+      logical, pointer :: logical_value => null()
+      character(len=word_length), pointer :: word_value => null()
+      character(len=path_length), pointer :: path_value => null()
+      !> Whether the input gave it, and where: source number, first and last position of the
+      !> name, first and last position of the value
+      logical :: given = .false.
+      integer :: source = 0, name_first = 0, name_last = 0, first = 0, last = 0
+   contains
+      procedure :: full_name
+      procedure :: value_text
+      procedure :: type_text
+      procedure :: allows
+   end type key_t
+
+   !> All keys, bound to one case
+   type :: schema_t
+      type(key_t), allocatable :: keys(:)
+   contains
+      procedure :: bind => bind_case
+      procedure :: find
+      procedure :: given
+      procedure :: group_names
+      procedure :: names_of
+      procedure, private :: add_contact_keys
+      procedure, private :: add_lubricant_keys
+      procedure, private :: add_grid_keys
+      procedure, private :: add_surface_keys
+      procedure, private :: add_march_keys
+      procedure, private :: add_psd_keys
+      procedure, private :: reals
+      procedure, private :: integers
+      procedure, private :: logicals
+      procedure, private :: words
+      procedure, private :: paths
+   end type schema_t
+
+contains
+
+   !> Make the table for a case, which must outlive it
+   subroutine bind_case(self, input)
+      class(schema_t), intent(inout) :: self
+      type(case_t), intent(inout), target :: input
+
+      if (allocated(self%keys)) deallocate (self%keys)
+      allocate (self%keys(0))
+      call self%add_contact_keys(input)
+      call self%add_lubricant_keys(input)
+      call self%add_grid_keys(input)
+      call self%add_surface_keys(input)
+      call self%add_march_keys(input)
+      call self%add_psd_keys(input)
+      call self%logicals("output", "fields", input%output%fields, "write the fields X, Y, P, H")
+   end subroutine bind_case
+
+   subroutine add_contact_keys(self, input)
+      class(schema_t), intent(inout) :: self
+      type(case_t), intent(inout), target :: input
+
+      associate (c => input%contact)
+         call self%reals("contact", "moes_m", c%moes_m, "-", "(0, 1e5]", "Moes load parameter M")
+         call self%reals("contact", "moes_l", c%moes_l, "-", "[0, 100]", "Moes material parameter L")
+         call self%reals("contact", "load", c%load, "N", "(0, 1e5]", "load")
+         call self%reals("contact", "mean_velocity", c%mean_velocity, "m/s", "(0, 200]", &
+                         "mean velocity of the two surfaces")
+         call self%reals("contact", "radius", c%radius, "m", "[1e-5, 10]", "reduced radius")
+         call self%reals("contact", "reduced_modulus", c%reduced_modulus, "Pa", "[1e8, 2e12]", &
+                         "E' with 2/E' = sum of (1 - nu^2)/E over the bodies")
+      end associate
+   end subroutine add_contact_keys
+
+   subroutine add_lubricant_keys(self, input)
+      class(schema_t), intent(inout) :: self
+      type(case_t), intent(inout), target :: input
+
+      associate (l => input%lubricant)
+         call self%reals("lubricant", "viscosity", l%viscosity, "Pa s", "[1e-4, 10]", &
+                         "viscosity at ambient pressure")
+         call self%reals("lubricant", "pressure_viscosity", l%pressure_viscosity, "1/Pa", &
+                         "[1e-10, 1e-7]", "pressure-viscosity coefficient")
+         call self%words("lubricant", "viscosity_law", l%viscosity_law, "roelands|barus", &
+                         "viscosity under pressure")
+         call self%reals("lubricant", "roelands_z", l%roelands_z, "-", "[0.05, 2]", &
+                         "Roelands exponent; default alpha p0/(ln eta0 + 9.67)")
+         call self%reals("lubricant", "roelands_p0", l%roelands_p0, "Pa", "[1e7, 1e10]", &
+                         "Roelands reference pressure")
+         call self%words("lubricant", "density_law", l%density_law, &
+                         "dowson-higginson|incompressible", "density under pressure")
+      end associate
+   end subroutine add_lubricant_keys
+
+   subroutine add_grid_keys(self, input)
+      class(schema_t), intent(inout) :: self
+      type(case_t), intent(inout), target :: input
+
+      associate (g => input%grid)
+         call self%integers("grid", "points", g%points, "[17, 4097]", &
+                            "nodes per side: odd, points - 1 halved must end even at 32 or less")
+         call self%reals("grid", "x_inlet", g%x_inlet, "a", "[-20, -1.05]", "inlet boundary X")
+         call self%reals("grid", "x_outlet", g%x_outlet, "a", "[1.05, 20]", "outlet boundary X")
+         call self%reals("grid", "y_extent", g%y_extent, "a", "[1.05, 20]", &
+                         "side boundaries Y = -y_extent and y_extent")
+         call self%reals("grid", "target_error", g%target_error, "-", "0 or [1e-5, 0.1]", &
+                         "relative error of H_c wanted; 0: solve on points as given")
+         call self%integers("grid", "max_points", g%max_points, "[17, 8193]", &
+                            "most nodes per side that target_error may choose")
+      end associate
+   end subroutine add_grid_keys
+
+   subroutine add_surface_keys(self, input)
+      class(schema_t), intent(inout) :: self
+      type(case_t), intent(inout), target :: input
+
+      associate (s => input%surface)
+         call self%words("surface", "kind", s%kind, "smooth|harmonic|map|fractal", &
+                         "the moving roughness")
+         call self%reals("surface", "amplitude", s%amplitude, "a^2/R", "[0, 1]", &
+                         "harmonic amplitude A_i; no default")
+         call self%reals("surface", "amplitude_over_film", s%amplitude_over_film, "-", "[0, 10]", &
+                         "harmonic amplitude as a share of the smooth central film, A_i/H_c")
+         call self%reals("surface", "wavelength", s%wavelength, "a", "[0.01, 100]", &
+                         "harmonic wavelength")
+         call self%reals("surface", "wavelength_x", s%wavelength_x, "a", "[0.01, 100]", &
+                         "wavelength along X; default wavelength")
+         call self%reals("surface", "wavelength_y", s%wavelength_y, "a", "[0.01, 1e6]", &
+                         "wavelength along Y; default wavelength")
+         call self%reals("surface", "velocity_ratio", s%velocity_ratio, "-", "[0, 2]", &
+                         "velocity of the rough surface over the mean velocity")
+         call self%reals("surface", "x_start", s%x_start, "a", "[-100, 20]", &
+                         "where the roughness begins at time 0; default x_inlet")
+         call self%paths("surface", "file", s%file, "height map of kind 'map': .npy or text, in m")
+         call self%reals("surface", "length_x", s%length_x, "m", "[1e-9, 1]", "size of the tile along X")
+         call self%reals("surface", "length_y", s%length_y, "m", "[1e-9, 1]", "size of the tile along Y")
+         call self%reals("surface", "rms_height", s%rms_height, "m", "[0, 1e-4]", &
+                         "rms height of a fractal surface")
+         call self%reals("surface", "hurst", s%hurst, "-", "[0, 1]", "Hurst exponent")
+         call self%reals("surface", "rolloff_wavenumber", s%rolloff_wavenumber, "rad/m", &
+                         "[0, 1e11]", "the spectrum is flat below it; 0: no roll-off")
+         call self%integers("surface", "pixels", s%pixels, "[4, 8192]", &
+                            "pixels per side of a fractal surface")
+         call self%integers("surface", "seed", s%seed, "[0, 2147483647]", "seed of the random phases")
+         call self%words("surface", "modulus", s%modulus, "deterministic|gaussian", &
+                         "modulus of the Fourier components")
+      end associate
+   end subroutine add_surface_keys
+
+   subroutine add_march_keys(self, input)
+      class(schema_t), intent(inout) :: self
+      type(case_t), intent(inout), target :: input
+
+      associate (t => input%time, s => input%solver)
+         call self%words("time", "scheme", t%scheme, "narrow|paper", &
+                         "wedge and squeeze: along the characteristic, or each by itself")
+         call self%reals("time", "tolerance", t%tolerance, "-", "[1e-8, 0.5]", &
+                         "stop when the period mean of mu_r/mu_s changes less, relatively")
+         call self%integers("time", "max_periods", t%max_periods, "[0, 100000]", &
+                            "most periods; 0: automatic")
+         call self%integers("time", "steps", t%steps, "[0, 10000000]", &
+                            "exactly so many steps; 0: until the friction is known")
+         call self%words("solver", "deflection", s%deflection, "mlmi|fft|direct", &
+                         "evaluation of the elastic deflection")
+         call self%words("solver", "coarsening", s%coarsening, "classical|alcouffe", &
+                         "transfers of the multigrid")
+         call self%words("solver", "symmetry", s%symmetry, "auto|full", &
+                         "auto: half the domain where the scene is symmetric in Y")
+         call self%words("solver", "cycle", s%cycle, "W|V|F", "multigrid cycle")
+         call self%reals("solver", "accuracy", s%accuracy, "-", "[1e-6, 1]", &
+                         "algebraic error wanted as a share of the discretisation error")
+         call self%integers("solver", "max_cycles", s%max_cycles, "[1, 10000]", "most cycles per level")
+         call self%integers("solver", "threads", s%threads, "[1, 256]", &
+                            "OpenMP threads; the result does not depend on it")
+      end associate
+   end subroutine add_march_keys
+
+   subroutine add_psd_keys(self, input)
+      class(schema_t), intent(inout) :: self
+      type(case_t), intent(inout), target :: input
+
+      associate (p => input%psd)
+         call self%reals("psd", "film_thickness", p%film_thickness, "m", "[0, 1e-3]", &
+                         "central film; 0: from the Nijenbanning-Venner-Moes formula")
+         call self%words("psd", "wavelength_convention", p%wavelength_convention, &
+                         "wavevector|pattern|components", "what the wavelength of a component is")
+         call self%words("psd", "stiffness", p%stiffness, "exact|paper", "stiffness of the half-space")
+         call self%words("psd", "viscosity_law", p%viscosity_law, "roelands|barus|", &
+                         "viscosity under pressure; default as in &lubricant")
+         call self%logicals("psd", "load_balance", p%load_balance, "rebalance the pressure to carry the load")
+         call self%words("psd", "friction", p%friction, "newtonian|eyring|limiting", "shear stress law")
+         call self%reals("psd", "eyring_stress", p%eyring_stress, "Pa", "[1e4, 1e9]", "Eyring stress")
+         call self%reals("psd", "limiting_coefficient", p%limiting_coefficient, "-", "[1e-4, 1]", &
+                         "limiting shear stress over pressure")
+         call self%reals("psd", "slide_to_roll", p%slide_to_roll, "-", "[-2, 2]", "slide-to-roll ratio")
+         call self%integers("psd", "positions", p%positions, "[0, 1000000]", &
+                            "positions of the surface over one passage; 0: automatic")
+      end associate
+   end subroutine add_psd_keys
+
+   subroutine reals(self, group, name, value, unit, allowed, meaning)
+      class(schema_t), intent(inout) :: self
+      character(len=*), intent(in) :: group, name, unit, allowed, meaning
+      real(dp), intent(inout), target :: value
+
+      self%keys = [self%keys, key_t(group=group, name=name, kind=kind_real, unit=unit, &
+                                    allowed=allowed, meaning=meaning)]
+      self%keys(size(self%keys))%real_value => value
+   end subroutine reals
+
+   subroutine integers(self, group, name, value, allowed, meaning)
+      class(schema_t), intent(inout) :: self
+      character(len=*), intent(in) :: group, name, allowed, meaning
+      integer, intent(inout), target :: value
+
+      self%keys = [self%keys, key_t(group=group, name=name, kind=kind_integer, unit="-", &
+                                    allowed=allowed, meaning=meaning)]
+      self%keys(size(self%keys))%integer_value => value
+   end subroutine integers
+
+   subroutine logicals(self, group, name, value, meaning)
+      class(schema_t), intent(inout) :: self
+      character(len=*), intent(in) :: group, name, meaning
+      logical, intent(inout), target :: value
+
+      self%keys = [self%keys, key_t(group=group, name=name, kind=kind_logical, unit="-", &
+                                    allowed=".true.|.false.", meaning=meaning)]
+      self%keys(size(self%keys))%logical_value => value
+   end subroutine logicals
+
+   subroutine words(self, group, name, value, allowed, meaning)
+      class(schema_t), intent(inout) :: self
+      character(len=*), intent(in) :: group, name, allowed, meaning
+      character(len=word_length), intent(inout), target :: value
+
+      self%keys = [self%keys, key_t(group=group, name=name, kind=kind_word, unit="-", &
+                                    allowed=allowed, meaning=meaning)]
+      self%keys(size(self%keys))%word_value => value
+   end subroutine words
+
+   subroutine paths(self, group, name, value, meaning)
+      class(schema_t), intent(inout) :: self
+      character(len=*), intent(in) :: group, name, meaning
+      character(len=path_length), intent(inout), target :: value
+
+      self%keys = [self%keys, key_t(group=group, name=name, kind=kind_path, unit="-", &
+                                    allowed="", meaning=meaning)]
+      self%keys(size(self%keys))%path_value => value
+   end subroutine paths
+
+   !> Position of a key in the table; 0 when there is no such key
+   pure integer function find(self, group, name)
+      class(schema_t), intent(in) :: self
+      character(len=*), intent(in) :: group, name
+
+      do find = 1, size(self%keys)
+         if (self%keys(find)%group == group .and. self%keys(find)%name == name) return
+      end do
+      find = 0
+   end function find
+
+   !> Whether the input gave a key
+   pure logical function given(self, group, name)
+      class(schema_t), intent(in) :: self
+      character(len=*), intent(in) :: group, name
+
+      given = self%keys(self%find(group, name))%given
+   end function given
+
+   !> Names of all groups, in order
+   pure function group_names(self) result(names)
+      class(schema_t), intent(in) :: self
+      character(len=name_length), allocatable :: names(:)
+      integer :: k
+
+      names = [self%keys(1)%group]
+      do k = 2, size(self%keys)
+         if (self%keys(k)%group /= names(size(names))) names = [names, self%keys(k)%group]
+      end do
+   end function group_names
+
+   !> Names of the keys of a group, in order
+   pure function names_of(self, group) result(names)
+      class(schema_t), intent(in) :: self
+      character(len=*), intent(in) :: group
+      character(len=name_length), allocatable :: names(:)
+      integer :: k
+
+      names = pack(self%keys%name, [(self%keys(k)%group == group, k=1, size(self%keys))])
+   end function names_of
+
+   !> group.name
+   pure function full_name(self) result(name)
+      class(key_t), intent(in) :: self
+      character(len=:), allocatable :: name
+
+      name = trim(self%group) // "." // trim(self%name)
+   end function full_name
+
+   !> The value as a namelist writes it
+   pure function value_text(self) result(text)
+      class(key_t), intent(in) :: self
+      character(len=:), allocatable :: text
+
+      select case (self%kind)
+      case (kind_real)
+         text = to_text(self%real_value)
+      case (kind_integer)
+         text = to_text(self%integer_value)
+      case (kind_logical)
+         text = to_text(self%logical_value)
+      case (kind_word)
+         text = quoted(self%word_value)
+      case default
+         text = quoted(self%path_value)
+      end select
+   end function value_text
+
+   !> What kind of value the key takes, in words, with its range
+   pure function type_text(self) result(text)
+      class(key_t), intent(in) :: self
+      character(len=:), allocatable :: text
+      character(len=*), parameter :: apostrophe = "'"
+      character(len=:), allocatable :: rest
+      integer :: bar
+
+      select case (self%kind)
+      case (kind_real, kind_integer)
+         text = "a number"
+         if (self%kind == kind_integer) text = "a whole number"
+         if (self%unit /= "-") text = text // " (unit " // trim(self%unit) // ", not written)"
+         text = text // " in " // trim(self%allowed)
+      case (kind_logical)
+         text = ".true. or .false."
+      case (kind_word)
+         rest = trim(self%allowed)
+         text = ""
+         do
+            bar = index(rest, "|")
+            if (bar == 0) exit
+            text = text // apostrophe // rest(:bar - 1) // apostrophe // ", "
+            rest = rest(bar + 1:)
+         end do
+         text = text // "or " // apostrophe // rest // apostrophe
+      case default
+         text = "a file name between quotes"
+      end select
+   end function type_text
+
+   !> Whether a number lies in the allowed interval: '[1, 5]', '(0, 5]', '0 or [1, 5]'
+   pure logical function allows(self, value)
+      class(key_t), intent(in) :: self
+      real(dp), intent(in) :: value
+      real(dp) :: low, high
+      integer :: opening, comma, closing
+
+      opening = scan(self%allowed, "[(")
+      closing = scan(self%allowed, "])")
+      comma = index(self%allowed, ",")
+      read (self%allowed(opening + 1:comma - 1), *) low
+      read (self%allowed(comma + 1:closing - 1), *) high
+      allows = value >= low .and. value <= high
+      if (self%allowed(opening:opening) == "(") allows = allows .and. value > low
+      if (self%allowed(closing:closing) == ")") allows = allows .and. value < high
+      if (index(self%allowed, "0 or ") == 1) allows = allows .or. .not. abs(value) > 0.0_dp
+   end function allows
+end module ehl_schema

@@ -1,0 +1,54 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Harmonic waviness (Zhang et al. 2019, eq. 15)
+module ehl_harmonic
+   use ehl_grid, only: grid_t
+   use ehl_kinds, only: dp, pi
+   use ehl_surface, only: front, surface_t
+   implicit none (type, external)
+   private
+   public :: harmonic_t, new_harmonic
+
+   !> RR = A_i 10^(-10 max(0, (X - X_f)/lambda_x)^2) cos(2 pi (X - X_f)/lambda_x) cos(2 pi Y/lambda_y)
+   type, extends(surface_t) :: harmonic_t
+      !> Amplitude A_i [a^2/R]
+      real(dp) :: amplitude = 0.0_dp
+      !> Wavelengths [a]
+      real(dp) :: wavelength_x = 0.5_dp, wavelength_y = 0.5_dp
+   contains
+      procedure :: height
+   end type harmonic_t
+
+contains
+
+   !> A waviness; wavelengths and x_start in Hertz radii, amplitude scaled by a^2/R
+   pure function new_harmonic(amplitude, wavelength_x, wavelength_y, velocity_ratio, x_start) result(self)
+      real(dp), intent(in) :: amplitude, wavelength_x, wavelength_y, velocity_ratio, x_start
+      type(harmonic_t) :: self
+
+      self%amplitude = amplitude
+      self%wavelength_x = wavelength_x
+      self%wavelength_y = wavelength_y
+      self%velocity_ratio = velocity_ratio
+      self%x_start = x_start
+      self%period = wavelength_x
+      self%front_length = wavelength_x
+   end function new_harmonic
+
+   !> Roughness at the nodes, at time T
+   subroutine height(self, grid, time, rr)
+      class(harmonic_t), intent(inout) :: self
+      type(grid_t), intent(in) :: grid
+      real(dp), intent(in) :: time
+      real(dp), intent(out) :: rr(:, :)
+      real(dp) :: along(grid%nx), distance
+      integer :: i, j
+
+      do i = 1, grid%nx
+         distance = grid%x(i) - self%front_position(time)
+         along(i) = self%amplitude*front(distance, self%front_length)*cos(2.0_dp*pi*distance/self%wavelength_x)
+      end do
+      do j = 1, grid%ny
+         rr(:, j) = along*cos(2.0_dp*pi*grid%y(j)/self%wavelength_y)
+      end do
+   end subroutine height
+end module ehl_harmonic

@@ -1,0 +1,63 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Roughness carried along by one surface: what every kind offers
+module ehl_surface
+   use ehl_grid, only: grid_t
+   use ehl_kinds, only: dp
+   implicit none (type, external)
+   private
+   public :: surface_t, front
+
+   !> Roughness RR(X, Y, T), scaled by a^2/R, peaks positive, that moves along X with
+   !> velocity_ratio times the mean velocity and enters behind a front at
+   !> X = x_start + velocity_ratio T
+   type, abstract :: surface_t
+      !> Velocity of the rough surface over the mean velocity
+      real(dp) :: velocity_ratio = 1.01_dp
+      !> Position of the front at T = 0 [a]
+      real(dp) :: x_start = -2.5_dp
+      !> Length after which the pattern repeats along X [a]
+      real(dp) :: period = 0.0_dp
+      !> Length over which the front fades [a]
+      real(dp) :: front_length = 0.0_dp
+   contains
+      !> Roughness on a grid at a time
+      procedure(height_i), deferred :: height
+      !> Position of the front at time T
+      procedure :: front_position
+      !> Time in which the pattern repeats
+      procedure :: time_period
+   end type surface_t
+
+   abstract interface
+      !> rr(nx, ny) = RR at the nodes, at time T
+      subroutine height_i(self, grid, time, rr)
+         import :: surface_t, grid_t, dp
+         class(surface_t), intent(inout) :: self
+         type(grid_t), intent(in) :: grid
+         real(dp), intent(in) :: time
+         real(dp), intent(out) :: rr(:, :)
+      end subroutine height_i
+   end interface
+
+contains
+
+   !> x_start + velocity_ratio T
+   elemental real(dp) function front_position(self, time)
+      class(surface_t), intent(in) :: self
+      real(dp), intent(in) :: time
+      front_position = self%x_start + self%velocity_ratio*time
+   end function front_position
+
+   !> period/velocity_ratio
+   elemental real(dp) function time_period(self)
+      class(surface_t), intent(in) :: self
+      time_period = self%period/self%velocity_ratio
+   end function time_period
+
+   !> Share of the roughness at a distance d ahead of the front (Zhang et al. 2019, eq. 15):
+   !> 10^(-10 max(0, d/length)^2)
+   elemental real(dp) function front(distance, length)
+      real(dp), intent(in) :: distance, length
+      front = 10.0_dp**(-10.0_dp*max(0.0_dp, distance/length)**2)
+   end function front
+end module ehl_surface

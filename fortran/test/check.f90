@@ -1,0 +1,64 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Checks for the unit tests: a failed one is printed and counted
+module check
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+   use, intrinsic :: iso_fortran_env, only: error_unit
+   use ehl_kinds, only: dp
+   implicit none (type, external)
+   private
+   public :: is_true, is_close, is_equal, is_text, has_text, n_checks, n_failures
+
+   !> How many checks were made, and how many failed
+   integer, save, protected :: n_checks = 0, n_failures = 0
+
+contains
+
+   !> The condition holds
+   subroutine is_true(condition, what)
+      logical, intent(in) :: condition
+      character(len=*), intent(in) :: what
+
+      n_checks = n_checks + 1
+      if (condition) return
+      n_failures = n_failures + 1
+      write (error_unit, "(2a)") "FAILED: ", what
+   end subroutine is_true
+
+   !> |value - wanted| <= tolerance; nan is never close
+   subroutine is_close(value, wanted, tolerance, what)
+      real(dp), intent(in) :: value, wanted, tolerance
+      character(len=*), intent(in) :: what
+      character(len=100) :: numbers
+      logical :: good
+
+      good = .not. ieee_is_nan(value)
+      if (good) good = abs(value - wanted) <= tolerance
+      write (numbers, "(3(a, es24.16))") " is", value, " wanted", wanted, " within", tolerance
+      call is_true(good, what // trim(numbers))
+   end subroutine is_close
+
+   !> Two integers are the same
+   subroutine is_equal(value, wanted, what)
+      integer, intent(in) :: value, wanted
+      character(len=*), intent(in) :: what
+      character(len=60) :: numbers
+
+      write (numbers, "(2(a, i0))") " is ", value, " wanted ", wanted
+      call is_true(value == wanted, what // trim(numbers))
+   end subroutine is_equal
+
+   !> Two texts are the same
+   subroutine is_text(value, wanted, what)
+      character(len=*), intent(in) :: value, wanted, what
+
+      call is_true(value == wanted .and. len(value) == len(wanted), &
+                   what // " is '" // value // "' wanted '" // wanted // "'")
+   end subroutine is_text
+
+   !> A text holds another one
+   subroutine has_text(value, part, what)
+      character(len=*), intent(in) :: value, part, what
+
+      call is_true(index(value, part) > 0, what // ": no '" // part // "' in '" // value // "'")
+   end subroutine has_text
+end module check

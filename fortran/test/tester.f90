@@ -1,0 +1,26 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> tester SUITE: run one suite of unit tests
+program tester
+   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use check, only: n_checks, n_failures
+   use test_case, only: run_case
+   use test_record, only: run_record
+   use test_text, only: run_text
+   implicit none (type, external)
+   character(len=32) :: suite
+
+   call get_command_argument(1, suite)
+   select case (suite)
+   case ("text")
+      call run_text()
+   case ("record")
+      call run_record()
+   case ("case")
+      call run_case()
+   case default
+      write (error_unit, "(3a)") "tester: no suite '", trim(suite), "'"
+      stop 2, quiet=.true.
+   end select
+   write (output_unit, "(2a, i0, a, i0, a)") trim(suite), ": ", n_checks, " checks, ", n_failures, " failed"
+   if (n_failures > 0 .or. n_checks == 0) stop 1, quiet=.true.
+end program tester
