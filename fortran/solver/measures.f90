@@ -2,11 +2,12 @@
 !> What is read off a solution: film thicknesses, pressure, friction, load
 module ehl_measures
    use ehl_film, only: pressure_sum
+   use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    implicit none (type, external)
    private
-   public :: measures_t, measure
+   public :: measures_t, measure, central_value
 
    !> Results of one state. Dimensionless: films by a^2/R, pressure by p_h.
    type :: measures_t
@@ -43,31 +44,33 @@ contains
       m%pressure_maximum = maxval(largest)
       m%friction = sum(friction)
       m%load_error = pressure_sum(level, level%p)/level%load - 1.0_dp
-      m%film_central = central(level)
+      m%film_central = central_value(level%grid, level%h)
       ! a NaN fails every comparison
       m%finite = abs(m%load_error) < huge(1.0_dp) .and. abs(m%film_central) < huge(1.0_dp) &
                  .and. m%friction < huge(1.0_dp) .and. abs(m%film_minimum) < huge(1.0_dp)
       m%positive = all(smallest > 0.0_dp)
    end function measure
 
-   !> Film at X = Y = 0; between two nodes by cubic interpolation along X
-   pure real(dp) function central(level)
-      type(level_t), intent(in) :: level
+   !> Value of a field at X = Y = 0; between two nodes by cubic interpolation along X
+   pure real(dp) function central_value(grid, values)
+      type(grid_t), intent(in) :: grid
+      !> Shape (nx, ny)
+      real(dp), intent(in) :: values(:, :)
       real(dp) :: t
       integer :: i, j
 
-      j = 1 + nint((0.0_dp - level%grid%y0)/level%grid%hy)
-      t = (0.0_dp - level%grid%x0)/level%grid%hx
+      j = 1 + nint((0.0_dp - grid%y0)/grid%hy)
+      t = (0.0_dp - grid%x0)/grid%hx
       i = nint(t)
       if (abs(t - i) < 1.0e-9_dp) then
-         central = level%h(i + 1, j)
+         central_value = values(i + 1, j)
          return
       end if
       i = int(t) + 1
       t = t - (i - 1)
-      associate (h => level%h(i - 1:i + 2, j))
-         central = -t*(t - 1.0_dp)*(t - 2.0_dp)/6.0_dp*h(1) + (t*t - 1.0_dp)*(t - 2.0_dp)/2.0_dp*h(2) &
-                   - t*(t + 1.0_dp)*(t - 2.0_dp)/2.0_dp*h(3) + t*(t*t - 1.0_dp)/6.0_dp*h(4)
+      associate (v => values(i - 1:i + 2, j))
+         central_value = -t*(t - 1.0_dp)*(t - 2.0_dp)/6.0_dp*v(1) + (t*t - 1.0_dp)*(t - 2.0_dp)/2.0_dp*v(2) &
+                         - t*(t + 1.0_dp)*(t - 2.0_dp)/2.0_dp*v(3) + t*(t*t - 1.0_dp)/6.0_dp*v(4)
       end associate
-   end function central
+   end function central_value
 end module ehl_measures

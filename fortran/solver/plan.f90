@@ -5,16 +5,22 @@ module ehl_plan
    use ehl_cycle, only: cycle_options_t
    use ehl_film_formula, only: film_central_formula
    use ehl_grid, only: grid_t, new_grid
+   use ehl_harmonic, only: harmonic_t, new_harmonic
+   use ehl_height_map, only: height_map_t
    use ehl_kinds, only: dp
    use ehl_lubricant, only: density_constant, density_dowson_higginson, lubricant_t, new_lubricant, &
                             viscosity_barus, viscosity_roelands
+   use ehl_map_file, only: read_map
    use ehl_moes, only: operating_from_moes, operating_from_si, operating_t
    use ehl_status, only: ehl_bad_input, status_t
+   use ehl_surface, only: surface_t
    use ehl_text, only: to_text
    implicit none (type, external)
    private
    public :: plan_t, make_plan, plan_text, relative_wedge_error
 
+   !> Length over which the front of a map fades [a]
+   real(dp), parameter :: map_front = 0.5_dp
    !> Fewest and most intervals per side of the coarsest grid, which is solved directly
    integer, parameter :: coarsest_fewest = 16, coarsest_most = 32
    !> Nested iteration starts on a grid of at least that many nodes a side ...
@@ -39,13 +45,26 @@ module ehl_plan
       real(dp) :: target_error = 0.0_dp
       !> Central film expected, scaled by a^2/R
       real(dp) :: film_expected = 0.0_dp
+      !> The roughness; not allocated: the contact is smooth and steady
+      class(surface_t), allocatable :: surface
+      !> Amplitude of a waviness as a share of the smooth central film; 0: it is known already
+      real(dp) :: amplitude_over_film = 0.0_dp
+      !> Wedge and squeeze terms together along the characteristic
+      logical :: narrow = .true.
+      !> Begin the march when the roughness comes near the contact
+      logical :: skip_start = .true.
+      !> Relative change of the mean friction ratio at which to stop, most periods, exact steps
+      real(dp) :: time_tolerance = 1.0e-3_dp
+      integer :: max_periods = 0, steps = 0
    end type plan_t
 
 contains
 
    !> Decide how a case is solved
-   subroutine make_plan(input, plan, status)
+   subroutine make_plan(input, heights, plan, status)
       type(case_t), intent(in) :: input
+      !> Heights of a map [m] if they are not to be read from a file, else of size 0
+      real(dp), intent(in) :: heights(:, :)
       type(plan_t), intent(out) :: plan
       type(status_t), intent(inout) :: status
       real(dp) :: rho(1), slope(1)
@@ -73,6 +92,7 @@ contains
       plan%threads = input%solver%threads
       plan%target_error = input%grid%target_error
       call pick_grids(input, plan, status)
+      call pick_surface(input, heights, plan, status)
    end subroutine make_plan
 
    !> Kind of cycle
@@ -100,7 +120,8 @@ contains
       logical :: mirror
       integer :: intervals, points
 
-      mirror = input%solver%symmetry == "auto"
+      ! a map has no symmetry in general, the others are even in Y
+      mirror = input%solver%symmetry == "auto" .and. (input%surface%kind == "smooth" .or. input%surface%kind == "harmonic")
       points = input%grid%points
       intervals = points - 1
       plan%levels = 1
@@ -131,6 +152,52 @@ contains
       plan%finest = grid
    end subroutine pick_grids
 
+   !> Roughness and how it is marched
+   subroutine pick_surface(input, heights, plan, status)
+      type(case_t), intent(in) :: input
+      real(dp), intent(in) :: heights(:, :)
+      type(plan_t), intent(inout) :: plan
+      type(status_t), intent(inout) :: status
+      type(harmonic_t) :: waviness
+      type(height_map_t) :: map
+      real(dp), allocatable :: tile(:, :)
+
+      if (status%failed()) return
+      plan%narrow = input%time%scheme == "narrow"
+      plan%skip_start = input%time%skip_start
+      plan%time_tolerance = input%time%tolerance
+      plan%max_periods = input%time%max_periods
+      plan%steps = input%time%steps
+      associate (s => input%surface)
+         select case (s%kind)
+         case ("harmonic")
+            waviness = new_harmonic(s%amplitude, s%wavelength_x, s%wavelength_y, s%velocity_ratio, s%x_start)
+            if (.not. s%amplitude_given) plan%amplitude_over_film = s%amplitude_over_film
+            plan%surface = waviness
+         case ("map", "fractal")
+            if (.not. input%contact%si) then
+               call status%fail(ehl_bad_input, "a surface in metres needs a contact in SI units: give &contact load, "// &
+                                "mean_velocity, radius and reduced_modulus instead of moes_m and moes_l")
+               return
+            end if
+            if (size(heights) > 0) then
+               tile = heights
+            else if (s%file /= "") then
+               call read_map(s%file, tile, status)
+               if (status%failed()) return
+            else
+               call status%fail(ehl_bad_input, "a fractal surface is made by pyehl: run the case with 'pyehl run', or write "// &
+                                "the map with 'pyehl surface CASE.nml -o MAP.npy' and name it in surface.file")
+               return
+            end if
+            tile = (tile - sum(tile)/size(tile))/plan%point%film_scale
+            call map%setup(tile, s%length_x/plan%point%hertz_radius, s%length_y/plan%point%hertz_radius, &
+                           s%velocity_ratio, s%x_start, map_front, status)
+            plan%surface = map
+         end select
+      end associate
+   end subroutine pick_surface
+
    !> Rough a-priori error of H_c by the second-order wedge term, relative: 0.16 M h^2
    !> (fitted to grids of 65^2 to 513^2 for 20 <= M <= 1000, 10 <= L <= 15)
    pure real(dp) function relative_wedge_error(point, grid)
@@ -154,11 +221,27 @@ contains
             plan%point%hertz_pressure, " Pa"
          text = text//trim(line)//new_line("a")
       end if
-      text = text//"scene      smooth and steady: no time levels, no roughness"//new_line("a")
+      if (allocated(plan%surface)) then
+         write (line, "(a,f6.3,a,f7.4,a)") "scene      roughness on the move, period ", plan%surface%period, &
+            " a, velocity ratio ", plan%surface%velocity_ratio, "; the smooth contact is solved once, before"
+         text = text//trim(line)//new_line("a")
+         write (line, "(a,f9.6)") "time       "//trim(merge("narrow upstream", "as in the paper", plan%narrow))// &
+            ", step = mesh size = ", plan%finest%hx
+         text = text//trim(line)//new_line("a")
+         if (plan%steps > 0) then
+            text = text//"end        after "//to_text(plan%steps)//" steps"//new_line("a")
+         else
+            write (line, "(a,es8.1)") "end        when the mean of mu_r/mu_s over whole periods changes by less than ", &
+               plan%time_tolerance
+            text = text//trim(line)//new_line("a")
+         end if
+      else
+         text = text//"scene      smooth and steady: no time levels, no roughness"//new_line("a")
+      end if
       if (plan%coarsest%mirror) then
          text = text//"domain     symmetric in Y: the half Y >= 0 is solved"//new_line("a")
       else
-         text = text//"domain     the whole of it is solved, as asked for"//new_line("a")
+         text = text//"domain     the whole of it is solved"//new_line("a")
       end if
       text = text//"deflection "//plan%engine//", threads "//to_text(plan%threads)//new_line("a")
       if (plan%target_error > 0.0_dp) then

@@ -7,21 +7,13 @@ module ehl_steady
    use ehl_kinds, only: dp, pi
    use ehl_level, only: level_t
    use ehl_measures, only: measure, measures_t
+   use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, &
+                          outcome_running, outcome_target_missed
    use ehl_plan, only: plan_t
    use ehl_status, only: status_t
    implicit none (type, external)
    private
-   public :: steady_t, outcome_names
-   public :: outcome_running, outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, &
-             outcome_target_missed, outcome_interrupted
-
-   !> How a run stands
-   integer, parameter :: outcome_running = 0, outcome_converged = 1, outcome_cycle_limit = 2, &
-                         outcome_diverged = 3, outcome_negative_film = 4, outcome_target_missed = 5, &
-                         outcome_interrupted = 6
-   character(len=*), parameter :: outcome_names(0:6) = [character(len=13) :: "running", "converged", &
-                                                        "cycle limit", "diverged", "negative film", &
-                                                        "target missed", "interrupted"]
+   public :: steady_t
 
    !> Largest relative error of the force balance of a converged solution
    real(dp), parameter :: load_tolerance = 1.0e-6_dp

@@ -1,0 +1,133 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The mean of the friction ratio over whole periods, and whether it has settled
+module ehl_friction_mean
+   use ehl_kinds, only: dp
+   implicit none (type, external)
+   private
+   public :: friction_mean_t
+
+   !> The last period is compared with those that end this share of a period earlier, one by one
+   real(dp), parameter :: lags(*) = [0.125_dp, 0.25_dp, 0.375_dp, 0.5_dp]
+
+   !> Friction ratio at equidistant times
+   type :: friction_mean_t
+      !> Period and time between values
+      real(dp) :: period = 0.0_dp, time_step = 0.0_dp
+      !> Steps before the roughness fills the contact: they belong to no mean
+      integer :: filled = 0
+      integer :: n = 0
+      real(dp), allocatable :: values(:)
+      !> Film and roughness at X = Y = 0 at the same times [a^2/R]
+      real(dp), allocatable :: film(:), roughness(:)
+   contains
+      procedure :: start
+      procedure :: append
+      procedure :: mean
+      procedure :: has_mean
+      procedure :: extremes
+      procedure :: change
+      procedure :: has_change
+      procedure :: amplitude_ratio
+   end type friction_mean_t
+
+contains
+
+   !> Forget all values; the roughness fills the contact after time_filled
+   subroutine start(self, period, time_step, time_filled)
+      class(friction_mean_t), intent(inout) :: self
+      real(dp), intent(in) :: period, time_step, time_filled
+
+      self%period = period
+      self%time_step = time_step
+      self%filled = ceiling(time_filled/time_step)
+      self%n = 0
+      if (.not. allocated(self%values)) allocate (self%values(1024), self%film(1024), self%roughness(1024))
+   end subroutine start
+
+   !> Add the values of the next step: friction ratio, film and roughness at X = Y = 0
+   subroutine append(self, value, film, roughness)
+      class(friction_mean_t), intent(inout) :: self
+      real(dp), intent(in) :: value, film, roughness
+
+      if (self%n == size(self%values)) then
+         self%values = [self%values, self%values]
+         self%film = [self%film, self%film]
+         self%roughness = [self%roughness, self%roughness]
+      end if
+      self%n = self%n + 1
+      self%values(self%n) = value
+      self%film(self%n) = film
+      self%roughness(self%n) = roughness
+   end subroutine append
+
+   !> A_d/A_i at X = Y = 0: the standard deviation of the film there over the last period, over that of
+   !> the roughness that passes
+   pure real(dp) function amplitude_ratio(self)
+      class(friction_mean_t), intent(in) :: self
+      integer :: first
+
+      first = max(1, self%n - int(self%period/self%time_step))
+      amplitude_ratio = deviation(self%film(first:self%n))/deviation(self%roughness(first:self%n))
+   end function amplitude_ratio
+
+   pure real(dp) function deviation(v)
+      real(dp), intent(in) :: v(:)
+      deviation = sqrt(sum((v - sum(v)/size(v))**2)/size(v))
+   end function deviation
+
+   !> Whether a whole period has passed since the contact was filled
+   pure logical function has_mean(self)
+      class(friction_mean_t), intent(in) :: self
+      has_mean = (self%n - max(self%filled, 1))*self%time_step >= self%period
+   end function has_mean
+
+   !> Whether the mean can be compared with earlier ones
+   pure logical function has_change(self)
+      class(friction_mean_t), intent(in) :: self
+      has_change = (self%n - max(self%filled, 1))*self%time_step >= self%period*(1.0_dp + lags(size(lags)))
+   end function has_change
+
+   !> Mean over the period that ends `lag` before the last value: the exact integral of the
+   !> polygon through the values
+   pure real(dp) function mean(self, lag)
+      class(friction_mean_t), intent(in) :: self
+      real(dp), intent(in) :: lag
+      mean = (integral(self, self%n - lag/self%time_step) &
+              - integral(self, self%n - (lag + self%period)/self%time_step))*self%time_step/self%period
+   end function mean
+
+   !> Integral of the polygon from value 1 to the position t, in steps
+   pure real(dp) function integral(self, t)
+      class(friction_mean_t), intent(in) :: self
+      real(dp), intent(in) :: t
+      real(dp) :: rest
+      integer :: k
+
+      k = min(max(int(t), 1), self%n - 1)
+      rest = t - k
+      associate (v => self%values)
+         integral = 0.5_dp*(sum(v(1:k - 1)) + sum(v(2:k))) + rest*(v(k) + 0.5_dp*rest*(v(k + 1) - v(k)))
+      end associate
+   end function integral
+
+   !> Smallest and largest value of the last period
+   pure function extremes(self) result(range)
+      class(friction_mean_t), intent(in) :: self
+      real(dp) :: range(2)
+      integer :: first
+
+      first = max(1, self%n - int(self%period/self%time_step))
+      range = [minval(self%values(first:self%n)), maxval(self%values(first:self%n))]
+   end function extremes
+
+   !> Largest difference between the last mean and the earlier ones
+   pure real(dp) function change(self)
+      class(friction_mean_t), intent(in) :: self
+      integer :: k
+
+      change = 0.0_dp
+      do k = 1, size(lags)
+         change = max(change, abs(self%mean(lags(k)*self%period) - self%mean(0.0_dp)))
+      end do
+   end function change
+end module ehl_friction_mean

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Stribeck curve of harmonic roughness against theta_2.
+
+Zhang, Biboulet, Venner & Lubrecht 2019, doi 10.1016/j.triboint.2019.01.028, eq. 16 and section
+4.2. The curve is the ratio of rough to smooth friction of a Newtonian lubricant in the limit of
+vanishing slide-to-roll ratio; shear thinning at real sliding speeds brings it close to one.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["RANGE", "in_range", "relative_friction", "theta_2", "theta_2_at"]
+
+Array = NDArray[np.float64]
+
+RANGE: dict[str, tuple[float, float]] = {
+    "moes_m": (500.0, 2000.0),
+    "moes_l": (5.0, 15.0),
+    "wavelength": (0.25, 1.0),
+    "film_over_amplitude": (1.0, 10.0),
+}
+"""Conditions over which eq. 16 was fitted: M, L, wavelength/a, H_c/A_i."""
+
+
+def theta_2(
+    moes_m: ArrayLike, moes_l: ArrayLike, wavelength: ArrayLike, film_over_amplitude: ArrayLike
+) -> Array:
+    """theta_2 = L^-1.1 M^0.33 (wavelength/a)^0.67 (H_c/A_i) [-], arguments broadcast together.
+
+    Raises
+    ------
+    ValueError
+        If an argument is not positive.
+    """
+    m, ell, lam, ratio = (
+        np.asarray(v, dtype=float) for v in (moes_m, moes_l, wavelength, film_over_amplitude)
+    )
+    if not all(np.all(v > 0.0) for v in (m, ell, lam, ratio)):
+        raise ValueError("theta_2 needs positive M, L, wavelength and H_c/A_i")
+    return np.asarray(ell**-1.1 * m**0.33 * lam**0.67 * ratio)
+
+
+def relative_friction(theta: ArrayLike) -> Array:
+    """mu_r/mu_s = 1 + 0.546 theta_2^-2 + 0.219 theta_2^-4 (eq. 16) [-].
+
+    Raises
+    ------
+    ValueError
+        If a theta_2 is not positive.
+    """
+    t = np.asarray(theta, dtype=float)
+    if not np.all(t > 0.0):
+        raise ValueError("theta_2 must be positive")
+    return np.asarray(1.0 + 0.546 * t**-2 + 0.219 * t**-4)
+
+
+def theta_2_at(ratio: ArrayLike) -> Array:
+    """theta_2 at which eq. 16 gives a relative friction `ratio` > 1 [-]: its inverse.
+
+    Raises
+    ------
+    ValueError
+        If a ratio is not above one.
+    """
+    r = np.asarray(ratio, dtype=float)
+    if not np.all(r > 1.0):
+        raise ValueError("eq. 16 only gives ratios above 1")
+    s = (-0.546 + np.sqrt(0.546**2 + 4.0 * 0.219 * (r - 1.0))) / (2.0 * 0.219)
+    return np.asarray(1.0 / np.sqrt(s))
+
+
+def in_range(
+    moes_m: float, moes_l: float, wavelength: float, film_over_amplitude: float
+) -> list[str]:
+    """Return what lies outside the range of the fit, in words; an empty list when nothing does."""
+    values = {
+        "moes_m": moes_m,
+        "moes_l": moes_l,
+        "wavelength": wavelength,
+        "film_over_amplitude": film_over_amplitude,
+    }
+    return [
+        f"{name} = {value:.4g} outside {RANGE[name][0]:g} ... {RANGE[name][1]:g}"
+        for name, value in values.items()
+        if not RANGE[name][0] <= value <= RANGE[name][1]
+    ]

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of the models share."""
+
+import copy
+
+import pytest
+
+# A resolved case: the reference conditions with the fractal surface
+RESOLVED = {
+    "contact": {
+        "load": 600.0,
+        "mean_velocity": 0.84,
+        "radius": 0.018,
+        "reduced_modulus": 2.26e11,
+    },
+    "lubricant": {
+        "viscosity": 0.04,
+        "pressure_viscosity": 2.2e-8,
+        "viscosity_law": "roelands",
+        "roelands_z": 0.6684106340135522,
+        "roelands_p0": 1.96e8,
+        "density_law": "dowson-higginson",
+    },
+    "surface": {
+        "kind": "fractal",
+        "amplitude_over_film": 0.4,
+        "wavelength": 0.5,
+        "wavelength_x": 0.5,
+        "wavelength_y": 0.5,
+        "velocity_ratio": 1.01,
+        "x_start": -2.5,
+        "file": "",
+        "length_x": 8.29e-4,
+        "length_y": 8.29e-4,
+        "rms_height": 5e-8,
+        "hurst": 0.8,
+        "rolloff_wavenumber": 0.0,
+        "pixels": 256,
+        "seed": 1,
+        "modulus": "deterministic",
+    },
+    "psd": {
+        "film_thickness": 0.2333e-6,
+        "wavelength_convention": "wavevector",
+        "stiffness": "exact",
+        "viscosity_law": "roelands",
+        "load_balance": False,
+        "friction": "newtonian",
+        "eyring_stress": 5e6,
+        "limiting_coefficient": 0.06,
+        "slide_to_roll": 0.01,
+        "positions": 0,
+    },
+}
+
+
+@pytest.fixture
+def settings():
+    """A resolved case that a test may change."""
+    return copy.deepcopy(RESOLVED)

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The verb ``pyehl predict`` and its result folder."""
+
+import argparse
+import csv
+import json
+import sys
+import types
+
+import f90nml
+import numpy as np
+import pytest
+
+from pyehl import film, plot, predict
+from pyehl.operating import Lubricant, OperatingPoint
+
+
+def test_summary_says_what_was_done(settings):
+    result = predict.predict(settings)
+    summary = json.loads(json.dumps(result.summary(), allow_nan=False))
+    assert summary["status"] == "predicted"
+    assert summary["mu_ratio_min"] < summary["mu_ratio"] < summary["mu_ratio_max"]
+    assert summary["wavelength_convention"] == "wavevector"
+    assert summary["stiffness"] == "exact"
+    assert summary["viscosity_law"] == "roelands"
+    assert summary["h_c"] == 0.2333e-6
+    assert summary["h_c_source"] == "psd.film_thickness"
+    assert summary["seed"] == 1
+    assert summary["rms_height"] == pytest.approx(5e-8)
+    assert summary["mu_ratio_tracks"] == pytest.approx(1.059, abs=0.01)
+    assert summary["mu_ratio_tracks_spread"] == pytest.approx(0.1, abs=0.06)
+    assert summary["mu_smooth"] is None  # a Newtonian coefficient has no meaning
+    assert "vanishing sliding" in summary["note"]
+    assert 0.0 < summary["wall_seconds"] < 5.0
+    assert sum(b["rise"] for b in summary["bands"]) == pytest.approx(summary["mu_ratio"] - 1)
+    for word in ("1.236 ", "positions", "ms", "seed 1", "vanishing sliding"):
+        assert word in result.report()
+
+
+def test_film_from_the_formula_and_law_from_psd(settings):
+    settings["psd"] |= {"film_thickness": 0.0, "viscosity_law": "barus", "friction": "eyring"}
+    result = predict.predict(settings)
+    assert result.film == film.central_film(OperatingPoint(), Lubricant())
+    assert "Nijenbanning" in result.film_source
+    assert result.lubricant.viscosity_law == "barus"
+    assert result.summary()["mu_smooth"] > 0.0
+    assert "mu_s " in result.report()
+
+
+def test_harmonic_amplitude_is_a_share_of_the_film(settings):
+    settings["surface"]["kind"] = "harmonic"
+    result = predict.predict(settings)
+    assert result.surface.heights.max() == pytest.approx(0.4 * 0.2333e-6)
+
+
+@pytest.fixture
+def folder(settings, tmp_path):
+    target = tmp_path / "deep" / "out"
+    predict.predict(settings).write(target)
+    return target
+
+
+def test_folder(folder, settings):
+    names = {p.name for p in folder.iterdir()}
+    assert names == {
+        "case.nml", "summary.json", "passage.csv", "spectrum.csv", "bands.csv",
+        "x.npy", "y.npy", "surface.npy", "deformed.npy", "delta_p.npy",
+        "surface_spectrum.png", "roughness.png", "passage.png",
+    }  # fmt: skip
+    assert [p.name for p in folder.parent.iterdir()] == ["out"]  # nothing left behind
+    case = f90nml.read(folder / "case.nml").todict()
+    assert case["psd"]["film_thickness"] == 0.2333e-6
+    again = predict.predict({group: dict(keys) for group, keys in case.items()})
+    summary = json.loads((folder / "summary.json").read_text())
+    assert again.friction.mu_ratio == summary["mu_ratio"]
+    z = np.load(folder / "surface.npy", allow_pickle=False)
+    assert z.shape == (256, 256)
+    assert np.isfortran(z)
+    assert np.array_equal(z, again.surface.heights)
+    with (folder / "passage.csv").open() as stream:
+        rows = list(csv.DictReader(stream))
+    ratios = [float(row["mu_ratio"]) for row in rows]
+    assert np.mean(ratios) == pytest.approx(summary["mu_ratio"], rel=1e-12)
+
+
+def test_folder_is_read_by_results(folder):
+    results = pytest.importorskip("pyehl.results")
+    run = results.read(folder)
+    assert run["deformed"].shape == (256, 256)
+
+
+def test_earlier_result_is_replaced(folder, settings):
+    settings["surface"]["seed"] = 2
+    predict.predict(settings).write(folder, plots=False)
+    assert json.loads((folder / "summary.json").read_text())["seed"] == 2
+    assert not (folder / "passage.png").exists()
+
+
+def test_other_folders_are_left_alone(settings, tmp_path):
+    (tmp_path / "thesis.tex").write_text("precious")
+    result = predict.predict(settings)
+    with pytest.raises(FileExistsError, match="not a result folder"):
+        result.write(tmp_path, plots=False)
+    with pytest.raises(FileExistsError, match="not a folder"):
+        result.write(tmp_path / "thesis.tex", plots=False)
+    assert [p.name for p in tmp_path.iterdir()] == ["thesis.tex"]
+
+
+def test_failed_write_leaves_the_old_result(folder, settings, monkeypatch):
+    before = (folder / "summary.json").read_text()
+
+    def fail(*_):
+        raise OSError("disk full")
+
+    monkeypatch.setattr(plot, "save_prediction", fail)
+    with pytest.raises(OSError, match="disk full"):
+        predict.predict(settings).write(folder)
+    assert (folder / "summary.json").read_text() == before
+    assert [p.name for p in folder.parent.iterdir()] == ["out"]
+
+
+@pytest.fixture
+def verb(settings, monkeypatch, tmp_path):
+    """Run the verb on `settings`, as if the compiled reader had read them."""
+
+    class Case:
+        text = "&surface\n kind = 'fractal'\n/\n"
+
+        @classmethod
+        def read(cls, path, options=()):
+            return cls()
+
+        def resolve(self):
+            return settings
+
+    module = types.ModuleType("pyehl.case")
+    module.Case = Case
+    monkeypatch.setitem(sys.modules, "pyehl.case", module)
+
+    def run(execute, **arguments):
+        defaults = {"case": "a.nml", "overrides": [], "output": tmp_path / "out", "plots": False}
+        return execute(argparse.Namespace(**(defaults | arguments)))
+
+    return run
+
+
+def test_verb(verb, tmp_path, capsys):
+    assert verb(predict.execute) == 0
+    assert "mu_r/mu_s" in capsys.readouterr().out
+    assert (tmp_path / "out" / "case.nml").read_text().startswith("&surface")
+
+
+def test_verb_reports_bad_input(verb, settings, capsys, tmp_path):
+    settings["surface"]["kind"] = "smooth"
+    assert verb(predict.execute) == 2
+    assert "a.nml: surface.kind" in capsys.readouterr().err
+    settings["surface"] |= {"kind": "map", "file": str(tmp_path / "none.npy")}
+    assert verb(predict.execute) == 2
+    assert "none.npy" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_verb_reports_film_breakdown(verb, settings, capsys, tmp_path):
+    settings["psd"]["film_thickness"] = 1e-8
+    assert verb(predict.execute) == 1
+    assert "film breakdown" in capsys.readouterr().out
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert (summary["status"], summary["mu_ratio"]) == ("film breakdown", None)
+
+
+def test_film_verb(verb, capsys, settings):
+    assert verb(film.execute, json=False) == 0
+    assert "Hamrock-Dowson" in capsys.readouterr().out
+    assert verb(film.execute, json=True) == 0
+    assert json.loads(capsys.readouterr().out)["moes_m"] == pytest.approx(1000.0, rel=1e-4)
+    settings["surface"] |= {"kind": "map", "file": "none.npy"}
+    assert verb(film.execute, json=True) == 2

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Closed forms of the dry contact, against numerical integration."""
+
+import ast
+import inspect
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import dblquad, quad
+
+from pyehl import reference
+
+
+def test_load_of_the_hertz_pressure():
+    load, _ = quad(lambda r: 2 * math.pi * r * float(reference.hertz_pressure(r, 0.0)), 0.0, 1.0)
+    assert load == pytest.approx(2 * math.pi / 3, rel=1e-9)
+
+
+@pytest.mark.parametrize("x", [0.0, 0.5, 1.5, 3.0])
+def test_deflection(x):
+    # polar coordinates about the point itself, where 1/r cancels
+    def along(s, phi):
+        return float(reference.hertz_pressure(x + s * math.cos(phi), s * math.sin(phi)))
+
+    value, _ = dblquad(along, 0.0, math.pi, 0.0, x + 1.0, epsabs=1e-5, epsrel=1e-5)
+    expected = 2 / math.pi**2 * 2 * value
+    assert float(reference.hertz_deflection(x, 0.0)) == pytest.approx(expected, abs=2e-4)
+
+
+def test_deflection_is_smooth_at_the_rim():
+    inside, outside = reference.hertz_deflection([1 - 1e-9, 1 + 1e-9], 0.0)
+    assert inside == pytest.approx(outside, abs=1e-8)
+    assert float(reference.hertz_deflection(0.0, 0.0)) == 1.0
+    far = float(reference.hertz_deflection(1e3, 0.0))
+    # a point load of 2 pi/3 from afar
+    assert far == pytest.approx(2 / math.pi**2 * 2 * math.pi / 3 / 1e3, rel=1e-3)
+
+
+def test_tables_are_consistent():
+    for row in reference.SMOOTH:
+        assert len(row.points) == len(row.h_c) == len(row.h_min)
+        assert np.all(np.diff(row.h_c) > 0.0)
+        assert row.h_c[-1] < row.limit_c
+        assert row.h_min[-1] < row.limit_min
+    for wave in reference.WAVINESS:
+        assert wave.mu_ratio_min < wave.mu_ratio < wave.mu_ratio_max
+
+
+def test_is_a_leaf():
+    tree = ast.parse(inspect.getsource(reference))
+    imported = [n.module for n in ast.walk(tree) if isinstance(n, ast.ImportFrom)]
+    assert not any(name and name.startswith("pyehl") for name in imported)
