@@ -25,10 +25,18 @@ module ehl_table
       procedure :: n_rows
       procedure :: n_columns
       procedure :: column
+      procedure :: all_rows
       procedure :: write_csv
    end type table_t
 
 contains
+
+   !> All values, shape (columns, rows)
+   pure function all_rows(self) result(values)
+      class(table_t), intent(in) :: self
+      real(dp), allocatable :: values(:, :)
+      values = self%values(:, :self%rows)
+   end function all_rows
 
    !> Name the columns and drop all rows
    subroutine init(self, names)

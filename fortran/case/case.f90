@@ -108,6 +108,8 @@ module ehl_case
       real(dp) :: tolerance = 1.0e-3_dp
       !> [-] most periods; 0 (default): automatic
       integer :: max_periods = 0
+      !> whether nothing is solved before the roughness comes near the contact, default .true.
+      logical :: skip_start = .true.
       !> [-] exactly that many steps; 0 (default): until the friction is periodic
       integer :: steps = 0
    end type time_case_t

@@ -183,6 +183,8 @@ contains
                          "stop when the period mean of mu_r/mu_s changes less, relatively")
          call self%integers("time", "max_periods", t%max_periods, "[0, 100000]", &
                             "most periods; 0: automatic")
+         call self%logicals("time", "skip_start", t%skip_start, &
+                            "solve nothing before the roughness comes near the contact")
          call self%integers("time", "steps", t%steps, "[0, 10000000]", &
                             "exactly so many steps; 0: until the friction is known")
          call self%words("solver", "deflection", s%deflection, "mlmi|fft|direct", &

@@ -43,6 +43,8 @@ module ehl_mlmi
    integer, parameter :: few = 17
    !> Grids with fewer nodes are left to one thread
    integer, parameter :: small = 4096
+   !> More halvings than any grid that fits into memory has
+   integer, parameter :: most_stages = 64
    !> Accuracies beyond which the estimate of the error holds no more
    real(dp), parameter :: coarse_limit = 2.0e-4_dp, fine_limit = 1.0e-10_dp
    !> Corrections left out on the finest grid, in units of the accuracy, and their ratio from
@@ -75,7 +77,7 @@ contains
       integer, intent(in) :: threads
       type(status_t), intent(inout) :: status
       real(dp) :: goal
-      integer :: s, n, axis, step(2), low(2), high(2), longest, stat
+      integer :: s, n, axis, step(2), extent(2), low(2), high(2), longest, stat
       logical :: met
 
       self%threads = max(1, threads)
@@ -96,7 +98,9 @@ contains
       do s = 1, n
          associate (stage => self%stages(s))
             axis = next_axis(grid, step)
-            call stage%stencil%make(axis, step, grid%hx, grid%hy, self%omega, &
+            extent = high - low + 2*size(self%omega)
+            if (grid%mirror) extent(2) = extent(2) + high(2)
+            call stage%stencil%make(axis, step, extent, grid%hx, grid%hy, self%omega, &
                                     share*goal*ratio**(s - 1), met)
             if (goal < fine_limit .or. .not. met) then
                call refuse(accuracy, status)
@@ -177,7 +181,7 @@ contains
       class(mlmi_deflection_t), intent(inout) :: self
       real(dp), intent(in) :: p(:, :)
       real(dp), intent(out) :: w(:, :)
-      integer :: s, n, threads(size(self%stages))
+      integer :: s, n, threads(most_stages)
 
       n = size(self%stages)
       do s = 1, n

@@ -53,23 +53,25 @@ contains
    end function transfer_weights
 
    !> Corrections for the kernel K(d) = kernel_coefficient(step(1)*di, step(2)*dj, hx, hy),
-   !> halved along an axis (1: X, 2: Y), with the tolerance in units of K; not met when even
-   !> all corrections within reach do not suffice
-   subroutine make(self, axis, step, hx, hy, omega, tolerance, met)
+   !> halved along an axis (1: X, 2: Y), on a grid where no two nodes are further apart than
+   !> extent (X, Y). The tolerance is in units of K; it is not met if even all corrections
+   !> within reach leave out more.
+   subroutine make(self, axis, step, extent, hx, hy, omega, tolerance, met)
       class(stencil_t), intent(inout) :: self
-      integer, intent(in) :: axis, step(2)
+      integer, intent(in) :: axis, step(2), extent(2)
       real(dp), intent(in) :: hx, hy, omega(:), tolerance
       logical, intent(out) :: met
       real(dp), allocatable :: table(:, :), c(:, :), copies(:, :)
       real(dp) :: low, high, middle, spread
-      integer :: a, b, k, far, parity, trial
+      integer :: a, b, k, along, across, parity, trial
       logical, allocatable :: kept(:, :)
 
-      far = reach + 2*size(omega)
-      allocate (table(0:far, 0:reach), c(0:reach, 0:reach), copies(0:reach, 0:reach), &
-                kept(0:reach, 0:reach))
-      do b = 0, reach
-         do a = 0, far
+      along = min(reach, extent(axis))
+      across = min(reach, extent(3 - axis))
+      allocate (table(0:along + 2*size(omega), 0:across), c(0:along, 0:across), &
+                copies(0:along, 0:across), kept(0:along, 0:across))
+      do b = 0, across
+         do a = 0, ubound(table, 1)
             if (axis == 1) then
                table(a, b) = kernel_coefficient(step(1)*a, step(2)*b, hx, hy)
             else
@@ -77,44 +79,32 @@ contains
             end if
          end do
       end do
-      do b = 0, reach
-         do a = 0, reach
+      do b = 0, across
+         do a = 0, along
+            copies(a, b) = merge(1.0_dp, 2.0_dp, a == 0)*merge(1.0_dp, 2.0_dp, b == 0)
             c(a, b) = table(a, b)
             do k = 1, size(omega)
                c(a, b) = c(a, b) - omega(k)*(table(a + 2*k - 1, b) + table(abs(a - 2*k + 1), b))
             end do
          end do
       end do
-      copies = 4.0_dp
-      copies(0, :) = 0.5_dp*copies(0, :)
-      copies(:, 0) = 0.5_dp*copies(:, 0)
 
       ! the largest threshold that leaves out no more than the tolerance
-      low = 0.0_dp
       high = maxval(abs(c))
-      do trial = 1, 60
-         middle = 0.5_dp*(low + high)
-         if (sum(copies*abs(c), mask=abs(c) < middle) <= tolerance) then
+      low = 1.0e-20_dp*high
+      do trial = 1, 20
+         middle = sqrt(low*high)
+         call choose(abs(c) >= middle, kept)
+         if (sum(copies*abs(c), mask=.not. kept) <= tolerance) then
             low = middle
          else
             high = middle
          end if
       end do
-      call fit(self, abs(c) >= max(low, tiny(low)))
+      call choose(abs(c) >= low, kept)
+      call fit(self, kept)
       met = self%width < reach .and. self%length() < reach
 
-      do b = 0, reach
-         do a = 0, reach
-            kept(a, b) = b <= self%width
-            if (kept(a, b)) then
-               if (mod(a, 2) == 0) then
-                  kept(a, b) = a/2 <= self%n_even(b)
-               else
-                  kept(a, b) = (a + 1)/2 <= self%n_odd(b)
-               end if
-            end if
-         end do
-      end do
       do parity = 0, 1
          spread = sum(copies(parity::2, :)*c(parity::2, :), mask=.not. kept(parity::2, :)) &
                   /sum(copies(parity::2, :), mask=kept(parity::2, :))
@@ -130,24 +120,39 @@ contains
       end do
    end subroutine make
 
-   !> Room for the wanted values (0:reach, 0:reach) and all nearer ones
-   subroutine fit(self, wanted)
-      class(stencil_t), intent(inout) :: self
+   !> The wanted values and those nearer to the axis across: for every offset across all
+   !> even and all odd offsets along up to the largest wanted, as the loops want them
+   pure subroutine choose(wanted, kept)
       logical, intent(in) :: wanted(0:, 0:)
+      logical, intent(out) :: kept(0:, 0:)
+      integer :: b, width, parity
+
+      kept = .false.
+      width = findloc(any(wanted, dim=1), .true., dim=1, back=.true.) - 1
+      do b = 0, width
+         do parity = 0, 1
+            kept(parity:parity + 2*(findloc(wanted(parity::2, b), .true., dim=1, back=.true.) &
+                                    - 1):2, b) = .true.
+         end do
+      end do
+      ! the middle of every row, and one value of each kind, to carry what is left out
+      kept(0, 0:max(0, width)) = .true.
+      kept(1, 0) = .true.
+   end subroutine choose
+
+   !> Room for the values kept
+   subroutine fit(self, kept)
+      class(stencil_t), intent(inout) :: self
+      logical, intent(in) :: kept(0:, 0:)
       integer :: b
 
-      self%width = 0
-      do b = 0, ubound(wanted, 2)
-         if (any(wanted(:, b))) self%width = b
-      end do
       if (allocated(self%n_odd)) deallocate (self%n_odd, self%n_even, self%odd, self%even)
+      self%width = count(kept(0, :)) - 1
       allocate (self%n_odd(0:self%width), self%n_even(0:self%width))
       do b = 0, self%width
-         self%n_odd(b) = findloc(wanted(1::2, b), .true., dim=1, back=.true.)
-         self%n_even(b) = max(0, findloc(wanted(0::2, b), .true., dim=1, back=.true.) - 1)
+         self%n_odd(b) = count(kept(1::2, b))
+         self%n_even(b) = count(kept(0::2, b)) - 1
       end do
-      ! at least one value of each kind, to carry what is left out
-      self%n_odd(0) = max(1, self%n_odd(0))
       allocate (self%odd(maxval(self%n_odd), 0:self%width), source=0.0_dp)
       allocate (self%even(0:maxval(self%n_even), 0:self%width), source=0.0_dp)
    end subroutine fit

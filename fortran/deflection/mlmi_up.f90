@@ -155,7 +155,7 @@ contains
       real(dp), intent(in) :: omega(:)
       real(dp), intent(inout) :: w(:)
       integer :: k, above, below
-      integer :: upper(size(omega)), lower(size(omega))
+      integer :: upper(most), lower(most)
 
       do k = 1, size(omega)
          above = shifta(j, 1) + k
@@ -212,28 +212,38 @@ contains
                                            upper, lower, x_last == x + 2, &
                                            sums(:, 1), sums(:, 2), sums(:, 3))
             end if
-            do k = x, x_last
-               call add_shifted(b - a + 1, m, k, sums(:, k - x + 1), w(a:b))
-            end do
+            call add_shifted(b - a + 1, m, x, x_last, size(sums, 1), sums, w(a:b))
             x = x_last + 1
          end do
       end associate
    end subroutine correct_row_y
 
-   !> w(i) = w(i) + s(i + m - k) + s(i + m + k), the middle once
-   pure subroutine add_shifted(n, m, k, s, w)
-      integer, intent(in) :: n, m, k
-      real(dp), intent(in) :: s(n + 2*m)
+   !> w(i) = w(i) + sum over k = x..x_last of s(i+m - k, k-x+1) + s(i+m + k, k-x+1), the
+   !> middle (k = 0) once; up to three at a time
+   pure subroutine add_shifted(n, m, x, x_last, stride, s, w)
+      integer, intent(in) :: n, m, x, x_last, stride
+      real(dp), intent(in) :: s(stride, 3)
       real(dp), intent(inout) :: w(n)
-      integer :: i
+      integer :: i, k
 
-      if (k == 0) then
+      if (x == 0 .and. x_last == 2) then
          do i = 1, n
-            w(i) = w(i) + s(i + m)
+            w(i) = w(i) + s(i + m, 1) + ((s(i + m - 1, 2) + s(i + m + 1, 2)) &
+                                         + (s(i + m - 2, 3) + s(i + m + 2, 3)))
+         end do
+      else if (x == 0 .and. x_last == 1) then
+         do i = 1, n
+            w(i) = w(i) + s(i + m, 1) + (s(i + m - 1, 2) + s(i + m + 1, 2))
+         end do
+      else if (x == 0) then
+         do i = 1, n
+            w(i) = w(i) + s(i + m, 1)
          end do
       else
-         do i = 1, n
-            w(i) = w(i) + (s(i + m - k) + s(i + m + k))
+         do k = x, x_last
+            do i = 1, n
+               w(i) = w(i) + (s(i + m - k, k - x + 1) + s(i + m + k, k - x + 1))
+            end do
          end do
       end if
    end subroutine add_shifted

@@ -24,6 +24,7 @@ module ehl_hierarchy
       procedure :: setup
       procedure :: grow
       procedure :: cycle => run_cycle
+      procedure :: forget
       procedure :: bytes
    end type hierarchy_t
 
@@ -99,6 +100,12 @@ contains
       integer, intent(in) :: n
       call fas_cycle(self%levels, n, self%coarsest, self%options)
    end subroutine run_cycle
+
+   !> Drop what one cycle leaves for the next beyond the fields of its finest level
+   subroutine forget(self)
+      class(hierarchy_t), intent(inout) :: self
+      self%coarsest%factored = .false.
+   end subroutine forget
 
    !> Allocated bytes
    pure integer(8) function bytes(self)

@@ -17,7 +17,7 @@ module ehl_plan
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: plan_t, make_plan, plan_text, relative_wedge_error
+   public :: plan_t, make_plan, relative_wedge_error
 
    !> Length over which the front of a map fades [a]
    real(dp), parameter :: map_front = 0.5_dp
@@ -205,69 +205,4 @@ contains
       type(grid_t), intent(in) :: grid
       relative_wedge_error = 0.16_dp*point%moes_m*grid%hx**2
    end function relative_wedge_error
-   !> The plan for a person: a few lines and a table of the levels
-   function plan_text(plan) result(text)
-      type(plan_t), intent(in) :: plan
-      character(len=:), allocatable :: text
-      type(grid_t) :: grid
-      character(len=128) :: line
-      integer :: k
-
-      write (line, "(a,g0.5,a,g0.5,a,g0.5,a,es9.3)") "contact    M = ", plan%point%moes_m, ", L = ", plan%point%moes_l, &
-         ", alpha p_h = ", plan%point%alpha_bar, ", speed parameter = ", plan%point%speed_parameter
-      text = trim(line)//new_line("a")
-      if (plan%point%hertz_radius > 0.0_dp) then
-         write (line, "(a,es10.4,a,es10.4,a)") "           a = ", plan%point%hertz_radius, " m, p_h = ", &
-            plan%point%hertz_pressure, " Pa"
-         text = text//trim(line)//new_line("a")
-      end if
-      if (allocated(plan%surface)) then
-         write (line, "(a,f6.3,a,f7.4,a)") "scene      roughness on the move, period ", plan%surface%period, &
-            " a, velocity ratio ", plan%surface%velocity_ratio, "; the smooth contact is solved once, before"
-         text = text//trim(line)//new_line("a")
-         write (line, "(a,f9.6)") "time       "//trim(merge("narrow upstream", "as in the paper", plan%narrow))// &
-            ", step = mesh size = ", plan%finest%hx
-         text = text//trim(line)//new_line("a")
-         if (plan%steps > 0) then
-            text = text//"end        after "//to_text(plan%steps)//" steps"//new_line("a")
-         else
-            write (line, "(a,es8.1)") "end        when the mean of mu_r/mu_s over whole periods changes by less than ", &
-               plan%time_tolerance
-            text = text//trim(line)//new_line("a")
-         end if
-      else
-         text = text//"scene      smooth and steady: no time levels, no roughness"//new_line("a")
-      end if
-      if (plan%coarsest%mirror) then
-         text = text//"domain     symmetric in Y: the half Y >= 0 is solved"//new_line("a")
-      else
-         text = text//"domain     the whole of it is solved"//new_line("a")
-      end if
-      text = text//"deflection "//plan%engine//", threads "//to_text(plan%threads)//new_line("a")
-      if (plan%target_error > 0.0_dp) then
-         write (line, "(a,es8.1)") "stop       at the first grid whose relative error of H_c is below ", plan%target_error
-      else
-         write (line, "(a,f5.2,a)") "stop       on the finest grid, algebraic error below ", plan%accuracy, &
-            " of the discretisation error, load error below 1e-6"
-      end if
-      text = text//trim(line)//new_line("a")
-      text = text//"level  points    stored nodes  mesh size   use"
-      grid = plan%coarsest
-      do k = 1, plan%levels
-         if (k > 1) grid = grid%finer()
-         write (line, "(i5,i8,i16,f11.6,3x,a)") k, grid%nx, grid%nx*grid%ny, grid%hx, trim(use_of(k))
-         text = text//new_line("a")//trim(line)
-      end do
-
-   contains
-
-      function use_of(level) result(words)
-         integer, intent(in) :: level
-         character(len=48) :: words
-         words = "correction"
-         if (level == 1) words = "correction, solved directly"
-         if (level >= plan%start) words = "solution"
-         if (level == plan%start) words = "solution, from the Hertz pressure"
-      end function use_of
-   end function plan_text
 end module ehl_plan

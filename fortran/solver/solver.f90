@@ -2,21 +2,23 @@
 !> A case on its way: plan, grids, march and results. Both drivers call nothing else.
 module ehl_solver
    use ehl_case, only: case_t
+   use ehl_case_writer, only: case_text
+   use ehl_checkpoint, only: read_checkpoint, write_checkpoint
    use ehl_clock, only: clock_t, start_clock
    use ehl_grid, only: grid_t
    use ehl_harmonic, only: harmonic_t
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
-   use ehl_measures, only: measures_t
-   use ehl_plan, only: make_plan, plan_t, plan_text
+   use ehl_plan, only: make_plan, plan_t
+   use ehl_plan_text, only: plan_text
    use ehl_record, only: record_t
+   use ehl_report, only: cycle_line, march_line, report_march, report_scene, report_smooth
    use ehl_status, only: ehl_bad_input, status_t
-   use ehl_outcome
+   use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_interrupted, outcome_names, &
+                          outcome_negative_film, outcome_running, outcome_target_missed, outcome_unsettled
    use ehl_steady, only: steady_t
    use ehl_table, only: table_t
-   use ehl_text, only: to_text
    use ehl_transient, only: step_tolerance, transient_t
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    implicit none (type, external)
    private
    public :: solver_t
@@ -39,10 +41,15 @@ module ehl_solver
       integer, private :: outcome = outcome_running
       !> Seconds spent on time steps
       real(dp), private :: step_seconds = 0.0_dp
+      !> The case as text, but for the threads, which change no result
+      character(len=:), allocatable, private :: text
       !> Heights of a map [m] that was given and not read
       real(dp), allocatable, private :: heights(:, :)
    contains
       procedure :: give_surface
+      procedure :: save_state
+      procedure :: resume
+      procedure :: steps_made
       procedure :: start
       procedure :: describe
       procedure :: advance
@@ -71,6 +78,11 @@ contains
       type(case_t), intent(in) :: input
       type(status_t), intent(inout) :: status
 
+      type(case_t) :: serial
+
+      serial = input
+      serial%solver%threads = 1
+      self%text = case_text(serial)
       if (.not. allocated(self%heights)) allocate (self%heights(0, 0))
       call make_plan(input, self%heights, self%plan, status)
       if (status%failed()) return
@@ -90,6 +102,43 @@ contains
                                  "load_error", "residual", "H_c_algebraic"])
       end if
    end subroutine start
+
+   !> Time steps made so far
+   pure integer function steps_made(self)
+      class(solver_t), intent(in) :: self
+      steps_made = merge(self%transient%step, 0, self%marching)
+   end function steps_made
+
+   !> Write a checkpoint into a folder (its name ends in '/'); before the first time step there is
+   !> nothing that is worth it
+   subroutine save_state(self, folder, status)
+      class(solver_t), intent(in) :: self
+      character(len=*), intent(in) :: folder
+      type(status_t), intent(inout) :: status
+
+      if (self%steps_made() == 0) return
+      call write_checkpoint(folder, self%text, self%transient, self%history, self%step_seconds, status)
+   end subroutine save_state
+
+   !> Go on from the newest checkpoint in a folder, after start and in place of the first advance. The
+   !> smooth contact is solved again, to the same bits; `found` tells whether there was a checkpoint.
+   subroutine resume(self, folder, found, status)
+      class(solver_t), intent(inout) :: self
+      character(len=*), intent(in) :: folder
+      logical, intent(out) :: found
+      type(status_t), intent(inout) :: status
+
+      found = .false.
+      do while (.not. self%marching .and. .not. self%done())
+         call self%advance(status)
+         if (status%failed()) return
+      end do
+      if (.not. self%marching) return
+      call read_checkpoint(folder, self%text, self%transient, self%history, self%step_seconds, found, status)
+      if (status%failed() .or. .not. found) return
+      call self%transient%restore(self%hierarchy%levels(self%steady%n), self%plan%surface)
+      self%outcome = judge_march(self)
+   end subroutine resume
 
    !> The plan in a few lines, for a person
    function describe(self) result(text)
@@ -240,39 +289,13 @@ contains
    function progress(self) result(text)
       class(solver_t), intent(in) :: self
       character(len=:), allocatable :: text
-      integer :: n
 
-      n = self%level()
       if (self%marching) then
-         associate (march => self%transient)
-            text = "step "//to_text(march%step)//"  T "//digits(march%time, "f8.4")//"  mu_r/mu_s "// &
-                   digits(march%m%friction/march%friction_smooth, "f9.5")
-            if (march%mean%has_mean()) text = text//"  mean "//digits(march%mean%mean(0.0_dp), "f9.5")
-            text = text//"  H_min "//digits(march%m%film_minimum, "f10.6")//"  cycles "//to_text(march%cycles)// &
-                   "  residual "//digits(march%residual, "es8.1")//"  "//trim(outcome_names(self%stand()))
-            if (.not. self%done()) text = text//", about "//digits(seconds_left(self), "f9.0")//" s left"
-         end associate
-         return
+         text = march_line(self%plan, self%transient, self%stand(), self%step_seconds)
+      else
+         text = cycle_line(self%grid, self%steady%results(self%level()), self%stand())
       end if
-      associate (result => self%steady%results(n))
-         text = to_text(self%grid%nx)//" x "//to_text(self%grid%nx)//"  cycle "//to_text(result%cycles)// &
-                "  H_c "//digits(result%m%film_central, "f10.6")//"  H_min "//digits(result%m%film_minimum, "f10.6")// &
-                "  residual "//digits(result%residual, "es8.1")//"  "//trim(outcome_names(self%stand()))
-      end associate
    end function progress
-
-   !> Seconds until the first time the mean can be judged, or one more eighth of a period
-   pure real(dp) function seconds_left(self)
-      type(solver_t), intent(in) :: self
-      real(dp) :: steps
-
-      associate (march => self%transient, mean => self%transient%mean)
-         steps = max(mean%filled, 0) + 1.5_dp*mean%period/mean%time_step - march%step
-         if (steps < 1.0_dp) steps = 0.125_dp*mean%period/mean%time_step
-         if (self%plan%steps > 0) steps = self%plan%steps - march%step
-         seconds_left = steps*self%step_seconds/max(march%step, 1)
-      end associate
-   end function seconds_left
 
    !> Level of the results: the present one, or the last one that has been worked on
    pure integer function level(self)
@@ -283,142 +306,22 @@ contains
       end if
    end function level
 
-   !> A number in a fixed form
-   function digits(x, form) result(text)
-      real(dp), intent(in) :: x
-      character(len=*), intent(in) :: form
-      character(len=:), allocatable :: text
-      character(len=32) :: buffer
-
-      write (buffer, "("//form//")") x
-      text = trim(adjustl(buffer))
-   end function digits
-
-   !> All results but fields, by name; dimensionless but for the SI values. Only a converged
-   !> run has results: otherwise they are null, and the last iterate stands under names
-   !> that begin with "last_".
+   !> All results but fields, by name; dimensionless but for the SI values. Only a converged run has
+   !> results: otherwise they are null, and the last iterate stands under names that begin with "last_".
    function summary(self) result(record)
       class(solver_t), intent(in) :: self
       type(record_t) :: record
-      integer :: n
-
-      n = self%level()
-      associate (plan => self%plan, result => self%steady%results(n))
-         call record%set("status", trim(outcome_names(self%stand())))
-         call record%set("converged", self%converged())
-         call record%set("moes_m", plan%point%moes_m)
-         call record%set("moes_l", plan%point%moes_l)
-         call record%set("alpha_bar", plan%point%alpha_bar)
-         call record%set("speed_parameter", plan%point%speed_parameter)
-         call record%set("points", self%grid%nx)
-         call record%set("x_mesh", self%grid%hx)
-         call record%set("y_mesh", self%grid%hy)
-         call set_results(self, record, n)
-         if (self%marching) call set_march(self, record)
-         call record%set("cycles", result%cycles)
-         call record%set("total_cycles", sum(self%steady%results%cycles))
-         call record%set("residual", result%residual)
-         call record%set("restarts", self%steady%restarts)
-         call record%set("hertz_pressure_Pa", plan%point%hertz_pressure)
-         if (plan%point%hertz_radius > 0.0_dp) then
-            call record%set("hertz_radius_m", plan%point%hertz_radius)
-            call record%set("film_scale_m", plan%point%film_scale)
-         end if
-         call record%set("half_domain", self%grid%mirror)
-         call record%set("deflection", plan%engine)
-         call record%set("threads", plan%threads)
-         call record%set("bytes", real(self%hierarchy%bytes(), dp))
-      end associate
-   end function summary
-
-   !> The results proper, with their errors
-   subroutine set_results(self, record, n)
-      class(solver_t), intent(in) :: self
-      type(record_t), intent(inout) :: record
-      integer, intent(in) :: n
-      type(measures_t) :: m
-      real(dp) :: error(2), limit(2), nothing
       logical :: good
 
-      nothing = ieee_value(nothing, ieee_quiet_nan)
+      call record%set("status", trim(outcome_names(self%stand())))
+      call record%set("converged", self%converged())
       ! the smooth results are good as soon as the march has begun
       good = self%marching .or. self%steady%outcome == outcome_converged .or. self%steady%outcome == outcome_target_missed
-      m = self%steady%results(n)%m
-      if (.not. good) then
-         call record%set("last_H_c", m%film_central)
-         call record%set("last_H_min", m%film_minimum)
-         call record%set("last_P_max", m%pressure_maximum)
-         call record%set("last_F", m%friction)
-         m%film_central = nothing
-         m%film_minimum = nothing
-         m%pressure_maximum = nothing
-         m%friction = nothing
-      end if
-      error = nothing
-      limit = nothing
-      if (good .and. n > 1) then
-         if (self%steady%results(n - 1)%solved) then
-            error = self%steady%discretisation_error(n) + self%steady%results(n)%algebraic
-            limit = self%steady%extrapolated(n)
-         end if
-      end if
-      call record%set("H_c", m%film_central)
-      call record%set("H_min", m%film_minimum)
-      call record%set("P_max", m%pressure_maximum)
-      call record%set("F", m%friction)
-      call record%set("H_c_extrapolated", limit(1))
-      call record%set("H_c_error", error(1))
-      call record%set("H_min_extrapolated", limit(2))
-      call record%set("H_min_error", error(2))
-      call record%set("H_c_algebraic_error", self%steady%results(n)%algebraic(1))
-      call record%set("H_min_algebraic_error", self%steady%results(n)%algebraic(2))
-      call record%set("load_error", m%load_error)
-      if (self%plan%point%hertz_radius > 0.0_dp) then
-         call record%set("h_c_m", m%film_central*self%plan%point%film_scale)
-         call record%set("h_min_m", m%film_minimum*self%plan%point%film_scale)
-         call record%set("p_max_Pa", m%pressure_maximum*self%plan%point%hertz_pressure)
-      end if
-   end subroutine set_results
-
-   !> Results of the march in time; null unless it came to a good end
-   subroutine set_march(self, record)
-      class(solver_t), intent(in) :: self
-      type(record_t), intent(inout) :: record
-      real(dp) :: nothing, range(2)
-
-      nothing = ieee_value(nothing, ieee_quiet_nan)
-      associate (march => self%transient, mean => self%transient%mean)
-         if (self%converged()) then
-            range = mean%extremes()
-            call record%set("mu_ratio", mean%mean(0.0_dp))
-            call record%set("mu_ratio_min", range(1))
-            call record%set("mu_ratio_max", range(2))
-            if (mean%has_change()) nothing = mean%change()
-            call record%set("mu_ratio_error", nothing)
-            call record%set("amplitude_ratio", mean%amplitude_ratio())
-         else
-            call record%set("mu_ratio", nothing)
-            call record%set("mu_ratio_min", nothing)
-            call record%set("mu_ratio_max", nothing)
-            call record%set("mu_ratio_error", nothing)
-            call record%set("amplitude_ratio", nothing)
-            if (mean%has_mean()) call record%set("last_mu_ratio_mean", mean%mean(0.0_dp))
-            if (mean%n > 0) call record%set("last_mu_ratio", mean%values(mean%n))
-         end if
-         select type (surface => self%plan%surface)
-         type is (harmonic_t)
-            call record%set("amplitude", surface%amplitude)
-         end select
-         call record%set("scheme", trim(merge("narrow", "paper ", self%plan%narrow)))
-         call record%set("T", march%time)
-         call record%set("T_period", mean%period)
-         call record%set("steps", march%step)
-         call record%set("steps_skipped", march%skipped)
-         call record%set("cycles_per_step", real(march%total_cycles, dp)/max(march%step, 1))
-         call record%set("seconds_per_step", self%step_seconds/max(march%step, 1))
-         call record%set("step_residual_allowed", march%tolerance)
-      end associate
-   end subroutine set_march
+      call report_scene(record, self%plan, self%grid)
+      call report_smooth(record, self%plan, self%steady, self%level(), good)
+      if (self%marching) call report_march(record, self%plan, self%transient, self%converged(), self%step_seconds)
+      call record%set("bytes", real(self%hierarchy%bytes(), dp))
+   end function summary
 
    !> Field "P" or "H" on the unfolded grid, values(nx, full_ny)
    subroutine field(self, name, values, status)

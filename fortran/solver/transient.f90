@@ -43,6 +43,7 @@ module ehl_transient
       procedure :: start
       procedure :: advance
       procedure :: step_converged
+      procedure :: restore
       procedure, private :: step_back
    end type transient_t
 
@@ -137,6 +138,16 @@ contains
       class(transient_t), intent(in) :: self
       step_converged = self%residual <= self%tolerance .and. self%m%finite .and. self%m%positive
    end function step_converged
+
+   !> Fields and measures of a state that was read from a checkpoint
+   subroutine restore(self, level, surface)
+      class(transient_t), intent(inout) :: self
+      type(level_t), intent(inout) :: level
+      class(surface_t), intent(inout) :: surface
+
+      call self%step_back(level, surface)
+      self%m = measure(level)
+   end subroutine restore
 
    !> The last good state again
    subroutine step_back(self, level, surface)

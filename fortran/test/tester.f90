@@ -4,6 +4,7 @@ program tester
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use check, only: n_checks, n_failures
    use test_case, only: run_case
+   use test_deflection, only: run_deflection
    use test_record, only: run_record
    use test_text, only: run_text
    implicit none (type, external)
@@ -17,6 +18,8 @@ program tester
       call run_record()
    case ("case")
       call run_case()
+   case ("deflection")
+      call run_deflection()
    case default
       write (error_unit, "(3a)") "tester: no suite '", trim(suite), "'"
       stop 2, quiet=.true.

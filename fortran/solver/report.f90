@@ -1,0 +1,196 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What a run says: lines of progress, and its results by name
+module ehl_report
+   use ehl_grid, only: grid_t
+   use ehl_harmonic, only: harmonic_t
+   use ehl_kinds, only: dp
+   use ehl_measures, only: measures_t
+   use ehl_outcome, only: outcome_names, outcome_running
+   use ehl_plan, only: plan_t, relative_wedge_error
+   use ehl_record, only: record_t
+   use ehl_steady, only: level_result_t, steady_t
+   use ehl_text, only: to_text
+   use ehl_transient, only: transient_t
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   implicit none (type, external)
+   private
+   public :: cycle_line, march_line, report_scene, report_smooth, report_march
+
+contains
+
+   !> Line about a cycle of the smooth contact
+   function cycle_line(grid, result, stand) result(text)
+      type(grid_t), intent(in) :: grid
+      type(level_result_t), intent(in) :: result
+      integer, intent(in) :: stand
+      character(len=:), allocatable :: text
+
+      text = to_text(grid%nx)//" x "//to_text(grid%nx)//"  cycle "//to_text(result%cycles)// &
+             "  H_c "//fixed(result%m%film_central, "f10.6")//"  H_min "//fixed(result%m%film_minimum, "f10.6")// &
+             "  residual "//fixed(result%residual, "es8.1")//"  "//trim(outcome_names(stand))
+   end function cycle_line
+
+   !> Line about a time step
+   function march_line(plan, march, stand, seconds) result(text)
+      type(plan_t), intent(in) :: plan
+      type(transient_t), intent(in) :: march
+      integer, intent(in) :: stand
+      !> Seconds spent on the steps so far
+      real(dp), intent(in) :: seconds
+      character(len=:), allocatable :: text
+
+      text = "step "//to_text(march%step)//"  T "//fixed(march%time, "f8.4")//"  mu_r/mu_s "// &
+             fixed(march%m%friction/march%friction_smooth, "f9.5")
+      if (march%mean%has_mean()) text = text//"  mean "//fixed(march%mean%mean(0.0_dp), "f9.5")
+      text = text//"  H_min "//fixed(march%m%film_minimum, "f10.6")//"  cycles "//to_text(march%cycles)// &
+             "  residual "//fixed(march%residual, "es8.1")//"  "//trim(outcome_names(stand))
+      if (stand == outcome_running) text = text//", about "// &
+                                           to_text(nint(seconds_left(plan, march, seconds)))//" s left"
+   end function march_line
+
+   !> Seconds until the mean can be judged for the first time, later until it is judged again
+   pure real(dp) function seconds_left(plan, march, seconds)
+      type(plan_t), intent(in) :: plan
+      type(transient_t), intent(in) :: march
+      real(dp), intent(in) :: seconds
+      real(dp) :: steps
+
+      steps = max(march%mean%filled, 0) + 1.5_dp*march%mean%period/march%mean%time_step - march%step
+      if (steps < 1.0_dp) steps = 0.125_dp*march%mean%period/march%mean%time_step
+      if (plan%steps > 0) steps = plan%steps - march%step
+      seconds_left = steps*seconds/max(march%step, 1)
+   end function seconds_left
+
+   !> Operating point, grid and means
+   subroutine report_scene(record, plan, grid)
+      type(record_t), intent(inout) :: record
+      type(plan_t), intent(in) :: plan
+      type(grid_t), intent(in) :: grid
+
+      call record%set("moes_m", plan%point%moes_m)
+      call record%set("moes_l", plan%point%moes_l)
+      call record%set("alpha_bar", plan%point%alpha_bar)
+      call record%set("speed_parameter", plan%point%speed_parameter)
+      call record%set("hertz_pressure_Pa", plan%point%hertz_pressure)
+      if (plan%point%hertz_radius > 0.0_dp) then
+         call record%set("hertz_radius_m", plan%point%hertz_radius)
+         call record%set("film_scale_m", plan%point%film_scale)
+      end if
+      call record%set("points", grid%nx)
+      call record%set("x_mesh", grid%hx)
+      call record%set("y_mesh", grid%hy)
+      call record%set("half_domain", grid%mirror)
+      call record%set("deflection", plan%engine)
+      call record%set("threads", plan%threads)
+   end subroutine report_scene
+
+   !> The smooth contact: results and errors, null unless they are good
+   subroutine report_smooth(record, plan, steady, n, good)
+      type(record_t), intent(inout) :: record
+      type(plan_t), intent(in) :: plan
+      type(steady_t), intent(in) :: steady
+      !> Level of the results
+      integer, intent(in) :: n
+      logical, intent(in) :: good
+      type(measures_t) :: m
+      real(dp) :: error(2), limit(2), nothing
+      logical :: coarser
+
+      nothing = ieee_value(nothing, ieee_quiet_nan)
+      m = steady%results(n)%m
+      if (.not. good) then
+         call record%set("last_H_c", m%film_central)
+         call record%set("last_H_min", m%film_minimum)
+         call record%set("last_P_max", m%pressure_maximum)
+         call record%set("last_F", m%friction)
+         m%film_central = nothing
+         m%film_minimum = nothing
+         m%pressure_maximum = nothing
+         m%friction = nothing
+      end if
+      error = nothing
+      limit = nothing
+      coarser = .false.
+      if (good .and. n > 1) coarser = steady%results(n - 1)%solved
+      if (coarser) then
+         error = steady%discretisation_error(n) + steady%results(n)%algebraic
+         limit = steady%extrapolated(n)
+      else if (good) then
+         ! one grid alone: what such grids have been found to miss; H_min misses about twice as much
+         error = relative_wedge_error(plan%point, plan%finest)*[m%film_central, 2.0_dp*m%film_minimum]
+      end if
+      call record%set("H_c", m%film_central)
+      call record%set("H_min", m%film_minimum)
+      call record%set("P_max", m%pressure_maximum)
+      call record%set("F", m%friction)
+      call record%set("H_c_extrapolated", limit(1))
+      call record%set("H_c_error", error(1))
+      call record%set("H_min_extrapolated", limit(2))
+      call record%set("H_min_error", error(2))
+      call record%set("error_estimate", trim(merge("two grids", "a priori ", coarser)))
+      call record%set("H_c_algebraic_error", steady%results(n)%algebraic(1))
+      call record%set("H_min_algebraic_error", steady%results(n)%algebraic(2))
+      call record%set("load_error", m%load_error)
+      if (plan%point%hertz_radius > 0.0_dp) then
+         call record%set("h_c_m", m%film_central*plan%point%film_scale)
+         call record%set("h_min_m", m%film_minimum*plan%point%film_scale)
+         call record%set("p_max_Pa", m%pressure_maximum*plan%point%hertz_pressure)
+      end if
+      call record%set("cycles", steady%results(n)%cycles)
+      call record%set("total_cycles", sum(steady%results%cycles))
+      call record%set("residual", steady%results(n)%residual)
+      call record%set("restarts", steady%restarts)
+   end subroutine report_smooth
+
+   !> The march in time: results null unless it came to a good end
+   subroutine report_march(record, plan, march, good, seconds)
+      type(record_t), intent(inout) :: record
+      type(plan_t), intent(in) :: plan
+      type(transient_t), intent(in) :: march
+      logical, intent(in) :: good
+      real(dp), intent(in) :: seconds
+      real(dp) :: mean, range(2), change, ratio
+
+      mean = ieee_value(mean, ieee_quiet_nan)
+      range = mean
+      change = mean
+      ratio = mean
+      if (good) then
+         mean = march%mean%mean(0.0_dp)
+         range = march%mean%extremes()
+         ratio = march%mean%amplitude_ratio()
+         if (march%mean%has_change()) change = march%mean%change()
+      else
+         if (march%mean%has_mean()) call record%set("last_mu_ratio_mean", march%mean%mean(0.0_dp))
+         if (march%mean%n > 0) call record%set("last_mu_ratio", march%mean%values(march%mean%n))
+      end if
+      call record%set("mu_ratio", mean)
+      call record%set("mu_ratio_min", range(1))
+      call record%set("mu_ratio_max", range(2))
+      call record%set("mu_ratio_error", change)
+      call record%set("amplitude_ratio", ratio)
+      select type (surface => plan%surface)
+      type is (harmonic_t)
+         call record%set("amplitude", surface%amplitude)
+      end select
+      call record%set("scheme", trim(merge("narrow", "paper ", plan%narrow)))
+      call record%set("T", march%time)
+      call record%set("T_period", march%mean%period)
+      call record%set("steps", march%step)
+      call record%set("steps_skipped", march%skipped)
+      call record%set("cycles_per_step", real(march%total_cycles, dp)/max(march%step, 1))
+      call record%set("seconds_per_step", seconds/max(march%step, 1))
+      call record%set("step_residual_allowed", march%tolerance)
+   end subroutine report_march
+
+   !> A number in a fixed form
+   function fixed(x, form) result(text)
+      real(dp), intent(in) :: x
+      character(len=*), intent(in) :: form
+      character(len=:), allocatable :: text
+      character(len=32) :: buffer
+
+      write (buffer, "("//form//")") x
+      text = trim(adjustl(buffer))
+   end function fixed
+end module ehl_report

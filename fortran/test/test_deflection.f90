@@ -1,0 +1,362 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Deflection engines: against each other, the analytic solution, and themselves
+module test_deflection
+   use check, only: is_true, is_close, is_equal, has_text
+   use ehl_kinds, only: dp, pi
+   use ehl_grid, only: grid_t, new_grid
+   use ehl_status, only: status_t, ehl_bad_input
+   use ehl_kernel, only: kernel_coefficient
+   use ehl_deflection, only: deflection_t
+   use ehl_deflection_factory, only: new_deflection, deflection_engines
+   implicit none (type, external)
+   private
+   public :: run_deflection
+
+   !> Kinds of pressure
+   integer, parameter :: hertz = 1, inlet = 2, random = 3, block = 4
+   character(len=*), parameter :: kind_name(4) = [character(len=6) :: &
+      "Hertz", "inlet", "random", "block"]
+
+contains
+
+   !> All checks
+   subroutine run_deflection()
+      call kernel_is_exact()
+      call engines_give_hertz()
+      call fft_is_direct()
+      call mlmi_is_direct()
+      call folded_is_whole()
+      call threads_do_not_matter()
+      call history_does_not_matter()
+      call scale_does_not_matter()
+      call memory_is_linear()
+      call bad_requests_are_refused()
+   end subroutine run_deflection
+
+   !> Closed form at the origin, symmetry, and cells made of smaller cells, near and far
+   subroutine kernel_is_exact()
+      real(dp) :: whole, parts
+      integer :: a, i, j
+
+      call is_close(kernel_coefficient(0, 0, 0.1_dp, 0.1_dp), 0.8_dp*asinh(1.0_dp)/pi**2, &
+                    1.0e-16_dp, "kernel at the origin")
+      call is_close(kernel_coefficient(-3, 2, 0.1_dp, 0.2_dp), &
+                    kernel_coefficient(2, -3, 0.2_dp, 0.1_dp), 1.0e-17_dp, "kernel is symmetric")
+      do a = 0, 40, 4
+         whole = kernel_coefficient(a, a/2, 0.3_dp, 0.6_dp)
+         parts = 0.0_dp
+         do j = -1, 1
+            do i = -1, 1
+               parts = parts + kernel_coefficient(3*a + i, 3*(a/2) + j, 0.1_dp, 0.2_dp)
+            end do
+         end do
+         call is_close(parts/whole, 1.0_dp, 1.0e-12_dp, "kernel of nine cells")
+      end do
+   end subroutine kernel_is_exact
+
+   !> W = 1 - r^2/2 inside the contact, its continuation outside. A pressure that is constant
+   !> in each cell errs most at the edge of the contact, where its slope is infinite: by 7.7e-4
+   !> on 257 x 257, with order 1.4; well inside by a tenth of that, with order 2.
+   subroutine engines_give_hertz()
+      real(dp) :: error(2), inside(2)
+      integer :: e, n
+
+      do e = 1, 2
+         do n = 1, 2
+            call hertz_error(trim(deflection_engines(e)), 64*2**n + 1, error(n), inside(n))
+         end do
+         call is_close(error(2), 7.7e-4_dp, 0.2e-4_dp, deflection_engines(e)//": Hertz")
+         call is_true(error(2) < 0.4_dp*error(1), deflection_engines(e)//": Hertz converges")
+         call is_true(inside(2) < 1.0e-4_dp, deflection_engines(e)//": Hertz, inside")
+         call is_true(inside(2) < 0.3_dp*inside(1), deflection_engines(e)//": Hertz, order 2")
+      end do
+      call hertz_error("direct", 65, error(1), inside(1))
+      call is_close(error(1), 5.0e-3_dp, 0.1e-3_dp, "direct: Hertz")
+   end subroutine engines_give_hertz
+
+   !> Largest error of the Hertz deflection, and that for r < 1/2
+   subroutine hertz_error(engine, points, error, inside)
+      character(len=*), intent(in) :: engine
+      integer, intent(in) :: points
+      real(dp), intent(out) :: error, inside
+      type(grid_t) :: grid
+      real(dp), allocatable :: p(:, :), w(:, :)
+      real(dp) :: r, exact
+      integer :: i, j
+
+      grid = new_grid(points, -2.5_dp, 1.5_dp, 2.0_dp, .true.)
+      call press(hertz, grid, p)
+      call deflect(engine, grid, p, 1.0e-5_dp, 1, w)
+      error = 0.0_dp
+      inside = 0.0_dp
+      do j = 1, grid%ny
+         do i = 1, grid%nx
+            r = hypot(grid%x(i), grid%y(j))
+            if (r <= 1.0_dp) then
+               exact = 1.0_dp - 0.5_dp*r**2
+            else
+               exact = ((2.0_dp - r**2)*asin(1.0_dp/r) + sqrt(r**2 - 1.0_dp))/pi
+            end if
+            error = max(error, abs(w(i, j) - exact))
+            if (r < 0.5_dp) inside = max(inside, abs(w(i, j) - exact))
+         end do
+      end do
+   end subroutine hertz_error
+
+   !> The FFT is exact, whatever the pressure is on the border
+   subroutine fft_is_direct()
+      type(grid_t) :: grid
+      integer :: g
+
+      do g = 1, 7
+         grid = some_grid(g)
+         call is_true(difference("fft", grid, random, 0.0_dp) < 1.0e-12_dp, &
+                      "fft is direct on "//named(grid))
+      end do
+   end subroutine fft_is_direct
+
+   !> MLMI keeps the accuracy asked for
+   subroutine mlmi_is_direct()
+      type(grid_t) :: grid
+      real(dp), parameter :: accuracy(4) = [1.0e-3_dp, 2.0e-5_dp, 1.0e-7_dp, 1.0e-10_dp]
+      integer :: g, kind, a
+
+      do g = 1, 7
+         grid = some_grid(g)
+         do kind = hertz, block
+            do a = 1, size(accuracy)
+               call is_true(difference("mlmi", grid, kind, accuracy(a)) &
+                            < accuracy(a), "mlmi is direct on "//named(grid)//", " &
+                            //trim(kind_name(kind))//" pressure")
+            end do
+         end do
+      end do
+   end subroutine mlmi_is_direct
+
+   !> Half a symmetric contact gives the same as the whole
+   subroutine folded_is_whole()
+      type(grid_t) :: half, whole
+      real(dp), allocatable :: p(:, :), p_whole(:, :), w(:, :), w_whole(:, :)
+      integer :: e, kind, n
+
+      half = new_grid(129, -2.5_dp, 1.5_dp, 1.7_dp, .true.)
+      whole = new_grid(129, -2.5_dp, 1.5_dp, 1.7_dp, .false.)
+      n = half%ny
+      allocate (p_whole(whole%nx, whole%ny))
+      do e = 1, size(deflection_engines)
+         do kind = hertz, random
+            call press(kind, half, p)
+            p_whole(:, n:) = p
+            p_whole(:, :n) = p(:, n:1:-1)
+            call deflect(trim(deflection_engines(e)), half, p, 1.0e-5_dp, 1, w)
+            call deflect(trim(deflection_engines(e)), whole, p_whole, 1.0e-5_dp, 1, w_whole)
+            call is_true(maxval(abs(w - w_whole(:, n:))) < 1.0e-13_dp*maxval(w), &
+                         deflection_engines(e)//": folded is whole, "//trim(kind_name(kind)))
+         end do
+      end do
+   end subroutine folded_is_whole
+
+   !> The same bits from any number of threads
+   subroutine threads_do_not_matter()
+      type(grid_t) :: grid
+      real(dp), allocatable :: p(:, :), one(:, :), more(:, :)
+      integer :: e, fold, threads
+
+      do fold = 0, 1
+         grid = new_grid(129, -2.5_dp, 1.5_dp, 2.0_dp, fold == 1)
+         call press(inlet, grid, p)
+         do e = 1, size(deflection_engines)
+            call deflect(trim(deflection_engines(e)), grid, p, 1.0e-5_dp, 1, one)
+            do threads = 2, 4, 2
+               call deflect(trim(deflection_engines(e)), grid, p, 1.0e-5_dp, threads, more)
+               call is_true(all(abs(more - one) <= 0.0_dp), &
+                            deflection_engines(e)//": threads do not matter")
+            end do
+         end do
+      end do
+   end subroutine threads_do_not_matter
+
+   !> What was applied before leaves no trace, on the same grid or on another
+   subroutine history_does_not_matter()
+      class(deflection_t), allocatable :: engine
+      type(grid_t) :: grid
+      type(status_t) :: status
+      real(dp), allocatable :: p(:, :), w(:, :), fresh(:, :), zero(:, :)
+      integer :: e
+
+      do e = 1, size(deflection_engines)
+         call new_deflection(trim(deflection_engines(e)), engine, status)
+         grid = new_grid(33, -1.5_dp, 1.5_dp, 1.5_dp, .false.)
+         call engine%setup(grid, 1.0e-3_dp, 2, status)
+         grid = new_grid(65, -2.5_dp, 1.5_dp, 2.0_dp, .true.)
+         call engine%setup(grid, 1.0e-5_dp, 1, status)
+         call is_true(.not. status%failed(), deflection_engines(e)//": set up again")
+         call press(random, grid, p)
+         allocate (w, mold=p)
+         call engine%apply(p, w)
+         call press(block, grid, p)
+         call engine%apply(p, w)
+         call deflect(trim(deflection_engines(e)), grid, p, 1.0e-5_dp, 1, fresh)
+         call is_true(all(abs(w - fresh) <= 0.0_dp), deflection_engines(e)//": no trace of before")
+         zero = 0.0_dp*p
+         call engine%apply(zero, w)
+         call is_true(all(abs(w) <= 0.0_dp), deflection_engines(e)//": nothing from nothing")
+         deallocate (w)
+      end do
+   end subroutine history_does_not_matter
+
+   !> Small pressures are deflected as well as large ones
+   subroutine scale_does_not_matter()
+      type(grid_t) :: grid
+      real(dp), allocatable :: p(:, :), w(:, :), tiny_w(:, :)
+      real(dp), parameter :: scale = 2.0_dp**(-60)
+      integer :: e
+
+      grid = new_grid(65, -2.5_dp, 1.5_dp, 2.0_dp, .false.)
+      call press(inlet, grid, p)
+      do e = 1, size(deflection_engines)
+         call deflect(trim(deflection_engines(e)), grid, p, 1.0e-4_dp, 1, w)
+         call deflect(trim(deflection_engines(e)), grid, scale*p, 1.0e-4_dp, 1, tiny_w)
+         call is_true(all(abs(tiny_w - scale*w) <= 0.0_dp), &
+                      deflection_engines(e)//": scale does not matter")
+      end do
+   end subroutine scale_does_not_matter
+
+   !> Memory grows with the number of points, and is that of a few fields
+   subroutine memory_is_linear()
+      class(deflection_t), allocatable :: engine
+      type(status_t) :: status
+      type(grid_t) :: grid
+      integer(8) :: bytes(2)
+      integer :: e, n
+
+      do e = 1, 2
+         call new_deflection(trim(deflection_engines(e)), engine, status)
+         call is_true(engine%bytes() == 0, deflection_engines(e)//": no memory before setup")
+         do n = 1, 2
+            grid = new_grid(64*2**n + 1, -2.5_dp, 1.5_dp, 2.0_dp, .false.)
+            call engine%setup(grid, 1.0e-4_dp, 1, status)
+            bytes(n) = engine%bytes()
+         end do
+         call is_true(bytes(2) < 4.5_dp*bytes(1) .and. bytes(2) > 3.0_dp*bytes(1), &
+                      deflection_engines(e)//": memory is linear")
+         call is_true(bytes(2) < 6*8_8*grid%nx*grid%ny, deflection_engines(e)//": memory")
+      end do
+   end subroutine memory_is_linear
+
+   !> Unknown engines and accuracies out of reach
+   subroutine bad_requests_are_refused()
+      class(deflection_t), allocatable :: engine
+      type(status_t) :: unknown, out_of_reach
+
+      call new_deflection("fmm", engine, unknown)
+      call is_equal(unknown%code, ehl_bad_input, "unknown engine")
+      call has_text(unknown%message, "'fmm'", "unknown engine")
+      call is_true(.not. allocated(engine), "no engine of an unknown name")
+      call new_deflection("mlmi", engine, out_of_reach)
+      call engine%setup(new_grid(65, -2.5_dp, 1.5_dp, 2.0_dp, .false.), 1.0e-13_dp, 1, &
+                        out_of_reach)
+      call is_equal(out_of_reach%code, ehl_bad_input, "accuracy out of reach")
+      call has_text(out_of_reach%message, "1.00E-13", "accuracy out of reach")
+   end subroutine bad_requests_are_refused
+
+   !> Largest difference of an engine from the direct sum, relative to the largest deflection
+   real(dp) function difference(engine, grid, kind, accuracy)
+      character(len=*), intent(in) :: engine
+      type(grid_t), intent(in) :: grid
+      integer, intent(in) :: kind
+      real(dp), intent(in) :: accuracy
+      real(dp), allocatable :: p(:, :), w(:, :), direct(:, :)
+
+      call press(kind, grid, p)
+      call deflect("direct", grid, p, 0.0_dp, 1, direct)
+      call deflect(engine, grid, p, accuracy, 1, w)
+      difference = maxval(abs(w - direct))/maxval(abs(direct))
+   end function difference
+
+   !> Deflection w by a fresh engine
+   subroutine deflect(name, grid, p, accuracy, threads, w)
+      character(len=*), intent(in) :: name
+      type(grid_t), intent(in) :: grid
+      real(dp), intent(in) :: p(:, :), accuracy
+      integer, intent(in) :: threads
+      real(dp), allocatable, intent(out) :: w(:, :)
+      class(deflection_t), allocatable :: engine
+      type(status_t) :: status
+
+      allocate (w(grid%nx, grid%ny))
+      call new_deflection(name, engine, status)
+      if (.not. status%failed()) call engine%setup(grid, accuracy, threads, status)
+      call is_true(.not. status%failed(), name//" is set up")
+      if (status%failed()) then
+         w = huge(1.0_dp)
+      else
+         call engine%apply(p, w)
+      end if
+   end subroutine deflect
+
+   !> A pressure p of some kind
+   subroutine press(kind, grid, p)
+      integer, intent(in) :: kind
+      type(grid_t), intent(in) :: grid
+      real(dp), allocatable, intent(out) :: p(:, :)
+      real(dp) :: r, seed
+      integer :: i, j
+
+      allocate (p(grid%nx, grid%ny))
+      seed = 0.5_dp
+      do j = 1, grid%ny
+         do i = 1, grid%nx
+            r = hypot(grid%x(i), grid%y(j))
+            seed = modulo(seed*997.0_dp + 0.1234567_dp, 1.0_dp)
+            select case (kind)
+            case (hertz)
+               p(i, j) = sqrt(max(0.0_dp, 1.0_dp - r**2))
+            case (inlet)
+               p(i, j) = sqrt(max(0.0_dp, 1.0_dp - r**2))
+               if (grid%x(i) < 0.0_dp) p(i, j) = max(p(i, j), 0.3_dp*exp(-3.0_dp*r))
+            case (random)
+               p(i, j) = seed
+            case default
+               p(i, j) = 0.0_dp
+               if (abs(grid%x(i) - 0.3_dp) < 0.6_dp .and. abs(grid%y(j)) < 0.7_dp) &
+                  p(i, j) = 0.5_dp + seed
+            end select
+         end do
+      end do
+   end subroutine press
+
+   !> Grids of all sorts: odd and even halvings, meshes that are not square, sides of
+   !> different lengths, whole and folded
+   type(grid_t) function some_grid(number)
+      integer, intent(in) :: number
+
+      select case (number)
+      case (1)
+         some_grid = new_grid(17, -2.5_dp, 1.5_dp, 2.0_dp, .false.)
+      case (2)
+         some_grid = new_grid(65, -2.5_dp, 1.5_dp, 2.0_dp, .false.)
+      case (3)
+         some_grid = new_grid(65, -2.5_dp, 1.5_dp, 2.0_dp, .true.)
+      case (4)
+         some_grid = new_grid(63, -2.5_dp, 1.5_dp, 3.1_dp, .true.)
+      case (5)
+         some_grid = new_grid(47, -3.5_dp, 1.5_dp, 1.5_dp, .false.)
+      case (6)
+         some_grid = grid_t(nx=81, ny=21, x0=-2.5_dp, y0=-1.2_dp, hx=0.05_dp, hy=0.12_dp)
+      case default
+         some_grid = grid_t(nx=30, ny=40, x0=-1.7_dp, y0=0.0_dp, hx=0.11_dp, hy=0.04_dp, &
+                            mirror=.true.)
+      end select
+   end function some_grid
+
+   !> A grid in words
+   function named(grid) result(name)
+      type(grid_t), intent(in) :: grid
+      character(len=:), allocatable :: name
+      character(len=60) :: text
+
+      write (text, "(i0, ' x ', i0, a)") grid%nx, grid%ny, merge(" folded", "       ", grid%mirror)
+      name = trim(text)
+   end function named
+end module test_deflection
