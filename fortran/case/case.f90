@@ -122,8 +122,8 @@ module ehl_case
       character(len=word_length) :: coarsening = "classical"
       !> 'auto' (default): half the domain where the scene is symmetric in Y; 'full': never
       character(len=word_length) :: symmetry = "auto"
-      !> 'W' (default), 'V' or 'F' cycles
-      character(len=word_length) :: cycle = "W"
+      !> 'W', 'V' or 'F' cycles; 'auto' (default): F for the smooth contact, V for time steps
+      character(len=word_length) :: cycle = "auto"
       !> [-] algebraic error wanted as a share of the discretisation error, default 0.1
       real(dp) :: accuracy = 0.1_dp
       !> [-] most cycles per level, default 30

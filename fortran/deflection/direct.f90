@@ -2,6 +2,7 @@
 !> Deflection by the plain double sum: the reference for the other engines, O(n^2) in the
 !> number of points n (0.3 s at 129 x 129, a minute at 513 x 513)
 module ehl_direct
+   use, intrinsic :: iso_fortran_env, only: int64
    use ehl_kinds, only: dp
    use ehl_grid, only: grid_t
    use ehl_status, only: status_t, ehl_no_memory
@@ -63,10 +64,10 @@ contains
    end subroutine apply
 
    !> Allocated bytes
-   pure integer(8) function bytes(self)
+   pure integer(int64) function bytes(self)
       class(direct_deflection_t), intent(in) :: self
       bytes = 0
-      if (allocated(self%k)) bytes = 8_8*size(self%k, kind=8)
+      if (allocated(self%k)) bytes = 8*size(self%k, kind=int64)
    end function bytes
 
    !> The double sum, one row of w at a time; sources without pressure are skipped
@@ -84,10 +85,11 @@ contains
          w(:, j) = 0.0_dp
          do source = 1, ny
             do i = 1, nx
-               if (.not. abs(p(i, source)) > 0.0_dp) cycle
+               if (abs(p(i, source)) <= 0.0_dp) cycle
                w(:, j) = w(:, j) + p(i, source)*k(1 - i:nx - i, abs(j - source))
-               if (mirror .and. source > 1) &
+               if (mirror .and. source > 1) then
                   w(:, j) = w(:, j) + p(i, source)*k(1 - i:nx - i, j + source - 2)
+               end if
             end do
          end do
       end do

@@ -11,23 +11,21 @@
 module ehl_fft
    use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_associated, c_f_pointer, &
       c_int, c_size_t, c_double_complex
+   use, intrinsic :: iso_fortran_env, only: int64
    use ehl_kinds, only: dp
    use ehl_grid, only: grid_t
    use ehl_status, only: status_t, ehl_no_memory, ehl_internal
    use ehl_deflection, only: deflection_t
    use ehl_kernel, only: fill_kernel
+   use ehl_fft_passes, only: side_by_side, rows_to_spectra, convolve_columns, spectra_to_rows
    use ehl_fftw, only: fftw_alloc_real, fftw_alloc_complex, fftw_free, fftw_destroy_plan, &
       fftw_plan_r2r_2d, fftw_plan_dft_r2c_1d, fftw_plan_dft_c2r_1d, fftw_plan_many_dft, &
-      fftw_execute_r2r, fftw_execute_dft_r2c, fftw_execute_dft_c2r, fftw_execute_dft, &
-      FFTW_ESTIMATE, FFTW_REDFT00, FFTW_FORWARD, FFTW_BACKWARD
-   !$ use omp_lib, only: omp_get_thread_num
+      fftw_execute_r2r, FFTW_ESTIMATE, FFTW_REDFT00, FFTW_FORWARD, FFTW_BACKWARD
    implicit none (type, external)
    private
    public :: fft_deflection_t
 
    integer, parameter :: zp = c_double_complex
-   !> Columns transformed together along Y: two cache lines of every row
-   integer, parameter :: block = 8
 
    !> Convolution by FFTW. Owns plans and aligned memory: not to be copied by assignment.
    type, extends(deflection_t) :: fft_deflection_t
@@ -44,10 +42,10 @@ module ehl_fft
       complex(zp), pointer, contiguous :: spectrum(:, :) => null()
       !> One padded row for each thread: (lx, threads)
       real(dp), pointer, contiguous :: row(:, :) => null()
-      !> Two blocks of padded columns for each thread: (ly*block, 2, threads)
+      !> Two blocks of padded columns for each thread: (ly*side_by_side, 2, threads)
       complex(zp), pointer, contiguous :: columns(:, :, :) => null()
-      type(c_ptr) :: memory(4) = c_null_ptr
-      integer(8) :: allocated_bytes = 0
+      type(c_ptr) :: storage(4) = c_null_ptr
+      integer(int64) :: allocated_bytes = 0
    contains
       procedure :: setup
       procedure :: apply
@@ -96,14 +94,14 @@ contains
       integer :: first, last
 
       do first = 1, self%ny
-         if (any(abs(p(:, first)) > 0.0_dp)) exit
+         if (.not. all(abs(p(:, first)) <= 0.0_dp)) exit
       end do
       if (first > self%ny) then
          w = 0.0_dp
          return
       end if
       do last = self%ny, first, -1
-         if (any(abs(p(:, last)) > 0.0_dp)) exit
+         if (.not. all(abs(p(:, last)) <= 0.0_dp)) exit
       end do
       call rows_to_spectra(self%nx, self%ny, self%lx, self%nk, first, last, self%threads, &
                            self%row_forward, p, self%row, self%spectrum)
@@ -115,106 +113,10 @@ contains
    end subroutine apply
 
    !> Allocated bytes
-   pure integer(8) function bytes(self)
+   pure integer(int64) function bytes(self)
       class(fft_deflection_t), intent(in) :: self
       bytes = self%allocated_bytes
    end function bytes
-
-   !> Rows first..last of p, padded, to spectra
-   subroutine rows_to_spectra(nx, ny, lx, nk, first, last, threads, plan, p, row, spectrum)
-      integer, intent(in) :: nx, ny, lx, nk, first, last, threads
-      type(c_ptr), intent(in) :: plan
-      real(dp), intent(in) :: p(:, :)
-      real(dp), intent(inout) :: row(lx, threads)
-      complex(zp), intent(inout) :: spectrum(nk, ny)
-      integer :: j, me
-
-      !$omp parallel num_threads(threads) default(none) private(j, me) &
-      !$omp shared(nx, first, last, plan, p, row, spectrum)
-      me = 1
-      !$ me = omp_get_thread_num() + 1
-      !$omp do schedule(static)
-      do j = first, last
-         row(:nx, me) = p(:, j)
-         row(nx + 1:, me) = 0.0_dp
-         call fftw_execute_dft_r2c(plan, row(:, me), spectrum(:, j))
-      end do
-      !$omp end do
-      !$omp end parallel
-   end subroutine rows_to_spectra
-
-   !> Spectra of rows first..last in, spectra of the deflection of all rows out
-   subroutine convolve_columns(ny, ly, nk, first, last, mirror, threads, forward, backward, &
-                               kernel, spectrum, columns)
-      integer, intent(in) :: ny, ly, nk, first, last, threads
-      logical, intent(in) :: mirror
-      type(c_ptr), intent(in) :: forward, backward
-      real(dp), intent(in) :: kernel(0:ly/2, nk)
-      complex(zp), intent(inout) :: spectrum(nk, ny)
-      complex(zp), intent(inout) :: columns(0:ly - 1, block, 2, threads)
-      integer :: c, j, k, me, start, width
-
-      !$omp parallel num_threads(threads) default(none) private(c, j, k, me, start, width) &
-      !$omp shared(ny, ly, nk, first, last, mirror, forward, backward, kernel, spectrum, columns)
-      me = 1
-      !$ me = omp_get_thread_num() + 1
-      !$omp do schedule(static)
-      do start = 1, nk, block
-         width = min(block, nk - start + 1)
-         columns(:, :, 1, me) = (0.0_dp, 0.0_dp)
-         do j = first, last
-            do c = 1, width
-               columns(j - 1, c, 1, me) = spectrum(start + c - 1, j)
-            end do
-         end do
-         if (mirror) then
-            do c = 1, width
-               do j = max(first, 2), last
-                  columns(ly - j + 1, c, 1, me) = columns(j - 1, c, 1, me)
-               end do
-            end do
-         end if
-         call fftw_execute_dft(forward, columns(:, :, 1, me), columns(:, :, 2, me))
-         do c = 1, width
-            do k = 0, ly/2
-               columns(k, c, 2, me) = columns(k, c, 2, me)*kernel(k, start + c - 1)
-            end do
-            do k = 1, ly/2 - 1
-               columns(ly - k, c, 2, me) = columns(ly - k, c, 2, me)*kernel(k, start + c - 1)
-            end do
-         end do
-         call fftw_execute_dft(backward, columns(:, :, 2, me), columns(:, :, 1, me))
-         do j = 1, ny
-            do c = 1, width
-               spectrum(start + c - 1, j) = columns(j - 1, c, 1, me)
-            end do
-         end do
-      end do
-      !$omp end do
-      !$omp end parallel
-   end subroutine convolve_columns
-
-   !> Spectra back to the deflection; they are destroyed
-   subroutine spectra_to_rows(nx, ny, lx, nk, threads, plan, spectrum, row, w)
-      integer, intent(in) :: nx, ny, lx, nk, threads
-      type(c_ptr), intent(in) :: plan
-      complex(zp), intent(inout) :: spectrum(nk, ny)
-      real(dp), intent(inout) :: row(lx, threads)
-      real(dp), intent(out) :: w(:, :)
-      integer :: j, me
-
-      !$omp parallel num_threads(threads) default(none) private(j, me) &
-      !$omp shared(nx, ny, plan, spectrum, row, w)
-      me = 1
-      !$ me = omp_get_thread_num() + 1
-      !$omp do schedule(static)
-      do j = 1, ny
-         call fftw_execute_dft_c2r(plan, spectrum(:, j), row(:, me))
-         w(:, j) = row(:nx, me)
-      end do
-      !$omp end do
-      !$omp end parallel
-   end subroutine spectra_to_rows
 
    !> Aligned memory for spectra, kernel and the threads' buffers
    subroutine reserve(self, status)
@@ -225,22 +127,22 @@ contains
       reals(1) = int(self%ly/2 + 1, c_size_t)*self%nk
       reals(2) = int(self%lx, c_size_t)*self%threads
       complexes(1) = int(self%nk, c_size_t)*self%ny
-      complexes(2) = int(self%ly, c_size_t)*block*2*self%threads
-      self%memory(1) = fftw_alloc_real(reals(1))
-      self%memory(2) = fftw_alloc_real(reals(2))
-      self%memory(3) = fftw_alloc_complex(complexes(1))
-      self%memory(4) = fftw_alloc_complex(complexes(2))
-      if (.not. (c_associated(self%memory(1)) .and. c_associated(self%memory(2)) .and. &
-                 c_associated(self%memory(3)) .and. c_associated(self%memory(4)))) then
+      complexes(2) = int(self%ly, c_size_t)*side_by_side*2*self%threads
+      self%storage(1) = fftw_alloc_real(reals(1))
+      self%storage(2) = fftw_alloc_real(reals(2))
+      self%storage(3) = fftw_alloc_complex(complexes(1))
+      self%storage(4) = fftw_alloc_complex(complexes(2))
+      if (.not. (c_associated(self%storage(1)) .and. c_associated(self%storage(2)) .and. &
+                 c_associated(self%storage(3)) .and. c_associated(self%storage(4)))) then
          call clear(self)
          call status%fail(ehl_no_memory, "no memory for the FFT deflection")
          return
       end if
-      self%allocated_bytes = 8*sum(int(reals, 8)) + 16*sum(int(complexes, 8))
-      call c_f_pointer(self%memory(1), self%kernel, [self%ly/2 + 1, self%nk])
-      call c_f_pointer(self%memory(2), self%row, [self%lx, self%threads])
-      call c_f_pointer(self%memory(3), self%spectrum, [self%nk, self%ny])
-      call c_f_pointer(self%memory(4), self%columns, [self%ly*block, 2, self%threads])
+      self%allocated_bytes = 8*sum(int(reals, int64)) + 16*sum(int(complexes, int64))
+      call c_f_pointer(self%storage(1), self%kernel, [self%ly/2 + 1, self%nk])
+      call c_f_pointer(self%storage(2), self%row, [self%lx, self%threads])
+      call c_f_pointer(self%storage(3), self%spectrum, [self%nk, self%ny])
+      call c_f_pointer(self%storage(4), self%columns, [self%ly*side_by_side, 2, self%threads])
    end subroutine reserve
 
    !> The four one-dimensional plans; inside the planner's critical section only
@@ -252,10 +154,10 @@ contains
       self%row_forward = fftw_plan_dft_r2c_1d(self%lx, self%row, self%spectrum, FFTW_ESTIMATE)
       self%row_backward = fftw_plan_dft_c2r_1d(self%lx, self%spectrum, self%row, FFTW_ESTIMATE)
       self%column_forward = fftw_plan_many_dft( &
-         1, length, block, self%columns(:, 1, 1), length, 1, self%ly, &
+         1, length, side_by_side, self%columns(:, 1, 1), length, 1, self%ly, &
          self%columns(:, 2, 1), length, 1, self%ly, FFTW_FORWARD, FFTW_ESTIMATE)
       self%column_backward = fftw_plan_many_dft( &
-         1, length, block, self%columns(:, 2, 1), length, 1, self%ly, &
+         1, length, side_by_side, self%columns(:, 2, 1), length, 1, self%ly, &
          self%columns(:, 1, 1), length, 1, self%ly, FFTW_BACKWARD, FFTW_ESTIMATE)
    end subroutine make_plans
 
@@ -320,9 +222,9 @@ contains
       self%column_forward = c_null_ptr
       self%column_backward = c_null_ptr
       nullify (self%kernel, self%spectrum, self%row, self%columns)
-      do k = 1, size(self%memory)
-         if (c_associated(self%memory(k))) call fftw_free(self%memory(k))
-         self%memory(k) = c_null_ptr
+      do k = 1, size(self%storage)
+         if (c_associated(self%storage(k))) call fftw_free(self%storage(k))
+         self%storage(k) = c_null_ptr
       end do
       self%allocated_bytes = 0
    end subroutine clear

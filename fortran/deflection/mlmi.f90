@@ -27,6 +27,7 @@
 !> W counts as large as for a contact of the Hertz radius: the error bound is relative to
 !> the larger of max W and max P, as W = 1 at the centre for max P = 1.
 module ehl_mlmi
+   use, intrinsic :: iso_fortran_env, only: int64
    use ehl_kinds, only: dp
    use ehl_grid, only: grid_t
    use ehl_status, only: status_t, ehl_bad_input, ehl_no_memory
@@ -206,12 +207,12 @@ contains
    end subroutine apply
 
    !> Allocated bytes
-   pure integer(8) function bytes(self)
+   pure integer(int64) function bytes(self)
       class(mlmi_deflection_t), intent(in) :: self
       integer :: s
 
       bytes = 0
-      if (allocated(self%work)) bytes = bytes + 8*size(self%work, kind=8)
+      if (allocated(self%work)) bytes = bytes + 8*size(self%work, kind=int64)
       if (.not. allocated(self%stages)) return
       do s = 1, size(self%stages)
          bytes = bytes + self%stages(s)%bytes()

@@ -1,6 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The way down of multilevel multi-integration: sources to ever coarser grids, and the
 !> deflection of the coarsest
+! Rows are passed by their first element
+! allow(assumed-size)
 module ehl_mlmi_down
    use ehl_kinds, only: dp
    use ehl_mlmi_stage, only: stage_t, stored_row, sources_near, rows_near, put, nowhere

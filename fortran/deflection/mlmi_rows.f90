@@ -4,6 +4,8 @@
 !> All of the arithmetic of a deflection passes through here. Several terms are taken in one
 !> sweep over a row, so that sums stay in registers; every loop runs over contiguous memory
 !> and is vectorised by the compiler (except the ones that look for zeros).
+! Rows are passed by their first element
+! allow(assumed-size)
 module ehl_mlmi_rows
    use ehl_kinds, only: dp
    implicit none (type, external)
@@ -51,6 +53,8 @@ contains
          do i = 1, n
             y(i) = y(i) + c(k)*(a(r + i) + a(l + i))
          end do
+      case default
+         continue
       end select
    end subroutine add_pairs
 
@@ -247,31 +251,31 @@ contains
       integer, intent(in) :: n
       real(dp), intent(in) :: a(n)
       integer, intent(out) :: first, last
-      integer, parameter :: block = 32
+      integer, parameter :: step = 32
       integer :: i, found
 
       ! whole blocks without a branch, then the elements of the block that is not zero
       first = 1
-      do while (first + block - 1 <= n)
+      do while (first + step - 1 <= n)
          found = 0
-         do i = first, first + block - 1
+         do i = first, first + step - 1
             found = found + merge(0, 1, abs(a(i)) <= 0.0_dp)
          end do
          if (found > 0) exit
-         first = first + block
+         first = first + step
       end do
       do while (first <= n)
          if (.not. abs(a(first)) <= 0.0_dp) exit
          first = first + 1
       end do
       last = n
-      do while (last - block + 1 > first)
+      do while (last - step + 1 > first)
          found = 0
-         do i = last - block + 1, last
+         do i = last - step + 1, last
             found = found + merge(0, 1, abs(a(i)) <= 0.0_dp)
          end do
          if (found > 0) exit
-         last = last - block
+         last = last - step
       end do
       do while (last > first)
          if (.not. abs(a(last)) <= 0.0_dp) exit

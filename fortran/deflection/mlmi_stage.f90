@@ -4,7 +4,10 @@
 !> Nodes are numbered from 0. Grids reach beyond the domain by as many nodes as the transfers
 !> need to keep their order at the border. On a folded grid row -j is row j. A stage that
 !> halves X keeps its sources split into even and odd columns, so that loops are contiguous.
+! Rows are passed by their first element
+! allow(assumed-size)
 module ehl_mlmi_stage
+   use, intrinsic :: iso_fortran_env, only: int64
    use ehl_kinds, only: dp
    use ehl_status, only: status_t, ehl_no_memory
    use ehl_kernel, only: kernel_coefficient
@@ -113,8 +116,8 @@ contains
       if (self%axis == 1) then
          left = self%coarse_low(1) - self%margin
          right = self%coarse_high(1) + self%margin
-         allocate (self%even(left:right, below:above), self%odd(left:right, below:above), &
-                   stat=stat)
+         allocate (self%even(left:right, below:above), stat=stat)
+         if (stat == 0) allocate (self%odd(left:right, below:above), stat=stat)
          if (stat /= 0) return
          self%even = 0.0_dp
          self%odd = 0.0_dp
@@ -125,21 +128,22 @@ contains
          if (stat /= 0) return
          self%source = 0.0_dp
       end if
-      allocate (self%first(below:above), self%last(below:above), stat=stat)
+      allocate (self%first(below:above), stat=stat)
+      if (stat == 0) allocate (self%last(below:above), stat=stat)
       if (stat /= 0) return
       self%first = nowhere
       self%last = -nowhere
    end subroutine reserve_sources
 
    !> Allocated bytes
-   pure integer(8) function bytes(self)
+   pure integer(int64) function bytes(self)
       class(stage_t), intent(in) :: self
 
       bytes = 0
-      if (allocated(self%source)) bytes = bytes + 8*size(self%source, kind=8)
-      if (allocated(self%even)) bytes = bytes + 16*size(self%even, kind=8)
-      if (allocated(self%coarse)) bytes = bytes + 8*size(self%coarse, kind=8)
-      if (allocated(self%first)) bytes = bytes + 8*size(self%first, kind=8)
+      if (allocated(self%source)) bytes = bytes + 8*size(self%source, kind=int64)
+      if (allocated(self%even)) bytes = bytes + 16*size(self%even, kind=int64)
+      if (allocated(self%coarse)) bytes = bytes + 8*size(self%coarse, kind=int64)
+      if (allocated(self%first)) bytes = bytes + 8*size(self%first, kind=int64)
    end function bytes
 
    !> Where row j is stored
@@ -149,8 +153,8 @@ contains
 
       stored_row = j
       if (stage%mirror) stored_row = abs(j)
-      if (stored_row < stage%low(2) .or. stored_row > stage%high(2)) &
-         stored_row = stage%high(2) + 1
+      if (stored_row < stage%low(2)) stored_row = stage%high(2) + 1
+      stored_row = min(stored_row, stage%high(2) + 1)
    end function stored_row
 
    !> Columns of the first and the last source in rows j - reach .. j + reach

@@ -1,6 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The way up of multilevel multi-integration: deflection from ever finer grids, with local
 !> corrections where there are sources
+! Rows are passed by their first element
+! allow(assumed-size)
 module ehl_mlmi_up
    use ehl_kinds, only: dp
    use ehl_mlmi_stencil, only: reach

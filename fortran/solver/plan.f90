@@ -36,7 +36,10 @@ module ehl_plan
       !> Levels, and the one nested iteration starts on
       integer :: levels = 0, start = 0
       character(len=:), allocatable :: engine
-      type(cycle_options_t) :: cycle
+      !> Cycles of the smooth contact and of a time step
+      type(cycle_options_t) :: cycle, step_cycle
+      !> The same in letters
+      character(len=1) :: cycle_letter = "F", step_cycle_letter = "V"
       !> Algebraic error wanted as a share of the discretisation error
       real(dp) :: accuracy = 0.1_dp
       integer :: max_cycles = 30
@@ -95,21 +98,28 @@ contains
       call pick_surface(input, heights, plan, status)
    end subroutine make_plan
 
-   !> Kind of cycle
+   !> Kind of cycle, for the smooth contact and for time steps
    subroutine pick_cycle(input, plan)
       type(case_t), intent(in) :: input
       type(plan_t), intent(inout) :: plan
 
-      select case (input%solver%cycle)
-      case ("V")
-         plan%cycle%gamma = 1
-      case ("F")
-         plan%cycle%gamma = 1
-         plan%cycle%full = .true.
-      case default
-         plan%cycle%gamma = 2
-      end select
+      ! a time step begins close to its solution, so that the cheapest cycle wins
+      if (input%solver%cycle /= "auto") then
+         plan%cycle_letter = input%solver%cycle(1:1)
+         plan%step_cycle_letter = plan%cycle_letter
+      end if
+      plan%cycle = cycle_of(plan%cycle_letter)
+      plan%step_cycle = cycle_of(plan%step_cycle_letter)
    end subroutine pick_cycle
+
+   !> Options of a kind of cycle
+   pure function cycle_of(letter) result(options)
+      character(len=1), intent(in) :: letter
+      type(cycle_options_t) :: options
+
+      options%gamma = merge(2, 1, letter == "W")
+      options%full = letter == "F"
+   end function cycle_of
 
    !> Half or whole domain, levels, start of the nested iteration
    subroutine pick_grids(input, plan, status)

@@ -50,6 +50,9 @@ contains
          text = text//"domain     the whole of it is solved"//new_line("a")
       end if
       text = text//"deflection "//plan%engine//", threads "//to_text(plan%threads)//new_line("a")
+      text = text//"cycles     "//plan%cycle_letter//"(2,1)"
+      if (allocated(plan%surface)) text = text//", time steps "//plan%step_cycle_letter//"(2,1)"
+      text = text//new_line("a")
       if (plan%target_error > 0.0_dp) then
          write (line, "(a,es8.1)") "stop       at the first grid whose relative error of H_c is below ", plan%target_error
       else

@@ -202,6 +202,7 @@ contains
       do k = 1, n
          call self%hierarchy%levels(k)%set_transient(self%plan%narrow, self%transient%time_step)
       end do
+      self%hierarchy%options = self%plan%step_cycle
       self%marching = .true.
    end subroutine begin_march
 

@@ -2,6 +2,7 @@
 !> Deflection engines: against each other, the analytic solution, and themselves
 module test_deflection
    use check, only: is_true, is_close, is_equal, has_text
+   use, intrinsic :: iso_fortran_env, only: int64
    use ehl_kinds, only: dp, pi
    use ehl_grid, only: grid_t, new_grid
    use ehl_status, only: status_t, ehl_bad_input
@@ -13,9 +14,9 @@ module test_deflection
    public :: run_deflection
 
    !> Kinds of pressure
-   integer, parameter :: hertz = 1, inlet = 2, random = 3, block = 4
+   integer, parameter :: hertz = 1, inlet = 2, random = 3, patch = 4
    character(len=*), parameter :: kind_name(4) = [character(len=6) :: &
-      "Hertz", "inlet", "random", "block"]
+      "Hertz", "inlet", "random", "patch"]
 
 contains
 
@@ -58,27 +59,27 @@ contains
    !> in each cell errs most at the edge of the contact, where its slope is infinite: by 7.7e-4
    !> on 257 x 257, with order 1.4; well inside by a tenth of that, with order 2.
    subroutine engines_give_hertz()
-      real(dp) :: error(2), inside(2)
+      real(dp) :: worst(2), inside(2)
       integer :: e, n
 
       do e = 1, 2
          do n = 1, 2
-            call hertz_error(trim(deflection_engines(e)), 64*2**n + 1, error(n), inside(n))
+            call hertz_error(trim(deflection_engines(e)), 64*2**n + 1, worst(n), inside(n))
          end do
-         call is_close(error(2), 7.7e-4_dp, 0.2e-4_dp, deflection_engines(e)//": Hertz")
-         call is_true(error(2) < 0.4_dp*error(1), deflection_engines(e)//": Hertz converges")
+         call is_close(worst(2), 7.7e-4_dp, 0.2e-4_dp, deflection_engines(e)//": Hertz")
+         call is_true(worst(2) < 0.4_dp*worst(1), deflection_engines(e)//": Hertz converges")
          call is_true(inside(2) < 1.0e-4_dp, deflection_engines(e)//": Hertz, inside")
          call is_true(inside(2) < 0.3_dp*inside(1), deflection_engines(e)//": Hertz, order 2")
       end do
-      call hertz_error("direct", 65, error(1), inside(1))
-      call is_close(error(1), 5.0e-3_dp, 0.1e-3_dp, "direct: Hertz")
+      call hertz_error("direct", 65, worst(1), inside(1))
+      call is_close(worst(1), 5.0e-3_dp, 0.1e-3_dp, "direct: Hertz")
    end subroutine engines_give_hertz
 
    !> Largest error of the Hertz deflection, and that for r < 1/2
-   subroutine hertz_error(engine, points, error, inside)
+   subroutine hertz_error(engine, points, worst, inside)
       character(len=*), intent(in) :: engine
       integer, intent(in) :: points
-      real(dp), intent(out) :: error, inside
+      real(dp), intent(out) :: worst, inside
       type(grid_t) :: grid
       real(dp), allocatable :: p(:, :), w(:, :)
       real(dp) :: r, exact
@@ -87,7 +88,7 @@ contains
       grid = new_grid(points, -2.5_dp, 1.5_dp, 2.0_dp, .true.)
       call press(hertz, grid, p)
       call deflect(engine, grid, p, 1.0e-5_dp, 1, w)
-      error = 0.0_dp
+      worst = 0.0_dp
       inside = 0.0_dp
       do j = 1, grid%ny
          do i = 1, grid%nx
@@ -97,7 +98,7 @@ contains
             else
                exact = ((2.0_dp - r**2)*asin(1.0_dp/r) + sqrt(r**2 - 1.0_dp))/pi
             end if
-            error = max(error, abs(w(i, j) - exact))
+            worst = max(worst, abs(w(i, j) - exact))
             if (r < 0.5_dp) inside = max(inside, abs(w(i, j) - exact))
          end do
       end do
@@ -119,15 +120,15 @@ contains
    subroutine mlmi_is_direct()
       type(grid_t) :: grid
       real(dp), parameter :: accuracy(4) = [1.0e-3_dp, 2.0e-5_dp, 1.0e-7_dp, 1.0e-10_dp]
-      integer :: g, kind, a
+      integer :: g, which, a
 
       do g = 1, 7
          grid = some_grid(g)
-         do kind = hertz, block
+         do which = hertz, patch
             do a = 1, size(accuracy)
-               call is_true(difference("mlmi", grid, kind, accuracy(a)) &
+               call is_true(difference("mlmi", grid, which, accuracy(a)) &
                             < accuracy(a), "mlmi is direct on "//named(grid)//", " &
-                            //trim(kind_name(kind))//" pressure")
+                            //trim(kind_name(which))//" pressure")
             end do
          end do
       end do
@@ -137,21 +138,21 @@ contains
    subroutine folded_is_whole()
       type(grid_t) :: half, whole
       real(dp), allocatable :: p(:, :), p_whole(:, :), w(:, :), w_whole(:, :)
-      integer :: e, kind, n
+      integer :: e, which, n
 
       half = new_grid(129, -2.5_dp, 1.5_dp, 1.7_dp, .true.)
       whole = new_grid(129, -2.5_dp, 1.5_dp, 1.7_dp, .false.)
       n = half%ny
       allocate (p_whole(whole%nx, whole%ny))
       do e = 1, size(deflection_engines)
-         do kind = hertz, random
-            call press(kind, half, p)
+         do which = hertz, random
+            call press(which, half, p)
             p_whole(:, n:) = p
             p_whole(:, :n) = p(:, n:1:-1)
             call deflect(trim(deflection_engines(e)), half, p, 1.0e-5_dp, 1, w)
             call deflect(trim(deflection_engines(e)), whole, p_whole, 1.0e-5_dp, 1, w_whole)
             call is_true(maxval(abs(w - w_whole(:, n:))) < 1.0e-13_dp*maxval(w), &
-                         deflection_engines(e)//": folded is whole, "//trim(kind_name(kind)))
+                         deflection_engines(e)//": folded is whole, "//trim(kind_name(which)))
          end do
       end do
    end subroutine folded_is_whole
@@ -194,7 +195,7 @@ contains
          call press(random, grid, p)
          allocate (w, mold=p)
          call engine%apply(p, w)
-         call press(block, grid, p)
+         call press(patch, grid, p)
          call engine%apply(p, w)
          call deflect(trim(deflection_engines(e)), grid, p, 1.0e-5_dp, 1, fresh)
          call is_true(all(abs(w - fresh) <= 0.0_dp), deflection_engines(e)//": no trace of before")
@@ -227,7 +228,7 @@ contains
       class(deflection_t), allocatable :: engine
       type(status_t) :: status
       type(grid_t) :: grid
-      integer(8) :: bytes(2)
+      integer(int64) :: bytes(2)
       integer :: e, n
 
       do e = 1, 2
@@ -240,7 +241,7 @@ contains
          end do
          call is_true(bytes(2) < 4.5_dp*bytes(1) .and. bytes(2) > 3.0_dp*bytes(1), &
                       deflection_engines(e)//": memory is linear")
-         call is_true(bytes(2) < 6*8_8*grid%nx*grid%ny, deflection_engines(e)//": memory")
+         call is_true(bytes(2) < 6*8*grid%nx*grid%ny, deflection_engines(e)//": memory")
       end do
    end subroutine memory_is_linear
 
@@ -261,14 +262,14 @@ contains
    end subroutine bad_requests_are_refused
 
    !> Largest difference of an engine from the direct sum, relative to the largest deflection
-   real(dp) function difference(engine, grid, kind, accuracy)
+   real(dp) function difference(engine, grid, which, accuracy)
       character(len=*), intent(in) :: engine
       type(grid_t), intent(in) :: grid
-      integer, intent(in) :: kind
+      integer, intent(in) :: which
       real(dp), intent(in) :: accuracy
       real(dp), allocatable :: p(:, :), w(:, :), direct(:, :)
 
-      call press(kind, grid, p)
+      call press(which, grid, p)
       call deflect("direct", grid, p, 0.0_dp, 1, direct)
       call deflect(engine, grid, p, accuracy, 1, w)
       difference = maxval(abs(w - direct))/maxval(abs(direct))
@@ -296,8 +297,8 @@ contains
    end subroutine deflect
 
    !> A pressure p of some kind
-   subroutine press(kind, grid, p)
-      integer, intent(in) :: kind
+   subroutine press(which, grid, p)
+      integer, intent(in) :: which
       type(grid_t), intent(in) :: grid
       real(dp), allocatable, intent(out) :: p(:, :)
       real(dp) :: r, seed
@@ -309,7 +310,7 @@ contains
          do i = 1, grid%nx
             r = hypot(grid%x(i), grid%y(j))
             seed = modulo(seed*997.0_dp + 0.1234567_dp, 1.0_dp)
-            select case (kind)
+            select case (which)
             case (hertz)
                p(i, j) = sqrt(max(0.0_dp, 1.0_dp - r**2))
             case (inlet)
@@ -319,8 +320,9 @@ contains
                p(i, j) = seed
             case default
                p(i, j) = 0.0_dp
-               if (abs(grid%x(i) - 0.3_dp) < 0.6_dp .and. abs(grid%y(j)) < 0.7_dp) &
+               if (abs(grid%x(i) - 0.3_dp) < 0.6_dp .and. abs(grid%y(j)) < 0.7_dp) then
                   p(i, j) = 0.5_dp + seed
+               end if
             end select
          end do
       end do
