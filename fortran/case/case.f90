@@ -110,6 +110,9 @@ module ehl_case
       integer :: max_periods = 0
       !> whether nothing is solved before the roughness comes near the contact, default .true.
       logical :: skip_start = .true.
+      !> whether the march is made on the next coarser grid too, for the grid error of the friction
+      !> ratio (an eighth more work), default .true.
+      logical :: estimate_error = .true.
       !> [-] exactly that many steps; 0 (default): until the friction is periodic
       integer :: steps = 0
    end type time_case_t

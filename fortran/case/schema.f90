@@ -185,6 +185,8 @@ contains
                             "most periods; 0: automatic")
          call self%logicals("time", "skip_start", t%skip_start, &
                             "solve nothing before the roughness comes near the contact")
+         call self%logicals("time", "estimate_error", t%estimate_error, &
+                            "march on the next coarser grid too, for the grid error of mu_ratio")
          call self%integers("time", "steps", t%steps, "[0, 10000000]", &
                             "exactly so many steps; 0: until the friction is known")
          call self%words("solver", "deflection", s%deflection, "mlmi|fft|direct", &

@@ -20,13 +20,13 @@ module ehl_checkpoint
 contains
 
    !> Write the state after a step; the file that is written is the one with the older state
-   subroutine write_checkpoint(folder, text, march, history, seconds, status)
+   subroutine write_checkpoint(folder, text, march, history, numbers, status)
       !> Folder, ending in '/', and the case that the state belongs to
       character(len=*), intent(in) :: folder, text
       type(transient_t), intent(in) :: march
       type(table_t), intent(in) :: history
-      !> Seconds spent on the steps
-      real(dp), intent(in) :: seconds
+      !> Seconds spent on the steps, mean friction ratio of the coarser run
+      real(dp), intent(in) :: numbers(2)
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: path
       character(len=256) :: reason
@@ -40,7 +40,7 @@ contains
             form="unformatted", iostat=stat, iomsg=reason)
       if (stat == 0) write (lun, iostat=stat, iomsg=reason) magic, march%step, len(text), text, &
          shape(march%mass), march%skipped, march%time, march%time_step, march%residual, march%cycles, &
-         march%total_cycles, march%h00_before, march%friction_smooth, seconds, march%mass, march%p_before, &
+         march%total_cycles, march%h00_before, march%friction_smooth, numbers, march%mass, march%p_before, &
          march%mean%n, march%mean%values(:march%mean%n), march%mean%film(:march%mean%n), &
          march%mean%roughness(:march%mean%n), shape(rows), rows
       if (stat == 0) close (lun, iostat=stat, iomsg=reason)
@@ -57,11 +57,11 @@ contains
 
    !> Read the newest good state of a case into a march that has been started; `found` tells whether
    !> there was one. A checkpoint of another case is an error.
-   subroutine read_checkpoint(folder, text, march, history, seconds, found, status)
+   subroutine read_checkpoint(folder, text, march, history, numbers, found, status)
       character(len=*), intent(in) :: folder, text
       type(transient_t), intent(inout) :: march
       type(table_t), intent(inout) :: history
-      real(dp), intent(inout) :: seconds
+      real(dp), intent(out) :: numbers(2)
       logical, intent(out) :: found
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: path, their_text
@@ -69,6 +69,7 @@ contains
       real(dp), allocatable :: rows(:, :)
       integer :: lun, stat, length, step, dims(3), shape_rows(2), i
 
+      numbers = 0.0_dp
       found = newest(folder) > 0
       if (.not. found) return
       path = folder//names(newest(folder))
@@ -85,7 +86,7 @@ contains
       end if
       if (stat == 0 .and. any(dims /= shape(march%mass))) stat = 1
       if (stat == 0) read (lun, iostat=stat) march%skipped, march%time, march%time_step, march%residual, march%cycles, &
-         march%total_cycles, march%h00_before, march%friction_smooth, seconds, march%mass, march%p_before, march%mean%n
+         march%total_cycles, march%h00_before, march%friction_smooth, numbers, march%mass, march%p_before, march%mean%n
       if (stat == 0) then
          march%step = step
          call march%mean%reserve(march%mean%n)

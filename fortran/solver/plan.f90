@@ -56,6 +56,8 @@ module ehl_plan
       logical :: narrow = .true.
       !> Begin the march when the roughness comes near the contact
       logical :: skip_start = .true.
+      !> March on the next coarser grid too, for the grid error of the friction ratio
+      logical :: coarse_run = .false.
       !> Relative change of the mean friction ratio at which to stop, most periods, exact steps
       real(dp) :: time_tolerance = 1.0e-3_dp
       integer :: max_periods = 0, steps = 0
@@ -178,6 +180,7 @@ contains
       plan%time_tolerance = input%time%tolerance
       plan%max_periods = input%time%max_periods
       plan%steps = input%time%steps
+      plan%coarse_run = input%time%estimate_error .and. plan%steps == 0 .and. plan%levels > 2
       associate (s => input%surface)
          select case (s%kind)
          case ("harmonic")

@@ -143,23 +143,27 @@ contains
    end subroutine report_smooth
 
    !> The march in time: results null unless it came to a good end
-   subroutine report_march(record, plan, march, good, seconds)
+   subroutine report_march(record, plan, march, good, seconds, coarse_mean)
       type(record_t), intent(inout) :: record
       type(plan_t), intent(in) :: plan
       type(transient_t), intent(in) :: march
       logical, intent(in) :: good
       real(dp), intent(in) :: seconds
-      real(dp) :: mean, range(2), change, ratio
+      !> Mean friction ratio on the next coarser grid, 0 where it is not known
+      real(dp), intent(in) :: coarse_mean
+      real(dp) :: mean, range(2), change, ratio, grid
 
       mean = ieee_value(mean, ieee_quiet_nan)
       range = mean
       change = mean
       ratio = mean
+      grid = mean
       if (good) then
          mean = march%mean%mean(0.0_dp)
          range = march%mean%extremes()
          ratio = march%mean%amplitude_ratio()
          if (march%mean%has_change()) change = march%mean%change()
+         if (coarse_mean > 0.0_dp) grid = abs(mean - coarse_mean)/3.0_dp
       else
          if (march%mean%has_mean()) call record%set("last_mu_ratio_mean", march%mean%mean(0.0_dp))
          if (march%mean%n > 0) call record%set("last_mu_ratio", march%mean%values(march%mean%n))
@@ -167,7 +171,10 @@ contains
       call record%set("mu_ratio", mean)
       call record%set("mu_ratio_min", range(1))
       call record%set("mu_ratio_max", range(2))
-      call record%set("mu_ratio_error", change)
+      ! without the coarser run the error is not known, only a part of it
+      call record%set("mu_ratio_error", change + grid)
+      call record%set("mu_ratio_error_grid", grid)
+      call record%set("mu_ratio_error_stop", change)
       call record%set("amplitude_ratio", ratio)
       select type (surface => plan%surface)
       type is (harmonic_t)

@@ -40,12 +40,18 @@ module ehl_solver
       !> How the march in time stands
       integer, private :: outcome = outcome_running
       !> Seconds spent on time steps
-      real(dp), private :: step_seconds = 0.0_dp
+      real(dp), private :: step_seconds = 0.0_dp, step_seconds_coarse = 0.0_dp
       !> The case as text, but for the threads, which change no result
       character(len=:), allocatable, private :: text
       !> Heights of a map [m] that was given and not read
       real(dp), allocatable, private :: heights(:, :)
+      type(case_t), private :: input
+      !> The same run on the next coarser grid, for the grid error of the friction ratio
+      type(solver_t), pointer, private :: coarse => null()
+      !> Its mean friction ratio; 0: not known
+      real(dp), private :: coarse_mean = 0.0_dp
    contains
+      final :: close_solver
       procedure :: give_surface
       procedure :: save_state
       procedure :: resume
@@ -80,6 +86,7 @@ contains
 
       type(case_t) :: serial
 
+      self%input = input
       serial = input
       serial%solver%threads = 1
       self%text = case_text(serial)
@@ -117,7 +124,7 @@ contains
       type(status_t), intent(inout) :: status
 
       if (self%steps_made() == 0) return
-      call write_checkpoint(folder, self%text, self%transient, self%history, self%step_seconds, status)
+      call write_checkpoint(folder, self%text, self%transient, self%history, [self%step_seconds, self%coarse_mean], status)
    end subroutine save_state
 
    !> Go on from the newest checkpoint in a folder, after start and in place of the first advance. The
@@ -127,6 +134,7 @@ contains
       character(len=*), intent(in) :: folder
       logical, intent(out) :: found
       type(status_t), intent(inout) :: status
+      real(dp) :: numbers(2)
 
       found = .false.
       do while (.not. self%marching .and. .not. self%done())
@@ -134,8 +142,11 @@ contains
          if (status%failed()) return
       end do
       if (.not. self%marching) return
-      call read_checkpoint(folder, self%text, self%transient, self%history, self%step_seconds, found, status)
+      call read_checkpoint(folder, self%text, self%transient, self%history, numbers, found, status)
       if (status%failed() .or. .not. found) return
+      self%step_seconds = numbers(1)
+      self%coarse_mean = numbers(2)
+      if (associated(self%coarse)) deallocate (self%coarse)
       call self%transient%restore(self%hierarchy%levels(self%steady%n), self%plan%surface)
       self%outcome = judge_march(self)
    end subroutine resume
@@ -153,7 +164,9 @@ contains
       type(status_t), intent(inout) :: status
 
       if (self%done()) return
-      if (self%marching) then
+      if (associated(self%coarse)) then
+         call advance_coarse(self, status)
+      else if (self%marching) then
          call advance_step(self)
       else
          call advance_cycle(self, status)
@@ -204,7 +217,47 @@ contains
       end do
       self%hierarchy%options = self%plan%step_cycle
       self%marching = .true.
+      if (self%plan%coarse_run) call begin_coarse(self, status)
    end subroutine begin_march
+
+   !> Start the run on the next coarser grid, with the same roughness
+   subroutine begin_coarse(self, status)
+      type(solver_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+      type(case_t) :: input
+
+      input = self%input
+      input%grid%points = (self%grid%nx + 1)/2
+      input%grid%target_error = 0.0_dp
+      input%time%estimate_error = .false.
+      select type (waviness => self%plan%surface)
+      type is (harmonic_t)
+         input%surface%amplitude = waviness%amplitude
+         input%surface%amplitude_given = .true.
+      end select
+      allocate (self%coarse)
+      call self%coarse%give_surface(self%heights)
+      call self%coarse%start(input, status)
+   end subroutine begin_coarse
+
+   !> One step of the coarser run; at its end its mean is kept and the run freed. A coarser run that
+   !> does not converge leaves the grid error unknown.
+   subroutine advance_coarse(self, status)
+      type(solver_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+
+      call self%coarse%advance(status)
+      if (.not. self%coarse%done()) return
+      if (self%coarse%converged()) self%coarse_mean = self%coarse%transient%mean%mean(0.0_dp)
+      self%step_seconds_coarse = self%coarse%step_seconds
+      deallocate (self%coarse)
+   end subroutine advance_coarse
+
+   !> Free what a solver points to
+   impure elemental subroutine close_solver(self)
+      type(solver_t), intent(inout) :: self
+      if (associated(self%coarse)) deallocate (self%coarse)
+   end subroutine close_solver
 
    !> One time step
    subroutine advance_step(self)
@@ -291,7 +344,9 @@ contains
       class(solver_t), intent(in) :: self
       character(len=:), allocatable :: text
 
-      if (self%marching) then
+      if (associated(self%coarse)) then
+         text = "for the error, on the next coarser grid: "//self%coarse%progress()
+      else if (self%marching) then
          text = march_line(self%plan, self%transient, self%stand(), self%step_seconds)
       else
          text = cycle_line(self%grid, self%steady%results(self%level()), self%stand())
@@ -320,7 +375,8 @@ contains
       good = self%marching .or. self%steady%outcome == outcome_converged .or. self%steady%outcome == outcome_target_missed
       call report_scene(record, self%plan, self%grid)
       call report_smooth(record, self%plan, self%steady, self%level(), good)
-      if (self%marching) call report_march(record, self%plan, self%transient, self%converged(), self%step_seconds)
+      if (self%marching) call report_march(record, self%plan, self%transient, self%converged(), &
+                                              self%step_seconds, self%coarse_mean)
       call record%set("bytes", real(self%hierarchy%bytes(), dp))
    end function summary
 
