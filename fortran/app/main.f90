@@ -48,8 +48,8 @@ program ehl
    call end_if_failed()
    if (note /= "") call say("note: " // note)
    call say("results: " // arguments%folder)
-   if (stop_wanted() .and. .not. solver%converged()) stop exit_interrupted, quiet=.true.
    if (solver%converged()) stop exit_ok, quiet=.true.
+   if (stop_wanted()) stop exit_interrupted, quiet=.true.
    stop exit_failed, quiet=.true.
 
 contains

@@ -6,7 +6,7 @@ module ehl_signals
    private
    public :: watch_signals, stop_wanted
 
-   logical, volatile, save :: wanted = .false.
+   logical, volatile :: wanted = .false.
 
    integer(c_int), parameter :: sigint = 2, sigterm = 15
 

@@ -3,6 +3,7 @@
 module ehl_files
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, &
                                           c_ptr
+   use, intrinsic :: iso_fortran_env, only: int64
    use ehl_status, only: ehl_file, status_t
    use ehl_text, only: to_text
    implicit none (type, external)
@@ -74,7 +75,7 @@ contains
       type(status_t), intent(inout) :: status
       character(len=256) :: reason
       integer :: lun, stat
-      integer(8) :: length
+      integer(int64) :: length
 
       text = ""
       if (.not. file_exists(path)) then
@@ -103,7 +104,7 @@ contains
             if (stat /= 0) call status%fail(ehl_file, path // ": error: cannot read: " // trim(reason))
          end if
       end if
-      close (lun, iostat=stat)
+      close (lun)
    end subroutine read_text
 
    !> Write a text to a file, replacing what was there

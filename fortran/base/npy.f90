@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Arrays of real(dp) as .npy files (NumPy format 1.0), the file that both drivers share
 module ehl_npy
-   use, intrinsic :: iso_fortran_env, only: int32, int8
+   use, intrinsic :: iso_fortran_env, only: int32, int64, int8
    use ehl_kinds, only: dp
    use ehl_status, only: ehl_file, status_t
    use ehl_text, only: newline, to_text
@@ -82,7 +82,7 @@ contains
       character(len=256) :: reason
       real(dp), allocatable :: rows(:, :)
       integer :: lun, stat, length, n(2)
-      integer(8) :: bytes
+      integer(int64) :: bytes
 
       allocate (values(0, 0))
       head = ""
@@ -107,7 +107,7 @@ contains
             if (stat == 0) call read_header(head, n, problem)
          end if
       end if
-      if (problem == "" .and. 8*int(n(1), 8)*n(2) > bytes) problem = "it is shorter than it says"
+      if (problem == "" .and. 8*int(n(1), int64)*n(2) > bytes) problem = "it is shorter than it says"
       if (problem == "") then
          deallocate (values)
          if (index(head, "'fortran_order': True") > 0) then
@@ -121,7 +121,7 @@ contains
          if (stat /= 0) problem = "it is shorter than it says"
       end if
       if (problem /= "") call status%fail(ehl_file, path // ": cannot read the array: " // problem)
-      close (lun, iostat=stat)
+      close (lun)
    end subroutine read_npy
 
    !> Shape of the array that a header describes; problem becomes empty when it can be read

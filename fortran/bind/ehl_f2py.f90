@@ -1,6 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> All that Python can see, in the small part of Fortran that f2py reads. No arithmetic here:
-!> every routine hands its arguments on, and ends in a status and a message.
+!> every routine hands its arguments on, and ends in a status and a message. Only the long
+!> routines release Python's lock (threadsafe): gfortran keeps the lengths of text that functions
+!> return in static memory, so that routines that make text must not run side by side.
 module ehl_f2py
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use ehl_case, only: case_t
@@ -32,33 +34,38 @@ contains
       character(len=32768), intent(out) :: resolved
       integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message
-      !f2py threadsafe
       type(case_t), target :: input
       type(status_t) :: status
 
       resolved = ""
-      call read_any(text, origin, options, from_file, input, status)
+      if (from_file /= 0) then
+         call read_case_file(origin, options, input, status)
+      else
+         call read_case(text, origin, options, input, status)
+      end if
       if (.not. status%failed()) resolved = case_text(input)
       call report(status, stat, message)
    end subroutine resolve
 
-   !> Start a solver on a case; see resolve
-   subroutine open_case(text, origin, options, from_file, handle, stat, message)
-      character(len=*), intent(in) :: text, origin, options
-      integer(c_int), intent(in) :: from_file
+   !> Start a solver on the text of a case; with has_heights on the surface heights(nx, ny) [m]
+   !> in place of a file
+   subroutine open_case(text, origin, has_heights, nx, ny, heights, handle, stat, message)
+      character(len=*), intent(in) :: text, origin
+      integer(c_int), intent(in) :: has_heights, nx, ny
+      real(c_double), intent(inout) :: heights(nx, ny)
       integer(c_int), intent(out) :: handle
       integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message
-      !f2py threadsafe
       type(case_t), target :: input
       type(run_t), pointer :: run
       type(status_t) :: status
 
       handle = 0
-      call read_any(text, origin, options, from_file, input, status)
+      call read_case(text, origin, "", input, status)
       if (.not. status%failed()) call new_handle(handle, run, status)
       if (.not. status%failed()) then
          run%input = input
+         if (has_heights /= 0) call run%solver%give_surface(heights)
          call run%solver%start(input, status)
          if (status%failed()) call drop_handle(handle)
       end if
@@ -229,7 +236,6 @@ contains
       character(len=4096), intent(out) :: note
       integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message
-      !f2py threadsafe
       type(run_t), pointer :: run
       type(status_t) :: status
       character(len=:), allocatable :: text
@@ -328,20 +334,6 @@ contains
                                 hertz_pressure, 1.0_c_double, 1.0_c_double)
       call lubricant%density(p, values, slopes)
    end subroutine density
-
-   !> Case from a file or from text
-   subroutine read_any(text, origin, options, from_file, input, status)
-      character(len=*), intent(in) :: text, origin, options
-      integer(c_int), intent(in) :: from_file
-      type(case_t), intent(out), target :: input
-      type(status_t), intent(inout) :: status
-
-      if (from_file /= 0) then
-         call read_case_file(origin, options, input, status)
-      else
-         call read_case(text, origin, options, input, status)
-      end if
-   end subroutine read_any
 
    !> Arrays must have the shape of the grid
    subroutine check_shape(run, nx, ny, status)

@@ -25,7 +25,7 @@ module ehl_handles
    end type slot_t
 
    integer, parameter :: places = 64
-   type(slot_t), save :: table(places)
+   type(slot_t) :: table(places)
 
 contains
 

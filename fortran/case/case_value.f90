@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> From a piece of text to the value of one key, or a message that says why not
 module ehl_case_value
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use ehl_case, only: path_length, word_length
    use ehl_kinds, only: dp
    use ehl_scanner, only: is_real_number, is_whole_number, token_atom, token_open_string, &
@@ -13,6 +12,9 @@ module ehl_case_value
    implicit none (type, external)
    private
    public :: set_value
+
+   !> Largest power of ten that is tried to be read: beyond it reading itself may overflow
+   integer, parameter :: maxexponent_10 = range(1.0_dp) - 1
 
 contains
 
@@ -113,9 +115,13 @@ contains
          if (is_not_finite(token%text)) problem = "not a finite number"
          return
       end if
-      read (token%text, *, iostat=stat) value
-      if (stat /= 0 .or. .not. ieee_is_finite(value)) then
+      if (decimal_exponent(token%text) > maxexponent_10) then
          problem = "too large for a number"
+         return
+      end if
+      read (token%text, *, iostat=stat) value
+      if (stat /= 0) then
+         problem = "cannot be read as a number"
       else if (key%kind == kind_integer .and. .not. is_whole_number(token%text)) then
          problem = "not a whole number"
       else if (.not. key%allows(value)) then
@@ -126,6 +132,27 @@ contains
          key%real_value = value
       end if
    end subroutine set_number
+
+   !> Upper bound of the power of ten of a number: digits before the point, and the exponent
+   pure integer function decimal_exponent(text)
+      character(len=*), intent(in) :: text
+      integer :: mark, stat, power, first
+
+      mark = scan(text, "eEdD")
+      decimal_exponent = scan(text, ".eEdD") - 1
+      if (decimal_exponent < 0) decimal_exponent = len(text)
+      if (mark == 0) return
+      first = mark + 1
+      if (len(text) - first > 8) then
+         ! So long an exponent is out of range whatever it is, unless it is negative
+         power = 10**8
+         if (text(first:first) == "-") power = -10**8
+      else
+         read (text(first:), *, iostat=stat) power
+         if (stat /= 0) power = 10**8
+      end if
+      decimal_exponent = decimal_exponent + power
+   end function decimal_exponent
 
    !> Words that other programs write for nan and inf
    pure logical function is_not_finite(text)

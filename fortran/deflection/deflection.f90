@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Elastic deflection of the half-space: what every engine offers
 module ehl_deflection
+   use, intrinsic :: iso_fortran_env, only: int64
    use ehl_kinds, only: dp
    use ehl_grid, only: grid_t
    use ehl_status, only: status_t
@@ -24,6 +25,7 @@ module ehl_deflection
       !> Prepare for a grid
       subroutine setup_i(self, grid, accuracy, threads, status)
          import :: deflection_t, grid_t, dp, status_t
+         implicit none (type, external)
          class(deflection_t), intent(inout) :: self
          type(grid_t), intent(in) :: grid
          !> Largest error allowed, relative to the largest deflection; engines that are exact
@@ -37,14 +39,16 @@ module ehl_deflection
       !> W = K P over the whole contact (mirror image included on a folded grid)
       subroutine apply_i(self, p, w)
          import :: deflection_t, dp
+         implicit none (type, external)
          class(deflection_t), intent(inout) :: self
          real(dp), intent(in) :: p(:, :)
          real(dp), intent(out) :: w(:, :)
       end subroutine apply_i
 
       !> Allocated bytes
-      pure integer(8) function bytes_i(self)
-         import :: deflection_t
+      pure integer(int64) function bytes_i(self)
+         import :: deflection_t, int64
+         implicit none (type, external)
          class(deflection_t), intent(in) :: self
       end function bytes_i
    end interface

@@ -17,6 +17,8 @@ module ehl_mlmi_stencil
 
    !> Corrections are looked for this far from the source, in mesh sizes
    integer, parameter :: reach = 48
+   !> Fewest values, those at offsets along >= 0 counted, that are kept at an offset across
+   integer, parameter :: few = 3
 
    !> Local corrections of one halving, even in both offsets. "Along" is the axis that is
    !> halved, "across" the other one.
@@ -121,14 +123,15 @@ contains
    end subroutine make
 
    !> The wanted values and those nearer to the axis across: for every offset across all
-   !> even and all odd offsets along up to the largest wanted, as the loops want them
+   !> even and all odd offsets along up to the largest wanted, as the loops want them. Few
+   !> values at a large offset across are not worth the sum over two more rows.
    pure subroutine choose(wanted, kept)
       logical, intent(in) :: wanted(0:, 0:)
       logical, intent(out) :: kept(0:, 0:)
       integer :: b, width, parity
 
       kept = .false.
-      width = findloc(any(wanted, dim=1), .true., dim=1, back=.true.) - 1
+      width = findloc(count(wanted, dim=1) >= few, .true., dim=1, back=.true.) - 1
       do b = 0, width
          do parity = 0, 1
             kept(parity:parity + 2*(findloc(wanted(parity::2, b), .true., dim=1, back=.true.) &

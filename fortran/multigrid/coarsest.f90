@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Newton solution of the coarsest level, force balance included: the only place where H00 changes
 module ehl_coarsest
+   use, intrinsic :: iso_fortran_env, only: int64
    use ehl_film, only: pressure_sum, reynolds_operator, update_coefficients
    use ehl_grid, only: grid_t
    use ehl_kernel, only: kernel_coefficient
@@ -36,7 +37,6 @@ module ehl_coarsest
    contains
       procedure :: setup
       procedure :: solve
-      procedure, private :: film
       procedure, private :: find_residual
       procedure, private :: move
       procedure :: bytes
@@ -80,9 +80,9 @@ contains
    end subroutine setup
 
    !> Allocated bytes
-   pure integer(8) function bytes(self)
+   pure integer(int64) function bytes(self)
       class(coarsest_t), intent(in) :: self
-      bytes = 8*(size(self%k, kind=8) + 2*size(self%lu, kind=8))
+      bytes = 8*(size(self%k, kind=int64) + 2*size(self%lu, kind=int64))
    end function bytes
 
    !> Number of the unknown at node (i, j)
@@ -104,7 +104,7 @@ contains
       integer :: step
       logical :: fresh
 
-      call self%film(level)
+      call refresh_film(level)
       call self%find_residual(level, norm_start)
       norm = norm_start
       do step = 1, max_steps
@@ -123,7 +123,7 @@ contains
             ! the old factors no longer serve: take the step back and factor anew
             level%p = self%p_before
             level%h00 = self%h00_before
-            call self%film(level)
+            call refresh_film(level)
             call self%find_residual(level, norm)
             self%factored = .false.
          end if
@@ -151,7 +151,7 @@ contains
             end do
          end do
          level%h00 = self%h00_before + damping*self%direction(self%n + 1)
-         call self%film(level)
+         call refresh_film(level)
          if (minval(level%h) > 0.0_dp) exit
          damping = 0.5_dp*damping
       end do
@@ -159,14 +159,13 @@ contains
    end subroutine move
 
    !> Film and coefficients for the present pressure
-   subroutine film(self, level)
-      class(coarsest_t), intent(in) :: self
+   subroutine refresh_film(level)
       type(level_t), intent(inout) :: level
 
       call level%engine%apply(level%p, level%w)
       level%h = level%h00 + level%geometry + level%w
       call update_coefficients(level)
-   end subroutine film
+   end subroutine refresh_film
 
    !> Right-hand side of the Newton step, and its norm; cavitated nodes count only when they
    !> ask for pressure
@@ -181,7 +180,7 @@ contains
          do i = 2, level%grid%nx - 1
             u = unknown(self, level%grid%nx, i, j)
             self%residual(u) = level%rhs(i, j) - level%residual(i, j)
-            if (level%p(i, j) < 0.0_dp .or. (level%p(i, j) == 0.0_dp .and. self%residual(u) >= 0.0_dp)) then
+            if (level%p(i, j) < 0.0_dp .or. (level%p(i, j) <= 0.0_dp .and. self%residual(u) >= 0.0_dp)) then
                self%cavitated(u) = .true.
                self%residual(u) = -level%p(i, j)
             else
@@ -197,11 +196,10 @@ contains
    subroutine assemble(self, level)
       class(coarsest_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
-      real(dp) :: rate(4), c(0:2), own, drop, direct
-      integer :: i, j, m, u, nx, at, nb(2, 4), below
+      real(dp) :: rate(8), c(0:2), own, drop, direct, excess
+      integer :: i, j, m, u, nx, at, nb(2, 8), neighbours
 
       nx = level%grid%nx
-      rate = 0.5_dp/[level%grid%hx**2, level%grid%hx**2, level%grid%hy**2, level%grid%hy**2]
       ! transposed, so that a row is contiguous
       self%jacobian = 0.0_dp
       do j = self%first, self%last
@@ -212,10 +210,13 @@ contains
                cycle
             end if
             at = i + (j - 1)*nx
-            below = merge(2, j - 1, j == 1)
-            nb = reshape([i + 1, j, i - 1, j, i, j + 1, i, below], [2, 4])
+            call find_couplings(level, i, j, neighbours, nb, rate, excess)
             own = 0.0_dp
-            do m = 1, 4
+            if (level%galerkin) then
+               own = -3.0_dp*excess*level%eps(i, j)/level%h(i, j)*level%p(i, j)
+               call add_pressure(i, j, -excess*level%eps(i, j)*(1.0_dp + level%gain(i, j)*level%p(i, j)))
+            end if
+            do m = 1, neighbours
                associate (e => level%eps(i, j), en => level%eps(nb(1, m), nb(2, m)), &
                           pn => level%p(nb(1, m), nb(2, m)))
                   drop = rate(m)*(pn - level%p(i, j))
@@ -262,6 +263,35 @@ contains
          self%jacobian(self%n + 1, u) = self%jacobian(self%n + 1, u) + value
       end subroutine add_film
    end subroutine assemble
+
+   !> Neighbours of node (i, j) in the Poiseuille term, their couplings per eps, and the node's excess
+   pure subroutine find_couplings(level, i, j, n, neighbour, rate, excess)
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: i, j
+      integer, intent(out) :: n, neighbour(2, 8)
+      real(dp), intent(out) :: rate(8), excess
+
+      rate = 0.0_dp
+      excess = 0.0_dp
+      neighbour(:, 1:4) = reshape([i + 1, j, i - 1, j, i, j + 1, i, merge(2, j - 1, j == 1)], [2, 4])
+      neighbour(:, 5:8) = reshape([i - 1, j + 1, i + 1, j + 1, i - 1, j - 1, i + 1, j - 1], [2, 4])
+      if (.not. level%galerkin) then
+         n = 4
+         rate(1:4) = 0.5_dp/[level%grid%hx**2, level%grid%hx**2, level%grid%hy**2, level%grid%hy**2]
+         return
+      end if
+      associate (a => level%poiseuille)
+         n = merge(8, 6, j > 1)
+         rate(1:3) = [a%east(i, j), a%east(i - 1, j), a%north(i, j)]
+         rate(5:6) = [a%north_west(i, j), a%north_east(i, j)]
+         if (j > 1) then
+            rate(4) = a%north(i, j - 1)
+            rate(7:8) = [a%north_east(i - 1, j - 1), a%north_west(i + 1, j - 1)]
+         end if
+         rate = rate/level%cell(j)
+         excess = a%excess(i, j)/level%cell(j)
+      end associate
+   end subroutine find_couplings
 
    !> LU factors in place, partial pivoting
    pure subroutine factor(a, pivot)

@@ -1,8 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The grids of a multigrid solution, coarsest first
 module ehl_hierarchy
+   use, intrinsic :: iso_fortran_env, only: int64
+   use ehl_alcouffe, only: transfer_t
    use ehl_coarsest, only: coarsest_t
-   use ehl_cycle, only: cycle_options_t, fas_cycle
+   use ehl_cycle, only: coarsening_alcouffe, cycle_options_t, fas_cycle
    use ehl_deflection_factory, only: new_deflection
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
@@ -15,6 +17,8 @@ module ehl_hierarchy
 
    type :: hierarchy_t
       type(level_t), allocatable :: levels(:)
+      !> Operator-dependent transfer between each level and the next coarser one
+      type(transfer_t), allocatable :: transfers(:)
       type(coarsest_t) :: coarsest
       type(cycle_options_t) :: options
       !> Levels that have been set up
@@ -49,8 +53,8 @@ contains
       self%ready = 0
       self%engine = engine
       self%options = options
-      if (allocated(self%levels)) deallocate (self%levels)
-      allocate (self%levels(n), stat=stat)
+      if (allocated(self%levels)) deallocate (self%levels, self%transfers)
+      allocate (self%levels(n), self%transfers(n), stat=stat)
       if (stat /= 0) then
          call status%fail(ehl_no_memory, "no memory for the grid levels")
          return
@@ -82,6 +86,11 @@ contains
             call level%engine%setup(level%grid, deflection_accuracy(level%grid), level%threads, status)
             if (status%failed()) return
             call level%set_upstream(2)
+            if (k > 1) then
+               call self%levels(k - 1)%setup_galerkin(status)
+               call self%transfers(k)%setup(level%grid, self%levels(k - 1)%grid, level%threads, level%parallel, status)
+               if (status%failed()) return
+            end if
          end associate
          self%ready = k
       end do
@@ -98,7 +107,8 @@ contains
    subroutine run_cycle(self, n)
       class(hierarchy_t), intent(inout) :: self
       integer, intent(in) :: n
-      call fas_cycle(self%levels, n, self%coarsest, self%options)
+      self%levels(n)%galerkin = .false.
+      call fas_cycle(self%levels, self%transfers, n, self%coarsest, self%options)
    end subroutine run_cycle
 
    !> Drop what one cycle leaves for the next beyond the fields of its finest level
@@ -108,13 +118,13 @@ contains
    end subroutine forget
 
    !> Allocated bytes
-   pure integer(8) function bytes(self)
+   pure integer(int64) function bytes(self)
       class(hierarchy_t), intent(in) :: self
       integer :: k
 
       bytes = self%coarsest%bytes()
       do k = 1, self%ready
-         bytes = bytes + self%levels(k)%bytes() + self%levels(k)%engine%bytes()
+         bytes = bytes + self%levels(k)%bytes() + self%levels(k)%engine%bytes() + self%transfers(k)%bytes()
       end do
    end function bytes
 end module ehl_hierarchy

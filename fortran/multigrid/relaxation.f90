@@ -90,11 +90,15 @@ contains
       !> Response of rho H at nodes i, i-1, i-2 to a unit change at their columns -nr..nr
       real(dp) :: s(-nr:nr, 0:2)
       real(dp) :: east, west, north, south, rx, ry, c(0:2), r, pe, pw, pn, ps, q, row(-band_lower:band_upper)
+      !> East and west couplings per eps, change of the Poiseuille term with eps, the term of other rows
+      real(dp) :: re, rw, slope, other
       integer :: i, j, l, m, nx, below
 
       nx = level%grid%nx
       rx = 0.5_dp/level%grid%hx**2
       ry = 0.5_dp/level%grid%hy**2
+      re = rx
+      rw = rx
       do l = 1, lines
          j = j0 + 2*(l - 1)
          below = merge(2, j - 1, j == 1)
@@ -106,16 +110,30 @@ contains
             call respond(i)
             c = merge(level%wedge_first, level%wedge, i == 2)
             associate (p => level%p, h => level%h, e => level%eps, rho => level%rho, gain => level%gain)
-               east = rx*(e(i + 1, j) + e(i, j))
-               west = rx*(e(i - 1, j) + e(i, j))
-               north = ry*(e(i, j + 1) + e(i, j))
-               south = ry*(e(i, below) + e(i, j))
                pe = p(i + 1, j) - p(i, j)
                pw = p(i - 1, j) - p(i, j)
-               pn = p(i, j + 1) - p(i, j)
-               ps = p(i, below) - p(i, j)
-               r = level%rhs(i, j) - east*pe - west*pw - north*pn - south*ps &
-                   + c(0)*rho(i, j)*h(i, j) + c(1)*rho(i - 1, j)*h(i - 1, j)
+               if (level%galerkin) then
+                  call other_rows(level, i, j, q, slope, other)
+                  re = level%poiseuille%east(i, j)/level%cell(j)
+                  rw = level%poiseuille%east(i - 1, j)/level%cell(j)
+                  east = re*(e(i + 1, j) + e(i, j))
+                  west = rw*(e(i - 1, j) + e(i, j))
+                  q = q - (east + west)
+                  slope = e(i, j)*gain(i, j)*(re*pe + rw*pw + slope)
+                  r = level%rhs(i, j) - east*pe - west*pw - other &
+                      + c(0)*rho(i, j)*h(i, j) + c(1)*rho(i - 1, j)*h(i - 1, j)
+               else
+                  east = rx*(e(i + 1, j) + e(i, j))
+                  west = rx*(e(i - 1, j) + e(i, j))
+                  north = ry*(e(i, j + 1) + e(i, j))
+                  south = ry*(e(i, below) + e(i, j))
+                  pn = p(i, j + 1) - p(i, j)
+                  ps = p(i, below) - p(i, j)
+                  q = -(east + west + north + south)
+                  slope = e(i, j)*gain(i, j)*(rx*(pe + pw) + ry*(pn + ps))
+                  r = level%rhs(i, j) - east*pe - west*pw - north*pn - south*ps &
+                      + c(0)*rho(i, j)*h(i, j) + c(1)*rho(i - 1, j)*h(i - 1, j)
+               end if
                if (i > 2) r = r + c(2)*rho(i - 2, j)*h(i - 2, j)
                if (p(i, j) <= 0.0_dp .and. r >= 0.0_dp) then
                   ! cavitated, and content to stay so
@@ -125,13 +143,11 @@ contains
                   cycle
                end if
                row = 0.0_dp
-               q = -(east + west + north + south)
-               row(0) = q*(1.0_dp + 0.25_dp*dipole(l, i)) &
-                        + (1.0_dp - dipole(l, i))*e(i, j)*gain(i, j)*(rx*(pe + pw) + ry*(pn + ps))
+               row(0) = q*(1.0_dp + 0.25_dp*dipole(l, i)) + (1.0_dp - dipole(l, i))*slope
                row(1) = east*(1.0_dp + dipole(l, i + 1)) &
-                        + (1.0_dp - dipole(l, i + 1))*rx*e(i + 1, j)*gain(i + 1, j)*pe
+                        + (1.0_dp - dipole(l, i + 1))*re*e(i + 1, j)*gain(i + 1, j)*pe
                row(-1) = west*(1.0_dp + dipole(l, i - 1)) &
-                         + (1.0_dp - dipole(l, i - 1))*rx*e(i - 1, j)*gain(i - 1, j)*pw
+                         + (1.0_dp - dipole(l, i - 1))*rw*e(i - 1, j)*gain(i - 1, j)*pw
                row(2) = -0.25_dp*east*dipole(l, i + 2)
                row(-2) = -0.25_dp*west*dipole(l, i - 2)
             end associate
@@ -162,6 +178,42 @@ contains
          s(1, 0) = s(1, 0) - 0.25_dp*dipole(l, ii + 1)*level%stiffness(ii, j)
       end subroutine respond
    end subroutine assemble
+
+   !> Galerkin operator at node (i, j), the couplings to its own row apart: the sum of the couplings and the
+   !> excess, with a minus; the change of the term with eps at the node; the term itself
+   subroutine other_rows(level, i, j, q, slope, term)
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: i, j
+      real(dp), intent(out) :: q, slope, term
+      real(dp) :: inverse
+
+      inverse = 1.0_dp/level%cell(j)
+      q = -level%poiseuille%excess(i, j)*level%eps(i, j)*inverse
+      slope = -level%poiseuille%excess(i, j)*level%p(i, j)*inverse
+      term = q*level%p(i, j)
+      associate (a => level%poiseuille)
+         call add(a%north_west(i, j), i - 1, j + 1)
+         call add(a%north(i, j), i, j + 1)
+         call add(a%north_east(i, j), i + 1, j + 1)
+         if (j == 1) return
+         call add(a%north_east(i - 1, j - 1), i - 1, j - 1)
+         call add(a%north(i, j - 1), i, j - 1)
+         call add(a%north_west(i + 1, j - 1), i + 1, j - 1)
+      end associate
+
+   contains
+
+      subroutine add(o, ii, jj)
+         real(dp), intent(in) :: o
+         integer, intent(in) :: ii, jj
+         real(dp) :: t
+
+         t = inverse*o*(level%eps(ii, jj) + level%eps(i, j))
+         q = q - t
+         slope = slope + inverse*o*(level%p(ii, jj) - level%p(i, j))
+         term = term + t*(level%p(ii, jj) - level%p(i, j))
+      end subroutine add
+   end subroutine other_rows
 
    !> Band elimination without pivoting and back substitution, all lines side by side; the
    !> solution replaces d

@@ -36,6 +36,7 @@ contains
          do i = 1, level%grid%nx
             level%eps(i, j) = level%rho(i, j)*level%h(i, j)**3*exp(-log_eta(i))*level%inverse_speed
          end do
+         if (level%galerkin) level%eps(:, j) = level%scale(:, j)*level%eps(:, j)
          level%gain(:, j) = level%stiffness(:, j)/level%rho(:, j) - level%gain(:, j)
          level%stiffness(:, j) = level%stiffness(:, j)*level%h(:, j)
       end do
@@ -58,24 +59,70 @@ contains
          values(2:nx - 1) = 0.0_dp
          return
       end if
+      if (level%galerkin) then
+         call galerkin_row(level, j, values)
+         call subtract_wedge(level, j, values)
+         return
+      end if
       below = merge(2, j - 1, j == 1)
       rx = 0.5_dp/level%grid%hx**2
       ry = 0.5_dp/level%grid%hy**2
-      associate (p => level%p, h => level%h, e => level%eps, rho => level%rho, c => level%wedge, &
-                 f => level%wedge_first)
+      associate (p => level%p, e => level%eps)
          do i = 2, nx - 1
             values(i) = rx*((e(i + 1, j) + e(i, j))*(p(i + 1, j) - p(i, j)) &
                             + (e(i - 1, j) + e(i, j))*(p(i - 1, j) - p(i, j))) &
                         + ry*((e(i, j + 1) + e(i, j))*(p(i, j + 1) - p(i, j)) &
                               + (e(i, below) + e(i, j))*(p(i, below) - p(i, j)))
          end do
+      end associate
+      call subtract_wedge(level, j, values)
+   end subroutine reynolds_operator
+
+   !> Row j of the wedge (and squeeze) term
+   pure subroutine subtract_wedge(level, j, values)
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: j
+      real(dp), intent(inout) :: values(:)
+      integer :: i
+
+      associate (h => level%h, rho => level%rho, c => level%wedge, f => level%wedge_first)
          values(2) = values(2) - f(0)*rho(2, j)*h(2, j) - f(1)*rho(1, j)*h(1, j)
-         do i = 3, nx - 1
+         do i = 3, level%grid%nx - 1
             values(i) = values(i) - c(0)*rho(i, j)*h(i, j) - c(1)*rho(i - 1, j)*h(i - 1, j) &
                         - c(2)*rho(i - 2, j)*h(i - 2, j)
          end do
       end associate
-   end subroutine reynolds_operator
+   end subroutine subtract_wedge
+
+   !> Row j of the Poiseuille term by the Galerkin operator
+   pure subroutine galerkin_row(level, j, values)
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: j
+      real(dp), intent(inout) :: values(:)
+      real(dp) :: inverse
+      integer :: i
+
+      inverse = 1.0_dp/level%cell(j)
+      associate (p => level%p, e => level%eps, a => level%poiseuille)
+         do i = 2, level%grid%nx - 1
+            values(i) = a%east(i, j)*(e(i + 1, j) + e(i, j))*(p(i + 1, j) - p(i, j)) &
+                        + a%east(i - 1, j)*(e(i - 1, j) + e(i, j))*(p(i - 1, j) - p(i, j)) &
+                        + a%north_west(i, j)*(e(i - 1, j + 1) + e(i, j))*(p(i - 1, j + 1) - p(i, j)) &
+                        + a%north(i, j)*(e(i, j + 1) + e(i, j))*(p(i, j + 1) - p(i, j)) &
+                        + a%north_east(i, j)*(e(i + 1, j + 1) + e(i, j))*(p(i + 1, j + 1) - p(i, j)) &
+                        - a%excess(i, j)*e(i, j)*p(i, j)
+         end do
+         if (j > 1) then
+            do i = 2, level%grid%nx - 1
+               values(i) = values(i) &
+                           + a%north_east(i - 1, j - 1)*(e(i - 1, j - 1) + e(i, j))*(p(i - 1, j - 1) - p(i, j)) &
+                           + a%north(i, j - 1)*(e(i, j - 1) + e(i, j))*(p(i, j - 1) - p(i, j)) &
+                           + a%north_west(i + 1, j - 1)*(e(i + 1, j - 1) + e(i, j))*(p(i + 1, j - 1) - p(i, j))
+            end do
+         end if
+      end associate
+      values(2:level%grid%nx - 1) = inverse*values(2:level%grid%nx - 1)
+   end subroutine galerkin_row
 
    !> residual = rhs - operator where P > 0; where P = 0 only the part that asks for pressure
    !> (residual < 0). Returns the rms over the grid.

@@ -1,11 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> One grid of the hierarchy with everything that lives on it
 module ehl_level
+   use, intrinsic :: iso_fortran_env, only: int64
    use ehl_deflection, only: deflection_t
    use ehl_grid, only: grid_t
    use ehl_kernel, only: kernel_coefficient
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
+   use ehl_nine_point, only: nine_point_t
    use ehl_status, only: ehl_no_memory, status_t
    implicit none (type, external)
    private
@@ -54,6 +56,12 @@ module ehl_level
       real(dp), allocatable :: rhs(:, :), residual(:, :)
       !> Conductance eps = rho H^3/(eta lambda_bar), d ln(eps)/dP at constant film, density, and H d rho/dP
       real(dp), allocatable :: eps(:, :), gain(:, :), rho(:, :), stiffness(:, :)
+      !> Whether the Poiseuille term is the Galerkin product of the next finer level's, in place of
+      !> the five-point difference: sum_k o_k (eps_k + eps) (P_k - P) - s eps P over the cell, with
+      !> couplings o and excess s in `poiseuille`, and eps = `scale` rho H^3/(eta lambda_bar)
+      logical :: galerkin = .false.
+      type(nine_point_t) :: poiseuille
+      real(dp), allocatable :: scale(:, :)
       !> Pressure as restricted from the next finer level
       real(dp), allocatable :: p_start(:, :)
       !> Change of pressure in the distributive points of a sweep
@@ -68,8 +76,10 @@ module ehl_level
       logical :: parallel = .false.
    contains
       procedure :: setup
+      procedure :: setup_galerkin
       procedure :: set_upstream
       procedure :: set_transient
+      procedure :: cell
       procedure :: bytes
    end type level_t
 
@@ -116,6 +126,18 @@ contains
       end associate
    end subroutine setup
 
+   !> Allocate what a Galerkin operator needs
+   subroutine setup_galerkin(self, status)
+      class(level_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+      integer :: stat
+
+      call self%poiseuille%setup(self%grid, status)
+      if (status%failed()) return
+      allocate (self%scale(self%grid%nx, self%grid%ny), source=1.0_dp, stat=stat)
+      if (stat /= 0) call status%fail(ehl_no_memory, "no memory for a grid level")
+   end subroutine setup_galerkin
+
    !> Steady wedge term, upstream of first or second order (first in the first interior column)
    subroutine set_upstream(self, order)
       class(level_t), intent(inout) :: self
@@ -128,6 +150,7 @@ contains
          self%wedge = [1.5_dp, -2.0_dp, 0.5_dp]/self%grid%hx
       end if
    end subroutine set_upstream
+
    !> Implicit part of wedge and squeeze terms for a time step. Narrow upstream: both terms
    !> together along the characteristic, 1.5 (rho H)_i/dT. Otherwise second-order upstream in X and
    !> second-order backward in T, of first order in X in the first interior column.
@@ -146,14 +169,23 @@ contains
       end if
    end subroutine set_transient
 
-   !> Allocated bytes, the engine's apart
-   pure integer(8) function bytes(self)
+   !> Area of a node's cell in row j; of its half in row 1 of a folded grid
+   elemental real(dp) function cell(self, j)
       class(level_t), intent(in) :: self
-      integer(8) :: numbers
+      integer, intent(in) :: j
+      cell = self%grid%hx*self%grid%hy
+      if (self%grid%mirror .and. j == 1) cell = 0.5_dp*cell
+   end function cell
+
+   !> Allocated bytes, the engine's apart
+   pure integer(int64) function bytes(self)
+      class(level_t), intent(in) :: self
+      integer(int64) :: numbers
       integer :: k
 
       numbers = 0
-      if (allocated(self%p)) numbers = 12*size(self%p, kind=8)
+      if (allocated(self%p)) numbers = 12*size(self%p, kind=int64)
+      if (allocated(self%scale)) numbers = numbers + size(self%scale, kind=int64) + self%poiseuille%bytes()/8
       if (allocated(self%work)) then
          do k = 1, size(self%work)
             numbers = numbers + size(self%work(k)%a) + size(self%work(k)%d) + size(self%work(k)%dipole)

@@ -168,6 +168,8 @@ contains
       inquire (unit=lun, size=n)
       allocate (bytes(max(n, 0_int64)))
       read (lun, iostat=stat) bytes
+      if (stat /= 0) deallocate (bytes)
+      if (stat /= 0) allocate (bytes(0))
       close (lun)
    end subroutine read_bytes
 end module ehl_checkpoint

@@ -207,6 +207,8 @@ contains
             call map%setup(tile, s%length_x/plan%point%hertz_radius, s%length_y/plan%point%hertz_radius, &
                            s%velocity_ratio, s%x_start, map_front, status)
             plan%surface = map
+         case default
+            continue
          end select
       end associate
    end subroutine pick_surface

@@ -79,7 +79,7 @@ contains
    end subroutine give_surface
 
    !> Plan the case and prepare the coarse grids
-   subroutine start(self, input, status)
+   recursive subroutine start(self, input, status)
       class(solver_t), intent(inout) :: self
       type(case_t), intent(in) :: input
       type(status_t), intent(inout) :: status
@@ -159,7 +159,7 @@ contains
    end function describe
 
    !> One multigrid cycle of the smooth contact, then one time step
-   subroutine advance(self, status)
+   recursive subroutine advance(self, status)
       class(solver_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
 
@@ -194,7 +194,7 @@ contains
    end subroutine advance_cycle
 
    !> The smooth contact is solved: let the roughness in
-   subroutine begin_march(self, status)
+   recursive subroutine begin_march(self, status)
       type(solver_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
       integer :: k, n
@@ -221,7 +221,7 @@ contains
    end subroutine begin_march
 
    !> Start the run on the next coarser grid, with the same roughness
-   subroutine begin_coarse(self, status)
+   recursive subroutine begin_coarse(self, status)
       type(solver_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
       type(case_t) :: input
@@ -242,7 +242,7 @@ contains
 
    !> One step of the coarser run; at its end its mean is kept and the run freed. A coarser run that
    !> does not converge leaves the grid error unknown.
-   subroutine advance_coarse(self, status)
+   recursive subroutine advance_coarse(self, status)
       type(solver_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
 
@@ -340,7 +340,7 @@ contains
    end subroutine interrupt
 
    !> One line about the state
-   function progress(self) result(text)
+   recursive function progress(self) result(text)
       class(solver_t), intent(in) :: self
       character(len=:), allocatable :: text
 

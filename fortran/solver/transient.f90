@@ -215,8 +215,9 @@ contains
       do j = 1, level%grid%ny
          do i = 1, level%grid%nx
             level%p(i, j) = 0.0_dp
-            if (self%p_before(i, j, 1) > 0.0_dp) &
+            if (self%p_before(i, j, 1) > 0.0_dp) then
                level%p(i, j) = max(0.0_dp, 2.0_dp*self%p_before(i, j, 1) - self%p_before(i, j, 2))
+            end if
          end do
       end do
       !$omp end parallel do

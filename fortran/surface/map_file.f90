@@ -79,7 +79,7 @@ contains
             exit
          end if
       end do
-      close (lun, iostat=stat)
+      close (lun)
       if (status%failed()) return
       if (n == 0) then
          call status%fail(ehl_file, path//": there are no numbers in it")

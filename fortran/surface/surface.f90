@@ -32,6 +32,7 @@ module ehl_surface
       !> rr(nx, ny) = RR at the nodes, at time T
       subroutine height_i(self, grid, time, rr)
          import :: surface_t, grid_t, dp
+         implicit none (type, external)
          class(surface_t), intent(inout) :: self
          type(grid_t), intent(in) :: grid
          real(dp), intent(in) :: time

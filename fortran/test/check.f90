@@ -9,7 +9,7 @@ module check
    public :: is_true, is_close, is_equal, is_text, has_text, n_checks, n_failures
 
    !> How many checks were made, and how many failed
-   integer, save, protected :: n_checks = 0, n_failures = 0
+   integer, protected :: n_checks = 0, n_failures = 0
 
 contains
 

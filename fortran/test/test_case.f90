@@ -85,6 +85,9 @@ contains
       call fault("&grid points = 65", "", "text:1:18: error", "'/'")
       call fault("&grid points = 512 /", "", "text:1:16: error", "513")
       call fault("&contact load = nan /", "", "text:1:17: error", "finite")
+      call fault("&contact load = 1e999 /", "", "text:1:17: error", "too large")
+      call fault("&contact load = 1e99999999999 /", "", "text:1:17: error", "too large")
+      call fault("&contact load = 1e-99999999999 /", "", "text:1:17: error", "out of range")
       call fault("", "grid.pionts=65", "--set grid.pionts=65: error", "'points'")
       call fault("", "points=65", "--set points=65: error", "group.key=value")
    end subroutine faults_have_places

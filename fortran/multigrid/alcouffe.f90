@@ -1,0 +1,226 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Operator-dependent transfer between a grid and the next coarser one (Alcouffe, Brandt, Dendy &
+!> Painter 1981; in the black-box form of Dendy 1982): a correction is interpolated so that the
+!> flux, not the slope, is continuous. Restriction is the transpose of interpolation.
+module ehl_alcouffe
+   use, intrinsic :: iso_fortran_env, only: int64
+   use ehl_grid, only: grid_t
+   use ehl_kinds, only: dp
+   use ehl_nine_point, only: nine_point_t
+   use ehl_status, only: ehl_no_memory, status_t
+   implicit none (type, external)
+   private
+   public :: transfer_t
+
+   !> Weights of interpolation. A fine node between two coarse ones takes from these two, a node
+   !> amid four coarse ones takes from the four. Nodes that are not free take and give nothing.
+   type :: transfer_t
+      !> Coarse columns and rows
+      integer :: nx = 0, ny = 0
+      !> Weights of the nodes between coarse (i, j) and (i+1, j): of the left one, of the right one
+      real(dp), allocatable :: along_x(:, :, :)
+      !> Weights of the nodes between coarse (i, j) and (i, j+1): of the lower one, of the upper one
+      real(dp), allocatable :: along_y(:, :, :)
+      !> Weights of the nodes amid coarse (i, j) and (i+1, j+1): of south-west, south-east,
+      !> north-west, north-east
+      real(dp), allocatable :: centre(:, :, :)
+      !> 1 where a coarse node is free, else 0
+      real(dp), allocatable :: free(:, :)
+      !> Operator of the fine level, its free nodes, and those where the operator decides
+      type(nine_point_t) :: a
+      real(dp), allocatable :: fine_free(:, :), dependent(:, :)
+      !> What the cells above a coarse row add to the next row's couplings, for the Galerkin product
+      real(dp), allocatable :: above_east(:, :), above_excess(:, :)
+      integer :: threads = 1
+      logical :: parallel = .false.
+   contains
+      procedure :: setup
+      procedure :: find_weights
+      procedure :: restrict_row
+      procedure :: prolong_row
+      procedure :: bytes
+   end type transfer_t
+
+contains
+
+   !> Allocate; threads: OpenMP threads to use on grids large enough for them
+   subroutine setup(self, fine, coarse, threads, parallel, status)
+      class(transfer_t), intent(inout) :: self
+      type(grid_t), intent(in) :: fine, coarse
+      integer, intent(in) :: threads
+      logical, intent(in) :: parallel
+      type(status_t), intent(inout) :: status
+      integer :: stat
+
+      if (status%failed()) return
+      self%nx = coarse%nx
+      self%ny = coarse%ny
+      self%threads = threads
+      self%parallel = parallel
+      associate (nx => coarse%nx, ny => coarse%ny)
+         allocate (self%along_x(2, nx - 1, ny), self%along_y(2, nx, ny - 1), self%centre(4, nx - 1, ny - 1), &
+                   self%free(nx, ny), self%above_east(0:nx, ny), self%above_excess(0:nx, ny), source=0.0_dp, stat=stat)
+      end associate
+      if (stat == 0) allocate (self%fine_free(fine%nx, fine%ny), self%dependent(fine%nx, fine%ny), stat=stat)
+      if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the grid transfer")
+      call self%a%setup(fine, status)
+   end subroutine setup
+
+   !> Weights for the operator of the fine grid
+   subroutine find_weights(self, a, free, dependent)
+      class(transfer_t), intent(inout) :: self
+      type(nine_point_t), intent(in) :: a
+      !> Fine nodes that may change: 1, else 0. Border nodes are not free.
+      real(dp), intent(in) :: free(:, :)
+      !> Fine nodes where the operator decides: 1; elsewhere 0: interpolation is bilinear
+      real(dp), intent(in) :: dependent(:, :)
+      integer :: i, j
+
+      !$omp parallel do default(none) shared(self, a, free, dependent) private(i) &
+      !$omp num_threads(self%threads) if(self%parallel) schedule(static)
+      do j = 1, self%ny
+         do i = 1, self%nx
+            self%free(i, j) = free(2*i - 1, 2*j - 1)
+         end do
+         do i = 1, self%nx - 1
+            self%along_x(:, i, j) = weights_x(2*i, 2*j - 1)
+         end do
+         if (j == self%ny) cycle
+         do i = 1, self%nx
+            self%along_y(:, i, j) = weights_y(2*i - 1, 2*j)
+         end do
+      end do
+      !$omp end parallel do
+      !$omp parallel do default(none) shared(self, a, free, dependent) private(i) &
+      !$omp num_threads(self%threads) if(self%parallel) schedule(static)
+      do j = 1, self%ny - 1
+         do i = 1, self%nx - 1
+            self%centre(:, i, j) = weights_centre(i, j)
+         end do
+      end do
+      !$omp end parallel do
+
+   contains
+
+      !> A fine node between two coarse ones in X: the correction is taken as constant in Y
+      pure function weights_x(i, j) result(w)
+         integer, intent(in) :: i, j
+         real(dp) :: w(2), whole
+
+         w = 0.0_dp
+         if (free(i, j) <= 0.0_dp) return
+         if (dependent(i, j) > 0.0_dp) then
+            w = [a%east(i - 1, j) + a%north_west(i, j), a%east(i, j) + a%north_east(i, j)]
+            whole = a%diagonal(i, j) - a%north(i, j)*free(i, j + 1)
+            if (j > 1) then
+               w = w + [a%north_east(i - 1, j - 1), a%north_west(i + 1, j - 1)]
+               whole = whole - a%north(i, j - 1)*free(i, j - 1)
+            end if
+            w = w/whole
+         else
+            w = 0.5_dp
+         end if
+         w = w*[free(i - 1, j), free(i + 1, j)]
+      end function weights_x
+
+      !> A fine node between two coarse ones in Y: the correction is taken as constant in X
+      pure function weights_y(i, j) result(w)
+         integer, intent(in) :: i, j
+         real(dp) :: w(2), whole
+
+         w = 0.0_dp
+         if (free(i, j) <= 0.0_dp) return
+         if (dependent(i, j) > 0.0_dp) then
+            w = [a%north(i, j - 1) + a%north_east(i - 1, j - 1) + a%north_west(i + 1, j - 1), &
+                 a%north(i, j) + a%north_east(i, j) + a%north_west(i, j)]
+            whole = a%diagonal(i, j) - a%east(i, j)*free(i + 1, j) - a%east(i - 1, j)*free(i - 1, j)
+            w = w/whole
+         else
+            w = 0.5_dp
+         end if
+         w = w*[free(i, j - 1), free(i, j + 1)]
+      end function weights_y
+
+      !> A fine node amid four coarse ones, from its own equation
+      pure function weights_centre(ic, jc) result(w)
+         integer, intent(in) :: ic, jc
+         real(dp) :: w(4)
+         integer :: i, j
+
+         w = 0.0_dp
+         i = 2*ic
+         j = 2*jc
+         if (free(i, j) <= 0.0_dp) return
+         if (dependent(i, j) > 0.0_dp) then
+            w = [a%north_east(i - 1, j - 1), a%north_west(i + 1, j - 1), a%north_west(i, j), a%north_east(i, j)] &
+                *[free(i - 1, j - 1), free(i + 1, j - 1), free(i - 1, j + 1), free(i + 1, j + 1)]
+            w(1:2) = w(1:2) + a%north(i, j - 1)*self%along_x(:, ic, jc)
+            w(3:4) = w(3:4) + a%north(i, j)*self%along_x(:, ic, jc + 1)
+            w([1, 3]) = w([1, 3]) + a%east(i - 1, j)*self%along_y(:, ic, jc)
+            w([2, 4]) = w([2, 4]) + a%east(i, j)*self%along_y(:, ic + 1, jc)
+            w = w/a%diagonal(i, j)
+         else
+            w = 0.25_dp*[free(i - 1, j - 1), free(i + 1, j - 1), free(i - 1, j + 1), free(i + 1, j + 1)]
+         end if
+      end function weights_centre
+   end subroutine find_weights
+
+   !> Row j of the transpose of interpolation applied to fine values, in coarse columns 2 to nx-1;
+   !> j is no border row. On a folded grid the values of fine row 1 are those of half cells.
+   pure subroutine restrict_row(self, fine, j, values)
+      class(transfer_t), intent(in) :: self
+      !> Shape of the fine grid
+      real(dp), intent(in) :: fine(:, :)
+      integer, intent(in) :: j
+      !> Shape (nx)
+      real(dp), intent(inout) :: values(:)
+      integer :: i, k, l
+
+      l = 2*j - 1
+      do i = 2, self%nx - 1
+         k = 2*i - 1
+         values(i) = self%free(i, j)*fine(k, l) &
+                     + self%along_x(1, i, j)*fine(k + 1, l) + self%along_x(2, i - 1, j)*fine(k - 1, l) &
+                     + self%along_y(1, i, j)*fine(k, l + 1) &
+                     + self%centre(1, i, j)*fine(k + 1, l + 1) + self%centre(2, i - 1, j)*fine(k - 1, l + 1)
+         if (j > 1) values(i) = values(i) + self%along_y(2, i, j - 1)*fine(k, l - 1) &
+                                + self%centre(3, i, j - 1)*fine(k + 1, l - 1) &
+                                + self%centre(4, i - 1, j - 1)*fine(k - 1, l - 1)
+      end do
+   end subroutine restrict_row
+
+   !> Fine row j of a coarse correction
+   pure subroutine prolong_row(self, coarse, j, values)
+      class(transfer_t), intent(in) :: self
+      !> Shape (nx, ny), zero where nodes are not free
+      real(dp), intent(in) :: coarse(:, :)
+      integer, intent(in) :: j
+      !> Shape (2 nx - 1)
+      real(dp), intent(out) :: values(:)
+      integer :: i, l
+
+      l = (j + 1)/2
+      if (mod(j, 2) == 1) then
+         values(1) = self%free(1, l)*coarse(1, l)
+         do i = 1, self%nx - 1
+            values(2*i) = self%along_x(1, i, l)*coarse(i, l) + self%along_x(2, i, l)*coarse(i + 1, l)
+            values(2*i + 1) = self%free(i + 1, l)*coarse(i + 1, l)
+         end do
+      else
+         values(1) = self%along_y(1, 1, l)*coarse(1, l) + self%along_y(2, 1, l)*coarse(1, l + 1)
+         do i = 1, self%nx - 1
+            values(2*i) = self%centre(1, i, l)*coarse(i, l) + self%centre(2, i, l)*coarse(i + 1, l) &
+                          + self%centre(3, i, l)*coarse(i, l + 1) + self%centre(4, i, l)*coarse(i + 1, l + 1)
+            values(2*i + 1) = self%along_y(1, i + 1, l)*coarse(i + 1, l) + self%along_y(2, i + 1, l)*coarse(i + 1, l + 1)
+         end do
+      end if
+   end subroutine prolong_row
+
+   !> Allocated bytes
+   pure integer(int64) function bytes(self)
+      class(transfer_t), intent(in) :: self
+      bytes = 0
+      if (allocated(self%free)) bytes = 8*(size(self%along_x, kind=int64) + size(self%along_y, kind=int64) &
+                                           + size(self%centre, kind=int64) + 3*size(self%free, kind=int64))
+   end function bytes
+end module ehl_alcouffe

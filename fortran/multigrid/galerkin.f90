@@ -1,0 +1,152 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Galerkin product: the coarse operator P^T A P of a nine-point operator A and a transfer P
+module ehl_galerkin
+   use ehl_alcouffe, only: transfer_t
+   use ehl_kinds, only: dp
+   use ehl_nine_point, only: nine_point_t
+   implicit none (type, external)
+   private
+   public :: galerkin_product
+
+contains
+
+   !> coarse = P^T fine P.
+   !>
+   !> Taken as an energy, a coupling o between two fine nodes is o (u_1 - u_2)^2 and an excess s is
+   !> s u^2, where u = sum of weights times coarse values. Each of them lies inside one coarse
+   !> cell, on one coarse edge or at one coarse node, and these are taken one by one.
+   subroutine galerkin_product(fine, transfer, coarse)
+      type(nine_point_t), intent(in) :: fine
+      type(transfer_t), intent(inout) :: transfer
+      !> Set up for the coarse grid
+      type(nine_point_t), intent(inout) :: coarse
+      integer :: j
+
+      coarse%five = .false.
+      !$omp parallel do default(none) shared(fine, transfer, coarse) &
+      !$omp num_threads(transfer%threads) if(transfer%parallel) schedule(static)
+      do j = 1, transfer%ny
+         call nodes_and_edges(fine, transfer, j, coarse%east(:, j), coarse%excess(:, j))
+         coarse%north(:, j) = 0.0_dp
+         coarse%north_east(:, j) = 0.0_dp
+         coarse%north_west(:, j) = 0.0_dp
+         if (j < transfer%ny) call cells(fine, transfer, j, coarse, transfer%above_east(:, j), transfer%above_excess(:, j))
+      end do
+      !$omp end parallel do
+      !$omp parallel do default(none) shared(transfer, coarse) &
+      !$omp num_threads(transfer%threads) if(transfer%parallel) schedule(static)
+      do j = 2, transfer%ny
+         coarse%east(:, j) = coarse%east(:, j) + transfer%above_east(:, j - 1)
+         coarse%excess(:, j) = coarse%excess(:, j) + transfer%above_excess(:, j - 1)
+      end do
+      !$omp end parallel do
+   end subroutine galerkin_product
+
+   !> Coarse nodes of row j and the edges between them
+   pure subroutine nodes_and_edges(fine, transfer, j, east, excess)
+      type(nine_point_t), intent(in) :: fine
+      type(transfer_t), intent(in) :: transfer
+      integer, intent(in) :: j
+      !> Shape (0:nx)
+      real(dp), intent(out) :: east(0:), excess(0:)
+      real(dp) :: o, s(2), w(2)
+      integer :: i, l
+
+      l = 2*j - 1
+      east = 0.0_dp
+      excess = 0.0_dp
+      do i = 1, transfer%nx - 1
+         w = transfer%along_x(:, i, j)
+         o = 0.0_dp
+         s = 0.0_dp
+         call add_pair(fine%east(2*i - 1, l), [transfer%free(i, j) - w(1), -w(2)], o, s)
+         call add_pair(fine%east(2*i, l), [-w(1), transfer%free(i + 1, j) - w(2)], o, s)
+         if (.not. fine%five) call add_pair(fine%excess(2*i, l), w, o, s)
+         east(i) = o
+         excess(i) = excess(i) + s(1) + fine%excess(2*i - 1, l)*transfer%free(i, j)
+         excess(i + 1) = s(2)
+      end do
+   end subroutine nodes_and_edges
+
+   !> Cells between coarse rows j and j+1, and the edges between these rows
+   pure subroutine cells(fine, transfer, j, coarse, above_east, above_excess)
+      type(nine_point_t), intent(in) :: fine
+      type(transfer_t), intent(in) :: transfer
+      integer, intent(in) :: j
+      !> Row j is changed
+      type(nine_point_t), intent(inout) :: coarse
+      !> What is due to row j+1, shape (0:nx)
+      real(dp), intent(out) :: above_east(0:), above_excess(0:)
+      real(dp), dimension(4) :: c, e, n, s, w, corner, excess
+      !> Couplings of a cell's corners: sw-se, sw-nw, sw-ne, se-nw, se-ne, nw-ne
+      real(dp) :: o(6), pair, ends(2)
+      integer :: i, k, l
+
+      above_east = 0.0_dp
+      above_excess = 0.0_dp
+      l = 2*j
+      do i = 1, transfer%nx
+         k = 2*i
+         w = [transfer%along_y(1, i, j), 0.0_dp, transfer%along_y(2, i, j), 0.0_dp]
+         pair = 0.0_dp
+         ends = 0.0_dp
+         call add_pair(fine%north(k - 1, l - 1), [transfer%free(i, j) - w(1), -w(3)], pair, ends)
+         call add_pair(fine%north(k - 1, l), [-w(1), transfer%free(i, j + 1) - w(3)], pair, ends)
+         if (.not. fine%five) call add_pair(fine%excess(k - 1, l), w([1, 3]), pair, ends)
+         coarse%north(i, j) = coarse%north(i, j) + pair
+         coarse%excess(i, j) = coarse%excess(i, j) + ends(1)
+         above_excess(i) = above_excess(i) + ends(2)
+         if (i == transfer%nx) cycle
+         e = [0.0_dp, transfer%along_y(1, i + 1, j), 0.0_dp, transfer%along_y(2, i + 1, j)]
+         s = [transfer%along_x(1, i, j), transfer%along_x(2, i, j), 0.0_dp, 0.0_dp]
+         n = [0.0_dp, 0.0_dp, transfer%along_x(1, i, j + 1), transfer%along_x(2, i, j + 1)]
+         c = transfer%centre(:, i, j)
+         o = 0.0_dp
+         excess = 0.0_dp
+         call add_cell(fine%east(k - 1, l), c - w, o, excess)
+         call add_cell(fine%east(k, l), c - e, o, excess)
+         call add_cell(fine%north(k, l - 1), c - s, o, excess)
+         call add_cell(fine%north(k, l), c - n, o, excess)
+         if (.not. fine%five) then
+            corner = [transfer%free(i, j), transfer%free(i + 1, j), transfer%free(i, j + 1), transfer%free(i + 1, j + 1)]
+            call add_cell(fine%excess(k, l), c, o, excess)
+            call add_cell(fine%north_east(k - 1, l - 1), c - [corner(1), 0.0_dp, 0.0_dp, 0.0_dp], o, excess)
+            call add_cell(fine%north_west(k + 1, l - 1), c - [0.0_dp, corner(2), 0.0_dp, 0.0_dp], o, excess)
+            call add_cell(fine%north_west(k, l), c - [0.0_dp, 0.0_dp, corner(3), 0.0_dp], o, excess)
+            call add_cell(fine%north_east(k, l), c - [0.0_dp, 0.0_dp, 0.0_dp, corner(4)], o, excess)
+            call add_cell(fine%north_east(k - 1, l), n - w, o, excess)
+            call add_cell(fine%north_west(k + 1, l), n - e, o, excess)
+            call add_cell(fine%north_east(k, l - 1), e - s, o, excess)
+            call add_cell(fine%north_west(k, l - 1), w - s, o, excess)
+         end if
+         coarse%east(i, j) = coarse%east(i, j) + o(1)
+         coarse%north(i, j) = coarse%north(i, j) + o(2)
+         coarse%north_east(i, j) = o(3)
+         coarse%north_west(i + 1, j) = o(4)
+         coarse%north(i + 1, j) = o(5)
+         above_east(i) = o(6)
+         coarse%excess(i:i + 1, j) = coarse%excess(i:i + 1, j) + excess(1:2)
+         above_excess(i:i + 1) = above_excess(i:i + 1) + excess(3:4)
+      end do
+   end subroutine cells
+
+   !> Energy o (sum of d times values)^2 of a coupling on an edge
+   pure subroutine add_pair(o, d, pair, excess)
+      real(dp), intent(in) :: o, d(2)
+      real(dp), intent(inout) :: pair, excess(2)
+
+      pair = pair - o*d(1)*d(2)
+      excess = excess + o*d*(d(1) + d(2))
+   end subroutine add_pair
+
+   !> Energy o (sum of d times corner values)^2 of a coupling in a cell
+   pure subroutine add_cell(o, d, pairs, excess)
+      real(dp), intent(in) :: o, d(4)
+      real(dp), intent(inout) :: pairs(6), excess(4)
+      real(dp) :: t(4)
+
+      t = o*d
+      pairs = pairs - [t(1)*d(2), t(1)*d(3), t(1)*d(4), t(2)*d(3), t(2)*d(4), t(3)*d(4)]
+      excess = excess + t*((d(1) + d(2)) + (d(3) + d(4)))
+   end subroutine add_cell
+end module ehl_galerkin

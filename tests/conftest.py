@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What all tests share: the program, the folder of cases, and a way to run both drivers."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+@pytest.fixture(scope="session")
+def root() -> Path:
+    """The folder of the repository."""
+    return ROOT
+
+
+@pytest.fixture(scope="session")
+def cases() -> Path:
+    """The folder of the case files."""
+    return ROOT / "cases"
+
+
+@pytest.fixture(scope="session")
+def ehl() -> str:
+    """The program ``ehl`` of this installation."""
+    tag = f"cp{sys.version_info.major}{sys.version_info.minor}"
+    # An editable install leaves the program in its build folder
+    places = [Path(sys.executable).parent / "ehl", ROOT / "build" / tag / "fortran" / "ehl"]
+    for place in places:
+        if place.is_file():
+            return str(place)
+    found = shutil.which("ehl")
+    assert found, f"the program ehl is in none of {places} and not on the PATH: pip install ."
+    return found
+
+
+Driver = Callable[..., subprocess.CompletedProcess[str]]
+
+
+@pytest.fixture(scope="session")
+def drivers(ehl: str) -> dict[str, list[str]]:
+    """How to call both drivers: ``ehl`` and ``pyehl run``."""
+    # -P: never the sources of the working directory
+    return {"ehl": [ehl], "pyehl": [sys.executable, "-P", "-m", "pyehl", "run"]}
+
+
+@pytest.fixture
+def drive(drivers: dict[str, list[str]], tmp_path: Path) -> Driver:
+    """Run a driver in an empty folder: ``drive("ehl", "case.nml", "-o", "out")``."""
+    environment = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"}
+
+    def call(driver: str, *words: str | Path) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            [*drivers[driver], *map(str, words)],
+            cwd=tmp_path,
+            env=environment,
+            capture_output=True,
+            text=True,
+            timeout=300,
+            check=False,
+        )
+
+    return call

@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The boundary to Fortran: no copies, errors as exceptions, handles that end."""
+
+from __future__ import annotations
+
+import re
+import threading
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pyehl import Case, Solver, core, errors
+from pyehl.core import _ehl
+
+SMALL = "&contact moes_m = 100.0 moes_l = 5.0 /\n&grid points = 33 /\n"
+
+
+@pytest.fixture
+def solver():
+    with Solver.open(Case.from_text(SMALL)) as opened:
+        yield opened
+
+
+def test_one_exception_class_per_code(root: Path):
+    text = (root / "fortran" / "base" / "status.f90").read_text()
+    codes = dict(re.findall(r"parameter :: ehl_(\w+) = (\d+)", text))
+    names = {int(number): name.replace("_", "") for name, number in codes.items() if name != "ok"}
+    classes = {
+        number: kind.__name__.removesuffix("Error").lower()
+        for number, kind in errors.CLASSES.items()
+    }
+    assert classes == {n: {"badinput": "input"}.get(name, name) for n, name in names.items()}
+
+
+def test_unknown_code_is_internal():
+    with pytest.raises(errors.InternalError, match="what"):
+        errors.check(99, b"what")
+    errors.check(0, b"")
+
+
+def test_solver_in_python(solver: Solver):
+    assert solver.describe()
+    assert not solver.done
+    assert solver.run()
+    assert solver.done
+    assert solver.summary()["status"] == "converged"
+    x, y = solver.axes()
+    assert (x[0], x[-1], y[0], y[-1]) == (-2.5, 1.5, -2.0, 2.0)
+    pressure = solver.field("P")
+    assert pressure.shape == solver.shape == (33, 33)
+    assert pressure.flags.f_contiguous
+    assert pressure.max() == solver.summary()["P_max"]
+    with pytest.raises(errors.InputError):
+        solver.field("Q")
+
+
+def test_interrupted_solver(solver: Solver):
+    solver.advance()
+    solver.interrupt()
+    assert solver.done
+    assert not solver.converged
+    assert solver.summary()["status"] == "interrupted"
+
+
+@pytest.mark.parametrize("array", [
+    np.empty((33, 33)),
+    np.empty((33, 33), dtype=np.float32, order="F"),
+    np.empty((33, 33), dtype=np.int64, order="F"),
+    np.empty((66, 33), order="F")[::2],
+], ids=["C order", "float32", "int64", "strided"])  # fmt: skip
+def test_arrays_are_refused_rather_than_copied(solver: Solver, array):
+    with pytest.raises(ValueError, match="array"):
+        _ehl.field(solver._handle, b"P", array)
+
+
+def test_arrays_of_another_shape_are_refused(solver: Solver):
+    with pytest.raises(errors.InputError, match="shape"):
+        errors.check(*_ehl.field(solver._handle, b"P", np.empty((33, 31), order="F")))
+
+
+def test_values_arrive_in_the_callers_memory(solver: Solver):
+    values = np.full(solver.shape, np.nan, order="F")
+    errors.check(*_ehl.field(solver._handle, b"H", values))
+    assert np.isfinite(values).all()
+
+
+def test_closed_solver_raises():
+    solver = Solver.open(Case.from_text(SMALL))
+    handle = solver._handle
+    solver.close()
+    solver.close()
+    for call in (solver.advance, solver.describe, solver.summary, solver.interrupt, solver.axes):
+        with pytest.raises(errors.ClosedError):
+            call()
+    # A handle is never used again, also when its place is
+    with Solver.open(Case.from_text(SMALL)) as other:
+        assert other._handle != handle
+        with pytest.raises(errors.ClosedError):
+            errors.check(*_ehl.interrupt(handle))
+    for wrong in (-1, 0, 5, 2**31 - 1):
+        with pytest.raises(errors.ClosedError):
+            errors.check(*_ehl.interrupt(wrong))
+
+
+def test_places_run_out_and_come_back():
+    case = Case.from_text("&contact moes_m = 100.0 /\n&grid points = 17 /\n")
+    opened = [Solver.open(case) for _ in range(64)]
+    with pytest.raises(errors.NoMemoryError, match="64"):
+        Solver.open(case)
+    for solver in opened:
+        solver.close()
+    with Solver.open(case) as again:
+        assert not again.done
+
+
+def test_solvers_in_threads_do_not_disturb_each_other():
+    texts = [SMALL, SMALL.replace("100.0", "50.0")] * 8
+    answers: list[float | None] = [None] * len(texts)
+
+    def work(k: int) -> None:
+        with Solver.open(Case.from_text(texts[k])) as solver:
+            solver.run()
+            answers[k] = solver.summary()["H_c"]
+
+    threads = [threading.Thread(target=work, args=(k,)) for k in range(len(texts))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(set(answers[::2])) == len(set(answers[1::2])) == 1
+    assert None not in answers
+    assert answers[0] != answers[1]
+
+
+def test_text_beyond_ascii_arrives():
+    with pytest.raises(errors.InputError, match=r"Höhe µm:1:1: error: unknown group &größe"):
+        core.resolve("&größe /", "Höhe µm")
+
+
+def test_deflection_of_the_hertz_pressure():
+    # W = 1 - r^2/2 inside a Hertz contact, in units of a^2/R
+    x = np.linspace(-1.5, 1.5, 65)
+    r2 = x[:, None] ** 2 + x[None, :] ** 2
+    pressure = np.sqrt(np.maximum(1.0 - r2, 0.0))
+    h = x[1] - x[0]
+    inside = r2 < 0.8
+    answers = {}
+    for engine in ("direct", "fft"):
+        result = core.deflection(pressure, h, h, engine)
+        answers[engine] = result.values
+        assert abs(result.values - (1.0 - 0.5 * r2))[inside].max() < 0.02
+        assert result.seconds > 0.0
+        half = core.deflection(pressure[:, 32:], h, h, engine, mirror=True)
+        assert np.abs(half.values - result.values[:, 32:]).max() < 1e-13
+    assert np.abs(answers["direct"] - answers["fft"]).max() < 1e-13
+    with pytest.raises(errors.InputError, match="fem"):
+        core.deflection(pressure, h, h, "fem")
+
+
+def test_viscosity_and_density_laws():
+    p = np.linspace(0.0, 1.5, 7)
+    p_h, alpha, z, p_0 = 1.5e9, 2.2e-8, 0.68, 1.96e8
+    values, slopes = core.log_viscosity(
+        p, "roelands", alpha_bar=alpha * p_h, hertz_pressure=p_h, roelands_z=z, roelands_p0=p_0
+    )
+    expected = alpha * p_0 / z * ((1.0 + p * p_h / p_0) ** z - 1.0)
+    assert values == pytest.approx(expected, rel=1e-13)
+    assert slopes == pytest.approx(alpha * p_h * (1.0 + p * p_h / p_0) ** (z - 1.0), rel=1e-13)
+    barus, _ = core.log_viscosity(
+        p, "barus", alpha_bar=alpha * p_h, hertz_pressure=p_h, roelands_z=z, roelands_p0=p_0
+    )
+    assert barus == pytest.approx(alpha * p * p_h, rel=1e-14)
+    rho, slope = core.density(p, p_h)
+    pressure = p * p_h
+    assert rho == pytest.approx((5.9e8 + 1.34 * pressure) / (5.9e8 + pressure), rel=1e-13)
+    assert slope == pytest.approx(0.34 * 5.9e8 * p_h / (5.9e8 + pressure) ** 2, rel=1e-13)
+    with pytest.raises(errors.InputError, match="tait"):
+        core.log_viscosity(
+            p, "tait", alpha_bar=1.0, hertz_pressure=p_h, roelands_z=z, roelands_p0=p_0
+        )

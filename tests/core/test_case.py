@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Cases in Python: what Fortran resolves is what Python reads; the documents say the same."""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+from pyehl import Case, cli, core
+from pyehl.errors import InputError
+
+CASE_FILES = sorted((Path(__file__).resolve().parents[2] / "cases").glob("*.nml"))
+
+
+@pytest.mark.parametrize("path", CASE_FILES, ids=[path.name for path in CASE_FILES])
+def test_resolved_case_reads_back(path: Path):
+    case = Case.read(path)
+    assert Case.from_text(case.text).text == case.text
+    groups = case.resolve()
+    excluded = {
+        "contact.moes_m", "contact.moes_l", "contact.load", "contact.mean_velocity",
+        "contact.radius", "contact.reduced_modulus", "surface.amplitude",
+        "surface.amplitude_over_film",
+    }  # fmt: skip
+    names = {f"{group}.{key}" for group, keys in groups.items() for key in keys}
+    assert {key.name for key in core.keys()} - names <= excluded
+    for key in core.keys():
+        if key.name in names:
+            group, _, name = key.name.partition(".")
+            assert isinstance(groups[group][name], bool | int | float | str)
+
+
+def test_cases_are_there():
+    assert {p.name for p in CASE_FILES} >= {"table1.nml", "smooth_m1000_l10.nml", "quick.nml"}
+
+
+def test_defaults_are_those_of_the_paper():
+    groups = Case.from_text("").resolve()
+    assert groups["contact"] == {
+        "load": 600.0,
+        "mean_velocity": 0.84,
+        "radius": 0.018,
+        "reduced_modulus": 2.26e11,
+    }
+    assert groups["grid"]["points"] == 513
+    z = 2.2e-8 * 1.96e8 / (math.log(0.04) + 9.67)
+    assert groups["lubricant"]["roelands_z"] == pytest.approx(z, rel=1e-15)
+    assert groups["psd"]["viscosity_law"] == "roelands"
+
+
+def test_moes_numbers_default_to_each_other():
+    assert Case.from_text("&contact moes_l = 5 /").resolve()["contact"] == {
+        "moes_m": 1000.0,
+        "moes_l": 5.0,
+    }
+
+
+def test_options_replace_values():
+    case = Case.from_text("&grid points = 65 /", ["grid.points=129", "surface.kind='fractal'"])
+    assert case.resolve()["grid"]["points"] == 129
+    assert case.resolve()["surface"]["kind"] == "fractal"
+    assert case.with_options("grid.points=257").resolve()["grid"]["points"] == 257
+
+
+def test_map_is_found_beside_its_case(tmp_path: Path, monkeypatch):
+    folder = tmp_path / "a folder"
+    folder.mkdir()
+    (folder / "it's.npy").write_bytes(b"")
+    (folder / "case.nml").write_text("&surface kind = 'map' file = 'it''s.npy' /\n")
+    monkeypatch.chdir(tmp_path)
+    case = Case.read("a folder/case.nml")
+    assert case.resolve()["surface"]["file"] == str(folder / "it's.npy")
+    assert Case.from_text(case.text).text == case.text
+
+
+def check_message(error: InputError) -> None:
+    """One message of four lines; the caret stands under something."""
+    lines = str(error).split("\n")
+    assert lines[0].startswith(("text:", "--set "))
+    assert "error: " in lines[0]
+    assert lines[2].rstrip().endswith("^")
+    assert lines[3].startswith("expected: ")
+    assert len(lines) == 4
+
+
+@settings(max_examples=300, deadline=None)
+@given(st.text(max_size=60))
+@example("&grid points = 65 /")
+@example("'")
+@example("&")
+@example("&grid points")
+@example("&grid points=-")
+@example("&grid points=e")
+@example("&surface file=''''/")
+def test_any_text_is_read_or_refused(text: str):
+    for whole in (text, f"&grid {text} /", f"&contact load = {text}", f"&surface file='{text}"):
+        try:
+            resolved = core.resolve(whole, "text")
+        except InputError as error:
+            check_message(error)
+        else:
+            assert core.resolve(resolved, "text") == resolved
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.data())
+def test_damaged_cases_are_read_or_refused(data):
+    text = CASE_FILES[data.draw(st.integers(0, len(CASE_FILES) - 1))].read_text()
+    at = data.draw(st.integers(0, len(text) - 1))
+    mode = data.draw(st.sampled_from(["drop", "insert", "cut"]))
+    if mode == "drop":
+        text = text[:at] + text[at + 1 :]
+    elif mode == "insert":
+        text = text[:at] + data.draw(st.sampled_from(list("&/=,'!.0x\t\n\"*("))) + text[at:]
+    else:
+        text = text[:at]
+    try:
+        core.resolve(text, "text")
+    except InputError as error:
+        check_message(error)
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.text(max_size=30).filter(lambda text: "\n" not in text))
+def test_any_option_is_read_or_refused(text: str):
+    for option in (text, f"grid.{text}", f"contact.load={text}", f"surface.kind={text}"):
+        if not option or "\x00" in option:
+            continue
+        try:
+            core.resolve("", "text", [option])
+        except InputError as error:
+            check_message(error)
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.floats(min_value=0.011, max_value=99.0))
+def test_numbers_keep_their_bits(value: float):
+    case = Case.from_text(f"&surface wavelength = {value!r} /")
+    assert case.resolve()["surface"]["wavelength"] == value
+
+
+def test_readme_of_cases_lists_every_key(root: Path):
+    text = (root / "cases" / "README.md").read_text()
+    rows = {
+        cells[0].strip("`"): [cell.replace("`", "").replace("\\|", "|") for cell in cells[1:]]
+        for cells in (
+            [cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
+            for line in text.splitlines()
+            if re.match(r"\| `\w+\.(?!nml)\w+`", line)
+        )
+    }
+    keys = {key.name: key for key in core.keys()}
+    assert list(rows) == list(keys)
+    for name, (unit, default, allowed, meaning) in rows.items():
+        key = keys[name]
+        assert unit == ("" if key.unit == "-" else key.unit), name
+        assert allowed == key.allowed, name
+        assert meaning, name
+        # What the reader derives from other keys is said in words
+        if default not in {"derived", "none"}:
+            assert default == key.default, name
+
+
+def test_check_prints_the_resolved_case_and_the_plan(capsys, cases: Path):
+    assert cli.main(["check", str(cases / "quick.nml"), "--set", "grid.points=65"]) == 0
+    printed = capsys.readouterr().out
+    assert "points = 65" in printed
+    text, _, plan = printed.rpartition("/\n")
+    assert core.resolve(text + "/\n", "text").strip() == (text + "/").strip()
+    assert plan.strip()
+
+
+@pytest.mark.parametrize("words", [[], ["rnu"], ["run"], ["export"]])
+def test_bad_verbs(words: list[str], capsys):
+    try:
+        status = cli.main(words)
+    except SystemExit as end:
+        status = end.code
+    assert status == 2
+    printed = capsys.readouterr()
+    assert "run" in printed.out + printed.err or "export" in printed.err
+
+
+def test_info(capsys):
+    assert cli.main(["info"]) == 0
+    printed = capsys.readouterr().out
+    assert "GCC" in printed
+    assert "numpy" in printed

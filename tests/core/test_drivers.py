@@ -1,0 +1,238 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Both drivers: the same bits, the same files, whole folders, clean interrupts."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pyehl
+from pyehl import cli
+
+SMALL = "&contact moes_m = 100.0 moes_l = 5.0 /\n&grid points = 65 /\n"
+SMALL_SI = "&contact load = 20.0 /\n&grid points = 65 /\n"
+FILES = {
+    "case.nml",
+    "plan.txt",
+    "summary.json",
+    "history.csv",
+    "X.npy",
+    "Y.npy",
+    "P.npy",
+    "H.npy",
+}
+SUMMARY = {
+    "status",
+    "H_c",
+    "H_min",
+    "P_max",
+    "F",
+    "H_c_extrapolated",
+    "H_c_error",
+    "H_min_extrapolated",
+    "H_min_error",
+    "load_error",
+    "cycles",
+    "residual",
+    "wall_seconds",
+}
+
+
+def without_time(folder: Path) -> dict[str, bytes]:
+    """All files of a folder; the one number that may differ is removed."""
+    files = {path.name: path.read_bytes() for path in folder.iterdir()}
+    pattern = rb'"wall_seconds": [-+.e\d]+'
+    files["summary.json"], n = re.subn(pattern, b'"wall_seconds": 0', files["summary.json"])
+    assert n == 1
+    return files
+
+
+@pytest.mark.parametrize("text", [SMALL, SMALL_SI], ids=["moes", "si"])
+@pytest.mark.parametrize("options", [[], ["--set", "solver.deflection=fft"]], ids=["mlmi", "fft"])
+def test_both_drivers_give_the_same_bits(drive, tmp_path: Path, text: str, options: list[str]):
+    (tmp_path / "case.nml").write_text(text)
+    for driver in ("ehl", "pyehl"):
+        done = drive(driver, "case.nml", "-o", f"deep/{driver}", *options)
+        assert (done.returncode, done.stderr) == (0, "")
+    fortran = without_time(tmp_path / "deep" / "ehl")
+    python = without_time(tmp_path / "deep" / "pyehl")
+    assert set(fortran) == set(python) == FILES
+    for name in fortran:
+        assert fortran[name] == python[name], name
+    assert sorted(p.name for p in (tmp_path / "deep").iterdir()) == ["ehl", "pyehl"]
+
+
+def test_summary_and_fields(drive, tmp_path: Path):
+    (tmp_path / "case.nml").write_text(SMALL)
+    assert drive("ehl", "case.nml", "-o", "out", "--quiet").stdout == ""
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert set(summary) >= SUMMARY
+    assert summary["status"] == "converged"
+    x, y = np.load(tmp_path / "out" / "X.npy"), np.load(tmp_path / "out" / "Y.npy")
+    assert x == pytest.approx(np.linspace(-2.5, 1.5, 65), abs=1e-14)
+    assert y == pytest.approx(np.linspace(-2.0, 2.0, 65), abs=1e-14)
+    pressure, film = np.load(tmp_path / "out" / "P.npy"), np.load(tmp_path / "out" / "H.npy")
+    assert pressure.shape == film.shape == (65, 65)
+    assert pressure.flags.f_contiguous
+    assert np.array_equal(pressure, pressure[:, ::-1])
+    assert pressure.min() >= 0.0
+    assert pressure.max() == summary["P_max"]
+    # The load of the whole plane is 2 pi/3 (eq. 4)
+    load = pressure.sum() * (x[1] - x[0]) * (y[1] - y[0])
+    assert load == pytest.approx(2.0 * np.pi / 3.0, rel=1e-6)
+    centre = int(np.argmin(abs(x))), 32
+    assert film[centre] == pytest.approx(summary["H_c"], rel=0.02)
+
+
+def test_result_folder_solves_itself_again(drive, tmp_path: Path):
+    (tmp_path / "case.nml").write_text(SMALL_SI)
+    assert drive("ehl", "case.nml", "-o", "first").returncode == 0
+    assert drive("ehl", "first/case.nml", "-o", "second").returncode == 0
+    assert without_time(tmp_path / "first") == without_time(tmp_path / "second")
+
+
+def test_fractal_surface_is_the_same_for_both_drivers(drive, tmp_path: Path):
+    text = SMALL_SI + "&surface pixels = 32 {} /\n&time steps = 2 /\n"
+    (tmp_path / "fractal.nml").write_text(text.format("kind = 'fractal'"))
+    (tmp_path / "map.nml").write_text(text.format("kind = 'map' file = 'map.npy'"))
+    assert (
+        cli.main(["surface", str(tmp_path / "fractal.nml"), "-o", str(tmp_path / "map.npy")]) == 0
+    )
+    heights = np.load(tmp_path / "map.npy")
+    assert heights.shape == (32, 32)
+    assert heights.std() == pytest.approx(0.05e-6, rel=1e-12)
+    refused = drive("ehl", "fractal.nml", "-o", "none")
+    assert refused.returncode == 2
+    assert "pyehl surface" in refused.stderr
+    for driver, case in (("pyehl", "fractal"), ("ehl", "map"), ("pyehl", "map")):
+        assert drive(driver, f"{case}.nml", "-o", f"{driver}-{case}").stderr == ""
+    first = without_time(tmp_path / "pyehl-fractal")
+    for other in ("ehl-map", "pyehl-map"):
+        second = without_time(tmp_path / other)
+        for name in ("P.npy", "H.npy", "history.csv"):
+            assert first[name] == second[name], (other, name)
+
+
+@pytest.mark.parametrize("driver", ["ehl", "pyehl"])
+def test_not_converged_is_said(drive, tmp_path: Path, driver: str):
+    (tmp_path / "case.nml").write_text(SMALL)
+    options = ["--set", "solver.max_cycles=1", "--set", "solver.accuracy=1e-6"]
+    done = drive(driver, "case.nml", "-o", "out", *options)
+    assert done.returncode == 1
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert summary["status"] not in ("converged", "interrupted")
+
+
+@pytest.mark.parametrize("driver", ["ehl", "pyehl"])
+def test_earlier_result_gives_way_and_other_files_stay(drive, tmp_path: Path, driver: str):
+    (tmp_path / "case.nml").write_text(SMALL)
+    assert drive(driver, "case.nml", "-o", "out").returncode == 0
+    (tmp_path / "out" / "notes.txt").write_text("mine\n")
+    done = drive(driver, "case.nml", "-o", "out", "--set", "output.fields=.false.")
+    assert done.returncode == 0
+    assert "notes" not in {p.name for p in (tmp_path / "out").iterdir()}
+    assert {p.name for p in (tmp_path / "out").iterdir()} == {
+        "case.nml",
+        "plan.txt",
+        "summary.json",
+        "history.csv",
+    }
+    kept = [p for p in tmp_path.iterdir() if p.name.startswith("out.previous-")]
+    assert [p.name for p in kept[0].iterdir()] == ["notes.txt"]
+    assert str(kept[0]) in done.stdout
+
+
+@pytest.mark.parametrize("driver", ["ehl", "pyehl"])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_interrupt_keeps_what_there_is(drivers, tmp_path: Path, driver: str, number: int):
+    (tmp_path / "case.nml").write_text("&contact moes_m = 200.0 /\n&grid points = 1025 /\n")
+    options = ["--set", "solver.accuracy=1e-6", "--set", "solver.max_cycles=1000"]
+    with subprocess.Popen(
+        [*drivers[driver], "case.nml", "-o", "out", *options],
+        cwd=tmp_path,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"PYTHONUNBUFFERED": "1"},
+    ) as process:
+        assert process.stdout is not None
+        # The plan is printed when the solver has started
+        assert process.stdout.readline()
+        time.sleep(0.5)
+        began = time.monotonic()
+        process.send_signal(number)
+        _, errors = process.communicate(timeout=60)
+    assert time.monotonic() - began < 10.0
+    assert (process.returncode, errors) == (130, "")
+    assert {p.name for p in tmp_path.iterdir()} == {"case.nml", "out"}
+    assert {p.name for p in (tmp_path / "out").iterdir()} == FILES
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert summary["status"] == "interrupted"
+    assert np.isfinite(np.load(tmp_path / "out" / "P.npy")).all()
+
+
+def test_ends_with_nothing_when_the_folder_cannot_be_written(drive, tmp_path: Path):
+    (tmp_path / "case.nml").write_text(SMALL)
+    done = drive("ehl", "case.nml", "-o", "case.nml/out")
+    assert done.returncode == 2
+    assert [p.name for p in tmp_path.iterdir()] == ["case.nml"]
+
+
+def test_load_and_export(drive, tmp_path: Path):
+    xr = pytest.importorskip("xarray")
+    (tmp_path / "case.nml").write_text(SMALL_SI)
+    assert drive("ehl", "case.nml", "-o", "out").returncode == 0
+    data = pyehl.load(tmp_path / "out")
+    assert isinstance(data, xr.Dataset)
+    assert data["P"].dims == data["h"].dims == ("X", "Y")
+    assert {name: data[name].units for name in ("X", "x", "y", "P", "H", "p", "h")} == {
+        "X": "1",
+        "x": "m",
+        "y": "m",
+        "P": "1",
+        "H": "1",
+        "p": "Pa",
+        "h": "m",
+    }
+    # a^3 = 3wR/(2E'), p_h = 3w/(2 pi a^2)
+    a = (1.5 * 20.0 * 0.018 / 2.26e11) ** (1.0 / 3.0)
+    assert data["x"].values == pytest.approx(data["X"].values * a, rel=1e-14)
+    assert data["p"].values == pytest.approx(data["P"].values * 30.0 / (np.pi * a**2), rel=1e-12)
+    assert data["h"].values == pytest.approx(data["H"].values * a**2 / 0.018, rel=1e-12)
+    assert data.attrs["status"] == "converged"
+    assert data["history_residual"].sizes["row"] >= 1
+
+    from pyehl.export import export
+
+    path = export(tmp_path / "out")
+    with xr.open_dataset(path, engine="scipy") as again:
+        assert again["p"].dims == ("Y", "X")
+        assert np.array_equal(again["p"].values.T, data["p"].values)
+        assert again["h"].units == "m"
+        assert again.attrs["H_c"] == data.attrs["H_c"]
+        assert {"Conventions", "status"} <= set(again.attrs)
+
+
+def test_load_without_xarray(drive, tmp_path: Path, monkeypatch):
+    (tmp_path / "case.nml").write_text(SMALL)
+    assert drive("ehl", "case.nml", "-o", "out").returncode == 0
+    monkeypatch.setitem(__import__("sys").modules, "xarray", None)
+    result = pyehl.load(tmp_path / "out")
+    assert isinstance(result, pyehl.results.Result)
+    assert result.converged
+    assert result["P"].shape == (65, 65)
+    assert "p" not in result.variables  # no SI values without SI input
+    assert result.case["grid"]["points"] == 65
+
+
+def test_load_refuses_other_folders(tmp_path: Path):
+    with pytest.raises(FileNotFoundError, match=r"summary\.json"):
+        pyehl.load(tmp_path)

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The order of the Fortran layers, and who may do what."""
+
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+# A module uses only modules of its own layer or of a layer to the left
+LAYERS = [
+    ["base"],
+    ["physics", "grid"],
+    ["surface", "deflection"],
+    ["reynolds"],
+    ["multigrid"],
+    ["case"],
+    ["solver"],
+    ["app", "bind", "test"],
+]
+RANK = {folder: rank for rank, folders in enumerate(LAYERS) for folder in folders}
+# Numerics takes plain arguments; words of a case file stop at the solver
+NUMERICS = ("physics", "grid", "surface", "deflection", "reynolds", "multigrid")
+
+
+def modules(root: Path) -> dict[str, tuple[Path, set[str]]]:
+    """File and used modules of every module."""
+    found = {}
+    for path in sorted((root / "fortran").rglob("*.f90*")):
+        text = path.read_text()
+        for name in re.findall(r"^\s*(?:module|program)\s+(\w+)\s*$", text, re.M | re.I):
+            used = set(re.findall(r"^\s*use\s+(\w+)", text, re.M | re.I))
+            found[name] = (path, used)
+    return found
+
+
+def folder(path: Path) -> str:
+    return path.parent.name
+
+
+def test_arrows_point_one_way(root: Path):
+    found = modules(root)
+    assert len(found) > 20
+    wrong = [
+        f"{name} uses {other}"
+        for name, (path, used) in found.items()
+        for other in used
+        if other in found and RANK[folder(found[other][0])] > RANK[folder(path)]
+    ]
+    assert not wrong
+
+
+def test_every_used_module_is_known(root: Path):
+    found = modules(root)
+    system = {"iso_c_binding", "iso_fortran_env", "ieee_arithmetic", "omp_lib"}
+    unknown = {u for _, used in found.values() for u in used} - set(found) - system
+    assert not unknown
+
+
+def test_numerics_does_not_know_cases(root: Path):
+    wrong = [
+        f"{name} uses {other}"
+        for name, (path, used) in modules(root).items()
+        if folder(path) in NUMERICS
+        for other in used
+        if other.startswith("ehl_case")
+    ]
+    assert not wrong
+
+
+def test_module_is_named_as_its_file(root: Path):
+    for name, (path, _) in modules(root).items():
+        if folder(path) in ("app", "test"):
+            continue
+        stem = path.name.split(".")[0]
+        assert name == (stem if stem.startswith("ehl_") else f"ehl_{stem}"), path
+
+
+@pytest.mark.parametrize(
+    "pattern", [r"^\s*stop\b", r"^\s*error\s+stop\b", r"^\s*print\b", r"write\s*\(\*"]
+)
+def test_library_neither_prints_nor_stops(root: Path, pattern: str):
+    for path in sorted((root / "fortran").rglob("*.f90")):
+        if folder(path) in ("app", "test"):
+            continue
+        assert not re.search(pattern, path.read_text(), re.M | re.I), path
+
+
+def test_first_line_is_the_licence(root: Path):
+    paths = [*(root / "fortran").rglob("*.f90"), *(root / "pyehl").glob("*.py")]
+    assert len(paths) > 30
+    for path in paths:
+        assert "SPDX-License-Identifier: BSD-3-Clause" in path.read_text().splitlines()[0], path
+
+
+def test_only_core_imports_the_extension(root: Path):
+    for path in (root / "pyehl").glob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.ImportFrom) and "_core" in (node.module or ""):
+                assert path.name == "core.py"

@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Malformed cases: exit status 2, one message with its place, nothing solved, nothing written.
+
+In the table a section sign marks the character under which the first caret must stand.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from pyehl import cli
+
+MARK = "§"
+
+# Name, case with mark, --set options, what the message must hold
+FAULTS: list[tuple[str, str, list[str], list[str]]] = [
+    ("unknown key", "&grid\n  §pionts = 65\n/\n", [], ["'pionts'", "'points'", "&grid"]),
+    ("unknown key, nothing near", "&grid §qqq = 1 /", [], ["'qqq'", "points, x_inlet"]),
+    ("key of another group", "&grid §load = 600.0 /", [], ["'load'", "belongs to &contact"]),
+    ("unknown group", "§&contcat load = 600 /", [], ["&contcat", "'&contact'"]),
+    ("group without a name", "§& load = 600 /", [], ["unknown group"]),
+    ("word for a real", "&contact load = §heavy /", [], ["contact.load = heavy", "a number"]),
+    ("string for a real", "&contact load = §'600' /", [], ["contact.load", "a number", "N"]),
+    ("real for an integer", "&grid points = §65.0 /", [], ["grid.points = 65.0", "whole number"]),
+    ("word for an integer", "&grid points = §many /", [], ["grid.points", "whole number"]),
+    ("number for a word", "&surface kind = §1 /", [], ["surface.kind", "'smooth'", "quotes"]),
+    ("word without quotes", "&surface kind = §smooth /", [], ["surface.kind", "quotes"]),
+    ("number for a truth value", "&output fields = §1 /", [], ["output.fields", ".true."]),
+    ("string for a truth value", "&output fields = §'T' /", [], ["output.fields", ".true."]),
+    ("wrong choice", "&surface kind = §'smoth' /", [], ["surface.kind", "'smooth'?", "'fractal'"]),
+    ("wrong choice, nothing near", "&solver deflection = §'fem' /", [], ["deflection", "'mlmi'"]),
+    ("empty choice", "&solver cycle = §'' /", [], ["solver.cycle", "'W'"]),
+    ("decimal comma", "&contact mean_velocity = 0§,84 /", [], ["decimal comma", "mean_velocity"]),
+    ("decimal comma, negative", "&grid\nx_inlet = -2§,5\n/", [], ["decimal comma", "grid.x_inlet"]),
+    ("decimal comma in an exponent", "&lubricant viscosity = 4§,0e-2/", [], ["decimal comma"]),
+    ("list of values", "&grid points = 65, §129 /", [], ["second value", "grid.points"]),
+    ("list without a comma", "&grid points = 65 §129 /", [], ["grid.points"]),
+    ("repeat count", "&grid points = §2*65 /", [], ["grid.points", "one plain number"]),
+    ("unit", "&contact load = 600 §N /", [], ["unit", "contact.load", "unit N, not written"]),
+    ("unit with a slash", "&contact mean_velocity = 0.84 §m/s /", [], ["unit", "mean_velocity"]),
+    ("unit without a blank", "&contact load = 600§N /", [], ["contact.load", "behind the number"]),
+    ("unit before a key", "&contact load = 600 §kN, radius = 1 /", [], ["unit", "contact.load"]),
+    ("unit as a string", "&contact load = 600 §'N' /", [], ["contact.load"]),
+    ("nan", "&contact load = §nan /", [], ["contact.load", "finite"]),
+    ("inf", "&contact load = §+Infinity /", [], ["contact.load", "finite"]),
+    ("overflow", "&contact load = §1e999 /", [], ["contact.load", "too large"]),
+    ("overflow by digits", "&contact load = §" + "9" * 400 + " /", [], ["contact.load", "too large"]),
+    ("integer overflow", "&surface seed = §99999999999 /", [], ["surface.seed", "out of range"]),
+    ("two points in a number", "&contact load = 6.0§.0 /", [], ["contact.load = 6.0.0"]),
+    ("hexadecimal", "&grid points = 0§x41 /", [], ["grid.points"]),
+    ("negative load", "&contact load = §-600 /", [], ["contact.load = -600", "out of range"]),
+    ("zero load", "&contact load = §0 /", [], ["contact.load = 0", "out of range"]),
+    ("millimetres", "&contact radius = §18 /", [], ["contact.radius", "[1e-5, 10]", "unit m"]),
+    ("gigapascals", "&contact reduced_modulus = §226 /", [], ["reduced_modulus", "unit Pa"]),
+    ("centistokes", "&lubricant viscosity = §40 /", [], ["lubricant.viscosity", "unit Pa s"]),
+    ("per gigapascal", "&lubricant pressure_viscosity = §22 /", [], ["pressure_viscosity", "1/Pa"]),
+    ("nanometres", "&surface rms_height = §50 /", [], ["surface.rms_height", "unit m"]),
+    ("impossible pressure", "&contact load = §9e4 radius = 1e-4/", [], ["Hertz", "contact.load"]),
+    ("negative Moes number", "&contact moes_m = §-1 /", [], ["contact.moes_m", "(0, 1e5]"]),
+    ("inlet inside the contact", "&grid x_inlet = §-0.5 /", [], ["grid.x_inlet", "-1.05"]),
+    ("accuracy of zero", "&solver accuracy = §0 /", [], ["solver.accuracy"]),
+    ("target error too small", "&grid target_error = §1e-9 /", [], ["grid.target_error", "0 or"]),
+    ("both kinds of contact", "&contact moes_m = 100\n §load = 600 /", [], ["contradicts", "moes_m"]),
+    ("both amplitudes", "&surface kind='harmonic' amplitude=0.1 §amplitude_over_film=0.4/", [],
+     ["surface.amplitude", "contradicts"]),
+    ("steps and periods", "&time steps = 5, max_periods = §3 /", [], ["contradicts", "time.steps"]),
+    ("even points", "&grid points = §512 /", [], ["grid.points = 512", "even", "513"]),
+    ("points without levels", "&grid points = §131 /", [], ["grid.points", "129", "145"]),
+    ("too few points", "&grid points = §9 /", [], ["grid.points", "[17, 4097]"]),
+    ("too many points", "&grid points = §8193 /", [], ["grid.points", "[17, 4097]"]),
+    ("map without a file", "&surface kind = §'map' /", [], ["surface.file", "'map'"]),
+    ("map that is not there", "&surface kind='map' file = §'no.npy' /", [], ["surface.file", "no.npy"]),
+    ("no slash at the end", "&grid\n  points = 65§\n\n", [], ["&grid", "line 1", "'/'"]),
+    ("no slash before a group", "&grid\n points = 65\n§&solver threads = 2 /", [], ["&grid", "'/'"]),
+    ("old end of a group", "&grid points = 65 §&end", [], ["&grid", "'/'"]),
+    ("no group", "§points = 65", [], ["outside of a group", "&grid"]),
+    ("text behind a group", "&grid /\n§x", [], ["outside of a group"]),
+    ("key twice", "&grid points = 65\n §points = 129 /", [], ["grid.points", "twice"]),
+    ("group twice", "&grid points = 65 /\n§&grid x_inlet = -3 /", [], ["&grid", "twice"]),
+    ("no value", "&grid points = §/", [], ["no value", "grid.points"]),
+    ("no value before a comma", "&grid points = §, x_inlet = -3 /", [], ["no value", "grid.points"]),
+    ("no value before a key", "&grid points =\n §x_inlet = -3 /", [], ["no value", "grid.points"]),
+    ("no value at the end", "&grid points =§", [], ["no value", "grid.points"]),
+    ("no equals sign", "&grid points§ 65 /", [], ["'='", "grid.points"]),
+    ("index", "&grid §points(1) = 65 /", [], ["points(1)", "'points'"]),
+    ("two commas", "&grid points = 65,§, x_inlet = -3 /", [], ["two commas", "grid.points"]),
+    ("comma first", "&grid §, points = 65 /", [], ["&grid"]),
+    ("two values with an equals sign", "&grid points = 65 §= 129 /", [], ["grid.points"]),
+    ("open quote", "&surface kind = §'smooth /\n/", [], ["surface.kind", "quote"]),
+    ("binary file", "&grid\n§\x01\x02 /", [], ["not a text file"]),
+    ("tab before the fault", "&grid\n\t§pionts = 65 /", [], ["'points'"]),
+    ("letters beyond ASCII before the fault", "&surface file = 'Höhe µm.npy' §knd = 1 /", [], ["'kind'"]),
+    ("line ends of Windows", "&grid\r\n  §pionts = 65\r\n/\r\n", [], ["'points'"]),
+    ("comment does not hide the fault", "! &grid /\n&grid ! points\n §pionts=65 ! 1\n/", [], ["'points'"]),
+    ("option with an unknown key", "", ["grid.pionts=65"], ["--set grid.pionts=65", "'points'"]),
+    ("option with an unknown group", "", ["gird.points=65"], ["--set gird.points=65", "'grid'"]),
+    ("option without a group", "", ["points=65"], ["--set points=65", "group.key=value"]),
+    ("option without a value", "", ["grid.points="], ["no value", "grid.points"]),
+    ("option without an equals sign", "", ["grid.points"], ["group.key=value"]),
+    ("option out of range", "", ["grid.points=8193"], ["--set grid.points=8193", "out of range"]),
+    ("option with a decimal comma", "", ["grid.x_inlet=-2,5"], ["decimal comma", "grid.x_inlet"]),
+    ("option with a unit", "", ["contact.load=600 N"], ["--set contact.load=600 N", "contact.load"]),
+    ("option twice", "", ["grid.points=65", "grid.points=129"], ["twice", "grid.points"]),
+    ("option against the file", "&contact moes_m=100 /", ["contact.load=1"], ["contradicts", "--set"]),
+    ("option that is not finite", "", ["contact.load=inf"], ["finite", "contact.load"]),
+    ("empty option", "", ["="], ["group.key=value"]),
+]  # fmt: skip
+
+
+def place(marked: str) -> tuple[str, str]:
+    """The text without its mark, and the line:column that the mark stood at."""
+    before, mark, after = marked.partition(MARK)
+    if not mark:
+        return marked, ""
+    line = before.count("\n") + 1
+    column = len(before) - (before.rfind("\n") + 1) + 1
+    return before + after, f":{line}:{column}"
+
+
+@pytest.mark.parametrize(("name", "marked", "options", "parts"), FAULTS, ids=[f[0] for f in FAULTS])
+def test_malformed_case(drive, tmp_path: Path, capsys, monkeypatch, name, marked, options, parts):
+    text, where = place(marked)
+    (tmp_path / "case.nml").write_bytes(text.encode())
+    words = ["case.nml", "-o", "out", *(word for option in options for word in ("--set", option))]
+    done = drive("ehl", *words)
+    monkeypatch.chdir(tmp_path)
+    status = cli.main(["run", *words])
+    python = capsys.readouterr()
+    assert (done.returncode, status) == (2, 2)
+    assert (done.stdout, python.out) == ("", "")
+    assert done.stderr == python.err
+    message = done.stderr.splitlines()
+    if where:
+        assert message[0].startswith(f"case.nml{where}: error: ")
+    else:
+        assert message[0].startswith("--set ")
+    assert "| " in message[1]
+    assert message[1].partition("|")[2].strip() == shown_line(text, where, options)
+    assert set(message[2].strip()) <= set("|^ \t")
+    assert "^" in message[2]
+    assert caret_column(message) == marked_column(text, where, message)
+    assert message[3].startswith("expected: ")
+    assert len(message) == 4
+    for part in parts:
+        assert part in done.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["case.nml"]
+
+
+def shown_line(text: str, where: str, options: list[str]) -> str:
+    """The line that the message must show, control characters as blanks."""
+    line = text.split("\n")[int(where.split(":")[1]) - 1] if where else options[-1]
+    # Of a long line the beginning is shown, as long as the fault is in it
+    return "".join(c if ord(c) >= 32 or c == "\t" else " " for c in line)[:100].strip()
+
+
+def caret_column(message: list[str]) -> int:
+    return message[2].index("^") - message[2].index("|") - 1
+
+
+def marked_column(text: str, where: str, message: list[str]) -> int:
+    """Where the caret must stand behind the bar; options have no column, any place will do."""
+    if not where:
+        return caret_column(message)
+    return int(where.split(":")[2])
+
+
+@pytest.mark.parametrize("driver", ["ehl", "pyehl"])
+@pytest.mark.parametrize(
+    ("words", "part"),
+    [
+        (["missing.nml", "-o", "out"], "missing.nml"),
+        ([".", "-o", "out"], "folder"),
+        (["case.nml"], "-o"),
+        (["-o", "out"], "CASE.nml"),
+        (["case.nml", "-o", "out", "--what"], "--what"),
+        (["case.nml", "-o", "full"], "full"),
+        (["case.nml", "-o", "file"], "file"),
+        (["case.nml", "-o", "file/out"], "file/out"),
+        (["case.nml", "-o", "/"], "/"),
+    ],
+)
+def test_bad_command_line(drive, tmp_path: Path, driver, words, part):
+    (tmp_path / "case.nml").write_text("&grid points = 33 /\n")
+    (tmp_path / "file").write_text("not a folder\n")
+    (tmp_path / "full").mkdir()
+    (tmp_path / "full" / "thesis.tex").write_text("precious\n")
+    done = drive(driver, *words)
+    assert done.returncode == 2
+    assert part in done.stderr
+    assert "Traceback" not in done.stderr
+    assert sorted(p.name for p in tmp_path.rglob("*")) == ["case.nml", "file", "full", "thesis.tex"]
+
+
+def test_table_is_large_enough():
+    assert len(FAULTS) >= 40
