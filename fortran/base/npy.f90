@@ -14,6 +14,7 @@ module ehl_npy
    interface write_npy
       module procedure write_vector
       module procedure write_matrix
+      module procedure write_stack
    end interface write_npy
 
    character(len=*), parameter :: magic = char(147) // "NUMPY"
@@ -37,6 +38,17 @@ contains
       call write_values(path, header("True", "(" // to_text(size(values, 1)) // ", " &
                                      // to_text(size(values, 2)) // ")"), values, status)
    end subroutine write_matrix
+
+   !> A stack of matrices: values(i, j, k) is values[i - 1, j - 1, k - 1] in Python
+   subroutine write_stack(path, values, status)
+      character(len=*), intent(in) :: path
+      real(dp), intent(in) :: values(:, :, :)
+      type(status_t), intent(inout) :: status
+
+      call write_values(path, header("True", "(" // to_text(size(values, 1)) // ", " &
+                                     // to_text(size(values, 2)) // ", " // to_text(size(values, 3)) // ")"), &
+                        reshape(values, [size(values, 1), size(values, 2)*size(values, 3)]), status)
+   end subroutine write_stack
 
    !> Magic, version, length and description, padded to a multiple of 64 bytes
    pure function header(fortran_order, shape_text) result(text)

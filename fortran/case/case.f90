@@ -163,6 +163,8 @@ module ehl_case
    type :: output_case_t
       !> whether the fields X, Y, P, H are written, default .true.
       logical :: fields = .true.
+      !> [a/u] time between frames of P and H that a march keeps, 0 (default): none
+      real(dp) :: frame_interval = 0.0_dp
    end type output_case_t
 
    !> A whole case

@@ -79,6 +79,8 @@ contains
       call self%add_march_keys(input)
       call self%add_psd_keys(input)
       call self%logicals("output", "fields", input%output%fields, "write the fields X, Y, P, H")
+      call self%reals("output", "frame_interval", input%output%frame_interval, "a/u", "[0, 1000]", &
+                      "time between frames of P and H that a march keeps; 0: none")
    end subroutine bind_case
 
    subroutine add_contact_keys(self, input)

@@ -106,12 +106,14 @@ contains
 
    !> Right-hand side of the coarse level by the transpose of interpolation
    subroutine restrict_residual_alcouffe(fine, coarse, transfer)
-      type(level_t), intent(in) :: fine
-      type(level_t), intent(inout) :: coarse
+      type(level_t), intent(inout) :: fine, coarse
       type(transfer_t), intent(in) :: transfer
       real(dp) :: operator_row(coarse%grid%nx), residual(coarse%grid%nx)
       integer :: i, j
 
+      coarse%rhs = 0.0_dp
+      ! row 1 of a folded grid consists of half cells
+      if (fine%grid%mirror) fine%residual(:, 1) = 0.5_dp*fine%residual(:, 1)
       do j = merge(1, 2, coarse%grid%mirror), coarse%grid%ny - 1
          call reynolds_operator(coarse, j, operator_row)
          call transfer%restrict_row(fine%residual, j, residual)
@@ -239,4 +241,4 @@ contains
          end do
       end do
    end subroutine correct
-
+end module ehl_coarse_problem

@@ -12,7 +12,7 @@
 module ehl_relaxation
    use ehl_kinds, only: dp
    use ehl_level, only: band_lower, band_upper, level_t, line_width, near_reach
-   use, intrinsic :: omp_lib, only: omp_get_thread_num
+   !$ use omp_lib, only: omp_get_thread_num
    implicit none (type, external)
    private
    public :: relax
@@ -29,17 +29,19 @@ contains
    !> One sweep. Needs film and coefficients of the present pressure; leaves them out of date.
    subroutine relax(level)
       type(level_t), intent(inout) :: level
-      integer :: colour, block, first, last, blocks
+      integer :: colour, block, first, last, blocks, me
 
       first = merge(1, 2, level%grid%mirror)
       last = level%grid%ny - 1
       do colour = 0, 1
          if (first + colour > last) cycle
          blocks = ((last - first - colour)/2 + line_width)/line_width
-         !$omp parallel do default(none) shared(level, first, last, colour, blocks) &
+         !$omp parallel do default(none) shared(level, first, last, colour, blocks) private(me) &
          !$omp num_threads(level%threads) if(level%parallel) schedule(static)
          do block = 1, blocks
-            call relax_lines(level, first + colour + 2*line_width*(block - 1), last, omp_get_thread_num() + 1)
+            me = 1
+            !$ me = omp_get_thread_num() + 1
+            call relax_lines(level, first + colour + 2*line_width*(block - 1), last, me)
          end do
          !$omp end parallel do
       end do

@@ -19,6 +19,7 @@ module ehl_outputs
    !> What pyehl writes into a result folder; only these are ever removed
    character(len=*), parameter :: known_files(*) = [character(len=24) :: &
       "case.nml", "plan.txt", "summary.json", "history.csv", "X.npy", "Y.npy", "P.npy", "H.npy", &
+      "P_smooth.npy", "H_smooth.npy", "RR.npy", "A_d.npy", "frame_T.npy", "frame_P.npy", "frame_H.npy", &
       "results.nc", "centre_lines.png", "film.png", "interferogram.png"]
 
 contains
@@ -127,6 +128,7 @@ contains
       type(solver_t), intent(inout) :: solver
       type(status_t), intent(inout) :: status
       real(dp), allocatable :: x(:), y(:), values(:, :)
+      character(len=8), allocatable :: names(:)
       integer :: i, ny, k
 
       associate (grid => solver%grid)
@@ -137,12 +139,15 @@ contains
       end associate
       call write_npy(folder // "X.npy", x, status)
       if (.not. status%failed()) call write_npy(folder // "Y.npy", y, status)
-      associate (names => ["P", "H"])
-         do k = 1, size(names)
-            if (.not. status%failed()) call solver%field(names(k), values, status)
-            if (.not. status%failed()) call write_npy(folder // names(k) // ".npy", values, status)
-         end do
-      end associate
+      call solver%field_names(names)
+      do k = 1, size(names)
+         if (.not. status%failed()) call solver%field(trim(names(k)), values, status)
+         if (.not. status%failed()) call write_npy(folder // trim(names(k)) // ".npy", values, status)
+      end do
+      if (.not. allocated(solver%frame_times)) return
+      if (.not. status%failed()) call write_npy(folder // "frame_T.npy", solver%frame_times, status)
+      if (.not. status%failed()) call write_npy(folder // "frame_P.npy", solver%frame_p, status)
+      if (.not. status%failed()) call write_npy(folder // "frame_H.npy", solver%frame_h, status)
    end subroutine write_fields
 
    !> The folder from the root without a '/' at its end; empty when it cannot be a folder of ours

@@ -46,6 +46,10 @@ module ehl_solver
       !> Heights of a map [m] that was given and not read
       real(dp), allocatable, private :: heights(:, :)
       type(case_t), private :: input
+      !> Pressure and film of the smooth contact, kept for a march
+      real(dp), allocatable, private :: p_smooth(:, :), h_smooth(:, :)
+      !> Times of the frames, and P and H in them, whole domain: (nx, full_ny, frame)
+      real(dp), allocatable :: frame_times(:), frame_p(:, :, :), frame_h(:, :, :)
       !> The same run on the next coarser grid, for the grid error of the friction ratio
       type(solver_t), pointer, private :: coarse => null()
       !> Its mean friction ratio; 0: not known
@@ -65,6 +69,7 @@ module ehl_solver
       procedure :: progress
       procedure :: summary
       procedure :: field
+      procedure :: field_names
       procedure, private :: level
       procedure, private :: stand
    end type solver_t
@@ -200,6 +205,8 @@ contains
       integer :: k, n
 
       n = self%steady%n
+      self%p_smooth = self%hierarchy%levels(n)%p
+      self%h_smooth = self%hierarchy%levels(n)%h
       if (self%plan%amplitude_over_film > 0.0_dp) then
          select type (waviness => self%plan%surface)
          type is (harmonic_t)
@@ -273,6 +280,7 @@ contains
                                       m%film_central, m%film_minimum, m%pressure_maximum, m%load_error, march%cycles, &
                                       march%residual])
             self%outcome = judge_march(self)
+            call keep_frame(self)
          else if (.not. m%finite) then
             self%outcome = outcome_diverged
          else if (.not. m%positive) then
@@ -380,30 +388,85 @@ contains
       call record%set("bytes", real(self%hierarchy%bytes(), dp))
    end function summary
 
-   !> Field "P" or "H" on the unfolded grid, values(nx, full_ny)
+   !> Keep P and H if a frame is due
+   subroutine keep_frame(self)
+      type(solver_t), intent(inout) :: self
+      real(dp), allocatable :: values(:, :)
+      integer :: frames
+
+      associate (march => self%transient, interval => self%input%output%frame_interval)
+         if (interval <= 0.0_dp) return
+         if (int(march%time/interval) == int((march%time - march%time_step)/interval)) return
+         allocate (values(self%grid%nx, self%grid%full_ny()))
+         frames = 0
+         if (allocated(self%frame_times)) frames = size(self%frame_times)
+         if (frames == 0) allocate (self%frame_times(0), self%frame_p(size(values, 1), size(values, 2), 0), &
+                                    self%frame_h(size(values, 1), size(values, 2), 0))
+         self%frame_times = [self%frame_times, march%time]
+         call unfold(self%hierarchy%levels(self%steady%n)%p, self%grid, values)
+         self%frame_p = reshape([self%frame_p, values], [shape(values), frames + 1])
+         call unfold(self%hierarchy%levels(self%steady%n)%h, self%grid, values)
+         self%frame_h = reshape([self%frame_h, values], [shape(values), frames + 1])
+      end associate
+   end subroutine keep_frame
+
+   !> Names of the fields there are: P and H; in a march also those of the smooth contact, the roughness
+   !> RR and the deformed roughness A_d = H_smooth - H
+   subroutine field_names(self, names)
+      class(solver_t), intent(in) :: self
+      character(len=8), allocatable, intent(out) :: names(:)
+
+      if (self%marching) then
+         names = [character(len=8) :: "P", "H", "P_smooth", "H_smooth", "RR", "A_d"]
+      else
+         names = [character(len=8) :: "P", "H"]
+      end if
+   end subroutine field_names
+
+   !> A field on the whole domain, values(nx, full_ny); see field_names
    subroutine field(self, name, values, status)
       class(solver_t), intent(in) :: self
       character(len=*), intent(in) :: name
       real(dp), intent(out) :: values(:, :)
       type(status_t), intent(inout) :: status
-      integer :: j, row, shift
+      character(len=8), allocatable :: names(:)
 
       values = 0.0_dp
+      call self%field_names(names)
+      if (all(names /= name)) then
+         call status%fail(ehl_bad_input, "field '"//name//"' is not known: 'P' or 'H' was expected, in a march "// &
+                          "also 'P_smooth', 'H_smooth', 'RR' or 'A_d'")
+         return
+      end if
       associate (level => self%hierarchy%levels(self%level()))
-         shift = level%grid%full_ny() - level%grid%ny
-         do j = 1, level%grid%full_ny()
-            row = j - shift
-            if (row < 1) row = 2 - row
-            select case (name)
-            case ("P")
-               values(:, j) = level%p(:, row)
-            case ("H")
-               values(:, j) = level%h(:, row)
-            case default
-               call status%fail(ehl_bad_input, "field '"//name//"' is not known: 'P' or 'H' was expected")
-               return
-            end select
-         end do
+         select case (name)
+         case ("P")
+            call unfold(level%p, level%grid, values)
+         case ("H")
+            call unfold(level%h, level%grid, values)
+         case ("P_smooth")
+            call unfold(self%p_smooth, level%grid, values)
+         case ("H_smooth")
+            call unfold(self%h_smooth, level%grid, values)
+         case ("RR")
+            call unfold(self%transient%rr, level%grid, values)
+         case ("A_d")
+            call unfold(self%h_smooth - level%h, level%grid, values)
+         end select
       end associate
    end subroutine field
+
+   !> A stored field on the whole domain
+   pure subroutine unfold(stored, grid, values)
+      real(dp), intent(in) :: stored(:, :)
+      type(grid_t), intent(in) :: grid
+      real(dp), intent(out) :: values(:, :)
+      integer :: j, row
+
+      do j = 1, grid%full_ny()
+         row = j - (grid%full_ny() - grid%ny)
+         if (row < 1) row = 2 - row
+         values(:, j) = stored(:, row)
+      end do
+   end subroutine unfold
 end module ehl_solver
