@@ -41,8 +41,6 @@ module ehl_solver
       integer, private :: outcome = outcome_running
       !> Seconds spent on time steps
       real(dp), private :: step_seconds = 0.0_dp, step_seconds_coarse = 0.0_dp
-      !> The case as text, but for the threads, which change no result
-      character(len=:), allocatable, private :: text
       !> Heights of a map [m] that was given and not read
       real(dp), allocatable, private :: heights(:, :)
       type(case_t), private :: input
@@ -89,12 +87,8 @@ contains
       type(case_t), intent(in) :: input
       type(status_t), intent(inout) :: status
 
-      type(case_t) :: serial
 
       self%input = input
-      serial = input
-      serial%solver%threads = 1
-      self%text = case_text(serial)
       if (.not. allocated(self%heights)) allocate (self%heights(0, 0))
       call make_plan(input, self%heights, self%plan, status)
       if (status%failed()) return
@@ -129,8 +123,19 @@ contains
       type(status_t), intent(inout) :: status
 
       if (self%steps_made() == 0) return
-      call write_checkpoint(folder, self%text, self%transient, self%history, [self%step_seconds, self%coarse_mean], status)
+      call write_checkpoint(folder, marching_case(self%input), self%transient, self%history, [self%step_seconds, self%coarse_mean], status)
    end subroutine save_state
+
+   !> The case as text, but for what changes no result
+   function marching_case(input) result(text)
+      type(case_t), intent(in) :: input
+      character(len=:), allocatable :: text
+      type(case_t) :: plain
+
+      plain = input
+      plain%solver%threads = 1
+      text = case_text(plain)
+   end function marching_case
 
    !> Go on from the newest checkpoint in a folder, after start and in place of the first advance. The
    !> smooth contact is solved again, to the same bits; `found` tells whether there was a checkpoint.
@@ -147,7 +152,7 @@ contains
          if (status%failed()) return
       end do
       if (.not. self%marching) return
-      call read_checkpoint(folder, self%text, self%transient, self%history, numbers, found, status)
+      call read_checkpoint(folder, marching_case(self%input), self%transient, self%history, numbers, found, status)
       if (status%failed() .or. .not. found) return
       self%step_seconds = numbers(1)
       self%coarse_mean = numbers(2)
@@ -450,7 +455,7 @@ contains
             call unfold(self%h_smooth, level%grid, values)
          case ("RR")
             call unfold(self%transient%rr, level%grid, values)
-         case ("A_d")
+         case default
             call unfold(self%h_smooth - level%h, level%grid, values)
          end select
       end associate

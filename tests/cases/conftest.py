@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs of the program that several tests look at: each is made once."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import subprocess
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+HERE = Path(__file__).resolve().parent
+
+
+@dataclass(frozen=True)
+class Run:
+    """A finished run: result folder, exit status, duration [s], summary, columns of the history."""
+
+    folder: Path
+    code: int
+    seconds: float
+    summary: dict[str, Any]
+    history: dict[str, Array]
+
+    def __getitem__(self, name: str) -> Any:
+        """A number or word of the summary."""
+        return self.summary[name]
+
+    @property
+    def converged(self) -> bool:
+        """Whether the run came to a good end, by its word and by its exit status."""
+        return self.summary["status"] == "converged" and self.code == 0
+
+    def field(self, name: str) -> Array:
+        """X, Y, P or H, in Hertz units."""
+        return np.load(self.folder / f"{name}.npy")
+
+
+Solve = Callable[..., Run]
+
+
+@pytest.fixture(scope="session")
+def solve(ehl: str, tmp_path_factory: pytest.TempPathFactory) -> Solve:
+    """Run the program: ``solve((M, L), points, {"group.key": value})``.
+
+    Without an operating point (None) the contact is that of the settings, in SI units by default.
+    Fields are written only if asked for. A run that takes longer than `timeout` seconds fails.
+    """
+    place = tmp_path_factory.mktemp("runs")
+    (place / "case.nml").write_text("! all from the command line\n")
+    environment = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"}
+    runs: dict[tuple[str, ...], Run] = {}
+
+    def call(
+        point: tuple[float, float] | None,
+        points: int,
+        settings: Mapping[str, object] | None = None,
+        *,
+        fields: bool = False,
+        timeout: float = 600.0,
+    ) -> Run:
+        values: dict[str, object] = {"grid.points": points, "output.fields": fields}
+        if point is not None:
+            values |= {"contact.moes_m": point[0], "contact.moes_l": point[1]}
+        values |= settings or {}
+        words = {
+            f"{key}={f'.{value}.'.lower() if isinstance(value, bool) else value}"
+            for key, value in values.items()
+        }
+        key = tuple(sorted(words))
+        if key not in runs:
+            runs[key] = start(key, timeout)
+        return runs[key]
+
+    def start(words: tuple[str, ...], timeout: float) -> Run:
+        folder = place / f"{len(runs)}"
+        options = [part for word in words for part in ("--set", word)]
+        began = time.monotonic()
+        done = subprocess.run(
+            [ehl, "case.nml", "-o", folder.name, "--quiet", *options],
+            cwd=place,
+            env=environment,
+            capture_output=True,
+            text=True,
+            timeout=timeout,
+            check=False,
+        )
+        seconds = time.monotonic() - began
+        assert done.returncode in (0, 1), f"{words}: exit status {done.returncode}, {done.stderr}"
+        summary = json.loads((folder / "summary.json").read_text())
+        with (folder / "history.csv").open(newline="") as stream:
+            names, *rows = csv.reader(stream)
+        table = np.array([[float(cell or "nan") for cell in row] for row in rows])
+        columns = table.reshape(len(rows), len(names)).T
+        return Run(
+            folder, done.returncode, seconds, summary, dict(zip(names, columns, strict=True))
+        )
+
+    return call
+
+
+@pytest.fixture(scope="session")
+def table() -> Callable[[str], list[dict[str, str]]]:
+    """Rows of a table of reference data in this folder; '#' lines tell where they come from."""
+
+    def read(name: str) -> list[dict[str, str]]:
+        lines = (HERE / name).read_text().splitlines()
+        return list(csv.DictReader(line for line in lines if not line.startswith("#")))
+
+    return read
