@@ -123,7 +123,8 @@ contains
       type(status_t), intent(inout) :: status
 
       if (self%steps_made() == 0) return
-      call write_checkpoint(folder, marching_case(self%input), self%transient, self%history, [self%step_seconds, self%coarse_mean], status)
+      call write_checkpoint(folder, marching_case(self%input), self%transient, self%history, &
+                            [self%step_seconds, self%coarse_mean], status)
    end subroutine save_state
 
    !> The case as text, but for what changes no result
