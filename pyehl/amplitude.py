@@ -9,17 +9,18 @@ where r = wavelength_x/wavelength_y and f = exp(1 - 1/r) for r > 1, else 1. Pure
 The formula was fitted to cos(2 pi x/wavelength_x) cos(2 pi y/wavelength_y) patterns. A Fourier
 component of a rough surface is a plane wave, and three ways to give it a wavelength are offered:
 
+``components`` (default)
+    wavelength_x = 2 pi/|q_x| and wavelength_y = 2 pi/|q_y|: the shorter one, with f(r). A cos cos
+    pattern is the sum of the plane waves (+-q_x, +-q_y), which deform alike because the contact is
+    symmetric in y, so in the linear theory this is the formula itself for every component. It
+    depends on the direction of the wave, as the rolling contact does. Of the three it is nearest
+    to the full simulation of ten rough surfaces, though not by much, see :mod:`pyehl.psd_model`.
 ``wavevector``
     2 pi/|q|, the distance between its crests, f = 1. Agrees with the formula for waves with
     crests across the rolling direction.
 ``pattern``
     2 sqrt(2) pi/|q|, the wavelength of the isotropic cos cos pattern that has this |q|, f = 1.
     Agrees with the formula for such patterns.
-``components``
-    wavelength_x = 2 pi/|q_x| and wavelength_y = 2 pi/|q_y|: the shorter one, with f(r). A cos cos
-    pattern is the sum of the plane waves (+-q_x, +-q_y), which deform alike because the contact is
-    symmetric in y, so in the linear theory this is the formula itself for every component. It
-    depends on the direction of the wave, as the rolling contact does.
 """
 
 from __future__ import annotations
@@ -40,8 +41,8 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
-CONVENTIONS = ("wavevector", "pattern", "components")
-"""Names of the ways to give a Fourier component a wavelength."""
+CONVENTIONS = ("components", "wavevector", "pattern")
+"""Names of the ways to give a Fourier component a wavelength, the default first."""
 
 # 1/(1 + c1 x + c2 x^2): point contacts (Venner & Lubrecht 1999), line contacts (Lubrecht & Venner)
 _COEFFICIENTS = {"point": (0.15, 0.015), "line": (0.17, 0.03)}
@@ -111,7 +112,7 @@ def amplitude_ratio(parameter: ArrayLike, *, contact: str = "point") -> Array:
 
 
 def component_wavelength(
-    qx: ArrayLike, qy: ArrayLike, convention: str = "wavevector"
+    qx: ArrayLike, qy: ArrayLike, convention: str = "components"
 ) -> tuple[Array, Array]:
     """Wavelength [m] and ratio r [-] of the Fourier components with wavenumbers qx, qy [rad/m].
 
@@ -142,7 +143,7 @@ def component_amplitude_ratio(
     moes_m: float,
     moes_l: float,
     *,
-    convention: str = "wavevector",
+    convention: str = "components",
 ) -> Array:
     """A_d/A_i [-] of the Fourier components with wavenumbers qx, qy [rad/m] in a point contact.
 

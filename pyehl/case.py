@@ -71,9 +71,11 @@ class Case:
         return namelist.values(self.text)
 
 
-def add_case_arguments(parser: argparse.ArgumentParser) -> None:
+def add_case_arguments(parser: argparse.ArgumentParser, *, optional: bool = False) -> None:
     """Case file and --set options, the same for every verb that takes a case."""
-    parser.add_argument("case", metavar="CASE.nml", help="case file")
+    parser.add_argument(
+        "case", metavar="CASE.nml", nargs="?" if optional else None, help="case file"
+    )
     parser.add_argument(
         "--set",
         dest="overrides",

@@ -12,6 +12,7 @@ import os
 import threading
 from collections.abc import Iterable
 from dataclasses import dataclass
+from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
@@ -37,6 +38,7 @@ __all__ = [
     "Solver",
     "build",
     "check_output",
+    "checkpoint_case",
     "deflection",
     "density",
     "keys",
@@ -102,6 +104,21 @@ def check_output(folder: str | os.PathLike[str]) -> None:
         If it holds something else than results, or cannot be made.
     """
     check(*_ehl.check_output(os.fsencode(folder)))
+
+
+def checkpoint_case(results: str | os.PathLike[str]) -> Path:
+    """Case file of the march that was to write into a folder, to go on with it.
+
+    Beside it lies ``surface.npy`` when the surface of the march came from Python.
+
+    Raises
+    ------
+    InputError
+        If nothing was kept to go on with.
+    """
+    path, status, message = _ehl.checkpoint_case(os.fsencode(results))
+    check(status, message)
+    return Path(os.fsdecode(path.rstrip()))
 
 
 @dataclass(frozen=True, slots=True)
@@ -213,6 +230,67 @@ class Solver:
         with self._lock:
             check(*_ehl.interrupt(self._handle))
         self.done = True
+
+    def resume(self, results: str | os.PathLike[str]) -> str:
+        """Go on with the march that was to write into a folder; before the first `advance`.
+
+        Returns what a person should know; '' when there is no state yet, so that the march
+        begins at its beginning.
+
+        Raises
+        ------
+        InputError
+            If the state is damaged, or belongs to another case.
+        """
+        with self._lock:
+            note, status, message = _ehl.resume(self._handle, os.fsencode(results))
+        check(status, message)
+        return _text(note)
+
+    def keep(self, results: str | os.PathLike[str], resumed: str | os.PathLike[str] = "") -> str:
+        """Keep states of a march in ``RESULTS.checkpoint``, every ``output.checkpoint_interval``.
+
+        Parameters
+        ----------
+        results
+            The folder that the results are for.
+        resumed
+            The folder of the run that `resume` goes on with.
+
+        Returns
+        -------
+        str
+            Where the states of an earlier run are now; mostly ''.
+
+        Raises
+        ------
+        FileError
+            If the folder cannot be made.
+        """
+        with self._lock:
+            note, status, message = _ehl.keep(
+                self._handle, os.fsencode(results), os.fsencode(resumed)
+            )
+        check(status, message)
+        return _text(note)
+
+    def save_state(self, *, at_once: bool = False) -> bool:
+        """Save the state if its time has come, or at once; whether there is one then.
+
+        Raises
+        ------
+        FileError
+            If it cannot be written.
+        """
+        with self._lock:
+            has_state, status, message = _ehl.save_state(self._handle, int(at_once))
+        check(status, message)
+        return bool(has_state)
+
+    def end_keeping(self) -> None:
+        """Remove the states: there is nothing left to go on with."""
+        with self._lock:
+            check(*_ehl.end_keeping(self._handle))
 
     def describe(self) -> str:
         """Tell the plan: what will be solved and how, with a table of the levels."""

@@ -251,7 +251,7 @@ def surface_spectrum(
     hertz_radius: float,
     moes_m: float,
     moes_l: float,
-    convention: str = "wavevector",
+    convention: str = "components",
 ) -> Figure:
     """Draw a rough surface, its two-dimensional and its radially averaged spectrum with A_d/A_i.
 

@@ -86,6 +86,7 @@ class Prediction:
             "note": self._note(),
             "mu_smooth": None if newtonian else f.mu_smooth,
             "wavelength_convention": self.options.wavelength_convention,
+            "phase_lag": self.options.phase_lag,
             "stiffness": self.options.stiffness,
             "viscosity_law": self.lubricant.viscosity_law,
             "roelands_z": self.lubricant.roelands_z or None,
@@ -135,6 +136,7 @@ class Prediction:
             f"model       {self.lubricant.viscosity_law} viscosity, {self.options.stiffness} "
             f"stiffness, wavelength of a component by {self.options.wavelength_convention}, "
             f"{self.options.friction} friction"
+            + (f", lag {self.options.phase_lag:g} deg" if self.options.phase_lag > 0.0 else "")
             + (", load balanced" if self.options.load_balance else ""),
         ]
         if f.status == "predicted":

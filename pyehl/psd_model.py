@@ -103,6 +103,9 @@ class Options:
     ----------
     wavelength_convention
         One of :data:`pyehl.amplitude.CONVENTIONS`.
+    phase_lag
+        How far the film wave of a component lags its roughness [deg], 0 <= phase_lag < 90; the
+        paper has 0. Waves with their crests along the motion never lag.
     stiffness
         ``"exact"``: E'|q|/4; ``"paper"``: eq. 11 with wavelength 2 pi/|q|.
     load_balance
@@ -126,7 +129,8 @@ class Options:
         For an unknown word or a number out of range.
     """
 
-    wavelength_convention: str = "wavevector"
+    wavelength_convention: str = "components"
+    phase_lag: float = 0.0
     stiffness: str = "exact"
     load_balance: bool = False
     friction: str = "newtonian"
@@ -151,6 +155,8 @@ class Options:
         ):
             if not (math.isfinite(number) and number > 0.0):
                 raise ValueError(f"{name} must be positive, not {number!r}")
+        if not 0.0 <= self.phase_lag < 90.0:
+            raise ValueError(f"phase_lag must be 0 <= ... < 90 [deg], not {self.phase_lag!r}")
         if not 0 <= self.positions <= MAX_POSITIONS:
             raise ValueError(f"positions must be 0 ... {MAX_POSITIONS}, not {self.positions!r}")
 
@@ -160,6 +166,7 @@ class Options:
         group = settings["psd"]
         return cls(
             wavelength_convention=str(group["wavelength_convention"]),
+            phase_lag=float(group["phase_lag"]),
             stiffness=str(group["stiffness"]),
             load_balance=bool(group["load_balance"]),
             friction=str(group["friction"]),
@@ -270,7 +277,22 @@ def stiffness(qx: Array, qy: Array, reduced_modulus: float, kind: str = "exact")
 def response(
     topography: Topography, operating: OperatingPoint, options: Options | None = None
 ) -> Response:
-    """Pressure and deformed roughness of a tile (eqs 9 to 12)."""
+    """Pressure and deformed roughness of a tile (eqs 9 to 12).
+
+    Parameters
+    ----------
+    topography
+        The tile (nx, ny).
+    operating
+        Gives a, E', M, L.
+    options
+        How the model is read: its convention, phase lag and stiffness.
+
+    Raises
+    ------
+    ValueError
+        If the conditions have no amplitude reduction (L = 0).
+    """
     options = options or Options()
     qx, qy = wavenumbers(topography)
     ratio = amplitude.component_amplitude_ratio(
@@ -284,12 +306,26 @@ def response(
     component = scipy.fft.rfft2(topography.heights)
     # the mean height is no roughness: it is taken up by the rigid approach
     component[0, 0] = 0.0
-    flattening = stiffness(qx, qy, operating.reduced_modulus, options.stiffness) * (1.0 - ratio)
+    transfer: NDArray[np.float64] | NDArray[np.complex128] = ratio
+    if options.phase_lag > 0.0:
+        transfer = ratio * np.exp(1j * math.radians(options.phase_lag) * _direction(qx))
+    flattening = stiffness(qx, qy, operating.reduced_modulus, options.stiffness) * (1.0 - transfer)
     shape = topography.shape
     return Response(
         np.asarray(scipy.fft.irfft2(flattening * component, s=shape)),
-        np.asarray(scipy.fft.irfft2(ratio * component, s=shape)),
+        np.asarray(scipy.fft.irfft2(transfer * component, s=shape)),
     )
+
+
+def _direction(qx: Array) -> Array:
+    """Sign of q_x, of shape (nx, 1): what turns a lag in time, exp(i phi), into one in space.
+
+    Zero for the shortest wave of an even number of pixels, which has no phase of its own.
+    """
+    sign = np.sign(qx)
+    if qx.shape[0] % 2 == 0:
+        sign[qx.shape[0] // 2] = 0.0
+    return np.asarray(sign)
 
 
 class _Contact:

@@ -2,6 +2,7 @@
 """The verb ``pyehl run``: drive a solver to the end and write the result folder.
 
 The same calls in the same order as the program ``ehl``, hence the same bits and the same files.
+A march keeps its state in ``DIR.checkpoint`` as it goes: `resume` goes on with it.
 """
 
 from __future__ import annotations
@@ -11,16 +12,19 @@ import os
 import signal
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 
+import numpy as np
+from numpy.typing import NDArray
 from tqdm import tqdm
 
 from pyehl import core, surface
 from pyehl.case import Case, add_case_arguments
+from pyehl.errors import FileError, InputError
 
-__all__ = ["StopRequest", "add_arguments", "execute", "run"]
+__all__ = ["StopRequest", "add_arguments", "execute", "resume", "run"]
 
 EXIT_OK, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 130
 # Seconds between progress lines where the output is not a terminal
@@ -52,6 +56,15 @@ def stop_on_signals() -> Iterator[StopRequest]:
     finally:
         for number, handler in previous.items():
             signal.signal(number, handler)
+
+
+def _keep_state(solver: core.Solver, *, at_once: bool) -> bool:
+    """Save the state, now or if its time has come. A run does not end because that fails."""
+    try:
+        return solver.save_state(at_once=at_once)
+    except FileError as error:
+        print(error, file=sys.stderr)
+        return False
 
 
 class Progress:
@@ -106,34 +119,132 @@ def run(case: Case, folder: str | os.PathLike[str], *, quiet: bool = False) -> i
     EhlError
         If the solver failed; nothing is written then.
     """
-    core.check_output(folder)
-    heights = surface.made_heights(case)
-    with stop_on_signals() as request, core.Solver.open(case, heights) as solver:
+    return _march(case, folder, "", quiet=quiet)
+
+
+def resume(
+    results: str | os.PathLike[str],
+    folder: str | os.PathLike[str] | None = None,
+    case: Case | None = None,
+    *,
+    options: Iterable[str] = (),
+    quiet: bool = False,
+) -> int:
+    """Go on with a march that was stopped, to the same numbers as one that was not.
+
+    Parameters
+    ----------
+    results
+        The folder that the march was to write into; its state is beside it, in
+        ``RESULTS.checkpoint``.
+    folder
+        Where the results go now; default `results`.
+    case
+        The case; default: as it was. It may differ in threads, in when to stop and in what
+        to write.
+    options
+        Texts ``group.key=value`` that replace values of the case as it was.
+    quiet
+        Print nothing.
+
+    Returns
+    -------
+    int
+        As `run`.
+
+    Raises
+    ------
+    InputError
+        If nothing was kept, if all of it is damaged, or if it belongs to another case.
+    EhlError
+        As `run`.
+    """
+    kept = core.checkpoint_case(results)
+    if case is None:
+        case = Case.read(kept, options)
+    return _march(case, results if folder is None else folder, results, quiet=quiet)
+
+
+def _heights(case: Case, resumed: str | os.PathLike[str]) -> NDArray[np.float64] | None:
+    """Surface that Python makes [m], or that was kept; None for the solver's own."""
+    if os.fspath(resumed):
+        kept = core.checkpoint_case(resumed).with_name("surface.npy")
+        if kept.is_file():
+            heights: NDArray[np.float64] = np.load(kept, allow_pickle=False)
+            return heights
+    return surface.made_heights(case)
+
+
+def _march(
+    case: Case,
+    folder: str | os.PathLike[str],
+    resumed: str | os.PathLike[str],
+    *,
+    quiet: bool,
+) -> int:
+    """Solve a case, from its beginning or from the state of a run with the results `resumed`."""
+
+    def say(text: str) -> None:
         if not quiet:
-            print(solver.describe(), flush=True)
+            print(text, flush=True)
+
+    core.check_output(folder)
+    heights = _heights(case, resumed)
+    with stop_on_signals() as request, core.Solver.open(case, heights) as solver:
+        say(solver.describe())
+        if os.fspath(resumed):
+            begins = "there is no state yet: the run begins at its beginning"
+            say(f"resume: {solver.resume(resumed) or begins}")
+        note = solver.keep(folder, resumed)
+        if note:
+            say(f"note: {note}")
         progress = Progress(solver, quiet=quiet)
         while not solver.done:
             if request.wanted:
                 solver.interrupt()
             else:
                 solver.advance()
+                _keep_state(solver, at_once=False)
             progress.update()
         progress.close()
+        has_state = not solver.converged and _keep_state(solver, at_once=True)
         note = solver.write(folder)
-        if not quiet:
-            print(f"note: {note}\n" if note else "", f"results: {os.fspath(folder)}", sep="")
+        if note:
+            say(f"note: {note}")
+        name = os.fspath(folder)
+        say(f"results: {name}")
         if solver.converged:
+            solver.end_keeping()
             return EXIT_OK
+        if has_state:
+            say(f"state: {name}.checkpoint\nto go on: pyehl run --resume {name}")
         return EXIT_INTERRUPTED if request.wanted else EXIT_FAILED
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of ``pyehl run``."""
-    add_case_arguments(parser)
-    parser.add_argument("-o", "--output", required=True, metavar="DIR", help="result folder")
+    add_case_arguments(parser, optional=True)
+    parser.add_argument("-o", "--output", metavar="DIR", help="result folder")
+    parser.add_argument(
+        "--resume",
+        metavar="DIR",
+        help="go on with the march that was to write into DIR, to the same numbers; CASE.nml and "
+        "-o may be left out",
+    )
     parser.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
 
 
 def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl run``."""
+    if args.resume is not None:
+        if args.resume == "":
+            raise InputError("pyehl run: error: the folder behind --resume has no name")
+        case = None if args.case is None else Case.read(args.case, args.overrides)
+        return resume(args.resume, args.output, case, options=args.overrides, quiet=args.quiet)
+    if args.case is None or args.output is None:
+        missing = "case file" if args.case is None else "result folder: -o DIR is missing"
+        raise InputError(
+            f"pyehl run: error: no {missing}\n"
+            "expected: pyehl run CASE.nml -o DIR, or pyehl run --resume DIR"
+        )
     return run(Case.read(args.case, args.overrides), args.output, quiet=args.quiet)

@@ -11,13 +11,15 @@ module ehl_arguments
    type :: arguments_t
       !> Case file and result folder
       character(len=:), allocatable :: case_file, folder
+      !> Result folder of the run to go on with; empty: none
+      character(len=:), allocatable :: resume
       !> Texts group.key=value of the --set options, one a line
       character(len=:), allocatable :: options
       logical :: quiet = .false., version = .false., help = .false., keys = .false.
    end type arguments_t
 
    character(len=*), parameter :: switches(*) = [character(len=12) :: &
-      "-o", "--output", "--set", "--quiet", "--version", "--help", "--options"]
+      "-o", "--output", "--set", "--resume", "--quiet", "--version", "--help", "--options"]
 
 contains
 
@@ -30,6 +32,7 @@ contains
 
       arguments%case_file = ""
       arguments%folder = ""
+      arguments%resume = ""
       arguments%options = ""
       k = 0
       do while (k < command_argument_count() .and. .not. status%failed())
@@ -42,6 +45,9 @@ contains
             call next_argument(k, word, value, status)
             if (index(value, newline) > 0) call refuse("--set: more than one line", status)
             arguments%options = arguments%options // value // newline
+         case ("--resume")
+            call next_argument(k, word, arguments%resume, status)
+            if (arguments%resume == "") call refuse("the folder behind --resume has no name", status)
          case ("-q", "--quiet")
             arguments%quiet = .true.
          case ("--version")
@@ -56,7 +62,9 @@ contains
       end do
       if (status%failed()) return
       if (arguments%help .or. arguments%version .or. arguments%keys) return
-      if (arguments%case_file == "") then
+      if (arguments%resume /= "") then
+         if (arguments%folder == "") arguments%folder = arguments%resume
+      else if (arguments%case_file == "") then
          call refuse("no case file", status)
       else if (arguments%folder == "") then
          call refuse("no result folder: -o DIR is missing", status)
@@ -123,10 +131,12 @@ contains
       character(len=:), allocatable :: text
 
       text = "Solve an elastohydrodynamically lubricated point contact." // newline // newline &
-             // "  ehl CASE.nml -o DIR [--set group.key=value ...] [--quiet]" // newline // newline &
+             // "  ehl CASE.nml -o DIR [--set group.key=value ...] [--quiet]" // newline &
+             // "  ehl --resume DIR [CASE.nml] [-o DIR] [--set group.key=value ...] [--quiet]" // newline // newline &
              // "  CASE.nml   namelist file; every key has a default" // newline &
              // "  -o DIR     folder for the results: new, empty, or of an earlier run" // newline &
              // "  --set      replace a value of the case, as often as wanted" // newline &
+             // "  --resume   go on with the march that was to write into DIR, to the same numbers" // newline &
              // "  --quiet    print nothing but errors" // newline &
              // "  --options  list all keys: unit, default, allowed values, meaning" // newline &
              // "  --version  print the version and how it was built" // newline // newline &

@@ -7,11 +7,13 @@ program ehl
    use ehl_case_reader, only: read_case_file
    use ehl_case_writer, only: options_text
    use ehl_clock, only: clock_t, start_clock
+   use ehl_keeper, only: checkpoint_folder, find_checkpoint, keeper_t
    use ehl_kinds, only: dp
    use ehl_outputs, only: check_folder, write_results
    use ehl_signals, only: stop_wanted, watch_signals
    use ehl_solver, only: solver_t
    use ehl_status, only: ehl_bad_input, status_t
+   use ehl_text, only: newline
    use ehl_version, only: build_text, version
    implicit none (type, external)
 
@@ -21,9 +23,11 @@ program ehl
    type(arguments_t) :: arguments
    type(case_t) :: input
    type(solver_t) :: solver
+   type(keeper_t) :: keeper
    type(status_t) :: status
    type(clock_t) :: clock
-   character(len=:), allocatable :: note
+   character(len=:), allocatable :: note, case_file
+   real(dp), allocatable :: heights(:, :)
 
    call get_arguments(arguments, status)
    call end_if_failed()
@@ -35,6 +39,12 @@ program ehl
    end if
 
    clock = start_clock()
+   if (arguments%resume /= "") then
+      call find_checkpoint(arguments%resume, case_file, heights, status)
+      call end_if_failed()
+      if (arguments%case_file == "") arguments%case_file = case_file
+      if (size(heights) > 0) call solver%give_surface(heights)
+   end if
    call read_case_file(arguments%case_file, arguments%options, input, status)
    call end_if_failed()
    call check_folder(arguments%folder, status)
@@ -43,12 +53,27 @@ program ehl
    call solver%start(input, status)
    call end_if_failed()
    call say(solver%describe())
+   if (arguments%resume /= "") then
+      call solver%resume(checkpoint_folder(arguments%resume), note, status)
+      call end_if_failed()
+      if (note == "") note = "there is no state yet: the run begins at its beginning"
+      call say("resume: " // note)
+   end if
+   call keeper%open(arguments%folder, input, solver, arguments%resume, note, status)
+   call end_if_failed()
+   if (note /= "") call say("note: " // note)
    call march()
+   if (.not. solver%converged()) call keep_state(at_once=.true.)
    call write_results(arguments%folder, input, solver, clock%seconds(), note, status)
    call end_if_failed()
    if (note /= "") call say("note: " // note)
    call say("results: " // arguments%folder)
-   if (solver%converged()) stop exit_ok, quiet=.true.
+   if (solver%converged()) then
+      call keeper%close()
+      stop exit_ok, quiet=.true.
+   end if
+   if (keeper%has_state()) call say("state: " // checkpoint_folder(arguments%folder) // newline &
+                                    // "to go on: ehl --resume " // arguments%folder)
    if (stop_wanted()) stop exit_interrupted, quiet=.true.
    stop exit_failed, quiet=.true.
 
@@ -65,6 +90,7 @@ contains
          else
             call solver%advance(status)
             call end_if_failed()
+            call keep_state(at_once=.false.)
          end if
          if (since_line%seconds() > progress_interval) then
             call say(solver%progress())
@@ -73,6 +99,19 @@ contains
       end do
       call say(solver%progress())
    end subroutine march
+
+   !> Save the state, now or if its time has come. A run does not end because that fails.
+   subroutine keep_state(at_once)
+      logical, intent(in) :: at_once
+      type(status_t) :: saving
+
+      if (at_once) then
+         call keeper%save(solver, saving)
+      else
+         call keeper%tick(solver, saving)
+      end if
+      if (saving%failed()) write (error_unit, "(a)") saving%message
+   end subroutine keep_state
 
    !> A line to the terminal, unless it shall be quiet
    subroutine say(text)

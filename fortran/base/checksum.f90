@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> CRC-32 (ISO 3309, as in zip and png) of a file's bytes
 module ehl_checksum
-   use, intrinsic :: iso_fortran_env, only: int32, int8
+   use, intrinsic :: iso_fortran_env, only: int32, int64, int8
    implicit none (type, external)
    private
    public :: crc32
@@ -15,9 +15,10 @@ contains
    pure integer(int32) function crc32(bytes)
       integer(int8), intent(in) :: bytes(:)
       integer(int32) :: table(0:255), entry
-      integer :: i, bit
+      integer :: bit
+      integer(int64) :: i
 
-      do i = 0, 255
+      do i = 0_int64, 255_int64
          entry = int(i, int32)
          do bit = 1, 8
             if (btest(entry, 0)) then
@@ -29,7 +30,7 @@ contains
          table(i) = entry
       end do
       crc32 = not(0_int32)
-      do i = 1, size(bytes)
+      do i = 1_int64, size(bytes, kind=int64)
          entry = iand(ieor(crc32, int(bytes(i), int32)), 255_int32)
          crc32 = ieor(shiftr(crc32, 8), table(entry))
       end do

@@ -13,6 +13,7 @@ module ehl_f2py
    use ehl_deflection_factory, only: new_deflection
    use ehl_grid, only: grid_t
    use ehl_handles, only: drop_handle, new_handle, run_of, run_t
+   use ehl_keeper, only: checkpoint_folder, find_checkpoint
    use ehl_lubricant, only: density_constant, density_dowson_higginson, new_lubricant, &
                             solver_lubricant_t => lubricant_t, viscosity_barus, viscosity_roelands
    use ehl_outputs, only: check_folder, write_results
@@ -23,6 +24,7 @@ module ehl_f2py
    private
    public :: resolve, open_case, close_case, advance, interrupt, describe, progress, summary
    public :: grid_shape, axes, field, check_output, write_output, keys, about
+   public :: checkpoint_case, keep, save_state, end_keeping, resume
    public :: deflection, viscosity, density
 
 contains
@@ -248,6 +250,99 @@ contains
       end if
       call report(status, stat, message)
    end subroutine write_output
+
+   !> Case file of the run with these results, to go on with; its folder holds surface.npy as well when
+   !> the surface came from Python
+   subroutine checkpoint_case(results, path, stat, message)
+      character(len=*), intent(in) :: results
+      character(len=4096), intent(out) :: path
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      real(c_double), allocatable :: heights(:, :)
+      character(len=:), allocatable :: text
+      type(status_t) :: status
+
+      path = ""
+      call find_checkpoint(results, text, heights, status)
+      if (.not. status%failed()) path = text
+      call report(status, stat, message)
+   end subroutine checkpoint_case
+
+   !> Go on with the newest state of the run with these results; before the first advance
+   subroutine resume(handle, results, note, stat, message)
+      integer(c_int), intent(in) :: handle
+      character(len=*), intent(in) :: results
+      character(len=4096), intent(out) :: note
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(run_t), pointer :: run
+      type(status_t) :: status
+      character(len=:), allocatable :: text
+
+      note = ""
+      call run_of(handle, run, status)
+      if (.not. status%failed()) then
+         call run%solver%resume(checkpoint_folder(results), text, status)
+         if (.not. status%failed()) note = text
+      end if
+      call report(status, stat, message)
+   end subroutine resume
+
+   !> Keep states of the run beside its results, at the interval of the case; `resumed` names the
+   !> results of the run that is gone on with
+   subroutine keep(handle, results, resumed, note, stat, message)
+      integer(c_int), intent(in) :: handle
+      character(len=*), intent(in) :: results, resumed
+      character(len=4096), intent(out) :: note
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(run_t), pointer :: run
+      type(status_t) :: status
+      character(len=:), allocatable :: text
+
+      note = ""
+      call run_of(handle, run, status)
+      if (.not. status%failed()) then
+         call run%keeper%open(results, run%input, run%solver, resumed, text, status)
+         if (.not. status%failed()) note = text
+      end if
+      call report(status, stat, message)
+   end subroutine keep
+
+   !> Save the state if its time has come, or at once; has_state tells whether there is one now
+   subroutine save_state(handle, at_once, has_state, stat, message)
+      integer(c_int), intent(in) :: handle, at_once
+      integer(c_int), intent(out) :: has_state
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(run_t), pointer :: run
+      type(status_t) :: status
+
+      has_state = 0
+      call run_of(handle, run, status)
+      if (.not. status%failed()) then
+         if (at_once /= 0) then
+            call run%keeper%save(run%solver, status)
+            if (run%keeper%has_state()) has_state = 1
+         else
+            call run%keeper%tick(run%solver, status)
+         end if
+      end if
+      call report(status, stat, message)
+   end subroutine save_state
+
+   !> Remove the states: the run has come to a good end
+   subroutine end_keeping(handle, stat, message)
+      integer(c_int), intent(in) :: handle
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(run_t), pointer :: run
+      type(status_t) :: status
+
+      call run_of(handle, run, status)
+      if (.not. status%failed()) call run%keeper%close()
+      call report(status, stat, message)
+   end subroutine end_keeping
 
    !> All keys of a case file, one a line: key, unit, default, allowed values, meaning
    subroutine keys(text)

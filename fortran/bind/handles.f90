@@ -3,6 +3,7 @@
 module ehl_handles
    use ehl_case, only: case_t
    use ehl_clock, only: clock_t, start_clock
+   use ehl_keeper, only: keeper_t
    use ehl_solver, only: solver_t
    use ehl_status, only: ehl_closed, ehl_no_memory, status_t
    use ehl_text, only: to_text
@@ -10,10 +11,11 @@ module ehl_handles
    private
    public :: run_t, new_handle, drop_handle, run_of
 
-   !> A case on its way: the resolved input, the solver, the time since it was opened
+   !> A case on its way: the resolved input, the solver, its states on disk, the time since it was opened
    type :: run_t
       type(case_t) :: input
       type(solver_t) :: solver
+      type(keeper_t) :: keeper
       type(clock_t) :: clock
    end type run_t
 

@@ -139,8 +139,10 @@ module ehl_case
    type :: psd_case_t
       !> [m] central film; 0 (default): from the Nijenbanning-Venner-Moes formula
       real(dp) :: film_thickness = 0.0_dp
-      !> 'wavevector' (default), 'pattern' or 'components': the wavelength of a component
-      character(len=word_length) :: wavelength_convention = "wavevector"
+      !> 'components' (default), 'wavevector' or 'pattern': the wavelength of a component
+      character(len=word_length) :: wavelength_convention = "components"
+      !> [deg] how far the film wave lags the roughness, default 0 as in the paper
+      real(dp) :: phase_lag = 0.0_dp
       !> 'exact' (default) or 'paper' stiffness of the half-space
       character(len=word_length) :: stiffness = "exact"
       !> 'roelands' or 'barus'; default '': as in &lubricant, set by the reader
@@ -165,6 +167,8 @@ module ehl_case
       logical :: fields = .true.
       !> [a/u] time between frames of P and H that a march keeps, 0 (default): none
       real(dp) :: frame_interval = 0.0_dp
+      !> [s] wall time between states of a march kept on disk, default 30; 0: none
+      real(dp) :: checkpoint_interval = 30.0_dp
    end type output_case_t
 
    !> A whole case

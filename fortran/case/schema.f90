@@ -81,6 +81,8 @@ contains
       call self%logicals("output", "fields", input%output%fields, "write the fields X, Y, P, H")
       call self%reals("output", "frame_interval", input%output%frame_interval, "a/u", "[0, 1000]", &
                       "time between frames of P and H that a march keeps; 0: none")
+      call self%reals("output", "checkpoint_interval", input%output%checkpoint_interval, "s", "[0, 1e6]", &
+                      "wall time between states of a march kept on disk; 0: none")
    end subroutine bind_case
 
    subroutine add_contact_keys(self, input)
@@ -214,7 +216,9 @@ contains
          call self%reals("psd", "film_thickness", p%film_thickness, "m", "[0, 1e-3]", &
                          "central film; 0: from the Nijenbanning-Venner-Moes formula")
          call self%words("psd", "wavelength_convention", p%wavelength_convention, &
-                         "wavevector|pattern|components", "what the wavelength of a component is")
+                         "components|wavevector|pattern", "what the wavelength of a component is")
+         call self%reals("psd", "phase_lag", p%phase_lag, "deg", "[0, 90)", &
+                         "how far the film wave lags the roughness; 0: in phase, as in the paper")
          call self%words("psd", "stiffness", p%stiffness, "exact|paper", "stiffness of the half-space")
          call self%words("psd", "viscosity_law", p%viscosity_law, "roelands|barus|", &
                          "viscosity under pressure; default as in &lubricant")

@@ -14,7 +14,7 @@ module ehl_outputs
    use ehl_version, only: version
    implicit none (type, external)
    private
-   public :: check_folder, write_results
+   public :: check_folder, full_path, make_parents, write_results
 
    !> What pyehl writes into a result folder; only these are ever removed
    character(len=*), parameter :: known_files(*) = [character(len=24) :: &
@@ -31,7 +31,7 @@ contains
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: target_folder, partial
 
-      target_folder = clean(folder)
+      target_folder = full_path(folder)
       if (target_folder == "") then
          call status%fail(ehl_bad_input, "-o '" // folder // "': error: this names no folder" &
                           // new_line("a") // "expected: the name of a folder for the results")
@@ -74,7 +74,7 @@ contains
       character(len=:), allocatable :: target_folder, partial, previous
 
       note = ""
-      target_folder = clean(folder)
+      target_folder = full_path(folder)
       partial = target_folder // ".partial-" // process_mark()
       previous = target_folder // ".previous-" // process_mark()
       if (.not. make_folder(partial)) then
@@ -144,14 +144,15 @@ contains
          if (.not. status%failed()) call solver%field(trim(names(k)), values, status)
          if (.not. status%failed()) call write_npy(folder // trim(names(k)) // ".npy", values, status)
       end do
-      if (.not. allocated(solver%frame_times)) return
-      if (.not. status%failed()) call write_npy(folder // "frame_T.npy", solver%frame_times, status)
-      if (.not. status%failed()) call write_npy(folder // "frame_P.npy", solver%frame_p, status)
-      if (.not. status%failed()) call write_npy(folder // "frame_H.npy", solver%frame_h, status)
+      if (.not. allocated(solver%frames%times)) return
+      if (size(solver%frames%times) == 0) return
+      if (.not. status%failed()) call write_npy(folder // "frame_T.npy", solver%frames%times, status)
+      if (.not. status%failed()) call write_npy(folder // "frame_P.npy", solver%frames%p, status)
+      if (.not. status%failed()) call write_npy(folder // "frame_H.npy", solver%frames%h, status)
    end subroutine write_fields
 
    !> The folder from the root without a '/' at its end; empty when it cannot be a folder of ours
-   function clean(folder) result(path)
+   function full_path(folder) result(path)
       character(len=*), intent(in) :: folder
       character(len=:), allocatable :: path
       integer :: last
@@ -161,7 +162,7 @@ contains
       if (last == 0) return
       path = real_path(absolute_path(folder(:last)))
       if (path == "/") path = ""
-   end function clean
+   end function full_path
 
    !> Whether a folder holds results
    logical function is_result(folder)

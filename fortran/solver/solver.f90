@@ -3,7 +3,7 @@
 module ehl_solver
    use ehl_case, only: case_t
    use ehl_case_writer, only: case_text
-   use ehl_checkpoint, only: read_checkpoint, write_checkpoint
+   use ehl_checkpoint, only: frames_t, read_checkpoint, state_t, write_checkpoint
    use ehl_clock, only: clock_t, start_clock
    use ehl_grid, only: grid_t
    use ehl_harmonic, only: harmonic_t
@@ -25,6 +25,8 @@ module ehl_solver
 
    !> Periods after which a mean that has not settled never will
    integer, parameter :: automatic_periods = 6
+   !> What the names of the states of the coarser run begin with
+   character(len=*), parameter :: coarser = "coarser-"
 
    type :: solver_t
       !> Finest grid reached so far
@@ -46,17 +48,21 @@ module ehl_solver
       type(case_t), private :: input
       !> Pressure and film of the smooth contact, kept for a march
       real(dp), allocatable, private :: p_smooth(:, :), h_smooth(:, :)
-      !> Times of the frames, and P and H in them, whole domain: (nx, full_ny, frame)
-      real(dp), allocatable :: frame_times(:), frame_p(:, :, :), frame_h(:, :, :)
+      !> Frames of the march; not allocated before it
+      type(frames_t) :: frames
+      !> States to go on from when the smooth contact is solved: of this run, of the coarser one
+      type(state_t), allocatable, private :: state, coarse_state
       !> The same run on the next coarser grid, for the grid error of the friction ratio
       type(solver_t), pointer, private :: coarse => null()
-      !> Its mean friction ratio; 0: not known
-      real(dp), private :: coarse_mean = 0.0_dp
+      !> Its mean friction ratio; 0: it did not converge; less: it has not been made
+      real(dp), private :: coarse_mean = -1.0_dp
    contains
       final :: close_solver
       procedure :: give_surface
       procedure :: save_state
       procedure :: resume
+      procedure :: given_surface
+      procedure :: moves
       procedure :: steps_made
       procedure :: start
       procedure :: describe
@@ -115,52 +121,107 @@ contains
       steps_made = merge(self%transient%step, 0, self%marching)
    end function steps_made
 
-   !> Write a checkpoint into a folder (its name ends in '/'); before the first time step there is
-   !> nothing that is worth it
+   !> Heights [m] that were given in place of a file; of size 0 when there are none
+   function given_surface(self) result(heights)
+      class(solver_t), intent(in) :: self
+      real(dp), allocatable :: heights(:, :)
+      heights = self%heights
+   end function given_surface
+
+   !> Whether the case is a march in time
+   pure logical function moves(self)
+      class(solver_t), intent(in) :: self
+      moves = allocated(self%plan%surface)
+   end function moves
+
+   !> Write the state into a folder (its name ends in '/'). Before the first time step there is nothing
+   !> that is worth it.
    subroutine save_state(self, folder, status)
       class(solver_t), intent(in) :: self
       character(len=*), intent(in) :: folder
       type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: text
 
-      if (self%steps_made() == 0) return
-      call write_checkpoint(folder, marching_case(self%input), self%transient, self%history, &
-                            [self%step_seconds, self%coarse_mean], status)
+      text = step_text(self%input)
+      if (associated(self%coarse)) call save_as(self%coarse, folder//coarser, text, status)
+      call save_as(self, folder, text, status)
    end subroutine save_state
 
-   !> The case as text, but for what changes no result
-   function marching_case(input) result(text)
+   !> Write the state of one run under names that begin with a prefix
+   subroutine save_as(self, prefix, text, status)
+      type(solver_t), intent(in) :: self
+      character(len=*), intent(in) :: prefix, text
+      type(status_t), intent(inout) :: status
+
+      if (self%steps_made() == 0) return
+      call write_checkpoint(prefix, text, self%transient, self%history, self%frames, &
+                            [self%step_seconds, self%coarse_mean], status)
+   end subroutine save_as
+
+   !> The case as text, with the defaults of all keys that change no step: when to stop, threads, what to
+   !> write. A run may go on with others of them.
+   function step_text(input) result(text)
       type(case_t), intent(in) :: input
       character(len=:), allocatable :: text
-      type(case_t) :: plain
+      type(case_t) :: plain, default
 
       plain = input
-      plain%solver%threads = 1
+      plain%solver%threads = default%solver%threads
+      plain%solver%max_cycles = default%solver%max_cycles
+      plain%time%tolerance = default%time%tolerance
+      plain%time%max_periods = default%time%max_periods
+      plain%time%steps = default%time%steps
+      plain%time%estimate_error = default%time%estimate_error
+      plain%psd = default%psd
+      plain%output = default%output
+      plain%output%frame_interval = input%output%frame_interval
       text = case_text(plain)
-   end function marching_case
+   end function step_text
 
-   !> Go on from the newest checkpoint in a folder, after start and in place of the first advance. The
-   !> smooth contact is solved again, to the same bits; `found` tells whether there was a checkpoint.
-   subroutine resume(self, folder, found, status)
+   !> After start and before the first advance: go on from the newest state in a folder (its name ends in '/').
+   !> The smooth contact is solved again, to the same bits, before the first time step.
+   subroutine resume(self, folder, note, status)
       class(solver_t), intent(inout) :: self
       character(len=*), intent(in) :: folder
-      logical, intent(out) :: found
+      !> What a person should know; empty when there is no state yet
+      character(len=:), allocatable, intent(out) :: note
       type(status_t), intent(inout) :: status
-      real(dp) :: numbers(2)
+      character(len=:), allocatable :: text
 
-      found = .false.
-      do while (.not. self%marching .and. .not. self%done())
-         call self%advance(status)
-         if (status%failed()) return
-      end do
-      if (.not. self%marching) return
-      call read_checkpoint(folder, marching_case(self%input), self%transient, self%history, numbers, found, status)
-      if (status%failed() .or. .not. found) return
-      self%step_seconds = numbers(1)
-      self%coarse_mean = numbers(2)
-      if (associated(self%coarse)) deallocate (self%coarse)
-      call self%transient%restore(self%hierarchy%levels(self%steady%n), self%plan%surface)
-      self%outcome = judge_march(self)
+      text = step_text(self%input)
+      call read_checkpoint(folder, text, self%state, note, status)
+      if (status%failed() .or. allocated(self%state)) return
+      call read_checkpoint(folder//coarser, text, self%coarse_state, note, status)
    end subroutine resume
+
+   !> The state that was read takes the place of the start of the march
+   subroutine take_state(self, status)
+      type(solver_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+      logical :: same
+      integer :: k
+
+      associate (state => self%state, march => self%transient)
+         if (any(shape(state%march%mass) /= shape(march%mass))) then
+            call status%fail(ehl_bad_input, state%path//": error: this state belongs to another grid")
+            return
+         end if
+         call march%restore(state%march, self%hierarchy%levels(self%steady%n), self%plan%surface, same)
+         if (.not. same) then
+            call status%fail(ehl_bad_input, state%path//": error: the film of this state does not follow from its "// &
+                             "pressure"//new_line("a")//"expected: the surface and the program that it was made with")
+            return
+         end if
+         do k = 1, size(state%rows, 2)
+            call self%history%append(state%rows(:, k))
+         end do
+         self%frames = state%frames
+         self%step_seconds = state%numbers(1)
+         self%coarse_mean = state%numbers(2)
+      end associate
+      deallocate (self%state)
+      self%outcome = judge_march(self)
+   end subroutine take_state
 
    !> The plan in a few lines, for a person
    function describe(self) result(text)
@@ -230,7 +291,11 @@ contains
       end do
       self%hierarchy%options = self%plan%step_cycle
       self%marching = .true.
-      if (self%plan%coarse_run) call begin_coarse(self, status)
+      allocate (self%frames%times(0), self%frames%p(self%grid%nx, self%grid%full_ny(), 0), &
+                self%frames%h(self%grid%nx, self%grid%full_ny(), 0))
+      if (allocated(self%state)) call take_state(self, status)
+      if (status%failed()) return
+      if (self%plan%coarse_run .and. self%coarse_mean < 0.0_dp) call begin_coarse(self, status)
    end subroutine begin_march
 
    !> Start the run on the next coarser grid, with the same roughness
@@ -240,6 +305,7 @@ contains
       type(case_t) :: input
 
       input = self%input
+      input%output%frame_interval = 0.0_dp
       input%grid%points = (self%grid%nx + 1)/2
       input%grid%target_error = 0.0_dp
       input%time%estimate_error = .false.
@@ -251,6 +317,7 @@ contains
       allocate (self%coarse)
       call self%coarse%give_surface(self%heights)
       call self%coarse%start(input, status)
+      if (allocated(self%coarse_state)) call move_alloc(self%coarse_state, self%coarse%state)
    end subroutine begin_coarse
 
    !> One step of the coarser run; at its end its mean is kept and the run freed. A coarser run that
@@ -261,6 +328,7 @@ contains
 
       call self%coarse%advance(status)
       if (.not. self%coarse%done()) return
+      self%coarse_mean = 0.0_dp
       if (self%coarse%converged()) self%coarse_mean = self%coarse%transient%mean%mean(0.0_dp)
       self%step_seconds_coarse = self%coarse%step_seconds
       deallocate (self%coarse)
@@ -398,21 +466,16 @@ contains
    subroutine keep_frame(self)
       type(solver_t), intent(inout) :: self
       real(dp), allocatable :: values(:, :)
-      integer :: frames
 
-      associate (march => self%transient, interval => self%input%output%frame_interval)
+      associate (march => self%transient, frames => self%frames, interval => self%input%output%frame_interval)
          if (interval <= 0.0_dp) return
          if (int(march%time/interval) == int((march%time - march%time_step)/interval)) return
          allocate (values(self%grid%nx, self%grid%full_ny()))
-         frames = 0
-         if (allocated(self%frame_times)) frames = size(self%frame_times)
-         if (frames == 0) allocate (self%frame_times(0), self%frame_p(size(values, 1), size(values, 2), 0), &
-                                    self%frame_h(size(values, 1), size(values, 2), 0))
-         self%frame_times = [self%frame_times, march%time]
+         frames%times = [frames%times, march%time]
          call unfold(self%hierarchy%levels(self%steady%n)%p, self%grid, values)
-         self%frame_p = reshape([self%frame_p, values], [shape(values), frames + 1])
+         frames%p = reshape([frames%p, values], [shape(values), size(frames%times)])
          call unfold(self%hierarchy%levels(self%steady%n)%h, self%grid, values)
-         self%frame_h = reshape([self%frame_h, values], [shape(values), frames + 1])
+         frames%h = reshape([frames%h, values], [shape(values), size(frames%times)])
       end associate
    end subroutine keep_frame
 

@@ -118,12 +118,12 @@ contains
             if (self%residual <= self%tolerance .or. self%cycles >= self%max_cycles) exit
             if (.not. self%residual < huge(1.0_dp)) exit
          end do
-         self%total_cycles = self%total_cycles + self%cycles
          self%m = measure(level)
-         if (.not. (self%m%finite .and. self%m%positive)) then
+         if (.not. self%step_converged()) then
             call self%step_back(level, surface)
             return
          end if
+         self%total_cycles = self%total_cycles + self%cycles
          self%step = self%step + 1
          self%time = (self%skipped + self%step)*self%time_step
          call self%mean%append(self%m%friction/self%friction_smooth, self%m%film_central, &
@@ -139,14 +139,35 @@ contains
       step_converged = self%residual <= self%tolerance .and. self%m%finite .and. self%m%positive
    end function step_converged
 
-   !> Fields and measures of a state that was read from a checkpoint
-   subroutine restore(self, level, surface)
+   !> Take over a state that was read. `same` tells whether its film follows from its pressure: it does not
+   !> when the surface, or the program, is another one.
+   subroutine restore(self, state, level, surface, same)
       class(transient_t), intent(inout) :: self
+      type(transient_t), intent(in) :: state
       type(level_t), intent(inout) :: level
       class(surface_t), intent(inout) :: surface
+      logical, intent(out) :: same
+      !> Rounding of another processor or compiler may pass
+      real(dp), parameter :: rounding = 1.0e-9_dp
+      integer :: k
 
+      self%step = state%step
+      self%skipped = state%skipped
+      self%time = state%time
+      self%time_step = state%time_step
+      self%residual = state%residual
+      self%cycles = state%cycles
+      self%total_cycles = state%total_cycles
+      self%friction_smooth = state%friction_smooth
+      self%h00_before = state%h00_before
+      self%mass = state%mass
+      self%p_before = state%p_before
+      do k = 1, state%mean%n
+         call self%mean%append(state%mean%values(k), state%mean%film(k), state%mean%roughness(k))
+      end do
       call self%step_back(level, surface)
       self%m = measure(level)
+      same = maxval(abs(level%rho*level%h - self%mass(:, :, 1))) <= rounding*maxval(abs(self%mass(:, :, 1)))
    end subroutine restore
 
    !> The last good state again

@@ -41,7 +41,8 @@ RESOLVED = {
     },
     "psd": {
         "film_thickness": 0.2333e-6,
-        "wavelength_convention": "wavevector",
+        "wavelength_convention": "components",
+        "phase_lag": 0.0,
         "stiffness": "exact",
         "viscosity_law": "roelands",
         "load_balance": False,

@@ -168,6 +168,57 @@ def test_parseval_of_the_response():
     assert np.mean(field.pressure**2) == pytest.approx(expected, rel=1e-12)
 
 
+# --- phase lag
+
+
+def test_lag_of_a_wave_across_the_motion():
+    """The film wave follows behind: its crest is where the roughness was a phase ago."""
+    wavelength, height, phi = 2e-4, 3e-8, math.radians(40.0)
+    rough = wave(height, wavelength)
+    ratio = float(response(rough, POINT).deformed.max()) / height
+    field = response(rough, POINT, Options(phase_lag=40.0))
+    theta = 2 * np.pi * np.arange(32) / 32
+    k = POINT.reduced_modulus * (2 * math.pi / wavelength) / 4
+    deformed = ratio * np.cos(theta + phi)
+    expected = k * height * (np.cos(theta) - deformed)
+    assert field.deformed[:, 3] == pytest.approx(height * deformed, abs=1e-18)
+    assert field.pressure[:, 3] == pytest.approx(expected, abs=1e-3)
+
+
+def test_waves_along_the_motion_do_not_lag():
+    z = wave(3e-8, 2e-4).heights.T.copy()
+    rough = Topography(z, 2e-4, 2e-4)
+    lagged, real = response(rough, POINT, Options(phase_lag=40.0)), response(rough, POINT)
+    assert lagged.pressure == pytest.approx(real.pressure, abs=1e-3)
+
+
+@pytest.mark.parametrize("shape", [(8, 8), (9, 8), (8, 9), (9, 9)])
+def test_lag_turns_each_wave_and_keeps_its_amplitude(shape):
+    """Against the sum over all components of the full spectrum, white noise down to two pixels."""
+    z = np.random.default_rng(1).standard_normal(shape) * 1e-8
+    rough = Topography(z - z.mean(), 1e-4, 1.3e-4)
+    field = response(rough, POINT, Options(phase_lag=30.0))
+    nx, ny = shape
+    kx, ky = np.fft.fftfreq(nx, 1 / nx), np.fft.fftfreq(ny, 1 / ny)
+    qx, qy = 2 * np.pi * kx[:, None] / 1e-4, 2 * np.pi * ky[None, :] / 1.3e-4
+    ratio = amplitude.component_amplitude_ratio(
+        qx, qy, POINT.hertz_radius, POINT.moes_m, POINT.moes_l
+    )
+    sign = np.where(2 * np.abs(kx) == nx, 0.0, np.sign(kx))[:, None]
+    lag = np.exp(1j * math.radians(30.0) * sign)
+    expected = np.fft.ifft2(np.fft.fft2(rough.heights) * ratio * lag)
+    assert np.abs(expected.imag).max() < 1e-22
+    assert field.deformed == pytest.approx(expected.real, abs=1e-20)
+
+
+def test_lag_costs_pressure():
+    ratios = [
+        predict_friction(table_1(), POINT, ROELANDS, FILM, Options(phase_lag=lag)).mu_ratio
+        for lag in (0.0, 20.0, 40.0)
+    ]
+    assert ratios[0] < ratios[1] < ratios[2]
+
+
 # --- friction
 
 
@@ -313,7 +364,7 @@ def test_twenty_surfaces():
 
 def test_twenty_surfaces_as_the_paper_reads():
     """Barus and eq. 11 to the letter: 1.49 +- 0.40 in an independent implementation."""
-    ratios = twenty(BARUS, stiffness="paper")
+    ratios = twenty(BARUS, stiffness="paper", wavelength_convention="wavevector")
     assert ratios.mean() == pytest.approx(1.49, abs=2 * 0.5 / math.sqrt(20))
     assert ratios.mean() > twenty(BARUS).mean() > twenty(ROELANDS).mean()
 
@@ -339,7 +390,7 @@ def test_mean_over_tracks_is_a_property_of_the_spectrum():
     ).T
     assert np.ptp(means) < 0.01
     assert np.all(spreads > 0.03)
-    assert 1.05 < means.mean() < 1.07
+    assert 1.066 < means.mean() < 1.078
 
 
 def test_below_equation_16():
@@ -348,12 +399,13 @@ def test_below_equation_16():
     film = 0.024335 * point.film_scale
     side = 0.5 * point.hertz_radius
     rough = topography.harmonic(0.4 * film, side, side, (32, 32))
-    result = predict_friction(
-        rough, point, ROELANDS, film, Options(wavelength_convention="components")
-    )
+    result = predict_friction(rough, point, ROELANDS, film)
     theta = stribeck.theta_2(1000.0, 10.0, 0.5, 2.5)
     rise = float(stribeck.relative_friction(theta)) - 1
     assert 0.4 < (result.mu_ratio - 1) / rise < 0.9
+    # with the lag that the solver shows for this very case it does not, see test_against_ehl
+    late = predict_friction(rough, point, ROELANDS, film, Options(phase_lag=39.6))
+    assert (late.mu_ratio - 1) / rise == pytest.approx(1.0, abs=0.1)
 
 
 def test_load_balance():
@@ -476,6 +528,9 @@ def test_lost_load_is_said():
         ({"eyring_stress": 0.0}, "eyring_stress"),
         ({"slide_to_roll": -0.1}, "slide_to_roll"),
         ({"limiting_coefficient": math.nan}, "limiting_coefficient"),
+        ({"phase_lag": 90.0}, "phase_lag"),
+        ({"phase_lag": -1.0}, "phase_lag"),
+        ({"phase_lag": math.nan}, "phase_lag"),
         ({"positions": -1}, "positions"),
         ({"positions": 10**6}, "positions"),
     ],

@@ -1,0 +1,199 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The folder DIR.checkpoint beside the results DIR: what it takes to go on with a march that was stopped.
+!> It holds the case, the surface if it came from Python, and the last two states.
+module ehl_keeper
+   use ehl_case, only: case_t
+   use ehl_case_writer, only: case_text
+   use ehl_checkpoint, only: checkpoint_names
+   use ehl_clock, only: clock_t, start_clock
+   use ehl_files, only: file_exists, make_folder, remove_file, remove_folder, rename_path, write_text
+   use ehl_kinds, only: dp
+   use ehl_npy, only: read_npy, write_npy
+   use ehl_outputs, only: full_path, make_parents
+   use ehl_solver, only: solver_t
+   use ehl_status, only: ehl_bad_input, ehl_file, status_t
+   use ehl_text, only: newline
+   implicit none (type, external)
+   private
+   public :: keeper_t, find_checkpoint, checkpoint_folder
+
+   character(len=*), parameter :: suffix = ".checkpoint", case_file = "case.nml", surface_file = "surface.npy"
+   !> What a folder of states may hold
+   character(len=*), parameter :: state_files(*) = [character(len=24) :: &
+      checkpoint_names, "coarser-"//checkpoint_names]
+
+   !> Writes the state now and then
+   type :: keeper_t
+      private
+      !> Ends in '/'; not allocated: nothing is kept
+      character(len=:), allocatable :: folder
+      real(dp) :: interval = 0.0_dp
+      type(clock_t) :: since
+   contains
+      procedure :: open => open_folder
+      procedure :: tick
+      procedure :: save
+      procedure :: close => close_folder
+      procedure :: has_state
+   end type keeper_t
+
+contains
+
+   !> The folder that belongs to results, with a '/' at its end
+   function checkpoint_folder(results) result(folder)
+      character(len=*), intent(in) :: results
+      character(len=:), allocatable :: folder
+      folder = full_path(results)//suffix//"/"
+   end function checkpoint_folder
+
+   !> What a run with these results left to go on with: its case file, and its surface [m] (of size 0 when
+   !> the case has all of it)
+   subroutine find_checkpoint(results, path, heights, status)
+      character(len=*), intent(in) :: results
+      character(len=:), allocatable, intent(out) :: path
+      real(dp), allocatable, intent(out) :: heights(:, :)
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: folder, hint
+
+      allocate (heights(0, 0))
+      folder = checkpoint_folder(results)
+      path = folder//case_file
+      if (.not. file_exists(path)) then
+         hint = ""
+         if (index(results, suffix) > 1) hint = ", without '"//suffix//"'"
+         call status%fail(ehl_bad_input, "--resume "//results//": error: there is no "//path//newline// &
+                          "expected: the result folder of a march that was stopped before its end"//hint)
+         return
+      end if
+      if (file_exists(folder//surface_file)) call read_npy(folder//surface_file, heights, status)
+   end subroutine find_checkpoint
+
+   !> Make the folder of a run that is a march, unless the case wants none. States of an earlier run give way
+   !> to those of this one, unless it goes on with them: they are kept under the name that the note tells.
+   subroutine open_folder(self, results, input, solver, resumed, note, status)
+      class(keeper_t), intent(inout) :: self
+      character(len=*), intent(in) :: results
+      type(case_t), intent(in) :: input
+      type(solver_t), intent(in) :: solver
+      !> Results of the run whose states are gone on with; empty: none
+      character(len=*), intent(in) :: resumed
+      character(len=:), allocatable, intent(out) :: note
+      type(status_t), intent(inout) :: status
+      real(dp), allocatable :: heights(:, :)
+      logical :: same
+
+      note = ""
+      if (.not. solver%moves() .or. input%output%checkpoint_interval <= 0.0_dp) return
+      self%folder = checkpoint_folder(results)
+      self%interval = input%output%checkpoint_interval
+      self%since = start_clock()
+      same = .false.
+      if (resumed /= "") same = self%folder == checkpoint_folder(resumed)
+      if (.not. same) then
+         if (holds_state(self%folder)) call set_aside(self%folder, note, status)
+         if (status%failed()) return
+      end if
+      call make_parents(self%folder)
+      if (.not. file_exists(self%folder)) then
+         call status%fail(ehl_file, self%folder//": error: cannot make this folder")
+         return
+      end if
+      heights = solver%given_surface()
+      if (size(heights) > 0) then
+         call write_npy(self%folder//surface_file//".new", heights, status)
+         if (status%failed()) return
+         call put(self%folder//surface_file, status)
+      end if
+      call write_text(self%folder//case_file//".new", case_text(input), status)
+      if (.not. status%failed()) call put(self%folder//case_file, status)
+   end subroutine open_folder
+
+   !> Save the state if its time has come
+   subroutine tick(self, solver, status)
+      class(keeper_t), intent(inout) :: self
+      type(solver_t), intent(in) :: solver
+      type(status_t), intent(inout) :: status
+
+      if (.not. allocated(self%folder)) return
+      if (self%since%seconds() >= self%interval) call self%save(solver, status)
+   end subroutine tick
+
+   !> Save the state
+   subroutine save(self, solver, status)
+      class(keeper_t), intent(inout) :: self
+      type(solver_t), intent(in) :: solver
+      type(status_t), intent(inout) :: status
+
+      if (.not. allocated(self%folder)) return
+      call solver%save_state(self%folder, status)
+      self%since = start_clock()
+   end subroutine save
+
+   !> Whether there is a state to go on with
+   logical function has_state(self)
+      class(keeper_t), intent(in) :: self
+      has_state = .false.
+      if (allocated(self%folder)) has_state = holds_state(self%folder)
+   end function has_state
+
+   !> The run has come to a good end: nothing is left to go on with
+   subroutine close_folder(self)
+      class(keeper_t), intent(inout) :: self
+
+      if (.not. allocated(self%folder)) return
+      call remove_files(self%folder)
+      deallocate (self%folder)
+   end subroutine close_folder
+
+   !> Whether a folder holds a state
+   logical function holds_state(folder)
+      character(len=*), intent(in) :: folder
+      integer :: k
+
+      holds_state = .false.
+      do k = 1, size(state_files)
+         if (file_exists(folder//trim(state_files(k)))) holds_state = .true.
+      end do
+   end function holds_state
+
+   !> Keep the folder of an earlier run under another name
+   subroutine set_aside(folder, note, status)
+      character(len=*), intent(in) :: folder
+      character(len=:), allocatable, intent(inout) :: note
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: aside
+
+      aside = folder(:len(folder) - 1)//".previous"
+      call remove_files(aside//"/")
+      if (rename_path(folder(:len(folder) - 1), aside)) then
+         note = "the state of an earlier run is now in "//aside
+      else
+         call status%fail(ehl_file, aside//": error: cannot keep the state of an earlier run here")
+      end if
+   end subroutine set_aside
+
+   !> A file that is written takes its name
+   subroutine put(path, status)
+      character(len=*), intent(in) :: path
+      type(status_t), intent(inout) :: status
+      if (.not. rename_path(path//".new", path)) call status%fail(ehl_file, path//": error: cannot write")
+   end subroutine put
+
+   !> Remove our files of a folder, and the folder if nothing else is in it
+   subroutine remove_files(folder)
+      character(len=*), intent(in) :: folder
+      logical :: gone
+      integer :: k
+
+      do k = 1, size(state_files)
+         gone = remove_file(folder//trim(state_files(k)))
+         gone = remove_file(folder//trim(state_files(k))//".new")
+      end do
+      gone = remove_file(folder//surface_file)
+      gone = remove_file(folder//surface_file//".new")
+      gone = remove_file(folder//case_file//".new")
+      ! the case goes last: a folder with it can be gone on with
+      gone = remove_file(folder//case_file)
+      gone = remove_folder(folder(:len(folder) - 1))
+   end subroutine remove_files
+end module ehl_keeper

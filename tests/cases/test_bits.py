@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What must not change a result: threads, the driver, and use of symmetry."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+# Words of the summary that speak of time, or of the threads and their work space
+NOT_RESULTS = {"wall_seconds", "seconds_per_step", "threads", "bytes"}
+HARMONIC = {
+    "surface.kind": "harmonic",
+    # The front lies behind the contact at the start: rough from the first step, less than H_min
+    "surface.amplitude": 2e-3,
+    "surface.x_start": 1.5,
+    "time.steps": 12,
+}
+
+
+def results(folder: Path) -> dict[str, object]:
+    """All that a folder holds but times and the number of threads."""
+    content: dict[str, object] = {}
+    for path in folder.iterdir():
+        if path.name == "summary.json":
+            summary = json.loads(path.read_text())
+            content |= {k: v for k, v in summary.items() if k not in NOT_RESULTS}
+        elif path.suffix in (".nml", ".txt"):
+            lines = path.read_text().splitlines()
+            content[path.name] = [line for line in lines if "threads" not in line]
+        else:
+            content[path.name] = path.read_bytes()
+    return content
+
+
+@pytest.mark.parametrize("engine", ["mlmi", "fft"])
+@pytest.mark.parametrize(
+    ("points", "scene"), [(257, {}), (129, HARMONIC)], ids=["smooth", "harmonic"]
+)
+def test_threads(solve, points: int, scene: dict[str, object], engine: str):
+    settings = scene | {"solver.deflection": engine}
+    one, two, four = (
+        solve((1000.0, 10.0), points, settings | {"solver.threads": threads}, fields=True)
+        for threads in (1, 2, 4)
+    )
+    assert (one["threads"], four["threads"]) == (1, 4)
+    assert one["status"] in ("converged", "not settled")  # of 12 steps no mean is asked
+    expected = results(one.folder)
+    assert {"P.npy", "H.npy", "history.csv", "H_c"} <= set(expected)
+    assert results(two.folder) == expected
+    assert results(four.folder) == expected
+
+
+@pytest.mark.parametrize("scene", [HARMONIC, {"surface.kind": "fractal", "time.steps": 3}])
+def test_drivers(drivers, tmp_path: Path, scene: dict[str, object]):
+    """A rough contact by `ehl` and by `pyehl run`: the same bits."""
+    settings = scene | {"grid.points": 65}
+    if scene["surface.kind"] == "fractal":
+        # `ehl` reads the map that `pyehl` makes
+        tile = tmp_path / "tile.npy"
+        rng = np.random.default_rng(1)
+        np.save(tile, 2e-8 * rng.standard_normal((8, 8)))
+        settings |= {"surface.kind": "map", "surface.file": f"'{tile}'"}
+    options = [part for key, value in settings.items() for part in ("--set", f"{key}={value}")]
+    (tmp_path / "case.nml").write_text("&contact load = 20.0 /\n")
+    for driver, words in drivers.items():
+        done = subprocess.run(
+            [*words, "case.nml", "-o", driver, *options],
+            cwd=tmp_path,
+            capture_output=True,
+            text=True,
+            timeout=120,
+            check=False,
+        )
+        # The 12 steps of the waviness make a period and a mean, the others do not
+        assert (done.returncode, done.stderr) == (int("surface.file" in settings), "")
+    assert results(tmp_path / "ehl") == results(tmp_path / "pyehl")
+
+
+@pytest.mark.parametrize("point", [(200.0, 10.0), (1000.0, 10.0)])
+@pytest.mark.parametrize("points", [129, 257])
+def test_half_domain(solve, point: tuple[float, float], points: int):
+    """Half the domain with folded kernels is the whole problem: nothing but rounding differs."""
+    half, whole = (
+        solve(point, points, {"solver.symmetry": symmetry}, fields=True)
+        for symmetry in ("auto", "full")
+    )
+    assert (half["half_domain"], whole["half_domain"]) == (True, False)
+    assert half.converged
+    assert whole.converged
+    for name in ("P", "H"):
+        a, b = half.field(name), whole.field(name)
+        assert np.array_equal(a, a[:, ::-1])
+        assert np.abs(a - b).max() <= 1e-10, name
+    for name in ("H_c", "H_min", "F"):
+        assert half[name] == pytest.approx(whole[name], rel=1e-10), name

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Multigrid convergence of the smooth contact, and the truth of the status where it fails."""
+
+from __future__ import annotations
+
+import pytest
+
+# The algebraic error asked for makes the finest grid take many cycles
+MANY_CYCLES = {"solver.accuracy": 1e-6, "solver.max_cycles": 40}
+RESULTS = ("H_c", "H_min", "P_max", "F", "H_c_extrapolated", "H_c_error", "H_min_error")
+STATUS = {"converged", "cycle limit", "diverged", "negative film"}
+
+
+@pytest.mark.parametrize("moes_m", [200.0, 1000.0])
+def test_residual_reduction_per_cycle(solve, moes_m: float):
+    done = solve((moes_m, 10.0), 513, MANY_CYCLES)
+    assert done.converged
+    residual = done.history["residual"][done.history["points"] == 513]
+    assert residual.size >= 6
+    # The first cycle takes away what the interpolation from the coarser grid left: not counted
+    reduction = residual[1:6] / residual[0:5]
+    assert reduction.max() <= 0.3
+
+
+@pytest.mark.parametrize("point", [(20.0, 10.0), (200.0, 10.0), (1000.0, 10.0), (2000.0, 15.0)])
+def test_cycles_do_not_grow_with_the_grid(solve, point: tuple[float, float]):
+    runs = [solve(point, points) for points in (129, 257, 513, 1025)]
+    assert all(done.converged for done in runs)
+    cycles = [done["cycles"] for done in runs]
+    assert cycles[-1] <= min(cycles[0], cycles[1])
+    assert max(cycles) == cycles[0]
+
+
+STRESS_M = (5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0, 3500.0, 5000.0)
+STRESS_L = (0.0, 0.1, 1.0, 2.5, 5.0, 10.0, 15.0, 20.0, 25.0)
+
+
+@pytest.mark.parametrize("moes_m", STRESS_M)
+def test_every_status_is_true(solve, moes_m: float):
+    """On 129 points M = 2000 and more is not resolved: failures are allowed there, lies are not."""
+    for moes_l in STRESS_L:
+        point = moes_m, moes_l
+        # A run takes a tenth of a second; one that does not end within the limit is an error
+        done = solve(point, 129, timeout=60.0)
+        assert done["status"] in STATUS, point
+        assert done.code == (0 if done["status"] == "converged" else 1), point
+        assert done["converged"] == (done["status"] == "converged"), point
+        if not done.converged:
+            assert all(done[name] is None for name in RESULTS), point
+            # What the grid cannot resolve: large M, and rigid-isoviscous films under high loads
+            assert moes_m >= 2000.0 or moes_l < 2.5, point
+            continue
+        assert abs(done["load_error"]) <= 1e-6, point
+        assert done["residual"] <= 2e-3, point
+        assert 0.0 < done["H_min"] <= done["H_c"], point
+        assert done["P_max"] > 0.0, point
+        # Converged means: more cycles change the film by a tenth of its error; the estimate of
+        # that is granted a factor of two
+        more = solve(point, 129, {"solver.accuracy": 1e-3, "solver.max_cycles": 60})
+        for name in ("H_c", "H_min"):
+            last = more[name] if more.converged else more[f"last_{name}"]
+            assert abs(last - done[name]) <= 0.2 * done[f"{name}_error"], (point, name)

@@ -1,0 +1,237 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Moving waviness: reference values, the start, symmetry, sign, and maps."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from pyehl.reference import FIG_2, WAVINESS, WavinessRow
+
+# The period means agree with an independent program within this on the same grid and scheme
+AGREEMENT = 5e-3
+# Algebraic error of a time step ten times below the default
+TIGHT = {"solver.accuracy": 0.01}
+POINT = (1000.0, 10.0)
+
+
+def identify(row: WavinessRow) -> str:
+    words = (row.points, row.scheme, f"z{row.roelands_z:g}", f"A{row.amplitude:.3g}", row.wavelength)
+    return "-".join(map(str, words))
+
+
+def settings(row: WavinessRow) -> dict[str, object]:
+    return {
+        "lubricant.roelands_z": row.roelands_z,
+        "surface.kind": "harmonic",
+        "surface.amplitude": row.amplitude,
+        "surface.wavelength": row.wavelength,
+        "time.scheme": row.scheme,
+        # The march on the coarser grid is for the error estimate alone
+        "time.estimate_error": False,
+    }
+
+
+def small(scheme: str) -> WavinessRow:
+    """The case on the smallest grid."""
+    return next(row for row in WAVINESS if (row.points, row.scheme) == (129, scheme))
+
+
+def of_size(points: int, *, equal: bool) -> list[Any]:
+    rows = [row for row in WAVINESS if (row.points == points) == equal]
+    return [pytest.param(row, id=identify(row)) for row in rows]
+
+
+def check(row: WavinessRow, done: Any, table: Any) -> None:
+    assert done.converged
+    assert done["scheme"] == row.scheme
+    assert done["mu_ratio"] == pytest.approx(row.mu_ratio, rel=AGREEMENT)
+    assert done["mu_ratio_min"] == pytest.approx(row.mu_ratio_min, rel=AGREEMENT)
+    assert done["mu_ratio_max"] == pytest.approx(row.mu_ratio_max, rel=AGREEMENT)
+    assert np.abs(done.history["load_error"]).max() <= 1e-6
+    assert done.history["residual"].max() <= done["step_residual_allowed"]
+    for line in table("amplitude_ratio.csv"):
+        names = ("points", "roelands_z", "amplitude", "wavelength")
+        if line["scheme"] == row.scheme and all(
+            float(line[name]) == getattr(row, name) for name in names
+        ):
+            expected = float(line["amplitude_ratio"])
+            assert done["amplitude_ratio"] == pytest.approx(expected, rel=0.03)
+
+
+@pytest.mark.parametrize("row", of_size(513, equal=False))
+def test_reference_rows(solve, table, row: WavinessRow):
+    check(row, solve(POINT, row.points, settings(row)), table)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("row", of_size(513, equal=True))
+def test_reference_rows_on_the_finest_grid(solve, table, row: WavinessRow):
+    done = solve(POINT, row.points, settings(row))
+    check(row, done, table)
+    if row.scheme == "paper":
+        # The number printed with figure 2 of the paper
+        assert done["mu_ratio"] == pytest.approx(FIG_2["mu_ratio"], rel=AGREEMENT)
+
+
+@pytest.mark.parametrize("scheme", ["narrow", "paper"])
+def test_algebraic_error_is_what_differs(solve, scheme: str):
+    """With tight steps the same discrete problem gives the same digits: five are known."""
+    row = small(scheme)
+    done = solve(POINT, row.points, settings(row) | TIGHT)
+    assert done.converged
+    # Besides the digits, the means are over periods that ended at other times (2e-5)
+    assert done["mu_ratio"] == pytest.approx(row.mu_ratio, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("point", "wavelength", "share"),
+    [
+        ((500.0, 5.0), 0.5, 0.4),
+        ((500.0, 15.0), 1.0, 1.0),
+        ((800.0, 8.0), 0.7, 0.2),
+        ((1500.0, 12.0), 0.25, 0.1),
+    ],
+)
+def test_other_cases_converge(solve, point: tuple[float, float], wavelength: float, share: float):
+    wave = {
+        "surface.kind": "harmonic",
+        "surface.amplitude_over_film": share,
+        "surface.wavelength": wavelength,
+        "time.estimate_error": False,
+    }
+    done = solve(point, 129, wave)
+    assert done.converged
+    assert done["mu_ratio_min"] <= done["mu_ratio"] <= done["mu_ratio_max"]
+    assert done["mu_ratio"] > 1.0
+    assert np.abs(done.history["load_error"]).max() <= 1e-6
+
+
+@pytest.mark.parametrize("moes_l", [5.0, 10.0, 15.0])
+@pytest.mark.parametrize("moes_m", [500.0, 1000.0, 2000.0])
+def test_first_steps_on_the_default_grid(solve, moes_m: float, moes_l: float):
+    """Each step converges where the grid is fine and the viscosity in the contact is not large."""
+    wave = {
+        "surface.kind": "harmonic",
+        "surface.x_start": -1.25,
+        "time.steps": 4,
+        "time.estimate_error": False,
+    }
+    done = solve((moes_m, moes_l), 513, wave)
+    # The steps were made, no mean over a period is known
+    assert (done["status"], done["steps"]) == ("not settled", 4)
+    assert done.history["residual"].max() <= done["step_residual_allowed"]
+    assert np.abs(done.history["load_error"]).max() <= 1e-6
+
+
+@pytest.mark.parametrize("scheme", ["narrow", "paper"])
+def test_start_does_not_matter(solve, scheme: str):
+    row = small(scheme)
+    inlet = solve(POINT, row.points, settings(row) | TIGHT)
+    near = solve(POINT, row.points, settings(row) | TIGHT | {"surface.x_start": -1.25})
+    assert near.converged
+    assert near["steps_skipped"] == 0
+    assert near["steps"] < inlet["steps"] + inlet["steps_skipped"]
+    # What is left of the start after the first whole period, and where in it the mean begins
+    assert near["mu_ratio"] == pytest.approx(inlet["mu_ratio"], rel=2e-4)
+
+
+@pytest.mark.parametrize("scheme", ["narrow", "paper"])
+def test_skipped_steps_do_not_matter(solve, scheme: str):
+    row = small(scheme)
+    short = solve(POINT, row.points, settings(row) | TIGHT)
+    long = solve(POINT, row.points, settings(row) | TIGHT | {"time.skip_start": False})
+    assert long.converged
+    assert (long["steps_skipped"], long["T"]) == (0, short["T"])
+    assert short["steps_skipped"] == long["steps"] - short["steps"] > 0
+    # On the thick film before the contact the roughness rides: pressure changes there by the ratio
+    # of amplitude to film cubed times a low viscosity. A part in a million of the friction is 500
+    # times less than the error of the steps by default.
+    assert short["mu_ratio"] == pytest.approx(long["mu_ratio"], rel=1e-6)
+    tail = -short["steps"]
+    assert short.history["T"] == pytest.approx(long.history["T"][tail:], abs=1e-12)
+    assert short.history["mu_ratio"] == pytest.approx(long.history["mu_ratio"][tail:], rel=1e-6)
+
+
+@pytest.mark.parametrize("scheme", ["narrow", "paper"])
+def test_half_domain(solve, scheme: str):
+    row = small(scheme)
+    half, whole = (
+        solve(POINT, row.points, settings(row) | TIGHT | {"solver.symmetry": symmetry})
+        for symmetry in ("auto", "full")
+    )
+    assert (half["half_domain"], whole["half_domain"]) == (True, False)
+    # Both to the algebraic error: a tenth of the default's, which is 5e-4
+    assert half["mu_ratio"] == pytest.approx(whole["mu_ratio"], rel=5e-5)
+
+
+@pytest.mark.parametrize("scheme", ["narrow", "paper"])
+def test_film_is_thinner_under_a_peak(solve, scheme: str):
+    # The front lies behind the contact, which is rough at once; a quarter of the amplitude
+    # leaves a film under every peak
+    row = small(scheme)
+    amplitude = 0.25 * row.amplitude
+    wave = settings(row) | {
+        "surface.amplitude": amplitude,
+        "surface.x_start": 3.0,
+        "time.steps": 1,
+    }
+    smooth = solve(POINT, row.points, {"lubricant.roelands_z": row.roelands_z}, fields=True)
+    rough = solve(POINT, row.points, wave, fields=True)
+    x, y = rough.field("X")[:, None], rough.field("Y")
+    angle = 2.0 * np.pi / row.wavelength
+    phase = angle * (x - 3.0 - FIG_2["velocity_ratio"] * rough["T"])
+    roughness = amplitude * np.cos(phase) * np.cos(angle * y)
+    change = rough.field("H") - smooth.field("H")
+    inside = x**2 + y**2 < 0.9**2
+    assert change[inside & (roughness > 0.8 * amplitude)].max() < 0.0
+    assert change[inside & (roughness < -0.8 * amplitude)].min() > 0.0
+    # After one step the roughness is still almost undeformed
+    slope = (change * roughness)[inside].sum() / (roughness**2)[inside].sum()
+    assert slope == pytest.approx(-1.0, abs=0.02)
+
+
+@pytest.fixture(scope="module")
+def tile(tmp_path_factory: pytest.TempPathFactory, solve) -> tuple[dict[str, object], float]:
+    """Settings of a map that is the waviness, in SI units; its amplitude in Hertz units."""
+    amplitude, pixels = 8e-3, 32
+    smooth = solve(None, 129)
+    wave = np.cos(2.0 * np.pi * np.arange(pixels) / pixels)
+    path: Path = tmp_path_factory.mktemp("tile") / "tile.npy"
+    np.save(path, amplitude * smooth["film_scale_m"] * np.outer(wave, wave))
+    length = 0.5 * smooth["hertz_radius_m"]
+    return {
+        "surface.kind": "map",
+        "surface.file": f"'{path}'",
+        "surface.length_x": length,
+        "surface.length_y": length,
+        "time.estimate_error": False,
+    }, amplitude
+
+
+def test_map_equals_waviness(solve, tile):
+    settings, amplitude = tile
+    wave = {
+        "surface.kind": "harmonic",
+        "surface.amplitude": amplitude,
+        "surface.wavelength": 0.5,
+        "time.estimate_error": False,
+        "solver.symmetry": "full",
+    }
+    as_map, as_wave = solve(None, 129, settings), solve(None, 129, wave)
+    assert as_map.converged
+    # Same grid, same cycles: what differs is the interpolation of the tile. With 32 pixels a wave its
+    # error is below 1e-9 of the amplitude; settings are rounded to what a case file holds.
+    assert as_map["mu_ratio"] == pytest.approx(as_wave["mu_ratio"], rel=1e-6)
+    assert as_map["amplitude_ratio"] == pytest.approx(as_wave["amplitude_ratio"], rel=1e-6)
+    assert as_map["mu_ratio"] > 1.05
+
+
+def test_maps_take_the_whole_domain(solve, tile):
+    """A map is not symmetric in general: even one that is, is not folded."""
+    steps = {"time.steps": 2}
+    done = solve(None, 129, tile[0] | steps | {"solver.symmetry": "auto"})
+    assert done["half_domain"] is False

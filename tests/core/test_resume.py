@@ -1,0 +1,303 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A march that is stopped, killed or damaged goes on to the same bits as one left alone."""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import re
+import shutil
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+WAVE = (
+    "&contact moes_m = 200.0 /\n&grid points = {points} /\n"
+    "&surface kind = 'harmonic' {extra} /\n&output frame_interval = 0.5 /\n"
+)
+FRACTAL = (
+    "&contact load = 20.0 /\n&grid points = 65 /\n"
+    "&surface kind = 'fractal' pixels = 32 length_x = 1e-4 length_y = 1e-4 rms_height = 2e-8 /\n"
+)
+OFTEN = ["--set", "output.checkpoint_interval=1e-3"]
+
+
+def results(folder: Path) -> dict[str, bytes]:
+    """All results that do not depend on time, threads and on how often the state is kept."""
+    files = {path.name: path.read_bytes() for path in folder.iterdir()}
+    summary = json.loads(files["summary.json"])
+    free = {"threads", "bytes"} | {name for name in summary if "seconds" in name}
+    files["summary.json"] = json.dumps(
+        {name: value for name, value in summary.items() if name not in free}
+    ).encode()
+    for name in ("case.nml", "plan.txt"):
+        files[name] = re.sub(
+            rb"(threads =? ?|checkpoint_interval = |max_periods = |steps = )\S+",
+            rb"\1",
+            files[name],
+        )
+    return files
+
+
+def same(one: Path, other: Path) -> None:
+    """Both folders hold the same results, bit by bit."""
+    first, second = results(one), results(other)
+    assert set(first) == set(second)
+    assert [name for name in first if first[name] != second[name]] == []
+
+
+def stop_after_steps(drive, tmp_path: Path, driver: str, steps: int, *words: str) -> None:
+    """Make a march end early, with its state kept."""
+    done = drive(driver, "case.nml", "-o", "out", "--set", f"time.steps={steps}", *OFTEN, *words)
+    assert done.returncode == 1, done.stderr
+    assert json.loads((tmp_path / "out" / "summary.json").read_text())["status"] == "not settled"
+    assert (tmp_path / "out.checkpoint" / "case.nml").is_file()
+
+
+@pytest.fixture(scope="module")
+def unbroken(drivers, tmp_path_factory) -> dict[str, Path]:
+    """Results of marches that nobody disturbed, by case text."""
+    made = {}
+    for name, text, driver in (
+        ("wave", WAVE.format(points=65, extra=""), "ehl"),
+        ("long", WAVE.format(points=129, extra="x_start = -3.5"), "ehl"),
+        ("fractal", FRACTAL, "pyehl"),
+    ):
+        folder = tmp_path_factory.mktemp(name)
+        (folder / "case.nml").write_text(text)
+        began = time.monotonic()
+        subprocess.run([*drivers[driver], "case.nml", "-o", "out", "-q"], cwd=folder, check=True)
+        (folder / "seconds").write_text(str(time.monotonic() - began))
+        # Nothing is left to go on with after a good end
+        assert {path.name for path in folder.iterdir()} == {"case.nml", "out", "seconds"}
+        made[name] = folder
+    return made
+
+
+@pytest.mark.parametrize("first", ["ehl", "pyehl"])
+@pytest.mark.parametrize("second", ["ehl", "pyehl"])
+def test_resumed_march_gives_the_same_bits(drive, unbroken, tmp_path: Path, first, second):
+    shutil.copy(unbroken["wave"] / "case.nml", tmp_path)
+    # steps after which no mean is known yet, and two threads instead of one from there
+    stop_after_steps(drive, tmp_path, first, 30)
+    history = (tmp_path / "out" / "history.csv").read_bytes()
+    words = ["--set", "time.steps=0", "--set", "solver.threads=2"]
+    done = drive(second, "--resume", "out", *words)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "after step 30" in done.stdout
+    assert (tmp_path / "out" / "history.csv").read_bytes().startswith(history[:-1])
+    same(unbroken["wave"] / "out", tmp_path / "out")
+    assert (tmp_path / "out" / "frame_P.npy").is_file()
+    assert not (tmp_path / "out.checkpoint").exists()
+
+
+def test_made_surface_is_kept_for_both_drivers(drive, unbroken, tmp_path: Path):
+    shutil.copy(unbroken["fractal"] / "case.nml", tmp_path)
+    for driver in ("ehl", "pyehl"):
+        stop_after_steps(drive, tmp_path, "pyehl", 20)
+        kept = np.load(tmp_path / "out.checkpoint" / "surface.npy")
+        assert kept.shape == (32, 32)
+        done = drive(driver, "--resume", "out", "--set", "time.steps=0")
+        assert (done.returncode, done.stderr) == (0, "")
+        same(unbroken["fractal"] / "out", tmp_path / "out")
+
+
+def test_resume_into_another_folder_leaves_the_state(drive, unbroken, tmp_path: Path):
+    shutil.copy(unbroken["wave"] / "case.nml", tmp_path)
+    stop_after_steps(drive, tmp_path, "ehl", 20)
+    before = {p.name: p.read_bytes() for p in (tmp_path / "out.checkpoint").iterdir()}
+    for driver in ("ehl", "pyehl"):
+        # with the case as it was, and with one that is given
+        words = ["case.nml"] if driver == "pyehl" else ["--set", "time.steps=0"]
+        done = drive(driver, "--resume", "out", "-o", driver, *words)
+        assert (done.returncode, done.stderr) == (0, "")
+        same(unbroken["wave"] / "out", tmp_path / driver)
+        assert not (tmp_path / f"{driver}.checkpoint").exists()
+    after = {p.name: p.read_bytes() for p in (tmp_path / "out.checkpoint").iterdir()}
+    assert before == after
+
+
+@pytest.mark.parametrize("damage", ["cut", "bit", "empty"])
+def test_damaged_newest_state_gives_way_to_the_older_one(
+    drive, unbroken, tmp_path: Path, damage: str
+):
+    shutil.copy(unbroken["wave"] / "case.nml", tmp_path)
+    stop_after_steps(drive, tmp_path, "ehl", 30)
+    folder = tmp_path / "out.checkpoint"
+    newest = max(folder.glob("checkpoint.?"), key=lambda path: path.stat().st_mtime_ns)
+    data = bytearray(newest.read_bytes())
+    if damage == "cut":
+        data = data[: len(data) // 2]
+    elif damage == "bit":
+        data[len(data) // 3] ^= 4
+    else:
+        data = bytearray()
+    newest.write_bytes(data)
+    done = drive("ehl", "--resume", "out", "--set", "time.steps=0")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert f"{newest.name} is damaged" in done.stdout
+    assert "after step 29" in done.stdout
+    same(unbroken["wave"] / "out", tmp_path / "out")
+
+
+@pytest.mark.parametrize("driver", ["ehl", "pyehl"])
+def test_what_cannot_be_resumed_is_said(drive, tmp_path: Path, driver: str):
+    def refused(*words: str) -> str:
+        before = sorted(tmp_path.rglob("*"))
+        done = drive(driver, "--resume", *words)
+        assert (done.returncode, done.stdout) == (2, "") or "level" in done.stdout, done
+        assert done.returncode == 2
+        assert sorted(tmp_path.rglob("*")) == before
+        return done.stderr
+
+    assert "out.checkpoint/case.nml" in refused("out")
+    assert "no name" in refused("")
+    (tmp_path / "case.nml").write_text(WAVE.format(points=33, extra="amplitude = 0.001"))
+    stop_after_steps(drive, tmp_path, driver, 3)
+    assert "without '.checkpoint'" in refused("out.checkpoint")
+    # keys that change the steps
+    message = refused("out", "--set", "surface.wavelength_x=0.7")
+    assert "another case" in message
+    assert "wavelength_x = 0.5" in message
+    assert "wavelength_x = 0.7" in message
+    assert "points = 65" in refused("out", "--set", "grid.points=65")
+    # no whole file is left, or one of another version
+    states = sorted((tmp_path / "out.checkpoint").glob("checkpoint.?"))
+    assert len(states) == 2
+    kept = [path.read_bytes() for path in states]
+    for path, data in zip(states, kept, strict=True):
+        path.write_bytes(data[:-1])
+    assert "damaged" in refused("out")
+    import zlib
+
+    for path, data in zip(states, kept, strict=True):
+        other = data[:16] + b"\x7f" + data[17:-4]
+        path.write_bytes(other + zlib.crc32(other).to_bytes(4, "little"))
+    assert "another version" in refused("out")
+
+
+def test_changed_surface_is_noticed(drive, tmp_path: Path):
+    text = FRACTAL.replace("'fractal' pixels = 32", "'map' file = 'map.npy'")
+    (tmp_path / "case.nml").write_text(text)
+    heights = np.random.default_rng(1).normal(scale=2e-8, size=(16, 16))
+    np.save(tmp_path / "map.npy", heights)
+    stop_after_steps(drive, tmp_path, "ehl", 10)
+    heights[3, 4] += 1e-9
+    np.save(tmp_path / "map.npy", heights)
+    done = drive("ehl", "--resume", "out")
+    assert done.returncode == 2
+    assert "does not follow" in done.stderr
+
+
+def test_new_run_sets_an_earlier_state_aside(drive, tmp_path: Path):
+    (tmp_path / "case.nml").write_text(WAVE.format(points=33, extra="amplitude = 0.001"))
+    stop_after_steps(drive, tmp_path, "ehl", 3)
+    state = max((tmp_path / "out.checkpoint").glob("checkpoint.?")).read_bytes()
+    done = drive("pyehl", "case.nml", "-o", "out", "--set", "time.steps=2")
+    assert "out.checkpoint.previous" in done.stdout
+    previous = tmp_path / "out.checkpoint.previous"
+    assert state in [path.read_bytes() for path in previous.iterdir()]
+
+
+def test_no_states_when_none_are_wanted(drive, tmp_path: Path):
+    (tmp_path / "case.nml").write_text(WAVE.format(points=33, extra="amplitude = 0.001"))
+    for driver in ("ehl", "pyehl"):
+        words = ["--set", "output.checkpoint_interval=0", "--set", "time.steps=3"]
+        assert drive(driver, "case.nml", "-o", "out", *words).returncode == 1
+        assert {path.name for path in tmp_path.iterdir()} == {"case.nml", "out"}
+
+
+@pytest.mark.parametrize("driver", ["ehl", "pyehl"])
+def test_failed_step_keeps_the_last_good_state(drive, tmp_path: Path, driver: str):
+    (tmp_path / "case.nml").write_text(WAVE.format(points=65, extra=""))
+    # the smooth contact takes more cycles than a step at first, some later steps take more
+    unhindered = drive(driver, "case.nml", "-o", "free", "--set", "solver.accuracy=1e-3")
+    assert unhindered.returncode == 0
+    cycles = np.loadtxt(tmp_path / "free" / "history.csv", delimiter=",", skiprows=1)[:, 7]
+    most = int(cycles.max()) - 1
+    smooth = json.loads((tmp_path / "free" / "summary.json").read_text())["cycles"]
+    assert smooth <= most
+    words = ["--set", "solver.accuracy=1e-3", "--set", f"solver.max_cycles={most}"]
+    failed = drive(driver, "case.nml", "-o", "out", *words)
+    assert failed.returncode == 1
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert summary["status"] == "cycle limit"
+    assert summary["steps"] == int(np.argmax(cycles > most))
+    done = drive(driver, "--resume", "out", "--set", "solver.max_cycles=30")
+    assert (done.returncode, done.stderr) == (0, "")
+    same(tmp_path / "free", tmp_path / "out")
+
+
+def start(command: list[str], folder: Path) -> subprocess.Popen[str]:
+    return subprocess.Popen(
+        command,
+        cwd=folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"PYTHONUNBUFFERED": "1"},
+    )
+
+
+@pytest.mark.parametrize("driver", ["ehl", "pyehl"])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_signal_leaves_results_and_a_state(
+    drive, drivers, unbroken, tmp_path: Path, driver: str, number: int
+):
+    shutil.copy(unbroken["long"] / "case.nml", tmp_path)
+    # no state but the one that the signal asks for
+    words = ["--set", "output.checkpoint_interval=1e6", "--set", "solver.accuracy=1e-2"]
+    words += ["--set", "time.estimate_error=.false."]
+    with start([*drivers[driver], "case.nml", "-o", "out", *words], tmp_path) as process:
+        assert process.stdout is not None
+        for line in process.stdout:
+            if line.startswith("step"):
+                break
+        began = time.monotonic()
+        process.send_signal(number)
+        _, errors = process.communicate(timeout=60)
+    assert time.monotonic() - began < 10.0
+    assert (process.returncode, errors) == (130, "")
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert summary["status"] == "interrupted"
+    assert summary["mu_ratio"] is None
+    rows = (tmp_path / "out" / "history.csv").read_text().splitlines()
+    assert len(rows) - 1 == summary["steps"] > 0
+    done = drive(
+        driver, "--resume", "out", *words[2:], "--set", f"time.steps={summary['steps'] + 2}"
+    )
+    assert f"after step {summary['steps']}" in done.stdout
+
+
+@pytest.mark.parametrize("driver", ["ehl", "pyehl"])
+def test_killed_at_random_instants(drivers, unbroken, tmp_path: Path, driver: str):
+    shutil.copy(unbroken["long"] / "case.nml", tmp_path)
+    chance = random.Random(20190128)  # the same instants each time, as far as the machine lets
+    whole = float((unbroken["long"] / "seconds").read_text())
+    kills, resumed = 0, 0
+    while True:
+        begun = (tmp_path / "out.checkpoint" / "case.nml").is_file()
+        words = ["--resume", "out"] if begun else ["case.nml", "-o", "out"]
+        words += ["--set", f"solver.threads={chance.choice([1, 2])}"]
+        with start([*drivers[driver], *words, *OFTEN], tmp_path) as process:
+            if kills < 6:
+                try:
+                    process.wait(timeout=chance.uniform(0.1, 0.7) * (whole + 0.5))
+                except subprocess.TimeoutExpired:
+                    process.kill()
+                    kills += 1
+            output, errors = process.communicate(timeout=120)
+        resumed += "after step" in output
+        if process.returncode == -signal.SIGKILL:
+            continue
+        assert (process.returncode, errors) == (0, "")
+        break
+    assert kills >= 2
+    assert resumed >= 2
+    same(unbroken["long"] / "out", tmp_path / "out")
+    assert not (tmp_path / "out.checkpoint").exists()
