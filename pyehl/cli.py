@@ -53,7 +53,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         return EXIT_USAGE
     module = import_module(VERBS[verb][0])
     parser = argparse.ArgumentParser(
-        prog=f"pyehl {verb}", description=f"{VERBS[verb][1].capitalize()}.", allow_abbrev=False
+        prog=f"pyehl {verb}",
+        description=f"{VERBS[verb][1][0].upper()}{VERBS[verb][1][1:]}.",
+        allow_abbrev=False,
     )
     module.add_arguments(parser)
     args = parser.parse_args(rest)

@@ -75,10 +75,10 @@ def _figure(width: float, height: float) -> Figure:
     return Figure(figsize=(width, height), layout="constrained")
 
 
-def save(figure: Figure, path: str | Path) -> Path:
-    """Write a figure as PNG at 300 dpi (or what the suffix says); returns the path."""
+def save(figure: Figure, path: str | Path, dpi: int = DPI) -> Path:
+    """Write a figure as PNG (or what the suffix says) at `dpi` dots per inch; returns the path."""
     path = Path(path)
-    figure.savefig(path, dpi=DPI)
+    figure.savefig(path, dpi=dpi)
     return path
 
 
@@ -435,15 +435,16 @@ def _save_prediction(
     deformed: Array,
     conditions: tuple[float, float, float, str],
     passage: tuple[Array, Array, Sequence[tuple[float, float, float]]] | None,
+    dpi: int = DPI,
 ) -> list[Path]:
     written = [
-        save(surface_spectrum(surface, *conditions), folder / "surface_spectrum.png"),
-        save(roughness_pair(surface, deformed, conditions[0]), folder / "roughness.png"),
+        save(surface_spectrum(surface, *conditions), folder / "surface_spectrum.png", dpi),
+        save(roughness_pair(surface, deformed, conditions[0]), folder / "roughness.png", dpi),
     ]
     if passage is not None:
         shift, ratio, bands = passage
         figure = friction_passage(shift, ratio, surface.length_x, bands)
-        written.append(save(figure, folder / "passage.png"))
+        written.append(save(figure, folder / "passage.png", dpi))
     return written
 
 
@@ -454,7 +455,9 @@ def _columns(path: Path) -> dict[str, Array]:
     return {name: table[:, k] for k, name in enumerate(rows[0])}
 
 
-def _plot_prediction(folder: Path, summary: dict[str, Any], target: Path) -> list[Path]:
+def _plot_prediction(
+    folder: Path, summary: dict[str, Any], target: Path, dpi: int
+) -> list[Path]:
     surface = Topography(
         np.load(folder / "surface.npy", allow_pickle=False),
         float(summary["length_x"]),
@@ -477,10 +480,10 @@ def _plot_prediction(folder: Path, summary: dict[str, Any], target: Path) -> lis
         float(summary["moes_l"]),
         str(summary["wavelength_convention"]),
     )
-    return _save_prediction(target, surface, deformed, conditions, passage)
+    return _save_prediction(target, surface, deformed, conditions, passage, dpi)
 
 
-def _plot_run(folder: Path, target: Path, units: str) -> list[Path]:
+def _plot_run(folder: Path, target: Path, units: str, dpi: int) -> list[Path]:
     from pyehl import results  # noqa: PLC0415
 
     run = results.read(folder)
@@ -490,8 +493,8 @@ def _plot_run(folder: Path, target: Path, units: str) -> list[Path]:
         scales = Scales(operating.hertz_radius, operating.hertz_pressure, operating.film_scale)
     x, y, pressure, film = (run[name] for name in "XYPH")
     return [
-        save(centre_lines(x, y, pressure, film, scales), target / "centre_lines.png"),
-        save(film_maps(x, y, film, scales), target / "film.png"),
+        save(centre_lines(x, y, pressure, film, scales), target / "centre_lines.png", dpi),
+        save(film_maps(x, y, film, scales), target / "film.png", dpi),
     ]
 
 
@@ -505,6 +508,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default="auto",
         help="of the EHL fields (default: SI when the case was given in SI)",
     )
+    parser.add_argument("--dpi", type=int, default=DPI, help=f"dots per inch (default: {DPI})")
 
 
 def execute(args: argparse.Namespace) -> int:
@@ -513,13 +517,15 @@ def execute(args: argparse.Namespace) -> int:
     try:
         if not (folder / "summary.json").is_file():
             raise ValueError(f"{folder}: no result folder, it has no summary.json")
+        if not 10 <= args.dpi <= 2400:
+            raise ValueError(f"--dpi {args.dpi}: 10 ... 2400 dots per inch were expected")
         target: Path = args.output or folder
         target.mkdir(parents=True, exist_ok=True)
         summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
         if summary.get("kind") == "prediction":
-            written = _plot_prediction(folder, summary, target)
+            written = _plot_prediction(folder, summary, target, args.dpi)
         else:
-            written = _plot_run(folder, target, args.units)
+            written = _plot_run(folder, target, args.units, args.dpi)
     except (ValueError, KeyError, OSError) as error:
         print(error, file=sys.stderr)
         return 2

@@ -15,6 +15,8 @@ module ehl_coarse_problem
    integer, parameter :: coarsening_classical = 1, coarsening_alcouffe = 2
    !> The operator decides on the transfer where conductance/mesh-size^2 is above this
    real(dp), public :: dependent_from = 0.1_dp
+   !> Slack of a coarse node that neither asks for pressure nor refuses it (the wedge term is of order 1)
+   real(dp), parameter :: least_slack = 1.0e-8_dp
    !> Right-hand side of nodes that are to stay cavitated on a coarse level: they never ask for pressure
    real(dp), parameter :: never = 1.0e30_dp
 
@@ -98,8 +100,9 @@ contains
                end do
             end do
             coarse%rhs(i, j) = coarse%rhs(i, j) + operator_row(i)
-            ! keep the slack of cavitated regions
-            if (coarse%p(i, j) <= 0.0_dp) coarse%rhs(i, j) = max(coarse%rhs(i, j), fine%rhs(ii, jj))
+            ! keep the slack of cavitated regions, and where there is none make a little, lest rounding
+            ! decides which nodes stay cavitated
+            if (coarse%p(i, j) <= 0.0_dp) coarse%rhs(i, j) = max(coarse%rhs(i, j), fine%rhs(ii, jj)) + least_slack
          end do
       end do
    end subroutine restrict_residual
@@ -163,13 +166,15 @@ contains
          end do
          do j = merge(1, 2, grid%mirror), grid%ny - 1
             do i = 1, grid%nx - 1
-               if (a%east(i, j) /= 0) a%east(i, j) = a%east(i, j)/(coarse%eps(i, j) + coarse%eps(i + 1, j))
-               if (a%north(i, j) /= 0) a%north(i, j) = a%north(i, j)/(coarse%eps(i, j) + coarse%eps(i, j + 1))
-               if (a%north_east(i, j) /= 0) a%north_east(i, j) = a%north_east(i, j)/(coarse%eps(i, j) + coarse%eps(i + 1, j + 1))
+               if (abs(a%east(i, j)) > 0.0_dp) a%east(i, j) = a%east(i, j)/(coarse%eps(i, j) + coarse%eps(i + 1, j))
+               if (abs(a%north(i, j)) > 0.0_dp) a%north(i, j) = a%north(i, j)/(coarse%eps(i, j) + coarse%eps(i, j + 1))
+               if (abs(a%north_east(i, j)) > 0.0_dp) a%north_east(i, j) = a%north_east(i, j) &
+                  /(coarse%eps(i, j) + coarse%eps(i + 1, j + 1))
                if (i > 1) then
-               if (a%north_west(i, j) /= 0) a%north_west(i, j) = a%north_west(i, j)/(coarse%eps(i, j) + coarse%eps(i - 1, j + 1))
+               if (abs(a%north_west(i, j)) > 0.0_dp) a%north_west(i, j) = a%north_west(i, j) &
+                  /(coarse%eps(i, j) + coarse%eps(i - 1, j + 1))
                end if
-               if (a%excess(i, j) /= 0) a%excess(i, j) = a%excess(i, j)/coarse%eps(i, j)
+               if (abs(a%excess(i, j)) > 0.0_dp) a%excess(i, j) = a%excess(i, j)/coarse%eps(i, j)
             end do
          end do
       end associate

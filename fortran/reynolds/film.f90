@@ -37,6 +37,7 @@ contains
             level%eps(i, j) = level%rho(i, j)*level%h(i, j)**3*exp(-log_eta(i))*level%inverse_speed
          end do
          if (level%galerkin) level%eps(:, j) = level%scale(:, j)*level%eps(:, j)
+         level%mass(:, j) = level%rho(:, j)*level%h(:, j)
          level%gain(:, j) = level%stiffness(:, j)/level%rho(:, j) - level%gain(:, j)
          level%stiffness(:, j) = level%stiffness(:, j)*level%h(:, j)
       end do
@@ -85,11 +86,10 @@ contains
       real(dp), intent(inout) :: values(:)
       integer :: i
 
-      associate (h => level%h, rho => level%rho, c => level%wedge, f => level%wedge_first)
-         values(2) = values(2) - f(0)*rho(2, j)*h(2, j) - f(1)*rho(1, j)*h(1, j)
+      associate (mass => level%mass, c => level%wedge, f => level%wedge_first)
+         values(2) = values(2) - f(0)*mass(2, j) - f(1)*mass(1, j)
          do i = 3, level%grid%nx - 1
-            values(i) = values(i) - c(0)*rho(i, j)*h(i, j) - c(1)*rho(i - 1, j)*h(i - 1, j) &
-                        - c(2)*rho(i - 2, j)*h(i - 2, j)
+            values(i) = values(i) - c(0)*mass(i, j) - c(1)*mass(i - 1, j) - c(2)*mass(i - 2, j)
          end do
       end associate
    end subroutine subtract_wedge

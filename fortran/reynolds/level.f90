@@ -11,21 +11,21 @@ module ehl_level
    use ehl_status, only: ehl_no_memory, status_t
    implicit none (type, external)
    private
-   public :: level_t, near_reach, line_width, band_lower, band_upper
+   public :: level_t, line_work_t, near_reach, line_fields, line_width
 
    !> The line systems know the deflection kernel up to this distance along X
    integer, parameter :: near_reach = 2
-   !> Sub- and super-diagonals of the line systems
-   integer, parameter :: band_lower = near_reach + 2, band_upper = near_reach
+   !> Numbers per node that the line systems are made from
+   integer, parameter :: line_fields = 11
    !> Lines relaxed side by side
    integer, parameter :: line_width = 8
    !> Grids with fewer nodes are worked on by one thread
    integer, parameter :: parallel_from = 4096
 
-   !> Work space of one thread's line systems: bands a(line, -lower:upper, node),
-   !> right-hand sides d(line, node), and 1 where a node changes distributively
+   !> Work space of one thread's line systems: what they are made from (line, number, node), nodes from
+   !> -1; upper diagonals (line, diagonal, node) and changes (line, node), nodes from -3
    type :: line_work_t
-      real(dp), allocatable :: a(:, :, :), d(:, :), dipole(:, :)
+      real(dp), allocatable :: fields(:, :, :), upper(:, :, :), change(:, :)
    end type line_work_t
 
    !> Fields of one level, arrays of shape (nx, ny). Dimensionless: P by p_h, lengths by a,
@@ -56,6 +56,8 @@ module ehl_level
       real(dp), allocatable :: rhs(:, :), residual(:, :)
       !> Conductance eps = rho H^3/(eta lambda_bar), d ln(eps)/dP at constant film, density, and H d rho/dP
       real(dp), allocatable :: eps(:, :), gain(:, :), rho(:, :), stiffness(:, :)
+      !> rho H, and 1 where a node changes distributively in the present sweep, else 0
+      real(dp), allocatable :: mass(:, :), dipole(:, :)
       !> Whether the Poiseuille term is the Galerkin product of the next finer level's, in place of
       !> the five-point difference: sum_k o_k (eps_k + eps) (P_k - P) - s eps P over the cell, with
       !> couplings o and excess s in `poiseuille`, and eps = `scale` rho H^3/(eta lambda_bar)
@@ -97,7 +99,7 @@ contains
          allocate (self%p(nx, ny), self%h(nx, ny), self%w(nx, ny), self%geometry(nx, ny), &
                    self%rhs(nx, ny), self%residual(nx, ny), self%eps(nx, ny), self%gain(nx, ny), &
                    self%rho(nx, ny), self%stiffness(nx, ny), self%p_start(nx, ny), &
-                   self%change(nx, ny), source=0.0_dp, stat=stat)
+                   self%change(nx, ny), self%mass(nx, ny), self%dipole(nx, ny), source=0.0_dp, stat=stat)
       end associate
       if (stat /= 0) then
          call status%fail(ehl_no_memory, "no memory for a grid level")
@@ -106,15 +108,13 @@ contains
       self%parallel = self%threads > 1 .and. self%grid%nx*self%grid%ny >= parallel_from
       allocate (self%work(self%threads))
       do d = 1, self%threads
-         allocate (self%work(d)%a(line_width, -band_lower:band_upper, self%grid%nx + band_lower), &
-                   self%work(d)%d(line_width, self%grid%nx + band_lower), &
-                   self%work(d)%dipole(line_width, 0:self%grid%nx + band_upper), source=0.0_dp, stat=stat)
+         allocate (self%work(d)%fields(line_width, line_fields, -1:self%grid%nx + 2), &
+                   self%work(d)%upper(line_width, 2, -3:self%grid%nx), &
+                   self%work(d)%change(line_width, -3:self%grid%nx + 1), source=0.0_dp, stat=stat)
          if (stat /= 0) then
             call status%fail(ehl_no_memory, "no memory for the line systems")
             return
          end if
-         ! unused lines stay an identity
-         self%work(d)%a(:, 0, :) = 1.0_dp
       end do
       associate (hx => self%grid%hx, hy => self%grid%hy)
          do d = -near_reach, near_reach
@@ -184,11 +184,11 @@ contains
       integer :: k
 
       numbers = 0
-      if (allocated(self%p)) numbers = 12*size(self%p, kind=int64)
+      if (allocated(self%p)) numbers = 14*size(self%p, kind=int64)
       if (allocated(self%scale)) numbers = numbers + size(self%scale, kind=int64) + self%poiseuille%bytes()/8
       if (allocated(self%work)) then
          do k = 1, size(self%work)
-            numbers = numbers + size(self%work(k)%a) + size(self%work(k)%d) + size(self%work(k)%dipole)
+            numbers = numbers + size(self%work(k)%fields) + size(self%work(k)%upper) + size(self%work(k)%change)
          end do
       end if
       bytes = 8*numbers

@@ -59,6 +59,8 @@ contains
       logical :: gone
 
       found = [what_is(prefix//checkpoint_names(1)), what_is(prefix//checkpoint_names(2))]
+      ! a state that is there already must not take the place of the one before it
+      if (maxval(found) == march%step) return
       path = prefix//checkpoint_names(minloc(found, dim=1))
       rows = history%all_rows()
       reason = ""

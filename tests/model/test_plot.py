@@ -114,8 +114,8 @@ def test_png_at_300_dots_per_inch(fields, tmp_path):
     assert (width, height) == (2160, 990)
 
 
-def run_verb(folder, output=None, units="auto"):
-    return plot.execute(argparse.Namespace(folder=folder, output=output, units=units))
+def run_verb(folder, output=None, units="auto", dpi=plot.DPI):
+    return plot.execute(argparse.Namespace(folder=folder, output=output, units=units, dpi=dpi))
 
 
 def test_verb_on_a_prediction(settings, tmp_path, capsys):
@@ -123,6 +123,15 @@ def test_verb_on_a_prediction(settings, tmp_path, capsys):
     assert run_verb(tmp_path / "out", tmp_path / "png") == 0
     assert len(capsys.readouterr().out.split()) == 3
     assert (tmp_path / "png" / "roughness.png").stat().st_size > 1e4
+
+
+def test_verb_at_other_resolutions(settings, tmp_path, capsys):
+    predict.predict(settings).write(tmp_path / "out", plots=False)
+    assert run_verb(tmp_path / "out", dpi=100) == 0
+    data = (tmp_path / "out" / "roughness.png").read_bytes()
+    assert struct.unpack(">II", data[16:24]) == (700, 310)
+    assert run_verb(tmp_path / "out", dpi=1) == 2
+    assert "--dpi 1" in capsys.readouterr().err
 
 
 def test_verb_on_a_prediction_that_failed(settings, tmp_path):
