@@ -304,6 +304,12 @@ class Solver:
         check(status, message)
         return _text(text)
 
+    def skipped(self) -> str:
+        """Tell what a march that has ended did not have to do; '' for every other run."""
+        text, status, message = _ehl.skipped(self._handle)
+        check(status, message)
+        return _text(text)
+
     def summary(self) -> dict[str, Any]:
         """Give the scalar results as in ``summary.json``; None for a number that does not exist."""
         text, status, message = _ehl.summary(self._handle)

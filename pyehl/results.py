@@ -46,7 +46,11 @@ class Result:
     coords, variables
         Coordinates and fields by name. X, Y, P, H are in Hertz units (a, p_h, a^2/R); x, y [m],
         p [Pa] and h [m] are there too when the case was given in SI units. Fields have the shape
-        (nx, ny). History columns are named ``history_<column>``, one value per row.
+        (nx, ny). A march also has P_smooth and H_smooth (the smooth contact), RR (the
+        roughness, peaks positive) and A_d = H_smooth - H (the roughness deformed in the contact),
+        in metres and pascals p_smooth, h_smooth, rr and a_d; its frames are frame_P and frame_H
+        of shape (nx, ny, frames) at the times T [a/u], frame_p and frame_h at t [s]. History
+        columns are named ``history_<column>``, one value per row.
     """
 
     summary: dict[str, Any]
@@ -63,6 +67,25 @@ class Result:
         """Whether the numbers are a solution; otherwise they are what there was at the end."""
         return self.summary.get("status") == "converged"
 
+
+# Coordinates of `ehl` and `pyehl run`: name, file, scaling, unit in SI, meaning
+COORDINATES = (
+    ("X", "X", "x/a", "m", "in the direction of motion"),
+    ("Y", "Y", "y/a", "m", "across the motion"),
+    ("T", "frame_T", "t u/a", "s", "time"),
+)
+# Fields of both: name, name and unit in SI, meaning, scaling, dimensions
+PLANE, FRAMES = ("X", "Y"), ("X", "Y", "T")
+FIELDS = (
+    ("P", "p", "Pa", "pressure", "p/p_h", PLANE),
+    ("H", "h", "m", "film thickness", "h R/a^2", PLANE),
+    ("P_smooth", "p_smooth", "Pa", "pressure of the smooth contact", "p/p_h", PLANE),
+    ("H_smooth", "h_smooth", "m", "film thickness of the smooth contact", "h R/a^2", PLANE),
+    ("RR", "rr", "m", "roughness, peaks positive", "r R/a^2", PLANE),
+    ("A_d", "a_d", "m", "deformed roughness: smooth film less film", "R/a^2", PLANE),
+    ("frame_P", "frame_p", "Pa", "pressure in time", "p/p_h", FRAMES),
+    ("frame_H", "frame_h", "m", "film thickness in time", "h R/a^2", FRAMES),
+)
 
 # File, dimensions, unit and meaning of what a folder of `pyehl predict` holds
 PREDICTION = {
@@ -94,21 +117,24 @@ def _solution(folder: Path, case: dict[str, dict[str, Any]], result: Result) -> 
     """Coordinates and fields of `ehl` and `pyehl run`."""
     if not (folder / "P.npy").is_file():
         return
-    x, y = _array(folder / "X.npy"), _array(folder / "Y.npy")
-    p, h = _array(folder / "P.npy"), _array(folder / "H.npy")
-    plane = ("X", "Y")
-    result.coords["X"] = Variable(("X",), x, "1", "X = x/a, in the direction of motion")
-    result.coords["Y"] = Variable(("Y",), y, "1", "Y = y/a, across the motion")
-    result.variables["P"] = Variable(plane, p, "1", "pressure p/p_h")
-    result.variables["H"] = Variable(plane, h, "1", "film h R/a^2")
-    if "load" not in case["contact"]:
-        return
-    point = OperatingPoint.from_settings(case)
-    a, p_h = point.hertz_radius, point.hertz_pressure
-    result.coords["x"] = Variable(("X",), x * a, "m", "in the direction of motion")
-    result.coords["y"] = Variable(("Y",), y * a, "m", "across the motion")
-    result.variables["p"] = Variable(plane, p * p_h, "Pa", "pressure")
-    result.variables["h"] = Variable(plane, h * a**2 / point.radius, "m", "film thickness")
+    point = OperatingPoint.from_settings(case) if "load" in case["contact"] else None
+
+    for name, file, scaled, unit, meaning in COORDINATES:
+        if not (folder / f"{file}.npy").is_file():
+            continue
+        values = _array(folder / f"{file}.npy")
+        result.coords[name] = Variable((name,), values, "1", f"{name} = {scaled}, {meaning}")
+        if point is not None:
+            scale = point.hertz_radius if unit == "m" else point.time_scale
+            result.coords[name.lower()] = Variable((name,), values * scale, unit, meaning)
+    for name, si, unit, meaning, scaled, dims in FIELDS:
+        if not (folder / f"{name}.npy").is_file():
+            continue
+        values = _array(folder / f"{name}.npy")
+        result.variables[name] = Variable(dims, values, "1", f"{meaning}, {scaled}")
+        if point is not None:
+            scale = point.hertz_pressure if unit == "Pa" else point.film_scale
+            result.variables[si] = Variable(dims, values * scale, unit, meaning)
 
 
 def _prediction(folder: Path, result: Result) -> None:

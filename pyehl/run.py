@@ -207,6 +207,8 @@ def _march(
                 _keep_state(solver, at_once=False)
             progress.update()
         progress.close()
+        if solver.skipped():
+            say(solver.skipped())
         has_state = not solver.converged and _keep_state(solver, at_once=True)
         note = solver.write(folder)
         if note:

@@ -98,6 +98,7 @@ contains
          end if
       end do
       call say(solver%progress())
+      if (solver%skipped() /= "") call say(solver%skipped())
    end subroutine march
 
    !> Save the state, now or if its time has come. A run does not end because that fails.

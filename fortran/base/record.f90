@@ -19,9 +19,11 @@ module ehl_record
       private
       type(item_t), allocatable :: items(:)
    contains
-      !> call record%set(name, value): real(dp), integer, logical or character;
-      !> a name that is there already gets the new value
-      generic :: set => set_real, set_integer, set_logical, set_text
+      !> call record%set(name, value): real(dp), integer, logical or character, or a list of
+      !> real(dp) or character; a name that is there already gets the new value
+      generic :: set => set_real, set_integer, set_logical, set_text, set_reals, set_texts
+      procedure, private :: set_reals
+      procedure, private :: set_texts
       procedure, private :: set_real
       procedure, private :: set_integer
       procedure, private :: set_logical
@@ -37,13 +39,40 @@ contains
       class(record_t), intent(inout) :: self
       character(len=*), intent(in) :: name
       real(dp), intent(in) :: value
-
-      if (ieee_is_finite(value)) then
-         call self%put(name, to_text(value))
-      else
-         call self%put(name, "null")
-      end if
+      call self%put(name, json_real(value))
    end subroutine set_real
+
+   !> Set a list of real values
+   subroutine set_reals(self, name, values)
+      class(record_t), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      real(dp), intent(in) :: values(:)
+      character(len=:), allocatable :: list
+      integer :: k
+
+      list = ""
+      do k = 1, size(values)
+         if (k > 1) list = list // ", "
+         list = list // json_real(values(k))
+      end do
+      call self%put(name, "[" // list // "]")
+   end subroutine set_reals
+
+   !> Set a list of texts; trailing blanks are dropped
+   subroutine set_texts(self, name, values)
+      class(record_t), intent(inout) :: self
+      character(len=*), intent(in) :: name
+      character(len=*), intent(in) :: values(:)
+      character(len=:), allocatable :: list
+      integer :: k
+
+      list = ""
+      do k = 1, size(values)
+         if (k > 1) list = list // ", "
+         list = list // json_text(trim(values(k)))
+      end do
+      call self%put(name, "[" // list // "]")
+   end subroutine set_texts
 
    !> Set an integer value
    subroutine set_integer(self, name, value)
@@ -108,6 +137,15 @@ contains
       end if
       text = text // newline // "}" // newline
    end function to_json
+
+   !> A number; null when it is not finite
+   pure function json_real(value) result(text)
+      real(dp), intent(in) :: value
+      character(len=:), allocatable :: text
+
+      text = "null"
+      if (ieee_is_finite(value)) text = to_text(value)
+   end function json_real
 
    !> A JSON string with its escapes
    pure function json_text(value) result(text)

@@ -24,7 +24,7 @@ module ehl_f2py
    private
    public :: resolve, open_case, close_case, advance, interrupt, describe, progress, summary
    public :: grid_shape, axes, field, check_output, write_output, keys, about
-   public :: checkpoint_case, keep, save_state, end_keeping, resume
+   public :: skipped, checkpoint_case, keep, save_state, end_keeping, resume
    public :: deflection, viscosity, density
 
 contains
@@ -144,6 +144,21 @@ contains
       if (.not. status%failed()) text = run%solver%progress()
       call report(status, stat, message)
    end subroutine progress
+
+   !> What a march that has ended did not have to do; empty for every other run
+   subroutine skipped(handle, text, stat, message)
+      integer(c_int), intent(in) :: handle
+      character(len=4096), intent(out) :: text
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(run_t), pointer :: run
+      type(status_t) :: status
+
+      text = ""
+      call run_of(handle, run, status)
+      if (.not. status%failed()) text = run%solver%skipped()
+      call report(status, stat, message)
+   end subroutine skipped
 
    !> The scalar results as JSON
    subroutine summary(handle, text, stat, message)

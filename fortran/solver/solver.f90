@@ -12,13 +12,15 @@ module ehl_solver
    use ehl_plan, only: make_plan, plan_t
    use ehl_plan_text, only: plan_text
    use ehl_record, only: record_t
-   use ehl_report, only: cycle_line, march_line, report_march, report_scene, report_smooth
+   use ehl_report, only: cycle_line, find_skips, march_line, report_march, report_scene, report_skips, report_smooth, &
+                         skip_t
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_interrupted, outcome_names, &
                           outcome_negative_film, outcome_running, outcome_target_missed, outcome_unsettled
    use ehl_steady, only: steady_t
    use ehl_table, only: table_t
    use ehl_transient, only: step_tolerance, transient_t
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
    private
    public :: solver_t
@@ -41,8 +43,8 @@ module ehl_solver
       logical, private :: marching = .false.
       !> How the march in time stands
       integer, private :: outcome = outcome_running
-      !> Seconds spent on time steps
-      real(dp), private :: step_seconds = 0.0_dp, step_seconds_coarse = 0.0_dp
+      !> Seconds spent on time steps, and on the smooth contact
+      real(dp), private :: step_seconds = 0.0_dp, step_seconds_coarse = 0.0_dp, smooth_seconds = 0.0_dp
       !> Heights of a map [m] that was given and not read
       real(dp), allocatable, private :: heights(:, :)
       type(case_t), private :: input
@@ -72,6 +74,7 @@ module ehl_solver
       procedure :: interrupt
       procedure :: progress
       procedure :: summary
+      procedure :: skipped
       procedure :: field
       procedure :: field_names
       procedure, private :: level
@@ -251,10 +254,13 @@ contains
    subroutine advance_cycle(self, status)
       type(solver_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
+      type(clock_t) :: clock
       integer :: n
 
+      clock = start_clock()
       n = self%steady%n
       call self%steady%advance(self%plan, self%hierarchy, status)
+      self%smooth_seconds = self%smooth_seconds + clock%seconds()
       if (status%failed()) return
       self%grid = self%hierarchy%levels(n)%grid
       if (allocated(self%plan%surface)) return
@@ -382,9 +388,15 @@ contains
             return
          end if
          periods = (march%step - mean%filled)*march%time_step/mean%period
-         if (periods >= merge(plan%max_periods, automatic_periods, plan%max_periods > 0)) outcome = outcome_unsettled
+         if (periods >= most_periods(plan)) outcome = outcome_unsettled
       end associate
    end function judge_march
+
+   !> Periods after which a march ends at the latest
+   pure integer function most_periods(plan)
+      type(plan_t), intent(in) :: plan
+      most_periods = merge(plan%max_periods, automatic_periods, plan%max_periods > 0)
+   end function most_periods
 
    !> How the run stands
    integer function stand(self)
@@ -449,6 +461,7 @@ contains
    function summary(self) result(record)
       class(solver_t), intent(in) :: self
       type(record_t) :: record
+      type(skip_t), allocatable :: skips(:)
       logical :: good
 
       call record%set("status", trim(outcome_names(self%stand())))
@@ -459,8 +472,38 @@ contains
       call report_smooth(record, self%plan, self%steady, self%level(), good)
       if (self%marching) call report_march(record, self%plan, self%transient, self%converged(), &
                                               self%step_seconds, self%coarse_mean)
+      if (self%marching .and. self%done()) then
+         call find_skips(self%plan, self%transient, self%converged(), most_periods(self%plan), self%step_seconds, &
+                         self%smooth_seconds, skips)
+         call report_skips(record, skips)
+      end if
       call record%set("bytes", real(self%hierarchy%bytes(), dp))
    end function summary
+
+   !> What a march that has ended did not have to do, one line each, with the seconds that saved; empty for
+   !> every other run
+   function skipped(self) result(text)
+      class(solver_t), intent(in) :: self
+      character(len=:), allocatable :: text
+      type(skip_t), allocatable :: skips(:)
+      character(len=16) :: seconds
+      integer :: k
+
+      text = ""
+      if (.not. (self%marching .and. self%done())) return
+      call find_skips(self%plan, self%transient, self%converged(), most_periods(self%plan), self%step_seconds, &
+                      self%smooth_seconds, skips)
+      do k = 1, size(skips)
+         if (k > 1) text = text//new_line("a")
+         text = text//"not done: "//trim(skips(k)%what)
+         if (ieee_is_finite(skips(k)%seconds)) then
+            write (seconds, "(f16.1)") skips(k)%seconds
+            text = text//" (about "//trim(adjustl(seconds))//" s)"
+         else
+            text = text//" (seconds not known)"
+         end if
+      end do
+   end function skipped
 
    !> Keep P and H if a frame is due
    subroutine keep_frame(self)

@@ -6,6 +6,7 @@ program tester
    use test_case, only: run_case
    use test_deflection, only: run_deflection
    use test_record, only: run_record
+   use test_solver, only: run_solver
    use test_text, only: run_text
    implicit none (type, external)
    character(len=32) :: suite
@@ -20,6 +21,8 @@ program tester
       call run_case()
    case ("deflection")
       call run_deflection()
+   case ("solver")
+      call run_solver()
    case default
       write (error_unit, "(3a)") "tester: no suite '", trim(suite), "'"
       stop 2, quiet=.true.

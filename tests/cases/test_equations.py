@@ -22,7 +22,7 @@ AMPLITUDE, WAVELENGTH, VELOCITY, START = 8.2362474e-3, 0.5, 1.01, -2.5
 
 
 def deflection(pressure: Array, h: float) -> Array:
-    """(2/pi^2) int int P/r of a pressure that is constant around each node (Johnson 1985, eq. 3.25)."""
+    """(2/pi^2) int int P/r, P constant around each node (Johnson 1985, eq. 3.25)."""
     n = pressure.shape[0]
 
     def corner(x: Array, y: Array) -> Array:

@@ -63,7 +63,9 @@ def test_reference_rows(solve, row: SmoothRow, k: int):
     assert done["H_min"] == pytest.approx(row.h_min[k], rel=tolerance)
 
 
-@pytest.mark.parametrize("row", SMOOTH, ids=lambda r: f"M{r.moes_m:g}-L{r.moes_l:g}-z{r.roelands_z:g}")
+@pytest.mark.parametrize(
+    "row", SMOOTH, ids=lambda r: f"M{r.moes_m:g}-L{r.moes_l:g}-z{r.roelands_z:g}"
+)
 def test_limits(solve, row: SmoothRow):
     coarse, fine = (run(solve, row, points) for points in (513, 1025))
     for name, limit in (("H_c", row.limit_c), ("H_min", row.limit_min)):

@@ -12,7 +12,7 @@ import pytest
 
 
 def amplitude(scheme: str, wavelength: float, h: float) -> tuple[np.ndarray, np.ndarray]:
-    """Distances from the inlet and the amplitude of the wave there, relative to that at the inlet."""
+    """Distances from the inlet, and the amplitude of the wave there over that at the inlet."""
     k = 2.0 * np.pi / wavelength
     n = round(2.0 / h) + 1
     x = h * np.arange(n)
@@ -52,7 +52,7 @@ def test_paper_scheme_damps_a_wave(wavelength: float, h: float):
     # Not from the inlet itself: the differences are one-sided, which matters for a few nodes
     start = x.size // 4
     exponent = np.log(size[start] / size[-1]) / (x[-1] - x[start])
-    # The factor r from node to node solves (1.5 + s) r^2 - 2 r + 0.5 = 0, s from the difference in T
+    # The factor r from node to node solves (1.5 + s) r^2 - 2 r + 0.5 = 0, s: difference in T
     s = 1.5 - 2.0 * np.exp(1j * angle) + 0.5 * np.exp(2j * angle)
     factor = np.abs(np.roots([1.5 + s, -2.0, 0.5])).max()
     assert exponent == pytest.approx(-np.log(factor) / h, rel=1e-8)

@@ -248,7 +248,7 @@ def test_signal_leaves_results_and_a_state(
     drive, drivers, tmp_path: Path, driver: str, number: int
 ):
     # a march of half a minute or more, and no state but the one that the signal asks for
-    (tmp_path / "case.nml").write_text(WAVE.format(points=257, extra="x_start = -10.0"))
+    (tmp_path / "case.nml").write_text(WAVE.format(points=129, extra="x_start = -40.0"))
     words = ["--set", "output.checkpoint_interval=1e6", "--set", "time.skip_start=.false."]
     with start([*drivers[driver], "case.nml", "-o", "out", *words], tmp_path) as process:
         assert process.stdout is not None

@@ -1,0 +1,158 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Whole solutions on small grids, smooth and in time: with run-time checks and traps they pass every line
+!> of the solver
+module test_solver
+   use check, only: is_close, is_equal, is_true
+   use ehl_case, only: case_t
+   use ehl_case_reader, only: read_case
+   use ehl_kinds, only: dp
+   use ehl_lubricant, only: density_dowson_higginson, lubricant_t, new_lubricant, viscosity_roelands
+   use ehl_moes, only: operating_from_si, operating_t
+   use ehl_solver, only: solver_t
+   use ehl_status, only: status_t
+   implicit none (type, external)
+   private
+   public :: run_solver
+
+   character(len=*), parameter :: moderate = "&contact moes_m = 20, moes_l = 10 / &lubricant roelands_z = 0.68 / "// &
+                                  "&grid points = 129, x_inlet = -4.5, x_outlet = 1.5, y_extent = 3 / "
+   character(len=*), parameter :: wavy = "&surface kind = 'harmonic', amplitude = 0.05, wavelength = 1, x_start = 0 / "// &
+                                  "&time steps = 6 / "
+
+contains
+
+   subroutine run_solver()
+      call operating_point_of_table_1()
+      call lubricant_laws()
+      call smooth_against_reference()
+      call half_is_whole("", 1.0e-10_dp)
+      call half_is_whole(wavy, 1.0e-9_dp)
+      call steps_converge("narrow")
+      call steps_converge("paper")
+      call threads_change_nothing()
+   end subroutine run_solver
+
+   !> Zhang et al. 2019, Table 1: a = 0.41540 mm, p_h = 1.6602 GPa, M = 1000.0, L = 10.024
+   subroutine operating_point_of_table_1()
+      type(operating_t) :: point
+
+      point = operating_from_si(600.0_dp, 0.84_dp, 0.018_dp, 2.26e11_dp, 0.04_dp, 2.2e-8_dp)
+      call is_close(point%hertz_radius, 4.1540e-4_dp, 1.0e-8_dp, "Hertz radius")
+      call is_close(point%hertz_pressure, 1.6602e9_dp, 1.0e5_dp, "Hertz pressure")
+      call is_close(point%moes_m, 1000.0_dp, 0.05_dp, "M")
+      call is_close(point%moes_l, 10.024_dp, 0.001_dp, "L")
+      call is_close(point%speed_parameter, 1.0978e-3_dp, 1.0e-7_dp, "speed parameter")
+   end subroutine operating_point_of_table_1
+
+   !> Slopes against differences, values at 0 and at p_h
+   subroutine lubricant_laws()
+      type(lubricant_t) :: lubricant
+      real(dp) :: p(3), eta(3), slope(3), rho(3), rho_slope(3)
+
+      lubricant = new_lubricant(viscosity_roelands, density_dowson_higginson, 36.5_dp, 1.66e9_dp, 0.668_dp, 1.96e8_dp)
+      p = [0.0_dp, 1.0_dp - 1.0e-6_dp, 1.0_dp + 1.0e-6_dp]
+      call lubricant%log_viscosity(p, eta, slope)
+      call lubricant%density(p, rho, rho_slope)
+      call is_close(eta(1), 0.0_dp, 0.0_dp, "ln eta at 0")
+      call is_close(slope(1), 36.5_dp, 1.0e-12_dp, "slope of ln eta at 0 is alpha p_h")
+      call is_close((eta(3) - eta(2))/2.0e-6_dp, slope(2), 1.0e-4_dp, "slope of ln eta at p_h")
+      call is_close(rho(1), 1.0_dp, 0.0_dp, "rho at 0")
+      call is_close(rho(3), (5.9e8_dp + 1.34_dp*1.66e9_dp)/(5.9e8_dp + 1.66e9_dp), 1.0e-6_dp, "rho at p_h")
+      call is_close((rho(3) - rho(2))/2.0e-6_dp, rho_slope(2), 1.0e-6_dp, "slope of rho at p_h")
+   end subroutine lubricant_laws
+
+   !> M = 20, L = 10 on 129 x 129 nodes: H_c = 0.42872, H_min = 0.29094, by two independent solvers that agree
+   !> within 0.2 %
+   subroutine smooth_against_reference()
+      type(solver_t) :: mlmi, fft
+      real(dp), allocatable :: h(:, :), h_fft(:, :)
+
+      call solve(moderate, mlmi)
+      call is_true(mlmi%converged(), "M = 20, L = 10 converges")
+      call get(mlmi, "H", h)
+      call is_close(h(1 + nint(4.5_dp/mlmi%grid%hx), 65), 0.42872_dp, 0.002_dp*0.42872_dp, "H_c")
+      call is_close(minval(h), 0.29094_dp, 0.002_dp*0.29094_dp, "H_min")
+      call solve(moderate//"&solver deflection = 'fft' / ", fft)
+      call get(fft, "H", h_fft)
+      ! the accuracy asked of mlmi on this grid is 2.5e-4 of the largest deflection
+      call is_close(maxval(abs(h_fft - h)), 0.0_dp, 1.0e-4_dp, "mlmi against fft")
+   end subroutine smooth_against_reference
+
+   !> A scene that is symmetric in Y on half and on whole domain
+   subroutine half_is_whole(more, tolerance)
+      character(len=*), intent(in) :: more
+      real(dp), intent(in) :: tolerance
+      type(solver_t) :: half, whole
+      real(dp), allocatable :: p(:, :), p_whole(:, :)
+
+      call solve(moderate//more, half)
+      call solve(moderate//more//"&solver symmetry = 'full' / ", whole)
+      call is_true(half%grid%mirror .and. .not. whole%grid%mirror, "half and whole domain")
+      call get(half, "P", p)
+      call get(whole, "P", p_whole)
+      call is_close(maxval(abs(p - p_whole)), 0.0_dp, tolerance, "half against whole domain")
+   end subroutine half_is_whole
+
+   !> Every step of a short march converges and carries the load
+   subroutine steps_converge(scheme)
+      character(len=*), intent(in) :: scheme
+      type(solver_t) :: solver
+      real(dp), allocatable :: h(:, :), h_smooth(:, :), rr(:, :)
+
+      call solve(moderate//"&surface kind = 'harmonic', amplitude = 0.05, wavelength = 1, x_start = 0 / "// &
+                 "&time steps = 6, scheme = '"//scheme//"' / ", solver)
+      call is_equal(solver%history%n_rows(), 6, "steps, scheme "//scheme)
+      call is_close(maxval(abs(solver%history%column("load_error"))), 0.0_dp, 1.0e-6_dp, "load at every step, "//scheme)
+      call is_true(maxval(solver%history%column("residual")) < 2.0e-4_dp, "residual of every step, "//scheme)
+      call get(solver, "H", h)
+      call get(solver, "H_smooth", h_smooth)
+      call get(solver, "RR", rr)
+      ! where the pressure is low the roughness rides on the film, and a peak thins it
+      call is_close(maxval(abs(h(2:20, :) - h_smooth(2:20, :) + rr(2:20, :))), 0.0_dp, 0.01_dp, "roughness rides, "//scheme)
+   end subroutine steps_converge
+
+   !> The same bits with one thread and with three
+   subroutine threads_change_nothing()
+      type(solver_t) :: one, three
+      real(dp), allocatable :: p(:, :), p_three(:, :)
+
+      call solve(moderate//wavy, one)
+      call solve(moderate//wavy//"&solver threads = 3 / ", three)
+      call get(one, "P", p)
+      call get(three, "P", p_three)
+      call is_true(.not. any(abs(p - p_three) > 0.0_dp), "threads change no bit")
+   end subroutine threads_change_nothing
+
+   !> Read a case and run it to its end
+   subroutine solve(text, solver)
+      character(len=*), intent(in) :: text
+      type(solver_t), intent(inout) :: solver
+      type(case_t), target :: input
+      type(status_t) :: status
+
+      call read_case(text, "test", "", input, status)
+      if (.not. status%failed()) call solver%start(input, status)
+      do
+         if (status%failed()) exit
+         if (solver%done()) exit
+         call solver%advance(status)
+      end do
+      if (status%failed()) then
+         call is_true(.false., "solve: "//status%message)
+      else
+         call is_true(.true., "solve")
+      end if
+   end subroutine solve
+
+   !> A field of a solver
+   subroutine get(solver, name, values)
+      type(solver_t), intent(in) :: solver
+      character(len=*), intent(in) :: name
+      real(dp), allocatable, intent(out) :: values(:, :)
+      type(status_t) :: status
+
+      allocate (values(solver%grid%nx, solver%grid%full_ny()))
+      call solver%field(name, values, status)
+      call is_true(.not. status%failed(), "field "//name)
+   end subroutine get
+end module test_solver

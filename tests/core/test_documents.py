@@ -1,0 +1,223 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The documents: every command and example in them works, and they name every module.
+
+Commands are the lines of blocks marked ``sh``. They are run as they stand, in the order of the
+document, in a folder that holds nothing but ``cases/``. Not run are those that install something or
+run the tests themselves: of the two commands of the README the part before ``&&`` and ``pytest``,
+and what EXEMPT lists. For these the files and options they name are looked up instead.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from pyehl import Case, core
+
+DOCUMENTS = ("README.md", "cases/README.md", "tests/README.md", "fortran/README.md")
+INSTALL = "bash .ci/install"
+# First words of commands that are not run here, and who runs them
+EXEMPT = {
+    "bash .ci/install": "whoever pastes it; .ci/run in a fresh environment",
+    "bash .ci/run": "runs this test",
+    ".venv/bin/pytest": "runs this test",
+    "pytest": "runs this test",
+    "pip install": "needs the network",
+    "meson": ".ci/run",
+}
+# Options of meson itself, that are not in meson.options
+MESON_OPTIONS = {"buildtype"}
+
+
+def blocks(path: Path, language: str) -> list[str]:
+    """Fenced blocks of a language, '' for none."""
+    return re.findall(rf"^```{language}\n(.*?)^```$", path.read_text(), re.M | re.S)
+
+
+def commands(path: Path) -> list[str]:
+    """Lines of shell blocks without their comments."""
+    lines = [line for block in blocks(path, "sh") for line in block.splitlines()]
+    return [" ".join(shlex.split(line, comments=True)) for line in lines if line.strip()]
+
+
+def parts(command: str) -> list[str]:
+    return [part.strip() for part in command.split("&&")]
+
+
+def is_exempt(part: str) -> bool:
+    return any(part == first or part.startswith(f"{first} ") for first in EXEMPT)
+
+
+@pytest.fixture
+def folder(root: Path, tmp_path: Path) -> Path:
+    """A folder with the case files."""
+    shutil.copytree(root / "cases", tmp_path / "cases")
+    return tmp_path
+
+
+def execute(part: str, folder: Path, drivers: dict[str, list[str]]) -> str:
+    """Run one command; returns what it printed."""
+    words = shlex.split(part.removeprefix(".venv/bin/"))
+    programs = {"ehl": drivers["ehl"], "pyehl": drivers["pyehl"][:-1]}
+    assert words[0] in programs, f"{part}: neither a program of this package nor exempt"
+    done = subprocess.run(
+        [*programs[words[0]], *words[1:]],
+        cwd=folder,
+        env={k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"},
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+    assert done.returncode == 0, f"{part}\n{done.stdout}{done.stderr}"
+    return done.stdout
+
+
+@pytest.mark.parametrize("name", DOCUMENTS)
+def test_commands_work(root: Path, folder: Path, drivers: dict[str, list[str]], name: str):
+    found = [part for command in commands(root / name) for part in parts(command)]
+    assert found
+    for part in found:
+        if not is_exempt(part):
+            execute(part, folder, drivers)
+    run_python(root / name, folder)
+
+
+def run_python(path: Path, folder: Path) -> None:
+    """Run the Python blocks of a document where its commands have been run."""
+    for block in blocks(path, "python"):
+        done = subprocess.run(
+            [sys.executable, "-P", "-c", block],
+            cwd=folder,
+            capture_output=True,
+            text=True,
+            timeout=300,
+            check=False,
+        )
+        assert done.returncode == 0, f"{block}\n{done.stderr}"
+
+
+def test_commands_that_are_not_run_name_what_is_there(root: Path):
+    options = set(re.findall(r"^option\('(\w+)'", (root / "meson.options").read_text(), re.M))
+    seen = 0
+    for name in DOCUMENTS:
+        for part in (p for command in commands(root / name) for p in parts(command)):
+            if not is_exempt(part):
+                continue
+            seen += 1
+            for word in shlex.split(part)[1:]:
+                if match := re.fullmatch(r"-D(\w+)=\S+", word):
+                    assert match[1] in options | MESON_OPTIONS, part
+                elif re.match(r"(tests|cases|\.ci|fortran)/", word):
+                    assert (root / word).exists(), part
+    assert seen > 5
+
+
+def test_two_commands_of_the_readme(root: Path):
+    """They are one line each, need nothing but the clone, and .ci/run finds the second."""
+    lines = [c for c in commands(root / "README.md") if c.startswith(INSTALL)]
+    assert len(lines) == 2
+    main, tests = lines
+    assert all(part.startswith(".venv/bin/pyehl ") for part in parts(main)[1:])
+    assert parts(tests) == [INSTALL, ".venv/bin/pytest"]
+    assert (root / ".ci" / "install").is_file()
+
+
+def test_readme_prints_what_is_printed(
+    root: Path, folder: Path, drivers: dict[str, list[str]]
+):
+    """The lines shown below the main command, number by number; cycles and times may differ."""
+    main = next(c for c in commands(root / "README.md") if c.startswith(INSTALL))
+    printed = "".join(execute(part, folder, drivers) for part in parts(main)[1:]).splitlines()
+    (shown,) = blocks(root / "README.md", "")
+    number = re.compile(r"\d+\.\d+(?:E[-+]\d+)?")
+    compared = 0
+    for line in shown.splitlines():
+        if line == "...":
+            continue
+        text = number.sub("#", line)
+        (same,) = {other for other in printed if number.sub("#", other) == text}
+        tail = re.compile(r"residual.*|\d+\.\d+ ms")
+        for a, b in zip(
+            number.findall(tail.sub("", line)), number.findall(tail.sub("", same)), strict=True
+        ):
+            assert float(b) == pytest.approx(float(a), rel=2e-3)
+            compared += 1
+    assert compared >= 7
+
+
+@pytest.mark.parametrize("name", DOCUMENTS)
+def test_case_texts_are_cases(root: Path, name: str):
+    for text in blocks(root / name, "fortran"):
+        Case.from_text(text)
+
+
+@pytest.mark.parametrize("name", DOCUMENTS)
+def test_links_lead_somewhere(root: Path, name: str):
+    path = root / name
+    for target in re.findall(r"\]\(([^)]+)\)", path.read_text()):
+        if not target.startswith("http"):
+            assert (path.parent / target.partition("#")[0]).exists(), target
+
+
+@pytest.mark.parametrize("name", DOCUMENTS)
+def test_keys_in_documents_are_keys(root: Path, name: str):
+    known = {key.name for key in core.keys()}
+    groups = {name.partition(".")[0] for name in known}
+    words = re.findall(r"`(?:--set )?(\w+\.\w+)(?: ?=[^`]*)?`", (root / name).read_text())
+    assert not {w for w in words if w.partition(".")[0] in groups} - known - FILES
+
+
+# Files whose names look like keys
+FILES = {"case.nml", "surface.py", "case.py"}
+
+
+def test_every_module_is_in_a_map(root: Path):
+    text = (root / "fortran" / "README.md").read_text()
+    listed = re.findall(r"^\| `(\w+/\w+\.f90)` \|", text, re.M)
+    sources = {
+        f"{path.parent.name}/{path.name}"
+        for path in (root / "fortran").glob("*/*.f90")
+        if path.parent.name != "test"
+    }
+    assert set(listed) == sources
+    readme = (root / "README.md").read_text()
+    modules = {p.name for p in (root / "pyehl").glob("*.py")} - {"__init__.py"}
+    assert not {m for m in modules if f"`{m}`" not in readme}
+
+
+def test_map_is_in_the_order_of_the_build(root: Path):
+    """meson.build lists the modules so that each uses only those before it; so does the map."""
+    built = re.findall(r"'(\w+/\w+\.f90)'", (root / "fortran" / "meson.build").read_text())
+    text = (root / "fortran" / "README.md").read_text()
+    listed = re.findall(r"^\| `(\w+/\w+\.f90)` \|", text, re.M)
+    folders = [list(dict.fromkeys(n.partition("/")[0] for n in names)) for names in (built, listed)]
+    assert folders[1] == [*folders[0], "bind"]
+
+
+def test_modules_named_in_the_equation_table_hold_what_it_says(root: Path):
+    """Routines that fortran/README.md names are in the files that it names."""
+    text = (root / "fortran" / "README.md").read_text()
+    found = re.findall(r"((?:`\w+`(?:, )?)+) in `([\w/]+\.f90)`", text)
+    assert len(found) >= 4
+    for names, path in found:
+        source = (root / "fortran" / path).read_text()
+        for name in re.findall(r"`(\w+)`", names):
+            assert re.search(rf"(subroutine|function) {name}\b", source), (name, path)
+
+
+def test_citation_names_the_version_and_the_paper(root: Path):
+    text = (root / "CITATION.cff").read_text()
+    project = (root / "pyproject.toml").read_text()
+    version = re.search(r'^version = "(.+)"', project, re.M)
+    assert version is not None
+    assert f"version: {version[1]}" in text
+    assert "10.1016/j.triboint.2019.01.028" in text
+    assert f"## {version[1]}" in (root / "CHANGELOG.md").read_text()
