@@ -377,7 +377,9 @@ def deflection(
     threads: int = 1,
     repeats: int = 1,
 ) -> Deflection:
-    """Elastic deflection W = (2/pi^2) iint P dX' dY'/r, P constant over cells (eq. 3).
+    """Elastic deflection W = (2/pi^2) iint P dX' dY'/r, P constant over cells.
+
+    The integral of Zhang et al. 2019, eq. 2, in Hertz units: P by p_h, lengths by a, W by a^2/R.
 
     Parameters
     ----------
@@ -450,7 +452,15 @@ def log_viscosity(
 
 
 def density(pressure: ArrayLike, hertz_pressure: float) -> tuple[Array, Array]:
-    """Dowson-Higginson rho/rho0 and its slope d(rho/rho0)/dP at P = p/p_h, both shape (n,)."""
+    """Dowson-Higginson rho/rho0 and its slope d(rho/rho0)/dP [-], both shape (n,).
+
+    Parameters
+    ----------
+    pressure
+        P = p/p_h, shape (n,).
+    hertz_pressure
+        p_h [Pa].
+    """
     p = np.ascontiguousarray(pressure, dtype=np.float64)
     values, slopes = np.empty(p.shape), np.empty(p.shape)
     _ehl.density(p, values, slopes, hertz_pressure)

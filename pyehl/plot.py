@@ -33,14 +33,21 @@ from pyehl.topography import Topography, psd_2d, psd_isotropic
 
 if TYPE_CHECKING:
     from pyehl.predict import Prediction
+    from pyehl.results import Result
 
 __all__ = [
     "Scales",
     "add_arguments",
+    "axis_unit",
     "centre_lines",
+    "edges",
     "execute",
     "film_maps",
     "friction_passage",
+    "height_unit",
+    "letter",
+    "nearest",
+    "new_figure",
     "roughness_pair",
     "save",
     "save_prediction",
@@ -71,7 +78,8 @@ class Scales:
     film: float
 
 
-def _figure(width: float, height: float) -> Figure:
+def new_figure(width: float, height: float) -> Figure:
+    """Make an empty figure of a size in inches, laid out by itself."""
     return Figure(figsize=(width, height), layout="constrained")
 
 
@@ -82,24 +90,28 @@ def save(figure: Figure, path: str | Path, dpi: int = DPI) -> Path:
     return path
 
 
-def _letter(axes: Sequence[Axes]) -> None:
+def letter(axes: Sequence[Axes]) -> None:
+    """Mark several axes (a), (b), ...."""
     if len(axes) > 1:
         for mark, ax in zip("abcdef", axes, strict=False):
             ax.set_title(f"({mark})", loc="left", fontsize="medium")
 
 
-def _axis(scales: Scales | None, name: str) -> tuple[float, str]:
+def axis_unit(scales: Scales | None, name: str) -> tuple[float, str]:
+    """Factor from Hertz radii to the unit of an axis, and its label."""
     if scales is None:
         return 1.0, f"${name.upper()} = {name}/a$"
     return scales.radius * 1e3, f"${name}$ [mm]"
 
 
-def _edges(centres: NDArray[np.floating[Any]]) -> tuple[float, float]:
+def edges(centres: NDArray[np.floating[Any]]) -> tuple[float, float]:
+    """Outer edges of the first and the last pixel around equally spaced centres."""
     half = 0.5 * (centres[1] - centres[0])
     return float(centres[0] - half), float(centres[-1] + half)
 
 
-def _nearest(values: Array, target: float) -> int:
+def nearest(values: Array, target: float) -> int:
+    """Index of the value nearest to a target."""
     return int(np.argmin(np.abs(values - target)))
 
 
@@ -117,12 +129,12 @@ def centre_lines(
     scales
         For SI units; None for Hertz units.
     """
-    figure = _figure(7.2, 3.3)
+    figure = new_figure(7.2, 3.3)
     unit_p = 1.0 if scales is None else scales.pressure * 1e-9
     unit_h = 1.0 if scales is None else scales.film * 1e6
     label_p = r"$P = p/p_h$" if scales is None else r"$p$ [GPa]"
     label_h = r"$H = hR/a^2$" if scales is None else r"$h$ [$\mu$m]"
-    i0, j0 = _nearest(x, 0.0), _nearest(y, 0.0)
+    i0, j0 = nearest(x, 0.0), nearest(y, 0.0)
     central = float(film[i0, j0]) * unit_h
     p_top = 1.08 * max(unit_p, float(pressure.max()) * unit_p)
     axes = list(figure.subplots(1, 2, sharey=True))
@@ -131,7 +143,7 @@ def centre_lines(
         (axes[0], x, "x", pressure[:, j0], film[:, j0]),
         (axes[1], y, "y", pressure[i0, :], film[i0, :]),
     ):
-        unit, label = _axis(scales, name)
+        unit, label = axis_unit(scales, name)
         hertz = np.linspace(-1.0, 1.0, 401)
         (dashed,) = ax.plot(
             hertz * unit, np.sqrt(1.0 - hertz**2) * unit_p, "--", color=GREY, lw=0.9, label="Hertz"
@@ -151,7 +163,7 @@ def centre_lines(
     axes[0].set_ylabel(label_p, color=BLUE)
     twins[1].set_ylabel(label_h, color=VERMILLION)
     twins[0].set_yticklabels([])
-    _letter(axes)
+    letter(axes)
     return figure
 
 
@@ -179,13 +191,13 @@ def film_maps(x: Array, y: Array, film: Array, scales: Scales | None = None) -> 
     ValueError
         If the film at the centre is not a positive number.
     """
-    figure = _figure(7.2, 3.3)
+    figure = new_figure(7.2, 3.3)
     axes = list(figure.subplots(1, 2, sharey=True))
-    unit_x, label_x = _axis(scales, "x")
-    _, label_y = _axis(scales, "y")
+    unit_x, label_x = axis_unit(scales, "x")
+    _, label_y = axis_unit(scales, "y")
     unit = 1.0 if scales is None else scales.film * 1e6
     h = film * unit
-    central = float(h[_nearest(x, 0.0), _nearest(y, 0.0)])
+    central = float(h[nearest(x, 0.0), nearest(y, 0.0)])
     if not (math.isfinite(central) and central > 0.0):
         raise ValueError(f"the film at the centre is {central:.4g}: no map of it can be drawn")
     if scales is None:
@@ -199,8 +211,8 @@ def film_maps(x: Array, y: Array, film: Array, scales: Scales | None = None) -> 
     factor = max(1, math.ceil(1200 / max(view.shape)))
     fine = zoom(view, factor, order=1, grid_mode=True, mode="nearest")
     extent = (
-        *(v * unit_x for v in _edges(x[inner_x])),
-        *(v * unit_x for v in _edges(y[inner_y])),
+        *(v * unit_x for v in edges(x[inner_x])),
+        *(v * unit_x for v in edges(y[inner_y])),
     )
     # Dark where the paths differ by whole wavelengths: the reflection at one face turns the
     # phase. Contrast fades with the film as under filtered light, before the screen aliases.
@@ -238,11 +250,12 @@ def film_maps(x: Array, y: Array, film: Array, scales: Scales | None = None) -> 
         if scales is None:
             ax.set_xticks([-1.0, -0.5, 0.0, 0.5, 1.0])
             ax.set_yticks([-1.0, -0.5, 0.0, 0.5, 1.0])
-    _letter(axes)
+    letter(axes)
     return figure
 
 
-def _height_unit(largest: float) -> tuple[float, str]:
+def height_unit(largest: float) -> tuple[float, str]:
+    """Factor from metres to the unit for heights up to `largest`, and its name."""
     return (1e9, "nm") if largest < 5e-7 else (1e6, r"$\mu$m")
 
 
@@ -266,11 +279,11 @@ def surface_spectrum(
     convention
         Wavelength convention of A_d/A_i, see :mod:`pyehl.amplitude`; drawn for waves along x.
     """
-    figure = _figure(10.2, 2.9)
+    figure = new_figure(10.2, 2.9)
     axes = list(figure.subplots(1, 3))
     axes[2].set_box_aspect(1.0)
     z = topography.heights
-    unit, name = _height_unit(float(np.abs(z).max()))
+    unit, name = height_unit(float(np.abs(z).max()))
     top = float(np.abs(z).max()) * unit
     extent = (0.0, topography.length_x * 1e3, 0.0, topography.length_y * 1e3)
     image = axes[0].imshow(
@@ -284,7 +297,7 @@ def surface_spectrum(
     q, c_iso = psd_isotropic(topography)
     least = float(c2d.max()) * 1e-10
     filled = np.maximum(c2d, least)
-    spectrum_extent = (*(v * 1e-6 for v in _edges(qx)), *(v * 1e-6 for v in _edges(qy)))
+    spectrum_extent = (*(v * 1e-6 for v in edges(qx)), *(v * 1e-6 for v in edges(qy)))
     image = axes[1].imshow(
         filled.T, origin="lower", extent=spectrum_extent, cmap=SEQUENTIAL,
         norm=LogNorm(vmin=least, vmax=float(c2d.max())),
@@ -308,7 +321,7 @@ def surface_spectrum(
     twin.set_ylim(0.0, 1.02)
     twin.set_ylabel(r"$A_d/A_i$", color=VERMILLION)
     twin.tick_params(axis="y", colors=VERMILLION)
-    _letter(axes)
+    letter(axes)
     return figure
 
 
@@ -339,10 +352,10 @@ def roughness_pair(
     inside = (i * px / hertz_radius)[:, None] ** 2 + (j * py / hertz_radius)[None, :] ** 2 <= 1.0
     at = np.ix_(i % nx, j % ny)
     top = float(np.abs(topography.heights[at][inside]).max())
-    unit, name = _height_unit(top)
-    figure = _figure(7.0, 3.1)
+    unit, name = height_unit(top)
+    figure = new_figure(7.0, 3.1)
     axes = list(figure.subplots(1, 2, sharey=True))
-    extent = (*_edges(i * (px / hertz_radius)), *_edges(j * (py / hertz_radius)))
+    extent = (*edges(i * (px / hertz_radius)), *edges(j * (py / hertz_radius)))
     image = None
     for ax, z, label in zip(axes, (topography.heights, deformed), labels, strict=True):
         shown = np.where(inside, z[at], np.nan) * unit
@@ -361,7 +374,7 @@ def roughness_pair(
     axes[0].set_ylabel("$y/a$")
     if image is not None:
         figure.colorbar(image, ax=axes, shrink=0.9).set_label(f"height [{name}]")
-    _letter(axes)
+    letter(axes)
     return figure
 
 
@@ -382,7 +395,7 @@ def friction_passage(
     bands
         Longest and shortest wavelength [m] and rise [-] of each octave; empty: not drawn.
     """
-    figure = _figure(7.2 if bands else 3.8, 2.9)
+    figure = new_figure(7.2 if bands else 3.8, 2.9)
     axes = list(figure.subplots(1, 2 if bands else 1, squeeze=False)[0])
     ax = axes[0]
     n = ratio.size
@@ -412,7 +425,7 @@ def friction_passage(
         right.set_xscale("log")
         right.set_xlabel(r"wavelength of the component [$\mu$m]")
         right.set_ylabel(r"contribution to $\mu_r/\mu_s - 1$")
-    _letter(axes)
+    letter(axes)
     return figure
 
 
@@ -455,9 +468,7 @@ def _columns(path: Path) -> dict[str, Array]:
     return {name: table[:, k] for k, name in enumerate(rows[0])}
 
 
-def _plot_prediction(
-    folder: Path, summary: dict[str, Any], target: Path, dpi: int
-) -> list[Path]:
+def _plot_prediction(folder: Path, summary: dict[str, Any], target: Path, dpi: int) -> list[Path]:
     surface = Topography(
         np.load(folder / "surface.npy", allow_pickle=False),
         float(summary["length_x"]),
@@ -492,10 +503,41 @@ def _plot_run(folder: Path, target: Path, units: str, dpi: int) -> list[Path]:
     if units == "si" or (units == "auto" and operating.si):
         scales = Scales(operating.hertz_radius, operating.hertz_pressure, operating.film_scale)
     x, y, pressure, film = (run[name] for name in "XYPH")
-    return [
+    written = [
         save(centre_lines(x, y, pressure, film, scales), target / "centre_lines.png", dpi),
         save(film_maps(x, y, film, scales), target / "film.png", dpi),
     ]
+    if "A_d" in run.variables:
+        written += _plot_march(run, target, scales, dpi, operating.time_scale if scales else 0.0)
+    return written
+
+
+def _plot_march(
+    run: Result, target: Path, scales: Scales | None, dpi: int, seconds: float
+) -> list[Path]:
+    from pyehl import plot_march  # noqa: PLC0415 (it imports this module)
+
+    x, y = run["X"], run["Y"]
+    pair = plot_march.deformed_roughness(x, y, run["RR"], run["A_d"], scales)
+    lines = plot_march.rough_and_smooth(
+        x, y, (run["P"], run["P_smooth"]), (run["H"], run["H_smooth"]), scales
+    )
+    written = [
+        save(pair, target / "deformed_roughness.png", dpi),
+        save(lines, target / "rough_and_smooth.png", dpi),
+    ]
+    time = run["history_T"]
+    if time.size > 1:
+        figure = plot_march.friction_history(
+            time,
+            run["history_mu_ratio"],
+            period=float(run.summary["T_period"]),
+            mean=run.summary["mu_ratio"],
+            formula=plot_march.eq_16(run),
+            seconds=seconds,
+        )
+        written.append(save(figure, target / "friction.png", dpi))
+    return written
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

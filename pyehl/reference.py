@@ -127,7 +127,10 @@ SMOOTH = (
 
 @dataclass(frozen=True, slots=True)
 class WavinessRow:
-    """Period mean and extremes of mu_r/mu_s of the moving harmonic pattern, M = 1000, L = 10."""
+    """Period mean and extremes of mu_r/mu_s [-] of the moving harmonic pattern, M = 1000, L = 10.
+
+    `points` per side, `scheme` as in ``time.scheme``, `amplitude` A_i [a^2/R], `wavelength` [a].
+    """
 
     points: int
     roelands_z: float

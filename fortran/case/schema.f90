@@ -227,8 +227,8 @@ contains
          call self%reals("psd", "eyring_stress", p%eyring_stress, "Pa", "[1e4, 1e9]", "Eyring stress")
          call self%reals("psd", "limiting_coefficient", p%limiting_coefficient, "-", "[1e-4, 1]", &
                          "limiting shear stress over pressure")
-         call self%reals("psd", "slide_to_roll", p%slide_to_roll, "-", "[-2, 2]", "slide-to-roll ratio")
-         call self%integers("psd", "positions", p%positions, "[0, 1000000]", &
+         call self%reals("psd", "slide_to_roll", p%slide_to_roll, "-", "(0, 2]", "slide-to-roll ratio")
+         call self%integers("psd", "positions", p%positions, "[0, 4096]", &
                             "positions of the surface over one passage; 0: automatic")
       end associate
    end subroutine add_psd_keys

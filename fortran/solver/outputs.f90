@@ -20,7 +20,8 @@ module ehl_outputs
    character(len=*), parameter :: known_files(*) = [character(len=24) :: &
       "case.nml", "plan.txt", "summary.json", "history.csv", "X.npy", "Y.npy", "P.npy", "H.npy", &
       "P_smooth.npy", "H_smooth.npy", "RR.npy", "A_d.npy", "frame_T.npy", "frame_P.npy", "frame_H.npy", &
-      "results.nc", "centre_lines.png", "film.png", "interferogram.png"]
+      "results.nc", "centre_lines.png", "film.png", "interferogram.png", &
+      "deformed_roughness.png", "rough_and_smooth.png", "friction.png"]
 
 contains
 

@@ -2,7 +2,7 @@
 !> The plan of a run: what this scene needs, decided once. The only reader of option words.
 module ehl_plan
    use ehl_case, only: case_t
-   use ehl_cycle, only: cycle_options_t
+   use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
    use ehl_film_formula, only: film_central_formula
    use ehl_grid, only: grid_t, new_grid
    use ehl_harmonic, only: harmonic_t, new_harmonic
@@ -112,6 +112,8 @@ contains
       end if
       plan%cycle = cycle_of(plan%cycle_letter)
       plan%step_cycle = cycle_of(plan%step_cycle_letter)
+      plan%step_cycle%coarsening = merge(coarsening_alcouffe, coarsening_classical, &
+                                         input%solver%coarsening == "alcouffe")
    end subroutine pick_cycle
 
    !> Options of a kind of cycle

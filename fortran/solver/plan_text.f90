@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The plan of a run in words
 module ehl_plan_text
+   use ehl_cycle, only: coarsening_alcouffe
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_plan, only: plan_t
@@ -54,6 +55,7 @@ contains
       text = text//"deflection "//plan%engine//", threads "//to_text(plan%threads)//new_line("a")
       text = text//"cycles     "//plan%cycle_letter//"(2,1)"
       if (allocated(plan%surface)) text = text//", time steps "//plan%step_cycle_letter//"(2,1)"
+      text = text//", "//trim(merge("Alcouffe ", "classical", plan%step_cycle%coarsening == coarsening_alcouffe))//" coarsening"
       text = text//new_line("a")
       if (plan%target_error > 0.0_dp) then
          write (line, "(a,es8.1)") "stop       at the first grid whose relative error of H_c is below ", plan%target_error

@@ -62,7 +62,7 @@ def check(row: WavinessRow, done: Any, table: Any) -> None:
             steps = int(done["T_period"] / done["x_mesh"]) + 1
             deformed = 0.5 * np.ptp(done.history["H_c"][-steps:]) / row.amplitude
             assert deformed == pytest.approx(expected, rel=AGREEMENT)
-            # The summary has the standard deviation of the film over that of the roughness: the same
+            # The summary has the standard deviation of film over that of roughness: the same
             # for a sine and many steps in a period, here up to 2 % more
             assert done["amplitude_ratio"] == pytest.approx(expected, rel=0.03)
 

@@ -37,7 +37,7 @@ MESON_OPTIONS = {"buildtype"}
 
 
 def blocks(path: Path, language: str) -> list[str]:
-    """Fenced blocks of a language, '' for none."""
+    """Fenced blocks of a language."""
     return re.findall(rf"^```{language}\n(.*?)^```$", path.read_text(), re.M | re.S)
 
 
@@ -130,13 +130,11 @@ def test_two_commands_of_the_readme(root: Path):
     assert (root / ".ci" / "install").is_file()
 
 
-def test_readme_prints_what_is_printed(
-    root: Path, folder: Path, drivers: dict[str, list[str]]
-):
+def test_readme_prints_what_is_printed(root: Path, folder: Path, drivers: dict[str, list[str]]):
     """The lines shown below the main command, number by number; cycles and times may differ."""
     main = next(c for c in commands(root / "README.md") if c.startswith(INSTALL))
     printed = "".join(execute(part, folder, drivers) for part in parts(main)[1:]).splitlines()
-    (shown,) = blocks(root / "README.md", "")
+    (shown,) = blocks(root / "README.md", "text")
     number = re.compile(r"\d+\.\d+(?:E[-+]\d+)?")
     compared = 0
     for line in shown.splitlines():
@@ -220,4 +218,4 @@ def test_citation_names_the_version_and_the_paper(root: Path):
     assert version is not None
     assert f"version: {version[1]}" in text
     assert "10.1016/j.triboint.2019.01.028" in text
-    assert f"## {version[1]}" in (root / "CHANGELOG.md").read_text()
+    assert f"## [{version[1]}]" in (root / "CHANGELOG.md").read_text()
