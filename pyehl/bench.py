@@ -28,7 +28,15 @@ from pyehl import core
 from pyehl.case import Case
 from pyehl.errors import InputError
 
-__all__ = ["add_arguments", "deflection_rows", "execute", "smooth_rows"]
+__all__ = [
+    "ScipyDeflection",
+    "add_arguments",
+    "deflection_rows",
+    "execute",
+    "hertz",
+    "median_seconds",
+    "smooth_rows",
+]
 
 Array = NDArray[np.float64]
 
@@ -358,17 +366,79 @@ def _numbers(text: str) -> list[int]:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of ``pyehl bench``."""
-    parser.add_argument("what", choices=("deflection", "smooth"), help="what to measure")
-    parser.add_argument("--points", type=_numbers, default=list(GRIDS), metavar="N,N,...")
+    parser.add_argument("what", choices=("deflection", "smooth", "step"), help="what to measure")
+    parser.add_argument(
+        "--points",
+        type=_numbers,
+        metavar="N,N,...",
+        help="default: 65 to 1025; of 'step' 129,257,513",
+    )
     parser.add_argument("--threads", type=_numbers, default=[1, 2], metavar="N,N,...")
     parser.add_argument("--engines", default="mlmi,fft", help="of 'smooth' (default: mlmi,fft)")
     parser.add_argument("--moes-m", type=float, default=1000.0, help="of 'smooth' (default 1000)")
     parser.add_argument("--moes-l", type=float, default=10.0, help="of 'smooth' (default 10)")
+    parser.add_argument(
+        "--cases", default="wave,fractal", help="of 'step': wave of Fig. 2, fractal of Table 1"
+    )
+    parser.add_argument("--scheme", choices=("narrow", "paper"), default="narrow", help="of 'step'")
+    parser.add_argument("--steps", type=int, default=12, help="timed, of 'step' (default 12)")
+    parser.add_argument(
+        "--front",
+        type=float,
+        default=1.05,
+        metavar="X",
+        help="of 'step': X of the front of the roughness when the timed steps begin; 1.05, where "
+        "the contact is full, takes many steps on fine grids",
+    )
+    parser.add_argument(
+        "--error",
+        action="store_true",
+        help="of 'step': whole marches too, for the error of mu_r/mu_s against the finest grid",
+    )
     parser.add_argument("-o", "--output", type=Path, metavar="FILE.json", help="write JSON too")
+
+
+def _execute_step(args: argparse.Namespace, answer: dict[str, Any]) -> list[dict[str, Any]]:
+    from pyehl import bench_step  # noqa: PLC0415 (it imports this module)
+
+    names = args.cases.split(",")
+    known = {scene.name for scene in bench_step.CASES}
+    if not set(names) <= known or args.steps < 1:
+        raise InputError(f"pyehl bench step: cases must be of {sorted(known)}, steps 1 or more")
+    scenes = [scene for scene in bench_step.CASES if scene.name in names]
+    rows = bench_step.step_rows(
+        args.points,
+        args.threads,
+        scenes=scenes,
+        scheme=args.scheme,
+        front=args.front,
+        steps=args.steps,
+    )
+    answer |= {"scheme": args.scheme, "front": args.front, "steps": args.steps}
+    if args.error:
+        whole = bench_step.error_rows(
+            args.points, max(args.threads), scheme=args.scheme, scenes=scenes
+        )
+        answer["marches"] = whole
+        errors = {(row["points"], row["case"]): row["error"] for row in whole}
+        for row in rows:
+            row["error"] = errors.get((row["points"], row["case"]))
+        print(table(whole, bench_step.MARCH_COLUMNS))
+        print()
+    print(table(rows, bench_step.COLUMNS))
+    print(
+        f"scheme '{args.scheme}'; seconds: of a step, median of {args.steps} after the front of "
+        f"the roughness has come to X = {args.front:g};\nunits: of one scipy.fft deflection at "
+        "that grid; cycles: of a step, mean; error: of the mean of mu_r/mu_s against the finest "
+        "grid (--error)"
+    )
+    return rows
 
 
 def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl bench``."""
+    if args.points is None:
+        args.points = [n for n in GRIDS if args.what != "step" or 129 <= n <= 513]
     if min(args.points) < 3 or min(args.threads) < 1:
         raise InputError("pyehl bench: points must be 3 or more, threads 1 or more")
     answer: dict[str, Any] = {"what": args.what, "machine": _machine()}
@@ -380,6 +450,8 @@ def execute(args: argparse.Namespace) -> int:
             "relative to the largest deflection;\nshare: of the discretisation error of the sum; "
             "half: Y >= 0 of a symmetric pressure"
         )
+    elif args.what == "step":
+        rows = _execute_step(args, answer)
     else:
         rows = smooth_rows(
             args.points, args.threads, args.engines.split(","), args.moes_m, args.moes_l
