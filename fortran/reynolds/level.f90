@@ -46,6 +46,8 @@ module ehl_level
       real(dp) :: inverse_speed = 0.0_dp
       !> Wedge and squeeze coefficients c(0:2), and those of the first interior column
       real(dp) :: wedge(0:2) = 0.0_dp, wedge_first(0:2) = 0.0_dp
+      !> Part of wedge(0) that comes from the squeeze term
+      real(dp) :: squeeze = 0.0_dp
       !> Rigid separation H00
       real(dp) :: h00 = 0.0_dp
       !> Value that the pressure sum must take (2 pi/3 on the finest grid)
@@ -143,6 +145,7 @@ contains
       class(level_t), intent(inout) :: self
       integer, intent(in) :: order
 
+      self%squeeze = 0.0_dp
       self%wedge_first = [1.0_dp, -1.0_dp, 0.0_dp]/self%grid%hx
       if (order == 1) then
          self%wedge = self%wedge_first
@@ -160,10 +163,12 @@ contains
       real(dp), intent(in) :: time_step
 
       if (narrow) then
+         self%squeeze = 1.5_dp/time_step
          self%wedge = [1.5_dp, 0.0_dp, 0.0_dp]/time_step
          self%wedge_first = [1.0_dp, 0.0_dp, 0.0_dp]/time_step
       else
          call self%set_upstream(2)
+         self%squeeze = 1.5_dp/time_step
          self%wedge(0) = self%wedge(0) + 1.5_dp/time_step
          self%wedge_first(0) = self%wedge_first(0) + 1.5_dp/time_step
       end if

@@ -2,7 +2,7 @@
 !> The march of a rough surface through the contact, one time step at a time
 module ehl_transient
    use ehl_cycle, only: refresh
-   use ehl_film, only: update_residual
+   use ehl_film, only: pressure_sum, update_residual
    use ehl_friction_mean, only: friction_mean_t
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
@@ -17,6 +17,8 @@ module ehl_transient
    !> Where the film is thick the roughness rides on it and changes nothing: solving begins
    !> when the front, with half its length, reaches this X
    real(dp), parameter :: x_matters = -1.25_dp
+   !> Largest relative error of the force balance of a step
+   real(dp), parameter :: load_tolerance = 1.0e-6_dp
    !> The roughness fills the contact when its front has passed this X
    real(dp), parameter :: x_filled = 1.05_dp
 
@@ -101,6 +103,7 @@ contains
       type(hierarchy_t), intent(inout) :: hierarchy
       integer, intent(in) :: n
       class(surface_t), intent(inout) :: surface
+      real(dp) :: load_error
 
       associate (level => hierarchy%levels(n))
          ! nothing but the fields kept here passes from step to step, so that a run can be resumed
@@ -115,7 +118,9 @@ contains
             call hierarchy%cycle(n)
             self%cycles = self%cycles + 1
             call update_residual(level, self%residual)
-            if (self%residual <= self%tolerance .or. self%cycles >= self%max_cycles) exit
+            load_error = pressure_sum(level, level%p)/level%load - 1.0_dp
+            if (self%residual <= self%tolerance .and. abs(load_error) <= load_tolerance) exit
+            if (self%cycles >= self%max_cycles) exit
             if (.not. self%residual < huge(1.0_dp)) exit
          end do
          self%m = measure(level)
@@ -136,7 +141,7 @@ contains
    !> Whether the last step met its tolerance
    pure logical function step_converged(self)
       class(transient_t), intent(in) :: self
-      step_converged = self%residual <= self%tolerance .and. self%m%finite .and. self%m%positive
+      step_converged = self%residual <= self%tolerance .and. abs(self%m%load_error) <= load_tolerance .and. self%m%finite .and. self%m%positive
    end function step_converged
 
    !> Take over a state that was read. `same` tells whether its film follows from its pressure: it does not

@@ -2,6 +2,7 @@
 """The prediction beside the full simulation by the solver of this package."""
 
 import csv
+import json
 import subprocess
 from pathlib import Path
 
@@ -62,6 +63,29 @@ def test_default_convention_is_the_nearest(simulated):
     ratios = {c: predicted(wavelength_convention=c) for c in DOCUMENTED}
     below = {c: (1 - ratios[c] / simulated["narrow"]).mean() for c in DOCUMENTED}
     assert min(below, key=below.get) == Options().wavelength_convention
+
+
+@pytest.mark.slow
+def test_table_can_be_made_anew(simulated, drivers, cases, tmp_path):
+    """The surface with the smallest rise, by the command at the head of the table."""
+    command = "".join(
+        line.lstrip("# ").rstrip("\\")
+        for line in TABLE.read_text().splitlines()
+        if line.startswith(("#    pyehl", "#       --set"))
+    )
+    words = command.replace("seed=N", "seed=6").replace("scheme=S", "scheme=narrow").split()
+    assert words[:3] == ["pyehl", "run", "cases/table1.nml"]
+    done = subprocess.run(
+        [*drivers["pyehl"], str(cases / "table1.nml"), *words[3:], "--quiet"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    # the uncertainty that the table states
+    assert summary["mu_ratio"] == pytest.approx(simulated["narrow"][5], rel=2e-3)
 
 
 def test_schemes_agree_within_the_grid_error(simulated):
