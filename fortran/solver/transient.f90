@@ -141,7 +141,8 @@ contains
    !> Whether the last step met its tolerance
    pure logical function step_converged(self)
       class(transient_t), intent(in) :: self
-      step_converged = self%residual <= self%tolerance .and. abs(self%m%load_error) <= load_tolerance .and. self%m%finite .and. self%m%positive
+      step_converged = self%residual <= self%tolerance .and. abs(self%m%load_error) <= load_tolerance &
+                       .and. self%m%finite .and. self%m%positive
    end function step_converged
 
    !> Take over a state that was read. `same` tells whether its film follows from its pressure: it does not
