@@ -11,8 +11,8 @@ module ehl_line_system
    integer, parameter :: nr = near_reach
    !> Nodes that are brought side by side at a time
    integer, parameter :: stretch = 32
-   !> See unseen
-   real(dp), parameter :: unseen_rim = 0.01_dp, unseen_contact = 0.1_dp
+   !> See unseen; where the rim is taken to end
+   real(dp), parameter :: unseen_rim = 0.01_dp, unseen_contact = 0.1_dp, x_rim = -0.9_dp
    !> What is known of a node: conductance, pressure, density, H d rho/dP, rho H, the change of the
    !> conductance with pressure, 1 if distributive, the right-hand side less the Poiseuille term of other
    !> rows, minus the sum of the couplings to these, the change of their term with the conductance, and the
@@ -204,15 +204,13 @@ contains
    end subroutine eliminate
 
    !> Deflection by a smooth change of pressure, per unit of it, that the lines do not see. In the squeeze term it
-   !> grows as 1/time step, and Gauss-Seidel changes would overshoot it. It goes with the size of the
-   !> region of such changes: the whole contact where its centre belongs to it (low L, fine grids), else a rim.
-   !> With these two values time steps converge for 500 <= M <= 2000, 5 <= L <= 15 on 257 and 513 points; on
-   !> 1025 points (500, 5) and (1000, 5) still fail.
+   !> grows as 1/time step, and Gauss-Seidel changes would overshoot it. It goes with the size of the region
+   !> of such changes: a narrow rim, or (low L, fine grids) one that reaches into the contact.
    pure real(dp) function unseen(level)
       type(level_t), intent(in) :: level
       integer :: i, j
 
-      i = 1 + nint((0.0_dp - level%grid%x0)/level%grid%hx)
+      i = 1 + nint((x_rim - level%grid%x0)/level%grid%hx)
       j = 1 + nint((0.0_dp - level%grid%y0)/level%grid%hy)
       unseen = merge(unseen_rim, unseen_contact, level%dipole(i, j) > 0.5_dp)
    end function unseen
