@@ -112,9 +112,10 @@ def _fill(solver: core.Solver, case: Case, front: float, show: Callable[[str], N
     wanted = (front - float(settings["x_start"])) / float(settings["velocity_ratio"])
     while not solver.done:
         solver.advance()
-        show(solver.progress())
-        if float(solver.summary().get("T", -1.0)) >= wanted:
+        at = float(solver.summary().get("T", -1.0))
+        if at >= wanted:
             return
+        show("smooth contact" if at < 0.0 else f"on the way, T = {at:.2f} of {wanted:.2f}")
     raise EhlError(f"the march ended before it could be timed: {solver.progress()}")
 
 

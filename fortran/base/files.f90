@@ -8,7 +8,7 @@ module ehl_files
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: read_text, write_text, file_exists, make_folder, remove_folder, remove_file
+   public :: read_text, write_text, flush_file, file_exists, make_folder, remove_folder, remove_file
    public :: rename_path, absolute_path, real_path, folder_of, process_mark
 
    interface
@@ -58,6 +58,30 @@ module ehl_files
          character(kind=c_char), intent(in) :: path(*)
          character(kind=c_char), intent(out) :: resolved(*)
       end function posix_realpath
+
+      type(c_ptr) function posix_fopen(path, mode) bind(c, name="fopen")
+         import :: c_char, c_ptr
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: path(*), mode(*)
+      end function posix_fopen
+
+      integer(c_int) function posix_fileno(stream) bind(c, name="fileno")
+         import :: c_int, c_ptr
+         implicit none (type, external)
+         type(c_ptr), value :: stream
+      end function posix_fileno
+
+      integer(c_int) function posix_fsync(descriptor) bind(c, name="fsync")
+         import :: c_int
+         implicit none (type, external)
+         integer(c_int), value :: descriptor
+      end function posix_fsync
+
+      integer(c_int) function posix_fclose(stream) bind(c, name="fclose")
+         import :: c_int, c_ptr
+         implicit none (type, external)
+         type(c_ptr), value :: stream
+      end function posix_fclose
 
       integer(c_int) function posix_getpid() bind(c, name="getpid")
          import :: c_int
@@ -120,6 +144,18 @@ contains
       if (stat == 0) close (lun, iostat=stat, iomsg=reason)
       if (stat /= 0) call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
    end subroutine write_text
+
+   !> Have the bytes of a file on the disk itself, lest they are lost with the power; false when that fails
+   logical function flush_file(path)
+      character(len=*), intent(in) :: path
+      type(c_ptr) :: stream
+
+      stream = posix_fopen(c_text(path), c_text("r+"))
+      flush_file = c_associated(stream)
+      if (.not. flush_file) return
+      flush_file = posix_fsync(posix_fileno(stream)) == 0
+      flush_file = posix_fclose(stream) == 0 .and. flush_file
+   end function flush_file
 
    !> Whether a file or folder is there
    logical function file_exists(path)

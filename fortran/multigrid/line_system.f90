@@ -12,7 +12,8 @@ module ehl_line_system
    !> Nodes that are brought side by side at a time
    integer, parameter :: stretch = 32
    !> See unseen; where the rim is taken to end
-   real(dp), parameter :: unseen_rim = 0.01_dp, unseen_contact = 0.1_dp, x_rim = -0.9_dp
+   real(dp), parameter :: unseen_rim = 0.01_dp, unseen_contact = 0.1_dp, x_rim = -0.9_dp, &
+                          large_squeeze = 150.0_dp
    !> What is known of a node: conductance, pressure, density, H d rho/dP, rho H, the change of the
    !> conductance with pressure, 1 if distributive, the right-hand side less the Poiseuille term of other
    !> rows, minus the sum of the couplings to these, the change of their term with the conductance, and the
@@ -205,14 +206,16 @@ contains
 
    !> Deflection by a smooth change of pressure, per unit of it, that the lines do not see. In the squeeze term it
    !> grows as 1/time step, and Gauss-Seidel changes would overshoot it. It goes with the size of the region
-   !> of such changes: a narrow rim, or (low L, fine grids) one that reaches into the contact.
+   !> of such changes: a rim that reaches into the contact (low L, fine grids), or a narrow one, which matters for
+   !> small time steps alone.
    pure real(dp) function unseen(level)
       type(level_t), intent(in) :: level
       integer :: i, j
 
       i = 1 + nint((x_rim - level%grid%x0)/level%grid%hx)
       j = 1 + nint((0.0_dp - level%grid%y0)/level%grid%hy)
-      unseen = merge(unseen_rim, unseen_contact, level%dipole(i, j) > 0.5_dp)
+      unseen = unseen_contact
+      if (level%dipole(i, j) > 0.5_dp) unseen = merge(unseen_rim, 0.0_dp, level%squeeze > large_squeeze)
    end function unseen
 
    !> Back substitution

@@ -4,7 +4,7 @@
 module ehl_checkpoint
    use, intrinsic :: iso_fortran_env, only: int32, int64, int8
    use ehl_checksum, only: crc32
-   use ehl_files, only: file_exists, remove_file, rename_path
+   use ehl_files, only: file_exists, flush_file, remove_file, rename_path
    use ehl_kinds, only: dp
    use ehl_status, only: ehl_bad_input, ehl_file, status_t
    use ehl_table, only: table_t
@@ -87,8 +87,11 @@ contains
       if (stat == 0) write (lun, iostat=stat, iomsg=reason) crc32(bytes)
       if (stat == 0) close (lun, iostat=stat, iomsg=reason)
       if (stat == 0) then
-         if (rename_path(path//".new", path)) return
-         reason = "it cannot be renamed"
+         reason = "it does not get onto the disk"
+         if (flush_file(path//".new")) then
+            if (rename_path(path//".new", path)) return
+            reason = "it cannot be renamed"
+         end if
       end if
       gone = remove_file(path//".new")
       call status%fail(ehl_file, path//": error: cannot write the state of the run: "//trim(reason))

@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A march seen from Python: fields, frames, what was not done, pictures, the step benchmark."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pyehl
+from pyehl import cli, plot_march, results
+from pyehl.export import export
+
+WAVE = (
+    "&contact load = 20.0 /\n&grid points = 65 /\n"
+    "&surface kind = 'harmonic' amplitude_over_film = 0.2 wavelength = 0.8 /\n"
+    "&time estimate_error = .false. /\n&output frame_interval = 0.5 /\n"
+)
+FRACTAL = (
+    "&contact load = 20.0 /\n&surface kind = 'fractal' pixels = 32 length_x = 1e-4 length_y = 1e-4 "
+    "rms_height = 2e-8 /\n"
+)
+# a^3 = 3wR/(2E')
+RADIUS = (1.5 * 20.0 * 0.018 / 2.26e11) ** (1.0 / 3.0)
+
+
+@pytest.fixture(scope="module")
+def march(tmp_path_factory) -> Path:
+    """Results of a short march in SI units."""
+    folder = tmp_path_factory.mktemp("march")
+    (folder / "case.nml").write_text(WAVE)
+    assert cli.main(["run", str(folder / "case.nml"), "-o", str(folder / "out"), "-q"]) == 0
+    return folder / "out"
+
+
+def test_fields_and_frames_with_units(march: Path):
+    xr = pytest.importorskip("xarray")
+    data = pyehl.load(march)
+    assert isinstance(data, xr.Dataset)
+    frames = data.sizes["T"]
+    assert frames >= 3
+    for name, si, unit, scale in (
+        ("P_smooth", "p_smooth", "Pa", 30.0 / (np.pi * RADIUS**2)),
+        ("H_smooth", "h_smooth", "m", RADIUS**2 / 0.018),
+        ("RR", "rr", "m", RADIUS**2 / 0.018),
+        ("A_d", "a_d", "m", RADIUS**2 / 0.018),
+        ("frame_P", "frame_p", "Pa", 30.0 / (np.pi * RADIUS**2)),
+        ("frame_H", "frame_h", "m", RADIUS**2 / 0.018),
+    ):
+        assert data[name].dims == (("X", "Y", "T") if "frame" in name else ("X", "Y"))
+        assert data[name].shape == ((65, 65, frames) if "frame" in name else (65, 65))
+        assert (data[name].units, data[si].units) == ("1", unit)
+        assert data[name].long_name
+        assert data[si].values == pytest.approx(data[name].values * scale, rel=1e-12)
+    assert np.array_equal(data["A_d"].values, data["H_smooth"].values - data["H"].values)
+    assert data["t"].units == "s"
+    assert data["t"].values == pytest.approx(data["T"].values * RADIUS / 0.84, rel=1e-12)
+    # frames at the first step past each multiple of the interval
+    step = 4.0 / 64
+    past = data["T"].values - 0.5 * np.floor(data["T"].values / 0.5)
+    assert np.all((past >= 0.0) & (past < step))
+    assert np.diff(np.floor(data["T"].values / 0.5)) == pytest.approx(1.0)
+    assert float(np.abs(data["RR"]).max()) <= data.attrs["amplitude"]
+
+    with xr.open_dataset(export(march), engine="scipy", decode_times=False) as again:
+        assert again["frame_p"].dims == ("T", "Y", "X")
+        assert np.array_equal(again["frame_p"].values.T, data["frame_p"].values)
+        assert again["a_d"].units == "m"
+        assert np.array_equal(again["t"].values, data["t"].values)
+
+
+def test_last_frame_is_of_its_step(drive, tmp_path: Path):
+    (tmp_path / "case.nml").write_text(WAVE)
+    # a step is 0.0625, and 13 were skipped
+    done = drive("ehl", "case.nml", "-o", "out", "--set", "time.steps=11")
+    assert done.returncode == 1
+    run = results.read(tmp_path / "out")
+    assert run["T"].tolist() == [1.0, 1.5]
+    assert run["history_T"][-1] == 1.5
+    assert np.array_equal(run["frame_P"][:, :, -1], run["P"])
+    assert np.array_equal(run["frame_H"][:, :, -1], run["H"])
+    assert not np.array_equal(run["frame_H"][:, :, 0], run["H"])
+
+
+@pytest.mark.parametrize("driver", ["ehl", "pyehl"])
+def test_what_was_not_done_is_listed(drive, tmp_path: Path, driver: str):
+    (tmp_path / "case.nml").write_text(WAVE)
+    done = drive(driver, "case.nml", "-o", "out")
+    assert done.returncode == 0
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    listed = [line for line in done.stdout.splitlines() if line.startswith("not done: ")]
+    assert len(summary["skips"]) == len(summary["skips_seconds"]) == len(listed)
+    for text, seconds, line in zip(summary["skips"], summary["skips_seconds"], listed, strict=True):
+        assert text in line
+        assert ("not known" in line) == (seconds is None)
+    skips = dict(zip(summary["skips"], summary["skips_seconds"], strict=True))
+
+    def find(part: str) -> tuple[str, float | None]:
+        return next((text, seconds) for text, seconds in skips.items() if part in text)
+
+    # 65 x 32 nodes lie below Y = 0
+    assert find("symmetric")[0].startswith("2080 of 4225 nodes")
+    text, seconds = find("before the roughness")
+    assert int(text.split()[0]) == summary["steps_skipped"] == 13
+    assert seconds == pytest.approx(13 * summary["seconds_per_step"], rel=1e-9)
+    text, seconds = find("settled")
+    assert seconds == pytest.approx(int(text.split()[0]) * summary["seconds_per_step"], rel=1e-9)
+
+    words = ["solver.symmetry=full", "time.skip_start=.false.", "time.steps=3"]
+    options = [word for text in words for word in ("--set", text)]
+    done = drive(driver, "case.nml", "-o", "none", *options)
+    assert done.returncode == 1
+    summary = json.loads((tmp_path / "none" / "summary.json").read_text())
+    assert len(summary["skips"]) == 2
+    assert "symmetric" not in done.stdout
+    assert "before the roughness" not in done.stdout
+    assert "settled" not in summary["skips"][0]
+
+    (tmp_path / "smooth.nml").write_text("&contact moes_m = 100.0 /\n&grid points = 65 /\n")
+    done = drive(driver, "smooth.nml", "-o", "smooth")
+    assert "not done" not in done.stdout
+    assert "skips" not in json.loads((tmp_path / "smooth" / "summary.json").read_text())
+
+
+def test_verb_plot_on_a_march(march: Path, tmp_path: Path, capsys):
+    assert cli.main(["plot", str(march), "-o", str(tmp_path), "--dpi", "40"]) == 0
+    written = {Path(line).name for line in capsys.readouterr().out.splitlines()}
+    assert {"friction.png", "deformed_roughness.png", "rough_and_smooth.png"} < written
+    assert {path.name for path in tmp_path.iterdir()} == written
+
+
+def test_friction_history_shows_the_averaging_window(march: Path):
+    run = results.read(march)
+    mean, period = run.summary["mu_ratio"], run.summary["T_period"]
+    figure = plot_march.friction_history(
+        run["history_T"], run["history_mu_ratio"], period=period, mean=mean, formula=2.0
+    )
+    ax = figure.axes[0]
+    lines = {line.get_label(): line.get_xydata() for line in ax.get_lines()}
+    assert np.array_equal(lines["rough"][:, 1], run["history_mu_ratio"])
+    end = run["history_T"][-1]
+    assert lines[f"mean {mean:.3f}"].tolist() == [[end - period, mean], [end, mean]]
+    (window,) = ax.patches
+    assert window.get_x() == pytest.approx(end - period)
+    assert window.get_width() == pytest.approx(period)
+    # every line is inside
+    assert ax.get_ylim()[1] > 2.0
+    assert lines["eq. 16: 2.000"][0, 1] == 2.0
+
+
+def test_deformed_roughness_ends_at_the_circle_and_shares_a_scale(march: Path):
+    run = results.read(march)
+    figure = plot_march.deformed_roughness(run["X"], run["Y"], run["RR"], run["A_d"])
+    images = [ax.images[0] for ax in figure.axes[:2]]
+    assert images[0].get_clim() == images[1].get_clim()
+    inside = (run["X"][:, None] ** 2 + run["Y"] ** 2 <= 1.0)[np.abs(run["X"]) <= 1.0]
+    inside = inside[:, np.abs(run["Y"]) <= 1.0]
+    for image, name in zip(images, ("RR", "A_d"), strict=True):
+        shown = np.ma.filled(image.get_array(), np.nan).T
+        assert np.array_equal(np.isnan(shown), ~inside)
+        assert np.nanmax(np.abs(shown)) <= image.get_clim()[1]
+        field = run[name][np.abs(run["X"]) <= 1.0][:, np.abs(run["Y"]) <= 1.0]
+        assert shown[inside] == pytest.approx(1e3 * field[inside])
+
+
+def test_eq_16_only_where_it_holds(march: Path):
+    run = results.read(march)
+    # M = 31, outside of the range of the fit
+    assert plot_march.eq_16(run) is None
+    inside = {"moes_m": 1000.0, "moes_l": 10.0, "H_c": 0.0243, "amplitude": 9.72e-3}
+    surface = {"kind": "harmonic", "wavelength_x": 0.5, "wavelength_y": 0.5}
+    known = results.Result(inside, {"surface": surface})
+    # theta_2 = 10^-1.1 1000^0.33 0.5^0.67 2.5, 1 + 0.546 theta_2^-2 + 0.219 theta_2^-4
+    theta = 10**-1.1 * 1000**0.33 * 0.5**0.67 * 2.5
+    assert plot_march.eq_16(known) == pytest.approx(1 + 0.546 / theta**2 + 0.219 / theta**4)
+    for other in ({"kind": "fractal"}, {"wavelength_y": 0.6}):
+        assert plot_march.eq_16(results.Result(inside, {"surface": surface | other})) is None
+
+
+def test_bench_step(tmp_path: Path, capsys, monkeypatch):
+    from pyehl import bench_step
+
+    scene = bench_step.Scene("fractal", "whole", FRACTAL)
+    monkeypatch.setattr(bench_step, "CASES", (scene,))
+    words = ["--points", "33,65", "--threads", "1,2", "--cases", "fractal", "--steps", "3"]
+    target = tmp_path / "step.json"
+    assert cli.main(["bench", "step", *words, "--error", "-o", str(target)]) == 0
+    printed = capsys.readouterr().out
+    assert "units: of one scipy.fft deflection" in printed
+    answer = json.loads(target.read_text())
+    rows = answer["rows"]
+    assert [(row["points"], row["threads"]) for row in rows] == [(33, 1), (33, 2), (65, 1), (65, 2)]
+    for row in rows:
+        assert len(row["seconds_of_steps"]) == 3
+        assert row["seconds"] == sorted(row["seconds_of_steps"])[1] > 0.0
+        assert row["units"] == row["seconds"] / row["unit_seconds"]
+        assert 1.0 <= row["cycles"] <= 30.0
+    # the same steps whatever the number of threads
+    assert rows[0]["cycles"] == rows[1]["cycles"]
+    marches = {row["points"]: row for row in answer["marches"]}
+    assert marches[65]["error"] is None
+    expected = abs(marches[33]["mu_ratio"] / marches[65]["mu_ratio"] - 1.0)
+    assert rows[0]["error"] == marches[33]["error"] == pytest.approx(expected, rel=1e-12)
+    assert cli.main(["bench", "step", "--cases", "nothing"]) == 2
