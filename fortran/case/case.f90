@@ -121,7 +121,7 @@ module ehl_case
    type :: solver_case_t
       !> 'mlmi' (default), 'fft' or 'direct': how the elastic deflection is evaluated
       character(len=word_length) :: deflection = "mlmi"
-      !> 'classical' (default) or 'alcouffe' transfers of the multigrid
+      !> Transfers of the multigrid: 'classical', the only kind that time steps converge with yet
       character(len=word_length) :: coarsening = "classical"
       !> 'auto' (default): half the domain where the scene is symmetric in Y; 'full': never
       character(len=word_length) :: symmetry = "auto"

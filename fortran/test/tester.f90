@@ -3,6 +3,7 @@
 program tester
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use check, only: n_checks, n_failures
+   use test_alcouffe, only: run_alcouffe
    use test_case, only: run_case
    use test_deflection, only: run_deflection
    use test_record, only: run_record
@@ -21,6 +22,8 @@ program tester
       call run_case()
    case ("deflection")
       call run_deflection()
+   case ("alcouffe")
+      call run_alcouffe()
    case ("solver")
       call run_solver()
    case default
