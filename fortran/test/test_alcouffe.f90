@@ -32,9 +32,9 @@ module test_alcouffe
 contains
 
    subroutine run_alcouffe()
-      call product_is_symmetric()
+      call product_is_the_product()
       call interpolation_keeps_constants()
-      call smooth_coefficient_is_bilinear()
+      call constant_coefficient_is_bilinear()
       call folded_is_whole()
       call factors()
    end subroutine run_alcouffe
@@ -197,6 +197,7 @@ contains
       do k = levels, 2, -1
          associate (fine => p(k), coarse => p(k - 1))
             coarse%d = fine%d(::2, ::2)
+            coarse%free = fine%free(::2, ::2)
             if (operator_dependent) then
                call fine%transfer%find_weights(fine%a, fine%free, fine%free)
                call galerkin_product(fine%a, fine%transfer, coarse%a)
@@ -294,15 +295,109 @@ contains
       end associate
    end subroutine gauss_seidel
 
-   subroutine product_is_symmetric()
-   end subroutine product_is_symmetric
+   !> P^T (A (P u)) by the transfers and the operator one after the other, for two products in a row
+   !> (five-point and nine-point operators), with nodes that are not free, whole and folded
+   subroutine product_is_the_product()
+      type(problem_t), allocatable :: p(:)
+      real(dp), allocatable :: wanted(:), made(:)
+      real(dp) :: largest, row(points)
+      integer :: half, j, k
 
+      do half = 0, 1
+         call new_problem(p, half == 1)
+         call noise(p(levels))
+         p(levels)%free(40:47, 20:31) = 0.0_dp
+         call coarsen(p, alcouffe)
+         do k = levels, levels - 1, -1
+            associate (fine => p(k), coarse => p(k - 1))
+               call scatter(coarse%u)
+               coarse%u = coarse%u*fine%transfer%free
+               fine%u = 0.0_dp
+               do j = 1, fine%grid%ny
+                  call fine%transfer%prolong_row(coarse%u, j, row(:fine%grid%nx))
+                  fine%u(:, j) = row(:fine%grid%nx)
+               end do
+               fine%f = 0.0_dp
+               call residual(fine)
+               allocate (wanted(coarse%grid%nx), made(coarse%grid%nx), source=0.0_dp)
+               largest = 0.0_dp
+               do j = merge(1, 2, coarse%grid%mirror), coarse%grid%ny - 1
+                  call fine%transfer%restrict_row(fine%r, j, wanted)
+                  call coarse%a%apply_row(coarse%u, j, made)
+                  largest = max(largest, maxval(abs(made - wanted)*fine%transfer%free(:, j)))
+               end do
+               call is_close(largest/maxval(abs(fine%r)), 0.0_dp, 1.0e-12_dp, "Galerkin product")
+               deallocate (wanted, made)
+            end associate
+         end do
+      end do
+   end subroutine product_is_the_product
+
+   !> Away from the border a constant stays one, whatever the coefficient
    subroutine interpolation_keeps_constants()
+      type(problem_t), allocatable :: p(:)
+      real(dp) :: row(points), largest
+      integer :: j
+
+      call new_problem(p, .false.)
+      call noise(p(levels))
+      call coarsen(p, alcouffe)
+      p(levels - 1)%u = 1.0_dp
+      largest = 0.0_dp
+      do j = 3, points - 2
+         call p(levels)%transfer%prolong_row(p(levels - 1)%u, j, row)
+         largest = max(largest, maxval(abs(row(3:points - 2) - 1.0_dp)))
+      end do
+      call is_close(largest, 0.0_dp, 1.0e-12_dp, "interpolation of a constant")
    end subroutine interpolation_keeps_constants
 
-   subroutine smooth_coefficient_is_bilinear()
-   end subroutine smooth_coefficient_is_bilinear
+   !> A constant coefficient makes the interpolation bilinear, next to the border too
+   subroutine constant_coefficient_is_bilinear()
+      type(problem_t), allocatable :: p(:)
 
+      call new_problem(p, .false.)
+      p(levels)%d = 3.0_dp
+      call coarsen(p, alcouffe)
+      associate (t => p(levels)%transfer, n => p(levels - 1)%grid%nx)
+         call is_close(maxval(abs(t%along_x(:, 2:n - 2, 2:n - 1) - 0.5_dp)), 0.0_dp, 1.0e-14_dp, "weights along X")
+         call is_close(maxval(abs(t%along_y(:, 2:n - 1, 2:n - 2) - 0.5_dp)), 0.0_dp, 1.0e-14_dp, "weights along Y")
+         call is_close(maxval(abs(t%centre(:, 2:n - 2, 2:n - 2) - 0.25_dp)), 0.0_dp, 1.0e-14_dp, "weights amid four")
+         call is_close(maxval(abs(t%along_x(2, 1, 2:n - 1) - 0.5_dp)), 0.0_dp, 1.0e-14_dp, "weights at the border")
+      end associate
+   end subroutine constant_coefficient_is_bilinear
+
+   !> A coefficient that is even in Y: the operators of the half domain are those of the whole one
    subroutine folded_is_whole()
+      type(problem_t), allocatable :: half(:), whole(:)
+      integer :: k, middle
+
+      call new_problem(half, .true.)
+      call new_problem(whole, .false.)
+      call cosine(half(levels), 6.0_dp)
+      call cosine(whole(levels), 6.0_dp)
+      call coarsen(half, alcouffe)
+      call coarsen(whole, alcouffe)
+      do k = levels - 1, levels - 2, -1
+         associate (h => half(k)%a, w => whole(k)%a)
+            middle = (whole(k)%grid%ny + 1)/2
+            call is_close(maxval(abs(h%east(:, 2:) - w%east(:, middle + 1:))), 0.0_dp, 1.0e-11_dp, "folded: east")
+            call is_close(maxval(abs(2.0_dp*h%east(:, 1) - w%east(:, middle))), 0.0_dp, 1.0e-11_dp, "folded: axis")
+            call is_close(maxval(abs(h%north - w%north(:, middle:))), 0.0_dp, 1.0e-11_dp, "folded: north")
+            call is_close(maxval(abs(h%north_east - w%north_east(:, middle:))), 0.0_dp, 1.0e-11_dp, "folded: north-east")
+         end associate
+      end do
    end subroutine folded_is_whole
+
+   !> Random numbers between -1/2 and 1/2
+   subroutine scatter(u)
+      real(dp), intent(out) :: u(:, :)
+      integer :: i, j, seed
+
+      seed = 3
+      do j = 1, size(u, 2)
+         do i = 1, size(u, 1)
+            u(i, j) = uniform(seed) - 0.5_dp
+         end do
+      end do
+   end subroutine scatter
 end module test_alcouffe
