@@ -11,9 +11,6 @@ module ehl_line_system
    integer, parameter :: nr = near_reach
    !> Nodes that are brought side by side at a time
    integer, parameter :: stretch = 32
-   !> See unseen; where the rim is taken to end
-   real(dp), parameter :: unseen_rim = 0.01_dp, unseen_contact = 0.1_dp, x_rim = -0.9_dp, &
-                          large_squeeze = 150.0_dp
    !> What is known of a node: conductance, pressure, density, H d rho/dP, rho H, the change of the
    !> conductance with pressure, 1 if distributive, the right-hand side less the Poiseuille term of other
    !> rows, minus the sum of the couplings to these, the change of their term with the conductance, and the
@@ -135,12 +132,11 @@ contains
       real(dp), intent(inout) :: upper(line_width, 2, -3:level%grid%nx), change(line_width, -3:level%grid%nx + 1)
       !> Response of rho H at nodes i, i-1, i-2 to unit changes at their columns -2..2
       real(dp) :: s(line_width, -nr:nr, 0:2)
-      real(dp) :: near(-nr:nr), delta(-nr:nr), c(0:2), far
+      real(dp) :: near(-nr:nr), delta(-nr:nr), c(0:2)
       real(dp) :: east, west, re, rw, pe, pw, r, t, d, active, em4, em3, em2, em1, e0, e1, e2
       integer :: i, l, now, last, former
 
       near = level%near
-      far = level%squeeze*unseen(level)
       delta = level%near_dipole - level%near
       upper(:, :, -3:1) = 0.0_dp
       change(:, -3:1) = 0.0_dp
@@ -181,8 +177,7 @@ contains
                              - c(0)*s(l, -1, now) - c(1)*s(l, 0, last) - c(2)*s(l, 1, former))
                e0 = active*((g(l, f_other, i) - east - west)*(1.0_dp + 0.25_dp*g(l, f_dipole, i)) &
                             + g(l, f_gain, i)*(re*pe + rw*pw + g(l, f_slope, i)) &
-                            - c(0)*s(l, 0, now) - c(1)*s(l, 1, last) - c(2)*s(l, 2, former) &
-                            - far*(1.0_dp - g(l, f_dipole, i))*g(l, f_rho, i)) + (1.0_dp - active)
+                            - c(0)*s(l, 0, now) - c(1)*s(l, 1, last) - c(2)*s(l, 2, former)) + (1.0_dp - active)
                e1 = active*(east*(1.0_dp + g(l, f_dipole, i + 1)) + re*g(l, f_gain, i + 1)*pe &
                             - c(0)*s(l, 1, now) - c(1)*s(l, 2, last))
                e2 = -active*(0.25_dp*east*g(l, f_dipole, i + 2) + c(0)*s(l, 2, now))
@@ -203,20 +198,6 @@ contains
          now = l
       end do
    end subroutine eliminate
-
-   !> Deflection by a smooth change of pressure, per unit of it, that the lines do not see. In the squeeze term it
-   !> grows as 1/time step, and Gauss-Seidel changes would overshoot it. It goes with the size of the region
-   !> of such changes: a rim that reaches into the contact (low L, fine grids), or a narrow one, which matters for
-   !> small time steps alone.
-   pure real(dp) function unseen(level)
-      type(level_t), intent(in) :: level
-      integer :: i, j
-
-      i = 1 + nint((x_rim - level%grid%x0)/level%grid%hx)
-      j = 1 + nint((0.0_dp - level%grid%y0)/level%grid%hy)
-      unseen = unseen_contact
-      if (level%dipole(i, j) > 0.5_dp) unseen = merge(unseen_rim, 0.0_dp, level%squeeze > large_squeeze)
-   end function unseen
 
    !> Back substitution
    pure subroutine substitute(nx, upper, change)

@@ -70,6 +70,9 @@ module ehl_level
       real(dp), allocatable :: p_start(:, :)
       !> Change of pressure in the distributive points of a sweep
       real(dp), allocatable :: change(:, :)
+      !> Changes of a sweep whose smooth part is to be taken back, and that part after its first pass;
+      !> for time steps only
+      real(dp), allocatable :: rough(:, :), smooth(:, :)
       !> Kernel near the source: itself, and for the distributive (dipole) change
       real(dp) :: near(-near_reach:near_reach) = 0.0_dp
       real(dp) :: near_dipole(-near_reach:near_reach) = 0.0_dp
@@ -157,11 +160,21 @@ contains
    !> Implicit part of wedge and squeeze terms for a time step. Narrow upstream: both terms
    !> together along the characteristic, 1.5 (rho H)_i/dT. Otherwise second-order upstream in X and
    !> second-order backward in T, of first order in X in the first interior column.
-   subroutine set_transient(self, narrow, time_step)
+   subroutine set_transient(self, narrow, time_step, status)
       class(level_t), intent(inout) :: self
       logical, intent(in) :: narrow
       real(dp), intent(in) :: time_step
+      type(status_t), intent(inout) :: status
+      integer :: stat
 
+      if (status%failed()) return
+      stat = 0
+      if (.not. allocated(self%rough)) allocate (self%rough(self%grid%nx, self%grid%ny), &
+                                                 self%smooth(self%grid%nx, self%grid%ny), source=0.0_dp, stat=stat)
+      if (stat /= 0) then
+         call status%fail(ehl_no_memory, "no memory for the time steps of a grid level")
+         return
+      end if
       if (narrow) then
          self%squeeze = 1.5_dp/time_step
          self%wedge = [1.5_dp, 0.0_dp, 0.0_dp]/time_step
@@ -190,6 +203,7 @@ contains
 
       numbers = 0
       if (allocated(self%p)) numbers = 14*size(self%p, kind=int64)
+      if (allocated(self%rough)) numbers = numbers + 2*size(self%rough, kind=int64)
       if (allocated(self%scale)) numbers = numbers + size(self%scale, kind=int64) + self%poiseuille%bytes()/8
       if (allocated(self%work)) then
          do k = 1, size(self%work)

@@ -15,7 +15,7 @@ module ehl_checkpoint
    public :: frames_t, state_t, checkpoint_names, write_checkpoint, read_checkpoint
 
    !> Both have the same length; the version counts the layouts of the file
-   character(len=*), parameter :: magic = "ehl checkpoint v2", family = magic(:len(magic) - 1)
+   character(len=*), parameter :: magic = "ehl checkpoint v3", family = magic(:len(magic) - 1)
    !> The two files of a run; behind a prefix those of the run on the coarser grid
    character(len=*), parameter :: checkpoint_names(2) = ["checkpoint.a", "checkpoint.b"]
    !> What a file can be; otherwise the step of its state
@@ -70,7 +70,7 @@ contains
          write (lun, iostat=stat, iomsg=reason) magic, march%step, len(text), text, &
             shape(march%mass), march%skipped, march%time, march%time_step, march%residual, march%cycles, &
             march%total_cycles, march%h00_before, march%friction_smooth, numbers, march%mass, march%p_before, &
-            march%mean%n, march%mean%values(:march%mean%n), march%mean%film(:march%mean%n), &
+            march%forecast%carried, march%mean%n, march%mean%values(:march%mean%n), march%mean%film(:march%mean%n), &
             march%mean%roughness(:march%mean%n), shape(rows), rows, shape(frames%p), frames%times, frames%p, frames%h
          if (stat == 0) then
             close (lun, iostat=stat, iomsg=reason)
@@ -159,9 +159,11 @@ contains
             return
          end if
          if (stat == 0) then
-            allocate (march%mass(dims(1), dims(2), dims(3)), march%p_before(dims(1), dims(2), dims(3)))
+            allocate (march%mass(dims(1), dims(2), dims(3)), march%p_before(dims(1), dims(2), dims(3)), &
+                      march%forecast%carried(dims(1), dims(2)))
             read (lun, iostat=stat, iomsg=reason) march%skipped, march%time, march%time_step, march%residual, march%cycles, &
-               march%total_cycles, march%h00_before, march%friction_smooth, state%numbers, march%mass, march%p_before, n
+               march%total_cycles, march%h00_before, march%friction_smooth, state%numbers, march%mass, march%p_before, &
+               march%forecast%carried, n
          end if
          if (stat == 0) then
             march%mean%n = n

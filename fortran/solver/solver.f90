@@ -293,8 +293,9 @@ contains
                                 self%steady%results(n)%m%friction, status)
       if (status%failed()) return
       do k = 1, n
-         call self%hierarchy%levels(k)%set_transient(self%plan%narrow, self%transient%time_step)
+         call self%hierarchy%levels(k)%set_transient(self%plan%narrow, self%transient%time_step, status)
       end do
+      if (status%failed()) return
       self%hierarchy%options = self%plan%step_cycle
       self%marching = .true.
       allocate (self%frames%times(0), self%frames%p(self%grid%nx, self%grid%full_ny(), 0), &

@@ -3,6 +3,7 @@
 module ehl_transient
    use ehl_cycle, only: refresh
    use ehl_film, only: pressure_sum, update_residual
+   use ehl_forecast, only: forecast_t
    use ehl_friction_mean, only: friction_mean_t
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
@@ -41,6 +42,7 @@ module ehl_transient
       !> rho H and pressure of the last two steps, H00 of the last one, the roughness now
       real(dp), allocatable :: mass(:, :, :), p_before(:, :, :), rr(:, :)
       real(dp) :: h00_before(2) = 0.0_dp
+      type(forecast_t) :: forecast
    contains
       procedure :: start
       procedure :: advance
@@ -86,6 +88,8 @@ contains
          call status%fail(ehl_no_memory, "no memory for the time levels")
          return
       end if
+      call self%forecast%setup(level%grid%nx, level%grid%ny, surface%velocity_ratio*self%time_step/level%grid%hx, status)
+      if (status%failed()) return
       do k = 2, 1, -1
          call surface%height(level%grid, self%time - (k - 1)*self%time_step, self%rr)
          self%mass(:, :, k) = level%rho*(level%h - self%rr)
@@ -111,7 +115,8 @@ contains
          call surface%height(level%grid, self%time + self%time_step, self%rr)
          call set_geometry(level, self%rr)
          call set_history(self, level)
-         call extrapolate(self, level)
+         call self%forecast%predict(self%p_before, level)
+         level%h00 = 2.0_dp*self%h00_before(1) - self%h00_before(2)
          call refresh(level)
          self%cycles = 0
          do
@@ -134,6 +139,7 @@ contains
          call self%mean%append(self%m%friction/self%friction_smooth, self%m%film_central, &
                                central_value(level%grid, self%rr))
          self%h00_before = [level%h00, self%h00_before(1)]
+         call self%forecast%learn(self%p_before, level)
          call keep(self, level)
       end associate
    end subroutine advance
@@ -168,6 +174,7 @@ contains
       self%h00_before = state%h00_before
       self%mass = state%mass
       self%p_before = state%p_before
+      self%forecast%carried = state%forecast%carried
       do k = 1, state%mean%n
          call self%mean%append(state%mean%values(k), state%mean%film(k), state%mean%roughness(k))
       end do
@@ -230,26 +237,6 @@ contains
       end do
       !$omp end parallel do
    end subroutine set_history
-
-   !> First approximation of the pressure: linear in time; nodes that were cavitated stay so
-   subroutine extrapolate(self, level)
-      class(transient_t), intent(in) :: self
-      type(level_t), intent(inout) :: level
-      integer :: i, j
-
-      !$omp parallel do default(none) shared(self, level) private(i) &
-      !$omp num_threads(level%threads) if(level%parallel) schedule(static)
-      do j = 1, level%grid%ny
-         do i = 1, level%grid%nx
-            level%p(i, j) = 0.0_dp
-            if (self%p_before(i, j, 1) > 0.0_dp) then
-               level%p(i, j) = max(0.0_dp, 2.0_dp*self%p_before(i, j, 1) - self%p_before(i, j, 2))
-            end if
-         end do
-      end do
-      !$omp end parallel do
-      level%h00 = 2.0_dp*self%h00_before(1) - self%h00_before(2)
-   end subroutine extrapolate
 
    !> The present fields become the last ones
    subroutine keep(self, level)
