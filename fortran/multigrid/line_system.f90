@@ -6,7 +6,7 @@ module ehl_line_system
    use ehl_level, only: level_t, line_fields, line_width, line_work_t, near_reach
    implicit none (type, external)
    private
-   public :: solve_lines
+   public :: last_awake, solve_lines
 
    integer, parameter :: nr = near_reach
    !> Nodes that are brought side by side at a time
@@ -22,29 +22,53 @@ contains
 
    !> Changes of pressure on the lines rows(1), rows(2), ...: work%change(line, node) solves the
    !> linearised equation along X
-   subroutine solve_lines(level, rows, work)
+   subroutine solve_lines(level, rows, last, work)
       type(level_t), intent(in) :: level
       !> Rows of the grid; unused places repeat a row
       integer, intent(in) :: rows(line_width)
+      !> Last node that may change, see last_awake; changes of the nodes behind it are not set
+      integer, intent(in) :: last
       type(line_work_t), intent(inout) :: work
 
-      call gather(level, rows, work%fields)
-      call eliminate(level, work%fields, work%upper, work%change)
-      call substitute(level%grid%nx, work%upper, work%change)
+      call gather(level, rows, min(last + near_reach, level%grid%nx), work%fields)
+      call eliminate(level, last, work%fields, work%upper, work%change)
+      call substitute(last, work%upper, work%change)
    end subroutine solve_lines
 
+   !> Last node of row j that has pressure, or beside it a node that has, or asks for it; those behind it stay as
+   !> they are
+   pure integer function last_awake(level, j) result(i)
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: j
+      integer :: below
+
+      below = merge(2, j - 1, j == 1)
+      associate (p => level%p, c => level%wedge)
+         do i = level%grid%nx - 1, 3, -1
+            if (level%rhs(i, j) + c(0)*level%mass(i, j) + c(1)*level%mass(i - 1, j) + c(2)*level%mass(i - 2, j) &
+                < 0.0_dp) return
+            if (max(p(i - 1, j), p(i, j), p(i + 1, j)) > 0.0_dp) return
+            if (max(p(i - 1, below), p(i, below), p(i + 1, below)) > 0.0_dp) return
+            if (max(p(i - 1, j + 1), p(i, j + 1), p(i + 1, j + 1)) > 0.0_dp) return
+         end do
+      end associate
+      i = 2
+   end function last_awake
+
    !> Bring the lines side by side, a stretch at a time so that it stays in the cache
-   subroutine gather(level, rows, g)
+   subroutine gather(level, rows, furthest, g)
       type(level_t), intent(in) :: level
       integer, intent(in) :: rows(line_width)
+      !> Last node that is brought
+      integer, intent(in) :: furthest
       real(dp), intent(inout) :: g(line_width, line_fields, -1:level%grid%nx + 2)
       real(dp) :: ry, pn, ps, north, south, q, slope, other
       integer :: first, last, i, j, l, below
 
       ry = 0.5_dp/level%grid%hy**2
       g(:, f_east, :) = 0.5_dp/level%grid%hx**2
-      do first = 1, level%grid%nx, stretch
-         last = min(first + stretch - 1, level%grid%nx)
+      do first = 1, furthest, stretch
+         last = min(first + stretch - 1, furthest)
          do l = 1, line_width
             j = rows(l)
             below = merge(2, j - 1, j == 1)
@@ -125,8 +149,10 @@ contains
 
    !> Row i of a line couples the changes at nodes i-4 ... i+2; it is eliminated with the rows before
    !> it as soon as it is made, so that only the upper two diagonals are kept
-   pure subroutine eliminate(level, g, upper, change)
+   pure subroutine eliminate(level, furthest, g, upper, change)
       type(level_t), intent(in) :: level
+      !> Last node
+      integer, intent(in) :: furthest
       real(dp), intent(in) :: g(line_width, line_fields, -1:level%grid%nx + 2)
       !> upper(line, diagonal, node), change(line, node), nodes from -3
       real(dp), intent(inout) :: upper(line_width, 2, -3:level%grid%nx), change(line_width, -3:level%grid%nx + 1)
@@ -144,7 +170,7 @@ contains
       now = 0
       last = 1
       former = 2
-      do i = 1, level%grid%nx - 1
+      do i = 1, furthest
          !$omp simd private(t)
          do l = 1, line_width
             t = 0.25_dp*g(l, f_stiffness, i)
@@ -200,14 +226,15 @@ contains
    end subroutine eliminate
 
    !> Back substitution
-   pure subroutine substitute(nx, upper, change)
-      integer, intent(in) :: nx
-      real(dp), intent(in) :: upper(line_width, 2, -3:nx)
-      real(dp), intent(inout) :: change(line_width, -3:nx + 1)
+   pure subroutine substitute(furthest, upper, change)
+      !> Last node
+      integer, intent(in) :: furthest
+      real(dp), intent(in) :: upper(line_width, 2, -3:furthest)
+      real(dp), intent(inout) :: change(line_width, -3:furthest + 2)
       integer :: i
 
-      change(:, nx:nx + 1) = 0.0_dp
-      do i = nx - 1, 2, -1
+      change(:, furthest + 1:furthest + 2) = 0.0_dp
+      do i = furthest, 2, -1
          change(:, i) = change(:, i) - upper(:, 1, i)*change(:, i + 1) - upper(:, 2, i)*change(:, i + 2)
       end do
    end subroutine substitute

@@ -19,7 +19,7 @@
 module ehl_relaxation
    use ehl_kinds, only: dp
    use ehl_level, only: level_t, line_width
-   use ehl_line_system, only: solve_lines
+   use ehl_line_system, only: last_awake, solve_lines
    !$ use omp_lib, only: omp_get_thread_num
    implicit none (type, external)
    private
@@ -98,7 +98,7 @@ contains
       integer, intent(in) :: j0, last, thread
       real(dp) :: scale, t, weak_scale, omega, omega_far, before
       logical :: time_step
-      integer :: rows(line_width), lines, i, j, l
+      integer :: rows(line_width), lines, furthest, i, j, l
 
       lines = min(line_width, (last - j0)/2 + 1)
       rows = [(j0 + 2*min(l - 1, lines - 1), l=1, line_width)]
@@ -109,10 +109,16 @@ contains
       weak_scale = 0.0_dp
       if (time_step) weak_scale = weakness(level)
       associate (work => level%work(thread))
-         call solve_lines(level, rows, work)
+         furthest = 2
+         do l = 1, lines
+            furthest = max(furthest, last_awake(level, rows(l)))
+         end do
+         call solve_lines(level, rows, furthest, work)
          do l = 1, lines
             j = rows(l)
-            do i = 2, level%grid%nx - 1
+            level%change(furthest + 1:, j) = 0.0_dp
+            if (time_step) level%rough(furthest + 1:, j) = 0.0_dp
+            do i = 2, furthest
                t = level%eps(i, j)*scale
                before = level%p(i, j)
                level%change(i, j) = omega_far*level%dipole(i, j)*work%change(l, i)

@@ -22,20 +22,32 @@ contains
       !$omp end parallel do
    end subroutine update_film
 
-   !> Density and conductance eps = rho H^3/(eta lambda_bar) for the present pressure and film
+   !> Density and conductance eps = rho H^3/(eta lambda_bar) for the present pressure and film. Behind the last
+   !> node of a row with pressure the lubricant is that at P = 0.
    subroutine update_coefficients(level)
       type(level_t), intent(inout) :: level
-      real(dp) :: log_eta(level%grid%nx)
-      integer :: i, j
+      real(dp) :: log_eta(level%grid%nx), zero(1), rest_log(1), rest_gain(1), rest_rho(1), rest_slope(1)
+      integer :: i, j, last
 
-      !$omp parallel do default(none) shared(level) private(i, log_eta) &
-      !$omp num_threads(level%threads) if(level%parallel) schedule(static)
+      zero = 0.0_dp
+      call level%lubricant%log_viscosity(zero, rest_log, rest_gain)
+      call level%lubricant%density(zero, rest_rho, rest_slope)
+      !$omp parallel do default(none) shared(level, rest_log, rest_gain, rest_rho, rest_slope) &
+      !$omp private(i, last, log_eta) num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
-         call level%lubricant%log_viscosity(level%p(:, j), log_eta, level%gain(:, j))
-         call level%lubricant%density(level%p(:, j), level%rho(:, j), level%stiffness(:, j))
-         do i = 1, level%grid%nx
+         last = level%grid%nx
+         do while (last > 1 .and. level%p(last, j) <= 0.0_dp)
+            last = last - 1
+         end do
+         call level%lubricant%log_viscosity(level%p(:last, j), log_eta(:last), level%gain(:last, j))
+         call level%lubricant%density(level%p(:last, j), level%rho(:last, j), level%stiffness(:last, j))
+         do i = 1, last
             level%eps(i, j) = level%rho(i, j)*level%h(i, j)**3*exp(-log_eta(i))*level%inverse_speed
          end do
+         level%gain(last + 1:, j) = rest_gain(1)
+         level%rho(last + 1:, j) = rest_rho(1)
+         level%stiffness(last + 1:, j) = rest_slope(1)
+         level%eps(last + 1:, j) = rest_rho(1)*exp(-rest_log(1))*level%inverse_speed*level%h(last + 1:, j)**3
          if (level%galerkin) level%eps(:, j) = level%scale(:, j)*level%eps(:, j)
          level%mass(:, j) = level%rho(:, j)*level%h(:, j)
          level%gain(:, j) = level%stiffness(:, j)/level%rho(:, j) - level%gain(:, j)

@@ -20,6 +20,9 @@ module ehl_transient
    real(dp), parameter :: x_matters = -1.25_dp
    !> Largest relative error of the force balance of a step
    real(dp), parameter :: load_tolerance = 1.0e-6_dp
+   !> A step whose first residual is above this many tolerances has one more sweep in each cycle: two cycles
+   !> then do what would take three
+   real(dp), parameter :: far = 300.0_dp
    !> The roughness fills the contact when its front has passed this X
    real(dp), parameter :: x_filled = 1.05_dp
 
@@ -118,6 +121,8 @@ contains
          call self%forecast%predict(self%p_before, level)
          level%h00 = 2.0_dp*self%h00_before(1) - self%h00_before(2)
          call refresh(level)
+         call update_residual(level, self%residual)
+         hierarchy%options%post = merge(2, 1, self%residual > far*self%tolerance)
          self%cycles = 0
          do
             call hierarchy%cycle(n)
