@@ -5,7 +5,11 @@ module test_solver
    use check, only: is_close, is_equal, is_true
    use ehl_case, only: case_t
    use ehl_case_reader, only: read_case
+   use ehl_film, only: update_coefficients
+   use ehl_grid, only: new_grid
    use ehl_kinds, only: dp
+   use ehl_level, only: level_t, line_width
+   use ehl_line_system, only: last_awake, solve_lines
    use ehl_lubricant, only: density_dowson_higginson, lubricant_t, new_lubricant, viscosity_roelands
    use ehl_moes, only: operating_from_si, operating_t
    use ehl_solver, only: solver_t
@@ -30,6 +34,7 @@ contains
       call steps_converge("narrow")
       call steps_converge("paper")
       call threads_change_nothing()
+      call sleeping_nodes_do_not_change()
    end subroutine run_solver
 
    !> Zhang et al. 2019, Table 1: a = 0.41540 mm, p_h = 1.6602 GPa, M = 1000.0, L = 10.024
@@ -122,6 +127,42 @@ contains
       call get(three, "P", p_three)
       call is_true(.not. any(abs(p - p_three) > 0.0_dp), "threads change no bit")
    end subroutine threads_change_nothing
+
+   !> Lines solved as far as last_awake and to their end: the same bits, and no change behind it
+   subroutine sleeping_nodes_do_not_change()
+      type(level_t) :: level
+      type(status_t) :: status
+      real(dp), allocatable :: short(:, :), long(:, :)
+      integer :: rows(line_width), i, j, k, l, furthest, asleep
+
+      level%grid = new_grid(65, -2.5_dp, 1.5_dp, 2.0_dp, .false.)
+      level%lubricant = new_lubricant(viscosity_roelands, density_dowson_higginson, 36.5_dp, 1.66e9_dp, 0.668_dp, 1.96e8_dp)
+      level%inverse_speed = 1.0e3_dp
+      call level%setup(status)
+      call level%set_upstream(2)
+      do j = 2, level%grid%ny - 1
+         do i = 2, level%grid%nx - 1
+            associate (r => level%grid%x(i)**2 + level%grid%y(j)**2)
+               level%p(i, j) = sqrt(max(0.0_dp, 1.0_dp - r))
+               level%h(i, j) = 0.1_dp + max(0.0_dp, 0.4_dp*(r - 1.0_dp))
+            end associate
+         end do
+      end do
+      call update_coefficients(level)
+      asleep = 0
+      do k = 2, level%grid%ny - line_width, line_width
+         rows = [(k + l - 1, l=1, line_width)]
+         furthest = maxval([(last_awake(level, rows(l)), l=1, line_width)])
+         asleep = asleep + level%grid%nx - 1 - furthest
+         call solve_lines(level, rows, furthest, level%work(1))
+         short = level%work(1)%change
+         call solve_lines(level, rows, level%grid%nx - 1, level%work(1))
+         long = level%work(1)%change
+         call is_true(.not. any(abs(long(:, 2:furthest) - short(:, 2:furthest)) > 0.0_dp), "lines that are awake")
+         call is_true(.not. any(abs(long(:, furthest + 1:level%grid%nx - 1)) > 0.0_dp), "sleeping nodes stay")
+      end do
+      call is_true(asleep > 0, "some nodes sleep")
+   end subroutine sleeping_nodes_do_not_change
 
    !> Read a case and run it to its end
    subroutine solve(text, solver)
