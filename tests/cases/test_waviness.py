@@ -128,6 +128,8 @@ def test_first_steps_on_the_default_grid(solve, moes_m: float, moes_l: float):
     done = solve((moes_m, moes_l), 513, wave)
     # The steps were made, no mean over a period is known
     assert (done["status"], done["steps"]) == ("not settled", 4)
+    # Lines that overshoot smooth changes would take many, or never end
+    assert done.history["cycles"].max() <= 4
     assert done.history["residual"].max() <= done["step_residual_allowed"]
     assert np.abs(done.history["load_error"]).max() <= 1e-6
 
