@@ -195,8 +195,8 @@ contains
                             "exactly so many steps; 0: until the friction is known")
          call self%words("solver", "deflection", s%deflection, "mlmi|fft|direct", &
                          "evaluation of the elastic deflection")
-         call self%words("solver", "coarsening", s%coarsening, "classical", &
-                         "transfers of the multigrid")
+         call self%words("solver", "coarsening", s%coarsening, "classical|alcouffe", &
+                         "transfers in time steps: bilinear, or by the conductance (Galerkin)")
          call self%words("solver", "symmetry", s%symmetry, "auto|full", &
                          "auto: half the domain where the scene is symmetric in Y")
          call self%words("solver", "cycle", s%cycle, "auto|W|V|F", "multigrid cycle")

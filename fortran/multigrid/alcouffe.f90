@@ -66,7 +66,9 @@ contains
       call self%a%setup(fine, status)
    end subroutine setup
 
-   !> Weights for the operator of the fine grid
+   !> Weights for the operator of the fine grid: couplings as shares of their sum. Couplings to nodes that
+   !> are not free and the excess take their shares and give nothing. No differences are formed: rounding
+   !> would make the weights wrong where one coupling dwarfs the others.
    subroutine find_weights(self, a, free, dependent)
       class(transfer_t), intent(inout) :: self
       type(nine_point_t), intent(in) :: a
@@ -105,18 +107,18 @@ contains
       !> A fine node between two coarse ones in X: the correction is taken as constant in Y
       pure function weights_x(i, j) result(w)
          integer, intent(in) :: i, j
-         real(dp) :: w(2), whole
+         real(dp) :: w(2), rest
 
          w = 0.0_dp
          if (free(i, j) <= 0.0_dp) return
          if (dependent(i, j) > 0.0_dp) then
             w = [a%east(i - 1, j) + a%north_west(i, j), a%east(i, j) + a%north_east(i, j)]
-            whole = a%diagonal(i, j) - a%north(i, j)*free(i, j + 1)
+            rest = a%excess(i, j) + a%north(i, j)*(1.0_dp - free(i, j + 1))
             if (j > 1) then
                w = w + [a%north_east(i - 1, j - 1), a%north_west(i + 1, j - 1)]
-               whole = whole - a%north(i, j - 1)*free(i, j - 1)
+               rest = rest + a%north(i, j - 1)*(1.0_dp - free(i, j - 1))
             end if
-            w = w/whole
+            w = w/(w(1) + w(2) + rest)
          else
             w = 0.5_dp
          end if
@@ -126,15 +128,15 @@ contains
       !> A fine node between two coarse ones in Y: the correction is taken as constant in X
       pure function weights_y(i, j) result(w)
          integer, intent(in) :: i, j
-         real(dp) :: w(2), whole
+         real(dp) :: w(2), rest
 
          w = 0.0_dp
          if (free(i, j) <= 0.0_dp) return
          if (dependent(i, j) > 0.0_dp) then
             w = [a%north(i, j - 1) + a%north_east(i - 1, j - 1) + a%north_west(i + 1, j - 1), &
                  a%north(i, j) + a%north_east(i, j) + a%north_west(i, j)]
-            whole = a%diagonal(i, j) - a%east(i, j)*free(i + 1, j) - a%east(i - 1, j)*free(i - 1, j)
-            w = w/whole
+            rest = a%excess(i, j) + a%east(i, j)*(1.0_dp - free(i + 1, j)) + a%east(i - 1, j)*(1.0_dp - free(i - 1, j))
+            w = w/(w(1) + w(2) + rest)
          else
             w = 0.5_dp
          end if

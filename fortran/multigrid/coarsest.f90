@@ -201,7 +201,7 @@ contains
    subroutine assemble(self, level)
       class(coarsest_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
-      real(dp) :: rate(8), c(0:2), own, drop, direct, excess
+      real(dp) :: coupling(8), c(0:2), own, part, excess
       integer :: i, j, m, u, nx, at, nb(2, 8), neighbours
 
       nx = level%grid%nx
@@ -215,21 +215,19 @@ contains
                cycle
             end if
             at = i + (j - 1)*nx
-            call find_couplings(level, i, j, neighbours, nb, rate, excess)
+            call find_couplings(level, i, j, neighbours, nb, coupling, excess)
             own = 0.0_dp
-            if (level%galerkin) then
-               own = -3.0_dp*excess*level%eps(i, j)/level%h(i, j)*level%p(i, j)
-               call add_pressure(i, j, -excess*level%eps(i, j)*(1.0_dp + level%gain(i, j)*level%p(i, j)))
-            end if
+            call add_pressure(i, j, -sum(coupling) - excess)
             do m = 1, neighbours
-               associate (e => level%eps(i, j), en => level%eps(nb(1, m), nb(2, m)), &
-                          pn => level%p(nb(1, m), nb(2, m)))
-                  drop = rate(m)*(pn - level%p(i, j))
-                  own = own + 3.0_dp*e/level%h(i, j)*drop
-                  direct = rate(m)*(e + en) + en*level%gain(nb(1, m), nb(2, m))*drop
-                  call add_pressure(nb(1, m), nb(2, m), direct)
-                  call add_pressure(i, j, -rate(m)*(e + en) + e*level%gain(i, j)*drop)
-                  call add_film(nb(1, m), nb(2, m), 3.0_dp*en/level%h(nb(1, m), nb(2, m))*drop)
+               associate (e => level%eps(i, j), en => level%eps(nb(1, m), nb(2, m)), ii => nb(1, m), jj => nb(2, m))
+                  call add_pressure(ii, jj, coupling(m))
+                  ! a Galerkin operator does not change
+                  if (level%galerkin) cycle
+                  part = coupling(m)/(e + en)*(level%p(ii, jj) - level%p(i, j))
+                  own = own + 3.0_dp*e/level%h(i, j)*part
+                  call add_pressure(ii, jj, en*level%gain(ii, jj)*part)
+                  call add_pressure(i, j, e*level%gain(i, j)*part)
+                  call add_film(ii, jj, 3.0_dp*en/level%h(ii, jj)*part)
                end associate
             end do
             c = merge(level%wedge_first, level%wedge, i == 2)
@@ -269,31 +267,35 @@ contains
       end subroutine add_film
    end subroutine assemble
 
-   !> Neighbours of node (i, j) in the Poiseuille term, their couplings per eps, and the node's excess
-   pure subroutine find_couplings(level, i, j, n, neighbour, rate, excess)
+   !> Neighbours of node (i, j) in the Poiseuille term, the couplings to them, and the node's excess
+   pure subroutine find_couplings(level, i, j, n, neighbour, coupling, excess)
       type(level_t), intent(in) :: level
       integer, intent(in) :: i, j
       integer, intent(out) :: n, neighbour(2, 8)
-      real(dp), intent(out) :: rate(8), excess
+      real(dp), intent(out) :: coupling(8), excess
+      integer :: m
 
-      rate = 0.0_dp
+      coupling = 0.0_dp
       excess = 0.0_dp
       neighbour(:, 1:4) = reshape([i + 1, j, i - 1, j, i, j + 1, i, merge(2, j - 1, j == 1)], [2, 4])
       neighbour(:, 5:8) = reshape([i - 1, j + 1, i + 1, j + 1, i - 1, j - 1, i + 1, j - 1], [2, 4])
       if (.not. level%galerkin) then
          n = 4
-         rate(1:4) = 0.5_dp/[level%grid%hx**2, level%grid%hx**2, level%grid%hy**2, level%grid%hy**2]
+         coupling(1:4) = 0.5_dp/[level%grid%hx**2, level%grid%hx**2, level%grid%hy**2, level%grid%hy**2]
+         do m = 1, 4
+            coupling(m) = coupling(m)*(level%eps(i, j) + level%eps(neighbour(1, m), neighbour(2, m)))
+         end do
          return
       end if
       associate (a => level%poiseuille)
          n = merge(8, 6, j > 1)
-         rate(1:3) = [a%east(i, j), a%east(i - 1, j), a%north(i, j)]
-         rate(5:6) = [a%north_west(i, j), a%north_east(i, j)]
+         coupling(1:3) = [a%east(i, j), a%east(i - 1, j), a%north(i, j)]
+         coupling(5:6) = [a%north_west(i, j), a%north_east(i, j)]
          if (j > 1) then
-            rate(4) = a%north(i, j - 1)
-            rate(7:8) = [a%north_east(i - 1, j - 1), a%north_west(i + 1, j - 1)]
+            coupling(4) = a%north(i, j - 1)
+            coupling(7:8) = [a%north_east(i - 1, j - 1), a%north_west(i + 1, j - 1)]
          end if
-         rate = rate/level%cell(j)
+         coupling = coupling/level%cell(j)
          excess = a%excess(i, j)/level%cell(j)
       end associate
    end subroutine find_couplings

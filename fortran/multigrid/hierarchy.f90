@@ -87,7 +87,7 @@ contains
             if (status%failed()) return
             call level%set_upstream(2)
             if (k > 1) then
-               call self%levels(k - 1)%setup_galerkin(status)
+               call self%levels(k - 1)%poiseuille%setup(self%levels(k - 1)%grid, status)
                call self%transfers(k)%setup(level%grid, self%levels(k - 1)%grid, level%threads, level%parallel, status)
                if (status%failed()) return
             end if
@@ -107,7 +107,6 @@ contains
    subroutine run_cycle(self, n)
       class(hierarchy_t), intent(inout) :: self
       integer, intent(in) :: n
-      self%levels(n)%galerkin = .false.
       call fas_cycle(self%levels, self%transfers, n, self%coarsest, self%options)
    end subroutine run_cycle
 

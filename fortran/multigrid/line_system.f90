@@ -62,7 +62,7 @@ contains
       !> Last node that is brought
       integer, intent(in) :: furthest
       real(dp), intent(inout) :: g(line_width, line_fields, -1:level%grid%nx + 2)
-      real(dp) :: ry, pn, ps, north, south, q, slope, other
+      real(dp) :: ry, pn, ps, north, south, q, other
       integer :: first, last, i, j, l, below
 
       ry = 0.5_dp/level%grid%hy**2
@@ -86,13 +86,16 @@ contains
                end do
                if (level%galerkin) then
                   do i = max(first, 2), min(last, level%grid%nx - 1)
-                     call other_rows(level, i, j, q, slope, other)
+                     call other_rows(level, i, j, q, other)
                      g(l, f_rhs, i) = level%rhs(i, j) - other
                      g(l, f_other, i) = q
-                     g(l, f_slope, i) = slope
                   end do
+                  ! the couplings as they are, and no change of them
                   do i = first, last
                      g(l, f_east, i) = level%poiseuille%east(i, j)/level%cell(j)
+                     g(l, f_eps, i) = 0.5_dp
+                     g(l, f_gain, i) = 0.0_dp
+                     g(l, f_slope, i) = 0.0_dp
                   end do
                else
                   !GCC$ novector
@@ -112,39 +115,23 @@ contains
    end subroutine gather
 
    !> Galerkin operator at node (i, j), the couplings to its own row apart: the sum of the couplings and the
-   !> excess, with a minus; the change of the term with eps at the node; the term itself
-   subroutine other_rows(level, i, j, q, slope, term)
+   !> excess, with a minus; and the term itself
+   pure subroutine other_rows(level, i, j, q, term)
       type(level_t), intent(in) :: level
       integer, intent(in) :: i, j
-      real(dp), intent(out) :: q, slope, term
-      real(dp) :: inverse
+      real(dp), intent(out) :: q, term
 
-      inverse = 1.0_dp/level%cell(j)
-      q = -level%poiseuille%excess(i, j)*level%eps(i, j)*inverse
-      slope = -level%poiseuille%excess(i, j)*level%p(i, j)*inverse
-      term = q*level%p(i, j)
-      associate (a => level%poiseuille)
-         call add(a%north_west(i, j), i - 1, j + 1)
-         call add(a%north(i, j), i, j + 1)
-         call add(a%north_east(i, j), i + 1, j + 1)
-         if (j == 1) return
-         call add(a%north_east(i - 1, j - 1), i - 1, j - 1)
-         call add(a%north(i, j - 1), i, j - 1)
-         call add(a%north_west(i + 1, j - 1), i + 1, j - 1)
+      associate (a => level%poiseuille, p => level%p)
+         q = a%excess(i, j) + a%north_west(i, j) + a%north(i, j) + a%north_east(i, j)
+         term = a%north_west(i, j)*p(i - 1, j + 1) + a%north(i, j)*p(i, j + 1) + a%north_east(i, j)*p(i + 1, j + 1)
+         if (j > 1) then
+            q = q + a%north_east(i - 1, j - 1) + a%north(i, j - 1) + a%north_west(i + 1, j - 1)
+            term = term + a%north_east(i - 1, j - 1)*p(i - 1, j - 1) + a%north(i, j - 1)*p(i, j - 1) &
+                   + a%north_west(i + 1, j - 1)*p(i + 1, j - 1)
+         end if
+         term = (term - q*p(i, j))/level%cell(j)
+         q = -q/level%cell(j)
       end associate
-
-   contains
-
-      subroutine add(o, ii, jj)
-         real(dp), intent(in) :: o
-         integer, intent(in) :: ii, jj
-         real(dp) :: t
-
-         t = inverse*o*(level%eps(ii, jj) + level%eps(i, j))
-         q = q - t
-         slope = slope + inverse*o*(level%p(ii, jj) - level%p(i, j))
-         term = term + t*(level%p(ii, jj) - level%p(i, j))
-      end subroutine add
    end subroutine other_rows
 
    !> Row i of a line couples the changes at nodes i-4 ... i+2; it is eliminated with the rows before

@@ -22,8 +22,9 @@ contains
       !$omp end parallel do
    end subroutine update_film
 
-   !> Density and conductance eps = rho H^3/(eta lambda_bar) for the present pressure and film. Behind the last
-   !> node of a row with pressure the lubricant is that at P = 0.
+   !> Density and conductance eps = rho H^3/(eta lambda_bar) for the present pressure and film; a level with a
+   !> Galerkin operator keeps its conductance. Behind the last node of a row with pressure the lubricant is that at
+   !> P = 0.
    subroutine update_coefficients(level)
       type(level_t), intent(inout) :: level
       real(dp) :: log_eta(level%grid%nx), zero(1), rest_log(1), rest_gain(1), rest_rho(1), rest_slope(1)
@@ -39,18 +40,19 @@ contains
          do while (last > 1 .and. level%p(last, j) <= 0.0_dp)
             last = last - 1
          end do
-         call level%lubricant%log_viscosity(level%p(:last, j), log_eta(:last), level%gain(:last, j))
          call level%lubricant%density(level%p(:last, j), level%rho(:last, j), level%stiffness(:last, j))
-         do i = 1, last
-            level%eps(i, j) = level%rho(i, j)*level%h(i, j)**3*exp(-log_eta(i))*level%inverse_speed
-         end do
-         level%gain(last + 1:, j) = rest_gain(1)
          level%rho(last + 1:, j) = rest_rho(1)
          level%stiffness(last + 1:, j) = rest_slope(1)
-         level%eps(last + 1:, j) = rest_rho(1)*exp(-rest_log(1))*level%inverse_speed*level%h(last + 1:, j)**3
-         if (level%galerkin) level%eps(:, j) = level%scale(:, j)*level%eps(:, j)
+         if (.not. level%galerkin) then
+            call level%lubricant%log_viscosity(level%p(:last, j), log_eta(:last), level%gain(:last, j))
+            do i = 1, last
+               level%eps(i, j) = level%rho(i, j)*level%h(i, j)**3*exp(-log_eta(i))*level%inverse_speed
+            end do
+            level%gain(last + 1:, j) = rest_gain(1)
+            level%eps(last + 1:, j) = rest_rho(1)*exp(-rest_log(1))*level%inverse_speed*level%h(last + 1:, j)**3
+            level%gain(:, j) = level%stiffness(:, j)/level%rho(:, j) - level%gain(:, j)
+         end if
          level%mass(:, j) = level%rho(:, j)*level%h(:, j)
-         level%gain(:, j) = level%stiffness(:, j)/level%rho(:, j) - level%gain(:, j)
          level%stiffness(:, j) = level%stiffness(:, j)*level%h(:, j)
       end do
       !$omp end parallel do
@@ -73,7 +75,8 @@ contains
          return
       end if
       if (level%galerkin) then
-         call galerkin_row(level, j, values)
+         call level%poiseuille%apply_row(level%p, j, values)
+         values(2:nx - 1) = values(2:nx - 1)/level%cell(j)
          call subtract_wedge(level, j, values)
          return
       end if
@@ -105,36 +108,6 @@ contains
          end do
       end associate
    end subroutine subtract_wedge
-
-   !> Row j of the Poiseuille term by the Galerkin operator
-   pure subroutine galerkin_row(level, j, values)
-      type(level_t), intent(in) :: level
-      integer, intent(in) :: j
-      real(dp), intent(inout) :: values(:)
-      real(dp) :: inverse
-      integer :: i
-
-      inverse = 1.0_dp/level%cell(j)
-      associate (p => level%p, e => level%eps, a => level%poiseuille)
-         do i = 2, level%grid%nx - 1
-            values(i) = a%east(i, j)*(e(i + 1, j) + e(i, j))*(p(i + 1, j) - p(i, j)) &
-                        + a%east(i - 1, j)*(e(i - 1, j) + e(i, j))*(p(i - 1, j) - p(i, j)) &
-                        + a%north_west(i, j)*(e(i - 1, j + 1) + e(i, j))*(p(i - 1, j + 1) - p(i, j)) &
-                        + a%north(i, j)*(e(i, j + 1) + e(i, j))*(p(i, j + 1) - p(i, j)) &
-                        + a%north_east(i, j)*(e(i + 1, j + 1) + e(i, j))*(p(i + 1, j + 1) - p(i, j)) &
-                        - a%excess(i, j)*e(i, j)*p(i, j)
-         end do
-         if (j > 1) then
-            do i = 2, level%grid%nx - 1
-               values(i) = values(i) &
-                           + a%north_east(i - 1, j - 1)*(e(i - 1, j - 1) + e(i, j))*(p(i - 1, j - 1) - p(i, j)) &
-                           + a%north(i, j - 1)*(e(i, j - 1) + e(i, j))*(p(i, j - 1) - p(i, j)) &
-                           + a%north_west(i + 1, j - 1)*(e(i + 1, j - 1) + e(i, j))*(p(i + 1, j - 1) - p(i, j))
-            end do
-         end if
-      end associate
-      values(2:level%grid%nx - 1) = inverse*values(2:level%grid%nx - 1)
-   end subroutine galerkin_row
 
    !> residual = rhs - operator where P > 0; where P = 0 only the part that asks for pressure
    !> (residual < 0). Returns the rms over the grid.

@@ -61,11 +61,10 @@ module ehl_level
       !> rho H, and 1 where a node changes distributively in the present sweep, else 0
       real(dp), allocatable :: mass(:, :), dipole(:, :)
       !> Whether the Poiseuille term is the Galerkin product of the next finer level's, in place of
-      !> the five-point difference: sum_k o_k (eps_k + eps) (P_k - P) - s eps P over the cell, with
-      !> couplings o and excess s in `poiseuille`, and eps = `scale` rho H^3/(eta lambda_bar)
+      !> the five-point difference: the operator `poiseuille`, over the cell. It does not change
+      !> with P and H, nor does eps then, which only tells the relaxation where what rules.
       logical :: galerkin = .false.
       type(nine_point_t) :: poiseuille
-      real(dp), allocatable :: scale(:, :)
       !> Pressure as restricted from the next finer level
       real(dp), allocatable :: p_start(:, :)
       !> Change of pressure in the distributive points of a sweep
@@ -83,7 +82,6 @@ module ehl_level
       logical :: parallel = .false.
    contains
       procedure :: setup
-      procedure :: setup_galerkin
       procedure :: set_upstream
       procedure :: set_transient
       procedure :: cell
@@ -130,18 +128,6 @@ contains
          end do
       end associate
    end subroutine setup
-
-   !> Allocate what a Galerkin operator needs
-   subroutine setup_galerkin(self, status)
-      class(level_t), intent(inout) :: self
-      type(status_t), intent(inout) :: status
-      integer :: stat
-
-      call self%poiseuille%setup(self%grid, status)
-      if (status%failed()) return
-      allocate (self%scale(self%grid%nx, self%grid%ny), source=1.0_dp, stat=stat)
-      if (stat /= 0) call status%fail(ehl_no_memory, "no memory for a grid level")
-   end subroutine setup_galerkin
 
    !> Steady wedge term, upstream of first or second order (first in the first interior column)
    subroutine set_upstream(self, order)
@@ -204,7 +190,7 @@ contains
       numbers = 0
       if (allocated(self%p)) numbers = 14*size(self%p, kind=int64)
       if (allocated(self%rough)) numbers = numbers + 2*size(self%rough, kind=int64)
-      if (allocated(self%scale)) numbers = numbers + size(self%scale, kind=int64) + self%poiseuille%bytes()/8
+      numbers = numbers + self%poiseuille%bytes()/8
       if (allocated(self%work)) then
          do k = 1, size(self%work)
             numbers = numbers + size(self%work(k)%fields) + size(self%work(k)%upper) + size(self%work(k)%change)

@@ -115,6 +115,39 @@ def test_other_cases_converge(solve, point: tuple[float, float], wavelength: flo
     assert np.abs(done.history["load_error"]).max() <= 1e-6
 
 
+@pytest.mark.parametrize(
+    ("point", "wavelength", "share"),
+    [
+        ((1000.0, 10.0), 0.5, 0.4),
+        ((500.0, 5.0), 1.0, 0.4),
+        ((500.0, 15.0), 0.5, 0.5),
+    ],
+)
+def test_coarsening_does_not_matter(
+    solve, point: tuple[float, float], wavelength: float, share: float
+):
+    """Transfers by the conductance, and Galerkin operators, have the same solution."""
+    wave = {
+        "surface.kind": "harmonic",
+        "surface.amplitude_over_film": share,
+        "surface.wavelength": wavelength,
+        "time.estimate_error": False,
+    } | TIGHT
+    classical, alcouffe = (
+        solve(point, 129, wave | {"solver.coarsening": word}) for word in ("classical", "alcouffe")
+    )
+    for done in (classical, alcouffe):
+        assert done.converged
+        assert np.abs(done.history["load_error"]).max() <= 1e-6
+        assert done.history["residual"].max() <= done["step_residual_allowed"]
+    # Both to the algebraic error: a tenth of the default's, which is 5e-4
+    assert alcouffe["mu_ratio"] == pytest.approx(classical["mu_ratio"], rel=5e-5)
+    same = min(classical["steps"], alcouffe["steps"])
+    assert alcouffe.history["mu_ratio"][:same] == pytest.approx(
+        classical.history["mu_ratio"][:same], rel=2e-4
+    )
+
+
 @pytest.mark.parametrize("moes_l", [5.0, 10.0, 15.0])
 @pytest.mark.parametrize("moes_m", [500.0, 1000.0, 2000.0])
 def test_first_steps_on_the_default_grid(solve, moes_m: float, moes_l: float):
