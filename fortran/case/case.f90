@@ -121,8 +121,8 @@ module ehl_case
    type :: solver_case_t
       !> 'mlmi' (default), 'fft' or 'direct': how the elastic deflection is evaluated
       character(len=word_length) :: deflection = "mlmi"
-      !> Transfers of the multigrid: 'classical', the only kind that time steps converge with yet
-      character(len=word_length) :: coarsening = "classical"
+      !> Transfers and coarse operators in time steps
+      character(len=word_length) :: coarsening = "alcouffe"
       !> 'auto' (default): half the domain where the scene is symmetric in Y; 'full': never
       character(len=word_length) :: symmetry = "auto"
       !> 'W', 'V' or 'F' cycles; 'auto' (default): F for the smooth contact, V for time steps
