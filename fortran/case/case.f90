@@ -122,7 +122,7 @@ module ehl_case
       !> 'mlmi' (default), 'fft' or 'direct': how the elastic deflection is evaluated
       character(len=word_length) :: deflection = "mlmi"
       !> Transfers and coarse operators in time steps
-      character(len=word_length) :: coarsening = "alcouffe"
+      character(len=word_length) :: coarsening = "auto"
       !> 'auto' (default): half the domain where the scene is symmetric in Y; 'full': never
       character(len=word_length) :: symmetry = "auto"
       !> 'W', 'V' or 'F' cycles; 'auto' (default): F for the smooth contact, V for time steps

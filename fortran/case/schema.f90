@@ -195,7 +195,7 @@ contains
                             "exactly so many steps; 0: until the friction is known")
          call self%words("solver", "deflection", s%deflection, "mlmi|fft|direct", &
                          "evaluation of the elastic deflection")
-         call self%words("solver", "coarsening", s%coarsening, "classical|alcouffe", &
+         call self%words("solver", "coarsening", s%coarsening, "auto|classical|alcouffe", &
                          "transfers in time steps: bilinear, or by the conductance (Galerkin)")
          call self%words("solver", "symmetry", s%symmetry, "auto|full", &
                          "auto: half the domain where the scene is symmetric in Y")

@@ -33,9 +33,9 @@ module ehl_relaxation
    !> The same in time steps, where smooth changes are taken back
    real(dp), parameter :: omega_step = 0.8_dp
    !> Conductance/mesh-size^2, as a share of the squeeze term's factor, at which half of the change counts
-   !> as one to be freed of its smooth part: there a change smooth over 0.4 a makes as much of a
+   !> as one to be freed of its smooth part: there a change smooth over 0.25 a makes as much of a
    !> residual by its deflection as by the conductance
-   real(dp), parameter :: weak = 0.05_dp
+   real(dp), parameter :: weak = 0.03_dp
    !> Weights of the mean that is the smooth part, along X and along Y
    real(dp), parameter :: binomial(-2:2) = [1.0_dp, 4.0_dp, 6.0_dp, 4.0_dp, 1.0_dp]/16.0_dp
 
@@ -125,13 +125,13 @@ contains
                level%p(i, j) = max(0.0_dp, level%p(i, j) + (1.0_dp - level%dipole(i, j))*(omega + t) &
                                    /(1.0_dp + t)*work%change(l, i))
                if (time_step) level%rough(i, j) = (level%p(i, j) - before)*(1.0_dp - level%dipole(i, j)) &
-                                                  /(1.0_dp + weak_scale*level%eps(i, j))
+                                                  /(1.0_dp + (weak_scale*level%eps(i, j))**2)
             end do
          end do
       end associate
    end subroutine relax_lines
 
-   !> The share of a Gauss-Seidel node's change that is to be free of its smooth part is 1/(1 + this*eps);
+   !> The share of a Gauss-Seidel node's change that is to be free of its smooth part is 1/(1 + (this*eps)^2);
    !> in time steps
    pure real(dp) function weakness(level)
       type(level_t), intent(in) :: level
@@ -169,7 +169,7 @@ contains
          end do
          do i = 2, nx - 1
             if (level%p(i, j) > 0.0_dp) level%p(i, j) = &
-               max(0.0_dp, level%p(i, j) - (1.0_dp - level%dipole(i, j))/(1.0_dp + scale*level%eps(i, j))*smooth(i))
+               max(0.0_dp, level%p(i, j) - (1.0_dp - level%dipole(i, j))/(1.0_dp + (scale*level%eps(i, j))**2)*smooth(i))
          end do
       end do
       !$omp end parallel do

@@ -69,8 +69,9 @@ contains
       if (stat == 0) then
          write (lun, iostat=stat, iomsg=reason) magic, march%step, len(text), text, &
             shape(march%mass), march%skipped, march%time, march%time_step, march%residual, march%cycles, &
-            march%total_cycles, march%h00_before, march%friction_smooth, numbers, march%mass, march%p_before, &
-            march%forecast%carried, march%mean%n, march%mean%values(:march%mean%n), march%mean%film(:march%mean%n), &
+            march%total_cycles, march%coarsening, march%changed_at, march%h00_before, march%friction_smooth, &
+            numbers, march%mass, march%p_before, march%forecast%carried, &
+            march%mean%n, march%mean%values(:march%mean%n), march%mean%film(:march%mean%n), &
             march%mean%roughness(:march%mean%n), shape(rows), rows, shape(frames%p), frames%times, frames%p, frames%h
          if (stat == 0) then
             close (lun, iostat=stat, iomsg=reason)
@@ -162,7 +163,8 @@ contains
             allocate (march%mass(dims(1), dims(2), dims(3)), march%p_before(dims(1), dims(2), dims(3)), &
                       march%forecast%carried(dims(1), dims(2)))
             read (lun, iostat=stat, iomsg=reason) march%skipped, march%time, march%time_step, march%residual, march%cycles, &
-               march%total_cycles, march%h00_before, march%friction_smooth, state%numbers, march%mass, march%p_before, &
+               march%total_cycles, march%coarsening, march%changed_at, &
+               march%h00_before, march%friction_smooth, state%numbers, march%mass, march%p_before, &
                march%forecast%carried, n
          end if
          if (stat == 0) then

@@ -116,7 +116,7 @@ contains
          e = sum(standing(i - reach:i + reach))
          c = sum(carried(i - reach:i + reach))
          self%carried(i, j) = e/(e + c + tiny(1.0_dp)) &
-                              /(1.0_dp + max(level%eps(i - 2, j), level%eps(i - 1, j), level%eps(i, j), level%eps(i + 1, j))/limit)
+                              /(1.0_dp + maxval(level%eps(i - 2:i + 1, j))/limit)
       end do
    end subroutine compare
 

@@ -38,7 +38,9 @@ module ehl_plan
       character(len=:), allocatable :: engine
       !> Cycles of the smooth contact and of a time step
       type(cycle_options_t) :: cycle, step_cycle
-      !> The same in letters
+      !> Whether time steps may go over from classical to Alcouffe coarsening
+      logical :: coarsening_may_change = .false.
+      !> The cycles in letters
       character(len=1) :: cycle_letter = "F", step_cycle_letter = "V"
       !> Algebraic error wanted as a share of the discretisation error
       real(dp) :: accuracy = 0.1_dp
@@ -112,6 +114,7 @@ contains
       end if
       plan%cycle = cycle_of(plan%cycle_letter)
       plan%step_cycle = cycle_of(plan%step_cycle_letter)
+      plan%coarsening_may_change = input%solver%coarsening == "auto"
       plan%step_cycle%coarsening = merge(coarsening_alcouffe, coarsening_classical, &
                                          input%solver%coarsening == "alcouffe")
    end subroutine pick_cycle

@@ -193,6 +193,7 @@ contains
       call record%set("steps", march%step)
       call record%set("steps_skipped", march%skipped)
       call record%set("cycles_per_step", real(march%total_cycles, dp)/max(march%step, 1))
+      call record%set("coarsening_changed_at", march%changed_at)
       call record%set("seconds_per_step", seconds/max(march%step, 1))
       call record%set("step_residual_allowed", march%tolerance)
    end subroutine report_march

@@ -288,6 +288,8 @@ contains
       end if
       self%transient%narrow = self%plan%narrow
       self%transient%max_cycles = self%plan%max_cycles
+      self%transient%coarsening = self%plan%step_cycle%coarsening
+      self%transient%may_change = self%plan%coarsening_may_change
       self%transient%tolerance = step_tolerance(self%grid%hx, self%plan%accuracy)
       call self%transient%start(self%hierarchy%levels(n), self%plan%surface, self%plan%skip_start, &
                                 self%steady%results(n)%m%friction, status)

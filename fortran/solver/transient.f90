@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The march of a rough surface through the contact, one time step at a time
 module ehl_transient
-   use ehl_cycle, only: refresh
+   use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, refresh
    use ehl_film, only: pressure_sum, update_residual
    use ehl_forecast, only: forecast_t
    use ehl_friction_mean, only: friction_mean_t
@@ -23,6 +23,8 @@ module ehl_transient
    !> A step whose first residual is above this many tolerances has one more sweep in each cycle: two cycles
    !> then do what would take three
    real(dp), parameter :: far = 300.0_dp
+   !> A cycle that leaves more than this share of the residual is slow
+   real(dp), parameter :: slow = 0.25_dp
    !> The roughness fills the contact when its front has passed this X
    real(dp), parameter :: x_filled = 1.05_dp
 
@@ -35,6 +37,9 @@ module ehl_transient
       !> Largest residual (rms) of a step, most cycles a step
       real(dp) :: tolerance = 2.0e-5_dp
       integer :: max_cycles = 30
+      !> Kind of coarsening; whether it changes for good when a cycle is slow, and the step in which it did (0: none)
+      integer :: coarsening = coarsening_classical, changed_at = 0
+      logical :: may_change = .false.
       !> Friction of the smooth contact on the same grid
       real(dp) :: friction_smooth = 1.0_dp
       !> State after the last step
@@ -51,6 +56,7 @@ module ehl_transient
       procedure :: advance
       procedure :: step_converged
       procedure :: restore
+      procedure, private :: begin_step
       procedure, private :: step_back
    end type transient_t
 
@@ -110,27 +116,28 @@ contains
       type(hierarchy_t), intent(inout) :: hierarchy
       integer, intent(in) :: n
       class(surface_t), intent(inout) :: surface
-      real(dp) :: load_error
+      real(dp) :: load_error, before
 
       associate (level => hierarchy%levels(n))
-         ! nothing but the fields kept here passes from step to step, so that a run can be resumed
-         call hierarchy%forget()
          call surface%height(level%grid, self%time + self%time_step, self%rr)
          call set_geometry(level, self%rr)
          call set_history(self, level)
-         call self%forecast%predict(self%p_before, level)
-         level%h00 = 2.0_dp*self%h00_before(1) - self%h00_before(2)
-         call refresh(level)
-         call update_residual(level, self%residual)
-         hierarchy%options%post = merge(2, 1, self%residual > far*self%tolerance)
+         call self%begin_step(hierarchy, level)
          self%cycles = 0
          do
+            before = self%residual
             call hierarchy%cycle(n)
             self%cycles = self%cycles + 1
             call update_residual(level, self%residual)
             load_error = pressure_sum(level, level%p)/level%load - 1.0_dp
             if (self%residual <= self%tolerance .and. abs(load_error) <= load_tolerance) exit
             if (self%cycles >= self%max_cycles) exit
+            if (self%may_change .and. self%coarsening == coarsening_classical &
+                .and. .not. self%residual <= max(slow*before, self%tolerance)) then
+               self%coarsening = coarsening_alcouffe
+               self%changed_at = self%step + 1
+               call self%begin_step(hierarchy, level)
+            end if
             if (.not. self%residual < huge(1.0_dp)) exit
          end do
          self%m = measure(level)
@@ -148,6 +155,22 @@ contains
          call keep(self, level)
       end associate
    end subroutine advance
+
+   !> First approximation of a step, and how its cycles are to be
+   subroutine begin_step(self, hierarchy, level)
+      class(transient_t), intent(inout) :: self
+      type(hierarchy_t), intent(inout) :: hierarchy
+      type(level_t), intent(inout) :: level
+
+      call self%forecast%predict(self%p_before, level)
+      level%h00 = 2.0_dp*self%h00_before(1) - self%h00_before(2)
+      call refresh(level)
+      call update_residual(level, self%residual)
+      ! nothing but the fields kept here passes from step to step, so that a run can be resumed
+      call hierarchy%forget()
+      hierarchy%options%post = merge(2, 1, self%residual > far*self%tolerance)
+      hierarchy%options%coarsening = self%coarsening
+   end subroutine begin_step
 
    !> Whether the last step met its tolerance
    pure logical function step_converged(self)
@@ -175,6 +198,8 @@ contains
       self%residual = state%residual
       self%cycles = state%cycles
       self%total_cycles = state%total_cycles
+      self%coarsening = state%coarsening
+      self%changed_at = state%changed_at
       self%friction_smooth = state%friction_smooth
       self%h00_before = state%h00_before
       self%mass = state%mass
