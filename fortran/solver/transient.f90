@@ -22,7 +22,7 @@ module ehl_transient
    real(dp), parameter :: load_tolerance = 1.0e-6_dp
    !> A step whose first residual is above this many tolerances has one more sweep in each cycle: two cycles
    !> then do what would take three
-   real(dp), parameter :: far = 300.0_dp
+   real(dp), parameter :: far = 100.0_dp
    !> A cycle that leaves more than this share of the residual is slow
    real(dp), parameter :: slow = 0.25_dp
    !> The roughness fills the contact when its front has passed this X
