@@ -52,15 +52,14 @@ contains
       !> Pressures of the last step and of the one before, (nx, ny, 2)
       real(dp), intent(in) :: before(:, :, :)
       type(level_t), intent(inout) :: level
-      real(dp) :: change(level%grid%nx), carried(level%grid%nx)
+      real(dp), dimension(level%grid%nx) :: standing, carried
       integer :: j
 
-      !$omp parallel do default(none) shared(self, before, level) private(change, carried) &
+      !$omp parallel do default(none) shared(self, before, level) private(standing, carried) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
-         change = before(:, j, 1) - before(:, j, 2)
-         call carry(change, self%shift, carried)
-         level%p(:, j) = merge(max(0.0_dp, before(:, j, 1) + change + self%carried(:, j)*(carried - change)), &
+         call candidates(self, before, j, standing, carried)
+         level%p(:, j) = merge(max(0.0_dp, standing + self%carried(:, j)*(carried - standing)), &
                                0.0_dp, before(:, j, 1) > 0.0_dp)
       end do
       !$omp end parallel do
@@ -72,16 +71,15 @@ contains
       !> Pressures of the two steps before that of the level
       real(dp), intent(in) :: before(:, :, :)
       type(level_t), intent(in) :: level
-      real(dp) :: change(level%grid%nx), carried(level%grid%nx)
+      real(dp), dimension(level%grid%nx) :: standing, carried
       integer :: j
 
-      !$omp parallel do default(none) shared(self, before, level) private(change, carried) &
+      !$omp parallel do default(none) shared(self, before, level) private(standing, carried) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
-         change = before(:, j, 1) - before(:, j, 2)
-         call carry(change, self%shift, carried)
-         self%standing_error(:, j) = (level%p(:, j) - before(:, j, 1) - change)**2
-         self%carried_error(:, j) = (level%p(:, j) - before(:, j, 1) - carried)**2
+         call candidates(self, before, j, standing, carried)
+         self%standing_error(:, j) = (level%p(:, j) - standing)**2
+         self%carried_error(:, j) = (level%p(:, j) - carried)**2
       end do
       !$omp end parallel do
       !$omp parallel do default(none) shared(self, level) &
@@ -91,6 +89,29 @@ contains
       end do
       !$omp end parallel do
    end subroutine learn
+
+   !> The two forecasts of row j: the change of the last step once more, at the node and carried along
+   pure subroutine candidates(self, before, j, standing, carried)
+      type(forecast_t), intent(in) :: self
+      !> Pressures of the last step and of the one before, (nx, ny, 2)
+      real(dp), intent(in) :: before(:, :, :)
+      integer, intent(in) :: j
+      !> Shape (nx)
+      real(dp), intent(out) :: standing(:), carried(:)
+      real(dp) :: t
+      integer :: i, n
+
+      n = int(self%shift)
+      t = self%shift - n
+      associate (now => before(:, j, 1), last => before(:, j, 2))
+         standing = now + (now - last)
+         carried(:min(n + 1, size(now))) = now(:min(n + 1, size(now)))
+         ! linear between nodes
+         do i = n + 2, size(now)
+            carried(i) = now(i) + (1.0_dp - t)*(now(i - n) - last(i - n)) + t*(now(i - n - 1) - last(i - n - 1))
+         end do
+      end associate
+   end subroutine candidates
 
    !> Weights of row j
    subroutine compare(self, level, j)
@@ -119,19 +140,4 @@ contains
                               /(1.0_dp + maxval(level%eps(i - 2:i + 1, j))/limit)
       end do
    end subroutine compare
-
-   !> values at X less the shift, linear between nodes
-   pure subroutine carry(values, shift, carried)
-      real(dp), intent(in) :: values(:), shift
-      real(dp), intent(out) :: carried(:)
-      real(dp) :: t
-      integer :: i, n
-
-      n = int(shift)
-      t = shift - n
-      carried(:min(n + 1, size(values))) = 0.0_dp
-      do i = n + 2, size(values)
-         carried(i) = (1.0_dp - t)*values(i - n) + t*values(i - n - 1)
-      end do
-   end subroutine carry
 end module ehl_forecast
