@@ -221,8 +221,9 @@ contains
    !> Allocated bytes
    pure integer(int64) function bytes(self)
       class(transfer_t), intent(in) :: self
-      bytes = 0
-      if (allocated(self%free)) bytes = 8*(size(self%along_x, kind=int64) + size(self%along_y, kind=int64) &
-                                           + size(self%centre, kind=int64) + 3*size(self%free, kind=int64))
+      bytes = self%a%bytes()
+      if (allocated(self%free)) bytes = bytes + 8*(size(self%along_x, kind=int64) + size(self%along_y, kind=int64) &
+                                                   + size(self%centre, kind=int64) + 3*size(self%free, kind=int64) &
+                                                   + 2*size(self%fine_free, kind=int64))
    end function bytes
 end module ehl_alcouffe

@@ -4,7 +4,7 @@ module ehl_hierarchy
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_alcouffe, only: transfer_t
    use ehl_coarsest, only: coarsest_t
-   use ehl_cycle, only: coarsening_alcouffe, cycle_options_t, fas_cycle
+   use ehl_cycle, only: coarsening_classical, cycle_options_t, fas_cycle
    use ehl_deflection_factory, only: new_deflection
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
@@ -17,7 +17,7 @@ module ehl_hierarchy
 
    type :: hierarchy_t
       type(level_t), allocatable :: levels(:)
-      !> Operator-dependent transfer between each level and the next coarser one
+      !> Operator-dependent transfer between each level and the next coarser one; set up when first used
       type(transfer_t), allocatable :: transfers(:)
       type(coarsest_t) :: coarsest
       type(cycle_options_t) :: options
@@ -27,6 +27,7 @@ module ehl_hierarchy
    contains
       procedure :: setup
       procedure :: grow
+      procedure :: coarsen
       procedure :: cycle => run_cycle
       procedure :: forget
       procedure :: bytes
@@ -86,15 +87,31 @@ contains
             call level%engine%setup(level%grid, deflection_accuracy(level%grid), level%threads, status)
             if (status%failed()) return
             call level%set_upstream(2)
-            if (k > 1) then
-               call self%levels(k - 1)%poiseuille%setup(self%levels(k - 1)%grid, status)
-               call self%transfers(k)%setup(level%grid, self%levels(k - 1)%grid, level%threads, level%parallel, status)
-               if (status%failed()) return
-            end if
          end associate
          self%ready = k
       end do
    end subroutine grow
+
+   !> Coarsen in this way from now on. What only Alcouffe's needs is allocated when it is first asked for.
+   subroutine coarsen(self, coarsening, status)
+      class(hierarchy_t), intent(inout) :: self
+      !> coarsening_classical or coarsening_alcouffe, of ehl_cycle
+      integer, intent(in) :: coarsening
+      type(status_t), intent(inout) :: status
+      integer :: k
+
+      if (status%failed()) return
+      self%options%coarsening = coarsening
+      if (coarsening == coarsening_classical) return
+      do k = 2, self%ready
+         if (self%transfers(k)%nx > 0) cycle
+         associate (fine => self%levels(k), coarse => self%levels(k - 1))
+            call coarse%poiseuille%setup(coarse%grid, status)
+            call self%transfers(k)%setup(fine%grid, coarse%grid, fine%threads, fine%parallel, status)
+         end associate
+         if (status%failed()) return
+      end do
+   end subroutine coarsen
 
    !> Error of the deflection, relative to its largest value, that stays below a tenth of the
    !> discretisation error of a piecewise-constant Hertz pressure (2.2e-4 at h = 1/128)

@@ -69,9 +69,9 @@ module ehl_level
       real(dp), allocatable :: p_start(:, :)
       !> Change of pressure in the distributive points of a sweep
       real(dp), allocatable :: change(:, :)
-      !> Changes of a sweep whose smooth part is to be taken back, and that part after its first pass;
-      !> for time steps only
-      real(dp), allocatable :: rough(:, :), smooth(:, :)
+      !> For time steps only: the share of a node's change that is to be free of its smooth part, these
+      !> changes in a sweep, and their smooth part after its first pass
+      real(dp), allocatable :: share(:, :), rough(:, :), smooth(:, :)
       !> Kernel near the source: itself, and for the distributive (dipole) change
       real(dp) :: near(-near_reach:near_reach) = 0.0_dp
       real(dp) :: near_dipole(-near_reach:near_reach) = 0.0_dp
@@ -155,8 +155,10 @@ contains
 
       if (status%failed()) return
       stat = 0
-      if (.not. allocated(self%rough)) allocate (self%rough(self%grid%nx, self%grid%ny), &
-                                                 self%smooth(self%grid%nx, self%grid%ny), source=0.0_dp, stat=stat)
+      associate (nx => self%grid%nx, ny => self%grid%ny)
+         if (.not. allocated(self%rough)) allocate (self%share(nx, ny), self%rough(nx, ny), self%smooth(nx, ny), &
+                                                    source=0.0_dp, stat=stat)
+      end associate
       if (stat /= 0) then
          call status%fail(ehl_no_memory, "no memory for the time steps of a grid level")
          return
@@ -189,7 +191,7 @@ contains
 
       numbers = 0
       if (allocated(self%p)) numbers = 14*size(self%p, kind=int64)
-      if (allocated(self%rough)) numbers = numbers + 2*size(self%rough, kind=int64)
+      if (allocated(self%rough)) numbers = numbers + 3*size(self%rough, kind=int64)
       numbers = numbers + self%poiseuille%bytes()/8
       if (allocated(self%work)) then
          do k = 1, size(self%work)

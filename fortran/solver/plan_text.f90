@@ -54,9 +54,11 @@ contains
       end if
       text = text//"deflection "//plan%engine//", threads "//to_text(plan%threads)//new_line("a")
       text = text//"cycles     "//plan%cycle_letter//"(2,1)"
-      if (allocated(plan%surface)) text = text//", time steps "//plan%step_cycle_letter//"(2,1) or (2,2)"
-      text = text//", "//trim(merge("Alcouffe ", "classical", plan%step_cycle%coarsening == coarsening_alcouffe))//" coarsening"
-      if (plan%coarsening_may_change) text = text//", Alcouffe when a cycle is slow"
+      if (allocated(plan%surface)) then
+         text = text//", time steps "//plan%step_cycle_letter//"(2,1) or (2,2), "// &
+                trim(merge("Alcouffe ", "classical", plan%step_cycle%coarsening == coarsening_alcouffe))//" coarsening"
+         if (plan%coarsening_may_change) text = text//", Alcouffe when a cycle is slow"
+      end if
       text = text//new_line("a")
       if (plan%target_error > 0.0_dp) then
          write (line, "(a,es8.1)") "stop       at the first grid whose relative error of H_c is below ", plan%target_error

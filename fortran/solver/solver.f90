@@ -242,7 +242,7 @@ contains
       if (associated(self%coarse)) then
          call advance_coarse(self, status)
       else if (self%marching) then
-         call advance_step(self)
+         call advance_step(self, status)
       else
          call advance_cycle(self, status)
          if (.not. status%failed() .and. allocated(self%plan%surface) .and. &
@@ -350,14 +350,16 @@ contains
    end subroutine close_solver
 
    !> One time step
-   subroutine advance_step(self)
+   subroutine advance_step(self, status)
       type(solver_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
       type(clock_t) :: clock
 
       clock = start_clock()
       associate (march => self%transient, m => self%transient%m)
-         call march%advance(self%hierarchy, self%steady%n, self%plan%surface)
+         call march%advance(self%hierarchy, self%steady%n, self%plan%surface, status)
          self%step_seconds = self%step_seconds + clock%seconds()
+         if (status%failed()) return
          if (march%step_converged()) then
             call self%history%append([real(dp) :: march%step, march%time, m%friction/march%friction_smooth, &
                                       m%film_central, m%film_minimum, m%pressure_maximum, m%load_error, march%cycles, &

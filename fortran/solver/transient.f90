@@ -111,18 +111,21 @@ contains
    end subroutine start
 
    !> One time step, cycle by cycle to convergence
-   subroutine advance(self, hierarchy, n, surface)
+   subroutine advance(self, hierarchy, n, surface, status)
       class(transient_t), intent(inout) :: self
       type(hierarchy_t), intent(inout) :: hierarchy
       integer, intent(in) :: n
       class(surface_t), intent(inout) :: surface
+      type(status_t), intent(inout) :: status
       real(dp) :: load_error, before
 
+      if (status%failed()) return
       associate (level => hierarchy%levels(n))
          call surface%height(level%grid, self%time + self%time_step, self%rr)
          call set_geometry(level, self%rr)
          call set_history(self, level)
-         call self%begin_step(hierarchy, level)
+         call self%begin_step(hierarchy, level, status)
+         if (status%failed()) return
          self%cycles = 0
          do
             before = self%residual
@@ -136,7 +139,8 @@ contains
                 .and. .not. self%residual <= max(slow*before, self%tolerance)) then
                self%coarsening = coarsening_alcouffe
                self%changed_at = self%step + 1
-               call self%begin_step(hierarchy, level)
+               call self%begin_step(hierarchy, level, status)
+               if (status%failed()) return
             end if
             if (.not. self%residual < huge(1.0_dp)) exit
          end do
@@ -157,10 +161,11 @@ contains
    end subroutine advance
 
    !> First approximation of a step, and how its cycles are to be
-   subroutine begin_step(self, hierarchy, level)
+   subroutine begin_step(self, hierarchy, level, status)
       class(transient_t), intent(inout) :: self
       type(hierarchy_t), intent(inout) :: hierarchy
       type(level_t), intent(inout) :: level
+      type(status_t), intent(inout) :: status
 
       call self%forecast%predict(self%p_before, level)
       level%h00 = 2.0_dp*self%h00_before(1) - self%h00_before(2)
@@ -169,7 +174,7 @@ contains
       ! nothing but the fields kept here passes from step to step, so that a run can be resumed
       call hierarchy%forget()
       hierarchy%options%post = merge(2, 1, self%residual > far*self%tolerance)
-      hierarchy%options%coarsening = self%coarsening
+      call hierarchy%coarsen(self%coarsening, status)
    end subroutine begin_step
 
    !> Whether the last step met its tolerance

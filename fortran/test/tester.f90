@@ -6,6 +6,7 @@ program tester
    use test_alcouffe, only: run_alcouffe
    use test_case, only: run_case
    use test_deflection, only: run_deflection
+   use test_march, only: run_march
    use test_record, only: run_record
    use test_solver, only: run_solver
    use test_text, only: run_text
@@ -24,6 +25,8 @@ program tester
       call run_deflection()
    case ("alcouffe")
       call run_alcouffe()
+   case ("march")
+      call run_march()
    case ("solver")
       call run_solver()
    case default

@@ -1,0 +1,194 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Parts of the march in time: a step that fails, sweeps, the forecast, and what is allocated for it
+module test_march
+   use check, only: is_close, is_equal, is_true
+   use ehl_case, only: case_t
+   use ehl_case_reader, only: read_case
+   use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, refresh
+   use ehl_film, only: update_residual
+   use ehl_forecast, only: forecast_t
+   use ehl_grid, only: new_grid
+   use ehl_hierarchy, only: hierarchy_t
+   use ehl_kinds, only: dp
+   use ehl_level, only: level_t
+   use ehl_outcome, only: outcome_converged, outcome_running
+   use ehl_plan, only: make_plan, plan_t
+   use ehl_relaxation, only: relax
+   use ehl_status, only: status_t
+   use ehl_steady, only: steady_t
+   use ehl_transient, only: step_tolerance, transient_t
+   implicit none (type, external)
+   private
+   public :: run_march
+
+   character(len=*), parameter :: heavy = "&contact moes_m = 500, moes_l = 10 / &grid points = 65 / "// &
+                                  "&surface kind = 'harmonic', amplitude = 0.015, wavelength = 1, "// &
+                                  "x_start = -1 /"
+   character(len=*), parameter :: thin = "&contact moes_m = 100, moes_l = 2 / &grid points = 129 / "// &
+                                  "&surface kind = 'harmonic', amplitude = 0.02, wavelength = 1, "// &
+                                  "x_start = -1 /"
+
+contains
+
+   subroutine run_march()
+      call failed_step_leaves_the_last_state()
+      call sweeps_alone_do_not_diverge()
+      call forecast_of_what_stands_and_what_moves()
+      call transfers_when_asked_for()
+   end subroutine run_march
+
+   !> A step that runs out of cycles leaves the fields of the last good one, from which more cycles lead to the
+   !> same bits as if nothing had happened
+   subroutine failed_step_leaves_the_last_state()
+      type(plan_t) :: plan
+      type(hierarchy_t) :: hierarchy
+      type(transient_t) :: march
+      type(status_t) :: status
+      real(dp), dimension(65, 33) :: p, h, p_next
+      real(dp) :: h00
+      integer :: n, k
+
+      call begin(heavy, plan, hierarchy, march, n, status)
+      do k = 1, 3
+         call march%advance(hierarchy, n, plan%surface, status)
+         call is_true(march%step_converged(), "a step converges")
+      end do
+      associate (level => hierarchy%levels(n))
+         p = level%p
+         h = level%h
+         h00 = level%h00
+         march%max_cycles = 1
+         call march%advance(hierarchy, n, plan%surface, status)
+         call is_true(.not. march%step_converged(), "one cycle is too few")
+         call is_equal(march%step, 3, "the failed step does not count")
+         call is_close(maxval(abs(level%p - p)), 0.0_dp, 0.0_dp, "pressure of the last good step")
+         call is_close(maxval(abs(level%h - h)), 0.0_dp, 0.0_dp, "film of the last good step")
+         call is_close(level%h00, h00, 0.0_dp, "H00 of the last good step")
+         march%max_cycles = plan%max_cycles
+         call march%advance(hierarchy, n, plan%surface, status)
+         call is_true(march%step_converged() .and. march%step == 4, "more cycles are enough")
+         p_next = level%p
+      end associate
+
+      call begin(heavy, plan, hierarchy, march, n, status)
+      do k = 1, 4
+         call march%advance(hierarchy, n, plan%surface, status)
+      end do
+      call is_close(maxval(abs(hierarchy%levels(n)%p - p_next)), 0.0_dp, 0.0_dp, "the failed step left no trace")
+      call is_true(.not. status%failed(), "march")
+   end subroutine failed_step_leaves_the_last_state
+
+   !> Sweeps of a time step make no error grow, whatever coarse grids do about it: here the conductance in all of
+   !> the contact is of the order of the squeeze term's share in the lines
+   subroutine sweeps_alone_do_not_diverge()
+      type(plan_t) :: plan
+      type(hierarchy_t) :: hierarchy
+      type(transient_t) :: march
+      type(status_t) :: status
+      real(dp) :: first, last
+      integer :: n, k
+
+      call begin(thin, plan, hierarchy, march, n, status)
+      call march%advance(hierarchy, n, plan%surface, status)
+      associate (level => hierarchy%levels(n))
+         level%p = level%p*(1.0_dp + 1.0e-3_dp*level%p)
+         call refresh(level)
+         call update_residual(level, first)
+         do k = 1, 15
+            call relax(level)
+            call refresh(level)
+         end do
+         call update_residual(level, last)
+         call is_true(last < first, "the residual falls by sweeps alone")
+      end associate
+      call is_true(.not. status%failed(), "march")
+   end subroutine sweeps_alone_do_not_diverge
+
+   !> Where nothing flows, a pattern that moves is carried along and one that stands goes on as it does
+   subroutine forecast_of_what_stands_and_what_moves()
+      type(forecast_t) :: forecast
+      type(level_t) :: level
+      type(status_t) :: status
+      real(dp) :: p(33, 33, 0:3)
+      integer :: i, k
+      logical :: moves
+
+      level%grid = new_grid(33, -2.0_dp, 2.0_dp, 1.0_dp, .false.)
+      allocate (level%p(33, 33), level%eps(33, 33), source=0.0_dp)
+      do k = 1, 2
+         moves = k == 1
+         do i = 1, 33
+            if (moves) then
+               p(i, :, :) = spread(1.0_dp + 0.1_dp*sin(0.7_dp*real(i - [0, 1, 2, 3], dp)), 1, 33)
+            else
+               p(i, :, :) = spread(1.0_dp + 0.1_dp*sin(0.7_dp*i)*real([0, 1, 2, 3], dp), 1, 33)
+            end if
+         end do
+         call forecast%setup(33, 33, 1.0_dp, status)
+         level%p = p(:, :, 2)
+         call forecast%learn(p(:, :, 1:0:-1), level)
+         call forecast%predict(p(:, :, 2:1:-1), level)
+         call is_close(maxval(abs(level%p(5:31, :) - p(5:31, :, 3))), 0.0_dp, 1.0e-12_dp, &
+                       merge("pattern that moves ", "pattern that stands", moves))
+      end do
+      ! where the lubricant flows, nothing is carried
+      level%eps = 1.0e6_dp
+      level%p = p(:, :, 2)
+      call forecast%learn(p(:, :, 1:0:-1), level)
+      call is_close(maxval(forecast%carried), 0.0_dp, 1.0e-5_dp, "nothing is carried by a flow")
+      call is_true(.not. status%failed(), "forecast")
+   end subroutine forecast_of_what_stands_and_what_moves
+
+   !> Operator-dependent transfers cost no memory before they are used
+   subroutine transfers_when_asked_for()
+      type(plan_t) :: plan
+      type(hierarchy_t) :: hierarchy
+      type(transient_t) :: march
+      type(status_t) :: status
+      integer :: n
+
+      call begin(heavy, plan, hierarchy, march, n, status)
+      call hierarchy%coarsen(coarsening_classical, status)
+      call is_true(all(hierarchy%transfers%nx == 0), "no transfers for classical coarsening")
+      associate (before => hierarchy%bytes())
+         call hierarchy%coarsen(coarsening_alcouffe, status)
+         call is_true(all(hierarchy%transfers(2:n)%nx > 0), "transfers for Alcouffe coarsening")
+         call is_true(hierarchy%bytes() > before, "transfers take memory")
+      end associate
+      call is_true(.not. status%failed(), "transfers")
+   end subroutine transfers_when_asked_for
+
+   !> Solve the smooth contact of a case and let the roughness in
+   subroutine begin(text, plan, hierarchy, march, n, status)
+      character(len=*), intent(in) :: text
+      type(plan_t), intent(out) :: plan
+      type(hierarchy_t), intent(out) :: hierarchy
+      type(transient_t), intent(out) :: march
+      !> Finest level
+      integer, intent(out) :: n
+      type(status_t), intent(inout) :: status
+      type(case_t), target :: input
+      type(steady_t) :: steady
+      real(dp), parameter :: none(0, 0) = reshape([real(dp) ::], [0, 0])
+      integer :: k
+
+      call read_case(text, "test", "", input, status)
+      call make_plan(input, none, plan, status)
+      call hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, plan%engine, &
+                           plan%cycle, plan%threads, status)
+      call steady%start(plan)
+      call hierarchy%grow(steady%n, status)
+      do while (.not. status%failed() .and. steady%outcome == outcome_running)
+         call steady%advance(plan, hierarchy, status)
+      end do
+      call is_true(steady%outcome == outcome_converged, "the smooth contact converges")
+      n = steady%n
+      march%tolerance = step_tolerance(hierarchy%levels(n)%grid%hx, plan%accuracy)
+      march%max_cycles = plan%max_cycles
+      call march%start(hierarchy%levels(n), plan%surface, plan%skip_start, steady%results(n)%m%friction, status)
+      do k = 1, n
+         call hierarchy%levels(k)%set_transient(plan%narrow, march%time_step, status)
+      end do
+      hierarchy%options = plan%step_cycle
+   end subroutine begin
+end module test_march
