@@ -209,6 +209,26 @@ def test_no_states_when_none_are_wanted(drive, tmp_path: Path):
         assert {path.name for path in tmp_path.iterdir()} == {"case.nml", "out"}
 
 
+def test_change_of_coarsening_is_resumed(drive, tmp_path: Path):
+    # On so coarse a grid classical cycles are slow as soon as the wave is in the inlet
+    text = WAVE.format(points=65, extra="amplitude_over_film = 0.5 wavelength = 1.0")
+    (tmp_path / "case.nml").write_text(text.replace("200.0", "500.0 moes_l = 5.0"))
+    alone = ["--set", "time.estimate_error=.false."]
+    assert drive("ehl", "case.nml", "-o", "whole", *alone).returncode == 0
+    changed = json.loads((tmp_path / "whole" / "summary.json").read_text())["coarsening_changed_at"]
+    assert changed > 3
+    for steps in (changed - 2, changed + 2):
+        stop_after_steps(drive, tmp_path, "ehl", steps, *alone)
+        summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+        assert summary["coarsening_changed_at"] == (changed if steps > changed else 0)
+        assert drive("pyehl", "--resume", "out", "--set", "time.steps=0").returncode == 0
+        same(tmp_path / "whole", tmp_path / "out")
+    kept = [*alone, "--set", "solver.coarsening=classical"]
+    assert drive("ehl", "case.nml", "-o", "classical", *kept).returncode == 0
+    summary = json.loads((tmp_path / "classical" / "summary.json").read_text())
+    assert summary["coarsening_changed_at"] == 0
+
+
 @pytest.mark.parametrize("driver", ["ehl", "pyehl"])
 def test_failed_step_keeps_the_last_good_state(drive, tmp_path: Path, driver: str):
     # A wave nearly as high as the film: on this grid the film becomes negative on the way
