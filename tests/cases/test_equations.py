@@ -106,23 +106,34 @@ def test_smooth(solve, moes_m: float, points: int, engine: str):
     assert friction == pytest.approx(done["F"], rel=1e-12)
 
 
-@pytest.fixture(scope="module", params=["narrow", "paper"])
+@pytest.fixture(
+    scope="module",
+    params=[
+        ("narrow", 1000.0, 10.0),
+        ("paper", 1000.0, 10.0),
+        ("narrow", 600.0, 14.0),
+        ("narrow", 700.0, 8.0),
+        ("paper", 1600.0, 12.0),
+    ],
+    ids=lambda row: f"{row[0]}-M{row[1]:g}-L{row[2]:g}",
+)
 def march(solve, request) -> tuple[str, Any, list[State]]:
     """Three consecutive states while the front of a waviness crosses the contact, newest first."""
+    scheme, moes_m, moes_l = request.param
     settings = {
         "lubricant.roelands_z": Z,
         "surface.kind": "harmonic",
         "surface.amplitude": AMPLITUDE,
         "surface.wavelength": WAVELENGTH,
-        "time.scheme": request.param,
+        "time.scheme": scheme,
         # The balance below is a small difference
         "solver.accuracy": 1e-4,
     }
     runs = [
-        solve((1000.0, 10.0), 129, settings | {"time.steps": steps}, fields=True)
+        solve((moes_m, moes_l), 129, settings | {"time.steps": steps}, fields=True)
         for steps in (60, 59, 58)
     ]
-    return request.param, runs[0], [State(run) for run in runs]
+    return scheme, runs[0], [State(run) for run in runs]
 
 
 def storage(states: list[State]) -> Array:
