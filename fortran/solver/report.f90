@@ -250,6 +250,8 @@ contains
       character(len=32) :: buffer
 
       write (buffer, "("//form//")") x
+      ! too large for its field
+      if (buffer(1:1) == "*") write (buffer, "(es12.5)") x
       text = trim(adjustl(buffer))
    end function fixed
 end module ehl_report

@@ -84,6 +84,19 @@ def test_last_frame_is_of_its_step(drive, tmp_path: Path):
     assert not np.array_equal(run["frame_H"][:, :, 0], run["H"])
 
 
+def test_huge_ratios_are_printed(drive, tmp_path: Path):
+    # A wave as high as the film of a thick, very pressure-viscous oil
+    (tmp_path / "case.nml").write_text(
+        "&contact moes_m = 500.0 moes_l = 15.0 /\n&grid points = 129 /\n"
+        "&surface kind = 'harmonic' amplitude_over_film = 1.0 wavelength = 0.25 /\n"
+    )
+    words = ["--set", "time.steps=35", "--set", "time.estimate_error=.false."]
+    done = drive("ehl", "case.nml", "-o", "out", *words)
+    ratio = json.loads((tmp_path / "out" / "summary.json").read_text())["last_mu_ratio"]
+    assert ratio > 1e3
+    assert f"mu_r/mu_s {ratio:.5E}" in done.stdout
+
+
 @pytest.mark.parametrize("driver", ["ehl", "pyehl"])
 def test_what_was_not_done_is_listed(drive, tmp_path: Path, driver: str):
     (tmp_path / "case.nml").write_text(WAVE)
