@@ -183,7 +183,8 @@ contains
          level%smooth(:, j) = 0.0_dp
          if (from(j) == 0) cycle
          do k = -reach, reach
-            do i = max(from(j), 1 + reach), min(to(j), level%grid%nx - reach)
+            ! as far as the changes of this row reach, for rows beside it may have shares further out
+            do i = max(from(j) - reach, 1 + reach), min(to(j) + reach, level%grid%nx - reach)
                level%smooth(i, j) = level%smooth(i, j) + binomial(k)*level%rough(i + k, j)
             end do
          end do
