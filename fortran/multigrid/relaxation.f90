@@ -34,6 +34,11 @@ module ehl_relaxation
    real(dp), parameter :: omega_dipole = 0.7_dp, omega_line = 0.5_dp, strong = 10.0_dp
    !> The same in time steps, where smooth changes are taken back
    real(dp), parameter :: omega_step = 0.8_dp
+   !> Largest change of the logarithm of a node's conductance in a sweep of a time step: beyond it the linearised line
+   !> says nothing. Where pressure falls from its peak to almost nothing from one node to the next, cycles ended
+   !> nowhere without it. Measured at (500, 15), a wave as high as the film, 0.25 a long, on 513 x 513: all steps
+   !> converge with 2, 3 and 4, not with 6.
+   real(dp), parameter :: trusted = 3.0_dp
    !> Conductance/mesh-size^2 around a node, as a share of the squeeze term's factor, at which half of the change
    !> counts as one to be freed of its smooth part: a change smooth over a length l has a residual of about
    !> squeeze*l*2/pi^2 by its deflection, and overshoots where the line holds less than half of that against
@@ -135,14 +140,16 @@ contains
    subroutine relax_lines(level, j0, last, thread)
       type(level_t), intent(inout) :: level
       integer, intent(in) :: j0, last, thread
-      real(dp) :: scale, t, omega, omega_far, before
-      logical :: time_step
+      real(dp) :: scale, t, omega, omega_far, before, change
+      logical :: time_step, limited
       integer :: rows(line_width), lines, furthest, i, j, l
 
       lines = min(line_width, (last - j0)/2 + 1)
       rows = [(j0 + 2*min(l - 1, lines - 1), l=1, line_width)]
       scale = 1.0_dp/(strong*min(level%grid%hx, level%grid%hy)**2)
       time_step = level%squeeze > 0.0_dp
+      ! a Galerkin operator does not change with the pressure
+      limited = time_step .and. .not. level%galerkin
       omega = merge(omega_step, omega_line, time_step)
       omega_far = merge(omega_step, omega_dipole, time_step)
       associate (work => level%work(thread))
@@ -158,9 +165,11 @@ contains
             do i = 2, furthest
                t = level%eps(i, j)*scale
                before = level%p(i, j)
-               level%change(i, j) = omega_far*level%dipole(i, j)*work%change(l, i)
+               change = work%change(l, i)
+               if (limited) change = change/max(1.0_dp, abs(level%gain(i, j)*change)/trusted)
+               level%change(i, j) = omega_far*level%dipole(i, j)*change
                level%p(i, j) = max(0.0_dp, level%p(i, j) + (1.0_dp - level%dipole(i, j))*(omega + t) &
-                                   /(1.0_dp + t)*work%change(l, i))
+                                   /(1.0_dp + t)*change)
                if (time_step) level%rough(i, j) = (level%p(i, j) - before)*level%share(i, j)
             end do
          end do
