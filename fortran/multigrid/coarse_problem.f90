@@ -46,7 +46,12 @@ contains
       !$omp end parallel do
       coarse%h00 = fine%h00
       call coarse%engine%apply(coarse%p, coarse%w)
-      coarse%geometry = coarse%h - coarse%h00 - coarse%w
+      !$omp parallel do default(none) shared(coarse) &
+      !$omp num_threads(coarse%threads) if(coarse%parallel) schedule(static)
+      do j = 1, coarse%grid%ny
+         coarse%geometry(:, j) = coarse%h(:, j) - coarse%h00 - coarse%w(:, j)
+      end do
+      !$omp end parallel do
       coarse%galerkin = .false.
       call update_coefficients(coarse)
       if (coarsening == coarsening_alcouffe) call build_galerkin(fine, coarse, transfer)
@@ -83,7 +88,6 @@ contains
       real(dp) :: operator_row(coarse%grid%nx), residual(coarse%grid%nx)
       integer :: i, j
 
-      coarse%rhs = 0.0_dp
       ! row 1 of a folded grid consists of half cells
       if (coarse%galerkin .and. fine%grid%mirror) fine%residual(:, 1) = 0.5_dp*fine%residual(:, 1)
       !$omp parallel do default(none) shared(fine, coarse, transfer) private(i, operator_row, residual) &
@@ -168,26 +172,30 @@ contains
    end subroutine five_point
 
    !> Add the coarse change where the fine pressure is positive, interpolated bilinearly or as the transfer
-   !> has it. This ends the coarse problem: the coarse level may be a finest one next.
+   !> has it. This ends the coarse problem: the coarse level may be a finest one next, and its p_start holds the change.
    subroutine correct(fine, coarse, transfer, coarsening)
       type(level_t), intent(inout) :: fine, coarse
       type(transfer_t), intent(in) :: transfer
       integer, intent(in) :: coarsening
-      real(dp) :: change(coarse%grid%nx, coarse%grid%ny)
       real(dp) :: middle(coarse%grid%nx), row(fine%grid%nx)
       integer :: i, j, l
 
-      change = coarse%p - coarse%p_start
+      !$omp parallel do default(none) shared(coarse) &
+      !$omp num_threads(coarse%threads) if(coarse%parallel) schedule(static)
+      do j = 1, coarse%grid%ny
+         coarse%p_start(:, j) = coarse%p(:, j) - coarse%p_start(:, j)
+      end do
+      !$omp end parallel do
       fine%h00 = coarse%h00
       coarse%galerkin = .false.
-      !$omp parallel do default(none) shared(fine, coarse, transfer, coarsening, change) private(i, l, middle, row) &
+      !$omp parallel do default(none) shared(fine, coarse, transfer, coarsening) private(i, l, middle, row) &
       !$omp num_threads(fine%threads) if(fine%parallel) schedule(static)
       do j = merge(1, 2, fine%grid%mirror), fine%grid%ny - 1
          if (coarsening == coarsening_alcouffe) then
-            call transfer%prolong_row(change, j, row)
+            call transfer%prolong_row(coarse%p_start, j, row)
          else
             l = (j + 1)/2
-            middle = 0.5_dp*(change(:, l) + change(:, min(l + mod(j + 1, 2), coarse%grid%ny)))
+            middle = 0.5_dp*(coarse%p_start(:, l) + coarse%p_start(:, min(l + mod(j + 1, 2), coarse%grid%ny)))
             row(::2) = middle
             do i = 1, coarse%grid%nx - 1
                row(2*i) = 0.5_dp*(middle(i) + middle(i + 1))

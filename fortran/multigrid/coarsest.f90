@@ -20,7 +20,7 @@ module ehl_coarsest
    !> column by column of the grid's storage, and H00 as the last one.
    type :: coarsest_t
       integer :: n = 0, first = 0, last = 0
-      !> Deflection at any node (nx*ny) by a unit pressure at an unknown's node (n)
+      !> Deflection by a unit pressure at an unknown's node (n), at any node (nx*ny)
       real(dp), allocatable :: k(:, :)
       !> LU factors of the Jacobian (n+1, n+1), its transpose, and row exchanges
       real(dp), allocatable :: lu(:, :), jacobian(:, :)
@@ -56,7 +56,7 @@ contains
       self%first = merge(1, 2, grid%mirror)
       self%last = grid%ny - 1
       self%n = (grid%nx - 2)*(self%last - self%first + 1)
-      allocate (self%k(grid%nx*grid%ny, self%n), self%lu(self%n + 1, self%n + 1), &
+      allocate (self%k(self%n, grid%nx*grid%ny), self%lu(self%n + 1, self%n + 1), &
                 self%jacobian(self%n + 1, self%n + 1), self%pivot(self%n + 1), &
                 self%residual(self%n + 1), self%direction(self%n + 1), &
                 self%p_before(grid%nx, grid%ny), self%cavitated(self%n), self%held(self%n), stat=stat)
@@ -69,9 +69,9 @@ contains
             col = unknown(self, grid%nx, k, l)
             do j = 1, grid%ny
                do i = 1, grid%nx
-                  self%k(i + (j - 1)*grid%nx, col) = kernel_coefficient(i - k, j - l, grid%hx, grid%hy)
-                  if (grid%mirror .and. l > 1) self%k(i + (j - 1)*grid%nx, col) = &
-                     self%k(i + (j - 1)*grid%nx, col) + kernel_coefficient(i - k, j + l - 2, grid%hx, grid%hy)
+                  self%k(col, i + (j - 1)*grid%nx) = kernel_coefficient(i - k, j - l, grid%hx, grid%hy)
+                  if (grid%mirror .and. l > 1) self%k(col, i + (j - 1)*grid%nx) = &
+                     self%k(col, i + (j - 1)*grid%nx) + kernel_coefficient(i - k, j + l - 2, grid%hx, grid%hy)
                end do
             end do
          end do
@@ -262,7 +262,7 @@ contains
       subroutine add_film(ii, jj, value)
          integer, intent(in) :: ii, jj
          real(dp), intent(in) :: value
-         self%jacobian(1:self%n, u) = self%jacobian(1:self%n, u) + value*self%k(ii + (jj - 1)*nx, :)
+         self%jacobian(1:self%n, u) = self%jacobian(1:self%n, u) + value*self%k(:, ii + (jj - 1)*nx)
          self%jacobian(self%n + 1, u) = self%jacobian(self%n + 1, u) + value
       end subroutine add_film
    end subroutine assemble
@@ -300,27 +300,39 @@ contains
       end associate
    end subroutine find_couplings
 
-   !> LU factors in place, partial pivoting
+   !> LU factors in place, partial pivoting, column by column; a column takes up the ones before it four at a time
    pure subroutine factor(a, pivot)
       real(dp), intent(inout) :: a(:, :)
       integer, intent(out) :: pivot(:)
-      real(dp) :: row(size(a, 2))
-      integer :: i, j, k, n
+      real(dp) :: row(size(a, 2)), t
+      integer :: i, j, k, m, n
 
       n = size(a, 1)
-      do k = 1, n
-         pivot(k) = k - 1 + maxloc(abs(a(k:n, k)), dim=1)
-         if (pivot(k) /= k) then
-            row = a(k, :)
-            a(k, :) = a(pivot(k), :)
-            a(pivot(k), :) = row
-         end if
-         a(k + 1:n, k) = a(k + 1:n, k)/a(k, k)
-         do j = k + 1, n
-            do i = k + 1, n
-               a(i, j) = a(i, j) - a(i, k)*a(k, j)
+      do j = 1, n
+         do k = 1, j - 1
+            t = a(pivot(k), j)
+            a(pivot(k), j) = a(k, j)
+            a(k, j) = t
+         end do
+         do k = 1, j - 4, 4
+            do m = k + 1, k + 3
+               a(m, j) = a(m, j) - dot_product(a(m, k:m - 1), a(k:m - 1, j))
+            end do
+            do i = k + 4, n
+               a(i, j) = a(i, j) - (a(i, k)*a(k, j) + a(i, k + 1)*a(k + 1, j) &
+                                    + a(i, k + 2)*a(k + 2, j) + a(i, k + 3)*a(k + 3, j))
             end do
          end do
+         do m = k, j - 1
+            a(m + 1:n, j) = a(m + 1:n, j) - a(m + 1:n, m)*a(m, j)
+         end do
+         pivot(j) = j - 1 + maxloc(abs(a(j:n, j)), dim=1)
+         if (pivot(j) /= j) then
+            row(:j) = a(j, :j)
+            a(j, :j) = a(pivot(j), :j)
+            a(pivot(j), :j) = row(:j)
+         end if
+         a(j + 1:n, j) = a(j + 1:n, j)/a(j, j)
       end do
    end subroutine factor
 

@@ -100,6 +100,7 @@ contains
       plan%target_error = input%grid%target_error
       call pick_grids(input, plan, status)
       call pick_surface(input, heights, plan, status)
+      if (allocated(plan%surface)) plan%surface%threads = plan%threads
    end subroutine make_plan
 
    !> Kind of cycle, for the smooth contact and for time steps

@@ -74,11 +74,14 @@ contains
             weight(k, i) = lagrange(t, k - 1)*front(distance, self%front_length)
          end do
       end do
+      !$omp parallel do default(none) shared(self, grid, rr, first, weight) private(i) &
+      !$omp num_threads(self%threads) if(self%threads > 1) schedule(static)
       do j = 1, grid%ny
          do i = 1, grid%nx
             rr(i, j) = sum(weight(:, i)*self%refined(first(i):first(i) + points - 1, j))
          end do
       end do
+      !$omp end parallel do
    end subroutine height
 
    !> Lagrange polynomial number k of the nodes 0, 1, ... at t

@@ -19,6 +19,8 @@ module ehl_surface
       real(dp) :: period = 0.0_dp
       !> Length over which the front fades [a]
       real(dp) :: front_length = 0.0_dp
+      !> Threads to use; the heights do not depend on it
+      integer :: threads = 1
    contains
       !> Roughness on a grid at a time
       procedure(height_i), deferred :: height
