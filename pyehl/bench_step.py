@@ -16,7 +16,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from pyehl import bench, core, surface
+from pyehl import core, surface
+from pyehl.bench_unit import ScipyDeflection, hertz, median_seconds
 from pyehl.case import Case
 from pyehl.errors import EhlError
 
@@ -148,8 +149,8 @@ def step_rows(
     rows: list[dict[str, Any]] = []
     line = Line()
     for points in grids:
-        p, h, _, _ = bench.hertz(points)
-        yardstick = bench.ScipyDeflection(points, points, h, h)
+        p, h, _, _ = hertz(points)
+        yardstick = ScipyDeflection(points, points, h, h)
         units: list[float] = []
         first = len(rows)
         for scene in scenes:
@@ -200,7 +201,7 @@ def _scene_rows(
                 line.show(f"{name}: {steps} steps on {workers} thread(s)", now=True)
                 while "steps" not in solver.summary() and not solver.done:
                     solver.advance()
-                units.append(bench.median_seconds(deflect))
+                units.append(median_seconds(deflect))
                 before = solver.summary()
                 times = []
                 for _ in range(steps):

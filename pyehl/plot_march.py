@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of a march: friction in time, deformed roughness, rough and smooth centre lines.
 
-Each function returns a figure; arrays have their first index along x. Units as in `pyehl.plot`.
+Each function returns a figure; arrays have their first index along x. Units as in
+`pyehl.plot_style`.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from matplotlib.patches import Circle
 from numpy.typing import ArrayLike, NDArray
 
 from pyehl import stribeck
-from pyehl.plot import (
+from pyehl.plot_style import (
     BLUE,
     DIVERGING,
     GREEN,

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from pyehl import Case, Solver, core, errors
-from pyehl.core import _ehl
+from pyehl.extension import ehl
 
 SMALL = "&contact moes_m = 100.0 moes_l = 5.0 /\n&grid points = 33 /\n"
 
@@ -71,17 +71,17 @@ def test_interrupted_solver(solver: Solver):
 ], ids=["C order", "float32", "int64", "strided"])  # fmt: skip
 def test_arrays_are_refused_rather_than_copied(solver: Solver, array):
     with pytest.raises(ValueError, match="array"):
-        _ehl.field(solver._handle, b"P", array)
+        ehl.field(solver._handle, b"P", array)
 
 
 def test_arrays_of_another_shape_are_refused(solver: Solver):
     with pytest.raises(errors.InputError, match="shape"):
-        errors.check(*_ehl.field(solver._handle, b"P", np.empty((33, 31), order="F")))
+        errors.check(*ehl.field(solver._handle, b"P", np.empty((33, 31), order="F")))
 
 
 def test_values_arrive_in_the_callers_memory(solver: Solver):
     values = np.full(solver.shape, np.nan, order="F")
-    errors.check(*_ehl.field(solver._handle, b"H", values))
+    errors.check(*ehl.field(solver._handle, b"H", values))
     assert np.isfinite(values).all()
 
 
@@ -97,10 +97,10 @@ def test_closed_solver_raises():
     with Solver.open(Case.from_text(SMALL)) as other:
         assert other._handle != handle
         with pytest.raises(errors.ClosedError):
-            errors.check(*_ehl.interrupt(handle))
+            errors.check(*ehl.interrupt(handle))
     for wrong in (-1, 0, 5, 2**31 - 1):
         with pytest.raises(errors.ClosedError):
-            errors.check(*_ehl.interrupt(wrong))
+            errors.check(*ehl.interrupt(wrong))
 
 
 def test_places_run_out_and_come_back():

@@ -89,14 +89,14 @@ def test_library_neither_prints_nor_stops(root: Path, pattern: str):
 
 
 def test_first_line_is_the_licence(root: Path):
-    paths = [*(root / "fortran").rglob("*.f90"), *(root / "pyehl").glob("*.py")]
+    paths = [*(root / "fortran").rglob("*.f90"), *(root / "pyehl").rglob("*.py")]
     assert len(paths) > 30
     for path in paths:
         assert "SPDX-License-Identifier: BSD-3-Clause" in path.read_text().splitlines()[0], path
 
 
-def test_only_core_imports_the_extension(root: Path):
-    for path in (root / "pyehl").glob("*.py"):
+def test_only_one_module_imports_the_extension(root: Path):
+    for path in (root / "pyehl").rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text())):
             if isinstance(node, ast.ImportFrom) and "_core" in (node.module or ""):
-                assert path.name == "core.py"
+                assert path.name == "extension.py"

@@ -3,7 +3,10 @@
 
 import copy
 
+import numpy as np
 import pytest
+
+from pyehl import topography
 
 # A resolved case: the reference conditions with the fractal surface
 RESOLVED = {
@@ -59,3 +62,26 @@ RESOLVED = {
 def settings():
     """A resolved case that a test may change."""
     return copy.deepcopy(RESOLVED)
+
+
+@pytest.fixture
+def table_1():
+    """Make a fractal surface of Table 1, by seed, pixels and what else is to differ."""
+
+    def make(seed=1, pixels=256, **changes):
+        arguments = {"rms_height": 5e-8, "hurst": 0.8} | changes
+        return topography.fractal(pixels, 8.29e-4, 8.29e-4, seed=seed, **arguments)
+
+    return make
+
+
+@pytest.fixture
+def wave():
+    """Make one wave with its crests across the motion, by height and wavelength."""
+
+    def make(height, wavelength, n=32):
+        x = np.arange(n) / n
+        z = np.outer(height * np.cos(2 * np.pi * x), np.ones(n))
+        return topography.Topography(z, wavelength, wavelength)
+
+    return make

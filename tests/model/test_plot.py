@@ -9,7 +9,7 @@ import f90nml
 import numpy as np
 import pytest
 
-from pyehl import plot, predict, reference
+from pyehl import plot, plot_contact, predict, reference
 from pyehl.operating import OperatingPoint
 
 
@@ -62,9 +62,9 @@ def test_film_maps(fields, scales, si):
     assert 0.0 <= image.min()
     assert image.max() <= 1.0
     # the centre by the law of two beams
-    step = plot.LIGHT / 3e-6 * 1e-6 * 1e6 if si else 0.01
+    step = plot_contact.LIGHT / 3e-6 * 1e-6 * 1e6 if si else 0.01
     h = 0.0243 * (scales.film * 1e6 if si else 1.0)
-    fade = np.exp(-((h / (plot.COHERENT_FRINGES * step)) ** 2))
+    fade = np.exp(-((h / (plot_contact.COHERENT_FRINGES * step)) ** 2))
     expected = 0.5 * (1 - fade * np.cos(2 * np.pi * h / step))
     n = image.shape
     assert image[n[0] // 2, n[1] // 2] == pytest.approx(expected, abs=0.02)

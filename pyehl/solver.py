@@ -1,0 +1,237 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A solver of the compiled library on one case.
+
+Arrays are float64 of shape (nx, ny) in Fortran order, first index X. Pressures are scaled by the
+Hertz pressure p_h, lengths by the Hertz radius a, films by a^2/R.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import threading
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pyehl.errors import check
+from pyehl.extension import ehl, text_of
+
+if TYPE_CHECKING:
+    from pyehl.case import Case
+
+__all__ = ["Solver"]
+
+Array = NDArray[np.float64]
+
+
+class Solver:
+    """A solver on one case, advanced cycle by cycle or step by step.
+
+    A context manager: ``with Solver.open(case) as solver``. One thread at a time works on a
+    solver; several solvers may run in several threads.
+    """
+
+    def __init__(self, handle: int) -> None:
+        self._handle = handle
+        self._lock = threading.Lock()
+        self.done = False
+        self.converged = False
+
+    @classmethod
+    def open(cls, case: Case, heights: ArrayLike | None = None) -> Self:
+        """Start a solver on a case.
+
+        Parameters
+        ----------
+        case
+            What to solve.
+        heights
+            Surface [m], shape (nx, ny), peaks positive; for the kinds 'map' (in place of the file)
+            and 'fractal', where `pyehl.topography` makes it.
+
+        Raises
+        ------
+        InputError
+            If the case cannot be solved.
+        NoMemoryError
+            If its arrays do not fit, or too many solvers are open.
+        """
+        given = np.zeros((1, 1)) if heights is None else heights
+        handle, status, message = ehl.open_case(
+            case.text.encode(),
+            b"resolved case",
+            int(heights is not None),
+            np.asfortranarray(given, dtype=np.float64),
+        )
+        check(status, message)
+        return cls(handle)
+
+    def close(self) -> None:
+        """Free the memory; the solver cannot be used afterwards."""
+        with self._lock:
+            ehl.close_case(self._handle)
+            self._handle = 0
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        # __init__ may not have run, and at exit the extension may be gone
+        if getattr(self, "_handle", 0) and ehl is not None:
+            ehl.close_case(self._handle)
+
+    def advance(self) -> bool:
+        """One cycle (steady) or step (moving surface); whether nothing is left to do."""
+        with self._lock:
+            done, converged, status, message = ehl.advance(self._handle)
+        check(status, message)
+        self.done, self.converged = bool(done), bool(converged)
+        return self.done
+
+    def run(self) -> bool:
+        """Advance to the end; whether the solution converged."""
+        while not self.advance():
+            pass
+        return self.converged
+
+    def interrupt(self) -> None:
+        """Stop here; the results so far stay readable, with the status 'interrupted'."""
+        with self._lock:
+            check(*ehl.interrupt(self._handle))
+        self.done = True
+
+    def resume(self, results: str | os.PathLike[str]) -> str:
+        """Go on with the march that was to write into a folder; before the first `advance`.
+
+        Returns what a person should know; '' when there is no state yet, so that the march
+        begins at its beginning.
+
+        Raises
+        ------
+        InputError
+            If the state is damaged, or belongs to another case.
+        """
+        with self._lock:
+            note, status, message = ehl.resume(self._handle, os.fsencode(results))
+        check(status, message)
+        return text_of(note)
+
+    def keep(self, results: str | os.PathLike[str], resumed: str | os.PathLike[str] = "") -> str:
+        """Keep states of a march in ``RESULTS.checkpoint``, every ``output.checkpoint_interval``.
+
+        Parameters
+        ----------
+        results
+            The folder that the results are for.
+        resumed
+            The folder of the run that `resume` goes on with.
+
+        Returns
+        -------
+        str
+            Where the states of an earlier run are now; mostly ''.
+
+        Raises
+        ------
+        FileError
+            If the folder cannot be made.
+        """
+        with self._lock:
+            note, status, message = ehl.keep(
+                self._handle, os.fsencode(results), os.fsencode(resumed)
+            )
+        check(status, message)
+        return text_of(note)
+
+    def save_state(self, *, at_once: bool = False) -> bool:
+        """Save the state if its time has come, or at once; whether there is one then.
+
+        Raises
+        ------
+        FileError
+            If it cannot be written.
+        """
+        with self._lock:
+            has_state, status, message = ehl.save_state(self._handle, int(at_once))
+        check(status, message)
+        return bool(has_state)
+
+    def end_keeping(self) -> None:
+        """Remove the states: there is nothing left to go on with."""
+        with self._lock:
+            check(*ehl.end_keeping(self._handle))
+
+    def describe(self) -> str:
+        """Tell the plan: what will be solved and how, with a table of the levels."""
+        text, status, message = ehl.describe(self._handle)
+        check(status, message)
+        return text_of(text)
+
+    def progress(self) -> str:
+        """Tell the state in one line."""
+        text, status, message = ehl.progress(self._handle)
+        check(status, message)
+        return text_of(text)
+
+    def skipped(self) -> str:
+        """Tell what a march that has ended did not have to do; '' for every other run."""
+        text, status, message = ehl.skipped(self._handle)
+        check(status, message)
+        return text_of(text)
+
+    def summary(self) -> dict[str, Any]:
+        """Give the scalar results as in ``summary.json``; None for a number that does not exist."""
+        text, status, message = ehl.summary(self._handle)
+        check(status, message)
+        values: dict[str, Any] = json.loads(text_of(text))
+        return values
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Nodes of the finest grid in X and Y."""
+        nx, ny, status, message = ehl.grid_shape(self._handle)
+        check(status, message)
+        return nx, ny
+
+    def axes(self) -> tuple[Array, Array]:
+        """Coordinates X (nx,) and Y (ny,) of the nodes in Hertz radii a."""
+        nx, ny = self.shape
+        x, y = np.empty(nx), np.empty(ny)
+        check(*ehl.axes(self._handle, x, y))
+        return x, y
+
+    def field(self, name: str) -> Array:
+        """Pressure 'P' or film 'H', shape (nx, ny), Fortran order.
+
+        Raises
+        ------
+        InputError
+            If there is no such field.
+        """
+        values = np.empty(self.shape, order="F")
+        check(*ehl.field(self._handle, name.encode(), values))
+        return values
+
+    def write(self, folder: str | os.PathLike[str]) -> str:
+        """Write the result folder, whole or not at all; returns a note, mostly empty.
+
+        Raises
+        ------
+        FileError
+            If it cannot be written.
+        """
+        with self._lock:
+            note, status, message = ehl.write_output(self._handle, os.fsencode(folder))
+        check(status, message)
+        return text_of(note)

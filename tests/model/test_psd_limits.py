@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where the model ends, and what it refuses."""
+
+import math
+
+import numpy as np
+import pytest
+
+from pyehl import topography
+from pyehl.operating import Lubricant, OperatingPoint
+from pyehl.psd_model import Options, over_tracks, predict_friction, stiffness
+from pyehl.topography import Topography
+
+POINT = OperatingPoint()
+ROELANDS = Lubricant()
+BARUS = Lubricant(viscosity_law="barus")
+FILM = 0.2333e-6
+LENGTH = 8.29e-4
+
+
+def test_film_breakdown_is_said(wave):
+    result = predict_friction(wave(3e-7, 1e-6), POINT, ROELANDS, FILM)
+    assert result.status == "film breakdown"
+    assert math.isnan(result.mu_ratio)
+    assert math.isnan(result.mu_ratio_max)
+    assert result.film_min < 0.0
+    assert "no full film" in result.message
+
+
+def test_cavitation_is_counted(table_1):
+    rough = Topography(4 * table_1().heights, LENGTH, LENGTH)
+    result = predict_friction(rough, POINT, ROELANDS, 4 * FILM)
+    assert result.status == "predicted"
+    assert 1e-4 < result.cavitated_share < 0.2
+    assert 0.0 < result.cavitated_friction < 1e-6
+
+
+def test_overflow_is_said(table_1):
+    oil = Lubricant(viscosity_law="barus", pressure_viscosity=6e-7)
+    point = OperatingPoint(pressure_viscosity=6e-7)
+    result = predict_friction(table_1(pixels=64), point, oil, FILM)
+    assert result.status == "overflow"
+    assert math.isnan(result.mu_ratio)
+
+
+def test_lost_load_is_said():
+    n, side = 64, 40 * POINT.hertz_radius
+    x = np.arange(n) / n
+    hill = np.outer(np.cos(2 * np.pi * x), np.cos(2 * np.pi * x)) * 2e-4
+    rough = Topography(hill, side, side)
+    result = predict_friction(rough, POINT, ROELANDS, 1e-3, Options(load_balance=True))
+    assert result.status == "load lost"
+    assert math.isnan(result.mu_ratio)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"wavelength_convention": "crest"}, "pattern"),
+        ({"stiffness": "soft"}, "exact"),
+        ({"friction": "dry"}, "eyring"),
+        ({"eyring_stress": 0.0}, "eyring_stress"),
+        ({"slide_to_roll": -0.1}, "slide_to_roll"),
+        ({"limiting_coefficient": math.nan}, "limiting_coefficient"),
+        ({"phase_lag": 90.0}, "phase_lag"),
+        ({"phase_lag": -1.0}, "phase_lag"),
+        ({"phase_lag": math.nan}, "phase_lag"),
+        ({"positions": -1}, "positions"),
+        ({"positions": 10**6}, "positions"),
+    ],
+)
+def test_options_refuse(changes, message):
+    with pytest.raises(ValueError, match=message):
+        Options(**changes)
+
+
+def test_refuses(table_1):
+    with pytest.raises(ValueError, match="film thickness"):
+        predict_friction(table_1(pixels=16), POINT, ROELANDS, 0.0)
+    with pytest.raises(ValueError, match="positive Moes"):
+        predict_friction(table_1(pixels=16), OperatingPoint(pressure_viscosity=0.0), BARUS, FILM)
+    with pytest.raises(ValueError, match="stiffness"):
+        stiffness(np.ones(1), np.ones(1), 1.0, "soft")
+    with pytest.raises(ValueError, match="tracks"):
+        over_tracks(table_1(pixels=16), POINT, ROELANDS, FILM, tracks=0)
+
+
+def test_a_tile_too_large_for_its_pixels_is_refused():
+    rough = topography.harmonic(1e-8, 0.5, 0.5, (16, 16))
+    with pytest.raises(ValueError, match="cut a part"):
+        predict_friction(rough, POINT, ROELANDS, FILM)
