@@ -3,8 +3,9 @@
 module ehl_solver
    use ehl_case, only: case_t
    use ehl_case_writer, only: case_text
-   use ehl_checkpoint, only: frames_t, read_checkpoint, state_t, write_checkpoint
+   use ehl_checkpoint, only: read_checkpoint, state_t, write_checkpoint
    use ehl_clock, only: clock_t, start_clock
+   use ehl_frames, only: frames_t
    use ehl_grid, only: grid_t
    use ehl_harmonic, only: harmonic_t
    use ehl_hierarchy, only: hierarchy_t
@@ -300,8 +301,7 @@ contains
       if (status%failed()) return
       self%hierarchy%options = self%plan%step_cycle
       self%marching = .true.
-      allocate (self%frames%times(0), self%frames%p(self%grid%nx, self%grid%full_ny(), 0), &
-                self%frames%h(self%grid%nx, self%grid%full_ny(), 0))
+      call self%frames%start(self%grid)
       if (allocated(self%state)) call take_state(self, status)
       if (status%failed()) return
       if (self%plan%coarse_run .and. self%coarse_mean < 0.0_dp) call begin_coarse(self, status)
@@ -365,7 +365,8 @@ contains
                                       m%film_central, m%film_minimum, m%pressure_maximum, m%load_error, march%cycles, &
                                       march%residual])
             self%outcome = judge_march(self)
-            call keep_frame(self)
+            call self%frames%keep(self%hierarchy%levels(self%steady%n), march%time, march%time_step, &
+                                  self%input%output%frame_interval)
          else if (.not. m%finite) then
             self%outcome = outcome_diverged
          else if (.not. m%positive) then
@@ -510,23 +511,6 @@ contains
       end do
    end function skipped
 
-   !> Keep P and H if a frame is due
-   subroutine keep_frame(self)
-      type(solver_t), intent(inout) :: self
-      real(dp), allocatable :: values(:, :)
-
-      associate (march => self%transient, frames => self%frames, interval => self%input%output%frame_interval)
-         if (interval <= 0.0_dp) return
-         if (int(march%time/interval) == int((march%time - march%time_step)/interval)) return
-         allocate (values(self%grid%nx, self%grid%full_ny()))
-         frames%times = [frames%times, march%time]
-         call unfold(self%hierarchy%levels(self%steady%n)%p, self%grid, values)
-         frames%p = reshape([frames%p, values], [shape(values), size(frames%times)])
-         call unfold(self%hierarchy%levels(self%steady%n)%h, self%grid, values)
-         frames%h = reshape([frames%h, values], [shape(values), size(frames%times)])
-      end associate
-   end subroutine keep_frame
-
    !> Names of the fields there are: P and H; in a march also those of the smooth contact, the roughness
    !> RR and the deformed roughness A_d = H_smooth - H
    subroutine field_names(self, names)
@@ -558,32 +542,18 @@ contains
       associate (level => self%hierarchy%levels(self%level()))
          select case (name)
          case ("P")
-            call unfold(level%p, level%grid, values)
+            call level%grid%unfold(level%p, values)
          case ("H")
-            call unfold(level%h, level%grid, values)
+            call level%grid%unfold(level%h, values)
          case ("P_smooth")
-            call unfold(self%p_smooth, level%grid, values)
+            call level%grid%unfold(self%p_smooth, values)
          case ("H_smooth")
-            call unfold(self%h_smooth, level%grid, values)
+            call level%grid%unfold(self%h_smooth, values)
          case ("RR")
-            call unfold(self%transient%rr, level%grid, values)
+            call level%grid%unfold(self%transient%rr, values)
          case default
-            call unfold(self%h_smooth - level%h, level%grid, values)
+            call level%grid%unfold(self%h_smooth - level%h, values)
          end select
       end associate
    end subroutine field
-
-   !> A stored field on the whole domain
-   pure subroutine unfold(stored, grid, values)
-      real(dp), intent(in) :: stored(:, :)
-      type(grid_t), intent(in) :: grid
-      real(dp), intent(out) :: values(:, :)
-      integer :: j, row
-
-      do j = 1, grid%full_ny()
-         row = j - (grid%full_ny() - grid%ny)
-         if (row < 1) row = 2 - row
-         values(:, j) = stored(:, row)
-      end do
-   end subroutine unfold
 end module ehl_solver
