@@ -9,25 +9,23 @@ module ehl_solver
    use ehl_grid, only: grid_t
    use ehl_harmonic, only: harmonic_t
    use ehl_hierarchy, only: hierarchy_t
+   use ehl_judge, only: judge_march, most_periods
    use ehl_kinds, only: dp
    use ehl_plan, only: make_plan, plan_t
    use ehl_plan_text, only: plan_text
    use ehl_record, only: record_t
    use ehl_report, only: cycle_line, find_skips, march_line, report_march, report_scene, report_skips, report_smooth, &
-                         skip_t
+                         skip_lines, skip_t
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_interrupted, outcome_names, &
-                          outcome_negative_film, outcome_running, outcome_target_missed, outcome_unsettled
+                          outcome_negative_film, outcome_running, outcome_target_missed
    use ehl_steady, only: steady_t
    use ehl_table, only: table_t
    use ehl_transient, only: step_tolerance, transient_t
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
    private
    public :: solver_t
 
-   !> Periods after which a mean that has not settled never will
-   integer, parameter :: automatic_periods = 6
    !> What the names of the states of the coarser run begin with
    character(len=*), parameter :: coarser = "coarser-"
 
@@ -224,7 +222,7 @@ contains
          self%coarse_mean = state%numbers(2)
       end associate
       deallocate (self%state)
-      self%outcome = judge_march(self)
+      self%outcome = judge_march(self%plan, self%transient)
    end subroutine take_state
 
    !> The plan in a few lines, for a person
@@ -364,7 +362,7 @@ contains
             call self%history%append([real(dp) :: march%step, march%time, m%friction/march%friction_smooth, &
                                       m%film_central, m%film_minimum, m%pressure_maximum, m%load_error, march%cycles, &
                                       march%residual])
-            self%outcome = judge_march(self)
+            self%outcome = judge_march(self%plan, self%transient)
             call self%frames%keep(self%hierarchy%levels(self%steady%n), march%time, march%time_step, &
                                   self%input%output%frame_interval)
          else if (.not. m%finite) then
@@ -376,33 +374,6 @@ contains
          end if
       end associate
    end subroutine advance_step
-
-   !> Whether the march has come to its end
-   integer function judge_march(self) result(outcome)
-      type(solver_t), intent(in) :: self
-      real(dp) :: periods
-
-      outcome = outcome_running
-      associate (march => self%transient, plan => self%plan, mean => self%transient%mean)
-         if (plan%steps > 0) then
-            if (march%step >= plan%steps) outcome = merge(outcome_converged, outcome_unsettled, mean%has_mean())
-            return
-         end if
-         if (.not. mean%has_change()) return
-         if (mean%change() <= plan%time_tolerance*mean%mean(0.0_dp)) then
-            outcome = outcome_converged
-            return
-         end if
-         periods = (march%step - mean%filled)*march%time_step/mean%period
-         if (periods >= most_periods(plan)) outcome = outcome_unsettled
-      end associate
-   end function judge_march
-
-   !> Periods after which a march ends at the latest
-   pure integer function most_periods(plan)
-      type(plan_t), intent(in) :: plan
-      most_periods = merge(plan%max_periods, automatic_periods, plan%max_periods > 0)
-   end function most_periods
 
    !> How the run stands
    integer function stand(self)
@@ -492,23 +463,12 @@ contains
       class(solver_t), intent(in) :: self
       character(len=:), allocatable :: text
       type(skip_t), allocatable :: skips(:)
-      character(len=16) :: seconds
-      integer :: k
 
       text = ""
       if (.not. (self%marching .and. self%done())) return
       call find_skips(self%plan, self%transient, self%converged(), most_periods(self%plan), self%step_seconds, &
                       self%smooth_seconds, skips)
-      do k = 1, size(skips)
-         if (k > 1) text = text//new_line("a")
-         text = text//"not done: "//trim(skips(k)%what)
-         if (ieee_is_finite(skips(k)%seconds)) then
-            write (seconds, "(f16.1)") skips(k)%seconds
-            text = text//" (about "//trim(adjustl(seconds))//" s)"
-         else
-            text = text//" (seconds not known)"
-         end if
-      end do
+      text = skip_lines(skips)
    end function skipped
 
    !> Names of the fields there are: P and H; in a march also those of the smooth contact, the roughness
