@@ -22,7 +22,8 @@ from numpy.typing import ArrayLike, NDArray
 from pyehl.errors import InputError, check
 
 try:
-    from pyehl._core import ehl_f2py as _ehl
+    from pyehl._core import ehl_f2py_functions as _functions
+    from pyehl._core import ehl_f2py_solver as _ehl
 except ImportError as error:  # pragma: no cover
     raise ImportError(
         "the compiled part of pyehl is not here. Install the package (pip install .) and run "
@@ -88,7 +89,7 @@ def resolve(text: str, origin: str, options: Iterable[str] = (), *, from_file: b
     InputError
         With file, line and column, what was expected, and the nearest name.
     """
-    resolved, status, message = _ehl.resolve(
+    resolved, status, message = _functions.resolve(
         text.encode(), os.fsencode(origin), join_options(options).encode(), int(from_file)
     )
     check(status, message)
@@ -103,7 +104,7 @@ def check_output(folder: str | os.PathLike[str]) -> None:
     InputError
         If it holds something else than results, or cannot be made.
     """
-    check(*_ehl.check_output(os.fsencode(folder)))
+    check(*_functions.check_output(os.fsencode(folder)))
 
 
 def checkpoint_case(results: str | os.PathLike[str]) -> Path:
@@ -116,7 +117,7 @@ def checkpoint_case(results: str | os.PathLike[str]) -> Path:
     InputError
         If nothing was kept to go on with.
     """
-    path, status, message = _ehl.checkpoint_case(os.fsencode(results))
+    path, status, message = _functions.checkpoint_case(os.fsencode(results))
     check(status, message)
     return Path(os.fsdecode(path.rstrip()))
 
@@ -134,17 +135,17 @@ class Key:
 
 def keys() -> list[Key]:
     """All keys of a case file, in order."""
-    return [Key(*line.split("\t")) for line in _text(_ehl.keys()).splitlines()]
+    return [Key(*line.split("\t")) for line in _text(_functions.keys()).splitlines()]
 
 
 def version() -> str:
     """Version of the compiled library."""
-    return _text(_ehl.about()[0])
+    return _text(_functions.about()[0])
 
 
 def build() -> str:
     """Compiler and options of the compiled library."""
-    return _text(_ehl.about()[1])
+    return _text(_functions.about()[1])
 
 
 class Solver:
@@ -405,7 +406,7 @@ def deflection(
     """
     p = np.asfortranarray(pressure, dtype=np.float64)
     w = np.empty(p.shape, order="F")
-    seconds, size, status, message = _ehl.deflection(
+    seconds, size, status, message = _functions.deflection(
         engine.encode(), p, w, hx, hy, int(mirror), accuracy, threads, repeats
     )
     check(status, message)
@@ -444,7 +445,7 @@ def log_viscosity(
     p = np.ascontiguousarray(pressure, dtype=np.float64)
     values, slopes = np.empty(p.shape), np.empty(p.shape)
     check(
-        *_ehl.viscosity(
+        *_functions.viscosity(
             law.encode(), p, values, slopes, alpha_bar, hertz_pressure, roelands_z, roelands_p0
         )
     )
@@ -463,5 +464,5 @@ def density(pressure: ArrayLike, hertz_pressure: float) -> tuple[Array, Array]:
     """
     p = np.ascontiguousarray(pressure, dtype=np.float64)
     values, slopes = np.empty(p.shape), np.empty(p.shape)
-    _ehl.density(p, values, slopes, hertz_pressure)
+    _functions.density(p, values, slopes, hertz_pressure)
     return values, slopes
