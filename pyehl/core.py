@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import InputError, check
-from pyehl.extension import ehl, text_of
+from pyehl.extension import functions, text_of
 from pyehl.solver import Solver
 
 __all__ = [
@@ -71,7 +71,7 @@ def resolve(text: str, origin: str, options: Iterable[str] = (), *, from_file: b
     InputError
         With file, line and column, what was expected, and the nearest name.
     """
-    resolved, status, message = ehl.resolve(
+    resolved, status, message = functions.resolve(
         text.encode(), os.fsencode(origin), join_options(options).encode(), int(from_file)
     )
     check(status, message)
@@ -86,7 +86,7 @@ def check_output(folder: str | os.PathLike[str]) -> None:
     InputError
         If it holds something else than results, or cannot be made.
     """
-    check(*ehl.check_output(os.fsencode(folder)))
+    check(*functions.check_output(os.fsencode(folder)))
 
 
 def checkpoint_case(results: str | os.PathLike[str]) -> Path:
@@ -99,7 +99,7 @@ def checkpoint_case(results: str | os.PathLike[str]) -> Path:
     InputError
         If nothing was kept to go on with.
     """
-    path, status, message = ehl.checkpoint_case(os.fsencode(results))
+    path, status, message = functions.checkpoint_case(os.fsencode(results))
     check(status, message)
     return Path(os.fsdecode(path.rstrip()))
 
@@ -117,17 +117,17 @@ class Key:
 
 def keys() -> list[Key]:
     """All keys of a case file, in order."""
-    return [Key(*line.split("\t")) for line in text_of(ehl.keys()).splitlines()]
+    return [Key(*line.split("\t")) for line in text_of(functions.keys()).splitlines()]
 
 
 def version() -> str:
     """Version of the compiled library."""
-    return text_of(ehl.about()[0])
+    return text_of(functions.about()[0])
 
 
 def build() -> str:
     """Compiler and options of the compiled library."""
-    return text_of(ehl.about()[1])
+    return text_of(functions.about()[1])
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,7 +178,7 @@ def deflection(
     """
     p = np.asfortranarray(pressure, dtype=np.float64)
     w = np.empty(p.shape, order="F")
-    seconds, size, status, message = ehl.deflection(
+    seconds, size, status, message = functions.deflection(
         engine.encode(), p, w, hx, hy, int(mirror), accuracy, threads, repeats
     )
     check(status, message)
@@ -217,7 +217,7 @@ def log_viscosity(
     p = np.ascontiguousarray(pressure, dtype=np.float64)
     values, slopes = np.empty(p.shape), np.empty(p.shape)
     check(
-        *ehl.viscosity(
+        *functions.viscosity(
             law.encode(), p, values, slopes, alpha_bar, hertz_pressure, roelands_z, roelands_p0
         )
     )
@@ -236,5 +236,5 @@ def density(pressure: ArrayLike, hertz_pressure: float) -> tuple[Array, Array]:
     """
     p = np.ascontiguousarray(pressure, dtype=np.float64)
     values, slopes = np.empty(p.shape), np.empty(p.shape)
-    ehl.density(p, values, slopes, hertz_pressure)
+    functions.density(p, values, slopes, hertz_pressure)
     return values, slopes

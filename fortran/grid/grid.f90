@@ -25,6 +25,7 @@ module ehl_grid
       procedure :: finer
       procedure :: weight
       procedure :: full_ny
+      procedure :: unfold
    end type grid_t
 
 contains
@@ -114,4 +115,18 @@ contains
       class(grid_t), intent(in) :: self
       full_ny = merge(2*self%ny - 1, self%ny, self%mirror)
    end function full_ny
+
+   !> A stored field on the whole domain, values(nx, full_ny)
+   pure subroutine unfold(self, stored, values)
+      class(grid_t), intent(in) :: self
+      real(dp), intent(in) :: stored(:, :)
+      real(dp), intent(out) :: values(:, :)
+      integer :: j, row
+
+      do j = 1, self%full_ny()
+         row = j - (self%full_ny() - self%ny)
+         if (row < 1) row = 2 - row
+         values(:, j) = stored(:, row)
+      end do
+   end subroutine unfold
 end module ehl_grid

@@ -5,6 +5,7 @@ module ehl_checkpoint
    use, intrinsic :: iso_fortran_env, only: int32, int64, int8
    use ehl_checksum, only: crc32
    use ehl_files, only: file_exists, flush_file, remove_file, rename_path
+   use ehl_frames, only: frames_t
    use ehl_kinds, only: dp
    use ehl_status, only: ehl_bad_input, ehl_file, status_t
    use ehl_table, only: table_t
@@ -12,7 +13,7 @@ module ehl_checkpoint
    use ehl_transient, only: transient_t
    implicit none (type, external)
    private
-   public :: frames_t, state_t, checkpoint_names, write_checkpoint, read_checkpoint
+   public :: state_t, checkpoint_names, write_checkpoint, read_checkpoint
 
    !> Both have the same length; the version counts the layouts of the file
    character(len=*), parameter :: magic = "ehl checkpoint v3", family = magic(:len(magic) - 1)
@@ -20,11 +21,6 @@ module ehl_checkpoint
    character(len=*), parameter :: checkpoint_names(2) = ["checkpoint.a", "checkpoint.b"]
    !> What a file can be; otherwise the step of its state
    integer, parameter :: missing = -1, damaged = -2, other_version = -3
-
-   !> Frames of a march: times, and P and H on the whole domain, (nx, full_ny, frame)
-   type :: frames_t
-      real(dp), allocatable :: times(:), p(:, :, :), h(:, :, :)
-   end type frames_t
 
    !> A state that was read
    type :: state_t

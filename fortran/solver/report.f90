@@ -9,13 +9,13 @@ module ehl_report
    use ehl_plan, only: plan_t, relative_wedge_error
    use ehl_record, only: record_t
    use ehl_steady, only: level_result_t, steady_t
-   use ehl_text, only: to_text
+   use ehl_text, only: newline, to_text
    use ehl_transient, only: transient_t
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    implicit none (type, external)
    private
    public :: cycle_line, march_line, report_scene, report_smooth, report_march, report_skips
-   public :: skip_t, find_skips
+   public :: skip_t, find_skips, skip_lines
 
    !> What a run did not have to do, and the seconds that saved; NaN: nobody can tell
    type :: skip_t
@@ -233,7 +233,27 @@ contains
       skips = [skips, skip_t("corrections of the deflection where P = 0", unknown)]
    end subroutine find_skips
 
-   !> The same, with the seconds in a list of their own
+   !> What was not done, one line each, with the seconds that saved
+   function skip_lines(skips) result(text)
+      type(skip_t), intent(in) :: skips(:)
+      character(len=:), allocatable :: text
+      character(len=16) :: seconds
+      integer :: k
+
+      text = ""
+      do k = 1, size(skips)
+         if (k > 1) text = text//newline
+         text = text//"not done: "//trim(skips(k)%what)
+         if (ieee_is_finite(skips(k)%seconds)) then
+            write (seconds, "(f16.1)") skips(k)%seconds
+            text = text//" (about "//trim(adjustl(seconds))//" s)"
+         else
+            text = text//" (seconds not known)"
+         end if
+      end do
+   end function skip_lines
+
+   !> The same by name, the seconds in a list of their own
    subroutine report_skips(record, skips)
       type(record_t), intent(inout) :: record
       type(skip_t), intent(in) :: skips(:)

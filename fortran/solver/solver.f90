@@ -2,33 +2,21 @@
 !> A case on its way: plan, grids, march and results. Both drivers call nothing else.
 module ehl_solver
    use ehl_case, only: case_t
-   use ehl_case_writer, only: case_text
-   use ehl_checkpoint, only: frames_t, read_checkpoint, state_t, write_checkpoint
-   use ehl_clock, only: clock_t, start_clock
+   use ehl_checkpoint, only: state_t
+   use ehl_frames, only: frames_t
    use ehl_grid, only: grid_t
-   use ehl_harmonic, only: harmonic_t
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
+   use ehl_outcome, only: outcome_converged, outcome_interrupted, outcome_running
    use ehl_plan, only: make_plan, plan_t
-   use ehl_plan_text, only: plan_text
    use ehl_record, only: record_t
-   use ehl_report, only: cycle_line, find_skips, march_line, report_march, report_scene, report_skips, report_smooth, &
-                         skip_t
-   use ehl_status, only: ehl_bad_input, status_t
-   use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_interrupted, outcome_names, &
-                          outcome_negative_film, outcome_running, outcome_target_missed, outcome_unsettled
+   use ehl_status, only: status_t
    use ehl_steady, only: steady_t
    use ehl_table, only: table_t
-   use ehl_transient, only: step_tolerance, transient_t
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ehl_transient, only: transient_t
    implicit none (type, external)
    private
    public :: solver_t
-
-   !> Periods after which a mean that has not settled never will
-   integer, parameter :: automatic_periods = 6
-   !> What the names of the states of the coarser run begin with
-   character(len=*), parameter :: coarser = "coarser-"
 
    type :: solver_t
       !> Finest grid reached so far
@@ -44,7 +32,7 @@ module ehl_solver
       !> How the march in time stands
       integer, private :: outcome = outcome_running
       !> Seconds spent on time steps, and on the smooth contact
-      real(dp), private :: step_seconds = 0.0_dp, step_seconds_coarse = 0.0_dp, smooth_seconds = 0.0_dp
+      real(dp), private :: step_seconds = 0.0_dp, smooth_seconds = 0.0_dp
       !> Heights of a map [m] that was given and not read
       real(dp), allocatable, private :: heights(:, :)
       type(case_t), private :: input
@@ -81,6 +69,86 @@ module ehl_solver
       procedure, private :: stand
    end type solver_t
 
+   ! in solver_run.f90
+   interface
+      !> One multigrid cycle of the smooth contact, then one time step
+      recursive module subroutine advance(self, status)
+         class(solver_t), intent(inout) :: self
+         type(status_t), intent(inout) :: status
+      end subroutine advance
+   end interface
+
+   ! in solver_state.f90
+   interface
+      !> Write the state into a folder (its name ends in '/'). Before the first time step there is nothing
+      !> that is worth it.
+      module subroutine save_state(self, folder, status)
+         class(solver_t), intent(in) :: self
+         character(len=*), intent(in) :: folder
+         type(status_t), intent(inout) :: status
+      end subroutine save_state
+
+      !> After start and before the first advance: go on from the newest state in a folder (its name ends in '/').
+      !> The smooth contact is solved again, to the same bits, before the first time step.
+      module subroutine resume(self, folder, note, status)
+         class(solver_t), intent(inout) :: self
+         character(len=*), intent(in) :: folder
+         !> What a person should know; empty when there is no state yet
+         character(len=:), allocatable, intent(out) :: note
+         type(status_t), intent(inout) :: status
+      end subroutine resume
+
+      !> The state that was read takes the place of the start of the march
+      module subroutine take_state(self, status)
+         type(solver_t), intent(inout) :: self
+         type(status_t), intent(inout) :: status
+      end subroutine take_state
+   end interface
+
+   ! in solver_results.f90
+   interface
+      !> The plan in a few lines, for a person
+      module function describe(self) result(text)
+         class(solver_t), intent(in) :: self
+         character(len=:), allocatable :: text
+      end function describe
+
+      !> One line about the state
+      recursive module function progress(self) result(text)
+         class(solver_t), intent(in) :: self
+         character(len=:), allocatable :: text
+      end function progress
+
+      !> All results but fields, by name; dimensionless but for the SI values. Only a converged run has
+      !> results: otherwise they are null, and the last iterate stands under names that begin with "last_".
+      module function summary(self) result(record)
+         class(solver_t), intent(in) :: self
+         type(record_t) :: record
+      end function summary
+
+      !> What a march that has ended did not have to do, one line each, with the seconds that saved; empty for
+      !> every other run
+      module function skipped(self) result(text)
+         class(solver_t), intent(in) :: self
+         character(len=:), allocatable :: text
+      end function skipped
+
+      !> Names of the fields there are: P and H; in a march also those of the smooth contact, the roughness
+      !> RR and the deformed roughness A_d = H_smooth - H
+      module subroutine field_names(self, names)
+         class(solver_t), intent(in) :: self
+         character(len=8), allocatable, intent(out) :: names(:)
+      end subroutine field_names
+
+      !> A field on the whole domain, values(nx, full_ny); see field_names
+      module subroutine field(self, name, values, status)
+         class(solver_t), intent(in) :: self
+         character(len=*), intent(in) :: name
+         real(dp), intent(out) :: values(:, :)
+         type(status_t), intent(inout) :: status
+      end subroutine field
+   end interface
+
 contains
 
    !> Heights of a map [m], X first, in place of a file; to be called before start
@@ -95,7 +163,6 @@ contains
       class(solver_t), intent(inout) :: self
       type(case_t), intent(in) :: input
       type(status_t), intent(inout) :: status
-
 
       self%input = input
       if (.not. allocated(self%heights)) allocate (self%heights(0, 0))
@@ -118,12 +185,6 @@ contains
       end if
    end subroutine start
 
-   !> Time steps made so far
-   pure integer function steps_made(self)
-      class(solver_t), intent(in) :: self
-      steps_made = merge(self%transient%step, 0, self%marching)
-   end function steps_made
-
    !> Heights [m] that were given in place of a file; of size 0 when there are none
    function given_surface(self) result(heights)
       class(solver_t), intent(in) :: self
@@ -131,280 +192,20 @@ contains
       heights = self%heights
    end function given_surface
 
+   !> Time steps made so far
+   pure integer function steps_made(self)
+      class(solver_t), intent(in) :: self
+      steps_made = merge(self%transient%step, 0, self%marching)
+   end function steps_made
+
    !> Whether the case is a march in time
    pure logical function moves(self)
       class(solver_t), intent(in) :: self
       moves = allocated(self%plan%surface)
    end function moves
 
-   !> Write the state into a folder (its name ends in '/'). Before the first time step there is nothing
-   !> that is worth it.
-   subroutine save_state(self, folder, status)
-      class(solver_t), intent(in) :: self
-      character(len=*), intent(in) :: folder
-      type(status_t), intent(inout) :: status
-      character(len=:), allocatable :: text
-
-      text = step_text(self%input)
-      if (associated(self%coarse)) call save_as(self%coarse, folder//coarser, text, status)
-      call save_as(self, folder, text, status)
-   end subroutine save_state
-
-   !> Write the state of one run under names that begin with a prefix
-   subroutine save_as(self, prefix, text, status)
-      type(solver_t), intent(in) :: self
-      character(len=*), intent(in) :: prefix, text
-      type(status_t), intent(inout) :: status
-
-      if (self%steps_made() == 0) return
-      call write_checkpoint(prefix, text, self%transient, self%history, self%frames, &
-                            [self%step_seconds, self%coarse_mean], status)
-   end subroutine save_as
-
-   !> The case as text, with the defaults of all keys that change no step: when to stop, threads, what to
-   !> write. A run may go on with others of them.
-   function step_text(input) result(text)
-      type(case_t), intent(in) :: input
-      character(len=:), allocatable :: text
-      type(case_t) :: plain, default
-
-      plain = input
-      plain%solver%threads = default%solver%threads
-      plain%solver%max_cycles = default%solver%max_cycles
-      plain%time%tolerance = default%time%tolerance
-      plain%time%max_periods = default%time%max_periods
-      plain%time%steps = default%time%steps
-      plain%time%estimate_error = default%time%estimate_error
-      plain%psd = default%psd
-      plain%output = default%output
-      plain%output%frame_interval = input%output%frame_interval
-      text = case_text(plain)
-   end function step_text
-
-   !> After start and before the first advance: go on from the newest state in a folder (its name ends in '/').
-   !> The smooth contact is solved again, to the same bits, before the first time step.
-   subroutine resume(self, folder, note, status)
-      class(solver_t), intent(inout) :: self
-      character(len=*), intent(in) :: folder
-      !> What a person should know; empty when there is no state yet
-      character(len=:), allocatable, intent(out) :: note
-      type(status_t), intent(inout) :: status
-      character(len=:), allocatable :: text
-
-      text = step_text(self%input)
-      call read_checkpoint(folder, text, self%state, note, status)
-      if (status%failed() .or. allocated(self%state)) return
-      call read_checkpoint(folder//coarser, text, self%coarse_state, note, status)
-   end subroutine resume
-
-   !> The state that was read takes the place of the start of the march
-   subroutine take_state(self, status)
-      type(solver_t), intent(inout) :: self
-      type(status_t), intent(inout) :: status
-      logical :: same
-      integer :: k
-
-      associate (state => self%state, march => self%transient)
-         if (any(shape(state%march%mass) /= shape(march%mass))) then
-            call status%fail(ehl_bad_input, state%path//": error: this state belongs to another grid")
-            return
-         end if
-         call march%restore(state%march, self%hierarchy%levels(self%steady%n), self%plan%surface, same)
-         if (.not. same) then
-            call status%fail(ehl_bad_input, state%path//": error: the film of this state does not follow from its "// &
-                             "pressure"//new_line("a")//"expected: the surface and the program that it was made with")
-            return
-         end if
-         do k = 1, size(state%rows, 2)
-            call self%history%append(state%rows(:, k))
-         end do
-         self%frames = state%frames
-         self%step_seconds = state%numbers(1)
-         self%coarse_mean = state%numbers(2)
-      end associate
-      deallocate (self%state)
-      self%outcome = judge_march(self)
-   end subroutine take_state
-
-   !> The plan in a few lines, for a person
-   function describe(self) result(text)
-      class(solver_t), intent(in) :: self
-      character(len=:), allocatable :: text
-      text = plan_text(self%plan)
-   end function describe
-
-   !> One multigrid cycle of the smooth contact, then one time step
-   recursive subroutine advance(self, status)
-      class(solver_t), intent(inout) :: self
-      type(status_t), intent(inout) :: status
-
-      if (self%done()) return
-      if (associated(self%coarse)) then
-         call advance_coarse(self, status)
-      else if (self%marching) then
-         call advance_step(self, status)
-      else
-         call advance_cycle(self, status)
-         if (.not. status%failed() .and. allocated(self%plan%surface) .and. &
-             self%steady%outcome == outcome_converged) call begin_march(self, status)
-      end if
-   end subroutine advance
-
-   !> One multigrid cycle of the smooth contact
-   subroutine advance_cycle(self, status)
-      type(solver_t), intent(inout) :: self
-      type(status_t), intent(inout) :: status
-      type(clock_t) :: clock
-      integer :: n
-
-      clock = start_clock()
-      n = self%steady%n
-      call self%steady%advance(self%plan, self%hierarchy, status)
-      self%smooth_seconds = self%smooth_seconds + clock%seconds()
-      if (status%failed()) return
-      self%grid = self%hierarchy%levels(n)%grid
-      if (allocated(self%plan%surface)) return
-      associate (result => self%steady%results(n))
-         call self%history%append([real(dp) :: n, self%grid%nx, result%cycles, result%m%film_central, &
-                                   result%m%film_minimum, result%m%pressure_maximum, result%m%friction, &
-                                   result%m%load_error, result%residual, result%algebraic(1)])
-      end associate
-   end subroutine advance_cycle
-
-   !> The smooth contact is solved: let the roughness in
-   recursive subroutine begin_march(self, status)
-      type(solver_t), intent(inout) :: self
-      type(status_t), intent(inout) :: status
-      integer :: k, n
-
-      n = self%steady%n
-      self%p_smooth = self%hierarchy%levels(n)%p
-      self%h_smooth = self%hierarchy%levels(n)%h
-      if (self%plan%amplitude_over_film > 0.0_dp) then
-         select type (waviness => self%plan%surface)
-         type is (harmonic_t)
-            waviness%amplitude = self%plan%amplitude_over_film*self%steady%results(n)%m%film_central
-         end select
-      end if
-      self%transient%narrow = self%plan%narrow
-      self%transient%max_cycles = self%plan%max_cycles
-      self%transient%coarsening = self%plan%step_cycle%coarsening
-      self%transient%may_change = self%plan%coarsening_may_change
-      self%transient%tolerance = step_tolerance(self%grid%hx, self%plan%accuracy)
-      call self%transient%start(self%hierarchy%levels(n), self%plan%surface, self%plan%skip_start, &
-                                self%steady%results(n)%m%friction, status)
-      if (status%failed()) return
-      do k = 1, n
-         call self%hierarchy%levels(k)%set_transient(self%plan%narrow, self%transient%time_step, status)
-      end do
-      if (status%failed()) return
-      self%hierarchy%options = self%plan%step_cycle
-      self%marching = .true.
-      allocate (self%frames%times(0), self%frames%p(self%grid%nx, self%grid%full_ny(), 0), &
-                self%frames%h(self%grid%nx, self%grid%full_ny(), 0))
-      if (allocated(self%state)) call take_state(self, status)
-      if (status%failed()) return
-      if (self%plan%coarse_run .and. self%coarse_mean < 0.0_dp) call begin_coarse(self, status)
-   end subroutine begin_march
-
-   !> Start the run on the next coarser grid, with the same roughness
-   recursive subroutine begin_coarse(self, status)
-      type(solver_t), intent(inout) :: self
-      type(status_t), intent(inout) :: status
-      type(case_t) :: input
-
-      input = self%input
-      input%output%frame_interval = 0.0_dp
-      input%grid%points = (self%grid%nx + 1)/2
-      input%grid%target_error = 0.0_dp
-      input%time%estimate_error = .false.
-      select type (waviness => self%plan%surface)
-      type is (harmonic_t)
-         input%surface%amplitude = waviness%amplitude
-         input%surface%amplitude_given = .true.
-      end select
-      allocate (self%coarse)
-      call self%coarse%give_surface(self%heights)
-      call self%coarse%start(input, status)
-      if (allocated(self%coarse_state)) call move_alloc(self%coarse_state, self%coarse%state)
-   end subroutine begin_coarse
-
-   !> One step of the coarser run; at its end its mean is kept and the run freed. A coarser run that
-   !> does not converge leaves the grid error unknown.
-   recursive subroutine advance_coarse(self, status)
-      type(solver_t), intent(inout) :: self
-      type(status_t), intent(inout) :: status
-
-      call self%coarse%advance(status)
-      if (.not. self%coarse%done()) return
-      self%coarse_mean = 0.0_dp
-      if (self%coarse%converged()) self%coarse_mean = self%coarse%transient%mean%mean(0.0_dp)
-      self%step_seconds_coarse = self%coarse%step_seconds
-      deallocate (self%coarse)
-   end subroutine advance_coarse
-
-   !> Free what a solver points to
-   impure elemental subroutine close_solver(self)
-      type(solver_t), intent(inout) :: self
-      if (associated(self%coarse)) deallocate (self%coarse)
-   end subroutine close_solver
-
-   !> One time step
-   subroutine advance_step(self, status)
-      type(solver_t), intent(inout) :: self
-      type(status_t), intent(inout) :: status
-      type(clock_t) :: clock
-
-      clock = start_clock()
-      associate (march => self%transient, m => self%transient%m)
-         call march%advance(self%hierarchy, self%steady%n, self%plan%surface, status)
-         self%step_seconds = self%step_seconds + clock%seconds()
-         if (status%failed()) return
-         if (march%step_converged()) then
-            call self%history%append([real(dp) :: march%step, march%time, m%friction/march%friction_smooth, &
-                                      m%film_central, m%film_minimum, m%pressure_maximum, m%load_error, march%cycles, &
-                                      march%residual])
-            self%outcome = judge_march(self)
-            call keep_frame(self)
-         else if (.not. m%finite) then
-            self%outcome = outcome_diverged
-         else if (.not. m%positive) then
-            self%outcome = outcome_negative_film
-         else
-            self%outcome = outcome_cycle_limit
-         end if
-      end associate
-   end subroutine advance_step
-
-   !> Whether the march has come to its end
-   integer function judge_march(self) result(outcome)
-      type(solver_t), intent(in) :: self
-      real(dp) :: periods
-
-      outcome = outcome_running
-      associate (march => self%transient, plan => self%plan, mean => self%transient%mean)
-         if (plan%steps > 0) then
-            if (march%step >= plan%steps) outcome = merge(outcome_converged, outcome_unsettled, mean%has_mean())
-            return
-         end if
-         if (.not. mean%has_change()) return
-         if (mean%change() <= plan%time_tolerance*mean%mean(0.0_dp)) then
-            outcome = outcome_converged
-            return
-         end if
-         periods = (march%step - mean%filled)*march%time_step/mean%period
-         if (periods >= most_periods(plan)) outcome = outcome_unsettled
-      end associate
-   end function judge_march
-
-   !> Periods after which a march ends at the latest
-   pure integer function most_periods(plan)
-      type(plan_t), intent(in) :: plan
-      most_periods = merge(plan%max_periods, automatic_periods, plan%max_periods > 0)
-   end function most_periods
-
    !> How the run stands
-   integer function stand(self)
+   pure integer function stand(self)
       class(solver_t), intent(in) :: self
       stand = self%steady%outcome
       if (.not. allocated(self%plan%surface)) return
@@ -416,13 +217,13 @@ contains
    end function stand
 
    !> Whether the run has ended, well or not
-   logical function done(self)
+   pure logical function done(self)
       class(solver_t), intent(in) :: self
       done = self%stand() /= outcome_running
    end function done
 
    !> Whether the run has ended well
-   logical function converged(self)
+   pure logical function converged(self)
       class(solver_t), intent(in) :: self
       converged = self%stand() == outcome_converged
    end function converged
@@ -438,20 +239,6 @@ contains
       end if
    end subroutine interrupt
 
-   !> One line about the state
-   recursive function progress(self) result(text)
-      class(solver_t), intent(in) :: self
-      character(len=:), allocatable :: text
-
-      if (associated(self%coarse)) then
-         text = "for the error, on the next coarser grid: "//self%coarse%progress()
-      else if (self%marching) then
-         text = march_line(self%plan, self%transient, self%stand(), self%step_seconds)
-      else
-         text = cycle_line(self%grid, self%steady%results(self%level()), self%stand())
-      end if
-   end function progress
-
    !> Level of the results: the present one, or the last one that has been worked on
    pure integer function level(self)
       class(solver_t), intent(in) :: self
@@ -461,129 +248,9 @@ contains
       end if
    end function level
 
-   !> All results but fields, by name; dimensionless but for the SI values. Only a converged run has
-   !> results: otherwise they are null, and the last iterate stands under names that begin with "last_".
-   function summary(self) result(record)
-      class(solver_t), intent(in) :: self
-      type(record_t) :: record
-      type(skip_t), allocatable :: skips(:)
-      logical :: good
-
-      call record%set("status", trim(outcome_names(self%stand())))
-      call record%set("converged", self%converged())
-      ! the smooth results are good as soon as the march has begun
-      good = self%marching .or. self%steady%outcome == outcome_converged .or. self%steady%outcome == outcome_target_missed
-      call report_scene(record, self%plan, self%grid)
-      call report_smooth(record, self%plan, self%steady, self%level(), good)
-      if (self%marching) call report_march(record, self%plan, self%transient, self%converged(), &
-                                              self%step_seconds, self%coarse_mean)
-      if (self%marching .and. self%done()) then
-         call find_skips(self%plan, self%transient, self%converged(), most_periods(self%plan), self%step_seconds, &
-                         self%smooth_seconds, skips)
-         call report_skips(record, skips)
-      end if
-      call record%set("bytes", real(self%hierarchy%bytes(), dp))
-   end function summary
-
-   !> What a march that has ended did not have to do, one line each, with the seconds that saved; empty for
-   !> every other run
-   function skipped(self) result(text)
-      class(solver_t), intent(in) :: self
-      character(len=:), allocatable :: text
-      type(skip_t), allocatable :: skips(:)
-      character(len=16) :: seconds
-      integer :: k
-
-      text = ""
-      if (.not. (self%marching .and. self%done())) return
-      call find_skips(self%plan, self%transient, self%converged(), most_periods(self%plan), self%step_seconds, &
-                      self%smooth_seconds, skips)
-      do k = 1, size(skips)
-         if (k > 1) text = text//new_line("a")
-         text = text//"not done: "//trim(skips(k)%what)
-         if (ieee_is_finite(skips(k)%seconds)) then
-            write (seconds, "(f16.1)") skips(k)%seconds
-            text = text//" (about "//trim(adjustl(seconds))//" s)"
-         else
-            text = text//" (seconds not known)"
-         end if
-      end do
-   end function skipped
-
-   !> Keep P and H if a frame is due
-   subroutine keep_frame(self)
+   !> Free what a solver points to
+   impure elemental subroutine close_solver(self)
       type(solver_t), intent(inout) :: self
-      real(dp), allocatable :: values(:, :)
-
-      associate (march => self%transient, frames => self%frames, interval => self%input%output%frame_interval)
-         if (interval <= 0.0_dp) return
-         if (int(march%time/interval) == int((march%time - march%time_step)/interval)) return
-         allocate (values(self%grid%nx, self%grid%full_ny()))
-         frames%times = [frames%times, march%time]
-         call unfold(self%hierarchy%levels(self%steady%n)%p, self%grid, values)
-         frames%p = reshape([frames%p, values], [shape(values), size(frames%times)])
-         call unfold(self%hierarchy%levels(self%steady%n)%h, self%grid, values)
-         frames%h = reshape([frames%h, values], [shape(values), size(frames%times)])
-      end associate
-   end subroutine keep_frame
-
-   !> Names of the fields there are: P and H; in a march also those of the smooth contact, the roughness
-   !> RR and the deformed roughness A_d = H_smooth - H
-   subroutine field_names(self, names)
-      class(solver_t), intent(in) :: self
-      character(len=8), allocatable, intent(out) :: names(:)
-
-      if (self%marching) then
-         names = [character(len=8) :: "P", "H", "P_smooth", "H_smooth", "RR", "A_d"]
-      else
-         names = [character(len=8) :: "P", "H"]
-      end if
-   end subroutine field_names
-
-   !> A field on the whole domain, values(nx, full_ny); see field_names
-   subroutine field(self, name, values, status)
-      class(solver_t), intent(in) :: self
-      character(len=*), intent(in) :: name
-      real(dp), intent(out) :: values(:, :)
-      type(status_t), intent(inout) :: status
-      character(len=8), allocatable :: names(:)
-
-      values = 0.0_dp
-      call self%field_names(names)
-      if (all(names /= name)) then
-         call status%fail(ehl_bad_input, "field '"//name//"' is not known: 'P' or 'H' was expected, in a march "// &
-                          "also 'P_smooth', 'H_smooth', 'RR' or 'A_d'")
-         return
-      end if
-      associate (level => self%hierarchy%levels(self%level()))
-         select case (name)
-         case ("P")
-            call unfold(level%p, level%grid, values)
-         case ("H")
-            call unfold(level%h, level%grid, values)
-         case ("P_smooth")
-            call unfold(self%p_smooth, level%grid, values)
-         case ("H_smooth")
-            call unfold(self%h_smooth, level%grid, values)
-         case ("RR")
-            call unfold(self%transient%rr, level%grid, values)
-         case default
-            call unfold(self%h_smooth - level%h, level%grid, values)
-         end select
-      end associate
-   end subroutine field
-
-   !> A stored field on the whole domain
-   pure subroutine unfold(stored, grid, values)
-      real(dp), intent(in) :: stored(:, :)
-      type(grid_t), intent(in) :: grid
-      real(dp), intent(out) :: values(:, :)
-      integer :: j, row
-
-      do j = 1, grid%full_ny()
-         row = j - (grid%full_ny() - grid%ny)
-         if (row < 1) row = 2 - row
-         values(:, j) = stored(:, row)
-      end do
-   end subroutine unfold
+      if (associated(self%coarse)) deallocate (self%coarse)
+   end subroutine close_solver
 end module ehl_solver

@@ -21,16 +21,18 @@ LAYERS = [
     ["app", "bind", "test"],
 ]
 RANK = {folder: rank for rank, folders in enumerate(LAYERS) for folder in folders}
+# First line of a program, a module or a submodule
+UNIT = r"^\s*(?:module|program|submodule\s*\(\w+\))\s+(\w+)\s*$"
 # Numerics takes plain arguments; words of a case file stop at the solver
 NUMERICS = ("physics", "grid", "surface", "deflection", "reynolds", "multigrid")
 
 
 def modules(root: Path) -> dict[str, tuple[Path, set[str]]]:
-    """File and used modules of every module."""
+    """File and used modules of every module and submodule."""
     found = {}
     for path in sorted((root / "fortran").rglob("*.f90*")):
         text = path.read_text()
-        for name in re.findall(r"^\s*(?:module|program)\s+(\w+)\s*$", text, re.M | re.I):
+        for name in re.findall(UNIT, text, re.M | re.I):
             used = set(re.findall(r"^\s*use\s+(\w+)", text, re.M | re.I))
             found[name] = (path, used)
     return found

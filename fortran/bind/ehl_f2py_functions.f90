@@ -1,0 +1,158 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Functions for Python that need no solver; for the rules see ehl_f2py_solver
+module ehl_f2py_functions
+   use, intrinsic :: iso_c_binding, only: c_double, c_int
+   use ehl_case, only: case_t
+   use ehl_case_reader, only: read_case, read_case_file
+   use ehl_case_writer, only: case_text, options_text
+   use ehl_clock, only: clock_t, start_clock
+   use ehl_deflection, only: deflection_t
+   use ehl_deflection_factory, only: new_deflection
+   use ehl_grid, only: grid_t
+   use ehl_keeper, only: find_checkpoint
+   use ehl_lubricant, only: density_constant, density_dowson_higginson, new_lubricant, &
+                            solver_lubricant_t => lubricant_t, viscosity_barus, viscosity_roelands
+   use ehl_outputs, only: check_folder
+   use ehl_reply, only: reply
+   use ehl_status, only: ehl_bad_input, status_t
+   use ehl_version, only: build_text, version
+   implicit none (type, external)
+   private
+   public :: resolve, check_output, checkpoint_case, keys, about, deflection, viscosity, density
+
+contains
+
+   !> Resolved namelist text of a case: of the text, or of the file `origin`
+   subroutine resolve(text, origin, options, from_file, resolved, stat, message)
+      character(len=*), intent(in) :: text, origin, options
+      integer(c_int), intent(in) :: from_file
+      character(len=32768), intent(out) :: resolved
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(case_t), target :: input
+      type(status_t) :: status
+
+      resolved = ""
+      if (from_file /= 0) then
+         call read_case_file(origin, options, input, status)
+      else
+         call read_case(text, origin, options, input, status)
+      end if
+      if (.not. status%failed()) resolved = case_text(input)
+      call reply(status, stat, message)
+   end subroutine resolve
+
+   !> Whether results could be written into a folder
+   subroutine check_output(folder, stat, message)
+      character(len=*), intent(in) :: folder
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(status_t) :: status
+
+      call check_folder(folder, status)
+      call reply(status, stat, message)
+   end subroutine check_output
+
+   !> Case file of the run with these results, to go on with; its folder holds surface.npy as well when
+   !> the surface came from Python
+   subroutine checkpoint_case(results, path, stat, message)
+      character(len=*), intent(in) :: results
+      character(len=4096), intent(out) :: path
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      real(c_double), allocatable :: heights(:, :)
+      character(len=:), allocatable :: text
+      type(status_t) :: status
+
+      path = ""
+      call find_checkpoint(results, text, heights, status)
+      if (.not. status%failed()) path = text
+      call reply(status, stat, message)
+   end subroutine checkpoint_case
+
+   !> All keys of a case file, one a line: key, unit, default, allowed values, meaning
+   subroutine keys(text)
+      character(len=32768), intent(out) :: text
+
+      text = options_text()
+   end subroutine keys
+
+   !> Version of the package; compiler and its options
+   subroutine about(version_text, compiler_text)
+      character(len=64), intent(out) :: version_text
+      character(len=4096), intent(out) :: compiler_text
+
+      version_text = version
+      compiler_text = build_text()
+   end subroutine about
+
+   !> Elastic deflection w of the pressure p by one engine, and the mean seconds of an application
+   subroutine deflection(engine, nx, ny, p, w, hx, hy, mirror, accuracy, threads, repeats, &
+                         seconds, bytes, stat, message)
+      character(len=*), intent(in) :: engine
+      integer(c_int), intent(in) :: nx, ny
+      real(c_double), intent(inout) :: p(nx, ny), w(nx, ny)
+      real(c_double), intent(in) :: hx, hy, accuracy
+      integer(c_int), intent(in) :: mirror, threads, repeats
+      real(c_double), intent(out) :: seconds, bytes
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      !f2py threadsafe
+      class(deflection_t), allocatable :: solver
+      type(grid_t) :: grid
+      type(clock_t) :: clock
+      type(status_t) :: status
+      integer :: k
+
+      seconds = 0.0_c_double
+      bytes = 0.0_c_double
+      grid = grid_t(nx=nx, ny=ny, hx=hx, hy=hy, mirror=mirror /= 0)
+      call new_deflection(engine, solver, status)
+      if (.not. status%failed()) call solver%setup(grid, accuracy, threads, status)
+      if (.not. status%failed()) then
+         clock = start_clock()
+         do k = 1, repeats
+            call solver%apply(p, w)
+         end do
+         seconds = clock%seconds()/repeats
+         bytes = real(solver%bytes(), c_double)
+      end if
+      call reply(status, stat, message)
+   end subroutine deflection
+
+   !> ln(eta/eta0) and its slope at pressures p, scaled by the Hertz pressure [Pa]
+   subroutine viscosity(law, n, p, values, slopes, alpha_bar, hertz_pressure, z, p0, stat, message)
+      character(len=*), intent(in) :: law
+      integer(c_int), intent(in) :: n
+      real(c_double), intent(inout) :: p(n), values(n), slopes(n)
+      real(c_double), intent(in) :: alpha_bar, hertz_pressure, z, p0
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(solver_lubricant_t) :: lubricant
+      type(status_t) :: status
+      integer :: number
+
+      number = 0
+      if (law == "barus") number = viscosity_barus
+      if (law == "roelands") number = viscosity_roelands
+      if (number == 0) then
+         call status%fail(ehl_bad_input, "unknown viscosity law '" // law // "'")
+      else
+         lubricant = new_lubricant(number, density_constant, alpha_bar, hertz_pressure, z, p0)
+         call lubricant%log_viscosity(p, values, slopes)
+      end if
+      call reply(status, stat, message)
+   end subroutine viscosity
+
+   !> Dowson-Higginson density rho/rho0 at pressures p, scaled by the Hertz pressure [Pa]
+   subroutine density(n, p, values, slopes, hertz_pressure)
+      integer(c_int), intent(in) :: n
+      real(c_double), intent(inout) :: p(n), values(n), slopes(n)
+      real(c_double), intent(in) :: hertz_pressure
+      type(solver_lubricant_t) :: lubricant
+
+      lubricant = new_lubricant(viscosity_barus, density_dowson_higginson, 1.0_c_double, &
+                                hertz_pressure, 1.0_c_double, 1.0_c_double)
+      call lubricant%density(p, values, slopes)
+   end subroutine density
+end module ehl_f2py_functions

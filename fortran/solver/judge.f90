@@ -1,0 +1,44 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> When a march in time ends
+module ehl_judge
+   use ehl_kinds, only: dp
+   use ehl_outcome, only: outcome_converged, outcome_running, outcome_unsettled
+   use ehl_plan, only: plan_t
+   use ehl_transient, only: transient_t
+   implicit none (type, external)
+   private
+   public :: judge_march, most_periods
+
+   !> Periods after which a mean that has not settled never will
+   integer, parameter :: automatic_periods = 6
+
+contains
+
+   !> How a march stands after a step that converged
+   integer function judge_march(plan, march) result(outcome)
+      type(plan_t), intent(in) :: plan
+      type(transient_t), intent(in) :: march
+      real(dp) :: periods
+
+      outcome = outcome_running
+      associate (mean => march%mean)
+         if (plan%steps > 0) then
+            if (march%step >= plan%steps) outcome = merge(outcome_converged, outcome_unsettled, mean%has_mean())
+            return
+         end if
+         if (.not. mean%has_change()) return
+         if (mean%change() <= plan%time_tolerance*mean%mean(0.0_dp)) then
+            outcome = outcome_converged
+            return
+         end if
+         periods = (march%step - mean%filled)*march%time_step/mean%period
+         if (periods >= most_periods(plan)) outcome = outcome_unsettled
+      end associate
+   end function judge_march
+
+   !> Periods after which a march ends at the latest
+   pure integer function most_periods(plan)
+      type(plan_t), intent(in) :: plan
+      most_periods = merge(plan%max_periods, automatic_periods, plan%max_periods > 0)
+   end function most_periods
+end module ehl_judge

@@ -1,0 +1,109 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What a run says, and its results and fields
+submodule (ehl_solver) ehl_solver_results
+   use ehl_judge, only: most_periods
+   use ehl_outcome, only: outcome_names, outcome_target_missed
+   use ehl_plan_text, only: plan_text
+   use ehl_report, only: cycle_line, find_skips, march_line, report_march, report_scene, report_skips, report_smooth, &
+                         skip_lines, skip_t
+   use ehl_status, only: ehl_bad_input
+   implicit none (type, external)
+
+contains
+
+   module function describe(self) result(text)
+      class(solver_t), intent(in) :: self
+      character(len=:), allocatable :: text
+      text = plan_text(self%plan)
+   end function describe
+
+   recursive module function progress(self) result(text)
+      class(solver_t), intent(in) :: self
+      character(len=:), allocatable :: text
+
+      if (associated(self%coarse)) then
+         text = "for the error, on the next coarser grid: "//self%coarse%progress()
+      else if (self%marching) then
+         text = march_line(self%plan, self%transient, self%stand(), self%step_seconds)
+      else
+         text = cycle_line(self%grid, self%steady%results(self%level()), self%stand())
+      end if
+   end function progress
+
+   module function summary(self) result(record)
+      class(solver_t), intent(in) :: self
+      type(record_t) :: record
+      type(skip_t), allocatable :: skips(:)
+      logical :: good
+
+      call record%set("status", trim(outcome_names(self%stand())))
+      call record%set("converged", self%converged())
+      ! the smooth results are good as soon as the march has begun
+      good = self%marching .or. self%steady%outcome == outcome_converged .or. self%steady%outcome == outcome_target_missed
+      call report_scene(record, self%plan, self%grid)
+      call report_smooth(record, self%plan, self%steady, self%level(), good)
+      if (self%marching) call report_march(record, self%plan, self%transient, self%converged(), &
+                                              self%step_seconds, self%coarse_mean)
+      if (self%marching .and. self%done()) then
+         call find_skips(self%plan, self%transient, self%converged(), most_periods(self%plan), self%step_seconds, &
+                         self%smooth_seconds, skips)
+         call report_skips(record, skips)
+      end if
+      call record%set("bytes", real(self%hierarchy%bytes(), dp))
+   end function summary
+
+   module function skipped(self) result(text)
+      class(solver_t), intent(in) :: self
+      character(len=:), allocatable :: text
+      type(skip_t), allocatable :: skips(:)
+
+      text = ""
+      if (.not. (self%marching .and. self%done())) return
+      call find_skips(self%plan, self%transient, self%converged(), most_periods(self%plan), self%step_seconds, &
+                      self%smooth_seconds, skips)
+      text = skip_lines(skips)
+   end function skipped
+
+   module subroutine field_names(self, names)
+      class(solver_t), intent(in) :: self
+      character(len=8), allocatable, intent(out) :: names(:)
+
+      if (self%marching) then
+         names = [character(len=8) :: "P", "H", "P_smooth", "H_smooth", "RR", "A_d"]
+      else
+         names = [character(len=8) :: "P", "H"]
+      end if
+   end subroutine field_names
+
+   module subroutine field(self, name, values, status)
+      class(solver_t), intent(in) :: self
+      character(len=*), intent(in) :: name
+      real(dp), intent(out) :: values(:, :)
+      type(status_t), intent(inout) :: status
+      character(len=8), allocatable :: names(:)
+
+      values = 0.0_dp
+      call self%field_names(names)
+      if (all(names /= name)) then
+         call status%fail(ehl_bad_input, "field '"//name//"' is not known: 'P' or 'H' was expected, in a march "// &
+                          "also 'P_smooth', 'H_smooth', 'RR' or 'A_d'")
+         return
+      end if
+      associate (level => self%hierarchy%levels(self%level()))
+         select case (name)
+         case ("P")
+            call level%grid%unfold(level%p, values)
+         case ("H")
+            call level%grid%unfold(level%h, values)
+         case ("P_smooth")
+            call level%grid%unfold(self%p_smooth, values)
+         case ("H_smooth")
+            call level%grid%unfold(self%h_smooth, values)
+         case ("RR")
+            call level%grid%unfold(self%transient%rr, values)
+         case default
+            call level%grid%unfold(self%h_smooth - level%h, values)
+         end select
+      end associate
+   end subroutine field
+end submodule ehl_solver_results

@@ -1,0 +1,147 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> How a case runs: cycles of the smooth contact, time steps, and the same on the next coarser grid
+submodule (ehl_solver) ehl_solver_run
+   use ehl_clock, only: clock_t, start_clock
+   use ehl_harmonic, only: harmonic_t
+   use ehl_judge, only: judge_march
+   use ehl_outcome, only: outcome_cycle_limit, outcome_diverged, outcome_negative_film
+   use ehl_transient, only: step_tolerance
+   implicit none (type, external)
+
+contains
+
+   recursive module subroutine advance(self, status)
+      class(solver_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+
+      if (self%done()) return
+      if (associated(self%coarse)) then
+         call advance_coarse(self, status)
+      else if (self%marching) then
+         call advance_step(self, status)
+      else
+         call advance_cycle(self, status)
+         if (.not. status%failed() .and. allocated(self%plan%surface) .and. &
+             self%steady%outcome == outcome_converged) call begin_march(self, status)
+      end if
+   end subroutine advance
+
+   !> One multigrid cycle of the smooth contact
+   subroutine advance_cycle(self, status)
+      type(solver_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+      type(clock_t) :: clock
+      integer :: n
+
+      clock = start_clock()
+      n = self%steady%n
+      call self%steady%advance(self%plan, self%hierarchy, status)
+      self%smooth_seconds = self%smooth_seconds + clock%seconds()
+      if (status%failed()) return
+      self%grid = self%hierarchy%levels(n)%grid
+      if (allocated(self%plan%surface)) return
+      associate (result => self%steady%results(n))
+         call self%history%append([real(dp) :: n, self%grid%nx, result%cycles, result%m%film_central, &
+                                   result%m%film_minimum, result%m%pressure_maximum, result%m%friction, &
+                                   result%m%load_error, result%residual, result%algebraic(1)])
+      end associate
+   end subroutine advance_cycle
+
+   !> The smooth contact is solved: let the roughness in
+   recursive subroutine begin_march(self, status)
+      type(solver_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+      integer :: k, n
+
+      n = self%steady%n
+      self%p_smooth = self%hierarchy%levels(n)%p
+      self%h_smooth = self%hierarchy%levels(n)%h
+      if (self%plan%amplitude_over_film > 0.0_dp) then
+         select type (waviness => self%plan%surface)
+         type is (harmonic_t)
+            waviness%amplitude = self%plan%amplitude_over_film*self%steady%results(n)%m%film_central
+         end select
+      end if
+      self%transient%narrow = self%plan%narrow
+      self%transient%max_cycles = self%plan%max_cycles
+      self%transient%coarsening = self%plan%step_cycle%coarsening
+      self%transient%may_change = self%plan%coarsening_may_change
+      self%transient%tolerance = step_tolerance(self%grid%hx, self%plan%accuracy)
+      call self%transient%start(self%hierarchy%levels(n), self%plan%surface, self%plan%skip_start, &
+                                self%steady%results(n)%m%friction, status)
+      if (status%failed()) return
+      do k = 1, n
+         call self%hierarchy%levels(k)%set_transient(self%plan%narrow, self%transient%time_step, status)
+      end do
+      if (status%failed()) return
+      self%hierarchy%options = self%plan%step_cycle
+      self%marching = .true.
+      call self%frames%start(self%grid)
+      if (allocated(self%state)) call take_state(self, status)
+      if (status%failed()) return
+      if (self%plan%coarse_run .and. self%coarse_mean < 0.0_dp) call begin_coarse(self, status)
+   end subroutine begin_march
+
+   !> One time step
+   subroutine advance_step(self, status)
+      type(solver_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+      type(clock_t) :: clock
+
+      clock = start_clock()
+      associate (march => self%transient, m => self%transient%m)
+         call march%advance(self%hierarchy, self%steady%n, self%plan%surface, status)
+         self%step_seconds = self%step_seconds + clock%seconds()
+         if (status%failed()) return
+         if (march%step_converged()) then
+            call self%history%append([real(dp) :: march%step, march%time, m%friction/march%friction_smooth, &
+                                      m%film_central, m%film_minimum, m%pressure_maximum, m%load_error, march%cycles, &
+                                      march%residual])
+            self%outcome = judge_march(self%plan, self%transient)
+            call self%frames%keep(self%hierarchy%levels(self%steady%n), march%time, march%time_step, &
+                                  self%input%output%frame_interval)
+         else if (.not. m%finite) then
+            self%outcome = outcome_diverged
+         else if (.not. m%positive) then
+            self%outcome = outcome_negative_film
+         else
+            self%outcome = outcome_cycle_limit
+         end if
+      end associate
+   end subroutine advance_step
+
+   !> Start the run on the next coarser grid, with the same roughness
+   recursive subroutine begin_coarse(self, status)
+      type(solver_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+      type(case_t) :: input
+
+      input = self%input
+      input%output%frame_interval = 0.0_dp
+      input%grid%points = (self%grid%nx + 1)/2
+      input%grid%target_error = 0.0_dp
+      input%time%estimate_error = .false.
+      select type (waviness => self%plan%surface)
+      type is (harmonic_t)
+         input%surface%amplitude = waviness%amplitude
+         input%surface%amplitude_given = .true.
+      end select
+      allocate (self%coarse)
+      call self%coarse%give_surface(self%heights)
+      call self%coarse%start(input, status)
+      if (allocated(self%coarse_state)) call move_alloc(self%coarse_state, self%coarse%state)
+   end subroutine begin_coarse
+
+   !> One step of the coarser run; at its end its mean is kept and the run freed. A coarser run that
+   !> does not converge leaves the grid error unknown.
+   recursive subroutine advance_coarse(self, status)
+      type(solver_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+
+      call self%coarse%advance(status)
+      if (.not. self%coarse%done()) return
+      self%coarse_mean = 0.0_dp
+      if (self%coarse%converged()) self%coarse_mean = self%coarse%transient%mean%mean(0.0_dp)
+      deallocate (self%coarse)
+   end subroutine advance_coarse
+end submodule ehl_solver_run

@@ -1,0 +1,97 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> How a march is kept on disk and taken up again
+submodule (ehl_solver) ehl_solver_state
+   use ehl_case_writer, only: case_text
+   use ehl_checkpoint, only: read_checkpoint, write_checkpoint
+   use ehl_judge, only: judge_march
+   use ehl_status, only: ehl_bad_input
+   implicit none (type, external)
+
+   !> What the names of the states of the coarser run begin with
+   character(len=*), parameter :: coarser = "coarser-"
+
+contains
+
+   module subroutine save_state(self, folder, status)
+      class(solver_t), intent(in) :: self
+      character(len=*), intent(in) :: folder
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: text
+
+      text = step_text(self%input)
+      if (associated(self%coarse)) call save_as(self%coarse, folder//coarser, text, status)
+      call save_as(self, folder, text, status)
+   end subroutine save_state
+
+   !> Write the state of one run under names that begin with a prefix
+   subroutine save_as(self, prefix, text, status)
+      type(solver_t), intent(in) :: self
+      character(len=*), intent(in) :: prefix, text
+      type(status_t), intent(inout) :: status
+
+      if (self%steps_made() == 0) return
+      call write_checkpoint(prefix, text, self%transient, self%history, self%frames, &
+                            [self%step_seconds, self%coarse_mean], status)
+   end subroutine save_as
+
+   !> The case as text, with the defaults of all keys that change no step: when to stop, threads, what to
+   !> write. A run may go on with others of them.
+   function step_text(input) result(text)
+      type(case_t), intent(in) :: input
+      character(len=:), allocatable :: text
+      type(case_t) :: plain, default
+
+      plain = input
+      plain%solver%threads = default%solver%threads
+      plain%solver%max_cycles = default%solver%max_cycles
+      plain%time%tolerance = default%time%tolerance
+      plain%time%max_periods = default%time%max_periods
+      plain%time%steps = default%time%steps
+      plain%time%estimate_error = default%time%estimate_error
+      plain%psd = default%psd
+      plain%output = default%output
+      plain%output%frame_interval = input%output%frame_interval
+      text = case_text(plain)
+   end function step_text
+
+   module subroutine resume(self, folder, note, status)
+      class(solver_t), intent(inout) :: self
+      character(len=*), intent(in) :: folder
+      character(len=:), allocatable, intent(out) :: note
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: text
+
+      text = step_text(self%input)
+      call read_checkpoint(folder, text, self%state, note, status)
+      if (status%failed() .or. allocated(self%state)) return
+      call read_checkpoint(folder//coarser, text, self%coarse_state, note, status)
+   end subroutine resume
+
+   module subroutine take_state(self, status)
+      type(solver_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+      logical :: same
+      integer :: k
+
+      associate (state => self%state, march => self%transient)
+         if (any(shape(state%march%mass) /= shape(march%mass))) then
+            call status%fail(ehl_bad_input, state%path//": error: this state belongs to another grid")
+            return
+         end if
+         call march%restore(state%march, self%hierarchy%levels(self%steady%n), self%plan%surface, same)
+         if (.not. same) then
+            call status%fail(ehl_bad_input, state%path//": error: the film of this state does not follow from its "// &
+                             "pressure"//new_line("a")//"expected: the surface and the program that it was made with")
+            return
+         end if
+         do k = 1, size(state%rows, 2)
+            call self%history%append(state%rows(:, k))
+         end do
+         self%frames = state%frames
+         self%step_seconds = state%numbers(1)
+         self%coarse_mean = state%numbers(2)
+      end associate
+      deallocate (self%state)
+      self%outcome = judge_march(self%plan, self%transient)
+   end subroutine take_state
+end submodule ehl_solver_state
