@@ -16,7 +16,7 @@ module ehl_checkpoint
    public :: state_t, checkpoint_names, write_checkpoint, read_checkpoint
 
    !> Both have the same length; the version counts the layouts of the file
-   character(len=*), parameter :: magic = "ehl checkpoint v3", family = magic(:len(magic) - 1)
+   character(len=*), parameter :: magic = "ehl checkpoint v4", family = magic(:len(magic) - 1)
    !> The two files of a run; behind a prefix those of the run on the coarser grid
    character(len=*), parameter :: checkpoint_names(2) = ["checkpoint.a", "checkpoint.b"]
    !> What a file can be; otherwise the step of its state
@@ -156,7 +156,7 @@ contains
             return
          end if
          if (stat == 0) then
-            allocate (march%mass(dims(1), dims(2), dims(3)), march%p_before(dims(1), dims(2), dims(3)), &
+            allocate (march%mass(dims(1), dims(2), dims(3)), march%p_before(dims(1), dims(2), dims(3) + 1), &
                       march%forecast%carried(dims(1), dims(2)))
             read (lun, iostat=stat, iomsg=reason) march%skipped, march%time, march%time_step, march%residual, march%cycles, &
                march%total_cycles, march%coarsening, march%changed_at, &

@@ -1,7 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> First approximation of the pressure of a time step. It changes by what it changed in the last step, at the
-!> node (things that stand) or at the node it comes from with the surface (things that are carried
-!> along); each node goes by the one that was right in the step before.
+!> First approximation of the pressure of a time step, of second order in time: the changes of the last two steps
+!> are continued, at the node (things that stand) or at the nodes they come from with the surface (things that are
+!> carried along); each node goes by the one that was right in the step before, judged by what its error does in the
+!> equation: where the lubricant flows, a small rough error is a large residual.
 module ehl_forecast
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
@@ -10,15 +11,13 @@ module ehl_forecast
    private
    public :: forecast_t
 
-   !> Nothing is carried where the lubricant flows: conductance/mesh-size^2 at which the weight is halved
-   real(dp), parameter :: flows = 0.3_dp
    !> Errors are compared over squares of (2 reach + 1)^2 nodes
    integer, parameter :: reach = 2
 
    type :: forecast_t
       !> Weight of what is carried along, 0 to 1; (nx, ny)
       real(dp), allocatable :: carried(:, :)
-      !> Squared errors in the last step, without and with the motion; (nx, ny)
+      !> Errors of the last step by their weight in the equation, without and with the motion; (nx, ny)
       real(dp), allocatable, private :: standing_error(:, :), carried_error(:, :)
       !> Nodes that the surface moves in a step
       real(dp) :: shift = 1.0_dp
@@ -46,10 +45,10 @@ contains
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the forecast of a time step")
    end subroutine setup
 
-   !> Pressure expected from that of the last two steps; nodes that were cavitated stay so
+   !> Pressure expected from that of the last three steps; nodes that were cavitated stay so
    subroutine predict(self, before, level)
       class(forecast_t), intent(in) :: self
-      !> Pressures of the last step and of the one before, (nx, ny, 2)
+      !> Pressures of the last three steps, the latest first, (nx, ny, 3)
       real(dp), intent(in) :: before(:, :, :)
       type(level_t), intent(inout) :: level
       real(dp), dimension(level%grid%nx) :: standing, carried
@@ -68,7 +67,7 @@ contains
    !> See which forecast was right, now that the step is solved
    subroutine learn(self, before, level)
       class(forecast_t), intent(inout) :: self
-      !> Pressures of the two steps before that of the level
+      !> Pressures of the three steps before that of the level
       real(dp), intent(in) :: before(:, :, :)
       type(level_t), intent(in) :: level
       real(dp), dimension(level%grid%nx) :: standing, carried
@@ -78,8 +77,8 @@ contains
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
          call candidates(self, before, j, standing, carried)
-         self%standing_error(:, j) = (level%p(:, j) - standing)**2
-         self%carried_error(:, j) = (level%p(:, j) - carried)**2
+         self%standing_error(:, j) = weighty(level, j, level%p(:, j) - standing)
+         self%carried_error(:, j) = weighty(level, j, level%p(:, j) - carried)
       end do
       !$omp end parallel do
       !$omp parallel do default(none) shared(self, level) &
@@ -90,28 +89,50 @@ contains
       !$omp end parallel do
    end subroutine learn
 
-   !> The two forecasts of row j: the change of the last step once more, at the node and carried along
+   !> The two forecasts of row j: the changes of the last two steps continued, at the node and carried along
    pure subroutine candidates(self, before, j, standing, carried)
       type(forecast_t), intent(in) :: self
-      !> Pressures of the last step and of the one before, (nx, ny, 2)
+      !> Pressures of the last three steps, the latest first, (nx, ny, 3)
       real(dp), intent(in) :: before(:, :, :)
       integer, intent(in) :: j
       !> Shape (nx)
       real(dp), intent(out) :: standing(:), carried(:)
-      real(dp) :: t
-      integer :: i, n
+      !> Changes of the last step and of the one before
+      real(dp), dimension(size(before, 1)) :: last, former
+      real(dp) :: t, t2
+      integer :: i, n, n2
 
+      last = before(:, j, 1) - before(:, j, 2)
+      former = before(:, j, 2) - before(:, j, 3)
+      standing = before(:, j, 1) + 2.0_dp*last - former
+      ! from one step and from two steps up the surface's way, linear between nodes
       n = int(self%shift)
       t = self%shift - n
-      associate (now => before(:, j, 1), last => before(:, j, 2))
-         standing = now + (now - last)
-         carried(:min(n + 1, size(now))) = now(:min(n + 1, size(now)))
-         ! linear between nodes
-         do i = n + 2, size(now)
-            carried(i) = now(i) + (1.0_dp - t)*(now(i - n) - last(i - n)) + t*(now(i - n - 1) - last(i - n - 1))
-         end do
-      end associate
+      n2 = int(2.0_dp*self%shift)
+      t2 = 2.0_dp*self%shift - n2
+      carried = before(:, j, 1)
+      do i = n2 + 2, size(carried)
+         carried(i) = carried(i) + 2.0_dp*((1.0_dp - t)*last(i - n) + t*last(i - n - 1)) &
+                      - ((1.0_dp - t2)*former(i - n2) + t2*former(i - n2 - 1))
+      end do
    end subroutine candidates
+
+   !> What errors of row j weigh: squared, by the deflection they cause (of the order of the error, in the squeeze term)
+   !> and by the flow along X they cause
+   pure function weighty(level, j, error) result(weight)
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: j
+      !> Shape (nx)
+      real(dp), intent(in) :: error(:)
+      real(dp) :: weight(size(error)), r
+      integer :: i
+
+      r = 1.0_dp/level%grid%hx**2
+      weight = error**2
+      do i = 2, size(error) - 1
+         weight(i) = weight(i) + (r*level%eps(i, j)*(2.0_dp*error(i) - error(i - 1) - error(i + 1)))**2
+      end do
+   end function weighty
 
    !> Weights of row j
    subroutine compare(self, level, j)
@@ -119,11 +140,10 @@ contains
       type(level_t), intent(in) :: level
       integer, intent(in) :: j
       real(dp), dimension(level%grid%nx) :: standing, carried
-      real(dp) :: e, c, limit
+      real(dp) :: e, c
       integer :: i, k, row, nx
 
       nx = level%grid%nx
-      limit = flows*min(level%grid%hx, level%grid%hy)**2
       standing = 0.0_dp
       carried = 0.0_dp
       do k = j - reach, min(j + reach, level%grid%ny)
@@ -136,8 +156,7 @@ contains
       do i = 1 + reach, nx - reach
          e = sum(standing(i - reach:i + reach))
          c = sum(carried(i - reach:i + reach))
-         self%carried(i, j) = e/(e + c + tiny(1.0_dp)) &
-                              /(1.0_dp + maxval(level%eps(i - 2:i + 1, j))/limit)
+         self%carried(i, j) = e/(e + c + tiny(1.0_dp))
       end do
    end subroutine compare
 end module ehl_forecast

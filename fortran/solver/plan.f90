@@ -108,13 +108,16 @@ contains
       type(case_t), intent(in) :: input
       type(plan_t), intent(inout) :: plan
 
-      ! a time step begins close to its solution, so that the cheapest cycle wins
       if (input%solver%cycle /= "auto") then
          plan%cycle_letter = input%solver%cycle(1:1)
          plan%step_cycle_letter = plan%cycle_letter
       end if
       plan%cycle = cycle_of(plan%cycle_letter)
+      ! A time step begins close to its solution, so that the cheapest cycle wins; with two sweeps after the coarse
+      ! grids rather than before, more steps take a single one
       plan%step_cycle = cycle_of(plan%step_cycle_letter)
+      plan%step_cycle%pre = 1
+      plan%step_cycle%post = 2
       plan%coarsening_may_change = input%solver%coarsening == "auto"
       plan%step_cycle%coarsening = merge(coarsening_alcouffe, coarsening_classical, &
                                          input%solver%coarsening == "alcouffe")
