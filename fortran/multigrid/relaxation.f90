@@ -17,7 +17,8 @@
 !> finer the grid and the lower L). Coarse grids are there for smooth changes: what is smooth in the
 !> changes of these nodes is taken back at the end of a sweep, from the dipoles beside them too, lest something
 !> of one sign remain around each thin place, and all of these together overshoot. From 4.4 to 2 cycles a step
-!> at M = 1000, L = 10, from 12 to 3 at (500, 5), and (1000, 5) converges.
+!> at M = 1000, L = 10, from 12 to 3 at (500, 5), and (1000, 5) converges. Changes are limited to what the linearised
+!> lines can be trusted with.
 module ehl_relaxation
    use ehl_kinds, only: dp
    use ehl_level, only: level_t, line_width

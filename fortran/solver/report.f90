@@ -9,19 +9,12 @@ module ehl_report
    use ehl_plan, only: plan_t, relative_wedge_error
    use ehl_record, only: record_t
    use ehl_steady, only: level_result_t, steady_t
-   use ehl_text, only: newline, to_text
+   use ehl_text, only: to_text
    use ehl_transient, only: transient_t
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    implicit none (type, external)
    private
-   public :: cycle_line, march_line, report_scene, report_smooth, report_march, report_skips
-   public :: skip_t, find_skips, skip_lines
-
-   !> What a run did not have to do, and the seconds that saved; NaN: nobody can tell
-   type :: skip_t
-      character(len=128) :: what = ""
-      real(dp) :: seconds = 0.0_dp
-   end type skip_t
+   public :: cycle_line, march_line, report_scene, report_smooth, report_march
 
 contains
 
@@ -197,70 +190,6 @@ contains
       call record%set("seconds_per_step", seconds/max(march%step, 1))
       call record%set("step_residual_allowed", march%tolerance)
    end subroutine report_march
-
-   !> What a march that has ended did not have to do. The seconds of steps are those of the mean step made.
-   subroutine find_skips(plan, march, good, most_periods, seconds_steps, seconds_smooth, skips)
-      type(plan_t), intent(in) :: plan
-      type(transient_t), intent(in) :: march
-      !> Whether the march ended because the mean has settled
-      logical, intent(in) :: good
-      !> Periods after which it would have ended at the latest
-      integer, intent(in) :: most_periods
-      !> Seconds spent on the steps, and on the smooth contact
-      real(dp), intent(in) :: seconds_steps, seconds_smooth
-      type(skip_t), allocatable, intent(out) :: skips(:)
-      real(dp) :: unknown, step
-      integer :: left
-
-      unknown = ieee_value(unknown, ieee_quiet_nan)
-      step = seconds_steps/max(march%step, 1)
-      allocate (skips(0))
-      if (plan%finest%mirror) then
-         skips = [skips, skip_t(to_text(plan%finest%nx*(plan%finest%full_ny() - plan%finest%ny))//" of "// &
-                                to_text(plan%finest%nx*plan%finest%full_ny())//" nodes: the scene is symmetric in Y", unknown)]
-      end if
-      if (march%skipped > 0) then
-         skips = [skips, skip_t(to_text(march%skipped)//" steps before the roughness came near the contact", &
-                                march%skipped*step)]
-      end if
-      left = ceiling(max(march%mean%filled, 0) + most_periods*march%mean%period/march%time_step) - march%step
-      if (good .and. plan%steps == 0 .and. left > 0) then
-         skips = [skips, skip_t(to_text(left)//" steps up to the end of period "//to_text(most_periods)// &
-                                ": the mean of mu_r/mu_s had settled", left*step)]
-      end if
-      skips = [skips, skip_t("a second solve of the smooth contact: one gave the start of the march and mu_s", &
-                             seconds_smooth)]
-      skips = [skips, skip_t("corrections of the deflection where P = 0", unknown)]
-   end subroutine find_skips
-
-   !> What was not done, one line each, with the seconds that saved
-   function skip_lines(skips) result(text)
-      type(skip_t), intent(in) :: skips(:)
-      character(len=:), allocatable :: text
-      character(len=16) :: seconds
-      integer :: k
-
-      text = ""
-      do k = 1, size(skips)
-         if (k > 1) text = text//newline
-         text = text//"not done: "//trim(skips(k)%what)
-         if (ieee_is_finite(skips(k)%seconds)) then
-            write (seconds, "(f16.1)") skips(k)%seconds
-            text = text//" (about "//trim(adjustl(seconds))//" s)"
-         else
-            text = text//" (seconds not known)"
-         end if
-      end do
-   end function skip_lines
-
-   !> The same by name, the seconds in a list of their own
-   subroutine report_skips(record, skips)
-      type(record_t), intent(inout) :: record
-      type(skip_t), intent(in) :: skips(:)
-
-      call record%set("skips", skips%what)
-      call record%set("skips_seconds", skips%seconds)
-   end subroutine report_skips
 
    !> A number in a fixed form
    function fixed(x, form) result(text)

@@ -4,8 +4,8 @@ submodule (ehl_solver) ehl_solver_results
    use ehl_judge, only: most_periods
    use ehl_outcome, only: outcome_names, outcome_target_missed
    use ehl_plan_text, only: plan_text
-   use ehl_report, only: cycle_line, find_skips, march_line, report_march, report_scene, report_skips, report_smooth, &
-                         skip_lines, skip_t
+   use ehl_report, only: cycle_line, march_line, report_march, report_scene, report_smooth
+   use ehl_skips, only: find_skips, report_skips, skip_lines, skip_t
    use ehl_status, only: ehl_bad_input
    implicit none (type, external)
 
@@ -46,7 +46,7 @@ contains
                                               self%step_seconds, self%coarse_mean)
       if (self%marching .and. self%done()) then
          call find_skips(self%plan, self%transient, self%converged(), most_periods(self%plan), self%step_seconds, &
-                         self%smooth_seconds, skips)
+                         self%smooth_seconds, self%zeros_seconds, skips)
          call report_skips(record, skips)
       end if
       call record%set("bytes", real(self%hierarchy%bytes(), dp))
@@ -60,7 +60,7 @@ contains
       text = ""
       if (.not. (self%marching .and. self%done())) return
       call find_skips(self%plan, self%transient, self%converged(), most_periods(self%plan), self%step_seconds, &
-                      self%smooth_seconds, skips)
+                      self%smooth_seconds, self%zeros_seconds, skips)
       text = skip_lines(skips)
    end function skipped
 

@@ -65,6 +65,7 @@ contains
       self%transient%narrow = self%plan%narrow
       self%transient%max_cycles = self%plan%max_cycles
       self%transient%coarsening = self%plan%step_cycle%coarsening
+      self%transient%pre = self%plan%step_cycle%pre
       self%transient%may_change = self%plan%coarsening_may_change
       self%transient%tolerance = step_tolerance(self%grid%hx, self%plan%accuracy)
       call self%transient%start(self%hierarchy%levels(n), self%plan%surface, self%plan%skip_start, &
@@ -76,6 +77,7 @@ contains
       if (status%failed()) return
       self%hierarchy%options = self%plan%step_cycle
       self%marching = .true.
+      self%hierarchy%levels(n)%deflections = 0
       call self%frames%start(self%grid)
       if (allocated(self%state)) call take_state(self, status)
       if (status%failed()) return
@@ -106,6 +108,9 @@ contains
             self%outcome = outcome_negative_film
          else
             self%outcome = outcome_cycle_limit
+         end if
+         if (self%outcome /= outcome_running) then
+            self%zeros_seconds = seconds_saved_by_zeros(self%hierarchy%levels(self%steady%n))
          end if
       end associate
    end subroutine advance_step

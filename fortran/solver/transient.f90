@@ -34,6 +34,8 @@ module ehl_transient
       !> Largest residual (rms) of a step, most cycles a step
       real(dp) :: tolerance = 8.0e-5_dp
       integer :: max_cycles = 30
+      !> Sweeps before the coarse grids, unless a cycle of the step was slow
+      integer :: pre = 1
       !> Kind of coarsening; whether it changes for good when a cycle is slow, and the step in which it did (0: none)
       integer :: coarsening = coarsening_classical, changed_at = 0
       logical :: may_change = .false.
@@ -133,12 +135,15 @@ contains
             load_error = pressure_sum(level, level%p)/level%load - 1.0_dp
             if (self%residual <= self%tolerance .and. abs(load_error) <= load_tolerance) exit
             if (self%cycles >= self%max_cycles) exit
-            if (self%may_change .and. self%coarsening == coarsening_classical &
-                .and. .not. self%residual <= max(slow*before, self%tolerance/slow)) then
-               self%coarsening = coarsening_alcouffe
-               self%changed_at = self%step + 1
-               call self%begin_step(hierarchy, level, status)
-               if (status%failed()) return
+            if (.not. self%residual <= max(slow*before, self%tolerance/slow)) then
+               ! one sweep more for the rest of the step
+               hierarchy%options%pre = self%pre + 1
+               if (self%may_change .and. self%coarsening == coarsening_classical) then
+                  self%coarsening = coarsening_alcouffe
+                  self%changed_at = self%step + 1
+                  call self%begin_step(hierarchy, level, status)
+                  if (status%failed()) return
+               end if
             end if
             if (.not. self%residual < huge(1.0_dp)) exit
          end do
@@ -171,6 +176,7 @@ contains
       call update_residual(level, self%residual)
       ! nothing but the fields kept here passes from step to step, so that a run can be resumed
       call hierarchy%forget()
+      hierarchy%options%pre = self%pre
       call hierarchy%coarsen(self%coarsening, status)
    end subroutine begin_step
 
