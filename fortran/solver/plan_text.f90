@@ -55,7 +55,7 @@ contains
       text = text//"deflection "//plan%engine//", threads "//to_text(plan%threads)//new_line("a")
       text = text//"cycles     "//plan%cycle_letter//"(2,1)"
       if (allocated(plan%surface)) then
-         text = text//", time steps "//plan%step_cycle_letter//"(1,2), (2,2) after a slow one, "// &
+         text = text//", time steps "//plan%step_cycle_letter//"(1,2), "// &
                 trim(merge("Alcouffe ", "classical", plan%step_cycle%coarsening == coarsening_alcouffe))//" coarsening"
          if (plan%coarsening_may_change) text = text//", Alcouffe when a cycle is slow"
       end if
