@@ -179,7 +179,7 @@ def test_same_friction(
         "surface.velocity_ratio": VELOCITY,
         "time.estimate_error": False,
         "solver.deflection": "fft",
-        "solver.accuracy": 0.002,
+        "solver.accuracy": 0.0005,
     }
     done = solve(point, points, wave)
     assert done.converged
