@@ -62,8 +62,8 @@ module ehl_transient
 contains
 
    !> Residual (rms) that leaves the algebraic error of mu_r/mu_s below a tenth of the discretisation error: 8e-5 on
-   !> h = 1/128 and in proportion to h elsewhere. Measured at (1000, 10) with waves half a radius long: 0.03 of
-   !> it with Fig. 2 of Zhang et al. 2019, 0.085 with waves a quarter as high, on 257 x 257; half of that on 513 x 513.
+   !> h = 1/128 and in proportion to h elsewhere. Measured at (1000, 10) with waves half a radius long, on 257 x 257
+   !> and 513 x 513: at most 0.05 of it with Fig. 2 of Zhang et al. 2019, 0.085 and 0.03 with waves a quarter as high.
    pure real(dp) function step_tolerance(mesh, accuracy)
       real(dp), intent(in) :: mesh, accuracy
       step_tolerance = 8.0e-4_dp*accuracy*(128.0_dp*mesh)
