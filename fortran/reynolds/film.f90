@@ -15,7 +15,6 @@ contains
       integer :: j
 
       call level%engine%apply(level%p, level%w)
-      level%deflections = level%deflections + 1
       !$omp parallel do default(none) shared(level) num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
          level%h(:, j) = level%h00 + level%geometry(:, j) + level%w(:, j)

@@ -78,8 +78,6 @@ module ehl_level
       !> Line systems, one a thread
       type(line_work_t), allocatable :: work(:)
       integer :: threads = 1
-      !> Deflections made in this march
-      integer :: deflections = 0
       !> Whether the grid is large enough for more than one thread
       logical :: parallel = .false.
    contains

@@ -21,7 +21,7 @@ module ehl_skips
 contains
 
    !> What a march that has ended did not have to do. The seconds of steps are those of the mean step made,
-   !> those of nodes in proportion to their number.
+   !> those of nodes in proportion to their number, those of zeros for every deflection on the finest grid.
    subroutine find_skips(plan, march, good, most_periods, seconds_steps, seconds_smooth, seconds_zeros, skips)
       type(plan_t), intent(in) :: plan
       type(transient_t), intent(in) :: march
@@ -31,11 +31,11 @@ contains
       integer, intent(in) :: most_periods
       !> Seconds spent on the steps, and on the smooth contact
       real(dp), intent(in) :: seconds_steps, seconds_smooth
-      !> Seconds saved where P = 0, see seconds_saved_by_zeros
+      !> Seconds saved in a deflection where P = 0, see seconds_saved_by_zeros
       real(dp), intent(in) :: seconds_zeros
       type(skip_t), allocatable, intent(out) :: skips(:)
       real(dp) :: step
-      integer :: left
+      integer :: left, deflections
 
       step = seconds_steps/max(march%step, 1)
       allocate (skips(0))
@@ -55,7 +55,9 @@ contains
       end if
       skips = [skips, skip_t("a second solve of the smooth contact: one gave the start of the march and mu_s", &
                              seconds_smooth)]
-      skips = [skips, skip_t("corrections of the deflection where P = 0", seconds_zeros)]
+      ! one after the forecast; in a cycle one after every sweep and after the coarse grids
+      deflections = march%step + march%total_cycles*(plan%step_cycle%pre + plan%step_cycle%post + 1)
+      skips = [skips, skip_t("corrections of the deflection where P = 0", deflections*seconds_zeros)]
    end subroutine find_skips
 
    !> What was not done, one line each, with the seconds that saved
@@ -83,8 +85,8 @@ contains
       call record%set("skips_seconds", skips%seconds)
    end subroutine report_skips
 
-   !> Seconds that the deflections made on a level would have taken more if every node had pressure: one of each kind is
-   !> timed. Leaves the residual and the changes of the level overwritten.
+   !> Seconds that a deflection on a level would take more if every node had pressure: one of each kind is timed.
+   !> Overwrites the residual and the changes of the level.
    real(dp) function seconds_saved_by_zeros(level)
       type(level_t), intent(inout) :: level
       !> Best of so many
@@ -103,6 +105,6 @@ contains
          call level%engine%apply(level%change, level%residual)
          seconds(2) = min(seconds(2), clock%seconds())
       end do
-      seconds_saved_by_zeros = level%deflections*max(0.0_dp, seconds(2) - seconds(1))
+      seconds_saved_by_zeros = max(0.0_dp, seconds(2) - seconds(1))
    end function seconds_saved_by_zeros
 end module ehl_skips

@@ -10,7 +10,6 @@ module ehl_solver
    use ehl_outcome, only: outcome_converged, outcome_interrupted, outcome_running
    use ehl_plan, only: make_plan, plan_t
    use ehl_record, only: record_t
-   use ehl_skips, only: seconds_saved_by_zeros
    use ehl_status, only: status_t
    use ehl_steady, only: steady_t
    use ehl_table, only: table_t
@@ -34,7 +33,7 @@ module ehl_solver
       integer, private :: outcome = outcome_running
       !> Seconds spent on time steps, and on the smooth contact
       real(dp), private :: step_seconds = 0.0_dp, smooth_seconds = 0.0_dp
-      !> Seconds that zeros saved in the deflections of the march
+      !> Seconds that zeros save in a deflection
       real(dp), private :: zeros_seconds = 0.0_dp
       !> Heights of a map [m] that was given and not read
       real(dp), allocatable, private :: heights(:, :)
@@ -237,7 +236,6 @@ contains
       if (self%done()) return
       if (self%marching) then
          self%outcome = outcome_interrupted
-         self%zeros_seconds = seconds_saved_by_zeros(self%hierarchy%levels(self%steady%n))
       else
          self%steady%outcome = outcome_interrupted
       end if

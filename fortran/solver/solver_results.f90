@@ -33,7 +33,6 @@ contains
    module function summary(self) result(record)
       class(solver_t), intent(in) :: self
       type(record_t) :: record
-      type(skip_t), allocatable :: skips(:)
       logical :: good
 
       call record%set("status", trim(outcome_names(self%stand())))
@@ -44,25 +43,26 @@ contains
       call report_smooth(record, self%plan, self%steady, self%level(), good)
       if (self%marching) call report_march(record, self%plan, self%transient, self%converged(), &
                                               self%step_seconds, self%coarse_mean)
-      if (self%marching .and. self%done()) then
-         call find_skips(self%plan, self%transient, self%converged(), most_periods(self%plan), self%step_seconds, &
-                         self%smooth_seconds, self%zeros_seconds, skips)
-         call report_skips(record, skips)
-      end if
+      if (self%marching .and. self%done()) call report_skips(record, skips_of(self))
       call record%set("bytes", real(self%hierarchy%bytes(), dp))
    end function summary
 
    module function skipped(self) result(text)
       class(solver_t), intent(in) :: self
       character(len=:), allocatable :: text
-      type(skip_t), allocatable :: skips(:)
 
       text = ""
-      if (.not. (self%marching .and. self%done())) return
+      if (self%marching .and. self%done()) text = skip_lines(skips_of(self))
+   end function skipped
+
+   !> What the march did not have to do
+   function skips_of(self) result(skips)
+      class(solver_t), intent(in) :: self
+      type(skip_t), allocatable :: skips(:)
+
       call find_skips(self%plan, self%transient, self%converged(), most_periods(self%plan), self%step_seconds, &
                       self%smooth_seconds, self%zeros_seconds, skips)
-      text = skip_lines(skips)
-   end function skipped
+   end function skips_of
 
    module subroutine field_names(self, names)
       class(solver_t), intent(in) :: self

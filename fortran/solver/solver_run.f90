@@ -5,6 +5,7 @@ submodule (ehl_solver) ehl_solver_run
    use ehl_harmonic, only: harmonic_t
    use ehl_judge, only: judge_march
    use ehl_outcome, only: outcome_cycle_limit, outcome_diverged, outcome_negative_film
+   use ehl_skips, only: seconds_saved_by_zeros
    use ehl_transient, only: step_tolerance
    implicit none (type, external)
 
@@ -76,8 +77,8 @@ contains
       end do
       if (status%failed()) return
       self%hierarchy%options = self%plan%step_cycle
+      self%zeros_seconds = seconds_saved_by_zeros(self%hierarchy%levels(n))
       self%marching = .true.
-      self%hierarchy%levels(n)%deflections = 0
       call self%frames%start(self%grid)
       if (allocated(self%state)) call take_state(self, status)
       if (status%failed()) return
@@ -108,9 +109,6 @@ contains
             self%outcome = outcome_negative_film
          else
             self%outcome = outcome_cycle_limit
-         end if
-         if (self%outcome /= outcome_running) then
-            self%zeros_seconds = seconds_saved_by_zeros(self%hierarchy%levels(self%steady%n))
          end if
       end associate
    end subroutine advance_step
