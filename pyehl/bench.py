@@ -16,18 +16,9 @@ from typing import Any
 from pyehl import bench_deflection, bench_smooth, bench_step, core
 from pyehl.bench_deflection import deflection_rows
 from pyehl.bench_smooth import smooth_rows
-from pyehl.bench_unit import ScipyDeflection, hertz, median_seconds
 from pyehl.errors import InputError
 
-__all__ = [
-    "ScipyDeflection",
-    "add_arguments",
-    "deflection_rows",
-    "execute",
-    "hertz",
-    "median_seconds",
-    "smooth_rows",
-]
+__all__ = ["add_arguments", "deflection_rows", "execute", "smooth_rows"]
 
 GRIDS = (65, 129, 257, 513, 1025)
 

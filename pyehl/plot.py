@@ -20,17 +20,7 @@ from numpy.typing import NDArray
 
 from pyehl.operating import OperatingPoint
 from pyehl.plot_contact import centre_lines, film_maps
-from pyehl.plot_style import (
-    DPI,
-    Scales,
-    axis_unit,
-    edges,
-    height_unit,
-    letter,
-    nearest,
-    new_figure,
-    save,
-)
+from pyehl.plot_style import DPI, Scales, save
 from pyehl.plot_surface import friction_passage, roughness_pair, surface_spectrum
 from pyehl.topography import Topography
 
@@ -41,16 +31,10 @@ if TYPE_CHECKING:
 __all__ = [
     "Scales",
     "add_arguments",
-    "axis_unit",
     "centre_lines",
-    "edges",
     "execute",
     "film_maps",
     "friction_passage",
-    "height_unit",
-    "letter",
-    "nearest",
-    "new_figure",
     "roughness_pair",
     "save",
     "save_prediction",
