@@ -151,7 +151,7 @@ def predict_friction(
         else:
             status, message = "overflow", "the viscosity at p_s + delta p is not a number"
     else:
-        fine = interpolated(passage)
+        fine = interpolated(passage, 8)
         mean = float(passage.mean())
         least, greatest = float(fine.min()), float(fine.max())
     smooth = math.nan

@@ -68,13 +68,13 @@ def friction_along(
     return steps, ratios, math.nan
 
 
-def interpolated(values: Array) -> Array:
-    """Trigonometric interpolant of a periodic sequence on eight times as many points."""
+def interpolated(values: Array, times: int) -> Array:
+    """Trigonometric interpolant of a periodic sequence on so many times as many points."""
     n = values.size
     half = np.fft.rfft(values)
     if n % 2 == 0:
         half[-1] *= 0.5
-    return np.asarray(np.fft.irfft(half, 8 * n) * 8.0)
+    return np.asarray(np.fft.irfft(half, times * n) * times)
 
 
 def _undecided(values: Array) -> float:
@@ -85,9 +85,5 @@ def _undecided(values: Array) -> float:
     """
     if values.size % 2:
         return math.nan
-    half = np.fft.rfft(values[::2])
-    n = values.size // 2
-    if n % 2 == 0:
-        half[-1] *= 0.5
-    between = np.fft.irfft(half, 2 * n)[1::2] * 2.0
+    between = interpolated(values[::2], 2)[1::2]
     return float(np.abs(between - values[1::2]).max() / values.mean())
