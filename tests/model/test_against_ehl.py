@@ -89,7 +89,7 @@ def test_table_can_be_made_anew(simulated, drivers, cases, tmp_path):
 
 
 def test_schemes_agree_within_the_grid_error(simulated):
-    """It is about 3 % on this grid, most of it common to both schemes."""
+    """That is larger on this grid, see the head of the table."""
     assert simulated["paper"] == pytest.approx(simulated["narrow"], rel=0.01)
 
 
