@@ -62,8 +62,9 @@ module ehl_transient
 contains
 
    !> Residual (rms) that leaves the algebraic error of mu_r/mu_s below a tenth of the discretisation error: 8e-5 on
-   !> h = 1/128 and in proportion to h elsewhere. Measured at (1000, 10) with waves half a radius long, on 257 x 257
-   !> and 513 x 513: at most 0.05 of it with Fig. 2 of Zhang et al. 2019, 0.085 and 0.03 with waves a quarter as high.
+   !> h = 1/128 and in proportion to h elsewhere. Measured on 257 x 257 (grid error: 4/3 of the difference to
+   !> 513 x 513, algebraic error: to a fortieth of this residual), as a share of the grid error, for M, L, wavelength, A/H_c:
+   !> 0.025 (1000, 10, 0.5, 0.42), 0.022 (1000, 10, 0.5, 0.1), 0.014 (2000, 5, 0.5, 1), 0.005 (500, 10, 0.25, 0.5).
    pure real(dp) function step_tolerance(mesh, accuracy)
       real(dp), intent(in) :: mesh, accuracy
       step_tolerance = 8.0e-4_dp*accuracy*(128.0_dp*mesh)
