@@ -2,12 +2,14 @@
 """``pyehl bench step``: the time of a step of a march, and the error of its friction ratio.
 
 Every march is made once with the largest number of threads until the roughness has passed most of
-the contact; its state is then gone on with by each number of threads, for the same few steps. The
-unit of time is one scipy.fft deflection on the same grid, measured beside each of them.
+the contact; its state is then gone on with by each number of threads, for the same few steps, one
+step of each in turn. The unit of time is one scipy.fft deflection on the same grid, made after each
+of these turns.
 """
 
 from __future__ import annotations
 
+import contextlib
 import statistics
 import sys
 import tempfile
@@ -17,14 +19,16 @@ from dataclasses import dataclass
 from typing import Any
 
 from pyehl import core, surface
-from pyehl.bench_unit import ScipyDeflection, hertz, median_seconds
+from pyehl.bench_unit import ScipyDeflection, hertz
 from pyehl.case import Case
 from pyehl.errors import EhlError
 
-__all__ = ["CASES", "COLUMNS", "MARCH_COLUMNS", "error_rows", "step_rows"]
+__all__ = ["CASES", "COLUMNS", "MARCH_COLUMNS", "STEPS", "error_rows", "step_rows"]
 
 # X of the front when the contact is full
 FILLED = 1.05
+# Steps measured; their cycles vary over a period of the wave, which has points/8 steps
+STEPS = 64
 # Relative change of the mean at which the marches for the error end
 TOLERANCE = 5e-4
 
@@ -127,9 +131,11 @@ def step_rows(
     scenes: Sequence[Scene] = CASES,
     scheme: str = "narrow",
     front: float = FILLED,
-    steps: int = 12,
+    steps: int = STEPS,
 ) -> list[dict[str, Any]]:
-    """Seconds of a step (median), cycles of a step (mean), per grid, case and number of threads.
+    """Seconds and cycles of a step (means), per grid, case and number of threads.
+
+    The speed-up is the median over the steps of the ratio to the first number of threads.
 
     Parameters
     ----------
@@ -193,29 +199,35 @@ def _scene_rows(
             line.show(f"{name}: march to the steps that are timed", now=True)
             _fill(solver, case, front, lambda text: line.show(f"{name}: {text}"))
             solver.save_state(at_once=True)
-        for workers in threads:
-            with core.Solver.open(
-                case.with_options(f"solver.threads={workers}"), heights
-            ) as solver:
+        with contextlib.ExitStack() as stack:
+            solvers = []
+            for workers in threads:
+                options = case.with_options(f"solver.threads={workers}")
+                solver = stack.enter_context(core.Solver.open(options, heights))
                 solver.resume(place)
-                line.show(f"{name}: {steps} steps on {workers} thread(s)", now=True)
                 while "steps" not in solver.summary() and not solver.done:
                     solver.advance()
-                units.append(median_seconds(deflect))
-                before = solver.summary()
-                times = []
-                for _ in range(steps):
+                solvers.append(solver)
+            before = [solver.summary() for solver in solvers]
+            times: list[list[float]] = [[] for _ in solvers]
+            line.show(f"{name}: {steps} steps on {threads} thread(s)", now=True)
+            # in turn, so that what else the machine does slows all of them alike
+            for _ in range(steps):
+                for solver, taken in zip(solvers, times, strict=True):
                     began = time.perf_counter()
                     solver.advance()
-                    times.append(time.perf_counter() - began)
-                after = solver.summary()
-            made = after["steps"] - before["steps"]
-            if made != steps:
-                raise EhlError(f"{name}: a step did not converge: {after['status']}")
-            cycles = after["steps"] * after["cycles_per_step"]
-            cycles -= before["steps"] * before["cycles_per_step"]
-            seconds = statistics.median(times)
-            base = rows[0]["seconds"] if rows else seconds
+                    taken.append(time.perf_counter() - began)
+                began = time.perf_counter()
+                deflect()
+                units.append(time.perf_counter() - began)
+            after = [solver.summary() for solver in solvers]
+        for k, workers in enumerate(threads):
+            if after[k]["steps"] - before[k]["steps"] != steps:
+                raise EhlError(f"{name}: a step did not converge: {after[k]['status']}")
+            cycles = after[k]["steps"] * after[k]["cycles_per_step"]
+            cycles -= before[k]["steps"] * before[k]["cycles_per_step"]
+            seconds = statistics.fmean(times[k])
+            ratios = [one / now for one, now in zip(times[0], times[k], strict=True)]
             rows.append(
                 {
                     "points": points,
@@ -223,8 +235,8 @@ def _scene_rows(
                     "domain": scene.domain,
                     "threads": workers,
                     "seconds": seconds,
-                    "seconds_of_steps": times,
-                    "speedup": base / seconds,
+                    "seconds_of_steps": times[k],
+                    "speedup": statistics.median(ratios),
                     "cycles": cycles / steps,
                     "error": None,
                 }

@@ -47,7 +47,7 @@ module ehl_mlmi
    !> Grids are halved until they have no more nodes a side than this
    integer, parameter :: few = 17
    !> Grids with fewer nodes are left to one thread
-   integer, parameter :: small = 4096
+   integer, parameter :: small = 1024
    !> More halvings than any grid that fits into memory has
    integer, parameter :: most_stages = 64
    !> Accuracies beyond which the estimate of the error holds no more
@@ -186,14 +186,15 @@ contains
       class(mlmi_deflection_t), intent(inout) :: self
       real(dp), intent(in) :: p(:, :)
       real(dp), intent(out) :: w(:, :)
-      integer :: s, n, threads(most_stages)
+      integer :: s, n, nodes(most_stages), threads(most_stages)
 
       n = size(self%stages)
       do s = 1, n
-         associate (stage => self%stages(s))
-            threads(s) = merge(self%threads, 1, product(stage%high - stage%low + 1) >= small)
-         end associate
+         nodes(s) = product(self%stages(s)%high - self%stages(s)%low + 1)
       end do
+      threads = merge(self%threads, 1, nodes >= small)
+      ! a node of the coarsest grid takes something from all of them
+      threads(n) = merge(self%threads, 1, nodes(n)**2 >= few*small)
       call take(self%stages(1), threads(1), p, self%work)
       do s = 1, n - 1
          call descend(self%stages(s), self%stages(s + 1), self%omega, threads(s), self%work)

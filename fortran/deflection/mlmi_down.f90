@@ -150,7 +150,7 @@ contains
       !$omp parallel num_threads(threads) default(none) private(j, me) shared(stage, work, w)
       me = 1
       !$ me = omp_get_thread_num() + 1
-      !$omp do schedule(dynamic, 8)
+      !$omp do schedule(static)
       do j = stage%low(2), stage%high(2)
          call sum_row(stage, j, work(:, 1, me), work(:, 2, me), w(:, j))
       end do

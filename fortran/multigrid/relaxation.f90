@@ -74,7 +74,7 @@ contains
          if (start > last) cycle
          blocks = ((last - start)/2 + line_width)/line_width
          !$omp parallel do default(none) shared(level, last, start, blocks) private(me) &
-         !$omp num_threads(level%threads) if(level%parallel) schedule(static)
+         !$omp num_threads(level%threads) if(level%parallel) schedule(static, 1)
          do block = 1, blocks
             me = 1
             !$ me = omp_get_thread_num() + 1
@@ -186,7 +186,7 @@ contains
       integer :: i, j, k, row
 
       !$omp parallel do default(none) shared(level, first, last, from, to) private(i, k) &
-      !$omp num_threads(level%threads) if(level%parallel) schedule(static)
+      !$omp num_threads(level%threads) if(level%parallel) schedule(static, 8)
       do j = first, last
          from(j) = findloc(level%share(:, j) > 0.0_dp, .true., dim=1)
          to(j) = findloc(level%share(:, j) > 0.0_dp, .true., dim=1, back=.true.)
@@ -201,7 +201,7 @@ contains
       end do
       !$omp end parallel do
       !$omp parallel do default(none) shared(level, first, last, from, to) private(i, k, row, smooth) &
-      !$omp num_threads(level%threads) if(level%parallel) schedule(static)
+      !$omp num_threads(level%threads) if(level%parallel) schedule(static, 8)
       do j = first, last
          if (from(j) == 0) cycle
          smooth(from(j):to(j)) = 0.0_dp

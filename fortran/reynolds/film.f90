@@ -34,7 +34,7 @@ contains
       call level%lubricant%log_viscosity(zero, rest_log, rest_gain)
       call level%lubricant%density(zero, rest_rho, rest_slope)
       !$omp parallel do default(none) shared(level, rest_log, rest_gain, rest_rho, rest_slope) &
-      !$omp private(i, last, log_eta) num_threads(level%threads) if(level%parallel) schedule(static)
+      !$omp private(i, last, log_eta) num_threads(level%threads) if(level%parallel) schedule(static, 8)
       do j = 1, level%grid%ny
          last = level%grid%nx
          do while (last > 1 .and. level%p(last, j) <= 0.0_dp)

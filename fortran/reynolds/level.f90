@@ -20,7 +20,7 @@ module ehl_level
    !> Lines relaxed side by side
    integer, parameter :: line_width = 8
    !> Grids with fewer nodes are worked on by one thread
-   integer, parameter :: parallel_from = 4096
+   integer, parameter :: parallel_from = 1024
 
    !> Work space of one thread's line systems: what they are made from (line, number, node), nodes from
    !> -1; upper diagonals (line, diagonal, node) and changes (line, node), nodes from -3
