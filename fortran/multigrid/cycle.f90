@@ -10,7 +10,7 @@ module ehl_cycle
    use ehl_relaxation, only: relax
    implicit none (type, external)
    private
-   public :: cycle_options_t, fas_cycle, refresh, prolong_solution
+   public :: cycle_options_t, finest_cycle, refresh, prolong_solution
    public :: coarsening_classical, coarsening_alcouffe
 
    !> Residual reduction wanted on the coarsest level, and the most Newton steps to get it
@@ -24,6 +24,8 @@ module ehl_cycle
       logical :: full = .false.
       !> Sweeps before and after the coarse-grid correction
       integer :: pre = 2, post = 1
+      !> Residual (rms) of the finest level that needs no more of the sweeps after the correction
+      real(dp) :: enough = 0.0_dp
       !> Kind of transfers and coarse operators
       integer :: coarsening = coarsening_classical
    end type cycle_options_t
@@ -37,11 +39,69 @@ contains
       call update_coefficients(level)
    end subroutine refresh
 
-   !> One cycle on level n. Film and coefficients are up to date before and after.
-   recursive subroutine fas_cycle(levels, transfers, n, coarsest, options)
+   !> One cycle with level n as the finest. Film and coefficients are up to date before and after.
+   subroutine finest_cycle(levels, transfers, n, coarsest, options, residual, sweeps)
       !> Coarsest level first
       type(level_t), intent(inout) :: levels(:)
       !> Operator-dependent transfer between each level and the next coarser one
+      type(transfer_t), intent(inout) :: transfers(:)
+      integer, intent(in) :: n
+      type(coarsest_t), intent(inout) :: coarsest
+      type(cycle_options_t), intent(in) :: options
+      !> What is left (rms)
+      real(dp), intent(out) :: residual
+      !> Sweeps made on level n
+      integer, intent(out) :: sweeps
+
+      sweeps = 0
+      if (n == 1) then
+         call fas_cycle(levels, transfers, n, coarsest, options)
+         call update_residual(levels(n), residual)
+         return
+      end if
+      call sweep(levels(n), options%pre)
+      sweeps = options%pre
+      call coarse_correction(levels, transfers, n, coarsest, options)
+      do
+         call sweep(levels(n), 1)
+         sweeps = sweeps + 1
+         call update_residual(levels(n), residual)
+         if (sweeps == options%pre + options%post .or. residual <= options%enough) return
+      end do
+   end subroutine finest_cycle
+
+   !> One cycle on level n
+   recursive subroutine fas_cycle(levels, transfers, n, coarsest, options)
+      type(level_t), intent(inout) :: levels(:)
+      type(transfer_t), intent(inout) :: transfers(:)
+      integer, intent(in) :: n
+      type(coarsest_t), intent(inout) :: coarsest
+      type(cycle_options_t), intent(in) :: options
+
+      if (n == 1) then
+         call coarsest%solve(levels(1), coarsest_reduction, coarsest_steps)
+         return
+      end if
+      call sweep(levels(n), options%pre)
+      call coarse_correction(levels, transfers, n, coarsest, options)
+      call sweep(levels(n), options%post)
+   end subroutine fas_cycle
+
+   !> Relax so many times
+   subroutine sweep(level, times)
+      type(level_t), intent(inout) :: level
+      integer, intent(in) :: times
+      integer :: k
+
+      do k = 1, times
+         call relax(level)
+         call refresh(level)
+      end do
+   end subroutine sweep
+
+   !> Solve the problem of level n on the coarser ones and take over the change
+   recursive subroutine coarse_correction(levels, transfers, n, coarsest, options)
+      type(level_t), intent(inout) :: levels(:)
       type(transfer_t), intent(inout) :: transfers(:)
       integer, intent(in) :: n
       type(coarsest_t), intent(inout) :: coarsest
@@ -50,14 +110,6 @@ contains
       real(dp) :: rms
       integer :: k
 
-      if (n == 1) then
-         call coarsest%solve(levels(1), coarsest_reduction, coarsest_steps)
-         return
-      end if
-      do k = 1, options%pre
-         call relax(levels(n))
-         call refresh(levels(n))
-      end do
       call update_residual(levels(n), rms)
       call restrict_problem(levels(n), levels(n - 1), transfers(n), options%coarsening)
       do k = 1, options%gamma
@@ -71,11 +123,7 @@ contains
       end if
       call correct(levels(n), levels(n - 1), transfers(n), options%coarsening)
       call refresh(levels(n))
-      do k = 1, options%post
-         call relax(levels(n))
-         call refresh(levels(n))
-      end do
-   end subroutine fas_cycle
+   end subroutine coarse_correction
 
    !> First approximation on a finer level: cubic interpolation of the coarse pressure
    subroutine prolong_solution(coarse, fine)

@@ -4,7 +4,7 @@ module ehl_hierarchy
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_alcouffe, only: transfer_t
    use ehl_coarsest, only: coarsest_t
-   use ehl_cycle, only: coarsening_classical, cycle_options_t, fas_cycle
+   use ehl_cycle, only: coarsening_classical, cycle_options_t, finest_cycle
    use ehl_deflection_factory, only: new_deflection
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
@@ -121,10 +121,15 @@ contains
    end function deflection_accuracy
 
    !> One multigrid cycle with level n as the finest
-   subroutine run_cycle(self, n)
+   subroutine run_cycle(self, n, residual, sweeps)
       class(hierarchy_t), intent(inout) :: self
       integer, intent(in) :: n
-      call fas_cycle(self%levels, self%transfers, n, self%coarsest, self%options)
+      !> What is left (rms)
+      real(dp), intent(out) :: residual
+      !> Sweeps made on level n
+      integer, intent(out) :: sweeps
+
+      call finest_cycle(self%levels, self%transfers, n, self%coarsest, self%options, residual, sweeps)
    end subroutine run_cycle
 
    !> Drop what one cycle leaves for the next beyond the fields of its finest level

@@ -16,7 +16,7 @@ module ehl_checkpoint
    public :: state_t, checkpoint_names, write_checkpoint, read_checkpoint
 
    !> Both have the same length; the version counts the layouts of the file
-   character(len=*), parameter :: magic = "ehl checkpoint v4", family = magic(:len(magic) - 1)
+   character(len=*), parameter :: magic = "ehl checkpoint v5", family = magic(:len(magic) - 1)
    !> The two files of a run; behind a prefix those of the run on the coarser grid
    character(len=*), parameter :: checkpoint_names(2) = ["checkpoint.a", "checkpoint.b"]
    !> What a file can be; otherwise the step of its state
@@ -65,7 +65,7 @@ contains
       if (stat == 0) then
          write (lun, iostat=stat, iomsg=reason) magic, march%step, len(text), text, &
             shape(march%mass), march%skipped, march%time, march%time_step, march%residual, march%cycles, &
-            march%total_cycles, march%coarsening, march%changed_at, march%h00_before, march%friction_smooth, &
+            march%total_cycles, march%total_sweeps, march%coarsening, march%changed_at, march%h00_before, march%friction_smooth, &
             numbers, march%mass, march%p_before, march%forecast%carried, &
             march%mean%n, march%mean%values(:march%mean%n), march%mean%film(:march%mean%n), &
             march%mean%roughness(:march%mean%n), shape(rows), rows, shape(frames%p), frames%times, frames%p, frames%h
@@ -159,7 +159,7 @@ contains
             allocate (march%mass(dims(1), dims(2), dims(3)), march%p_before(dims(1), dims(2), dims(3) + 1), &
                       march%forecast%carried(dims(1), dims(2)))
             read (lun, iostat=stat, iomsg=reason) march%skipped, march%time, march%time_step, march%residual, march%cycles, &
-               march%total_cycles, march%coarsening, march%changed_at, &
+               march%total_cycles, march%total_sweeps, march%coarsening, march%changed_at, &
                march%h00_before, march%friction_smooth, state%numbers, march%mass, march%p_before, &
                march%forecast%carried, n
          end if

@@ -2,7 +2,6 @@
 !> The smooth, steady solution by full multigrid (nested iteration), one cycle at a time
 module ehl_steady
    use ehl_cycle, only: prolong_solution, refresh
-   use ehl_film, only: update_residual
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp, pi
    use ehl_level, only: level_t
@@ -81,21 +80,22 @@ contains
       type(hierarchy_t), intent(inout) :: hierarchy
       type(status_t), intent(inout) :: status
       type(measures_t) :: before
-      real(dp) :: change(2), q
+      real(dp) :: change(2), q, residual
+      integer :: sweeps
 
       if (self%outcome /= outcome_running) return
       if (.not. self%entered) call self%enter_level(plan, hierarchy, status)
       if (status%failed()) return
       associate (result => self%results(self%n), level => hierarchy%levels(self%n))
          before = result%m
-         call hierarchy%cycle(self%n)
+         call hierarchy%cycle(self%n, residual, sweeps)
          result%cycles = result%cycles + 1
          result%m = measure(level)
          if (.not. result%m%finite .or. .not. result%m%positive) then
             call self%fail_level(plan, merge(outcome_negative_film, outcome_diverged, result%m%finite))
             return
          end if
-         call update_residual(level, result%residual)
+         result%residual = residual
          change = abs([result%m%film_central - before%film_central, result%m%film_minimum - before%film_minimum])
          if (result%cycles == 1) then
             ! part of this change is discretisation error, so that its size says little of the next
