@@ -212,9 +212,11 @@ def test_bench_step(tmp_path: Path, capsys, monkeypatch):
     assert [(row["points"], row["threads"]) for row in rows] == [(33, 1), (33, 2), (65, 1), (65, 2)]
     for row in rows:
         assert len(row["seconds_of_steps"]) == 3
-        assert row["seconds"] == sorted(row["seconds_of_steps"])[1] > 0.0
+        assert row["seconds"] == pytest.approx(sum(row["seconds_of_steps"]) / 3, rel=1e-12)
         assert row["units"] == row["seconds"] / row["unit_seconds"]
         assert 1.0 <= row["cycles"] <= 30.0
+    first = [row["seconds_of_steps"] for row in rows[:2]]
+    assert rows[1]["speedup"] == sorted(one / two for one, two in zip(*first, strict=True))[1]
     # the same steps whatever the number of threads
     assert rows[0]["cycles"] == rows[1]["cycles"]
     marches = {row["points"]: row for row in answer["marches"]}
