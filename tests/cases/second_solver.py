@@ -1,0 +1,245 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A second solver of the same discrete equations, to check the first.
+
+It shares nothing with the first but the equations: no coarser grids, no multi-integration, no
+relaxation. Each time step is solved by Newton's method with the cavitated nodes as an active set;
+the linear systems by GMRES, with the LU factors of an earlier, full matrix as preconditioner.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import scipy.fft
+from numpy.typing import NDArray
+from scipy import linalg, sparse
+from scipy.sparse.linalg import LinearOperator, gmres
+
+Array = NDArray[np.float64]
+
+ALPHA, P_0, Z = 2.2e-8, 1.96e8, 0.6684
+X_INLET, X_OUTLET = -2.5, 1.5
+VELOCITY, START = 1.01, -2.5
+# The roughness changes nothing before its front, with half its length, is here
+X_MATTERS = -1.25
+# Residual (rms) and error of the load of a solution
+ENOUGH, LOAD_ENOUGH = 1e-8, 1e-9
+# More products with the matrix than this, and its factors are made anew
+PATIENCE = 30
+
+
+def cell(dx: Array, dy: Array, h: float) -> Array:
+    """(2/pi^2) int int 1/r over the cell of a node at (dx, dy) (Johnson 1985, eq. 3.25)."""
+
+    def corner(x: Array, y: Array) -> Array:
+        return x * np.arcsinh(y / np.abs(x)) + y * np.arcsinh(x / np.abs(y))
+
+    e, w, n, s = dx + h / 2, dx - h / 2, dy + h / 2, dy - h / 2
+    return 2.0 / np.pi**2 * (corner(e, n) - corner(w, n) - corner(e, s) + corner(w, s))
+
+
+class SecondSolver:
+    """A contact on the half Y >= 0 of the grid, all nodes in one vector, X first."""
+
+    def __init__(self, moes_m: float, moes_l: float, points: int, *, narrow: bool = True) -> None:
+        self.h = (X_OUTLET - X_INLET) / (points - 1)
+        self.points, self.rows = points, (points + 1) // 2
+        self.narrow = narrow
+        x = X_INLET + self.h * np.arange(points)
+        y = self.h * np.arange(self.rows)
+        self.x, self.y = (a.ravel(order="F") for a in np.meshgrid(x, y, indexing="ij"))
+        self.p_hertz = moes_l / np.pi * (1.5 * moes_m) ** (1.0 / 3.0) / ALPHA
+        self.speed = (128.0 * np.pi**3 / (3.0 * moes_m**4)) ** (1.0 / 3.0)
+        self.weight = np.where(self.y == 0.0, 1.0, 2.0) * self.h**2
+        # deflection by the pressure of one cell, at (i, j) nodes from it
+        far = self.h * np.arange(points)
+        self.cells = cell(far[:, None], far[None, :], self.h)
+        wrapped = np.zeros((2 * points, 2 * points))
+        wrapped[:points, :points] = self.cells
+        wrapped[1 - points :, :points] = self.cells[:0:-1]
+        wrapped[:, 1 - points :] = wrapped[:, points - 1 : 0 : -1]
+        self.transform = scipy.fft.rfft2(wrapped)
+        self.inside = (self.x > x[0]) & (self.x < x[-1]) & (self.y < y[-1])
+        self.first = np.isclose(self.x, x[1])
+        self.neighbours = [self.at(*move) for move in ((1, 0), (-1, 0), (0, 1), (0, -1))]
+        self.column = np.tile(np.arange(points), self.rows)
+        self.row = np.repeat(np.arange(self.rows), points)
+        # deflection, by the pressure of a node, of the nodes whose film its equation contains
+        concerned = sparse.eye_array(self.x.size) + self.at(-2, 0)
+        pattern = sparse.coo_array(sum(self.neighbours, concerned))
+        here, there = pattern.coords
+        self.near = sparse.csr_array((self.kernel(there, here), (here, there)), pattern.shape)
+        # LU factors of a full matrix, and the nodes it was made for
+        self.factors: Any = None
+        self.set: NDArray[np.intp] = np.zeros(0, dtype=np.intp)
+
+    def at(self, di: int, dj: int) -> sparse.csr_array:
+        """Matrix that takes values from so many nodes further; 0 from outside."""
+        i, j = np.meshgrid(np.arange(self.points), np.arange(self.rows), indexing="ij")
+        to = (i + di, abs(j + dj))
+        good = ((to[0] >= 0) & (to[0] < self.points) & (to[1] < self.rows)).ravel(order="F")
+        row = np.flatnonzero(good)
+        column = (to[0] + self.points * to[1]).ravel(order="F")[good]
+        shape = (self.x.size, self.x.size)
+        return sparse.csr_array((np.ones(row.size), (row, column)), shape)
+
+    def kernel(self, of: NDArray[np.intp], by: NDArray[np.intp]) -> Array:
+        """Deflection of nodes by the pressure of nodes and of their mirror images."""
+        across = abs(self.column[of] - self.column[by])
+        image = self.cells[across, self.row[of] + self.row[by]] * (self.row[by] > 0)
+        answer: Array = self.cells[across, abs(self.row[of] - self.row[by])] + image
+        return answer
+
+    def deflect(self, p: Array) -> Array:
+        """Deflection of all nodes."""
+        half = p.reshape(self.rows, self.points)
+        whole = np.concatenate([half[:0:-1], half]).T
+        size = (2 * self.points, 2 * self.points)
+        w = scipy.fft.irfft2(scipy.fft.rfft2(whole, s=size) * self.transform, s=size)
+        answer: Array = w[: self.points, self.rows - 1 : self.points].T.ravel()
+        return answer
+
+    def wave(self, amplitude: float, wavelength: float, time: float) -> Array:
+        """Eq. 15."""
+        along = (self.x - START - VELOCITY * time) / wavelength
+        fade = 10.0 ** (-10.0 * np.maximum(0.0, along) ** 2)
+        across = np.cos(2.0 * np.pi * self.y / wavelength)
+        return amplitude * fade * np.cos(2.0 * np.pi * along) * across
+
+    def viscosity(self, p: Array) -> tuple[Array, Array]:
+        """Roelands: eta, d ln eta/dP."""
+        r = 1.0 + p * self.p_hertz / P_0
+        return np.exp(ALPHA * P_0 / Z * (r**Z - 1.0)), ALPHA * self.p_hertz * r ** (Z - 1.0)
+
+    def density(self, p: Array) -> tuple[Array, Array]:
+        """Dowson & Higginson: rho, d rho/dP."""
+        q = p * self.p_hertz
+        return (5.9e8 + 1.34 * q) / (5.9e8 + q), 0.34 * 5.9e8 * self.p_hertz / (5.9e8 + q) ** 2
+
+    def friction(self, p: Array, film: Array) -> float:
+        return float((self.weight * self.viscosity(p)[0] / film).sum())
+
+    def solve(
+        self, p: Array, h00: float, separation: Array, transport: Any, known: Array
+    ) -> tuple[Array, float, Array]:
+        """P, H00 and H with -div(eps grad P) + transport (rho H) + known = 0 or P = 0."""
+        n = p.size
+        for _ in range(80):
+            film = h00 + separation + self.deflect(p)
+            (eta, d_eta), (rho, d_rho) = self.viscosity(p), self.density(p)
+            eps = rho * film**3 / (eta * self.speed)
+            couple, slope = sparse.csr_array((n, n)), sparse.csr_array((n, n))
+            for move in self.neighbours:
+                mean = sparse.diags_array(0.5 * (move @ eps + eps) / self.h**2)
+                couple = couple + mean @ (move - sparse.eye_array(n))
+                drop = sparse.diags_array(0.5 * (move @ p - p) / self.h**2)
+                slope = slope + drop @ (move + sparse.eye_array(n))
+            residual = -couple @ p + transport @ (rho * film) + known
+            by_film = transport @ sparse.diags_array(rho) - slope @ sparse.diags_array(
+                3.0 * eps / film
+            )
+            by_p = transport @ sparse.diags_array(d_rho * film) - couple
+            by_p = by_p - slope @ sparse.diags_array(eps * (d_rho / rho - d_eta))
+            diagonal = by_p.diagonal() + by_film.multiply(self.near).sum(axis=1)
+            fixed = ~self.inside | (p - residual / np.abs(diagonal) <= 0.0)
+            rest = np.append(np.where(fixed, p, residual), self.weight @ p - 2.0 * np.pi / 3.0)
+            error = np.sqrt(np.mean(rest[:n] ** 2))
+            if error < ENOUGH and abs(rest[n]) < LOAD_ENOUGH:
+                return p, h00, film
+            change = self.newton_step(by_film, by_p, fixed, rest, diagonal)
+            damp = min(1.0, 0.3 / np.abs(change[:n]).max())
+            p, h00 = np.maximum(0.0, p + damp * change[:n]), h00 + damp * change[n]
+        raise AssertionError(f"Newton's method does not converge: residual {error}")
+
+    def newton_step(
+        self, by_film: Any, by_p: Any, fixed: NDArray[np.bool_], rest: Array, diagonal: Array
+    ) -> Array:
+        """Changes of pressure and of H00; the pressure of fixed nodes becomes 0."""
+        n = fixed.size
+        # all equations in units of their own pressure
+        free = sparse.diags_array(np.where(fixed, 0.0, 1.0 / diagonal))
+        by_film, by_p = (free @ by_film).tocsr(), (free @ by_p).tocsr()
+        wanted = np.append(np.where(fixed, -rest[:n], -rest[:n] / diagonal), -rest[n])
+
+        def product(v: Array) -> Array:
+            film = self.deflect(v[:n]) + v[n]
+            answer = by_film @ film + by_p @ v[:n] + np.where(fixed, v[:n], 0.0)
+            return np.append(answer, self.weight @ v[:n])
+
+        def precondition(v: Array) -> Array:
+            answer = v.copy()
+            where = np.append(self.set, n)
+            answer[where] = linalg.lu_solve(self.factors, v[where], check_finite=False)
+            return answer
+
+        matrix = LinearOperator((n + 1, n + 1), product, dtype=np.float64)
+        inverse = LinearOperator((n + 1, n + 1), precondition, dtype=np.float64)
+        for fresh in (False, True):
+            if fresh or self.factors is None:
+                self.factor(by_film, by_p, np.flatnonzero(~fixed))
+            change, failed = gmres(
+                matrix, wanted, M=inverse, rtol=1e-3, atol=0.0, restart=PATIENCE, maxiter=1
+            )
+            if not failed:
+                break
+        answer: Array = change
+        return answer
+
+    def factor(self, by_film: Any, by_p: Any, nodes: NDArray[np.intp]) -> None:
+        """The full matrix of some nodes and the load, and its LU factors."""
+        rows = by_film[nodes]
+        touched = np.unique(rows.indices)
+        m = nodes.size
+        matrix = np.empty((m + 1, m + 1))
+        matrix[:m, :m] = rows[:, touched] @ self.kernel(touched[:, None], nodes[None, :])
+        matrix[:m, :m] += by_p[nodes][:, nodes].toarray()
+        matrix[:m, m] = rows.sum(axis=1)
+        matrix[m, :m] = self.weight[nodes]
+        matrix[m, m] = 0.0
+        self.factors = linalg.lu_factor(matrix, overwrite_a=True, check_finite=False)
+        self.set = nodes
+
+    def upstream(self) -> Any:
+        """Second-order upstream difference along X, of first order in the first column."""
+        order = np.where(self.first, 0.0, 1.0)
+        answer = (
+            sparse.diags_array(1.0 + 0.5 * order)
+            - sparse.diags_array(1.0 + order) @ self.at(-1, 0)
+            + sparse.diags_array(0.5 * order) @ self.at(-2, 0)
+        )
+        return answer / self.h
+
+    def smooth(self) -> tuple[Array, float, Array]:
+        """The steady contact."""
+        p = np.sqrt(np.maximum(0.0, 1.0 - self.x**2 - self.y**2))
+        shape = 0.5 * (self.x**2 + self.y**2)
+        return self.solve(p, -0.9, shape, self.upstream(), np.zeros_like(p))
+
+    def march(self, amplitude: float, wavelength: float) -> Iterator[tuple[float, Array]]:
+        """mu_r/mu_s and the film of one step after the other, the step being the mesh size."""
+        shape = 0.5 * (self.x**2 + self.y**2)
+        p, h00, film = self.smooth()
+        smooth = self.friction(p, film)
+        step = int((X_MATTERS - 0.5 * wavelength - START) / VELOCITY / self.h)
+        mass = [
+            self.density(p)[0] * (film - self.wave(amplitude, wavelength, (step - k) * self.h))
+            for k in (0, 1)
+        ]
+        order = np.where(self.first, 0.0, 1.0)
+        if self.narrow:
+            transport = sparse.diags_array((1.0 + 0.5 * order) / self.h)
+        else:
+            transport = self.upstream() + 1.5 / self.h * sparse.eye_array(p.size)
+        while True:
+            step += 1
+            separation = shape - self.wave(amplitude, wavelength, step * self.h)
+            if self.narrow:
+                known = -(1.0 + order) * (self.at(-1, 0) @ mass[0])
+                known = (known + 0.5 * order * (self.at(-2, 0) @ mass[1])) / self.h
+            else:
+                known = (-2.0 * mass[0] + 0.5 * mass[1]) / self.h
+            p, h00, film = self.solve(p, h00, separation, transport, known)
+            mass = [self.density(p)[0] * film, mass[0]]
+            yield self.friction(p, film) / smooth, film
