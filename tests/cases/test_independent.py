@@ -62,7 +62,7 @@ def test_same_friction(
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("point", "over_film", "wavelength", "scheme"),
-    [((500.0, 5.0), 1.0, 0.5, "narrow"), ((2000.0, 15.0), 1.0, 1.0, "paper")],
+    [((500.0, 5.0), 1.0, 0.5, "narrow"), ((1000.0, 10.0), 0.5, 0.5, "paper")],
 )
 def test_same_friction_by_default_settings(
     solve, point: tuple[float, float], over_film: float, wavelength: float, scheme: str
