@@ -51,23 +51,22 @@ contains
       !> What is left (rms)
       real(dp), intent(out) :: residual
       !> Sweeps made on level n
-      integer, intent(out) :: sweeps
+      integer, intent(out), optional :: sweeps
+      integer :: k
 
-      sweeps = 0
+      k = 0
       if (n == 1) then
-         call fas_cycle(levels, transfers, n, coarsest, options)
-         call update_residual(levels(n), residual)
-         return
+         call coarsest%solve(levels(1), coarsest_reduction, coarsest_steps)
+         call update_residual(levels(1), residual)
+      else
+         call visit_coarser(levels, transfers, n, coarsest, options)
+         do k = options%pre + 1, options%pre + options%post
+            call sweep(levels(n), 1)
+            call update_residual(levels(n), residual)
+            if (k == options%pre + options%post .or. residual <= options%enough) exit
+         end do
       end if
-      call sweep(levels(n), options%pre)
-      sweeps = options%pre
-      call coarse_correction(levels, transfers, n, coarsest, options)
-      do
-         call sweep(levels(n), 1)
-         sweeps = sweeps + 1
-         call update_residual(levels(n), residual)
-         if (sweeps == options%pre + options%post .or. residual <= options%enough) return
-      end do
+      if (present(sweeps)) sweeps = k
    end subroutine finest_cycle
 
    !> One cycle on level n
@@ -82,8 +81,7 @@ contains
          call coarsest%solve(levels(1), coarsest_reduction, coarsest_steps)
          return
       end if
-      call sweep(levels(n), options%pre)
-      call coarse_correction(levels, transfers, n, coarsest, options)
+      call visit_coarser(levels, transfers, n, coarsest, options)
       call sweep(levels(n), options%post)
    end subroutine fas_cycle
 
@@ -99,8 +97,8 @@ contains
       end do
    end subroutine sweep
 
-   !> Solve the problem of level n on the coarser ones and take over the change
-   recursive subroutine coarse_correction(levels, transfers, n, coarsest, options)
+   !> Relax level n, solve its problem on the coarser ones and take over the change
+   recursive subroutine visit_coarser(levels, transfers, n, coarsest, options)
       type(level_t), intent(inout) :: levels(:)
       type(transfer_t), intent(inout) :: transfers(:)
       integer, intent(in) :: n
@@ -110,6 +108,7 @@ contains
       real(dp) :: rms
       integer :: k
 
+      call sweep(levels(n), options%pre)
       call update_residual(levels(n), rms)
       call restrict_problem(levels(n), levels(n - 1), transfers(n), options%coarsening)
       do k = 1, options%gamma
@@ -123,7 +122,7 @@ contains
       end if
       call correct(levels(n), levels(n - 1), transfers(n), options%coarsening)
       call refresh(levels(n))
-   end subroutine coarse_correction
+   end subroutine visit_coarser
 
    !> First approximation on a finer level: cubic interpolation of the coarse pressure
    subroutine prolong_solution(coarse, fine)

@@ -127,7 +127,7 @@ contains
       !> What is left (rms)
       real(dp), intent(out) :: residual
       !> Sweeps made on level n
-      integer, intent(out) :: sweeps
+      integer, intent(out), optional :: sweeps
 
       call finest_cycle(self%levels, self%transfers, n, self%coarsest, self%options, residual, sweeps)
    end subroutine run_cycle

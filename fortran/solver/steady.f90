@@ -81,14 +81,13 @@ contains
       type(status_t), intent(inout) :: status
       type(measures_t) :: before
       real(dp) :: change(2), q, residual
-      integer :: sweeps
 
       if (self%outcome /= outcome_running) return
       if (.not. self%entered) call self%enter_level(plan, hierarchy, status)
       if (status%failed()) return
       associate (result => self%results(self%n), level => hierarchy%levels(self%n))
          before = result%m
-         call hierarchy%cycle(self%n, residual, sweeps)
+         call hierarchy%cycle(self%n, residual)
          result%cycles = result%cycles + 1
          result%m = measure(level)
          if (.not. result%m%finite .or. .not. result%m%positive) then
