@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The plan of a run in words
 module ehl_plan_text
-   use ehl_cycle, only: coarsening_alcouffe
+   use ehl_cycle, only: coarsening_alcouffe, cycle_options_t
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_plan, only: plan_t
@@ -53,9 +53,9 @@ contains
          text = text//"domain     the whole of it is solved"//new_line("a")
       end if
       text = text//"deflection "//plan%engine//", threads "//to_text(plan%threads)//new_line("a")
-      text = text//"cycles     "//plan%cycle_letter//"(2,1)"
+      text = text//"cycles     "//plan%cycle_letter//sweeps_of(plan%cycle)
       if (allocated(plan%surface)) then
-         text = text//", time steps "//plan%step_cycle_letter//"(1,2), "// &
+         text = text//", time steps "//plan%step_cycle_letter//sweeps_of(plan%step_cycle)//", "// &
                 trim(merge("Alcouffe ", "classical", plan%step_cycle%coarsening == coarsening_alcouffe))//" coarsening"
          if (plan%coarsening_may_change) text = text//", Alcouffe when a cycle is slow"
       end if
@@ -86,4 +86,12 @@ contains
          if (level == plan%start) words = "solution, from the Hertz pressure"
       end function use_of
    end function plan_text
+
+   !> Sweeps before and after the coarse grids: '(2,1)'
+   function sweeps_of(cycle) result(text)
+      type(cycle_options_t), intent(in) :: cycle
+      character(len=:), allocatable :: text
+
+      text = "("//to_text(cycle%pre)//","//to_text(cycle%post)//")"
+   end function sweeps_of
 end module ehl_plan_text
