@@ -82,7 +82,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--front",
         type=float,
-        default=1.05,
+        default=bench_step.FILLED,
         metavar="X",
         help="of 'step': X of the front of the roughness when the timed steps begin; 1.05, where "
         "the contact is full, takes many steps on fine grids",

@@ -23,7 +23,7 @@ from pyehl.bench_unit import ScipyDeflection, hertz
 from pyehl.case import Case
 from pyehl.errors import EhlError
 
-__all__ = ["CASES", "COLUMNS", "MARCH_COLUMNS", "STEPS", "error_rows", "step_rows"]
+__all__ = ["CASES", "COLUMNS", "FILLED", "MARCH_COLUMNS", "STEPS", "error_rows", "step_rows"]
 
 # X of the front when the contact is full
 FILLED = 1.05
