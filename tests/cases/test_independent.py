@@ -10,17 +10,17 @@ import pytest
 from second_solver import START, VELOCITY, SecondSolver, Z
 
 
-def options(amplitude: float, wavelength: float, scheme: str = "narrow") -> dict[str, object]:
+def options(wavelength: float, scheme: str = "narrow", **amplitude: float) -> dict[str, object]:
+    """Settings of a wave; its height is `amplitude` or `amplitude_over_film`."""
     assert START == -2.5  # the default
     return {
         "lubricant.roelands_z": Z,
         "surface.kind": "harmonic",
-        "surface.amplitude": amplitude,
         "surface.wavelength": wavelength,
         "surface.velocity_ratio": VELOCITY,
         "time.estimate_error": False,
         "time.scheme": scheme,
-    }
+    } | {f"surface.{key}": value for key, value in amplitude.items()}
 
 
 def test_second_solver_deflects_by_the_kernel():
@@ -48,7 +48,7 @@ def test_same_friction(
     wavelength: float,
     scheme: str,
 ):
-    wave = options(amplitude, wavelength, scheme)
+    wave = options(wavelength, scheme, amplitude=amplitude)
     done = solve(point, points, wave | {"solver.deflection": "fft", "solver.accuracy": 0.0005})
     assert done.converged
     second = SecondSolver(*point, points, narrow=scheme == "narrow")
@@ -67,16 +67,15 @@ def test_same_friction(
 def test_same_friction_by_default_settings(
     solve, point: tuple[float, float], over_film: float, wavelength: float, scheme: str
 ):
-    wave = options(0.0, wavelength, scheme)
-    del wave["surface.amplitude"]
-    done = solve(point, 129, wave | {"surface.amplitude_over_film": over_film})
+    done = solve(point, 129, options(wavelength, scheme, amplitude_over_film=over_film))
     assert done.converged
     second = SecondSolver(*point, 129, narrow=scheme == "narrow")
     march = islice(second.march(done["amplitude"], wavelength), done["steps"])
     ratios = np.array([ratio for ratio, _ in march])
     assert ratios.max() > 1.5
-    # by default the algebraic error is a tenth of the discretisation error, which is above 1e-2
-    assert done.history["mu_ratio"] == pytest.approx(ratios, rel=5e-3)
+    # What differs is the algebraic error; a tenth of the discretisation error, 1.9e-2 for the wave
+    # of Fig. 2 on this grid
+    assert done.history["mu_ratio"] == pytest.approx(ratios, rel=1.9e-3)
 
 
 @pytest.mark.parametrize(
@@ -86,9 +85,7 @@ def test_negative_film_is_that_of_the_equations(
     solve, point: tuple[float, float], over_film: float, wavelength: float
 ):
     """Where a march ends with 'negative film', the exact solution of the next step has one."""
-    wave = options(0.0, wavelength)
-    del wave["surface.amplitude"]
-    done = solve(point, 65, wave | {"surface.amplitude_over_film": over_film})
+    done = solve(point, 65, options(wavelength, amplitude_over_film=over_film))
     assert done["status"] == "negative film"
     second = SecondSolver(*point, 65).march(done["amplitude"], wavelength)
     films = [film.min() for _, film in islice(second, done["steps"] + 1)]
