@@ -7,7 +7,7 @@ module ehl_cycle
    use ehl_film, only: update_coefficients, update_film, update_residual
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
-   use ehl_relaxation, only: relax
+   use ehl_relaxation, only: full_trust, relax
    implicit none (type, external)
    private
    public :: cycle_options_t, finest_cycle, refresh, prolong_solution
@@ -26,6 +26,8 @@ module ehl_cycle
       integer :: pre = 2, post = 1
       !> Residual (rms) of the finest level that needs no more of the sweeps after the correction
       real(dp) :: enough = 0.0_dp
+      !> Largest change of the logarithm of a node's conductance in a sweep, for time steps
+      real(dp) :: trust = full_trust
       !> Kind of transfers and coarse operators
       integer :: coarsening = coarsening_classical
    end type cycle_options_t
@@ -61,7 +63,7 @@ contains
       else
          call visit_coarser(levels, transfers, n, coarsest, options)
          do k = options%pre + 1, options%pre + options%post
-            call sweep(levels(n), 1)
+            call sweep(levels(n), 1, options%trust)
             call update_residual(levels(n), residual)
             if (k == options%pre + options%post .or. residual <= options%enough) exit
          end do
@@ -82,17 +84,18 @@ contains
          return
       end if
       call visit_coarser(levels, transfers, n, coarsest, options)
-      call sweep(levels(n), options%post)
+      call sweep(levels(n), options%post, options%trust)
    end subroutine fas_cycle
 
    !> Relax so many times
-   subroutine sweep(level, times)
+   subroutine sweep(level, times, trust)
       type(level_t), intent(inout) :: level
       integer, intent(in) :: times
+      real(dp), intent(in) :: trust
       integer :: k
 
       do k = 1, times
-         call relax(level)
+         call relax(level, trust)
          call refresh(level)
       end do
    end subroutine sweep
@@ -108,7 +111,7 @@ contains
       real(dp) :: rms
       integer :: k
 
-      call sweep(levels(n), options%pre)
+      call sweep(levels(n), options%pre, options%trust)
       call update_residual(levels(n), rms)
       call restrict_problem(levels(n), levels(n - 1), transfers(n), options%coarsening)
       do k = 1, options%gamma

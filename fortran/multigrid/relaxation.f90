@@ -26,7 +26,7 @@ module ehl_relaxation
    !$ use omp_lib, only: omp_get_thread_num
    implicit none (type, external)
    private
-   public :: relax
+   public :: relax, full_trust
 
    !> Largest conductance/mesh-size^2 of a distributive node's neighbourhood
    real(dp), parameter :: switch = 0.1_dp
@@ -35,11 +35,11 @@ module ehl_relaxation
    real(dp), parameter :: omega_dipole = 0.7_dp, omega_line = 0.5_dp, strong = 10.0_dp
    !> The same in time steps, where smooth changes are taken back
    real(dp), parameter :: omega_step = 0.8_dp
-   !> Largest change of the logarithm of a node's conductance in a sweep of a time step: beyond it the linearised line
-   !> says nothing. Where pressure falls from its peak to almost nothing from one node to the next, cycles ended
+   !> Largest change of the logarithm of a node's conductance in a sweep of a time step, to begin with: beyond it the
+   !> linearised line says nothing. Where pressure falls from its peak to almost nothing from one node to the next, cycles ended
    !> nowhere without it. Measured at (500, 15), a wave as high as the film, 0.25 a long, on 513 x 513: all steps
    !> converge with 2, 3 and 4, not with 6.
-   real(dp), parameter :: trusted = 3.0_dp
+   real(dp), parameter :: full_trust = 3.0_dp
    !> Conductance/mesh-size^2 around a node, as a share of the squeeze term's factor, at which half of the change
    !> counts as one to be freed of its smooth part: a change smooth over a length l has a residual of about
    !> squeeze*l*2/pi^2 by its deflection, and overshoots where the line holds less than half of that against
@@ -59,8 +59,10 @@ module ehl_relaxation
 contains
 
    !> One sweep. Needs film and coefficients of the present pressure; leaves them out of date.
-   subroutine relax(level)
+   subroutine relax(level, trust)
       type(level_t), intent(inout) :: level
+      !> Largest change of the logarithm of a node's conductance, for time steps
+      real(dp), intent(in) :: trust
       integer :: colour, block, blocks, first, last, start, me
 
       first = merge(1, 2, level%grid%mirror)
@@ -73,12 +75,12 @@ contains
          if (.not. level%grid%mirror .and. mod((level%grid%ny + 1)/2, 2) == 1) start = first + 1 - colour
          if (start > last) cycle
          blocks = ((last - start)/2 + line_width)/line_width
-         !$omp parallel do default(none) shared(level, last, start, blocks) private(me) &
+         !$omp parallel do default(none) shared(level, trust, last, start, blocks) private(me) &
          !$omp num_threads(level%threads) if(level%parallel) schedule(static, 1)
          do block = 1, blocks
             me = 1
             !$ me = omp_get_thread_num() + 1
-            call relax_lines(level, start + 2*line_width*(block - 1), last, me)
+            call relax_lines(level, start + 2*line_width*(block - 1), last, trust, me)
          end do
          !$omp end parallel do
       end do
@@ -138,9 +140,10 @@ contains
 
    !> Solve the lines j0, j0+2, ... (at most `line_width`, up to row `last`): Gauss-Seidel changes are
    !> applied at once, distributive ones are kept for the end of the sweep
-   subroutine relax_lines(level, j0, last, thread)
+   subroutine relax_lines(level, j0, last, trust, thread)
       type(level_t), intent(inout) :: level
       integer, intent(in) :: j0, last, thread
+      real(dp), intent(in) :: trust
       real(dp) :: scale, t, omega, omega_far, before, change
       logical :: time_step, limited
       integer :: rows(line_width), lines, furthest, i, j, l
@@ -167,7 +170,7 @@ contains
                t = level%eps(i, j)*scale
                before = level%p(i, j)
                change = work%change(l, i)
-               if (limited) change = change/max(1.0_dp, abs(level%gain(i, j)*change)/trusted)
+               if (limited) change = change/max(1.0_dp, abs(level%gain(i, j)*change)/trust)
                level%change(i, j) = omega_far*level%dipole(i, j)*change
                level%p(i, j) = max(0.0_dp, level%p(i, j) + (1.0_dp - level%dipole(i, j))*(omega + t) &
                                    /(1.0_dp + t)*change)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Parts of the march in time: a step that fails, sweeps, the forecast, and what is allocated for it
+!> Parts of the march in time: a step that fails, one that begins again, sweeps, the forecast, and what is allocated for it
 module test_march
    use check, only: is_close, is_equal, is_true
    use ehl_case, only: case_t
@@ -13,7 +13,7 @@ module test_march
    use ehl_level, only: level_t
    use ehl_outcome, only: outcome_converged, outcome_running
    use ehl_plan, only: make_plan, plan_t
-   use ehl_relaxation, only: relax
+   use ehl_relaxation, only: full_trust, relax
    use ehl_status, only: status_t
    use ehl_steady, only: steady_t
    use ehl_transient, only: step_tolerance, transient_t
@@ -32,6 +32,7 @@ contains
 
    subroutine run_march()
       call failed_step_leaves_the_last_state()
+      call step_begins_again()
       call sweeps_alone_do_not_diverge()
       call changes_are_limited()
       call smooth_part_is_a_whole_mean()
@@ -83,6 +84,39 @@ contains
       call is_true(.not. status%failed(), "march")
    end subroutine failed_step_leaves_the_last_state
 
+   !> A forecast that leads nowhere is dropped: the step begins again from the last one and comes to the same end
+   subroutine step_begins_again()
+      type(plan_t) :: plan
+      type(hierarchy_t) :: hierarchy
+      type(transient_t) :: march
+      type(status_t) :: status
+      real(dp) :: p(65, 33)
+      integer :: n, k, j, cycles
+
+      call begin(heavy, plan, hierarchy, march, n, status)
+      march%tolerance = 0.01_dp*march%tolerance
+      do k = 1, 4
+         call march%advance(hierarchy, n, plan%surface, status)
+      end do
+      p = hierarchy%levels(n)%p
+      cycles = march%cycles
+
+      call begin(heavy, plan, hierarchy, march, n, status)
+      march%tolerance = 0.01_dp*march%tolerance
+      do k = 1, 3
+         call march%advance(hierarchy, n, plan%surface, status)
+      end do
+      ! only the forecast uses the pressure of three steps ago: peaks and valleys side by side
+      do j = 1, 33
+         march%p_before(:, j, 3) = march%p_before(:, j, 3)*[(real(6*mod(k + j, 2), dp), k=1, 65)]
+      end do
+      call march%advance(hierarchy, n, plan%surface, status)
+      call is_true(march%step_converged() .and. march%step == 4, "a step with a wrong forecast converges")
+      call is_true(march%cycles > cycles, "after more cycles")
+      call is_close(maxval(abs(hierarchy%levels(n)%p - p)), 0.0_dp, 1.0e-4_dp, "to the same pressure")
+      call is_true(.not. status%failed(), "march")
+   end subroutine step_begins_again
+
    !> Sweeps of a time step make no error grow, whatever coarse grids do about it: here the conductance in all of
    !> the contact is of the order of the squeeze term's share in the lines
    subroutine sweeps_alone_do_not_diverge()
@@ -100,7 +134,7 @@ contains
          call refresh(level)
          call update_residual(level, first)
          do k = 1, 15
-            call relax(level)
+            call relax(level, full_trust)
             call refresh(level)
          end do
          call update_residual(level, last)
@@ -127,7 +161,7 @@ contains
          call refresh(level)
          p = level%p
          gain = level%gain
-         call relax(level)
+         call relax(level, full_trust)
          largest = 0.0_dp
          do j = 2, level%grid%ny - 1
             do i = 2, level%grid%nx - 1
@@ -158,7 +192,7 @@ contains
       call begin(heavy, plan, hierarchy, march, n, status)
       call march%advance(hierarchy, n, plan%surface, status)
       associate (level => hierarchy%levels(n))
-         call relax(level)
+         call relax(level, full_trust)
          difference = 0.0_dp
          largest = 0.0_dp
          do j = 1, level%grid%ny - 1
