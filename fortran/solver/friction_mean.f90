@@ -6,8 +6,12 @@ module ehl_friction_mean
    private
    public :: friction_mean_t
 
-   !> The last period is compared with those that end this share of a period earlier, one by one
+   !> The last mean is compared with those that end this share of what it is taken over earlier, one by one
    real(dp), parameter :: lags(*) = [0.125_dp, 0.25_dp, 0.375_dp, 0.5_dp]
+   !> So many periods the mean is that of one. Where it has not settled then, friction is carried by so few nodes
+   !> that it depends on how the surface lies to the grid, and one period, which is no whole number of
+   !> steps, meets other positions than the next: the mean is that of half of the periods so far.
+   real(dp), parameter :: single = 6.0_dp
 
    !> Friction ratio at equidistant times
    type :: friction_mean_t
@@ -28,6 +32,9 @@ module ehl_friction_mean
       procedure :: extremes
       procedure :: change
       procedure :: has_change
+      procedure :: settled
+      procedure :: periods
+      procedure, private :: window
       procedure :: amplitude_ratio
    end type friction_mean_t
 
@@ -86,25 +93,38 @@ contains
       deviation = sqrt(sum((v - sum(v)/size(v))**2)/size(v))
    end function deviation
 
+   !> Periods since the contact was filled
+   pure real(dp) function periods(self)
+      class(friction_mean_t), intent(in) :: self
+      periods = (self%n - max(self%filled, 1))*self%time_step/self%period
+   end function periods
+
+   !> Length of the whole periods that the mean is taken over [a/u]
+   pure real(dp) function window(self)
+      class(friction_mean_t), intent(in) :: self
+      window = self%period
+      if (self%periods() > single) window = self%period*int(0.5_dp*self%periods())
+   end function window
+
    !> Whether a whole period has passed since the contact was filled
    pure logical function has_mean(self)
       class(friction_mean_t), intent(in) :: self
-      has_mean = (self%n - max(self%filled, 1))*self%time_step >= self%period
+      has_mean = self%periods() >= 1.0_dp
    end function has_mean
 
    !> Whether the mean can be compared with earlier ones
    pure logical function has_change(self)
       class(friction_mean_t), intent(in) :: self
-      has_change = (self%n - max(self%filled, 1))*self%time_step >= self%period*(1.0_dp + lags(size(lags)))
+      has_change = self%periods() >= 1.0_dp + lags(size(lags))
    end function has_change
 
-   !> Mean over the period that ends `lag` before the last value: the exact integral of the
+   !> Mean over the whole periods that end `lag` before the last value: the exact integral of the
    !> polygon through the values
    pure real(dp) function mean(self, lag)
       class(friction_mean_t), intent(in) :: self
       real(dp), intent(in) :: lag
       mean = (integral(self, self%n - lag/self%time_step) &
-              - integral(self, self%n - (lag + self%period)/self%time_step))*self%time_step/self%period
+              - integral(self, self%n - (lag + self%window())/self%time_step))*self%time_step/self%window()
    end function mean
 
    !> Integral of the polygon from value 1 to the position t, in steps
@@ -121,13 +141,13 @@ contains
       end associate
    end function integral
 
-   !> Smallest and largest value of the last period
+   !> Smallest and largest value of the periods that the mean is taken over
    pure function extremes(self) result(range)
       class(friction_mean_t), intent(in) :: self
       real(dp) :: range(2)
       integer :: first
 
-      first = max(1, self%n - int(self%period/self%time_step))
+      first = max(1, self%n - int(self%window()/self%time_step))
       range = [minval(self%values(first:self%n)), maxval(self%values(first:self%n))]
    end function extremes
 
@@ -138,7 +158,24 @@ contains
 
       change = 0.0_dp
       do k = 1, size(lags)
-         change = max(change, abs(self%mean(lags(k)*self%period) - self%mean(0.0_dp)))
+         change = max(change, abs(self%mean(lags(k)*self%window()) - self%mean(0.0_dp)))
       end do
    end function change
+
+   !> Whether the mean changes no more than by this share of it; a mean over several periods, of what has peaks
+   !> of many times itself, by this share of the largest value
+   pure logical function settled(self, tolerance)
+      class(friction_mean_t), intent(in) :: self
+      real(dp), intent(in) :: tolerance
+      real(dp) :: range(2), scale
+
+      settled = .false.
+      if (.not. self%has_change()) return
+      scale = self%mean(0.0_dp)
+      if (self%periods() > single) then
+         range = self%extremes()
+         scale = range(2)
+      end if
+      settled = self%change() <= tolerance*scale
+   end function settled
 end module ehl_friction_mean

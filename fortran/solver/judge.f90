@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> When a march in time ends
 module ehl_judge
-   use ehl_kinds, only: dp
    use ehl_outcome, only: outcome_converged, outcome_running, outcome_unsettled
    use ehl_plan, only: plan_t
    use ehl_transient, only: transient_t
@@ -10,7 +9,7 @@ module ehl_judge
    public :: judge_march, most_periods
 
    !> Periods after which a mean that has not settled never will
-   integer, parameter :: automatic_periods = 6
+   integer, parameter :: automatic_periods = 36
 
 contains
 
@@ -18,7 +17,6 @@ contains
    integer function judge_march(plan, march) result(outcome)
       type(plan_t), intent(in) :: plan
       type(transient_t), intent(in) :: march
-      real(dp) :: periods
 
       outcome = outcome_running
       associate (mean => march%mean)
@@ -26,13 +24,11 @@ contains
             if (march%step >= plan%steps) outcome = merge(outcome_converged, outcome_unsettled, mean%has_mean())
             return
          end if
-         if (.not. mean%has_change()) return
-         if (mean%change() <= plan%time_tolerance*mean%mean(0.0_dp)) then
+         if (mean%settled(plan%time_tolerance)) then
             outcome = outcome_converged
-            return
+         else if (mean%periods() >= most_periods(plan)) then
+            outcome = outcome_unsettled
          end if
-         periods = (march%step - mean%filled)*march%time_step/mean%period
-         if (periods >= most_periods(plan)) outcome = outcome_unsettled
       end associate
    end function judge_march
 

@@ -3,6 +3,7 @@
 module ehl_report
    use ehl_grid, only: grid_t
    use ehl_harmonic, only: harmonic_t
+   use ehl_judge, only: most_periods
    use ehl_kinds, only: dp
    use ehl_measures, only: measures_t
    use ehl_outcome, only: outcome_names, outcome_running
@@ -44,11 +45,16 @@ contains
       if (march%mean%has_mean()) text = text//"  mean "//fixed(march%mean%mean(0.0_dp), "f9.5")
       text = text//"  H_min "//fixed(march%m%film_minimum, "f10.6")//"  cycles "//to_text(march%cycles)// &
              "  residual "//fixed(march%residual, "es8.1")//"  "//trim(outcome_names(stand))
-      if (stand == outcome_running) text = text//", about "// &
-                                           to_text(nint(seconds_left(plan, march, seconds)))//" s left"
+      if (stand /= outcome_running) return
+      if (plan%steps == 0 .and. march%mean%has_change()) then
+         text = text//", mean still changes by "//fixed(march%mean%change(), "es8.1")//", at most "
+      else
+         text = text//", about "
+      end if
+      text = text//to_text(nint(seconds_left(plan, march, seconds)))//" s left"
    end function march_line
 
-   !> Seconds until the mean can be judged for the first time, later until it is judged again
+   !> Seconds until the mean can be judged for the first time, later until the march ends if it does not settle
    pure real(dp) function seconds_left(plan, march, seconds)
       type(plan_t), intent(in) :: plan
       type(transient_t), intent(in) :: march
@@ -56,7 +62,8 @@ contains
       real(dp) :: steps
 
       steps = max(march%mean%filled, 0) + 1.5_dp*march%mean%period/march%mean%time_step - march%step
-      if (steps < 1.0_dp) steps = 0.125_dp*march%mean%period/march%mean%time_step
+      if (march%mean%has_change()) steps = (most_periods(plan) - march%mean%periods())*march%mean%period/ &
+                                           march%mean%time_step
       if (plan%steps > 0) steps = plan%steps - march%step
       seconds_left = steps*seconds/max(march%step, 1)
    end function seconds_left

@@ -12,6 +12,9 @@ module ehl_skips
    private
    public :: skip_t, find_skips, skip_lines, report_skips, seconds_saved_by_zeros
 
+   !> Periods that a march of a fixed length is taken to have
+   integer, parameter :: fixed_periods = 6
+
    !> Something not done, and the seconds that saved
    type :: skip_t
       character(len=128) :: what = ""
@@ -22,20 +25,18 @@ contains
 
    !> What a march that has ended did not have to do. The seconds of steps are those of the mean step made,
    !> those of nodes in proportion to their number, those of zeros for every deflection on the finest grid.
-   subroutine find_skips(plan, march, good, most_periods, seconds_steps, seconds_smooth, seconds_zeros, skips)
+   subroutine find_skips(plan, march, good, seconds_steps, seconds_smooth, seconds_zeros, skips)
       type(plan_t), intent(in) :: plan
       type(transient_t), intent(in) :: march
       !> Whether the march ended because the mean has settled
       logical, intent(in) :: good
-      !> Periods after which it would have ended at the latest
-      integer, intent(in) :: most_periods
       !> Seconds spent on the steps, and on the smooth contact
       real(dp), intent(in) :: seconds_steps, seconds_smooth
       !> Seconds saved in a deflection where P = 0, see seconds_saved_by_zeros
       real(dp), intent(in) :: seconds_zeros
       type(skip_t), allocatable, intent(out) :: skips(:)
       real(dp) :: step
-      integer :: left, deflections
+      integer :: left, periods, deflections
 
       step = seconds_steps/max(march%step, 1)
       allocate (skips(0))
@@ -48,9 +49,10 @@ contains
          skips = [skips, skip_t(to_text(march%skipped)//" steps before the roughness came near the contact", &
                                 march%skipped*step)]
       end if
-      left = ceiling(max(march%mean%filled, 0) + most_periods*march%mean%period/march%time_step) - march%step
+      periods = merge(plan%max_periods, fixed_periods, plan%max_periods > 0)
+      left = ceiling(max(march%mean%filled, 0) + periods*march%mean%period/march%time_step) - march%step
       if (good .and. plan%steps == 0 .and. left > 0) then
-         skips = [skips, skip_t(to_text(left)//" steps up to the end of period "//to_text(most_periods)// &
+         skips = [skips, skip_t(to_text(left)//" steps up to the end of period "//to_text(periods)// &
                                 ": the mean of mu_r/mu_s had settled", left*step)]
       end if
       skips = [skips, skip_t("a second solve of the smooth contact: one gave the start of the march and mu_s", &

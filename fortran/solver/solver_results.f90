@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What a run says, and its results and fields
 submodule (ehl_solver) ehl_solver_results
-   use ehl_judge, only: most_periods
    use ehl_outcome, only: outcome_names, outcome_target_missed
    use ehl_plan_text, only: plan_text
    use ehl_report, only: cycle_line, march_line, report_march, report_scene, report_smooth
@@ -60,7 +59,7 @@ contains
       class(solver_t), intent(in) :: self
       type(skip_t), allocatable :: skips(:)
 
-      call find_skips(self%plan, self%transient, self%converged(), most_periods(self%plan), self%step_seconds, &
+      call find_skips(self%plan, self%transient, self%converged(), self%step_seconds, &
                       self%smooth_seconds, self%zeros_seconds, skips)
    end function skips_of
 

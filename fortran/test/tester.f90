@@ -7,6 +7,7 @@ program tester
    use test_case, only: run_case
    use test_deflection, only: run_deflection
    use test_march, only: run_march
+   use test_mean, only: run_mean
    use test_record, only: run_record
    use test_solver, only: run_solver
    use test_text, only: run_text
@@ -25,6 +26,8 @@ program tester
       call run_deflection()
    case ("alcouffe")
       call run_alcouffe()
+   case ("mean")
+      call run_mean()
    case ("march")
       call run_march()
    case ("solver")

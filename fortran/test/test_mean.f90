@@ -1,0 +1,80 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The mean of the friction ratio over whole periods
+module test_mean
+   use check, only: is_close, is_true
+   use ehl_friction_mean, only: friction_mean_t
+   use ehl_kinds, only: dp
+   implicit none (type, external)
+   private
+   public :: run_mean
+
+   real(dp), parameter :: pi = acos(-1.0_dp), tolerance = 1.0e-3_dp
+   !> A wave 0.25 long that moves by 1.01 of 1/128 a step: no whole number of steps is a period
+   real(dp), parameter :: time_step = 1.0_dp/128.0_dp, period = 0.25_dp/1.01_dp
+
+contains
+
+   subroutine run_mean()
+      call smooth_signal_settles_at_once()
+      call peaks_between_steps_take_several_periods()
+   end subroutine run_mean
+
+   !> What a step resolves is known after one and a half periods, from one period
+   subroutine smooth_signal_settles_at_once()
+      type(friction_mean_t) :: mean
+
+      call run(0.0_dp, mean)
+      call is_close(mean%periods(), 1.5_dp, time_step/period, "judged for the first time")
+      call is_close(mean%mean(0.0_dp), 1.0_dp, tolerance, "mean of a smooth signal")
+   end subroutine smooth_signal_settles_at_once
+
+   !> Peaks of a fifth of a step: each period meets them elsewhere, only a mean over several is right
+   subroutine peaks_between_steps_take_several_periods()
+      type(friction_mean_t) :: mean
+      real(dp), parameter :: height = 50.0_dp
+      integer, parameter :: fine = 20000
+      real(dp) :: exact, worst, range(2)
+      integer :: k
+
+      exact = sum([(signal(real(k, dp)/fine, height), k=1, fine)])/fine
+      call run(height, mean)
+      call is_true(mean%periods() > 6.0_dp .and. mean%periods() < 36.0_dp, "it takes more than six periods")
+      call is_close(mean%mean(0.0_dp), exact, 0.01_dp*exact, "mean of a signal with peaks")
+      call is_true(mean%change() <= 0.01_dp*exact, "and it no longer changes much")
+      range = mean%extremes()
+      call is_true(range(2) > 0.9_dp*height, "largest value of all these periods")
+      ! a single period would not have done
+      mean%n = mean%filled + nint(2.0_dp*period/time_step)
+      worst = 0.0_dp
+      do k = 0, 31
+         mean%n = mean%n + 1
+         worst = max(worst, abs(mean%mean(0.0_dp) - exact))
+      end do
+      call is_true(worst > 0.1_dp*exact, "means of one period are wrong")
+   end subroutine peaks_between_steps_take_several_periods
+
+   !> March until the mean has settled, 40 periods at the most
+   subroutine run(height, mean)
+      real(dp), intent(in) :: height
+      type(friction_mean_t), intent(out) :: mean
+      integer :: k
+
+      call mean%start(period, time_step, 0.0_dp)
+      do k = 1, nint(40.0_dp*period/time_step)
+         call mean%append(signal(k*time_step/period, height), 0.0_dp, 0.0_dp)
+         if (mean%settled(tolerance)) return
+      end do
+   end subroutine run
+
+   !> Friction at a phase of the period: a wave, and peaks
+   pure real(dp) function signal(phase, height)
+      real(dp), intent(in) :: phase, height
+      real(dp), parameter :: places(*) = [0.1_dp, 0.36_dp, 0.37_dp, 0.81_dp], width = 0.2_dp*time_step/period
+      integer :: k
+
+      signal = 1.0_dp + 0.3_dp*cos(2.0_dp*pi*phase)
+      do k = 1, size(places)
+         signal = signal + height*exp((cos(2.0_dp*pi*(phase - places(k))) - 1.0_dp)/(2.0_dp*pi*width)**2)
+      end do
+   end function signal
+end module test_mean
