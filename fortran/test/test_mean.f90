@@ -38,7 +38,7 @@ contains
 
       exact = sum([(signal(real(k, dp)/fine, height), k=1, fine)])/fine
       call run(height, mean)
-      call is_true(mean%periods() > 6.0_dp .and. mean%periods() < 36.0_dp, "it takes more than six periods")
+      call is_true(mean%periods() >= 20.0_dp .and. mean%periods() < 36.0_dp, "it takes twenty periods or more")
       call is_close(mean%mean(0.0_dp), exact, 0.01_dp*exact, "mean of a signal with peaks")
       call is_true(mean%change() <= 0.01_dp*exact, "and it no longer changes much")
       range = mean%extremes()
