@@ -43,11 +43,12 @@ contains
       text = "step "//to_text(march%step)//"  T "//fixed(march%time, "f8.4")//"  mu_r/mu_s "// &
              fixed(march%m%friction/march%friction_smooth, "f9.5")
       if (march%mean%has_mean()) text = text//"  mean "//fixed(march%mean%mean(0.0_dp), "f9.5")
+      if (march%mean%has_change()) text = text//" +- "//fixed(march%mean%change(), "es8.1")
       text = text//"  H_min "//fixed(march%m%film_minimum, "f10.6")//"  cycles "//to_text(march%cycles)// &
              "  residual "//fixed(march%residual, "es8.1")//"  "//trim(outcome_names(stand))
       if (stand /= outcome_running) return
       if (plan%steps == 0 .and. march%mean%has_change()) then
-         text = text//", mean still changes by "//fixed(march%mean%change(), "es8.1")//", at most "
+         text = text//", at most "
       else
          text = text//", about "
       end if

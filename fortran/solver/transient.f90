@@ -12,6 +12,7 @@ module ehl_transient
    use ehl_relaxation, only: full_trust
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_surface, only: surface_t
+   use ehl_time_levels, only: keep, set_geometry, set_history
    implicit none (type, external)
    private
    public :: transient_t, step_tolerance
@@ -134,7 +135,7 @@ contains
       associate (level => hierarchy%levels(n))
          call surface%height(level%grid, self%time + self%time_step, self%rr)
          call set_geometry(level, self%rr)
-         call set_history(self, level)
+         call set_history(level, self%mass, self%time_step, self%narrow)
          trust = full_trust
          call self%begin_step(hierarchy, level, trust, status)
          if (status%failed()) return
@@ -183,7 +184,7 @@ contains
                                central_value(level%grid, self%rr))
          self%h00_before = [level%h00, self%h00_before(1:2)]
          call self%forecast%learn(self%p_before, level)
-         call keep(self, level)
+         call keep(level, self%mass, self%p_before)
       end associate
    end subroutine advance
 
@@ -268,66 +269,4 @@ contains
       level%h00 = self%h00_before(1)
       call refresh(level)
    end subroutine step_back
-
-   !> X^2/2 + Y^2/2 - RR
-   subroutine set_geometry(level, rr)
-      type(level_t), intent(inout) :: level
-      real(dp), intent(in) :: rr(:, :)
-      integer :: i, j
-
-      !$omp parallel do default(none) shared(level, rr) private(i) &
-      !$omp num_threads(level%threads) if(level%parallel) schedule(static)
-      do j = 1, level%grid%ny
-         do i = 1, level%grid%nx
-            level%geometry(i, j) = 0.5_dp*(level%grid%x(i)**2 + level%grid%y(j)**2) - rr(i, j)
-         end do
-      end do
-      !$omp end parallel do
-   end subroutine set_geometry
-
-   !> Explicit part of wedge and squeeze terms. Narrow: (-2 (rho H)_(i-1,k-1) + 0.5 (rho H)_(i-2,k-2))/dT, of
-   !> first order in the first interior column; else (-2 (rho H)_(i,k-1) + 0.5 (rho H)_(i,k-2))/dT.
-   subroutine set_history(self, level)
-      class(transient_t), intent(in) :: self
-      type(level_t), intent(inout) :: level
-      real(dp) :: r
-      integer :: i, j, nx, shift
-
-      r = 1.0_dp/self%time_step
-      nx = level%grid%nx
-      shift = merge(1, 0, self%narrow)
-      !$omp parallel do default(none) shared(self, level, r, nx, shift) private(i) &
-      !$omp num_threads(level%threads) if(level%parallel) schedule(static)
-      do j = 1, level%grid%ny
-         do i = 3, nx - 1
-            level%rhs(i, j) = r*(-2.0_dp*self%mass(i - shift, j, 1) + 0.5_dp*self%mass(i - 2*shift, j, 2))
-         end do
-         if (self%narrow) then
-            level%rhs(2, j) = -r*self%mass(1, j, 1)
-         else
-            level%rhs(2, j) = r*(-2.0_dp*self%mass(2, j, 1) + 0.5_dp*self%mass(2, j, 2))
-         end if
-      end do
-      !$omp end parallel do
-   end subroutine set_history
-
-   !> The present fields become the last ones
-   subroutine keep(self, level)
-      type(transient_t), intent(inout) :: self
-      type(level_t), intent(in) :: level
-      integer :: i, j
-
-      !$omp parallel do default(none) shared(self, level) private(i) &
-      !$omp num_threads(level%threads) if(level%parallel) schedule(static)
-      do j = 1, level%grid%ny
-         do i = 1, level%grid%nx
-            self%mass(i, j, 2) = self%mass(i, j, 1)
-            self%mass(i, j, 1) = level%rho(i, j)*level%h(i, j)
-            self%p_before(i, j, 3) = self%p_before(i, j, 2)
-            self%p_before(i, j, 2) = self%p_before(i, j, 1)
-            self%p_before(i, j, 1) = level%p(i, j)
-         end do
-      end do
-      !$omp end parallel do
-   end subroutine keep
 end module ehl_transient
