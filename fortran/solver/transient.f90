@@ -42,7 +42,7 @@ module ehl_transient
       !> Largest residual (rms) of a step, most cycles a step
       real(dp) :: tolerance = 8.0e-5_dp
       integer :: max_cycles = 30
-      !> Sweeps before the coarse grids, unless a cycle was slow
+      !> Sweeps before the coarse grids, unless a cycle with Alcouffe coarsening was slow
       integer :: pre = 1
       !> Kind of coarsening; whether it changes for good when a cycle is slow, and the step in which it did (0: none)
       integer :: coarsening = coarsening_classical, changed_at = 0
@@ -159,14 +159,14 @@ contains
                call self%begin_step(hierarchy, level, trust, status)
                if (status%failed()) return
             else if (.not. self%residual <= max(slow*before, self%tolerance/slow)) then
-               if (self%may_change .and. self%coarsening == coarsening_classical) then
+               if (self%coarsening == coarsening_alcouffe) then
+                  ! one sweep more for the rest of the step; with classical coarsening it can make cycles slower
+                  hierarchy%options%pre = self%pre + 1
+               else if (self%may_change) then
                   self%coarsening = coarsening_alcouffe
                   self%changed_at = self%step + 1
                   call self%begin_step(hierarchy, level, trust, status)
                   if (status%failed()) return
-               else
-                  ! one sweep more for the rest of the step
-                  hierarchy%options%pre = self%pre + 1
                end if
             end if
             if (.not. self%residual < huge(1.0_dp)) exit

@@ -172,7 +172,7 @@ def test_hardest_wave_converges(solve):
 
 @pytest.mark.slow
 def test_classical_coarsening_stalls_where_alcouffe_does_not(solve):
-    """Same sweeps, same limits; a step of the hardest wave ends with one coarsening only."""
+    """Some step of the hardest wave does not converge with classical coarsening."""
     classical, alcouffe = (
         solve(
             (500.0, 15.0),
