@@ -108,7 +108,7 @@ contains
       end do
       ! only the forecast uses the pressure of three steps ago: peaks and valleys side by side
       do j = 1, 33
-         march%p_before(:, j, 3) = march%p_before(:, j, 3)*[(real(6*mod(k + j, 2), dp), k=1, 65)]
+         march%p_before(:, j, 3) = march%p_before(:, j, 3)*[(merge(3.5_dp, 1.0_dp, mod(k, 2) == 0), k=1, 65)]
       end do
       call march%advance(hierarchy, n, plan%surface, status)
       call is_true(march%step_converged() .and. march%step == 4, "a step with a wrong forecast converges")
