@@ -146,7 +146,7 @@ def _plot_march(
         figure = plot_march.friction_history(
             time,
             run["history_mu_ratio"],
-            period=float(run.summary["T_period"]),
+            period=float(run.summary["T_mean"]),
             mean=run.summary["mu_ratio"],
             formula=plot_march.eq_16(run),
             seconds=seconds,

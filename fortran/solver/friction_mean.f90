@@ -36,7 +36,7 @@ module ehl_friction_mean
       procedure :: has_change
       procedure :: settled
       procedure :: periods
-      procedure, private :: window
+      procedure :: window
       procedure :: amplitude_ratio
    end type friction_mean_t
 

@@ -191,6 +191,7 @@ contains
       call record%set("scheme", trim(merge("narrow", "paper ", plan%narrow)))
       call record%set("T", march%time)
       call record%set("T_period", march%mean%period)
+      call record%set("T_mean", merge(march%mean%window(), 0.0_dp, march%mean%has_mean()))
       call record%set("steps", march%step)
       call record%set("steps_skipped", march%skipped)
       call record%set("cycles_per_step", real(march%total_cycles, dp)/max(march%step, 1))

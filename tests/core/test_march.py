@@ -151,7 +151,7 @@ def test_verb_plot_on_a_march(march: Path, tmp_path: Path, capsys):
 
 def test_friction_history_shows_the_averaging_window(march: Path):
     run = results.read(march)
-    mean, period = run.summary["mu_ratio"], run.summary["T_period"]
+    mean, period = run.summary["mu_ratio"], run.summary["T_mean"]
     figure = plot_march.friction_history(
         run["history_T"], run["history_mu_ratio"], period=period, mean=mean, formula=2.0
     )
