@@ -2,10 +2,10 @@
 !> From a piece of text to the value of one key, or a message that says why not
 module ehl_case_value
    use ehl_case, only: path_length, word_length
+   use ehl_case_key, only: key_t, kind_integer, kind_logical, kind_path, kind_real, kind_word
    use ehl_kinds, only: dp
    use ehl_scanner, only: is_real_number, is_whole_number, token_atom, token_open_string, &
                           token_string, token_t
-   use ehl_schema, only: key_t, kind_integer, kind_logical, kind_path, kind_real, kind_word
    use ehl_source, only: point_at, source_t
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_text, only: lower_case, nearest_word, to_text

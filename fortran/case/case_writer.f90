@@ -2,7 +2,8 @@
 !> The resolved case as namelist text, and the list of all options
 module ehl_case_writer
    use ehl_case, only: case_t
-   use ehl_schema, only: key_t, schema_t
+   use ehl_case_key, only: key_t
+   use ehl_schema, only: schema_t
    use ehl_text, only: newline
    implicit none (type, external)
    private

@@ -1,11 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The groups of a case file, key by key; every fault ends in one message with its place
 module ehl_group_reader
+   use ehl_case_key, only: name_length
    use ehl_case_value, only: set_value
    use ehl_key_finder, only: find_key, group_position, hint, join
    use ehl_scanner, only: scan_token, token_atom, token_comma, token_end, token_equals, &
                           token_group, token_open_string, token_slash, token_string, token_t
-   use ehl_schema, only: name_length, schema_t
+   use ehl_schema, only: schema_t
    use ehl_source, only: line_number, point_at, source_t
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_text, only: is_digit, is_letter, lower_case, to_text

@@ -4,42 +4,11 @@
 !> defaults are those of the types in ehl_case.
 module ehl_schema
    use ehl_case, only: case_t, path_length, word_length
+   use ehl_case_key, only: key_t, kind_integer, kind_logical, kind_path, kind_real, kind_word, name_length
    use ehl_kinds, only: dp
-   use ehl_text, only: quoted, to_text
    implicit none (type, external)
    private
-   public :: key_t, schema_t, name_length
-   public :: kind_real, kind_integer, kind_logical, kind_word, kind_path
-
-   integer, parameter :: name_length = 24
-   integer, parameter :: kind_real = 1, kind_integer = 2, kind_logical = 3
-   !> One of a list of words; a file name
-   integer, parameter :: kind_word = 4, kind_path = 5
-
-   !> One key
-   type :: key_t
-      character(len=name_length) :: group = "", name = ""
-      integer :: kind = 0
-      character(len=8) :: unit = ""
-      !> Numbers: an interval such as '(0, 10]', '0 or [1, 5]'; words: 'this|that'
-      character(len=48) :: allowed = ""
-      character(len=96) :: meaning = ""
-      !> The value inside the case, one of these
-      real(dp), pointer :: real_value => null()
-      integer, pointer :: integer_value => null()
-      logical, pointer :: logical_value => null()
-      character(len=word_length), pointer :: word_value => null()
-      character(len=path_length), pointer :: path_value => null()
-      !> Whether the input gave it, and where: source number, first and last position of the
-      !> name, first and last position of the value
-      logical :: given = .false.
-      integer :: source = 0, name_first = 0, name_last = 0, first = 0, last = 0
-   contains
-      procedure :: full_name
-      procedure :: value_text
-      procedure :: type_text
-      procedure :: allows
-   end type key_t
+   public :: schema_t
 
    !> All keys, bound to one case
    type :: schema_t
@@ -323,80 +292,4 @@ contains
 
       names = pack(self%keys%name, [(self%keys(k)%group == group, k=1, size(self%keys))])
    end function names_of
-
-   !> group.name
-   pure function full_name(self) result(name)
-      class(key_t), intent(in) :: self
-      character(len=:), allocatable :: name
-
-      name = trim(self%group) // "." // trim(self%name)
-   end function full_name
-
-   !> The value as a namelist writes it
-   pure function value_text(self) result(text)
-      class(key_t), intent(in) :: self
-      character(len=:), allocatable :: text
-
-      select case (self%kind)
-      case (kind_real)
-         text = to_text(self%real_value)
-      case (kind_integer)
-         text = to_text(self%integer_value)
-      case (kind_logical)
-         text = to_text(self%logical_value)
-      case (kind_word)
-         text = quoted(self%word_value)
-      case default
-         text = quoted(self%path_value)
-      end select
-   end function value_text
-
-   !> What kind of value the key takes, in words, with its range
-   pure function type_text(self) result(text)
-      class(key_t), intent(in) :: self
-      character(len=:), allocatable :: text
-      character(len=*), parameter :: apostrophe = "'"
-      character(len=:), allocatable :: rest
-      integer :: bar
-
-      select case (self%kind)
-      case (kind_real, kind_integer)
-         text = "a number"
-         if (self%kind == kind_integer) text = "a whole number"
-         if (self%unit /= "-") text = text // " (unit " // trim(self%unit) // ", not written)"
-         text = text // " in " // trim(self%allowed)
-      case (kind_logical)
-         text = ".true. or .false."
-      case (kind_word)
-         rest = trim(self%allowed)
-         text = ""
-         do
-            bar = index(rest, "|")
-            if (bar == 0) exit
-            text = text // apostrophe // rest(:bar - 1) // apostrophe // ", "
-            rest = rest(bar + 1:)
-         end do
-         text = text // "or " // apostrophe // rest // apostrophe
-      case default
-         text = "a file name between quotes"
-      end select
-   end function type_text
-
-   !> Whether a number lies in the allowed interval: '[1, 5]', '(0, 5]', '0 or [1, 5]'
-   pure logical function allows(self, value)
-      class(key_t), intent(in) :: self
-      real(dp), intent(in) :: value
-      real(dp) :: low, high
-      integer :: opening, comma, closing
-
-      opening = scan(self%allowed, "[(")
-      closing = scan(self%allowed, "])")
-      comma = index(self%allowed, ",")
-      read (self%allowed(opening + 1:comma - 1), *) low
-      read (self%allowed(comma + 1:closing - 1), *) high
-      allows = value >= low .and. value <= high
-      if (self%allowed(opening:opening) == "(") allows = allows .and. value > low
-      if (self%allowed(closing:closing) == ")") allows = allows .and. value < high
-      if (index(self%allowed, "0 or ") == 1) allows = allows .or. .not. abs(value) > 0.0_dp
-   end function allows
 end module ehl_schema
