@@ -37,8 +37,8 @@ module ehl_relaxation
    real(dp), parameter :: omega_step = 0.8_dp
    !> Largest change of the logarithm of a node's conductance in a sweep of a time step, to begin with: beyond it the
    !> linearised line says nothing. Where pressure falls from its peak to almost nothing from one node to the next, cycles ended
-   !> nowhere without it. Measured at (500, 15), a wave as high as the film, 0.25 a long, on 513 x 513: all steps
-   !> converge with 2, 3 and 4, not with 6.
+   !> nowhere without it. Measured at (500, 15), a wave as high as the film, 0.25 a long, on 513 x 513: the first
+   !> 499 steps converge with 2, 3 and 4, not with 6; where some step does not, see ehl_transient.
    real(dp), parameter :: full_trust = 3.0_dp
    !> Conductance/mesh-size^2 around a node, as a share of the squeeze term's factor, at which half of the change
    !> counts as one to be freed of its smooth part: a change smooth over a length l has a residual of about

@@ -8,7 +8,8 @@ module ehl_judge
    private
    public :: judge_march, most_periods
 
-   !> Periods after which a mean that has not settled never will
+   !> Periods after which a mean that has not settled is given up. The slowest that was found, at (500, 15) with waves as
+   !> high as the film, 0.25 a long, settled after 21.
    integer, parameter :: automatic_periods = 36
 
 contains

@@ -2,6 +2,7 @@
 !> What a run did not have to do, and the seconds that saved
 module ehl_skips
    use ehl_clock, only: clock_t, start_clock
+   use ehl_friction_mean, only: start_up
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_plan, only: plan_t
@@ -12,8 +13,8 @@ module ehl_skips
    private
    public :: skip_t, find_skips, skip_lines, report_skips, seconds_saved_by_zeros
 
-   !> Periods that a march of a fixed length is taken to have
-   integer, parameter :: fixed_periods = 6
+   !> Periods that a march of a fixed length needs: until the start has died out, and one to take the mean of
+   integer, parameter :: fixed_periods = start_up + 1
 
    !> Something not done, and the seconds that saved
    type :: skip_t
