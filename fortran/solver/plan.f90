@@ -98,8 +98,9 @@ contains
       plan%max_cycles = input%solver%max_cycles
       plan%threads = input%solver%threads
       plan%target_error = input%grid%target_error
-      call pick_grids(input, plan, status)
       call pick_surface(input, heights, plan, status)
+      call pick_grids(input, plan, status)
+      plan%coarse_run = input%time%estimate_error .and. plan%steps == 0 .and. plan%levels > 2
       if (allocated(plan%surface)) plan%surface%threads = plan%threads
    end subroutine make_plan
 
@@ -141,8 +142,9 @@ contains
       logical :: mirror
       integer :: intervals, points
 
-      ! a map has no symmetry in general, the others are even in Y
-      mirror = input%solver%symmetry == "auto" .and. (input%surface%kind == "smooth" .or. input%surface%kind == "harmonic")
+      if (status%failed()) return
+      mirror = input%solver%symmetry == "auto"
+      if (mirror .and. allocated(plan%surface)) mirror = plan%surface%even_in_y
       points = input%grid%points
       intervals = points - 1
       plan%levels = 1
@@ -189,8 +191,7 @@ contains
       plan%time_tolerance = input%time%tolerance
       plan%max_periods = input%time%max_periods
       plan%steps = input%time%steps
-      plan%coarse_run = input%time%estimate_error .and. plan%steps == 0 .and. plan%levels > 2
-      associate (s => input%surface)
+            associate (s => input%surface)
          select case (s%kind)
          case ("harmonic")
             waviness = new_harmonic(s%amplitude, s%wavelength_x, s%wavelength_y, s%velocity_ratio, s%x_start)

@@ -45,6 +45,7 @@ contains
          return
       end if
       self%tile = tile
+      self%even_in_y = all(tile(:, 2:) == tile(:, size(tile, 2):2:-1))
       self%period = length_x
       self%length_y = length_y
       self%velocity_ratio = velocity_ratio

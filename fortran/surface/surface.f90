@@ -19,6 +19,8 @@ module ehl_surface
       real(dp) :: period = 0.0_dp
       !> Length over which the front fades [a]
       real(dp) :: front_length = 0.0_dp
+      !> Whether RR(X, -Y) = RR(X, Y), to the bit: half the domain is enough
+      logical :: even_in_y = .true.
       !> Threads to use; the heights do not depend on it
       integer :: threads = 1
    contains

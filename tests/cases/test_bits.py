@@ -102,3 +102,27 @@ def test_half_domain(solve, point: tuple[float, float], points: int):
         assert np.abs(a - b).max() <= 1e-10, name
     for name in ("H_c", "H_min", "F"):
         assert half[name] == pytest.approx(whole[name], rel=1e-10), name
+
+
+@pytest.mark.parametrize("even", [True, False])
+def test_half_domain_for_an_even_map(solve, tmp_path: Path, even: bool):
+    """A tile whose rows mirror each other needs half the domain; one that is not even does not."""
+    i, j = np.meshgrid(np.arange(32), np.minimum(np.arange(32), 32 - np.arange(32)), indexing="ij")
+    tile = 1e-8 * np.cos(2 * np.pi * i / 16) * np.cos(2 * np.pi * j / 8)
+    if not even:
+        tile[:, 1] += 1e-10
+    np.save(tmp_path / "map.npy", tile)
+    settings = {
+        "surface.kind": "map",
+        "surface.file": f"'{tmp_path / 'map.npy'}'",
+        "surface.x_start": 1.5,
+        "time.steps": 12,
+        "time.estimate_error": False,
+    }
+    run = solve(None, 65, settings, fields=True)
+    assert run["half_domain"] is even
+    if even:
+        whole = solve(None, 65, settings | {"solver.symmetry": "full"}, fields=True)
+        assert whole["half_domain"] is False
+        for name in ("P", "H"):
+            assert np.abs(run.field(name) - whole.field(name)).max() <= 1e-9, name
