@@ -18,13 +18,13 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from pyehl.case import Case
-    from pyehl.core import Solver
     from pyehl.results import load
+    from pyehl.solver import Solver
 
 __all__ = ["Case", "Solver", "load"]
 __version__ = "0.1.0"
 
-_HOMES = {"Case": "pyehl.case", "Solver": "pyehl.core", "load": "pyehl.results"}
+_HOMES = {"Case": "pyehl.case", "Solver": "pyehl.solver", "load": "pyehl.results"}
 
 
 def __getattr__(name: str) -> Any:  # noqa: ANN401 (a module, class or function)

@@ -3,15 +3,14 @@
 
 from __future__ import annotations
 
-import argparse
 import os
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Self
 
-from pyehl import core, namelist, surface
+from pyehl import library, namelist
 
-__all__ = ["Case", "add_arguments", "execute"]
+__all__ = ["Case"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +34,7 @@ class Case:
         InputError
             With file, line and column, what was expected, and the nearest name.
         """
-        return cls(core.resolve("", os.fspath(path), options, from_file=True))
+        return cls(library.resolve("", os.fspath(path), options, from_file=True))
 
     @classmethod
     def from_text(
@@ -48,7 +47,7 @@ class Case:
         InputError
             As `read` does, with `origin` in place of the file.
         """
-        return cls(core.resolve(text, origin, options))
+        return cls(library.resolve(text, origin, options))
 
     def with_options(self, *options: str) -> Case:
         """Replace some values: ``case.with_options("grid.points=257")`` is another case.
@@ -69,33 +68,3 @@ class Case:
         values; amplitude or amplitude_over_film.
         """
         return namelist.values(self.text)
-
-
-def add_case_arguments(parser: argparse.ArgumentParser, *, optional: bool = False) -> None:
-    """Case file and --set options, the same for every verb that takes a case."""
-    parser.add_argument(
-        "case", metavar="CASE.nml", nargs="?" if optional else None, help="case file"
-    )
-    parser.add_argument(
-        "--set",
-        dest="overrides",
-        action="append",
-        default=[],
-        metavar="GROUP.KEY=VALUE",
-        help="replace a value of the case; may be repeated",
-    )
-
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl check``."""
-    parser.description = "Read and check a case; print it resolved, and the plan. Solve nothing."
-    add_case_arguments(parser)
-
-
-def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl check``."""
-    case = Case.read(args.case, args.overrides)
-    print(case.text)
-    with core.Solver.open(case, surface.made_heights(case)) as solver:
-        print(solver.describe())
-    return 0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command ``pyehl``: one verb, one module, imported when it is called for."""
+"""The command ``pyehl``: one module of `pyehl.commands` for each subcommand."""
 
 from __future__ import annotations
 
@@ -17,50 +17,59 @@ EXIT_FAILED = 1
 EXIT_USAGE = 2
 EXIT_INTERRUPTED = 130
 
-# Verb, module with add_arguments(parser) and execute(args), what it does
-VERBS = {
-    "run": ("pyehl.run", "solve a case and write a result folder"),
-    "check": ("pyehl.case", "print a case resolved, and how it would be solved"),
-    "predict": ("pyehl.predict", "predict the relative friction of a rough surface from its PSD"),
-    "surface": ("pyehl.surface", "write the surface of a case as a height map"),
-    "film": ("pyehl.film", "film formulas side by side for a case"),
-    "plot": ("pyehl.plot", "pictures of a result folder"),
-    "export": ("pyehl.export", "a result folder as netCDF"),
-    "bench": ("pyehl.bench", "time and error of the parts, side by side"),
-    "info": ("pyehl.info", "versions, compiler, machine"),
+# Subcommand, which is a module of `pyehl.commands`, and what it does
+SUBCOMMANDS = {
+    "run": "solve a case and write a result folder",
+    "check": "print a case resolved, and how it would be solved",
+    "predict": "predict the relative friction of a rough surface from its PSD",
+    "surface": "write the surface of a case as a height map",
+    "film": "film formulas side by side for a case",
+    "plot": "pictures of a result folder",
+    "export": "a result folder as netCDF",
+    "bench": "time and error of the parts, side by side",
+    "info": "versions, compiler, machine",
 }
 
 
-def _usage() -> str:
-    lines = ["usage: pyehl VERB ...   (pyehl VERB --help says more)", ""]
-    lines += [f"  {verb:8} {text}" for verb, (_, text) in VERBS.items()]
-    return "\n".join(lines)
+def _parser(chosen: str) -> argparse.ArgumentParser:
+    """Make the parser; only the chosen subcommand is imported, and has its arguments."""
+    parser = argparse.ArgumentParser(
+        prog="pyehl",
+        description="Elastohydrodynamically lubricated point contacts with rough surfaces.",
+        allow_abbrev=False,
+    )
+    parser.add_argument("--version", action="store_true", help="as the subcommand info")
+    subparsers = parser.add_subparsers(dest="subcommand", metavar="SUBCOMMAND")
+    for name, text in SUBCOMMANDS.items():
+        sub = subparsers.add_parser(
+            name, help=text, description=f"{text[0].upper()}{text[1:]}.", allow_abbrev=False
+        )
+        if name == chosen:
+            module = import_module(f"pyehl.commands.{name}")
+            module.add_arguments(sub)
+            sub.set_defaults(execute=module.execute)
+    return parser
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run one verb; 0 done, 1 not converged or failed, 2 bad input, 130 interrupted."""
+    """Run one subcommand; 0 done, 1 not converged or failed, 2 bad input, 130 interrupted."""
     words = list(sys.argv[1:] if argv is None else argv)
-    if not words or words[0] in ("-h", "--help", "help"):
-        print(_usage())
-        return 0 if words else EXIT_USAGE
-    verb, rest = words[0], words[1:]
-    if verb == "--version":
-        verb = "info"
-    if verb not in VERBS:
-        near = difflib.get_close_matches(verb, VERBS, n=1)
+    if words[:1] == ["help"]:
+        words[0] = "--help"
+    if words[:1] == ["--version"]:
+        words[0] = "info"
+    chosen = words[0] if words else ""
+    parser = _parser(chosen)
+    if chosen not in SUBCOMMANDS and not chosen.startswith("-"):
+        near = difflib.get_close_matches(chosen, SUBCOMMANDS, n=1)
         hint = f"; did you mean '{near[0]}'?" if near else ""
-        print(f"pyehl: error: unknown verb '{verb}'{hint}\n{_usage()}", file=sys.stderr)
+        if words:
+            print(f"pyehl: error: unknown subcommand '{chosen}'{hint}", file=sys.stderr)
+        parser.print_help(sys.stderr if words else sys.stdout)
         return EXIT_USAGE
-    module = import_module(VERBS[verb][0])
-    parser = argparse.ArgumentParser(
-        prog=f"pyehl {verb}",
-        description=f"{VERBS[verb][1][0].upper()}{VERBS[verb][1][1:]}.",
-        allow_abbrev=False,
-    )
-    module.add_arguments(parser)
-    args = parser.parse_args(rest)
     try:
-        return int(module.execute(args))
+        args = parser.parse_args(words)
+        return int(args.execute(args))
     except InputError as error:
         print(error, file=sys.stderr)
         return EXIT_USAGE

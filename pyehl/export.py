@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The verb ``pyehl export``: a result folder as one netCDF file.
+"""A result folder as one netCDF file.
 
 netCDF-3 (64-bit offset), which xarray, MATLAB, Octave, ParaView and ncview open; units and names
 after the CF conventions. Planes are stored (Y, X), the last index fastest, as those tools expect.
@@ -7,7 +7,6 @@ after the CF conventions. Planes are stored (Y, X), the last index fastest, as t
 
 from __future__ import annotations
 
-import argparse
 import os
 from pathlib import Path
 
@@ -17,7 +16,7 @@ from scipy.io import netcdf_file
 from pyehl import results
 from pyehl.errors import FileError, InputError
 
-__all__ = ["add_arguments", "execute", "export"]
+__all__ = ["export"]
 
 
 def export(folder: str | os.PathLike[str], path: str | os.PathLike[str] | None = None) -> Path:
@@ -79,15 +78,3 @@ def _write(result: results.Result, path: Path) -> None:
             stored[:] = values
             stored.units = variable.units
             stored.long_name = variable.long_name
-
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl export``."""
-    parser.add_argument("folder", metavar="DIR", help="result folder")
-    parser.add_argument("-o", "--output", metavar="FILE.nc", help="default: DIR/results.nc")
-
-
-def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl export``."""
-    print(export(args.folder, args.output))
-    return 0

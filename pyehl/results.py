@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl import namelist
-from pyehl.operating import OperatingPoint
+from pyehl.theory.operating import OperatingPoint
 
 if TYPE_CHECKING:
     import xarray

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The verb ``pyehl run``: drive a solver to the end and write the result folder.
+"""Drive a solver to the end and write the result folder.
 
 The same calls in the same order as the program ``ehl``, hence the same bits and the same files.
 A march keeps its state in ``DIR.checkpoint`` as it goes: `resume` goes on with it.
@@ -7,7 +7,6 @@ A march keeps its state in ``DIR.checkpoint`` as it goes: `resume` goes on with 
 
 from __future__ import annotations
 
-import argparse
 import os
 import signal
 import sys
@@ -20,11 +19,13 @@ import numpy as np
 from numpy.typing import NDArray
 from tqdm import tqdm
 
-from pyehl import core, surface
-from pyehl.case import Case, add_case_arguments
-from pyehl.errors import FileError, InputError
+from pyehl import library
+from pyehl.case import Case
+from pyehl.errors import FileError
+from pyehl.solver import Solver
+from pyehl.surfaces import made_heights
 
-__all__ = ["StopRequest", "add_arguments", "execute", "resume", "run"]
+__all__ = ["StopRequest", "resume", "run"]
 
 EXIT_OK, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 130
 # Seconds between progress lines where the output is not a terminal
@@ -58,7 +59,7 @@ def stop_on_signals() -> Iterator[StopRequest]:
             signal.signal(number, handler)
 
 
-def _keep_state(solver: core.Solver, *, at_once: bool) -> bool:
+def _keep_state(solver: Solver, *, at_once: bool) -> bool:
     """Save the state, now or if its time has come. A run does not end because that fails."""
     try:
         return solver.save_state(at_once=at_once)
@@ -70,7 +71,7 @@ def _keep_state(solver: core.Solver, *, at_once: bool) -> bool:
 class Progress:
     """One line about the state: in place on a terminal, now and then elsewhere."""
 
-    def __init__(self, solver: core.Solver, *, quiet: bool) -> None:
+    def __init__(self, solver: Solver, *, quiet: bool) -> None:
         self._solver = solver
         self._quiet = quiet
         self._bar = tqdm(bar_format="{desc} [{elapsed}]", disable=quiet or not sys.stderr.isatty())
@@ -159,7 +160,7 @@ def resume(
     EhlError
         As `run`.
     """
-    kept = core.checkpoint_case(results)
+    kept = library.checkpoint_case(results)
     if case is None:
         case = Case.read(kept, options)
     return _march(case, results if folder is None else folder, results, quiet=quiet)
@@ -168,11 +169,11 @@ def resume(
 def _heights(case: Case, resumed: str | os.PathLike[str]) -> NDArray[np.float64] | None:
     """Surface that Python makes [m], or that was kept; None for the solver's own."""
     if os.fspath(resumed):
-        kept = core.checkpoint_case(resumed).with_name("surface.npy")
+        kept = library.checkpoint_case(resumed).with_name("surface.npy")
         if kept.is_file():
             heights: NDArray[np.float64] = np.load(kept, allow_pickle=False)
             return heights
-    return surface.made_heights(case)
+    return made_heights(case.resolve())
 
 
 def _march(
@@ -188,9 +189,9 @@ def _march(
         if not quiet:
             print(text, flush=True)
 
-    core.check_output(folder)
+    library.check_output(folder)
     heights = _heights(case, resumed)
-    with stop_on_signals() as request, core.Solver.open(case, heights) as solver:
+    with stop_on_signals() as request, Solver.open(case, heights) as solver:
         say(solver.describe())
         if os.fspath(resumed):
             begins = "there is no state yet: the run begins at its beginning"
@@ -221,32 +222,3 @@ def _march(
         if has_state:
             say(f"state: {name}.checkpoint\nto go on: pyehl run --resume {name}")
         return EXIT_INTERRUPTED if request.wanted else EXIT_FAILED
-
-
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl run``."""
-    add_case_arguments(parser, optional=True)
-    parser.add_argument("-o", "--output", metavar="DIR", help="result folder")
-    parser.add_argument(
-        "--resume",
-        metavar="DIR",
-        help="go on with the march that was to write into DIR, to the same numbers; CASE.nml and "
-        "-o may be left out",
-    )
-    parser.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
-
-
-def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl run``."""
-    if args.resume is not None:
-        if args.resume == "":
-            raise InputError("pyehl run: error: the folder behind --resume has no name")
-        case = None if args.case is None else Case.read(args.case, args.overrides)
-        return resume(args.resume, args.output, case, options=args.overrides, quiet=args.quiet)
-    if args.case is None or args.output is None:
-        missing = "case file" if args.case is None else "result folder: -o DIR is missing"
-        raise InputError(
-            f"pyehl run: error: no {missing}\n"
-            "expected: pyehl run CASE.nml -o DIR, or pyehl run --resume DIR"
-        )
-    return run(Case.read(args.case, args.overrides), args.output, quiet=args.quiet)

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import check
-from pyehl.extension import ehl, text_of
+from pyehl.library import ehl, text_of
 
 if TYPE_CHECKING:
     from pyehl.case import Case
@@ -50,7 +50,7 @@ class Solver:
             What to solve.
         heights
             Surface [m], shape (nx, ny), peaks positive; for the kinds 'map' (in place of the file)
-            and 'fractal', where `pyehl.topography` makes it.
+            and 'fractal', where `pyehl.surfaces` makes it.
 
         Raises
         ------

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from pyehl import reference
-from pyehl.film import nijenbanning_venner_moes
 from pyehl.reference import SMOOTH, SmoothRow
+from pyehl.theory.film import nijenbanning_venner_moes
 
 # Independent programs agree with one another within this on the same grid
 AGREEMENT = 2e-3

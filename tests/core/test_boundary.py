@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pyehl import Case, Solver, core, errors
-from pyehl.extension import ehl
+from pyehl import Case, Solver, errors, library
+from pyehl.library import ehl
 
 SMALL = "&contact moes_m = 100.0 moes_l = 5.0 /\n&grid points = 33 /\n"
 
@@ -135,7 +135,7 @@ def test_solvers_in_threads_do_not_disturb_each_other():
 
 def test_text_beyond_ascii_arrives():
     with pytest.raises(errors.InputError, match=r"Höhe µm:1:1: error: unknown group &größe"):
-        core.resolve("&größe /", "Höhe µm")
+        library.resolve("&größe /", "Höhe µm")
 
 
 def test_deflection_of_the_hertz_pressure():
@@ -147,35 +147,35 @@ def test_deflection_of_the_hertz_pressure():
     inside = r2 < 0.8
     answers = {}
     for engine in ("direct", "fft"):
-        result = core.deflection(pressure, h, h, engine)
+        result = library.deflection(pressure, h, h, engine)
         answers[engine] = result.values
         assert abs(result.values - (1.0 - 0.5 * r2))[inside].max() < 0.02
         assert result.seconds > 0.0
-        half = core.deflection(pressure[:, 32:], h, h, engine, mirror=True)
+        half = library.deflection(pressure[:, 32:], h, h, engine, mirror=True)
         assert np.abs(half.values - result.values[:, 32:]).max() < 1e-13
     assert np.abs(answers["direct"] - answers["fft"]).max() < 1e-13
     with pytest.raises(errors.InputError, match="fem"):
-        core.deflection(pressure, h, h, "fem")
+        library.deflection(pressure, h, h, "fem")
 
 
 def test_viscosity_and_density_laws():
     p = np.linspace(0.0, 1.5, 7)
     p_h, alpha, z, p_0 = 1.5e9, 2.2e-8, 0.68, 1.96e8
-    values, slopes = core.log_viscosity(
+    values, slopes = library.log_viscosity(
         p, "roelands", alpha_bar=alpha * p_h, hertz_pressure=p_h, roelands_z=z, roelands_p0=p_0
     )
     expected = alpha * p_0 / z * ((1.0 + p * p_h / p_0) ** z - 1.0)
     assert values == pytest.approx(expected, rel=1e-13)
     assert slopes == pytest.approx(alpha * p_h * (1.0 + p * p_h / p_0) ** (z - 1.0), rel=1e-13)
-    barus, _ = core.log_viscosity(
+    barus, _ = library.log_viscosity(
         p, "barus", alpha_bar=alpha * p_h, hertz_pressure=p_h, roelands_z=z, roelands_p0=p_0
     )
     assert barus == pytest.approx(alpha * p * p_h, rel=1e-14)
-    rho, slope = core.density(p, p_h)
+    rho, slope = library.density(p, p_h)
     pressure = p * p_h
     assert rho == pytest.approx((5.9e8 + 1.34 * pressure) / (5.9e8 + pressure), rel=1e-13)
     assert slope == pytest.approx(0.34 * 5.9e8 * p_h / (5.9e8 + pressure) ** 2, rel=1e-13)
     with pytest.raises(errors.InputError, match="tait"):
-        core.log_viscosity(
+        library.log_viscosity(
             p, "tait", alpha_bar=1.0, hertz_pressure=p_h, roelands_z=z, roelands_p0=p_0
         )

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from pyehl import Case, cli, core
+from pyehl import Case, cli, library
 from pyehl.errors import InputError
 
 CASE_FILES = sorted((Path(__file__).resolve().parents[2] / "cases").glob("*.nml"))
@@ -28,8 +28,8 @@ def test_resolved_case_reads_back(path: Path):
         "surface.amplitude_over_film",
     }  # fmt: skip
     names = {f"{group}.{key}" for group, keys in groups.items() for key in keys}
-    assert {key.name for key in core.keys()} - names <= excluded
-    for key in core.keys():
+    assert {key.name for key in library.keys()} - names <= excluded
+    for key in library.keys():
         if key.name in names:
             group, _, name = key.name.partition(".")
             assert isinstance(groups[group][name], bool | int | float | str)
@@ -100,11 +100,11 @@ def check_message(error: InputError) -> None:
 def test_any_text_is_read_or_refused(text: str):
     for whole in (text, f"&grid {text} /", f"&contact load = {text}", f"&surface file='{text}"):
         try:
-            resolved = core.resolve(whole, "text")
+            resolved = library.resolve(whole, "text")
         except InputError as error:
             check_message(error)
         else:
-            assert core.resolve(resolved, "text") == resolved
+            assert library.resolve(resolved, "text") == resolved
 
 
 @settings(max_examples=200, deadline=None)
@@ -120,7 +120,7 @@ def test_damaged_cases_are_read_or_refused(data):
     else:
         text = text[:at]
     try:
-        core.resolve(text, "text")
+        library.resolve(text, "text")
     except InputError as error:
         check_message(error)
 
@@ -132,7 +132,7 @@ def test_any_option_is_read_or_refused(text: str):
         if not option or "\x00" in option:
             continue
         try:
-            core.resolve("", "text", [option])
+            library.resolve("", "text", [option])
         except InputError as error:
             check_message(error)
 
@@ -154,7 +154,7 @@ def test_readme_of_cases_lists_every_key(root: Path):
             if re.match(r"\| `\w+\.(?!nml)\w+`", line)
         )
     }
-    keys = {key.name: key for key in core.keys()}
+    keys = {key.name: key for key in library.keys()}
     assert list(rows) == list(keys)
     for name, (unit, default, allowed, meaning) in rows.items():
         key = keys[name]
@@ -171,12 +171,12 @@ def test_check_prints_the_resolved_case_and_the_plan(capsys, cases: Path):
     printed = capsys.readouterr().out
     assert "points = 65" in printed
     text, _, plan = printed.rpartition("/\n")
-    assert core.resolve(text + "/\n", "text").strip() == (text + "/").strip()
+    assert library.resolve(text + "/\n", "text").strip() == (text + "/").strip()
     assert plan.strip()
 
 
 @pytest.mark.parametrize("words", [[], ["rnu"], ["run"], ["export"]])
-def test_bad_verbs(words: list[str], capsys):
+def test_bad_subcommands(words: list[str], capsys):
     try:
         status = cli.main(words)
     except SystemExit as end:

@@ -19,7 +19,7 @@ from pathlib import Path
 
 import pytest
 
-from pyehl import Case, core
+from pyehl import Case, library
 
 DOCUMENTS = ("README.md", "cases/README.md", "tests/README.md", "fortran/README.md")
 INSTALL = "bash .ci/install"
@@ -167,7 +167,7 @@ def test_links_lead_somewhere(root: Path, name: str):
 
 @pytest.mark.parametrize("name", DOCUMENTS)
 def test_keys_in_documents_are_keys(root: Path, name: str):
-    known = {key.name for key in core.keys()}
+    known = {key.name for key in library.keys()}
     groups = {name.partition(".")[0] for name in known}
     words = re.findall(r"`(?:--set )?(\w+\.\w+)(?: ?=[^`]*)?`", (root / name).read_text())
     assert not {w for w in words if w.partition(".")[0] in groups} - known - FILES

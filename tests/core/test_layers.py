@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import ast
 import re
 from pathlib import Path
 
@@ -95,10 +94,3 @@ def test_first_line_is_the_licence(root: Path):
     assert len(paths) > 30
     for path in paths:
         assert "SPDX-License-Identifier: BSD-3-Clause" in path.read_text().splitlines()[0], path
-
-
-def test_only_one_module_imports_the_extension(root: Path):
-    for path in (root / "pyehl").rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text())):
-            if isinstance(node, ast.ImportFrom) and "_core" in (node.module or ""):
-                assert path.name == "extension.py"

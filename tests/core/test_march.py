@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 import pyehl
-from pyehl import cli, plot_march, results
+from pyehl import cli, results
 from pyehl.export import export
+from pyehl.plots import transient
 
 WAVE = (
     "&contact load = 20.0 /\n&grid points = 65 /\n"
@@ -142,7 +143,7 @@ def test_what_was_not_done_is_listed(drive, tmp_path: Path, driver: str):
     assert "skips" not in json.loads((tmp_path / "smooth" / "summary.json").read_text())
 
 
-def test_verb_plot_on_a_march(march: Path, tmp_path: Path, capsys):
+def test_plot_on_a_march(march: Path, tmp_path: Path, capsys):
     assert cli.main(["plot", str(march), "-o", str(tmp_path), "--dpi", "40"]) == 0
     written = {Path(line).name for line in capsys.readouterr().out.splitlines()}
     assert {"friction.png", "deformed_roughness.png", "rough_and_smooth.png"} < written
@@ -152,7 +153,7 @@ def test_verb_plot_on_a_march(march: Path, tmp_path: Path, capsys):
 def test_friction_history_shows_the_averaging_window(march: Path):
     run = results.read(march)
     mean, period = run.summary["mu_ratio"], run.summary["T_mean"]
-    figure = plot_march.friction_history(
+    figure = transient.friction_history(
         run["history_T"], run["history_mu_ratio"], period=period, mean=mean, formula=2.0
     )
     ax = figure.axes[0]
@@ -170,7 +171,7 @@ def test_friction_history_shows_the_averaging_window(march: Path):
 
 def test_deformed_roughness_ends_at_the_circle_and_shares_a_scale(march: Path):
     run = results.read(march)
-    figure = plot_march.deformed_roughness(run["X"], run["Y"], run["RR"], run["A_d"])
+    figure = transient.deformed_roughness(run["X"], run["Y"], run["RR"], run["A_d"])
     images = [ax.images[0] for ax in figure.axes[:2]]
     assert images[0].get_clim() == images[1].get_clim()
     inside = (run["X"][:, None] ** 2 + run["Y"] ** 2 <= 1.0)[np.abs(run["X"]) <= 1.0]
@@ -186,22 +187,22 @@ def test_deformed_roughness_ends_at_the_circle_and_shares_a_scale(march: Path):
 def test_eq_16_only_where_it_holds(march: Path):
     run = results.read(march)
     # M = 31, outside of the range of the fit
-    assert plot_march.eq_16(run) is None
+    assert transient.eq_16(run) is None
     inside = {"moes_m": 1000.0, "moes_l": 10.0, "H_c": 0.0243, "amplitude": 9.72e-3}
     surface = {"kind": "harmonic", "wavelength_x": 0.5, "wavelength_y": 0.5}
     known = results.Result(inside, {"surface": surface})
     # theta_2 = 10^-1.1 1000^0.33 0.5^0.67 2.5, 1 + 0.546 theta_2^-2 + 0.219 theta_2^-4
     theta = 10**-1.1 * 1000**0.33 * 0.5**0.67 * 2.5
-    assert plot_march.eq_16(known) == pytest.approx(1 + 0.546 / theta**2 + 0.219 / theta**4)
+    assert transient.eq_16(known) == pytest.approx(1 + 0.546 / theta**2 + 0.219 / theta**4)
     for other in ({"kind": "fractal"}, {"wavelength_y": 0.6}):
-        assert plot_march.eq_16(results.Result(inside, {"surface": surface | other})) is None
+        assert transient.eq_16(results.Result(inside, {"surface": surface | other})) is None
 
 
 def test_bench_step(tmp_path: Path, capsys, monkeypatch):
-    from pyehl import bench_step
+    from pyehl.bench import step
 
-    scene = bench_step.Scene("fractal", "whole", FRACTAL)
-    monkeypatch.setattr(bench_step, "CASES", (scene,))
+    scene = step.Scene("fractal", "whole", FRACTAL)
+    monkeypatch.setattr(step, "CASES", (scene,))
     words = ["--points", "33,65", "--threads", "1,2", "--cases", "fractal", "--steps", "3"]
     target = tmp_path / "step.json"
     assert cli.main(["bench", "step", *words, "--error", "-o", str(target)]) == 0

@@ -6,7 +6,7 @@ import copy
 import numpy as np
 import pytest
 
-from pyehl import topography
+from pyehl import surfaces
 
 # A resolved case: the reference conditions with the fractal surface
 RESOLVED = {
@@ -70,7 +70,7 @@ def table_1():
 
     def make(seed=1, pixels=256, **changes):
         arguments = {"rms_height": 5e-8, "hurst": 0.8} | changes
-        return topography.fractal(pixels, 8.29e-4, 8.29e-4, seed=seed, **arguments)
+        return surfaces.fractal(pixels, 8.29e-4, 8.29e-4, seed=seed, **arguments)
 
     return make
 
@@ -82,6 +82,6 @@ def wave():
     def make(height, wavelength, n=32):
         x = np.arange(n) / n
         z = np.outer(height * np.cos(2 * np.pi * x), np.ones(n))
-        return topography.Topography(z, wavelength, wavelength)
+        return surfaces.Topography(z, wavelength, wavelength)
 
     return make

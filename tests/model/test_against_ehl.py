@@ -9,16 +9,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pyehl import topography
-from pyehl.operating import Lubricant, OperatingPoint
-from pyehl.psd_model import Options, predict_friction
+from pyehl import surfaces
+from pyehl.prediction import Options, predict_friction
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
 
 TABLE = Path(__file__).with_name("ten_surfaces.csv")
 FILM = 0.2333e-6
 LENGTH = 8.29e-4
 
 # How far the prediction lies below the simulation, mean over the surfaces, as documented in
-# pyehl.psd_model and the README
+# pyehl.prediction and the README
 DOCUMENTED = {"components": 0.128, "pattern": 0.130, "wavevector": 0.138}
 
 
@@ -37,7 +38,7 @@ def predicted(**options):
     return np.array(
         [
             predict_friction(
-                topography.fractal(256, LENGTH, LENGTH, rms_height=5e-8, hurst=0.8, seed=seed),
+                surfaces.fractal(256, LENGTH, LENGTH, rms_height=5e-8, hurst=0.8, seed=seed),
                 OperatingPoint(),
                 Lubricant(),
                 FILM,

@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from pyehl import amplitude
+from pyehl.theory import amplitude
 
 
 def test_limits():

@@ -5,8 +5,12 @@ import copy
 
 import pytest
 
-from pyehl import film, reference
-from pyehl.operating import Lubricant, OperatingPoint
+from pyehl import reference
+from pyehl.commands import film as film_command
+from pyehl.prediction import film_sheet
+from pyehl.theory import film
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
 
 
 @pytest.mark.parametrize("row", reference.SMOOTH, ids=lambda r: f"M{r.moes_m:g}-z{r.roelands_z}")
@@ -47,19 +51,19 @@ def test_validity_flags():
 def test_sheet_of_the_harmonic_case(settings):
     settings["surface"]["kind"] = "harmonic"
     settings["surface"]["amplitude_over_film"] = 0.4
-    values = film.sheet(settings)
+    values = film_sheet.sheet(settings)
     # the paper's fig. 2: eq. 16 gives 1.466 at L = 10; here L = 10.024
     assert values["mu_ratio_eq_16"] == pytest.approx(1.468, abs=0.002)
     assert values["theta_2_outside"] == []
     assert values["lambda_ratio"] == pytest.approx(2 / 0.4)
-    page = film.report(values)
+    page = film_command.report(values)
     for word in ("p_h", "1.6602 GPa", "Lambda", "theta_2", "inside", "Hamrock-Dowson"):
         assert word in page
 
 
 def test_sheet_names_what_is_outside(settings):
     settings["surface"] |= {"kind": "harmonic", "wavelength_x": 2.0, "wavelength_y": 3.0}
-    outside = film.sheet(settings)["theta_2_outside"]
+    outside = film_sheet.sheet(settings)["theta_2_outside"]
     assert any("wavelength = 2" in text for text in outside)
     assert any("equal wavelengths" in text for text in outside)
 
@@ -68,10 +72,10 @@ def test_sheet_from_moes_numbers_and_smooth(settings):
     case = copy.deepcopy(settings)
     case["contact"] = {"moes_m": 20.0, "moes_l": 10.0}
     case["surface"]["kind"] = "smooth"
-    values = film.sheet(case)
+    values = film_sheet.sheet(case)
     assert values["moes_m"] == pytest.approx(20.0)
     assert "lambda_ratio" not in values
-    assert "made from M and L" in film.report(values)
+    assert "made from M and L" in film_command.report(values)
 
 
 def test_refuses():

@@ -8,8 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pyehl.operating import Lubricant, OperatingPoint, default_roelands_z
 from pyehl.reference import TABLE_1
+from pyehl.theory.lubricant import Lubricant, default_roelands_z
+from pyehl.theory.operating import OperatingPoint
 
 
 def test_table_1():

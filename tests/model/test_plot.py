@@ -9,8 +9,13 @@ import f90nml
 import numpy as np
 import pytest
 
-from pyehl import plot, plot_contact, predict, reference
-from pyehl.operating import OperatingPoint
+from pyehl import reference
+from pyehl.commands import plot
+from pyehl.commands.predict import draw
+from pyehl.plots import contact, style, surface
+from pyehl.prediction.folder import write
+from pyehl.prediction.of_case import predict
+from pyehl.theory.operating import OperatingPoint
 
 
 @pytest.fixture(scope="module")
@@ -26,7 +31,7 @@ def fields():
 @pytest.fixture
 def scales():
     point = OperatingPoint()
-    return plot.Scales(point.hertz_radius, point.hertz_pressure, point.film_scale)
+    return style.Scales(point.hertz_radius, point.hertz_pressure, point.film_scale)
 
 
 def curves(ax):
@@ -34,7 +39,7 @@ def curves(ax):
 
 
 def test_centre_lines_in_hertz_units(fields):
-    figure = plot.centre_lines(*fields)
+    figure = contact.centre_lines(*fields)
     left, right = figure.axes[:2]
     drawn = curves(left)
     assert drawn["Hertz"][:, 1].max() == 1.0
@@ -45,7 +50,7 @@ def test_centre_lines_in_hertz_units(fields):
 
 
 def test_centre_lines_in_si(fields, scales):
-    figure = plot.centre_lines(*fields, scales)
+    figure = contact.centre_lines(*fields, scales)
     assert curves(figure.axes[0])["Hertz"][:, 1].max() == pytest.approx(1.6602, rel=1e-4)
     assert "GPa" in figure.axes[0].get_ylabel()
     films = [curves(ax)["film"] for ax in figure.axes if "film" in curves(ax)]
@@ -56,15 +61,15 @@ def test_centre_lines_in_si(fields, scales):
 @pytest.mark.parametrize("si", [True, False])
 def test_film_maps(fields, scales, si):
     x, y, _, film = fields
-    figure = plot.film_maps(x, y, film, scales if si else None)
+    figure = contact.film_maps(x, y, film, scales if si else None)
     fringe, contours = figure.axes[:2]
     image = fringe.get_images()[0].get_array()
     assert 0.0 <= image.min()
     assert image.max() <= 1.0
     # the centre by the law of two beams
-    step = plot_contact.LIGHT / 3e-6 * 1e-6 * 1e6 if si else 0.01
+    step = contact.LIGHT / 3e-6 * 1e-6 * 1e6 if si else 0.01
     h = 0.0243 * (scales.film * 1e6 if si else 1.0)
-    fade = np.exp(-((h / (plot_contact.COHERENT_FRINGES * step)) ** 2))
+    fade = np.exp(-((h / (contact.COHERENT_FRINGES * step)) ** 2))
     expected = 0.5 * (1 - fade * np.cos(2 * np.pi * h / step))
     n = image.shape
     assert image[n[0] // 2, n[1] // 2] == pytest.approx(expected, abs=0.02)
@@ -74,8 +79,8 @@ def test_film_maps(fields, scales, si):
 
 
 def test_surface_spectrum(settings):
-    result = predict.predict(settings)
-    figure = plot.surface_spectrum(result.surface, 4.154e-4, 1000.0, 10.0)
+    result = predict(settings)
+    figure = surface.surface_spectrum(result.surface, 4.154e-4, 1000.0, 10.0)
     ratio = figure.axes[-1].get_lines()[0].get_ydata()
     assert np.all(np.diff(ratio) > 0.0)
     assert figure.axes[0].get_images()[0].get_array().max() == pytest.approx(
@@ -84,9 +89,9 @@ def test_surface_spectrum(settings):
 
 
 def test_roughness_pair_shares_one_scale(settings):
-    result = predict.predict(settings)
+    result = predict(settings)
     deformed = result.friction.response.deformed
-    figure = plot.roughness_pair(result.surface, deformed, result.operating.hertz_radius)
+    figure = surface.roughness_pair(result.surface, deformed, result.operating.hertz_radius)
     left, right = (ax.get_images()[0] for ax in figure.axes[:2])
     assert left.get_clim() == right.get_clim()
     assert left.get_clim()[0] == -left.get_clim()[1]
@@ -101,59 +106,59 @@ def test_roughness_pair_shares_one_scale(settings):
 def test_passage_closes():
     shift = np.arange(8) * 1e-4
     ratio = 1.2 + 0.1 * np.cos(2 * np.pi * shift / 8e-4)
-    figure = plot.friction_passage(shift, ratio, 8e-4)
+    figure = surface.friction_passage(shift, ratio, 8e-4)
     line = figure.axes[0].get_lines()[0].get_xydata()
     assert line[0, 1] == pytest.approx(line[-1, 1])
     assert line[:, 1] == pytest.approx(1.2 + 0.1 * np.cos(2 * np.pi * line[:, 0] / 0.8), abs=1e-9)
 
 
 def test_png_at_300_dots_per_inch(fields, tmp_path):
-    path = plot.save(plot.centre_lines(*fields), tmp_path / "a.png")
+    path = style.save(contact.centre_lines(*fields), tmp_path / "a.png")
     data = path.read_bytes()
     width, height = struct.unpack(">II", data[16:24])
     assert (width, height) == (2160, 990)
 
 
-def run_verb(folder, output=None, units="auto", dpi=plot.DPI):
+def run_subcommand(folder, output=None, units="auto", dpi=style.DPI):
     return plot.execute(argparse.Namespace(folder=folder, output=output, units=units, dpi=dpi))
 
 
-def test_verb_on_a_prediction(settings, tmp_path, capsys):
-    predict.predict(settings).write(tmp_path / "out", plots=False)
-    assert run_verb(tmp_path / "out", tmp_path / "png") == 0
+def test_subcommand_on_a_prediction(settings, tmp_path, capsys):
+    write(predict(settings), tmp_path / "out")
+    assert run_subcommand(tmp_path / "out", tmp_path / "png") == 0
     assert len(capsys.readouterr().out.split()) == 3
     assert (tmp_path / "png" / "roughness.png").stat().st_size > 1e4
 
 
-def test_verb_at_other_resolutions(settings, tmp_path, capsys):
-    predict.predict(settings).write(tmp_path / "out", plots=False)
-    assert run_verb(tmp_path / "out", dpi=100) == 0
+def test_subcommand_at_other_resolutions(settings, tmp_path, capsys):
+    write(predict(settings), tmp_path / "out")
+    assert run_subcommand(tmp_path / "out", dpi=100) == 0
     data = (tmp_path / "out" / "roughness.png").read_bytes()
     assert struct.unpack(">II", data[16:24]) == (700, 310)
-    assert run_verb(tmp_path / "out", dpi=1) == 2
+    assert run_subcommand(tmp_path / "out", dpi=1) == 2
     assert "--dpi 1" in capsys.readouterr().err
 
 
-def test_verb_on_a_prediction_that_failed(settings, tmp_path):
+def test_subcommand_on_a_prediction_that_failed(settings, tmp_path):
     settings["psd"]["film_thickness"] = 1e-8
-    predict.predict(settings).write(tmp_path / "out")
-    assert run_verb(tmp_path / "out") == 0
+    write(predict(settings), tmp_path / "out", draw=draw)
+    assert run_subcommand(tmp_path / "out") == 0
     assert not (tmp_path / "out" / "passage.png").exists()
 
 
-def test_verb_on_a_run(settings, fields, tmp_path):
+def test_subcommand_on_a_run(settings, fields, tmp_path):
     pytest.importorskip("pyehl.results")
     (tmp_path / "summary.json").write_text(json.dumps({"status": "converged"}))
     (tmp_path / "case.nml").write_text(str(f90nml.Namelist(settings)) + "\n")
     for name, values in zip("XYPH", fields, strict=True):
         np.save(tmp_path / f"{name}.npy", np.asfortranarray(values))
-    assert run_verb(tmp_path) == 0
+    assert run_subcommand(tmp_path) == 0
     assert {p.name for p in tmp_path.glob("*.png")} == {"centre_lines.png", "film.png"}
-    assert run_verb(tmp_path, units="hertz") == 0
+    assert run_subcommand(tmp_path, units="hertz") == 0
 
 
-def test_verb_without_a_result(tmp_path, capsys):
-    assert run_verb(tmp_path) == 2
+def test_subcommand_without_a_result(tmp_path, capsys):
+    assert run_subcommand(tmp_path) == 2
     assert "no summary.json" in capsys.readouterr().err
     (tmp_path / "summary.json").write_text("{}")
-    assert run_verb(tmp_path) == 2
+    assert run_subcommand(tmp_path) == 2

@@ -1,22 +1,25 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The verb ``pyehl predict`` and its result folder."""
+"""The subcommand ``pyehl predict`` and its result folder."""
 
 import argparse
 import csv
 import json
-import sys
-import types
 
 import f90nml
 import numpy as np
 import pytest
 
-from pyehl import film, plot, predict
-from pyehl.operating import Lubricant, OperatingPoint
+from pyehl.commands import film as film_command
+from pyehl.commands import predict as predict_command
+from pyehl.prediction.folder import write
+from pyehl.prediction.of_case import predict
+from pyehl.theory import film
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
 
 
 def test_summary_says_what_was_done(settings):
-    result = predict.predict(settings)
+    result = predict(settings)
     summary = json.loads(json.dumps(result.summary(), allow_nan=False))
     assert summary["status"] == "predicted"
     assert summary["mu_ratio_min"] < summary["mu_ratio"] < summary["mu_ratio_max"]
@@ -35,29 +38,29 @@ def test_summary_says_what_was_done(settings):
     assert 0.0 < summary["wall_seconds"] < 5.0
     assert sum(b["rise"] for b in summary["bands"]) == pytest.approx(summary["mu_ratio"] - 1)
     for word in ("1.254 ", "positions", "ms", "seed 1", "vanishing sliding"):
-        assert word in result.report()
+        assert word in predict_command.report(result)
 
 
 def test_film_from_the_formula_and_law_from_psd(settings):
     settings["psd"] |= {"film_thickness": 0.0, "viscosity_law": "barus", "friction": "eyring"}
-    result = predict.predict(settings)
+    result = predict(settings)
     assert result.film == film.central_film(OperatingPoint(), Lubricant())
     assert "Nijenbanning" in result.film_source
     assert result.lubricant.viscosity_law == "barus"
     assert result.summary()["mu_smooth"] > 0.0
-    assert "mu_s " in result.report()
+    assert "mu_s " in predict_command.report(result)
 
 
 def test_harmonic_amplitude_is_a_share_of_the_film(settings):
     settings["surface"]["kind"] = "harmonic"
-    result = predict.predict(settings)
+    result = predict(settings)
     assert result.surface.heights.max() == pytest.approx(0.4 * 0.2333e-6)
 
 
 @pytest.fixture
 def folder(settings, tmp_path):
     target = tmp_path / "deep" / "out"
-    predict.predict(settings).write(target)
+    write(predict(settings), target, draw=predict_command.draw)
     return target
 
 
@@ -71,7 +74,7 @@ def test_folder(folder, settings):
     assert [p.name for p in folder.parent.iterdir()] == ["out"]  # nothing left behind
     case = f90nml.read(folder / "case.nml").todict()
     assert case["psd"]["film_thickness"] == 0.2333e-6
-    again = predict.predict({group: dict(keys) for group, keys in case.items()})
+    again = predict({group: dict(keys) for group, keys in case.items()})
     summary = json.loads((folder / "summary.json").read_text())
     assert again.friction.mu_ratio == summary["mu_ratio"]
     z = np.load(folder / "surface.npy", allow_pickle=False)
@@ -92,37 +95,36 @@ def test_folder_is_read_by_results(folder):
 
 def test_earlier_result_is_replaced(folder, settings):
     settings["surface"]["seed"] = 2
-    predict.predict(settings).write(folder, plots=False)
+    write(predict(settings), folder)
     assert json.loads((folder / "summary.json").read_text())["seed"] == 2
     assert not (folder / "passage.png").exists()
 
 
 def test_other_folders_are_left_alone(settings, tmp_path):
     (tmp_path / "thesis.tex").write_text("precious")
-    result = predict.predict(settings)
+    result = predict(settings)
     with pytest.raises(FileExistsError, match="not a result folder"):
-        result.write(tmp_path, plots=False)
+        write(result, tmp_path)
     with pytest.raises(FileExistsError, match="not a folder"):
-        result.write(tmp_path / "thesis.tex", plots=False)
+        write(result, tmp_path / "thesis.tex")
     assert [p.name for p in tmp_path.iterdir()] == ["thesis.tex"]
 
 
-def test_failed_write_leaves_the_old_result(folder, settings, monkeypatch):
+def test_failed_write_leaves_the_old_result(folder, settings):
     before = (folder / "summary.json").read_text()
 
     def fail(*_):
         raise OSError("disk full")
 
-    monkeypatch.setattr(plot, "save_prediction", fail)
     with pytest.raises(OSError, match="disk full"):
-        predict.predict(settings).write(folder)
+        write(predict(settings), folder, draw=fail)
     assert (folder / "summary.json").read_text() == before
     assert [p.name for p in folder.parent.iterdir()] == ["out"]
 
 
 @pytest.fixture
-def verb(settings, monkeypatch, tmp_path):
-    """Run the verb on `settings`, as if the compiled reader had read them."""
+def command(settings, monkeypatch, tmp_path):
+    """Run the subcommand on `settings`, as if the compiled reader had read them."""
 
     class Case:
         text = "&surface\n kind = 'fractal'\n/\n"
@@ -134,9 +136,8 @@ def verb(settings, monkeypatch, tmp_path):
         def resolve(self):
             return settings
 
-    module = types.ModuleType("pyehl.case")
-    module.Case = Case
-    monkeypatch.setitem(sys.modules, "pyehl.case", module)
+    for module in (predict_command, film_command):
+        monkeypatch.setattr(module, "Case", Case)
 
     def run(execute, **arguments):
         defaults = {"case": "a.nml", "overrides": [], "output": tmp_path / "out", "plots": False}
@@ -145,34 +146,34 @@ def verb(settings, monkeypatch, tmp_path):
     return run
 
 
-def test_verb(verb, tmp_path, capsys):
-    assert verb(predict.execute) == 0
+def test_command(command, tmp_path, capsys):
+    assert command(predict_command.execute) == 0
     assert "mu_r/mu_s" in capsys.readouterr().out
     assert (tmp_path / "out" / "case.nml").read_text().startswith("&surface")
 
 
-def test_verb_reports_bad_input(verb, settings, capsys, tmp_path):
+def test_subcommand_reports_bad_input(command, settings, capsys, tmp_path):
     settings["surface"]["kind"] = "smooth"
-    assert verb(predict.execute) == 2
+    assert command(predict_command.execute) == 2
     assert "a.nml: surface.kind" in capsys.readouterr().err
     settings["surface"] |= {"kind": "map", "file": str(tmp_path / "none.npy")}
-    assert verb(predict.execute) == 2
+    assert command(predict_command.execute) == 2
     assert "none.npy" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
 
 
-def test_verb_reports_film_breakdown(verb, settings, capsys, tmp_path):
+def test_subcommand_reports_film_breakdown(command, settings, capsys, tmp_path):
     settings["psd"]["film_thickness"] = 1e-8
-    assert verb(predict.execute) == 1
+    assert command(predict_command.execute) == 1
     assert "film breakdown" in capsys.readouterr().out
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert (summary["status"], summary["mu_ratio"]) == ("film breakdown", None)
 
 
-def test_film_verb(verb, capsys, settings):
-    assert verb(film.execute, json=False) == 0
+def test_film_command(command, capsys, settings):
+    assert command(film_command.execute, json=False) == 0
     assert "Hamrock-Dowson" in capsys.readouterr().out
-    assert verb(film.execute, json=True) == 0
+    assert command(film_command.execute, json=True) == 0
     assert json.loads(capsys.readouterr().out)["moes_m"] == pytest.approx(1000.0, rel=1e-4)
     settings["surface"] |= {"kind": "map", "file": "none.npy"}
-    assert verb(film.execute, json=True) == 2
+    assert command(film_command.execute, json=True) == 2

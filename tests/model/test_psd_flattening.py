@@ -6,10 +6,11 @@ import math
 import numpy as np
 import pytest
 
-from pyehl import amplitude, psd_model, topography
-from pyehl.operating import OperatingPoint
-from pyehl.psd_model import Options, response
-from pyehl.topography import Topography
+from pyehl import prediction, surfaces
+from pyehl.prediction import Options, response
+from pyehl.surfaces import Topography
+from pyehl.theory import amplitude
+from pyehl.theory.operating import OperatingPoint
 
 POINT = OperatingPoint()
 LENGTH = 8.29e-4
@@ -40,7 +41,7 @@ def test_stiffness_of_a_cos_cos_pattern_by_point_loads():
     wavelength, modulus = 2e-4, 2.26e11
     measured = 1.0 / deflection_at_crest(wavelength, modulus)
     k = 2 * np.pi / wavelength
-    exact = float(psd_model.stiffness(np.array(k), np.array(k), modulus))
+    exact = float(prediction.stiffness(np.array(k), np.array(k), modulus))
     equation_11 = math.pi * modulus / (math.sqrt(2) * wavelength)
     assert exact == pytest.approx(equation_11, rel=1e-12)
     assert measured == pytest.approx(exact, rel=3e-3)
@@ -67,7 +68,7 @@ def test_stiffness_by_convolution():
     w *= 2 / (math.pi * modulus)
     w -= w.mean()
     fitted = np.sum(p * p) / np.sum(p * w)
-    exact = float(psd_model.stiffness(np.array(k), np.array(k), modulus))
+    exact = float(prediction.stiffness(np.array(k), np.array(k), modulus))
     # the images beyond the sum leave a smooth kernel that a wave hardly feels
     assert fitted == pytest.approx(exact, rel=5e-3)
     assert w == pytest.approx(p / exact, abs=5e-3 / exact)
@@ -75,10 +76,10 @@ def test_stiffness_by_convolution():
 
 def test_paper_stiffness_is_too_stiff():
     q = np.array([1e4, 1e5])
-    ratio = psd_model.stiffness(q, 0 * q, 1.0, "paper") / psd_model.stiffness(q, 0 * q, 1.0)
+    ratio = prediction.stiffness(q, 0 * q, 1.0, "paper") / prediction.stiffness(q, 0 * q, 1.0)
     assert ratio == pytest.approx([math.sqrt(2)] * 2)
     # eq. 11 to the letter, with 2 pi/|q|
-    assert psd_model.stiffness(q, 0 * q, 1.0, "paper") == pytest.approx(
+    assert prediction.stiffness(q, 0 * q, 1.0, "paper") == pytest.approx(
         math.pi / (math.sqrt(2) * 2 * math.pi / q)
     )
 
@@ -104,7 +105,7 @@ def test_single_component(wave, convention, stiffness):
 
 
 def test_pattern_is_the_closed_form_of_cos_cos():
-    rough = topography.harmonic(1e-8, 2e-4, 2e-4, (32, 32))
+    rough = surfaces.harmonic(1e-8, 2e-4, 2e-4, (32, 32))
     x = 2e-4 / POINT.hertz_radius * math.sqrt(POINT.moes_m / POINT.moes_l)
     ratio = 1 / (1 + 0.15 * x + 0.015 * x * x)
     for convention in ("pattern", "components"):
@@ -118,7 +119,7 @@ def test_response_keeps_phases(table_1):
     """Moving the surface moves its response: it would not if only moduli were kept."""
     rough = table_1(pixels=64)
     px, py = rough.pixel
-    moved = response(topography.shifted(rough, 5 * px, -7 * py), POINT)
+    moved = response(surfaces.shifted(rough, 5 * px, -7 * py), POINT)
     fixed = response(rough, POINT)
     assert moved.deformed == pytest.approx(np.roll(fixed.deformed, (5, -7), (0, 1)), abs=1e-18)
     assert moved.pressure == pytest.approx(np.roll(fixed.pressure, (5, -7), (0, 1)), abs=1e-2)
@@ -135,7 +136,7 @@ def test_response_is_linear_and_without_mean(table_1):
 def test_parseval_of_the_response(table_1):
     rough = table_1(pixels=64)
     field = response(rough, POINT)
-    qx, qy, c2d = topography.psd_2d(rough)
+    qx, qy, c2d = surfaces.psd_2d(rough)
     qx, qy = qx[:, None], qy[None, :]
     ratio = amplitude.component_amplitude_ratio(
         qx, qy, POINT.hertz_radius, POINT.moes_m, POINT.moes_l

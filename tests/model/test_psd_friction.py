@@ -8,10 +8,11 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import j0
 
-from pyehl import topography
-from pyehl.operating import Lubricant, OperatingPoint
-from pyehl.psd_model import Options, predict_friction, response
-from pyehl.topography import Topography
+from pyehl import surfaces
+from pyehl.prediction import Options, predict_friction, response
+from pyehl.surfaces import Topography
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
 
 POINT = OperatingPoint()
 ROELANDS = Lubricant()
@@ -83,7 +84,7 @@ def test_each_position_is_the_moved_surface(table_1, options):
     rough = table_1(pixels=64)
     passage = predict_friction(rough, POINT, ROELANDS, FILM, options)
     for k in (1, 3):
-        moved = topography.shifted(rough, float(passage.shift[k]))
+        moved = surfaces.shifted(rough, float(passage.shift[k]))
         first = predict_friction(moved, POINT, ROELANDS, FILM, options)
         assert first.passage[0] == pytest.approx(passage.passage[k], rel=1e-9)
 
@@ -122,8 +123,8 @@ def test_automatic_positions_are_enough(table_1):
 
 def test_grid_of_the_map_does_not_matter():
     """A coarse map of a long wave is interpolated until it resolves the contact."""
-    coarse = topography.resampled(topography.harmonic(5e-8, LENGTH, LENGTH, (6, 6)), (12, 10))
-    fine = topography.harmonic(5e-8, LENGTH, LENGTH, (256, 256))
+    coarse = surfaces.resampled(surfaces.harmonic(5e-8, LENGTH, LENGTH, (6, 6)), (12, 10))
+    fine = surfaces.harmonic(5e-8, LENGTH, LENGTH, (256, 256))
     a = predict_friction(coarse, POINT, ROELANDS, FILM)
     b = predict_friction(fine, POINT, ROELANDS, FILM)
     assert a.mu_ratio == pytest.approx(b.mu_ratio, rel=1e-4)

@@ -6,10 +6,11 @@ import math
 import numpy as np
 import pytest
 
-from pyehl import topography
-from pyehl.operating import Lubricant, OperatingPoint
-from pyehl.psd_model import Options, over_tracks, predict_friction, stiffness
-from pyehl.topography import Topography
+from pyehl import surfaces
+from pyehl.prediction import Options, over_tracks, predict_friction, stiffness
+from pyehl.surfaces import Topography
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
 
 POINT = OperatingPoint()
 ROELANDS = Lubricant()
@@ -86,6 +87,6 @@ def test_refuses(table_1):
 
 
 def test_a_tile_too_large_for_its_pixels_is_refused():
-    rough = topography.harmonic(1e-8, 0.5, 0.5, (16, 16))
+    rough = surfaces.harmonic(1e-8, 0.5, 0.5, (16, 16))
     with pytest.raises(ValueError, match="cut a part"):
         predict_friction(rough, POINT, ROELANDS, FILM)

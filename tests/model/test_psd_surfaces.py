@@ -7,10 +7,12 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from pyehl import stribeck, topography
-from pyehl.operating import Lubricant, OperatingPoint
-from pyehl.psd_model import Options, contributions, over_tracks, predict_friction, response
-from pyehl.topography import Topography
+from pyehl import surfaces
+from pyehl.prediction import Options, contributions, over_tracks, predict_friction, response
+from pyehl.surfaces import Topography
+from pyehl.theory import stribeck
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
 
 POINT = OperatingPoint()
 ROELANDS = Lubricant()
@@ -72,7 +74,7 @@ def test_below_equation_16():
     point = OperatingPoint.from_moes(1000.0, 10.0)
     film = 0.024335 * point.film_scale
     side = 0.5 * point.hertz_radius
-    rough = topography.harmonic(0.4 * film, side, side, (32, 32))
+    rough = surfaces.harmonic(0.4 * film, side, side, (32, 32))
     result = predict_friction(rough, point, ROELANDS, film)
     theta = stribeck.theta_2(1000.0, 10.0, 0.5, 2.5)
     rise = float(stribeck.relative_friction(theta)) - 1

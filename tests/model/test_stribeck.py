@@ -4,7 +4,8 @@
 import numpy as np
 import pytest
 
-from pyehl import reference, stribeck
+from pyehl import reference
+from pyehl.theory import stribeck
 
 
 def test_figure_2():

@@ -9,16 +9,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pyehl import topography
-from pyehl.operating import OperatingPoint
-from pyehl.topography import Topography
+from pyehl import surfaces
+from pyehl.surfaces import Topography
+from pyehl.theory.operating import OperatingPoint
 
 TABLE_1 = {"rms_height": 5e-8, "hurst": 0.8}
 LENGTH = 8.29e-4
 
 
 def surface(pixels=64, seed=1, **changes):
-    return topography.fractal(pixels, LENGTH, LENGTH, seed=seed, **(TABLE_1 | changes))
+    return surfaces.fractal(pixels, LENGTH, LENGTH, seed=seed, **(TABLE_1 | changes))
 
 
 @pytest.mark.parametrize("modulus", ["deterministic", "gaussian"])
@@ -33,10 +33,10 @@ def test_fractal_is_exact(pixels, modulus):
 @pytest.mark.parametrize("pixels", [(64, 64), (65, 63), (48, 80)])
 @pytest.mark.parametrize("rolloff", [0.0, 5e4])
 def test_deterministic_modulus_lies_on_the_power_law(pixels, rolloff):
-    rough = topography.fractal(
+    rough = surfaces.fractal(
         pixels, LENGTH, 0.7 * LENGTH, rms_height=5e-8, hurst=0.6, rolloff_wavenumber=rolloff, seed=3
     )
-    qx, qy, c2d = topography.psd_2d(rough)
+    qx, qy, c2d = surfaces.psd_2d(rough)
     q = np.maximum(np.hypot(qx[:, None], qy[None, :]), rolloff)
     centre = (pixels[0] // 2, pixels[1] // 2)
     assert (qx[centre[0]], qy[centre[1]]) == (0.0, 0.0)
@@ -50,7 +50,7 @@ def test_deterministic_modulus_lies_on_the_power_law(pixels, rolloff):
 def test_gaussian_modulus_scatters_about_the_power_law():
     total = np.zeros((32, 32))
     for seed in range(400):
-        qx, qy, c2d = topography.psd_2d(surface(32, seed, modulus="gaussian"))
+        qx, qy, c2d = surfaces.psd_2d(surface(32, seed, modulus="gaussian"))
         total += c2d
     q = np.hypot(qx[:, None], qy[None, :])
     q[16, 16] = np.nan
@@ -63,7 +63,7 @@ def test_gaussian_modulus_scatters_about_the_power_law():
 
 def test_share_of_the_longest_waves():
     """59 % of the variance of the table 1 surface sits at |q| = 2 pi/L."""
-    qx, qy, c2d = topography.psd_2d(surface(256))
+    qx, qy, c2d = surfaces.psd_2d(surface(256))
     q = np.hypot(qx[:, None], qy[None, :])
     longest = np.isclose(q, 2 * np.pi / LENGTH)
     assert c2d[longest].sum() / c2d.sum() == pytest.approx(0.59, abs=0.005)
@@ -84,12 +84,12 @@ SEED_1 = [53.317731223836276, 70.71845534031979, 61.23745140304537, 66.338933557
 def test_parseval_in_square_metres(pixels):
     z = np.random.default_rng(7).normal(3e-8, 2e-8, pixels)
     rough = Topography(z, 1e-4, 3e-4)
-    _, _, c2d = topography.psd_2d(rough)
+    _, _, c2d = surfaces.psd_2d(rough)
     mean_square = np.mean((z - z.mean()) ** 2)
     assert c2d.sum() / (1e-4 * 3e-4) == pytest.approx(mean_square, rel=1e-13)
-    assert topography.rms_from_psd(c2d, 1e-4, 3e-4) == pytest.approx(rough.rms_height, rel=1e-13)
+    assert surfaces.rms_from_psd(c2d, 1e-4, 3e-4) == pytest.approx(rough.rms_height, rel=1e-13)
     # and of the half spectrum with the weights of the components it leaves out
-    half = np.abs(topography.spectrum(rough)) ** 2
+    half = np.abs(surfaces.spectrum(rough)) ** 2
     weight = np.full(half.shape[1], 2.0)
     weight[0] = 1.0
     if pixels[1] % 2 == 0:
@@ -102,7 +102,7 @@ def test_psd_of_one_cosine():
     nx, amplitude, length = 32, 2e-8, 1e-3
     x = np.arange(nx) / nx
     z = np.outer(amplitude * np.cos(2 * np.pi * 3 * x), np.ones(nx))
-    qx, qy, c2d = topography.psd_2d(Topography(z, length, length))
+    qx, qy, c2d = surfaces.psd_2d(Topography(z, length, length))
     i, j = np.unravel_index(np.argmax(c2d), c2d.shape)
     assert abs(qx[i]) == pytest.approx(3 * 2 * np.pi / length)
     assert qy[j] == 0.0
@@ -111,7 +111,7 @@ def test_psd_of_one_cosine():
 
 
 def test_isotropic_spectrum_recovers_the_slope():
-    q, c_iso = topography.psd_isotropic(surface(256))
+    q, c_iso = surfaces.psd_isotropic(surface(256))
     assert np.all(np.isfinite(c_iso))
     assert q[0] == pytest.approx(1.2 * 2 * np.pi / LENGTH, rel=0.05)
     slope = np.polyfit(np.log(q[10:]), np.log(c_iso[10:]), 1)[0]
@@ -123,7 +123,7 @@ def test_isotropic_spectrum_recovers_the_slope():
 def test_shift_by_whole_pixels_is_the_copy(i, j, odd):
     rough = surface((33, 29) if odd else (32, 28))
     px, py = rough.pixel
-    moved = topography.shifted(rough, i * px, j * py).heights
+    moved = surfaces.shifted(rough, i * px, j * py).heights
     assert moved == pytest.approx(np.roll(rough.heights, (i, j), (0, 1)), abs=1e-19)
 
 
@@ -132,8 +132,8 @@ def test_shift_by_whole_pixels_is_the_copy(i, j, odd):
 def test_shifts_add_up_and_keep_the_rms(a, b):
     # odd: no Nyquist component, every shift is exact
     rough = surface((33, 29))
-    once = topography.shifted(rough, a + b, b)
-    twice = topography.shifted(topography.shifted(rough, a, b), b, 0.0)
+    once = surfaces.shifted(rough, a + b, b)
+    twice = surfaces.shifted(surfaces.shifted(rough, a, b), b, 0.0)
     assert twice.heights == pytest.approx(once.heights, abs=1e-18)
     assert once.rms_height == pytest.approx(rough.rms_height, rel=1e-12)
 
@@ -145,7 +145,7 @@ def test_shift_of_a_wave_is_analytic(s):
     x = np.arange(n) * length / n
     k = 2 * np.pi / length
     z = np.outer(np.cos(3 * k * x), np.sin(2 * k * x))
-    moved = topography.shifted(Topography(z, length, length), s, 2 * s).heights
+    moved = surfaces.shifted(Topography(z, length, length), s, 2 * s).heights
     expected = np.outer(np.cos(3 * k * (x - s)), np.sin(2 * k * (x - 2 * s)))
     assert moved == pytest.approx(expected, abs=1e-12)
 
@@ -154,7 +154,7 @@ def test_nyquist_component_stands():
     n, length = 8, 1.0
     z = np.outer((-1.0) ** np.arange(n), np.ones(n))
     for fraction in (0.25, 0.5):
-        moved = topography.shifted(Topography(z, length, length), fraction * length / n).heights
+        moved = surfaces.shifted(Topography(z, length, length), fraction * length / n).heights
         assert moved == pytest.approx(z * np.cos(np.pi * fraction), abs=1e-14)
 
 
@@ -162,24 +162,24 @@ def test_nyquist_component_stands():
 @pytest.mark.parametrize("finer", [(48, 36), (37, 41)])
 def test_resampled_passes_through_the_heights(shape, finer):
     rough = surface(shape)
-    fine = topography.resampled(rough, finer)
+    fine = surfaces.resampled(rough, finer)
     assert fine.shape == finer
     if finer == (48, 36) and shape == (16, 12):
         assert fine.heights[::3, ::3] == pytest.approx(rough.heights, abs=1e-19)
     assert fine.heights.mean() == pytest.approx(0.0, abs=1e-19)
     with pytest.raises(ValueError, match="fewer"):
-        topography.resampled(rough, (8, 36))
+        surfaces.resampled(rough, (8, 36))
 
 
 def test_resampled_wave_is_analytic():
     n, m = 12, 31
     z = np.outer(np.cos(2 * np.pi * 2 * np.arange(n) / n), np.ones(n))
-    fine = topography.resampled(Topography(z, 1.0, 1.0), (m, n)).heights
+    fine = surfaces.resampled(Topography(z, 1.0, 1.0), (m, n)).heights
     assert fine[:, 0] == pytest.approx(np.cos(2 * np.pi * 2 * np.arange(m) / m), abs=1e-13)
 
 
 def test_harmonic_is_equation_15():
-    rough = topography.harmonic(1e-7, 2e-4, 1e-4, (32, 16))
+    rough = surfaces.harmonic(1e-7, 2e-4, 1e-4, (32, 16))
     assert rough.heights[0, 0] == 1e-7
     assert rough.heights[16, 0] == pytest.approx(-1e-7)
     assert rough.rms_height == pytest.approx(0.5e-7)
@@ -187,21 +187,21 @@ def test_harmonic_is_equation_15():
 
 def test_from_settings(settings, tmp_path):
     point = OperatingPoint()
-    assert topography.from_settings(settings, point, 2e-7).seed == 1
+    assert surfaces.from_settings(settings, point, 2e-7).seed == 1
     settings["surface"] |= {"kind": "harmonic", "wavelength_x": 0.25}
-    rough = topography.from_settings(settings, point, 2e-7)
+    rough = surfaces.from_settings(settings, point, 2e-7)
     assert rough.heights.max() == pytest.approx(0.4 * 2e-7)
     assert rough.length_x == pytest.approx(0.25 * point.hertz_radius)
     assert rough.length_y == pytest.approx(0.5 * point.hertz_radius)
     settings["surface"]["amplitude"] = 0.01
-    rough = topography.from_settings(settings, point, 2e-7)
+    rough = surfaces.from_settings(settings, point, 2e-7)
     assert rough.heights.max() == pytest.approx(0.01 * point.film_scale)
     np.save(tmp_path / "map.npy", surface(16).heights)
     settings["surface"] |= {"kind": "map", "file": str(tmp_path / "map.npy")}
-    assert topography.from_settings(settings, point, 2e-7).shape == (16, 16)
+    assert surfaces.from_settings(settings, point, 2e-7).shape == (16, 16)
     settings["surface"]["kind"] = "smooth"
     with pytest.raises(ValueError, match="no heights"):
-        topography.from_settings(settings, point, 2e-7)
+        surfaces.from_settings(settings, point, 2e-7)
 
 
 # --- maps
@@ -211,7 +211,7 @@ def test_from_settings(settings, tmp_path):
 def test_text_maps(tmp_path, delimiter):
     z = surface((12, 10)).heights
     np.savetxt(tmp_path / "map.txt", z, delimiter=delimiter, header="heights in m")
-    rough = topography.read_map(tmp_path / "map.txt", 1e-3, 2e-3)
+    rough = surfaces.read_map(tmp_path / "map.txt", 1e-3, 2e-3)
     assert rough.heights == pytest.approx(z, abs=1e-22)
     assert (rough.length_x, rough.length_y) == (1e-3, 2e-3)
 
@@ -219,13 +219,13 @@ def test_text_maps(tmp_path, delimiter):
 def test_npy_map_loses_its_mean(tmp_path):
     z = surface((12, 10)).heights
     np.save(tmp_path / "map.npy", np.asfortranarray(z + 1e-6))
-    rough = topography.read_map(tmp_path / "map.npy", 1e-3, 1e-3)
+    rough = surfaces.read_map(tmp_path / "map.npy", 1e-3, 1e-3)
     assert rough.heights == pytest.approx(z, abs=1e-20)
 
 
 def test_missing_map(tmp_path):
     with pytest.raises(FileNotFoundError, match=r"none\.npy"):
-        topography.read_map(tmp_path / "none.npy", 1e-3, 1e-3)
+        surfaces.read_map(tmp_path / "none.npy", 1e-3, 1e-3)
 
 
 def bad_npy(tmp_path, array):
@@ -248,17 +248,17 @@ def bad_npy(tmp_path, array):
 )
 def test_unusable_npy_maps(tmp_path, array, message):
     with pytest.raises(ValueError, match=message):
-        topography.read_map(bad_npy(tmp_path, array), 1e-3, 1e-3)
+        surfaces.read_map(bad_npy(tmp_path, array), 1e-3, 1e-3)
 
 
 def test_truncated_npy(tmp_path):
     path = bad_npy(tmp_path, surface(16).heights)
     path.write_bytes(path.read_bytes()[:300])
     with pytest.raises(ValueError, match=r"map\.npy"):
-        topography.read_map(path, 1e-3, 1e-3)
+        surfaces.read_map(path, 1e-3, 1e-3)
     path.write_bytes(b"not an array")
     with pytest.raises(ValueError, match="not a readable"):
-        topography.read_map(path, 1e-3, 1e-3)
+        surfaces.read_map(path, 1e-3, 1e-3)
 
 
 @pytest.mark.parametrize(
@@ -275,22 +275,22 @@ def test_truncated_npy(tmp_path):
 def test_unusable_text_maps(tmp_path, text, message):
     (tmp_path / "map.csv").write_text(text)
     with pytest.raises(ValueError, match=message):
-        topography.read_map(tmp_path / "map.csv", 1e-3, 1e-3)
+        surfaces.read_map(tmp_path / "map.csv", 1e-3, 1e-3)
 
 
 def test_length_in_millimetres_is_noticed(tmp_path):
     np.save(tmp_path / "map.npy", surface(16).heights)
     with pytest.raises(ValueError, match="length_x"):
-        topography.read_map(tmp_path / "map.npy", 0.829, 0.829)
+        surfaces.read_map(tmp_path / "map.npy", 0.829, 0.829)
     with pytest.raises(ValueError, match="length_x and length_y"):
-        topography.read_map(tmp_path / "map.npy")
+        surfaces.read_map(tmp_path / "map.npy")
 
 
 def test_instrument_files_need_the_optional_package(tmp_path, monkeypatch):
     (tmp_path / "scan.x3p").write_bytes(b"")
     monkeypatch.setitem(sys.modules, "SurfaceTopography", None)
     with pytest.raises(ValueError, match="pip install SurfaceTopography"):
-        topography.read_map(tmp_path / "scan.x3p")
+        surfaces.read_map(tmp_path / "scan.x3p")
 
 
 def test_instrument_files_bring_unit_and_size(tmp_path, monkeypatch):
@@ -311,12 +311,12 @@ def test_instrument_files_bring_unit_and_size(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "SurfaceTopography", module)
     (tmp_path / "scan.x3p").write_bytes(b"")
     Scan.mask = np.zeros(z.shape, dtype=bool)
-    rough = topography.read_map(tmp_path / "scan.x3p", length_y=3e-3)
+    rough = surfaces.read_map(tmp_path / "scan.x3p", length_y=3e-3)
     assert (rough.length_x, rough.length_y) == (1e-3, 3e-3)
     assert rough.heights == pytest.approx(z, abs=1e-22)
     Scan.mask[3, 4] = True
     with pytest.raises(ValueError, match="1 of 256 heights are not finite"):
-        topography.read_map(tmp_path / "scan.x3p")
+        surfaces.read_map(tmp_path / "scan.x3p")
 
 
 @pytest.mark.parametrize(

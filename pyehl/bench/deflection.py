@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``pyehl bench deflection``: time and error of the deflection engines."""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pyehl import library
+from pyehl.bench.unit import ScipyDeflection, hertz, median_seconds
+
+__all__ = ["COLUMNS", "deflection_rows"]
+
+Array = NDArray[np.float64]
+
+# Direct summation costs N^2; larger grids would take minutes
+LARGEST_DIRECT = 129
+# Share of the discretisation error that the error of a deflection may have
+SHARE = 0.1
+
+COLUMNS = (
+    ("points", "d"),
+    ("engine", "s"),
+    ("domain", "s"),
+    ("threads", "d"),
+    ("seconds", ".5f"),
+    ("units", ".3f"),
+    ("error", ".1e"),
+    ("share", ".3f"),
+    ("discretisation", ".1e"),
+    ("megabytes", ".1f"),
+)
+
+
+def deflection_rows(grids: Sequence[int], threads: Sequence[int]) -> list[dict[str, Any]]:
+    """Time and error of every engine on every grid, whole and half domain.
+
+    The error is relative to the largest deflection, against the sum that all engines
+    approximate (made by scipy.fft to rounding); the discretisation error is that of the sum
+    against the analytic deflection of the Hertz pressure, 1 - r^2/2.
+    """
+    rows: list[dict[str, Any]] = []
+    for points in grids:
+        p, h, exact, inside = hertz(points)
+        yardstick = ScipyDeflection(points, points, h, h)
+        unit = median_seconds(lambda p=p, y=yardstick: y.apply(p))  # type: ignore[misc]
+        reference = yardstick.apply(p)
+        scale = reference.max()
+        discretisation = float(np.abs(reference - exact)[inside].max() / scale)
+        rows.append(
+            {
+                "points": points,
+                "engine": "scipy.fft",
+                "domain": "whole",
+                "threads": 1,
+                "seconds": unit,
+                "units": 1.0,
+                "error": 0.0,
+                "share": 0.0,
+                "discretisation": discretisation,
+                "megabytes": yardstick.transform.nbytes / 1e6,
+            }
+        )
+        for engine in ("mlmi", "fft", "direct"):
+            if engine == "direct" and points > LARGEST_DIRECT:
+                continue
+            for half in (False, True):
+                first = points // 2 if half else 0
+                rows += [
+                    _deflection_row(
+                        engine, p[:, first:], reference[:, first:], h, half, n, unit, discretisation
+                    )
+                    for n in threads
+                ]
+    return rows
+
+
+def _deflection_row(
+    engine: str,
+    p: Array,
+    reference: Array,
+    h: float,
+    half: bool,
+    threads: int,
+    unit: float,
+    discretisation: float,
+) -> dict[str, Any]:
+    def call(repeats: int) -> library.Deflection:
+        return library.deflection(
+            p,
+            h,
+            h,
+            engine,
+            mirror=half,
+            accuracy=SHARE * discretisation,
+            threads=threads,
+            repeats=repeats,
+        )
+
+    first = call(1)
+    repeats = max(1, min(20, round(0.1 / max(first.seconds, 1e-6))))
+    seconds = statistics.median(call(repeats).seconds for _ in range(3))
+    error = float(np.abs(first.values - reference).max() / reference.max())
+    return {
+        "points": p.shape[0],
+        "engine": engine,
+        "domain": "half" if half else "whole",
+        "threads": threads,
+        "seconds": seconds,
+        "units": seconds / unit,
+        "error": error,
+        "share": error / discretisation,
+        "discretisation": discretisation,
+        "megabytes": first.bytes / 1e6,
+    }

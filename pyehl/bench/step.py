@@ -1,0 +1,291 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``pyehl bench step``: the time of a step of a march, and the error of its friction ratio.
+
+Every march is made once with the largest number of threads until the roughness has passed most of
+the contact; its state is then gone on with by each number of threads, for the same few steps, one
+step of each in turn. The unit of time is one scipy.fft deflection on the same grid, made after each
+of these turns.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import statistics
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from pyehl.bench.unit import ScipyDeflection, hertz
+from pyehl.case import Case
+from pyehl.errors import EhlError
+from pyehl.solver import Solver
+from pyehl.surfaces import made_heights
+
+__all__ = ["CASES", "COLUMNS", "FILLED", "MARCH_COLUMNS", "STEPS", "error_rows", "step_rows"]
+
+# X of the front when the contact is full
+FILLED = 1.05
+# Steps measured; their cycles vary over a period of the wave, which has points/8 steps
+STEPS = 64
+# Relative change of the mean at which the marches for the error end
+TOLERANCE = 5e-4
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """A march to be measured: what it is called, its case, whole or half domain."""
+
+    name: str
+    domain: str
+    text: str
+
+
+WAVE = """&contact moes_m = 1000.0 moes_l = 10.0 /
+&surface kind = 'harmonic' amplitude = 9.734e-3 wavelength = 0.5 velocity_ratio = 1.01 /
+"""
+# The wave is that of Fig. 2 of Zhang et al. 2019, the fractal surface that of Table 1
+CASES = (
+    Scene("wave", "whole", WAVE + "&solver symmetry = 'full' /\n"),
+    Scene("wave", "half", WAVE),
+    Scene("fractal", "whole", "&surface kind = 'fractal' /\n"),
+)
+
+COLUMNS = (
+    ("points", "d"),
+    ("case", "s"),
+    ("domain", "s"),
+    ("threads", "d"),
+    ("seconds", ".4f"),
+    ("units", ".2f"),
+    ("speedup", ".2f"),
+    ("cycles", ".2f"),
+    ("error", ".1e"),
+)
+
+
+MARCH_COLUMNS = (
+    ("points", "d"),
+    ("case", "s"),
+    ("threads", "d"),
+    ("status", "s"),
+    ("steps", "d"),
+    ("seconds", ".1f"),
+    ("mu_ratio", ".5f"),
+    ("error", ".1e"),
+)
+
+
+class Line:
+    """A line on a terminal about what is being done; a new line each time elsewhere."""
+
+    def __init__(self) -> None:
+        self._last = 0.0
+
+    def show(self, text: str, *, now: bool = False) -> None:
+        """Show the text, at most twice a second, on no terminal every ten seconds."""
+        tty = sys.stderr.isatty()
+        if not now and time.monotonic() - self._last < (0.5 if tty else 10.0):
+            return
+        self._last = time.monotonic()
+        print(f"\r\x1b[K{text[:110]}" if tty else text, end="" if tty else "\n", file=sys.stderr)
+        sys.stderr.flush()
+
+    def clear(self) -> None:
+        """Leave an empty line on a terminal."""
+        if sys.stderr.isatty():
+            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+
+
+def _case(scene: Scene, points: int, scheme: str, *options: str) -> Case:
+    return Case.from_text(
+        scene.text,
+        [
+            f"grid.points={points}",
+            f"time.scheme={scheme}",
+            "time.estimate_error=.false.",
+            "output.checkpoint_interval=1e6",
+            *options,
+        ],
+    )
+
+
+def _fill(solver: Solver, case: Case, front: float, show: Callable[[str], None]) -> None:
+    """March until the front of the roughness is at X = front."""
+    settings = case.resolve()["surface"]
+    wanted = (front - float(settings["x_start"])) / float(settings["velocity_ratio"])
+    while not solver.done:
+        solver.advance()
+        at = float(solver.summary().get("T", -1.0))
+        if at >= wanted:
+            return
+        show("smooth contact" if at < 0.0 else f"on the way, T = {at:.2f} of {wanted:.2f}")
+    raise EhlError(f"the march ended before it could be timed: {solver.progress()}")
+
+
+def step_rows(
+    grids: Sequence[int],
+    threads: Sequence[int],
+    *,
+    scenes: Sequence[Scene] = CASES,
+    scheme: str = "narrow",
+    front: float = FILLED,
+    steps: int = STEPS,
+) -> list[dict[str, Any]]:
+    """Seconds and cycles of a step (means), per grid, case and number of threads.
+
+    The speed-up is the median over the steps of the ratio to the first number of threads.
+
+    Parameters
+    ----------
+    grids
+        Nodes per side.
+    threads
+        Numbers of threads.
+    scenes
+        What is marched.
+    scheme
+        'narrow' or 'paper'.
+    front
+        The steps measured follow those in which the front of the roughness comes to this X.
+    steps
+        Steps measured.
+    """
+    rows: list[dict[str, Any]] = []
+    line = Line()
+    for points in grids:
+        p, h, _, _ = hertz(points)
+        yardstick = ScipyDeflection(points, points, h, h)
+        units: list[float] = []
+        first = len(rows)
+        for scene in scenes:
+            name = f"{points} {scene.name} {scene.domain}"
+            rows += _scene_rows(
+                scene,
+                name,
+                points,
+                threads,
+                (scheme, front, steps),
+                lambda p=p, y=yardstick: y.apply(p),  # type: ignore[misc]
+                units,
+                line,
+            )
+        for row in rows[first:]:
+            row["unit_seconds"] = statistics.median(units)
+            row["units"] = row["seconds"] / row["unit_seconds"]
+    line.clear()
+    return rows
+
+
+def _scene_rows(
+    scene: Scene,
+    name: str,
+    points: int,
+    threads: Sequence[int],
+    how: tuple[str, float, int],
+    deflect: Callable[[], object],
+    units: list[float],
+    line: Line,
+) -> list[dict[str, Any]]:
+    scheme, front, steps = how
+    rows: list[dict[str, Any]] = []
+    with tempfile.TemporaryDirectory() as folder:
+        case = _case(scene, points, scheme, f"solver.threads={max(threads)}", "time.steps=10000000")
+        heights = made_heights(case.resolve())
+        place = f"{folder}/state"
+        with Solver.open(case, heights) as solver:
+            solver.keep(place)
+            line.show(f"{name}: march to the steps that are timed", now=True)
+            _fill(solver, case, front, lambda text: line.show(f"{name}: {text}"))
+            solver.save_state(at_once=True)
+        with contextlib.ExitStack() as stack:
+            solvers = []
+            for workers in threads:
+                options = case.with_options(f"solver.threads={workers}")
+                solver = stack.enter_context(Solver.open(options, heights))
+                solver.resume(place)
+                while "steps" not in solver.summary() and not solver.done:
+                    solver.advance()
+                solvers.append(solver)
+            before = [solver.summary() for solver in solvers]
+            times: list[list[float]] = [[] for _ in solvers]
+            line.show(f"{name}: {steps} steps on {threads} thread(s)", now=True)
+            # in turn, so that what else the machine does slows all of them alike
+            for _ in range(steps):
+                for solver, taken in zip(solvers, times, strict=True):
+                    began = time.perf_counter()
+                    solver.advance()
+                    taken.append(time.perf_counter() - began)
+                began = time.perf_counter()
+                deflect()
+                units.append(time.perf_counter() - began)
+            after = [solver.summary() for solver in solvers]
+        for k, workers in enumerate(threads):
+            if after[k]["steps"] - before[k]["steps"] != steps:
+                raise EhlError(f"{name}: a step did not converge: {after[k]['status']}")
+            cycles = after[k]["steps"] * after[k]["cycles_per_step"]
+            cycles -= before[k]["steps"] * before[k]["cycles_per_step"]
+            seconds = statistics.fmean(times[k])
+            ratios = [one / now for one, now in zip(times[0], times[k], strict=True)]
+            rows.append(
+                {
+                    "points": points,
+                    "case": scene.name,
+                    "domain": scene.domain,
+                    "threads": workers,
+                    "seconds": seconds,
+                    "seconds_of_steps": times[k],
+                    "speedup": statistics.median(ratios),
+                    "cycles": cycles / steps,
+                    "error": None,
+                }
+            )
+    return rows
+
+
+def error_rows(
+    grids: Sequence[int], threads: int, *, scheme: str = "narrow", scenes: Sequence[Scene] = CASES
+) -> list[dict[str, Any]]:
+    """Mean of mu_r/mu_s by whole marches, and its relative change to that on the finest grid.
+
+    The half domain serves for the whole one where the scene is symmetric.
+    """
+    rows: list[dict[str, Any]] = []
+    line = Line()
+    chosen = {scene.name: scene for scene in scenes}
+    chosen |= {scene.name: scene for scene in scenes if scene.domain == "half"}
+    for scene in chosen.values():
+        means: dict[int, float] = {}
+        for points in sorted(grids):
+            name = f"{points} {scene.name}, whole march"
+            options = f"solver.threads={threads}", f"time.tolerance={TOLERANCE}"
+            case = _case(scene, points, scheme, *options)
+            began = time.perf_counter()
+            with Solver.open(case, made_heights(case.resolve())) as solver:
+                while not solver.advance():
+                    line.show(f"{name}: {solver.progress()}")
+                summary = solver.summary()
+            seconds = time.perf_counter() - began
+            line.show(f"{name}: mu_r/mu_s {summary['mu_ratio']}, {seconds:.1f} s", now=True)
+            if summary["mu_ratio"] is not None:
+                means[points] = summary["mu_ratio"]
+            rows.append(
+                {
+                    "points": points,
+                    "case": scene.name,
+                    "threads": threads,
+                    "status": summary["status"],
+                    "steps": summary["steps"],
+                    "seconds": seconds,
+                    "mu_ratio": summary["mu_ratio"],
+                    "error": None,
+                }
+            )
+        finest = max(means, default=0)
+        for row in rows:
+            if row["case"] == scene.name and row["points"] in means and row["points"] < finest:
+                row["error"] = abs(means[row["points"]] / means[finest] - 1.0)
+    line.clear()
+    return rows

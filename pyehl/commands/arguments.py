@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Arguments that several subcommands share."""
+
+from __future__ import annotations
+
+import argparse
+
+__all__ = ["add_case_arguments"]
+
+
+def add_case_arguments(parser: argparse.ArgumentParser, *, optional: bool = False) -> None:
+    """Case file and --set options, the same for every subcommand that takes a case."""
+    parser.add_argument(
+        "case", metavar="CASE.nml", nargs="?" if optional else None, help="case file"
+    )
+    parser.add_argument(
+        "--set",
+        dest="overrides",
+        action="append",
+        default=[],
+        metavar="GROUP.KEY=VALUE",
+        help="replace a value of the case; may be repeated",
+    )

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``pyehl bench``: time and error side by side, in one run on one machine.
+
+Every time stands beside its error. The unit of time is that of `pyehl.bench.unit`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import platform
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from pyehl import library
+from pyehl.bench import deflection, smooth, step
+from pyehl.errors import InputError
+
+__all__ = ["add_arguments", "execute"]
+
+GRIDS = (65, 129, 257, 513, 1025)
+
+
+def table(rows: Sequence[dict[str, Any]], columns: Sequence[tuple[str, str]]) -> str:
+    """Rows as text; columns are (name, format)."""
+
+    def cell(value: object, form: str) -> str:
+        return "-" if value is None else format(value, form)
+
+    lines = [[name.replace("_", " ") for name, _ in columns]]
+    lines += [[cell(row[name], form) for name, form in columns] for row in rows]
+    widths = [max(len(line[k]) for line in lines) for k in range(len(columns))]
+    return "\n".join(
+        "  ".join(text.rjust(width) for text, width in zip(line, widths, strict=True))
+        for line in lines
+    )
+
+
+def _machine() -> dict[str, str]:
+    model = ""
+    information = Path("/proc/cpuinfo")
+    if information.is_file():
+        for line in information.read_text(encoding="utf-8").splitlines():
+            if line.startswith("model name"):
+                model = line.partition(":")[2].strip()
+                break
+    return {"processor": model or platform.processor(), "build": library.build()}
+
+
+def _numbers(text: str) -> list[int]:
+    try:
+        return [int(word) for word in text.split(",")]
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"'{text}' is not like 129,257") from error
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments of ``pyehl bench``."""
+    parser.add_argument("what", choices=("deflection", "smooth", "step"), help="what to measure")
+    parser.add_argument(
+        "--points",
+        type=_numbers,
+        metavar="N,N,...",
+        help="default: 65 to 1025; of 'step' 129,257,513",
+    )
+    parser.add_argument("--threads", type=_numbers, default=[1, 2], metavar="N,N,...")
+    parser.add_argument("--engines", default="mlmi,fft", help="of 'smooth' (default: mlmi,fft)")
+    parser.add_argument("--moes-m", type=float, default=1000.0, help="of 'smooth' (default 1000)")
+    parser.add_argument("--moes-l", type=float, default=10.0, help="of 'smooth' (default 10)")
+    parser.add_argument(
+        "--cases", default="wave,fractal", help="of 'step': wave of Fig. 2, fractal of Table 1"
+    )
+    parser.add_argument("--scheme", choices=("narrow", "paper"), default="narrow", help="of 'step'")
+    parser.add_argument(
+        "--steps",
+        type=int,
+        default=step.STEPS,
+        help="timed, of 'step' (default %(default)s)",
+    )
+    parser.add_argument(
+        "--front",
+        type=float,
+        default=step.FILLED,
+        metavar="X",
+        help="of 'step': X of the front of the roughness when the timed steps begin; 1.05, where "
+        "the contact is full, takes many steps on fine grids",
+    )
+    parser.add_argument(
+        "--error",
+        action="store_true",
+        help="of 'step': whole marches too, for the error of mu_r/mu_s against the finest grid",
+    )
+    parser.add_argument("-o", "--output", type=Path, metavar="FILE.json", help="write JSON too")
+
+
+def _execute_step(args: argparse.Namespace, answer: dict[str, Any]) -> list[dict[str, Any]]:
+    names = args.cases.split(",")
+    known = {scene.name for scene in step.CASES}
+    if not set(names) <= known or args.steps < 1:
+        raise InputError(f"pyehl bench step: cases must be of {sorted(known)}, steps 1 or more")
+    scenes = [scene for scene in step.CASES if scene.name in names]
+    rows = step.step_rows(
+        args.points,
+        args.threads,
+        scenes=scenes,
+        scheme=args.scheme,
+        front=args.front,
+        steps=args.steps,
+    )
+    answer |= {"scheme": args.scheme, "front": args.front, "steps": args.steps}
+    if args.error:
+        whole = step.error_rows(args.points, max(args.threads), scheme=args.scheme, scenes=scenes)
+        answer["marches"] = whole
+        errors = {(row["points"], row["case"]): row["error"] for row in whole}
+        for row in rows:
+            row["error"] = errors.get((row["points"], row["case"]))
+        print(table(whole, step.MARCH_COLUMNS))
+        print()
+    print(table(rows, step.COLUMNS))
+    print(
+        f"scheme '{args.scheme}'; seconds, cycles: of a step, mean of {args.steps} after the front "
+        f"of the roughness has come to X = {args.front:g};\nunits: of one scipy.fft deflection at "
+        "that grid; speedup: of a step, median; error: of the mean of mu_r/mu_s against the "
+        "finest grid (--error)"
+    )
+    return rows
+
+
+def execute(args: argparse.Namespace) -> int:
+    """Run ``pyehl bench``."""
+    if args.points is None:
+        args.points = [n for n in GRIDS if args.what != "step" or 129 <= n <= 513]
+    if min(args.points) < 3 or min(args.threads) < 1:
+        raise InputError("pyehl bench: points must be 3 or more, threads 1 or more")
+    answer: dict[str, Any] = {"what": args.what, "machine": _machine()}
+    if args.what == "deflection":
+        rows = deflection.deflection_rows(args.points, args.threads)
+        print(table(rows, deflection.COLUMNS))
+        print(
+            "seconds: one application; units: of one scipy.fft deflection at that grid; error: "
+            "relative to the largest deflection;\nshare: of the discretisation error of the sum; "
+            "half: Y >= 0 of a symmetric pressure"
+        )
+    elif args.what == "step":
+        rows = _execute_step(args, answer)
+    else:
+        rows = smooth.smooth_rows(
+            args.points, args.threads, args.engines.split(","), args.moes_m, args.moes_l
+        )
+        answer["exponents"] = smooth.exponents(rows)
+        answer["moes_m"], answer["moes_l"] = args.moes_m, args.moes_l
+        print(f"smooth contact, M = {args.moes_m}, L = {args.moes_l}")
+        print(table(rows, smooth.COLUMNS))
+        for name, slope in answer["exponents"].items():
+            print(f"time grows with the number of nodes to the power {slope:.2f} ({name})")
+        print(
+            "seconds: start to end, all grids of the nested iteration; units: of one scipy.fft "
+            "deflection at that grid;\nerror: of H_c against the limit of the two finest grids; "
+            "peak memory: the whole process with Python"
+        )
+    answer["rows"] = rows
+    if args.output is not None:
+        args.output.write_text(json.dumps(answer, indent=2) + "\n", encoding="utf-8")
+    return 0

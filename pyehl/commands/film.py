@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``pyehl film``: film formulas side by side for a case."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Mapping
+from typing import Any
+
+from pyehl.case import Case
+from pyehl.commands.arguments import add_case_arguments
+from pyehl.prediction.film_sheet import sheet
+
+__all__ = ["add_arguments", "execute", "report"]
+
+
+def report(values: Mapping[str, Any]) -> str:
+    """Return the page that ``pyehl film`` prints, from a :func:`sheet`."""
+    v = values
+    origin = "" if v["si"] else "  (made from M and L with the radius and modulus of a steel ball)"
+    lines = [
+        f"Contact{origin}",
+        f"  load                 w      {v['load']:12.5g} N",
+        f"  mean velocity        u      {v['mean_velocity']:12.5g} m/s",
+        f"  reduced radius       R      {v['radius'] * 1e3:12.5g} mm",
+        f"  reduced modulus      E'     {v['reduced_modulus'] * 1e-9:12.5g} GPa"
+        "    2/E' = sum (1 - nu^2)/E",
+        f"  viscosity            eta0   {v['viscosity']:12.5g} Pa s",
+        f"  pressure-viscosity   alpha  {v['pressure_viscosity'] * 1e9:12.5g} 1/GPa",
+        "",
+        "Dimensionless",
+        f"  Moes load            M      {v['moes_m']:12.5g}      U = {v['U']:.4g}",
+        f"  Moes material        L      {v['moes_l']:12.5g}      G = {v['G']:.4g}",
+        f"  alpha p_h            a_bar  {v['alpha_bar']:12.5g}      W = {v['W']:.4g}",
+        f"  speed parameter             {v['speed_parameter']:12.5g}",
+        "",
+        "Dry contact (Hertz)",
+        f"  maximum pressure     p_h    {v['hertz_pressure'] * 1e-9:12.5g} GPa",
+        f"  contact radius       a      {v['hertz_radius'] * 1e3:12.5g} mm",
+        f"  film unit            a^2/R  {v['film_scale'] * 1e6:12.5g} um",
+        "",
+        f"Film thickness {'h_c [um]':>23}{'h_min [um]':>12}{'H_c':>11}{'H_min':>11}   range",
+    ]
+    notes = []
+    for f in v["formulas"]:
+        h_min = f"{f['h_min'] * 1e6:12.4f}" if f["h_min"] is not None else f"{'-':>12}"
+        big = f"{f['H_min']:11.5f}" if f["H_min"] is not None else f"{'-':>11}"
+        inside = "OUTSIDE" if f["outside"] else "inside"
+        lines.append(
+            f"  {f['name']:<26}{f['h_c'] * 1e6:10.4f}{h_min}{f['H_c']:11.5f}{big}   {inside}"
+        )
+        notes.append(f"  {f['name']}: {f['note']}")
+        notes.extend(f"  {f['name']}: {text}" for text in f["outside"])
+    lines += ["", *notes]
+    if "rms_height" in v:
+        lines += [
+            "",
+            f"Surface ({v['surface']})",
+            f"  rms height           sigma  {v['rms_height'] * 1e6:12.5g} um",
+        ]
+        if v["lambda_ratio"] is not None:
+            lines.append(f"  Lambda = h_c/sigma          {v['lambda_ratio']:12.5g}")
+    if "theta_2" in v:
+        flag = ("OUTSIDE" if v["theta_2_outside"] else "inside") + " the range of eq. 16"
+        lines += [
+            f"  theta_2                     {v['theta_2']:12.5g}      {flag}",
+            f"  mu_r/mu_s by eq. 16         {v['mu_ratio_eq_16']:12.5g}      "
+            "Newtonian, vanishing sliding",
+            *(f"    {text}" for text in v["theta_2_outside"]),
+        ]
+    return "\n".join(lines)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments of ``pyehl film``."""
+    add_case_arguments(parser)
+    parser.add_argument("--json", action="store_true", help="print JSON, in SI units")
+
+
+def execute(args: argparse.Namespace) -> int:
+    """Run ``pyehl film``; 0 when well, 2 for bad input."""
+    settings = Case.read(args.case, args.overrides).resolve()
+    try:
+        values = sheet(settings)
+    except (ValueError, OSError) as error:
+        print(f"{args.case}: {error}", file=sys.stderr)
+        return 2
+    print(json.dumps(values, indent=2) if args.json else report(values))
+    return 0

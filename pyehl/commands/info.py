@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``pyehl info``: what a report of a fault needs."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import platform
+from importlib import metadata
+
+__all__ = ["add_arguments", "execute", "lines"]
+
+LIBRARIES = ("numpy", "scipy", "matplotlib", "f90nml", "tqdm", "xarray", "SurfaceTopography")
+
+
+def _version(name: str) -> str:
+    try:
+        return metadata.version(name)
+    except metadata.PackageNotFoundError:
+        return "not installed"
+
+
+def lines() -> list[str]:
+    """Versions, compiler, processor."""
+    from pyehl import library  # noqa: PLC0415 (the rest must print even where this fails)
+
+    return [
+        f"pyehl      {library.version()}",
+        f"compiler   {library.build()}",
+        f"python     {platform.python_version()}",
+        *(f"{name:10} {_version(name)}" for name in LIBRARIES),
+        f"machine    {platform.machine()}, {os.cpu_count()} processors, {platform.platform()}",
+    ]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """``pyehl info`` takes no arguments."""
+
+
+def execute(args: argparse.Namespace) -> int:
+    """Run ``pyehl info``."""
+    print("\n".join(lines()))
+    return 0

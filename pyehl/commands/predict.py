@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``pyehl predict``: relative friction of a rough contact from its spectrum."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from pyehl.case import Case
+from pyehl.commands.arguments import add_case_arguments
+from pyehl.prediction.folder import write
+from pyehl.prediction.of_case import Prediction, predict
+
+__all__ = ["add_arguments", "draw", "execute", "report"]
+
+
+def report(prediction: Prediction) -> str:
+    """Return the lines that ``pyehl predict`` prints."""
+    f, s, options = prediction.friction, prediction.surface, prediction.options
+    lines = [
+        f"surface     {s.origin}: rms {s.rms_height * 1e6:.4g} um, "
+        f"{s.shape[0]} x {s.shape[1]} pixels, "
+        f"{s.length_x * 1e3:.4g} x {s.length_y * 1e3:.4g} mm",
+        f"film        h_c = {prediction.film * 1e6:.4g} um ({prediction.film_source}), "
+        f"least {f.film_min * 1e6:.4g} um",
+        f"model       {prediction.lubricant.viscosity_law} viscosity, "
+        f"{options.stiffness} stiffness, wavelength of a component by "
+        f"{options.wavelength_convention}, {options.friction} friction"
+        + (f", lag {options.phase_lag:g} deg" if options.phase_lag > 0.0 else "")
+        + (", load balanced" if options.load_balance else ""),
+    ]
+    if f.status == "predicted":
+        lines += [
+            f"mu_r/mu_s   {f.mu_ratio:.3f} over the passage, {f.mu_ratio_min:.3f} ... "
+            f"{f.mu_ratio_max:.3f}   [{f.passage.size} positions, {f.seconds * 1e3:.1f} ms]",
+            f"            {prediction.summary()['note']}",
+        ]
+        mean, spread = prediction.tracks
+        lines.append(f"            {mean:.3f} +- {spread:.3f} over all tracks of the tile")
+        if options.friction != "newtonian":
+            lines.append(f"mu_s        {f.mu_smooth:.4f}")
+        strongest = sorted(prediction.bands, key=lambda band: -abs(band.rise))[:3]
+        parts = ", ".join(
+            f"{b.rise:+.4f} from {b.longest * 1e6:.0f} to {b.shortest * 1e6:.0f} um"
+            for b in strongest
+        )
+        lines.append(f"rise        {parts}")
+    lines.append(f"status      {f.status}: {f.message}")
+    if f.cavitated_share > 0.0:
+        lines.append(
+            f"            p_s + delta p <= 0 on {f.cavitated_share:.2g} of the contact (rim), "
+            f"at most {f.cavitated_friction:.1g} of the friction"
+        )
+    return "\n".join(lines)
+
+
+def draw(prediction: Prediction, folder: Path) -> None:
+    """Write the pictures of a prediction into a folder."""
+    # matplotlib takes longer to import than the prediction takes to compute
+    from pyehl.plots import folder as pictures  # noqa: PLC0415
+
+    f, o = prediction.friction, prediction.operating
+    bands = [(b.longest, b.shortest, b.rise) for b in prediction.bands]
+    pictures.save_prediction(
+        folder,
+        prediction.surface,
+        f.response.deformed,
+        (o.hertz_radius, o.moes_m, o.moes_l, prediction.options.wavelength_convention),
+        (f.shift, f.passage, bands) if f.status == "predicted" else None,
+    )
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments of ``pyehl predict``."""
+    add_case_arguments(parser)
+    parser.add_argument("-o", "--output", type=Path, required=True, help="result folder")
+    parser.add_argument(
+        "--plots",
+        action=argparse.BooleanOptionalAction,
+        default=True,
+        help="draw the pictures (default: yes)",
+    )
+
+
+def execute(args: argparse.Namespace) -> int:
+    """Run ``pyehl predict``; 0 predicted, 1 no prediction is possible, 2 bad input."""
+    case = Case.read(args.case, args.overrides)
+    try:
+        prediction = predict(case.resolve())
+        write(prediction, args.output, case_text=case.text, draw=draw if args.plots else None)
+    except (ValueError, FileExistsError, FileNotFoundError) as error:
+        print(f"{args.case}: {error}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f"{args.output}: {error}", file=sys.stderr)
+        return 1
+    print(report(prediction))
+    print(f"results     {args.output}")
+    return 0 if prediction.friction.status == "predicted" else 1

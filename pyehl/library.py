@@ -1,0 +1,256 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The compiled library: the only module that imports the extension.
+
+Solvers have a module of their own, `pyehl.solver`.
+
+Arrays are float64 of shape (nx, ny) in Fortran order, first index X. Pressures are scaled by the
+Hertz pressure p_h, lengths by the Hertz radius a, films and deflections by a^2/R.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pyehl.errors import InputError, check
+
+try:
+    from pyehl._core import ehl_f2py_functions as functions
+    from pyehl._core import ehl_f2py_solver as ehl
+except ImportError as error:  # pragma: no cover
+    raise ImportError(
+        "the compiled part of pyehl is not here. Install the package (pip install .) and run "
+        "outside of the source folder, or use 'python -P'."
+    ) from error
+
+__all__ = [
+    "Deflection",
+    "Key",
+    "build",
+    "check_output",
+    "checkpoint_case",
+    "deflection",
+    "density",
+    "ehl",
+    "functions",
+    "keys",
+    "log_viscosity",
+    "resolve",
+    "text_of",
+    "version",
+]
+
+Array = NDArray[np.float64]
+
+
+def text_of(value: bytes) -> str:
+    """Text that the extension returned, without the blanks at its end."""
+    return value.decode(errors="replace").rstrip()
+
+
+def join_options(options: Iterable[str]) -> str:
+    """Options group.key=value as the library takes them, one a line.
+
+    Raises
+    ------
+    InputError
+        If an option has more than one line.
+    """
+    options = list(options)
+    for option in options:
+        if "\n" in option:
+            raise InputError("--set: more than one line\nexpected: group.key=value")
+    return "".join(f"{option}\n" for option in options)
+
+
+def resolve(text: str, origin: str, options: Iterable[str] = (), *, from_file: bool = False) -> str:
+    """Resolve a case: check it, and spell out every value of it as namelist text.
+
+    Parameters
+    ----------
+    text
+        Namelist text; not used with `from_file`.
+    origin
+        Name of the file, for messages and for names of maps.
+    options
+        Texts ``group.key=value`` that replace values.
+    from_file
+        Read the file `origin`.
+
+    Raises
+    ------
+    InputError
+        With file, line and column, what was expected, and the nearest name.
+    """
+    resolved, status, message = functions.resolve(
+        text.encode(), os.fsencode(origin), join_options(options).encode(), int(from_file)
+    )
+    check(status, message)
+    return text_of(resolved) + "\n"
+
+
+def check_output(folder: str | os.PathLike[str]) -> None:
+    """Refuse a folder that results could not be written into.
+
+    Raises
+    ------
+    InputError
+        If it holds something else than results, or cannot be made.
+    """
+    check(*functions.check_output(os.fsencode(folder)))
+
+
+def checkpoint_case(results: str | os.PathLike[str]) -> Path:
+    """Case file of the march that was to write into a folder, to go on with it.
+
+    Beside it lies ``surface.npy`` when the surface of the march came from Python.
+
+    Raises
+    ------
+    InputError
+        If nothing was kept to go on with.
+    """
+    path, status, message = functions.checkpoint_case(os.fsencode(results))
+    check(status, message)
+    return Path(os.fsdecode(path.rstrip()))
+
+
+@dataclass(frozen=True, slots=True)
+class Key:
+    """One key of a case file: ``group.name``, unit, default, allowed values, meaning."""
+
+    name: str
+    unit: str
+    default: str
+    allowed: str
+    meaning: str
+
+
+def keys() -> list[Key]:
+    """All keys of a case file, in order."""
+    return [Key(*line.split("\t")) for line in text_of(functions.keys()).splitlines()]
+
+
+def version() -> str:
+    """Version of the compiled library."""
+    return text_of(functions.about()[0])
+
+
+def build() -> str:
+    """Compiler and options of the compiled library."""
+    return text_of(functions.about()[1])
+
+
+@dataclass(frozen=True, slots=True)
+class Deflection:
+    """A deflection: values (nx, ny), mean seconds of an application, bytes of the engine."""
+
+    values: Array
+    seconds: float
+    bytes: float
+
+
+def deflection(
+    pressure: ArrayLike,
+    hx: float,
+    hy: float,
+    engine: str = "mlmi",
+    *,
+    mirror: bool = False,
+    accuracy: float = 1e-4,
+    threads: int = 1,
+    repeats: int = 1,
+) -> Deflection:
+    """Elastic deflection W = (2/pi^2) iint P dX' dY'/r, P constant over cells.
+
+    The integral of Zhang et al. 2019, eq. 2, in Hertz units: P by p_h, lengths by a, W by a^2/R.
+
+    Parameters
+    ----------
+    pressure
+        P, shape (nx, ny).
+    hx, hy
+        Mesh sizes [a].
+    engine
+        'mlmi', 'fft' or 'direct'.
+    mirror
+        The rows are those with Y >= 0 of a pressure that is symmetric in Y.
+    accuracy
+        Largest error of 'mlmi' relative to the largest deflection.
+    threads
+        OpenMP threads.
+    repeats
+        Applications, for timing.
+
+    Raises
+    ------
+    InputError
+        If the engine does not exist or cannot serve the grid.
+    """
+    p = np.asfortranarray(pressure, dtype=np.float64)
+    w = np.empty(p.shape, order="F")
+    seconds, size, status, message = functions.deflection(
+        engine.encode(), p, w, hx, hy, int(mirror), accuracy, threads, repeats
+    )
+    check(status, message)
+    return Deflection(w, seconds, size)
+
+
+def log_viscosity(
+    pressure: ArrayLike,
+    law: str,
+    *,
+    alpha_bar: float,
+    hertz_pressure: float,
+    roelands_z: float,
+    roelands_p0: float,
+) -> tuple[Array, Array]:
+    """ln(eta/eta0) of the solver and its slope in P at P = p/p_h, both shape (n,).
+
+    Parameters
+    ----------
+    pressure
+        P, shape (n,).
+    law
+        'roelands' or 'barus'.
+    alpha_bar
+        alpha p_h [-].
+    hertz_pressure, roelands_p0
+        p_h and p_0 [Pa].
+    roelands_z
+        Exponent z [-].
+
+    Raises
+    ------
+    InputError
+        If the law does not exist.
+    """
+    p = np.ascontiguousarray(pressure, dtype=np.float64)
+    values, slopes = np.empty(p.shape), np.empty(p.shape)
+    check(
+        *functions.viscosity(
+            law.encode(), p, values, slopes, alpha_bar, hertz_pressure, roelands_z, roelands_p0
+        )
+    )
+    return values, slopes
+
+
+def density(pressure: ArrayLike, hertz_pressure: float) -> tuple[Array, Array]:
+    """Dowson-Higginson rho/rho0 and its slope d(rho/rho0)/dP [-], both shape (n,).
+
+    Parameters
+    ----------
+    pressure
+        P = p/p_h, shape (n,).
+    hertz_pressure
+        p_h [Pa].
+    """
+    p = np.ascontiguousarray(pressure, dtype=np.float64)
+    values, slopes = np.empty(p.shape), np.empty(p.shape)
+    functions.density(p, values, slopes, hertz_pressure)
+    return values, slopes

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What closed formulas say about the film of a case."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from pyehl import surfaces
+from pyehl.theory import film, stribeck
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+
+__all__ = ["sheet"]
+
+
+def sheet(settings: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+    """All that ``pyehl film`` says, as plain numbers in SI units.
+
+    Parameters
+    ----------
+    settings
+        A resolved case: mapping of groups to mappings of keys to values.
+
+    Returns
+    -------
+    dict
+        Inputs, Moes and Hertz numbers, one record per formula, and for a rough surface the
+        Lambda ratio and (harmonic only) theta_2 with eq. 16.
+    """
+    operating = OperatingPoint.from_settings(settings)
+    lubricant = Lubricant.from_settings(settings)
+    films = film.estimates(operating, lubricant)
+    h_c = films[0].h_c
+    result: dict[str, Any] = {
+        "load": operating.load,
+        "mean_velocity": operating.mean_velocity,
+        "radius": operating.radius,
+        "reduced_modulus": operating.reduced_modulus,
+        "viscosity": operating.viscosity,
+        "pressure_viscosity": operating.pressure_viscosity,
+        "si": operating.si,
+        "moes_m": operating.moes_m,
+        "moes_l": operating.moes_l,
+        "U": operating.speed,
+        "G": operating.material,
+        "W": operating.load_number,
+        "alpha_bar": operating.alpha_bar,
+        "hertz_radius": operating.hertz_radius,
+        "hertz_pressure": operating.hertz_pressure,
+        "film_scale": operating.film_scale,
+        "speed_parameter": operating.speed_parameter,
+        "formulas": [
+            {
+                "name": f.name,
+                "source": f.source,
+                "h_c": f.h_c,
+                "h_min": f.h_min if math.isfinite(f.h_min) else None,
+                "H_c": f.h_c / operating.film_scale,
+                "H_min": f.h_min / operating.film_scale if math.isfinite(f.h_min) else None,
+                "outside": list(f.outside),
+                "note": f.note,
+            }
+            for f in films
+        ],
+    }
+    surface = settings["surface"]
+    kind = str(surface["kind"])
+    result["surface"] = kind
+    if kind != "smooth":
+        rough = surfaces.from_settings(settings, operating, h_c)
+        result["rms_height"] = rough.rms_height
+        result["lambda_ratio"] = h_c / rough.rms_height if rough.rms_height > 0.0 else None
+    if kind == "harmonic":
+        amplitude = surfaces.harmonic_amplitude(settings, operating, h_c)
+        wavelength = min(float(surface["wavelength_x"]), float(surface["wavelength_y"]))
+        ratio = h_c / amplitude
+        theta = float(stribeck.theta_2(operating.moes_m, operating.moes_l, wavelength, ratio))
+        outside = stribeck.in_range(operating.moes_m, operating.moes_l, wavelength, ratio)
+        if surface["wavelength_x"] != surface["wavelength_y"]:
+            outside.append("eq. 16 is for equal wavelengths along X and Y")
+        result["theta_2"] = theta
+        result["mu_ratio_eq_16"] = float(stribeck.relative_friction(theta))
+        result["theta_2_outside"] = outside
+    return result

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The positions of a passage: their grid, their number, and what they leave undecided."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pyehl.prediction.contact import Contact
+from pyehl.prediction.options import MAX_POSITIONS
+from pyehl.surfaces import MAX_PIXELS, Topography, resampled
+from pyehl.theory.operating import OperatingPoint
+
+__all__ = ["friction_along", "interpolated", "working_grid"]
+
+Array = NDArray[np.float64]
+
+# Fewest positions of an automatic passage, and the error that half of them may make (relative)
+# for no more to be added
+FIRST_POSITIONS = 8
+POSITION_TOLERANCE = 2e-3
+# Pixels per Hertz radius below which a coarse map is interpolated
+RADIUS_PIXELS = 48
+
+
+def working_grid(topography: Topography, operating: OperatingPoint, positions: int) -> Topography:
+    """Return the tile on a grid that resolves the contact and has room for the positions.
+
+    Raises
+    ------
+    ValueError
+        If that takes too many pixels.
+    """
+    nx, ny = topography.shape
+    finest = operating.hertz_radius / RADIUS_PIXELS
+    want_x = max(nx, math.ceil(topography.length_x / finest))
+    want_y = max(ny, math.ceil(topography.length_y / finest))
+    multiple = positions or FIRST_POSITIONS * 4
+    want_x = multiple * math.ceil(want_x / multiple)
+    if want_x * want_y > MAX_PIXELS:
+        raise ValueError(
+            f"{topography.origin}: a tile of {topography.length_x:.3g} x "
+            f"{topography.length_y:.3g} m would need {want_x} x {want_y} pixels to resolve a "
+            f"contact of radius {operating.hertz_radius:.3g} m; cut a part out of it"
+        )
+    return resampled(topography, (want_x, want_y))
+
+
+def friction_along(
+    contact: Contact, pixels: int, positions: int
+) -> tuple[NDArray[np.int_], Array, float]:
+    """Positions [pixels], ratios there and what they leave undecided at most (relative)."""
+    n = positions or FIRST_POSITIONS
+    steps = np.arange(n) * (pixels // n)
+    ratios = np.array([contact.friction(int(s)) for s in steps])
+    while np.all(np.isfinite(ratios)):
+        error = _undecided(ratios)
+        if positions or error <= POSITION_TOLERANCE or pixels % (2 * n) or 2 * n > MAX_POSITIONS:
+            return steps, ratios, error
+        spacing = pixels // (2 * n)
+        merged = np.empty(2 * n)
+        merged[::2] = ratios
+        merged[1::2] = [contact.friction(int(s)) for s in steps + spacing]
+        n *= 2
+        steps, ratios = np.arange(n) * spacing, merged
+    return steps, ratios, math.nan
+
+
+def interpolated(values: Array, times: int) -> Array:
+    """Trigonometric interpolant of a periodic sequence on so many times as many points."""
+    n = values.size
+    half = np.fft.rfft(values)
+    if n % 2 == 0:
+        half[-1] *= 0.5
+    return np.asarray(np.fft.irfft(half, times * n) * times)
+
+
+def _undecided(values: Array) -> float:
+    """Return what half of the positions would have missed at the others, relative to the mean.
+
+    The interpolant through every second value against the values between: an upper estimate of
+    what all of them leave undecided, since the interpolant converges faster than any power.
+    """
+    if values.size % 2:
+        return math.nan
+    between = interpolated(values[::2], 2)[1::2]
+    return float(np.abs(between - values[1::2]).max() / values.mean())

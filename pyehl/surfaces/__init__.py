@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rough surfaces: generators, height maps, spectra, exact shifts.
+
+A surface is a periodic tile of heights z [m], array (nx, ny), first index along x (the rolling
+direction); peaks are positive and thin the film. Pixel [i, j] lies at x = i length_x/nx,
+y = j length_y/ny. Spectra are those of Jacobs, Junge & Pastewka 2017, in m^4.
+"""
+
+from pyehl.surfaces.generators import fractal, harmonic
+from pyehl.surfaces.interpolation import resampled, shifted
+from pyehl.surfaces.maps import read_map
+from pyehl.surfaces.of_case import from_settings, harmonic_amplitude, made_heights
+from pyehl.surfaces.spectra import (
+    psd_2d,
+    psd_isotropic,
+    rms_from_psd,
+    spectrum,
+    wavenumbers,
+)
+from pyehl.surfaces.tile import MAX_PIXELS, Topography
+
+__all__ = [
+    "MAX_PIXELS",
+    "Topography",
+    "fractal",
+    "from_settings",
+    "harmonic",
+    "harmonic_amplitude",
+    "made_heights",
+    "psd_2d",
+    "psd_isotropic",
+    "read_map",
+    "resampled",
+    "rms_from_psd",
+    "shifted",
+    "spectrum",
+    "wavenumbers",
+]

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tiles moved, or on a finer grid, by their Fourier interpolant."""
+
+from __future__ import annotations
+
+from typing import cast
+
+import numpy as np
+import scipy.fft
+from numpy.typing import NDArray
+
+from pyehl.surfaces.spectra import wavenumbers
+from pyehl.surfaces.tile import Topography
+
+__all__ = ["resampled", "shifted"]
+
+Array = NDArray[np.float64]
+
+
+def _shift_factor(q: Array, distance: float, nyquist: int | None) -> NDArray[np.complex128]:
+    factor = np.exp(-1j * q * distance)
+    if nyquist is not None:
+        # half of this component travels with +q and half with -q
+        factor[nyquist] = np.cos(q[nyquist] * distance)
+    return cast("NDArray[np.complex128]", factor)
+
+
+def shifted(topography: Topography, distance_x: float, distance_y: float = 0.0) -> Topography:
+    """Return the tile moved by a distance [m] towards positive x and y, by its Fourier interpolant.
+
+    Exact for the trigonometric polynomial through the heights; a shift by whole pixels is the
+    cyclic copy to rounding. The Nyquist component cannot be told from a standing wave and is
+    multiplied by the cosine of its phase, so it is the one part that a fraction of a pixel dims.
+    """
+    nx, ny = topography.shape
+    qx, qy = wavenumbers(topography)
+    fx = _shift_factor(qx[:, 0], distance_x, None if nx % 2 else nx // 2)
+    fy = _shift_factor(qy[0, :], distance_y, None if ny % 2 else ny // 2)
+    z = scipy.fft.rfft2(topography.heights) * fx[:, np.newaxis] * fy[np.newaxis, :]
+    heights = scipy.fft.irfft2(z, s=(nx, ny))
+    return Topography(
+        np.ascontiguousarray(heights),
+        topography.length_x,
+        topography.length_y,
+        topography.origin,
+        topography.seed,
+    )
+
+
+def resampled(topography: Topography, pixels: tuple[int, int]) -> Topography:
+    """Return the tile on a finer grid by its Fourier interpolant, (nx, ny) = `pixels`.
+
+    Raises
+    ------
+    ValueError
+        If the new grid has fewer pixels in a direction.
+    """
+    if pixels == topography.shape:
+        return topography
+    z = topography.heights
+    for axis in (0, 1):
+        old, new = topography.shape[axis], pixels[axis]
+        if new < old:
+            raise ValueError(f"cannot resample {topography.shape} pixels to fewer, {pixels}")
+        if new == old:
+            continue
+        values = scipy.fft.rfft(z, axis=axis, norm="forward")
+        if old % 2 == 0:
+            # the Nyquist component is one of two conjugate halves on a finer grid
+            index = [slice(None), slice(None)]
+            index[axis] = slice(old // 2, old // 2 + 1)
+            values[tuple(index)] *= 0.5
+        z = scipy.fft.irfft(values, n=new, axis=axis, norm="forward")
+    return Topography(
+        np.ascontiguousarray(z),
+        topography.length_x,
+        topography.length_y,
+        topography.origin,
+        topography.seed,
+    )

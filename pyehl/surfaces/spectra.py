@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Spectra of tiles.
+
+They follow Jacobs, Junge & Pastewka 2017 (doi 10.1088/2051-672X/aa51f8):
+C2D(q) = |dx dy sum z exp(-i q x)|^2/(Lx Ly) [m^4], so that h_rms^2 = sum C2D/(Lx Ly), and C_iso is
+its mean over annuli of |q|.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import cast
+
+import numpy as np
+import scipy.fft
+from numpy.typing import ArrayLike, NDArray
+
+from pyehl.surfaces.tile import Topography
+
+__all__ = ["psd_2d", "psd_isotropic", "rms_from_psd", "spectrum", "wavenumbers"]
+
+Array = NDArray[np.float64]
+
+
+def wavenumbers(topography: Topography) -> tuple[Array, Array]:
+    """q_x (nx, 1) and q_y (1, ny//2 + 1) of the half spectrum of a tile [rad/m]."""
+    nx, ny = topography.shape
+    dx, dy = topography.pixel
+    qx = 2.0 * np.pi * scipy.fft.fftfreq(nx, dx)
+    qy = 2.0 * np.pi * scipy.fft.rfftfreq(ny, dy)
+    return qx[:, np.newaxis], qy[np.newaxis, :]
+
+
+def spectrum(topography: Topography) -> NDArray[np.complex128]:
+    """Amplitude of each Fourier component, (nx, ny//2 + 1) [m]: the half spectrum of z over nx ny.
+
+    z[i, j] = sum over the full spectrum of amplitude exp(i (q_x x + q_y y)); no factor 4, a real
+    cosine of amplitude A shows as two components of A/2.
+    """
+    z = scipy.fft.rfft2(topography.heights, norm="forward")
+    return cast("NDArray[np.complex128]", z)
+
+
+def psd_2d(topography: Topography) -> tuple[Array, Array, Array]:
+    """Power spectral density of a tile.
+
+    Returns
+    -------
+    qx, qy
+        (nx,) and (ny,) [rad/m], ascending, zero at index nx//2 and ny//2.
+    c2d
+        (nx, ny) [m^4]; sum(c2d)/(Lx Ly) is the mean square height about the mean.
+    """
+    nx, ny = topography.shape
+    dx, dy = topography.pixel
+    z = topography.heights - topography.heights.mean()
+    amplitude = scipy.fft.fft2(z, norm="forward")
+    area = topography.length_x * topography.length_y
+    c2d = scipy.fft.fftshift(area * np.abs(amplitude) ** 2)
+    qx = scipy.fft.fftshift(2.0 * np.pi * scipy.fft.fftfreq(nx, dx))
+    qy = scipy.fft.fftshift(2.0 * np.pi * scipy.fft.fftfreq(ny, dy))
+    return qx, qy, c2d
+
+
+def psd_isotropic(topography: Topography) -> tuple[Array, Array]:
+    """Mean of C2D over annuli of |q|.
+
+    The annuli are centred on the multiples of 2 pi/min(Lx, Ly) and as wide. What lies beyond the
+    smaller Nyquist wavenumber, where the square no longer fills the circle, is left out, and so
+    are empty annuli.
+
+    Returns
+    -------
+    q
+        (n,) mean wavenumber of each annulus [rad/m], ascending.
+    c_iso
+        (n,) [m^4].
+    """
+    qx, qy, c2d = psd_2d(topography)
+    q = np.hypot(qx[:, np.newaxis], qy[np.newaxis, :])
+    step = 2.0 * np.pi / min(topography.length_x, topography.length_y)
+    largest = np.pi / max(topography.pixel)
+    ring = np.rint(q / step).astype(int)
+    keep = (ring > 0) & (q <= largest * (1.0 + 1e-12))
+    count = np.bincount(ring[keep])
+    filled = count > 0
+    mean_q = np.bincount(ring[keep], q[keep])[filled] / count[filled]
+    mean_c = np.bincount(ring[keep], c2d[keep])[filled] / count[filled]
+    return mean_q, mean_c
+
+
+def rms_from_psd(c2d: ArrayLike, length_x: float, length_y: float) -> float:
+    """Rms height [m] of a spectrum C2D [m^4] of a tile: sqrt(sum C2D/(Lx Ly))."""
+    return math.sqrt(float(np.sum(c2d)) / (length_x * length_y))

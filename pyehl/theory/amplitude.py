@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Amplitude reduction: how much of a waviness survives in a loaded EHL contact.
+
+Venner & Lubrecht 1999 (Tribology Series 36, 151-162), eq. 6 there, as used by Zhang et al. 2019
+(doi 10.1016/j.triboint.2019.01.028, eq. 10): with the wavelength parameter
+x = f(r) (wavelength/a) sqrt(M/L) the deformed amplitude is A_d/A_i = 1/(1 + 0.15 x + 0.015 x^2),
+where r = wavelength_x/wavelength_y and f = exp(1 - 1/r) for r > 1, else 1. Pure rolling.
+
+The formula was fitted to cos(2 pi x/wavelength_x) cos(2 pi y/wavelength_y) patterns. A Fourier
+component of a rough surface is a plane wave, and three ways to give it a wavelength are offered:
+
+``components`` (default)
+    wavelength_x = 2 pi/|q_x| and wavelength_y = 2 pi/|q_y|: the shorter one, with f(r). A cos cos
+    pattern is the sum of the plane waves (+-q_x, +-q_y), which deform alike because the contact is
+    symmetric in y, so in the linear theory this is the formula itself for every component. It
+    depends on the direction of the wave, as the rolling contact does. Of the three it is nearest
+    to the full simulation of ten rough surfaces, though not by much, see :mod:`pyehl.prediction`.
+``wavevector``
+    2 pi/|q|, the distance between its crests, f = 1. Agrees with the formula for waves with
+    crests across the rolling direction.
+``pattern``
+    2 sqrt(2) pi/|q|, the wavelength of the isotropic cos cos pattern that has this |q|, f = 1.
+    Agrees with the formula for such patterns.
+"""
+
+from __future__ import annotations
+
+from typing import cast
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = [
+    "CONVENTIONS",
+    "amplitude_ratio",
+    "anisotropy_factor",
+    "component_amplitude_ratio",
+    "component_wavelength",
+    "wavelength_parameter",
+]
+
+Array = NDArray[np.float64]
+
+CONVENTIONS = ("components", "wavevector", "pattern")
+"""Names of the ways to give a Fourier component a wavelength, the default first."""
+
+# 1/(1 + c1 x + c2 x^2): point contacts (Venner & Lubrecht 1999), line contacts (Lubrecht & Venner)
+_COEFFICIENTS = {"point": (0.15, 0.015), "line": (0.17, 0.03)}
+
+
+def anisotropy_factor(ratio: ArrayLike) -> Array:
+    """f(r) for r = wavelength_x/wavelength_y >= 0, infinity allowed [-], any shape."""
+    r = np.asarray(ratio, dtype=float)
+    with np.errstate(divide="ignore"):
+        return cast(Array, np.where(r > 1.0, np.exp(1.0 - 1.0 / np.maximum(r, 1.0)), 1.0))
+
+
+def wavelength_parameter(
+    wavelength: ArrayLike,
+    moes_m: float,
+    moes_l: float,
+    ratio: ArrayLike = 1.0,
+    *,
+    contact: str = "point",
+) -> Array:
+    """Dimensionless wavelength parameter x (nabla_2 in the literature) [-].
+
+    Parameters
+    ----------
+    wavelength
+        The shorter of the two wavelengths over the Hertz radius a (point) or half width b (line).
+    moes_m, moes_l
+        Moes numbers. M of a line contact is W (2U)^(-1/2), not the point contact's.
+    ratio
+        r = wavelength_x/wavelength_y; must be 1 for a line contact, whose waves are transverse.
+    contact
+        ``"point"``: f(r) (wavelength/a) sqrt(M/L); ``"line"``: (wavelength/b) M^(3/4)/L^(1/2).
+
+    Raises
+    ------
+    ValueError
+        If M or L is not positive (the theory is one of piezoviscous contacts) or the kind of
+        contact is unknown.
+    """
+    if not (moes_m > 0.0 and moes_l > 0.0):
+        raise ValueError(
+            f"amplitude reduction needs positive Moes numbers, not M = {moes_m:g}, L = {moes_l:g}"
+        )
+    lam = np.asarray(wavelength, dtype=float)
+    if contact == "point":
+        return cast(Array, anisotropy_factor(ratio) * lam * np.sqrt(moes_m / moes_l))
+    if contact == "line":
+        if not np.all(np.asarray(ratio) == 1.0):
+            raise ValueError("the line contact formula has no ratio of wavelengths")
+        return np.asarray(lam * moes_m**0.75 / moes_l**0.5)
+    raise ValueError(f"contact {contact!r}: expected 'point' or 'line'")
+
+
+def amplitude_ratio(parameter: ArrayLike, *, contact: str = "point") -> Array:
+    """A_d/A_i [-] for a wavelength parameter x >= 0 of any shape; 1 at 0, 0 at infinity.
+
+    Raises
+    ------
+    ValueError
+        If the kind of contact is unknown.
+    """
+    if contact not in _COEFFICIENTS:
+        raise ValueError(f"contact {contact!r}: expected 'point' or 'line'")
+    c1, c2 = _COEFFICIENTS[contact]
+    x = np.asarray(parameter, dtype=float)
+    return np.asarray(1.0 / (1.0 + c1 * x + c2 * x * x))
+
+
+def component_wavelength(
+    qx: ArrayLike, qy: ArrayLike, convention: str = "components"
+) -> tuple[Array, Array]:
+    """Wavelength [m] and ratio r [-] of the Fourier components with wavenumbers qx, qy [rad/m].
+
+    The arguments are broadcast together; q = 0 has an infinite wavelength.
+
+    Raises
+    ------
+    ValueError
+        If the convention is unknown.
+    """
+    x, y = np.broadcast_arrays(np.abs(qx), np.abs(qy))
+    x, y = x.astype(float), y.astype(float)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        if convention == "wavevector":
+            return cast(Array, 2.0 * np.pi / np.hypot(x, y)), np.ones_like(x)
+        if convention == "pattern":
+            return cast(Array, 2.0 * np.sqrt(2.0) * np.pi / np.hypot(x, y)), np.ones_like(x)
+        if convention == "components":
+            ratio = np.where((x == 0.0) & (y == 0.0), 1.0, y / x)
+            return cast(Array, 2.0 * np.pi / np.maximum(x, y)), cast(Array, ratio)
+    raise ValueError(f"wavelength convention {convention!r}: expected one of {CONVENTIONS}")
+
+
+def component_amplitude_ratio(
+    qx: ArrayLike,
+    qy: ArrayLike,
+    hertz_radius: float,
+    moes_m: float,
+    moes_l: float,
+    *,
+    convention: str = "components",
+) -> Array:
+    """A_d/A_i [-] of the Fourier components with wavenumbers qx, qy [rad/m] in a point contact.
+
+    Parameters
+    ----------
+    qx, qy
+        Wavenumbers, broadcast together.
+    hertz_radius
+        a [m].
+    moes_m, moes_l
+        Moes numbers of the point contact.
+    convention
+        One of :data:`CONVENTIONS`.
+
+    Returns
+    -------
+    ndarray
+        In [0, 1]; 0 at q = 0.
+    """
+    wavelength, ratio = component_wavelength(qx, qy, convention)
+    return amplitude_ratio(wavelength_parameter(wavelength / hertz_radius, moes_m, moes_l, ratio))

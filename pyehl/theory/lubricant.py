@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Viscosity and density of a lubricant under pressure."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pyehl.theory.numbers import positive
+
+__all__ = ["Lubricant", "default_roelands_z"]
+
+Array = NDArray[np.float64]
+
+# Dowson & Higginson 1966, density under pressure
+DENSITY_PRESSURE = 5.9e8
+DENSITY_FACTOR = 1.34
+
+
+def default_roelands_z(
+    viscosity: float, pressure_viscosity: float, roelands_p0: float = 1.96e8
+) -> float:
+    """Roelands exponent z = alpha p0 / (ln eta0 + 9.67) [-].
+
+    It makes d(ln eta)/dp at ambient pressure equal to alpha.
+
+    Parameters
+    ----------
+    viscosity
+        Viscosity at ambient pressure eta0 [Pa s].
+    pressure_viscosity
+        Pressure-viscosity coefficient alpha [1/Pa].
+    roelands_p0
+        Roelands pressure p0 [Pa].
+
+    Raises
+    ------
+    ValueError
+        If the viscosity is so low that ln eta0 + 9.67 <= 0, where the law has no meaning.
+    """
+    denominator = math.log(positive("viscosity", viscosity, "Pa s")) + 9.67
+    if denominator <= 0.0:
+        raise ValueError(
+            f"viscosity {viscosity!r} Pa s is below exp(-9.67) Pa s, the lowest the Roelands law "
+            "knows; is the unit Pa s?"
+        )
+    return pressure_viscosity * roelands_p0 / denominator
+
+
+@dataclass(frozen=True, slots=True)
+class Lubricant:
+    """Viscosity and density of a lubricant under pressure.
+
+    Attributes
+    ----------
+    viscosity
+        At ambient pressure, eta0 [Pa s].
+    pressure_viscosity
+        alpha [1/Pa].
+    viscosity_law
+        ``"roelands"`` or ``"barus"``.
+    roelands_z
+        Exponent [-]; 0 for the value of :func:`default_roelands_z`.
+    roelands_p0
+        [Pa].
+    density_law
+        ``"dowson-higginson"`` or ``"incompressible"``.
+
+    Raises
+    ------
+    ValueError
+        For an unknown law or a number out of range.
+    """
+
+    viscosity: float = 0.04
+    pressure_viscosity: float = 2.2e-8
+    viscosity_law: str = "roelands"
+    roelands_z: float = 0.0
+    roelands_p0: float = 1.96e8
+    density_law: str = "dowson-higginson"
+
+    def __post_init__(self) -> None:
+        """Check the words and the numbers."""
+        positive("viscosity", self.viscosity, "Pa s")
+        positive("pressure_viscosity", self.pressure_viscosity, "1/Pa")
+        positive("roelands_p0", self.roelands_p0, "Pa")
+        if self.viscosity_law not in ("roelands", "barus"):
+            raise ValueError(
+                f"viscosity_law {self.viscosity_law!r}: expected 'roelands' or 'barus'"
+            )
+        if self.density_law not in ("dowson-higginson", "incompressible"):
+            raise ValueError(
+                f"density_law {self.density_law!r}: expected 'dowson-higginson' or 'incompressible'"
+            )
+        if self.roelands_z == 0.0 and self.viscosity_law == "roelands":
+            z = default_roelands_z(self.viscosity, self.pressure_viscosity, self.roelands_p0)
+            object.__setattr__(self, "roelands_z", z)
+        if self.viscosity_law == "roelands":
+            positive("roelands_z", self.roelands_z, "-")
+
+    @classmethod
+    def from_settings(
+        cls, settings: Mapping[str, Mapping[str, Any]], viscosity_law: str = ""
+    ) -> Lubricant:
+        """From the group ``lubricant`` of a resolved case; `viscosity_law` overrides the law."""
+        group = settings["lubricant"]
+        return cls(
+            viscosity=float(group["viscosity"]),
+            pressure_viscosity=float(group["pressure_viscosity"]),
+            viscosity_law=viscosity_law or str(group["viscosity_law"]),
+            roelands_z=float(group.get("roelands_z", 0.0)),
+            roelands_p0=float(group["roelands_p0"]),
+            density_law=str(group["density_law"]),
+        )
+
+    def log_viscosity_ratio(self, pressure: ArrayLike) -> Array:
+        """ln(eta/eta0) [-] at a pressure [Pa], any shape; NaN below -p0 (Roelands).
+
+        Roelands 1966: (alpha p0/z) ((1 + p/p0)^z - 1); Barus 1893: alpha p.
+        """
+        p = np.asarray(pressure, dtype=float)
+        if self.viscosity_law == "barus":
+            return np.asarray(self.pressure_viscosity * p)
+        factor = self.pressure_viscosity * self.roelands_p0 / self.roelands_z
+        with np.errstate(invalid="ignore", divide="ignore"):
+            power = np.exp(self.roelands_z * np.log(1.0 + p / self.roelands_p0))
+        return np.asarray(factor * (power - 1.0))
+
+    def viscosity_ratio(self, pressure: ArrayLike) -> Array:
+        """eta/eta0 [-] at a pressure [Pa], any shape."""
+        return np.exp(self.log_viscosity_ratio(pressure))
+
+    def density_ratio(self, pressure: ArrayLike) -> Array:
+        """rho/rho0 [-] at a pressure [Pa], any shape (Dowson & Higginson 1966)."""
+        p = np.asarray(pressure, dtype=float)
+        if self.density_law == "incompressible":
+            return np.ones_like(p)
+        return np.asarray((DENSITY_PRESSURE + DENSITY_FACTOR * p) / (DENSITY_PRESSURE + p))

@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Operating conditions of a point contact, in SI units and in Moes and Hertz numbers.
+
+The reduced modulus E' follows 2/E' = sum over the bodies of (1 - nu^2)/E, as everywhere in this
+package. Codes that use 1/E* = sum of (1 - nu^2)/E have E* = E'/2: a factor of two.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from pyehl.theory.numbers import positive
+
+__all__ = ["OperatingPoint"]
+
+# Contact body of the reference conditions (Zhang et al. 2019, table 1). A case given by M and L
+# alone has no length; these two fix one when a quantity in SI units is asked for.
+REFERENCE_RADIUS = 0.018
+REFERENCE_MODULUS = 2.26e11
+
+
+@dataclass(frozen=True, slots=True)
+class OperatingPoint:
+    """A circular contact under load, with what follows from it.
+
+    Attributes
+    ----------
+    load
+        w [N].
+    mean_velocity
+        (u1 + u2)/2 [m/s].
+    radius
+        Reduced radius R [m].
+    reduced_modulus
+        E' [Pa], 2/E' = sum of (1 - nu^2)/E.
+    viscosity
+        eta0 [Pa s].
+    pressure_viscosity
+        alpha [1/Pa]; 0 for the isoviscous limit L = 0.
+    si
+        Whether the SI values were given; False when they were made from (M, L) with the radius
+        and modulus of the reference conditions.
+
+    Raises
+    ------
+    ValueError
+        For a number that is not positive or not finite.
+    """
+
+    load: float = 600.0
+    mean_velocity: float = 0.84
+    radius: float = REFERENCE_RADIUS
+    reduced_modulus: float = REFERENCE_MODULUS
+    viscosity: float = 0.04
+    pressure_viscosity: float = 2.2e-8
+    si: bool = True
+
+    def __post_init__(self) -> None:
+        """Check the numbers."""
+        positive("load", self.load, "N")
+        positive("mean_velocity", self.mean_velocity, "m/s")
+        positive("radius", self.radius, "m")
+        positive("reduced_modulus", self.reduced_modulus, "Pa")
+        positive("viscosity", self.viscosity, "Pa s")
+        if not (math.isfinite(self.pressure_viscosity) and self.pressure_viscosity >= 0.0):
+            raise ValueError(
+                f"pressure_viscosity must not be negative [1/Pa], not {self.pressure_viscosity!r}"
+            )
+
+    @classmethod
+    def from_moes(
+        cls,
+        moes_m: float,
+        moes_l: float,
+        *,
+        viscosity: float = 0.04,
+        pressure_viscosity: float = 2.2e-8,
+        radius: float = REFERENCE_RADIUS,
+    ) -> OperatingPoint:
+        """Return the contact that has the given M and L, for a lubricant and a radius [m].
+
+        Two numbers leave two lengths and a stress free: the radius, eta0 and alpha are given, E'
+        is the reference modulus. The Hertz pressure p_h = alpha_bar/alpha follows from M, L and
+        alpha alone.
+
+        Raises
+        ------
+        ValueError
+            For M or L that is not positive (L = 0 fixes no speed in SI units).
+        """
+        m = positive("moes_m", moes_m, "-")
+        ell = positive("moes_l", moes_l, "-")
+        modulus = REFERENCE_MODULUS
+        two_u = (ell / (pressure_viscosity * modulus)) ** 4
+        return cls(
+            load=m * two_u**0.75 * modulus * radius**2,
+            mean_velocity=0.5 * two_u * modulus * radius / viscosity,
+            radius=radius,
+            reduced_modulus=modulus,
+            viscosity=viscosity,
+            pressure_viscosity=pressure_viscosity,
+            si=False,
+        )
+
+    @classmethod
+    def from_settings(cls, settings: Mapping[str, Mapping[str, Any]]) -> OperatingPoint:
+        """From the groups ``contact`` and ``lubricant`` of a resolved case (either kind)."""
+        contact, lubricant = settings["contact"], settings["lubricant"]
+        viscosity = float(lubricant["viscosity"])
+        alpha = float(lubricant["pressure_viscosity"])
+        if contact.get("moes_m") is not None and contact.get("load") is None:
+            return cls.from_moes(
+                float(contact["moes_m"]),
+                float(contact["moes_l"]),
+                viscosity=viscosity,
+                pressure_viscosity=alpha,
+            )
+        return cls(
+            load=float(contact["load"]),
+            mean_velocity=float(contact["mean_velocity"]),
+            radius=float(contact["radius"]),
+            reduced_modulus=float(contact["reduced_modulus"]),
+            viscosity=viscosity,
+            pressure_viscosity=alpha,
+        )
+
+    @property
+    def hertz_radius(self) -> float:
+        """Radius a of the dry contact [m], a^3 = 3 w R/(2 E')."""
+        return float((1.5 * self.load * self.radius / self.reduced_modulus) ** (1.0 / 3.0))
+
+    @property
+    def hertz_pressure(self) -> float:
+        """Maximum pressure p_h of the dry contact [Pa], 3 w/(2 pi a^2)."""
+        return 1.5 * self.load / (math.pi * self.hertz_radius**2)
+
+    @property
+    def speed(self) -> float:
+        """U = eta0 u/(E' R) [-]."""
+        return self.viscosity * self.mean_velocity / (self.reduced_modulus * self.radius)
+
+    @property
+    def load_number(self) -> float:
+        """W2 = w/(E' R^2) [-]."""
+        return self.load / (self.reduced_modulus * self.radius**2)
+
+    @property
+    def material(self) -> float:
+        """G = alpha E' [-]."""
+        return self.pressure_viscosity * self.reduced_modulus
+
+    @property
+    def moes_m(self) -> float:
+        """Moes load M = W2 (2U)^(-3/4) [-] of a point contact (a line has W (2U)^(-1/2))."""
+        return float(self.load_number * (2.0 * self.speed) ** -0.75)
+
+    @property
+    def moes_l(self) -> float:
+        """Moes material number L = G (2U)^(1/4) [-]."""
+        return float(self.material * (2.0 * self.speed) ** 0.25)
+
+    @property
+    def alpha_bar(self) -> float:
+        """Pressure-viscosity number alpha p_h = (L/pi)(3M/2)^(1/3) [-]."""
+        return self.pressure_viscosity * self.hertz_pressure
+
+    @property
+    def speed_parameter(self) -> float:
+        """lambda_bar = 12 eta0 u R^2/(a^3 p_h) = (128 pi^3/(3 M^4))^(1/3) [-]."""
+        return (
+            12.0
+            * self.viscosity
+            * self.mean_velocity
+            * self.radius**2
+            / (self.hertz_radius**3 * self.hertz_pressure)
+        )
+
+    @property
+    def film_scale(self) -> float:
+        """The film thickness that is one in Hertz units, a^2/R [m]; H = h R/a^2."""
+        return self.hertz_radius**2 / self.radius
+
+    @property
+    def time_scale(self) -> float:
+        """The time that is one in Hertz units, a/u [s]; T = t u/a."""
+        return self.hertz_radius / self.mean_velocity

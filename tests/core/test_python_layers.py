@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The order of the Python modules, and who may do what."""
+
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+# A module imports only from its own layer or from a layer to the left. Imports inside functions
+# and those for typing alone count too.
+LAYERS = [
+    ["errors", "reference"],
+    ["library", "namelist"],
+    ["theory"],
+    ["surfaces"],
+    ["case"],
+    ["solver", "results"],
+    ["plots"],
+    ["prediction", "run", "export"],
+    ["bench"],
+    ["commands"],
+    ["cli"],
+    ["__init__", "__main__"],
+]
+RANK = {name: rank for rank, names in enumerate(LAYERS) for name in names}
+
+
+def modules(root: Path) -> dict[str, tuple[Path, ast.Module]]:
+    """File and syntax tree of every module, by its name within the package."""
+    found = {}
+    for path in sorted((root / "pyehl").rglob("*.py")):
+        parts = path.relative_to(root / "pyehl").with_suffix("").parts
+        if len(parts) > 1 and parts[-1] == "__init__":
+            parts = parts[:-1]
+        found[".".join(parts)] = (path, ast.parse(path.read_text()))
+    return found
+
+
+def imported(tree: ast.Module, known: set[str]) -> set[str]:
+    """Modules of this package that a module imports."""
+    names = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, "no relative imports"
+            for alias in node.names:
+                name = f"{node.module}.{alias.name}"
+                inner = name.removeprefix("pyehl.")
+                names.add(name if inner in known else str(node.module))
+    return {n.removeprefix("pyehl.") for n in names if n.startswith("pyehl.")} & known
+
+
+@pytest.fixture(scope="module")
+def graph(root: Path) -> dict[str, set[str]]:
+    found = modules(root)
+    return {name: imported(tree, set(found)) for name, (_, tree) in found.items()}
+
+
+def top(name: str) -> str:
+    return name.partition(".")[0]
+
+
+def test_arrows_point_one_way(graph: dict[str, set[str]]):
+    assert len(graph) > 30
+    assert {top(name) for name in graph} == set(RANK)
+    wrong = [
+        f"{name} imports {other}"
+        for name, others in graph.items()
+        for other in others
+        if RANK[top(other)] > RANK[top(name)]
+    ]
+    assert not wrong
+
+
+def test_no_circle(graph: dict[str, set[str]]):
+    """The modules can be ordered so that each imports only those before it."""
+    # `from pyehl.surfaces import x` inside the folder would run its __init__ first
+    left = {name: others - {name} for name, others in graph.items()}
+    while left:
+        free = {name for name, others in left.items() if not others & set(left)}
+        assert free, f"a circle among {sorted(left)}"
+        left = {name: others for name, others in left.items() if name not in free}
+
+
+def test_nobody_imports_a_command(graph: dict[str, set[str]]):
+    """Commands share only their arguments; `cli` names them by text."""
+    wrong = [
+        f"{name} imports {other}"
+        for name, others in graph.items()
+        for other in others
+        if other.startswith("commands.")
+        and not (name.startswith("commands.") and other == "commands.arguments")
+    ]
+    assert not wrong
+
+
+@pytest.mark.parametrize(
+    ("what", "where"),
+    [
+        ("pyehl._core", {"library"}),
+        ("argparse", {"commands", "cli"}),
+        ("matplotlib", {"plots"}),
+    ],
+)
+def test_who_imports_what(root: Path, what: str, where: set[str]):
+    users = set()
+    for name, (_, tree) in modules(root).items():
+        for node in ast.walk(tree):
+            names = []
+            if isinstance(node, ast.Import):
+                names = [alias.name for alias in node.names]
+            elif isinstance(node, ast.ImportFrom):
+                names = [str(node.module)]
+            if any(other == what or other.startswith(f"{what}.") for other in names):
+                users.add(top(name))
+    assert users
+    assert users <= where
+
+
+def test_reference_is_a_leaf(graph: dict[str, set[str]]):
+    assert not graph["reference"]
+    assert not [name for name, others in graph.items() if "reference" in others]
+
+
+def test_every_module_is_installed(root: Path):
+    package = root / "pyehl"
+    listed = re.findall(r"'([\w/]+\.py)'", (package / "meson.build").read_text())
+    assert sorted(listed) == sorted(
+        path.relative_to(package).as_posix() for path in package.rglob("*.py")
+    )
