@@ -128,7 +128,7 @@ contains
          call self%reals("surface", "velocity_ratio", s%velocity_ratio, "-", "[0, 2]", &
                          "velocity of the rough surface over the mean velocity")
          call self%reals("surface", "x_start", s%x_start, "a", "[-100, 20]", &
-                         "where the roughness begins at time 0; default x_inlet")
+                         "where the roughness begins at time 0, at rest its origin; default x_inlet")
          call self%paths("surface", "file", s%file, "height map of kind 'map': .npy or text, in m")
          call self%reals("surface", "length_x", s%length_x, "m", "[1e-9, 1]", "size of the tile along X")
          call self%reals("surface", "length_y", s%length_y, "m", "[1e-9, 1]", "size of the tile along Y")

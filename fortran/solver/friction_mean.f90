@@ -4,7 +4,7 @@ module ehl_friction_mean
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: friction_mean_t, start_up
+   public :: friction_mean_t, start_up, periods_compared
 
    !> The last period is compared with those that end this share of a period earlier, one by one
    real(dp), parameter :: lags(*) = [0.125_dp, 0.25_dp, 0.375_dp, 0.5_dp]
@@ -15,6 +15,8 @@ module ehl_friction_mean
    !> met then: ten parts of a march of 51 periods settle within 0.8 % of its mean, with 12 in place of 20 within 4 %.
    real(dp), parameter :: several = 20.0_dp
    integer, parameter :: start_up = 2
+   !> Periods until a mean can be compared with earlier ones
+   real(dp), parameter :: periods_compared = 1.0_dp + lags(size(lags))
 
    !> Friction ratio at equidistant times
    type :: friction_mean_t
@@ -118,7 +120,7 @@ contains
    !> Whether the mean can be compared with earlier ones
    pure logical function has_change(self)
       class(friction_mean_t), intent(in) :: self
-      has_change = self%periods() >= 1.0_dp + lags(size(lags))
+      has_change = self%periods() >= periods_compared
    end function has_change
 
    !> Mean over the whole periods that end `lag` before the last value: the exact integral of the

@@ -14,6 +14,7 @@ module ehl_plan
    use ehl_moes, only: operating_from_moes, operating_from_si, operating_t
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_surface, only: surface_t
+   use ehl_transient, only: steps_needed
    use ehl_text, only: to_text
    implicit none (type, external)
    private
@@ -27,6 +28,8 @@ module ehl_plan
    integer, parameter :: start_fewest = 33
    !> ... whose wedge error, relative to the central film, is at most this
    real(dp), parameter :: start_error = 0.6_dp
+   !> Most time steps until the friction of a rough surface can be known, and where their number is asked for
+   integer, parameter :: most_steps = 100000, most_steps_asked_for = 1000000000
 
    type :: plan_t
       type(operating_t) :: point
@@ -50,7 +53,7 @@ module ehl_plan
       real(dp) :: target_error = 0.0_dp
       !> Central film expected, scaled by a^2/R
       real(dp) :: film_expected = 0.0_dp
-      !> The roughness; not allocated: the contact is smooth and steady
+      !> The roughness; not allocated: the contact is smooth
       class(surface_t), allocatable :: surface
       !> Amplitude of a waviness as a share of the smooth central film; 0: it is known already
       real(dp) :: amplitude_over_film = 0.0_dp
@@ -63,6 +66,9 @@ module ehl_plan
       !> Relative change of the mean friction ratio at which to stop, most periods, exact steps
       real(dp) :: time_tolerance = 1.0e-3_dp
       integer :: max_periods = 0, steps = 0
+   contains
+      procedure :: moves
+      procedure :: rests
    end type plan_t
 
 contains
@@ -100,9 +106,47 @@ contains
       plan%target_error = input%grid%target_error
       call pick_surface(input, heights, plan, status)
       call pick_grids(input, plan, status)
-      plan%coarse_run = input%time%estimate_error .and. plan%steps == 0 .and. plan%levels > 2
-      if (allocated(plan%surface)) plan%surface%threads = plan%threads
+      if (status%failed() .or. .not. allocated(plan%surface)) return
+      plan%surface%threads = plan%threads
+      plan%coarse_run = input%time%estimate_error .and. plan%levels > 2 .and. (plan%rests() .or. plan%steps == 0)
+      call check_steps(input, plan, status)
    end subroutine make_plan
+
+   !> Whether there is a rough surface on the move: time steps
+   pure logical function moves(self)
+      class(plan_t), intent(in) :: self
+      moves = .false.
+      if (allocated(self%surface)) moves = .not. self%surface%at_rest()
+   end function moves
+
+   !> Whether there is a rough surface at rest: a steady contact
+   pure logical function rests(self)
+      class(plan_t), intent(in) :: self
+      rests = .false.
+      if (allocated(self%surface)) rests = self%surface%at_rest()
+   end function rests
+
+   !> Refuse a surface so slow that the friction cannot be known within a sensible number of steps
+   subroutine check_steps(input, plan, status)
+      type(case_t), intent(in) :: input
+      type(plan_t), intent(in) :: plan
+      type(status_t), intent(inout) :: status
+      real(dp) :: steps
+      integer :: most
+      character(len=16) :: needed, least
+
+      if (.not. plan%moves()) return
+      most = merge(most_steps_asked_for, most_steps, plan%steps > 0)
+      steps = steps_needed(plan%surface, plan%finest%hx, plan%skip_start)
+      if (steps <= most) return
+      write (needed, "(es12.2e3)") steps
+      ! rounded up: what is named will do
+      write (least, "(es12.2e3)") 1.005_dp*input%surface%velocity_ratio*steps/most
+      call status%fail(ehl_bad_input, "surface.velocity_ratio = "//to_text(input%surface%velocity_ratio)// &
+                       ": so slow a surface needs "//trim(adjustl(needed))//" time steps until its friction is known, "// &
+                       "more than "//to_text(most)//new_line("a")//"expected: a velocity ratio of at least "// &
+                       trim(adjustl(least))//" on this grid, or 0: a rough surface at rest is a steady contact")
+   end subroutine check_steps
 
    !> Kind of cycle, for the smooth contact and for time steps
    subroutine pick_cycle(input, plan)
@@ -191,7 +235,7 @@ contains
       plan%time_tolerance = input%time%tolerance
       plan%max_periods = input%time%max_periods
       plan%steps = input%time%steps
-            associate (s => input%surface)
+      associate (s => input%surface)
          select case (s%kind)
          case ("harmonic")
             waviness = new_harmonic(s%amplitude, s%wavelength_x, s%wavelength_y, s%velocity_ratio, s%x_start)

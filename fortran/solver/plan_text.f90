@@ -28,7 +28,9 @@ contains
             plan%point%hertz_pressure, " Pa"
          text = text//trim(line)//new_line("a")
       end if
-      if (allocated(plan%surface)) then
+      if (plan%rests()) then
+         text = text//rest_lines(plan)
+      else if (plan%moves()) then
          write (line, "(a,f6.3,a,f7.4,a)") "scene      roughness on the move, period ", plan%surface%period, &
             " a, velocity ratio ", plan%surface%velocity_ratio, "; the smooth contact is solved once, before"
          text = text//trim(line)//new_line("a")
@@ -54,7 +56,7 @@ contains
       end if
       text = text//"deflection "//plan%engine//", threads "//to_text(plan%threads)//new_line("a")
       text = text//"cycles     "//plan%cycle_letter//sweeps_of(plan%cycle)
-      if (allocated(plan%surface)) then
+      if (plan%moves()) then
          text = text//", time steps "//plan%step_cycle_letter//sweeps_of(plan%step_cycle)//", "// &
                 trim(merge("Alcouffe ", "classical", plan%step_cycle%coarsening == coarsening_alcouffe))//" coarsening"
          if (plan%coarsening_may_change) text = text//", Alcouffe when a cycle is slow"
@@ -86,6 +88,18 @@ contains
          if (level == plan%start) words = "solution, from the Hertz pressure"
       end function use_of
    end function plan_text
+
+   !> A rough surface at rest: where it lies, and where the error comes from
+   function rest_lines(plan) result(text)
+      type(plan_t), intent(in) :: plan
+      character(len=:), allocatable :: text
+      character(len=128) :: line
+
+      write (line, "(a,f6.3,a,f8.4)") "scene      roughness at rest, steady; period ", plan%surface%period, &
+         " a, it is everywhere, its origin at X = x_start = ", plan%surface%x_start
+      text = trim(line)//new_line("a")//"           the smooth contact is solved before"//new_line("a")
+      if (plan%coarse_run) text = text//"error      of the friction ratio: solved on the next coarser grid too"//new_line("a")
+   end function rest_lines
 
    !> Sweeps before and after the coarse grids: '(2,1)'
    function sweeps_of(cycle) result(text)

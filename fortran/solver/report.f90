@@ -9,13 +9,14 @@ module ehl_report
    use ehl_outcome, only: outcome_names, outcome_running
    use ehl_plan, only: plan_t, relative_wedge_error
    use ehl_record, only: record_t
+   use ehl_rest, only: rest_t
    use ehl_steady, only: level_result_t, steady_t
    use ehl_text, only: to_text
    use ehl_transient, only: transient_t
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    implicit none (type, external)
    private
-   public :: cycle_line, march_line, report_scene, report_smooth, report_march
+   public :: cycle_line, march_line, rest_line, report_scene, report_smooth, report_march, report_rest
 
 contains
 
@@ -54,6 +55,20 @@ contains
       end if
       text = text//to_text(nint(seconds_left(plan, march, seconds)))//" s left"
    end function march_line
+
+   !> Line about a cycle of the contact with a rough surface at rest
+   function rest_line(grid, rest, stand) result(text)
+      type(grid_t), intent(in) :: grid
+      type(rest_t), intent(in) :: rest
+      integer, intent(in) :: stand
+      character(len=:), allocatable :: text
+
+      text = to_text(grid%nx)//" x "//to_text(grid%nx)//"  cycle "//to_text(rest%total_cycles)// &
+             "  mu_r/mu_s "//fixed(rest%mu_ratio(), "f9.5")//"  H_c "//fixed(rest%m%film_central, "f10.6")// &
+             "  H_min "//fixed(rest%m%film_minimum, "f10.6")//"  residual "//fixed(rest%residual, "es8.1")// &
+             "  "//trim(outcome_names(stand))
+      if (rest%share < 1.0_dp .and. .not. rest%smooth) text = text//", share of the roughness "//fixed(rest%share, "f7.4")
+   end function rest_line
 
    !> Seconds until the mean can be judged for the first time, later until the march ends if it does not settle
    pure real(dp) function seconds_left(plan, march, seconds)
@@ -199,6 +214,39 @@ contains
       call record%set("seconds_per_step", seconds/max(march%step, 1))
       call record%set("step_residual_allowed", march%tolerance)
    end subroutine report_march
+
+   !> The contact with a rough surface at rest: results null unless they are good
+   subroutine report_rest(record, plan, rest, good, coarse_ratio)
+      type(record_t), intent(inout) :: record
+      type(plan_t), intent(in) :: plan
+      type(rest_t), intent(in) :: rest
+      logical, intent(in) :: good
+      !> Friction ratio on the next coarser grid, 0 or less where it is not known
+      real(dp), intent(in) :: coarse_ratio
+      real(dp) :: ratio, algebraic, grid, nothing
+
+      nothing = ieee_value(nothing, ieee_quiet_nan)
+      ratio = merge(rest%mu_ratio(), nothing, good)
+      algebraic = merge(2.0_dp*rest%algebraic*rest%mu_ratio(), nothing, good)
+      grid = nothing
+      if (good .and. coarse_ratio > 0.0_dp) grid = abs(ratio - coarse_ratio)/3.0_dp
+      if (.not. good) call record%set("last_mu_ratio", rest%mu_ratio())
+      call record%set("mu_ratio", ratio)
+      call record%set("mu_ratio_error", algebraic + grid)
+      call record%set("mu_ratio_error_grid", grid)
+      call record%set("mu_ratio_error_stop", algebraic)
+      call record%set("H_c_rough", merge(rest%m%film_central, nothing, good))
+      call record%set("H_min_rough", merge(rest%m%film_minimum, nothing, good))
+      call record%set("P_max_rough", merge(rest%m%pressure_maximum, nothing, good))
+      call record%set("x_start", plan%surface%x_start)
+      select type (surface => plan%surface)
+      type is (harmonic_t)
+         call record%set("amplitude", surface%amplitude)
+      end select
+      call record%set("rough_cycles", rest%total_cycles)
+      call record%set("rough_parts", rest%parts)
+      call record%set("rough_residual", rest%residual)
+   end subroutine report_rest
 
    !> A number in a fixed form
    function fixed(x, form) result(text)

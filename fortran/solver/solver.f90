@@ -10,6 +10,7 @@ module ehl_solver
    use ehl_outcome, only: outcome_converged, outcome_interrupted, outcome_running
    use ehl_plan, only: make_plan, plan_t
    use ehl_record, only: record_t
+   use ehl_rest, only: rest_t
    use ehl_status, only: status_t
    use ehl_steady, only: steady_t
    use ehl_table, only: table_t
@@ -27,8 +28,9 @@ module ehl_solver
       type(hierarchy_t), private :: hierarchy
       type(steady_t), private :: steady
       type(transient_t), private :: transient
-      !> Whether the march in time has begun
-      logical, private :: marching = .false.
+      type(rest_t), private :: rest
+      !> Whether the march in time has begun; the contact with a rough surface at rest
+      logical, private :: marching = .false., resting = .false.
       !> How the march in time stands
       integer, private :: outcome = outcome_running
       !> Seconds spent on time steps, and on the smooth contact
@@ -38,7 +40,7 @@ module ehl_solver
       !> Heights of a map [m] that was given and not read
       real(dp), allocatable, private :: heights(:, :)
       type(case_t), private :: input
-      !> Pressure and film of the smooth contact, kept for a march
+      !> Pressure and film of the smooth contact, kept where there is a rough one
       real(dp), allocatable, private :: p_smooth(:, :), h_smooth(:, :)
       !> Frames of the march; not allocated before it
       type(frames_t) :: frames
@@ -178,7 +180,10 @@ contains
       call self%hierarchy%grow(self%steady%n, status)
       if (status%failed()) return
       self%grid = self%hierarchy%levels(self%steady%n)%grid
-      if (allocated(self%plan%surface)) then
+      if (self%plan%rests()) then
+         call self%history%init([character(len=16) :: "cycle", "share", "mu_ratio", "H_c", "H_min", "P_max", "load_error", &
+                                 "residual"])
+      else if (self%moves()) then
          call self%history%init([character(len=16) :: "step", "T", "mu_ratio", "H_c", "H_min", "P_max", "load_error", &
                                  "cycles", "residual"])
       else
@@ -203,7 +208,7 @@ contains
    !> Whether the case is a march in time
    pure logical function moves(self)
       class(solver_t), intent(in) :: self
-      moves = allocated(self%plan%surface)
+      moves = self%plan%moves()
    end function moves
 
    !> How the run stands
@@ -213,6 +218,10 @@ contains
       if (.not. allocated(self%plan%surface)) return
       if (self%marching) then
          stand = self%outcome
+      else if (self%resting) then
+         stand = self%rest%outcome
+         ! the error is not known yet
+         if (associated(self%coarse)) stand = outcome_running
       else if (stand == outcome_converged) then
          stand = outcome_running
       end if
@@ -236,6 +245,9 @@ contains
       if (self%done()) return
       if (self%marching) then
          self%outcome = outcome_interrupted
+      else if (self%resting) then
+         self%rest%outcome = outcome_interrupted
+         if (associated(self%coarse)) deallocate (self%coarse)
       else
          self%steady%outcome = outcome_interrupted
       end if

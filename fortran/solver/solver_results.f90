@@ -3,7 +3,7 @@
 submodule (ehl_solver) ehl_solver_results
    use ehl_outcome, only: outcome_names, outcome_target_missed
    use ehl_plan_text, only: plan_text
-   use ehl_report, only: cycle_line, march_line, report_march, report_scene, report_smooth
+   use ehl_report, only: cycle_line, march_line, rest_line, report_march, report_rest, report_scene, report_smooth
    use ehl_skips, only: find_skips, report_skips, skip_lines, skip_t
    use ehl_status, only: ehl_bad_input
    implicit none (type, external)
@@ -24,6 +24,8 @@ contains
          text = "for the error, on the next coarser grid: "//self%coarse%progress()
       else if (self%marching) then
          text = march_line(self%plan, self%transient, self%stand(), self%step_seconds)
+      else if (self%resting) then
+         text = rest_line(self%grid, self%rest, self%stand())
       else
          text = cycle_line(self%grid, self%steady%results(self%level()), self%stand())
       end if
@@ -37,11 +39,13 @@ contains
       call record%set("status", trim(outcome_names(self%stand())))
       call record%set("converged", self%converged())
       ! the smooth results are good as soon as the march has begun
-      good = self%marching .or. self%steady%outcome == outcome_converged .or. self%steady%outcome == outcome_target_missed
+      good = self%marching .or. self%resting .or. self%steady%outcome == outcome_converged .or. &
+             self%steady%outcome == outcome_target_missed
       call report_scene(record, self%plan, self%grid)
       call report_smooth(record, self%plan, self%steady, self%level(), good)
       if (self%marching) call report_march(record, self%plan, self%transient, self%converged(), &
                                               self%step_seconds, self%coarse_mean)
+      if (self%resting) call report_rest(record, self%plan, self%rest, self%converged(), self%coarse_mean)
       if (self%marching .and. self%done()) call report_skips(record, skips_of(self))
       call record%set("bytes", real(self%hierarchy%bytes(), dp))
    end function summary
@@ -67,7 +71,7 @@ contains
       class(solver_t), intent(in) :: self
       character(len=8), allocatable, intent(out) :: names(:)
 
-      if (self%marching) then
+      if (self%marching .or. self%resting) then
          names = [character(len=8) :: "P", "H", "P_smooth", "H_smooth", "RR", "A_d"]
       else
          names = [character(len=8) :: "P", "H"]
@@ -84,8 +88,8 @@ contains
       values = 0.0_dp
       call self%field_names(names)
       if (all(names /= name)) then
-         call status%fail(ehl_bad_input, "field '"//name//"' is not known: 'P' or 'H' was expected, in a march "// &
-                          "also 'P_smooth', 'H_smooth', 'RR' or 'A_d'")
+         call status%fail(ehl_bad_input, "field '"//name//"' is not known: 'P' or 'H' was expected, with a rough "// &
+                          "surface also 'P_smooth', 'H_smooth', 'RR' or 'A_d'")
          return
       end if
       associate (level => self%hierarchy%levels(self%level()))
@@ -99,7 +103,11 @@ contains
          case ("H_smooth")
             call level%grid%unfold(self%h_smooth, values)
          case ("RR")
-            call level%grid%unfold(self%transient%rr, values)
+            if (self%resting) then
+               call level%grid%unfold(self%rest%rr, values)
+            else
+               call level%grid%unfold(self%transient%rr, values)
+            end if
          case default
             call level%grid%unfold(self%h_smooth - level%h, values)
          end select

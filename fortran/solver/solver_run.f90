@@ -20,10 +20,13 @@ contains
          call advance_coarse(self, status)
       else if (self%marching) then
          call advance_step(self, status)
+      else if (self%resting) then
+         call advance_rest(self, status)
       else
          call advance_cycle(self, status)
-         if (.not. status%failed() .and. allocated(self%plan%surface) .and. &
-             self%steady%outcome == outcome_converged) call begin_march(self, status)
+         if (status%failed() .or. self%steady%outcome /= outcome_converged) return
+         if (self%plan%moves()) call begin_march(self, status)
+         if (self%plan%rests()) call begin_rest(self, status)
       end if
    end subroutine advance
 
@@ -55,14 +58,7 @@ contains
       integer :: k, n
 
       n = self%steady%n
-      self%p_smooth = self%hierarchy%levels(n)%p
-      self%h_smooth = self%hierarchy%levels(n)%h
-      if (self%plan%amplitude_over_film > 0.0_dp) then
-         select type (waviness => self%plan%surface)
-         type is (harmonic_t)
-            waviness%amplitude = self%plan%amplitude_over_film*self%steady%results(n)%m%film_central
-         end select
-      end if
+      call keep_smooth(self)
       self%transient%narrow = self%plan%narrow
       self%transient%max_cycles = self%plan%max_cycles
       self%transient%coarsening = self%plan%step_cycle%coarsening
@@ -84,6 +80,48 @@ contains
       if (status%failed()) return
       if (self%plan%coarse_run .and. self%coarse_mean < 0.0_dp) call begin_coarse(self, status)
    end subroutine begin_march
+
+   !> The smooth contact is solved: what a rough one needs of it
+   subroutine keep_smooth(self)
+      type(solver_t), intent(inout) :: self
+
+      associate (n => self%steady%n)
+         self%p_smooth = self%hierarchy%levels(n)%p
+         self%h_smooth = self%hierarchy%levels(n)%h
+         if (.not. self%plan%amplitude_over_film > 0.0_dp) return
+         select type (waviness => self%plan%surface)
+         type is (harmonic_t)
+            waviness%amplitude = self%plan%amplitude_over_film*self%steady%results(n)%m%film_central
+         end select
+      end associate
+   end subroutine keep_smooth
+
+   !> The smooth contact is solved: put the rough surface at rest in its place
+   subroutine begin_rest(self, status)
+      type(solver_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+
+      call keep_smooth(self)
+      call self%rest%start(self%hierarchy%levels(self%steady%n), self%plan%surface, self%plan%max_cycles, &
+                           self%plan%accuracy, status)
+      self%resting = .true.
+   end subroutine begin_rest
+
+   !> One cycle of the contact with the rough surface at rest; when it is solved, on to the next coarser grid
+   recursive subroutine advance_rest(self, status)
+      type(solver_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+      type(clock_t) :: clock
+
+      clock = start_clock()
+      call self%rest%advance(self%hierarchy, self%steady%n)
+      self%step_seconds = self%step_seconds + clock%seconds()
+      associate (rest => self%rest, m => self%rest%m)
+         call self%history%append([real(dp) :: rest%total_cycles, rest%share, m%friction/rest%friction_smooth, &
+                                   m%film_central, m%film_minimum, m%pressure_maximum, m%load_error, rest%residual])
+      end associate
+      if (self%plan%coarse_run .and. self%rest%outcome == outcome_converged) call begin_coarse(self, status)
+   end subroutine advance_rest
 
    !> One time step
    subroutine advance_step(self, status)
@@ -144,7 +182,13 @@ contains
       call self%coarse%advance(status)
       if (.not. self%coarse%done()) return
       self%coarse_mean = 0.0_dp
-      if (self%coarse%converged()) self%coarse_mean = self%coarse%transient%mean%mean(0.0_dp)
+      if (self%coarse%converged()) then
+         if (self%coarse%resting) then
+            self%coarse_mean = self%coarse%rest%mu_ratio()
+         else
+            self%coarse_mean = self%coarse%transient%mean%mean(0.0_dp)
+         end if
+      end if
       deallocate (self%coarse)
    end subroutine advance_coarse
 end submodule ehl_solver_run

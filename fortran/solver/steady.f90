@@ -12,7 +12,7 @@ module ehl_steady
    use ehl_status, only: status_t
    implicit none (type, external)
    private
-   public :: level_result_t, steady_t
+   public :: level_result_t, steady_t, least_reduction, load_tolerance, residual_tolerance
 
    !> Largest relative error of the force balance of a converged solution
    real(dp), parameter :: load_tolerance = 1.0e-6_dp

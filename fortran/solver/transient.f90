@@ -4,7 +4,7 @@ module ehl_transient
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, refresh
    use ehl_film, only: pressure_sum, update_residual
    use ehl_forecast, only: forecast_t
-   use ehl_friction_mean, only: friction_mean_t
+   use ehl_friction_mean, only: friction_mean_t, periods_compared
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
@@ -15,7 +15,7 @@ module ehl_transient
    use ehl_time_levels, only: keep, set_geometry, set_history
    implicit none (type, external)
    private
-   public :: transient_t, step_tolerance
+   public :: transient_t, step_tolerance, steps_needed
 
    !> Where the film is thick the roughness rides on it and changes nothing: solving begins
    !> when the front, with half its length, reaches this X
@@ -79,6 +79,19 @@ contains
       real(dp), intent(in) :: mesh, accuracy
       step_tolerance = 8.0e-4_dp*accuracy*(128.0_dp*mesh)
    end function step_tolerance
+
+   !> Time steps until the mean friction over a period can be compared with an earlier one
+   real(dp) function steps_needed(surface, time_step, skip)
+      class(surface_t), intent(in) :: surface
+      real(dp), intent(in) :: time_step
+      !> Whether the steps before the roughness comes near the contact are not made
+      logical, intent(in) :: skip
+      real(dp) :: from
+
+      from = surface%x_start
+      if (skip) from = max(from, x_matters - 0.5_dp*surface%front_length)
+      steps_needed = (max(0.0_dp, x_filled - from) + periods_compared*surface%period)/(surface%velocity_ratio*time_step)
+   end function steps_needed
 
    !> Begin from the smooth solution of a level, the roughness riding on its film
    subroutine start(self, level, surface, skip, friction_smooth, status)

@@ -3,7 +3,7 @@
 module ehl_harmonic
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp, pi
-   use ehl_surface, only: front, surface_t
+   use ehl_surface, only: surface_t
    implicit none (type, external)
    private
    public :: harmonic_t, new_harmonic
@@ -45,7 +45,7 @@ contains
 
       do i = 1, grid%nx
          distance = grid%x(i) - self%front_position(time)
-         along(i) = self%amplitude*front(distance, self%front_length)*cos(2.0_dp*pi*distance/self%wavelength_x)
+         along(i) = self%amplitude*self%share(distance)*cos(2.0_dp*pi*distance/self%wavelength_x)
       end do
       do j = 1, grid%ny
          rr(:, j) = along*cos(2.0_dp*pi*grid%y(j)/self%wavelength_y)

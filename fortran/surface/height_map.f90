@@ -6,7 +6,7 @@ module ehl_height_map
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp, pi
    use ehl_status, only: ehl_bad_input, ehl_no_memory, status_t
-   use ehl_surface, only: front, surface_t
+   use ehl_surface, only: surface_t
    implicit none (type, external)
    private
    public :: height_map_t
@@ -72,7 +72,7 @@ contains
          first(i) = modulo(int(t) - 2, n) + 1
          t = t - int(t) + 2.0_dp
          do k = 1, points
-            weight(k, i) = lagrange(t, k - 1)*front(distance, self%front_length)
+            weight(k, i) = lagrange(t, k - 1)*self%share(distance)
          end do
       end do
       !$omp parallel do default(none) shared(self, grid, rr, first, weight) private(i) &

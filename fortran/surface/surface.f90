@@ -1,15 +1,15 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Roughness carried along by one surface: what every kind offers
+!> Roughness of one surface, carried along or at rest: what every kind offers
 module ehl_surface
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: surface_t, front
+   public :: surface_t
 
    !> Roughness RR(X, Y, T), scaled by a^2/R, peaks positive, that moves along X with
    !> velocity_ratio times the mean velocity and enters behind a front at
-   !> X = x_start + velocity_ratio T
+   !> X = x_start + velocity_ratio T. At rest (velocity_ratio 0) it is everywhere, its origin at X = x_start.
    type, abstract :: surface_t
       !> Velocity of the rough surface over the mean velocity
       real(dp) :: velocity_ratio = 1.01_dp
@@ -30,6 +30,8 @@ module ehl_surface
       procedure :: front_position
       !> Time in which the pattern repeats
       procedure :: time_period
+      procedure :: at_rest
+      procedure :: share
    end type surface_t
 
    abstract interface
@@ -58,6 +60,20 @@ contains
       class(surface_t), intent(in) :: self
       time_period = self%period/self%velocity_ratio
    end function time_period
+
+   !> Whether the surface does not move
+   pure logical function at_rest(self)
+      class(surface_t), intent(in) :: self
+      at_rest = .not. abs(self%velocity_ratio) > 0.0_dp
+   end function at_rest
+
+   !> Share of the roughness at a distance ahead of the front; at rest there is no front
+   elemental real(dp) function share(self, distance)
+      class(surface_t), intent(in) :: self
+      real(dp), intent(in) :: distance
+      share = 1.0_dp
+      if (.not. self%at_rest()) share = front(distance, self%front_length)
+   end function share
 
    !> Share of the roughness at a distance d ahead of the front (Zhang et al. 2019, eq. 15):
    !> 10^(-10 max(0, d/length)^2)

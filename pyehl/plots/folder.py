@@ -125,6 +125,8 @@ def _plot_march(
         save(pair, target / "deformed_roughness.png", dpi),
         save(lines, target / "rough_and_smooth.png", dpi),
     ]
+    if "history_T" not in run.variables:  # at rest
+        return written
     time = run["history_T"]
     if time.size > 1:
         figure = transient.friction_history(
