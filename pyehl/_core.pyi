@@ -61,6 +61,16 @@ class _Functions:
         z: float,
         p0: float,
     ) -> tuple[int, bytes]: ...
+    def shear(
+        self,
+        law: bytes,
+        newtonian: _Array,
+        pressure: _Array,
+        values: _Array,
+        stress: float,
+        coefficient: float,
+        exponent: float,
+    ) -> tuple[int, bytes]: ...
     def density(self, p: _Array, values: _Array, slopes: _Array, hertz_pressure: float) -> None: ...
 
 ehl_f2py_solver: _Solver

@@ -41,6 +41,7 @@ __all__ = [
     "keys",
     "log_viscosity",
     "resolve",
+    "shear_stress",
     "text_of",
     "version",
 ]
@@ -254,3 +255,39 @@ def density(pressure: ArrayLike, hertz_pressure: float) -> tuple[Array, Array]:
     values, slopes = np.empty(p.shape), np.empty(p.shape)
     functions.density(p, values, slopes, hertz_pressure)
     return values, slopes
+
+
+def shear_stress(
+    newtonian: ArrayLike,
+    pressure: ArrayLike,
+    law: str,
+    *,
+    stress: float = 0.0,
+    coefficient: float = 0.0,
+    exponent: float = 1.0,
+) -> Array:
+    """Shear stress of the solver [Pa], shape (n,); see :func:`pyehl.theory.shear.shear_stress`.
+
+    Parameters
+    ----------
+    newtonian, pressure
+        Stress that a Newtonian lubricant would have, and pressure [Pa], both shape (n,).
+    law
+        'newtonian', 'eyring', 'limiting' or 'carreau'.
+    stress
+        Eyring stress, limiting stress (0: `coefficient` times pressure) or Carreau stress [Pa].
+    coefficient
+        Limiting stress over pressure [-].
+    exponent
+        Power-law exponent of Carreau [-].
+
+    Raises
+    ------
+    InputError
+        If the law does not exist.
+    """
+    tau = np.ascontiguousarray(newtonian, dtype=np.float64)
+    p = np.ascontiguousarray(pressure, dtype=np.float64)
+    values = np.empty(tau.shape)
+    check(*functions.shear(law.encode(), tau, p, values, stress, coefficient, exponent))
+    return values

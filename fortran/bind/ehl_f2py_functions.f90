@@ -14,11 +14,12 @@ module ehl_f2py_functions
                             solver_lubricant_t => lubricant_t, viscosity_barus, viscosity_roelands
    use ehl_outputs, only: check_folder
    use ehl_reply, only: reply
+   use ehl_shear, only: shear_carreau, shear_eyring, shear_law_t, shear_limiting, shear_newtonian, shear_stress
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_version, only: build_text, version
    implicit none (type, external)
    private
-   public :: resolve, check_output, checkpoint_case, keys, about, deflection, viscosity, density
+   public :: resolve, check_output, checkpoint_case, keys, about, deflection, viscosity, density, shear
 
 contains
 
@@ -155,4 +156,31 @@ contains
                                 hertz_pressure, 1.0_c_double, 1.0_c_double)
       call lubricant%density(p, values, slopes)
    end subroutine density
+
+   !> Shear stress [Pa] at Newtonian stresses and pressures [Pa]; see shear_law_t for the parameters
+   subroutine shear(law, n, newtonian, pressure, values, stress, coefficient, exponent, stat, message)
+      character(len=*), intent(in) :: law
+      integer(c_int), intent(in) :: n
+      real(c_double), intent(inout) :: newtonian(n), pressure(n), values(n)
+      real(c_double), intent(in) :: stress, coefficient, exponent
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(shear_law_t) :: own
+      type(status_t) :: status
+
+      own%law = 0
+      if (law == "newtonian") own%law = shear_newtonian
+      if (law == "eyring") own%law = shear_eyring
+      if (law == "limiting") own%law = shear_limiting
+      if (law == "carreau") own%law = shear_carreau
+      own%stress = stress
+      own%coefficient = coefficient
+      own%exponent = exponent
+      if (own%law == 0) then
+         call status%fail(ehl_bad_input, "unknown shear law '" // law // "'")
+      else
+         call shear_stress(own, newtonian, pressure, values)
+      end if
+      call reply(status, stat, message)
+   end subroutine shear
 end module ehl_f2py_functions

@@ -28,6 +28,10 @@ module ehl_case
       real(dp) :: radius = 0.018_dp
       !> [Pa] reduced modulus E', 2/E' = sum of (1 - nu^2)/E of the bodies, default 2.26e11
       real(dp) :: reduced_modulus = 2.26e11_dp
+      !> [-] slide-to-roll ratio (u1 - u2)/u, default 0.02; follows from surface velocity_ratio where that is given
+      real(dp) :: slide_to_roll = 0.02_dp
+      !> Which surface is rough: 1 (default) or 2
+      integer :: rough_surface = 1
    end type contact_case_t
 
    !> &lubricant: viscosity and density under pressure
@@ -44,6 +48,16 @@ module ehl_case
       real(dp) :: roelands_p0 = 1.96e8_dp
       !> 'dowson-higginson' (default) or 'incompressible'
       character(len=word_length) :: density_law = "dowson-higginson"
+      !> 'newtonian' (default), 'eyring', 'limiting' or 'carreau': shear stress, for friction
+      character(len=word_length) :: shear_law = "newtonian"
+      !> [Pa] Eyring stress, default 5e6
+      real(dp) :: eyring_stress = 5.0e6_dp
+      !> [Pa] limiting shear stress; 0 (default): limiting_coefficient times pressure
+      real(dp) :: limiting_stress = 0.0_dp
+      !> [-] limiting shear stress over pressure, default 0.06
+      real(dp) :: limiting_coefficient = 0.06_dp
+      !> [Pa] stress at which a Carreau fluid begins to thin, and [-] its power-law exponent; no defaults
+      real(dp) :: carreau_stress = 0.0_dp, carreau_exponent = 0.0_dp
    end type lubricant_case_t
 
    !> &grid: the domain in Hertz radii a and its finest grid
@@ -77,7 +91,8 @@ module ehl_case
       real(dp) :: wavelength = 0.5_dp
       !> [a] wavelengths along X and Y, default `wavelength`; set by the reader
       real(dp) :: wavelength_x = 0.5_dp, wavelength_y = 0.5_dp
-      !> [-] velocity of the rough surface over the mean velocity, default 1.01
+      !> [-] velocity of the rough surface over the mean velocity, default 1 + SRR/2 (surface 1) or 1 - SRR/2; set
+      !> by the reader
       real(dp) :: velocity_ratio = 1.01_dp
       !> [a] where the roughness begins at time 0, default grid x_inlet; set by the reader
       real(dp) :: x_start = -2.5_dp
@@ -149,14 +164,6 @@ module ehl_case
       character(len=word_length) :: viscosity_law = ""
       !> whether the pressure is rebalanced to carry the load, default .false.
       logical :: load_balance = .false.
-      !> 'newtonian' (default), 'eyring' or 'limiting' shear stress
-      character(len=word_length) :: friction = "newtonian"
-      !> [Pa] Eyring stress, default 5e6
-      real(dp) :: eyring_stress = 5.0e6_dp
-      !> [-] limiting shear stress over pressure, default 0.06
-      real(dp) :: limiting_coefficient = 0.06_dp
-      !> [-] slide-to-roll ratio, default 0.01
-      real(dp) :: slide_to_roll = 0.01_dp
       !> [-] positions of the surface over one passage; 0 (default): automatic
       integer :: positions = 0
    end type psd_case_t

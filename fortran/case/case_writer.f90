@@ -3,6 +3,7 @@
 module ehl_case_writer
    use ehl_case, only: case_t
    use ehl_case_key, only: key_t
+   use ehl_kinds, only: dp
    use ehl_schema, only: schema_t
    use ehl_text, only: newline
    implicit none (type, external)
@@ -44,6 +45,8 @@ contains
          holds = input%surface%amplitude_given
       case ("surface.amplitude_over_film")
          holds = input%surface%kind == "harmonic" .and. .not. input%surface%amplitude_given
+      case ("lubricant.limiting_coefficient")
+         holds = input%lubricant%limiting_stress <= 0.0_dp
       case default
          holds = .true.
       end select

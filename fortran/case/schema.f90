@@ -32,6 +32,19 @@ module ehl_schema
       procedure, private :: paths
    end type schema_t
 
+   ! in schema_contact.f90
+   interface
+      module subroutine add_contact_keys(self, input)
+         class(schema_t), intent(inout) :: self
+         type(case_t), intent(inout), target :: input
+      end subroutine add_contact_keys
+
+      module subroutine add_lubricant_keys(self, input)
+         class(schema_t), intent(inout) :: self
+         type(case_t), intent(inout), target :: input
+      end subroutine add_lubricant_keys
+   end interface
+
 contains
 
    !> Make the table for a case, which must outlive it
@@ -53,42 +66,6 @@ contains
       call self%reals("output", "checkpoint_interval", input%output%checkpoint_interval, "s", "[0, 1e6]", &
                       "wall time between states of a march kept on disk; 0: none")
    end subroutine bind_case
-
-   subroutine add_contact_keys(self, input)
-      class(schema_t), intent(inout) :: self
-      type(case_t), intent(inout), target :: input
-
-      associate (c => input%contact)
-         call self%reals("contact", "moes_m", c%moes_m, "-", "(0, 1e5]", "Moes load parameter M")
-         call self%reals("contact", "moes_l", c%moes_l, "-", "[0, 100]", "Moes material parameter L")
-         call self%reals("contact", "load", c%load, "N", "(0, 1e5]", "load")
-         call self%reals("contact", "mean_velocity", c%mean_velocity, "m/s", "(0, 200]", &
-                         "mean velocity of the two surfaces")
-         call self%reals("contact", "radius", c%radius, "m", "[1e-5, 10]", "reduced radius")
-         call self%reals("contact", "reduced_modulus", c%reduced_modulus, "Pa", "[1e8, 2e12]", &
-                         "E' with 2/E' = sum of (1 - nu^2)/E over the bodies")
-      end associate
-   end subroutine add_contact_keys
-
-   subroutine add_lubricant_keys(self, input)
-      class(schema_t), intent(inout) :: self
-      type(case_t), intent(inout), target :: input
-
-      associate (l => input%lubricant)
-         call self%reals("lubricant", "viscosity", l%viscosity, "Pa s", "[1e-4, 10]", &
-                         "viscosity at ambient pressure")
-         call self%reals("lubricant", "pressure_viscosity", l%pressure_viscosity, "1/Pa", &
-                         "[1e-10, 1e-7]", "pressure-viscosity coefficient")
-         call self%words("lubricant", "viscosity_law", l%viscosity_law, "roelands|barus", &
-                         "viscosity under pressure")
-         call self%reals("lubricant", "roelands_z", l%roelands_z, "-", "[0.05, 2]", &
-                         "Roelands exponent; default alpha p0/(ln eta0 + 9.67)")
-         call self%reals("lubricant", "roelands_p0", l%roelands_p0, "Pa", "[1e7, 1e10]", &
-                         "Roelands reference pressure")
-         call self%words("lubricant", "density_law", l%density_law, &
-                         "dowson-higginson|incompressible", "density under pressure")
-      end associate
-   end subroutine add_lubricant_keys
 
    subroutine add_grid_keys(self, input)
       class(schema_t), intent(inout) :: self
@@ -126,7 +103,7 @@ contains
          call self%reals("surface", "wavelength_y", s%wavelength_y, "a", "[0.01, 1e6]", &
                          "wavelength along Y; default wavelength")
          call self%reals("surface", "velocity_ratio", s%velocity_ratio, "-", "[0, 2]", &
-                         "velocity of the rough surface over the mean velocity")
+                         "velocity of the rough surface over the mean one; default 1 + SRR/2, surface 2: 1 - SRR/2")
          call self%reals("surface", "x_start", s%x_start, "a", "[-100, 20]", &
                          "where the roughness begins at time 0, at rest its origin; default x_inlet")
          call self%paths("surface", "file", s%file, "height map of kind 'map': .npy or text, in m")
@@ -192,11 +169,6 @@ contains
          call self%words("psd", "viscosity_law", p%viscosity_law, "roelands|barus|", &
                          "viscosity under pressure; default as in &lubricant")
          call self%logicals("psd", "load_balance", p%load_balance, "rebalance the pressure to carry the load")
-         call self%words("psd", "friction", p%friction, "newtonian|eyring|limiting", "shear stress law")
-         call self%reals("psd", "eyring_stress", p%eyring_stress, "Pa", "[1e4, 1e9]", "Eyring stress")
-         call self%reals("psd", "limiting_coefficient", p%limiting_coefficient, "-", "[1e-4, 1]", &
-                         "limiting shear stress over pressure")
-         call self%reals("psd", "slide_to_roll", p%slide_to_roll, "-", "(0, 2]", "slide-to-roll ratio")
          call self%integers("psd", "positions", p%positions, "[0, 4096]", &
                             "positions of the surface over one passage; 0: automatic")
       end associate

@@ -3,6 +3,7 @@
 !> choice of law is made once per row and the loops vectorise
 module ehl_lubricant
    use ehl_kinds, only: dp
+   use ehl_shear, only: shear_law_t
    implicit none (type, external)
    private
    public :: lubricant_t, new_lubricant
@@ -24,6 +25,8 @@ module ehl_lubricant
       real(dp) :: z = 0.0_dp, p0 = 1.0_dp, prefactor = 0.0_dp
       !> Dowson-Higginson pressure 5.9e8 Pa/p_h
       real(dp) :: d0 = 1.0_dp
+      !> Shear stress, for friction alone
+      type(shear_law_t) :: shear
    contains
       procedure :: log_viscosity
       procedure :: density

@@ -13,7 +13,8 @@ module ehl_measures
    type :: measures_t
       !> Film at X = Y = 0, smallest film, largest pressure
       real(dp) :: film_central = 0.0_dp, film_minimum = 0.0_dp, pressure_maximum = 0.0_dp
-      !> Friction integral F/Delta U = iint eta/(eta0 H) dX dY (Zhang et al. 2019, eq. 5)
+      !> Friction integral: iint tau dX dY over the Newtonian stress of eta = eta0 and H = 1. Of a Newtonian lubricant
+      !> that is iint eta/(eta0 H) dX dY, whatever the sliding speed (Zhang et al. 2019, eq. 5)
       real(dp) :: friction = 0.0_dp
       !> Relative error of the force balance
       real(dp) :: load_error = 0.0_dp
@@ -28,16 +29,22 @@ contains
       type(level_t), intent(in) :: level
       type(measures_t) :: m
       real(dp), dimension(level%grid%ny) :: smallest, largest, friction
-      real(dp) :: log_eta(level%grid%nx), slope(level%grid%nx)
+      real(dp), dimension(level%grid%nx) :: log_eta, slope, stress
       integer :: j
 
-      !$omp parallel do default(none) shared(level, smallest, largest, friction) private(log_eta, slope) &
+      !$omp parallel do default(none) shared(level, smallest, largest, friction) private(log_eta, slope, stress) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
          smallest(j) = minval(level%h(:, j))
          largest(j) = maxval(level%p(:, j))
          call level%lubricant%log_viscosity(level%p(:, j), log_eta, slope)
-         friction(j) = sum(exp(log_eta)/level%h(:, j))*level%grid%weight(j)
+         if (level%lubricant%shear%thins()) then
+            stress = exp(log_eta)/level%h(:, j)
+            call level%lubricant%shear%reduce(level%p(:, j), stress)
+            friction(j) = sum(stress)*level%grid%weight(j)
+         else
+            friction(j) = sum(exp(log_eta)/level%h(:, j))*level%grid%weight(j)
+         end if
       end do
       !$omp end parallel do
       m%film_minimum = minval(smallest)

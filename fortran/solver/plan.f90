@@ -8,10 +8,10 @@ module ehl_plan
    use ehl_harmonic, only: harmonic_t, new_harmonic
    use ehl_height_map, only: height_map_t
    use ehl_kinds, only: dp
-   use ehl_lubricant, only: density_constant, density_dowson_higginson, lubricant_t, new_lubricant, &
-                            viscosity_barus, viscosity_roelands
+   use ehl_lubricant, only: lubricant_t
    use ehl_map_file, only: read_map
    use ehl_moes, only: operating_from_moes, operating_from_si, operating_t
+   use ehl_plan_lubricant, only: plan_lubricant
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_surface, only: surface_t
    use ehl_transient, only: steps_needed
@@ -90,12 +90,7 @@ contains
          plan%point = operating_from_moes(input%contact%moes_m, input%contact%moes_l, &
                                           input%lubricant%pressure_viscosity)
       end if
-      plan%lubricant = new_lubricant( &
-                       merge(viscosity_barus, viscosity_roelands, input%lubricant%viscosity_law == "barus"), &
-                       merge(density_constant, density_dowson_higginson, &
-                             input%lubricant%density_law == "incompressible"), &
-                       plan%point%alpha_bar, plan%point%hertz_pressure, input%lubricant%roelands_z, &
-                       input%lubricant%roelands_p0)
+      plan%lubricant = plan_lubricant(input, plan%point)
       call plan%lubricant%density([1.0_dp], rho, slope)
       plan%film_expected = film_central_formula(plan%point%moes_m, plan%point%moes_l)/rho(1)
       plan%engine = trim(input%solver%deflection)

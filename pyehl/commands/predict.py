@@ -26,7 +26,7 @@ def report(prediction: Prediction) -> str:
         f"least {f.film_min * 1e6:.4g} um",
         f"model       {prediction.lubricant.viscosity_law} viscosity, "
         f"{options.stiffness} stiffness, wavelength of a component by "
-        f"{options.wavelength_convention}, {options.friction} friction"
+        f"{options.wavelength_convention}, {prediction.lubricant.shear.law} shear stress"
         + (f", lag {options.phase_lag:g} deg" if options.phase_lag > 0.0 else "")
         + (", load balanced" if options.load_balance else ""),
     ]
@@ -38,7 +38,7 @@ def report(prediction: Prediction) -> str:
         ]
         mean, spread = prediction.tracks
         lines.append(f"            {mean:.3f} +- {spread:.3f} over all tracks of the tile")
-        if options.friction != "newtonian":
+        if prediction.thins:
             lines.append(f"mu_s        {f.mu_smooth:.4f}")
         strongest = sorted(prediction.bands, key=lambda band: -abs(band.rise))[:3]
         parts = ", ".join(

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import math
-from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +12,7 @@ from pyehl.prediction.flattening import Response
 from pyehl.prediction.options import Options
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.shear import shear_stress
 
 __all__ = ["Contact"]
 
@@ -28,7 +28,9 @@ class Contact:
     Attributes
     ----------
     sliding
-        Sliding speed u1 - u2 [m/s].
+        Sliding speed |u1 - u2| [m/s].
+    thins
+        Whether the shear stress is another than the Newtonian one; without sliding it is not.
     area
         Of the tile that one pixel of the circle stands for [m^2].
     index
@@ -58,7 +60,8 @@ class Contact:
         self.load = operating.load
         self.circle = math.pi * operating.hertz_radius**2
         self.hertz_pressure = operating.hertz_pressure
-        self.sliding = options.slide_to_roll * operating.mean_velocity
+        self.sliding = operating.sliding_speed
+        self.thins = lubricant.shear.law != "newtonian" and self.sliding > 0.0
         nx, ny = field.pressure.shape
         a = operating.hertz_radius
         i, stride_x = _lattice(a / pixel[0], nx)
@@ -83,16 +86,10 @@ class Contact:
         [Pa]; of a Newtonian oil divided by eta0 and the sliding speed.
         """
         ratio = self.lubricant.viscosity_ratio(pressure) / film
-        if self.options.friction == "newtonian":
+        if not self.thins:
             return ratio
         newtonian = ratio * (self.lubricant.viscosity * self.sliding)
-        if self.options.friction == "eyring":
-            tau = self.options.eyring_stress
-            return np.asarray(tau * np.arcsinh(newtonian / tau))
-        limit = self.options.limiting_coefficient * pressure
-        with np.errstate(divide="ignore", invalid="ignore"):
-            stress = -limit * np.expm1(-newtonian / limit)
-        return cast(Array, np.where(limit > 0.0, stress, 0.0))
+        return shear_stress(newtonian, pressure, self.lubricant.shear)
 
     def friction(self, step: int) -> float:
         """Integral of the shear stress over that of the smooth contact, `step` pixels on."""

@@ -158,7 +158,7 @@ def predict_friction(
     smooth = math.nan
     if math.isfinite(contact.smooth):
         smooth = contact.smooth * contact.area / operating.load
-        if options.friction == "newtonian":
+        if not contact.thins:
             smooth *= lubricant.viscosity * contact.sliding
     return RoughFriction(
         status=status,

@@ -22,7 +22,7 @@ __all__ = ["Prediction", "predict"]
 
 NEWTONIAN_NOTE = (
     "Newtonian: the ratio is the limit of vanishing sliding; shear thinning at a real "
-    "slide-to-roll ratio brings it close to 1, see psd.friction"
+    "slide-to-roll ratio brings it close to 1, see lubricant.shear_law"
 )
 STRESS_NOTE = "ratio of friction coefficients at the given slide-to-roll ratio"
 
@@ -63,10 +63,14 @@ class Prediction:
     bands: Sequence[Band]
     tracks: tuple[float, float]
 
+    @property
+    def thins(self) -> bool:
+        """Whether the shear stress is another than the Newtonian one."""
+        return self.lubricant.shear.law != "newtonian" and self.operating.sliding_speed > 0.0
+
     def summary(self) -> dict[str, Any]:
         """Return what ``summary.json`` holds: numbers in SI units, null where there is none."""
         f, o, s = self.friction, self.operating, self.surface
-        newtonian = self.options.friction == "newtonian"
         values: dict[str, Any] = {
             "kind": "prediction",
             "status": f.status,
@@ -78,18 +82,16 @@ class Prediction:
             "mu_ratio_tracks": self.tracks[0],
             "mu_ratio_tracks_spread": self.tracks[1],
             "positions": int(f.passage.size),
-            "note": NEWTONIAN_NOTE if newtonian else STRESS_NOTE,
-            "mu_smooth": None if newtonian else f.mu_smooth,
+            "note": STRESS_NOTE if self.thins else NEWTONIAN_NOTE,
+            "mu_smooth": f.mu_smooth if self.thins else None,
             "wavelength_convention": self.options.wavelength_convention,
             "phase_lag": self.options.phase_lag,
             "stiffness": self.options.stiffness,
             "viscosity_law": self.lubricant.viscosity_law,
             "roelands_z": self.lubricant.roelands_z or None,
             "load_balance": self.options.load_balance,
-            "friction": self.options.friction,
-            "slide_to_roll": self.options.slide_to_roll,
-            "eyring_stress": self.options.eyring_stress,
-            "limiting_coefficient": self.options.limiting_coefficient,
+            "shear_law": self.lubricant.shear.law,
+            "slide_to_roll": o.slide_to_roll,
             "h_c": self.film,
             "h_c_source": self.film_source,
             "h_min": f.film_min,

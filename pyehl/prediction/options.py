@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How the model is read: conventions, stiffness, shear stress law, positions."""
+"""How the model is read: conventions, stiffness, positions."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -13,7 +12,6 @@ from pyehl.theory import amplitude
 __all__ = ["MAX_POSITIONS", "STIFFNESSES", "Options"]
 
 STIFFNESSES = ("exact", "paper")
-FRICTIONS = ("newtonian", "eyring", "limiting")
 
 MAX_POSITIONS = 4096
 
@@ -34,15 +32,6 @@ class Options:
     load_balance
         Whether the semi-ellipse gives up the load that delta p carries inside the contact: a
         Hertz contact under the remaining load, p_h and a scaled by its cube root.
-    friction
-        ``"newtonian"``, ``"eyring"`` (tau_0 asinh(tau_N/tau_0)) or ``"limiting"``
-        (tau_L (1 - exp(-tau_N/tau_L)), tau_L = coefficient times pressure; Bair & Winer 1979).
-    eyring_stress
-        tau_0 [Pa].
-    limiting_coefficient
-        tau_L/p [-].
-    slide_to_roll
-        (u1 - u2)/u [-]; without effect on the ratio of a Newtonian lubricant.
     positions
         Positions of the surface over one passage; 0: doubled until mu_r/mu_s is resolved.
 
@@ -56,10 +45,6 @@ class Options:
     phase_lag: float = 0.0
     stiffness: str = "exact"
     load_balance: bool = False
-    friction: str = "newtonian"
-    eyring_stress: float = 5e6
-    limiting_coefficient: float = 0.06
-    slide_to_roll: float = 0.01
     positions: int = 0
 
     def __post_init__(self) -> None:
@@ -67,17 +52,9 @@ class Options:
         for name, value, allowed in (
             ("wavelength_convention", self.wavelength_convention, amplitude.CONVENTIONS),
             ("stiffness", self.stiffness, STIFFNESSES),
-            ("friction", self.friction, FRICTIONS),
         ):
             if value not in allowed:
                 raise ValueError(f"{name} {value!r}: expected one of {allowed}")
-        for name, number in (
-            ("eyring_stress", self.eyring_stress),
-            ("limiting_coefficient", self.limiting_coefficient),
-            ("slide_to_roll", self.slide_to_roll),
-        ):
-            if not (math.isfinite(number) and number > 0.0):
-                raise ValueError(f"{name} must be positive, not {number!r}")
         if not 0.0 <= self.phase_lag < 90.0:
             raise ValueError(f"phase_lag must be 0 <= ... < 90 [deg], not {self.phase_lag!r}")
         if not 0 <= self.positions <= MAX_POSITIONS:
@@ -90,7 +67,7 @@ class Options:
         Raises
         ------
         ValueError
-            For a value out of range (`slide_to_roll` must be positive here).
+            For a value out of range.
         """
         group = settings["psd"]
         return cls(
@@ -98,9 +75,5 @@ class Options:
             phase_lag=float(group["phase_lag"]),
             stiffness=str(group["stiffness"]),
             load_balance=bool(group["load_balance"]),
-            friction=str(group["friction"]),
-            eyring_stress=float(group["eyring_stress"]),
-            limiting_coefficient=float(group["limiting_coefficient"]),
-            slide_to_roll=float(group["slide_to_roll"]),
             positions=int(group["positions"]),
         )

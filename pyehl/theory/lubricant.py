@@ -5,13 +5,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pyehl.theory.numbers import positive
+from pyehl.theory.shear import ShearLaw
 
 __all__ = ["Lubricant", "default_roelands_z"]
 
@@ -70,6 +71,8 @@ class Lubricant:
         [Pa].
     density_law
         ``"dowson-higginson"`` or ``"incompressible"``.
+    shear
+        Shear stress in the contact, for friction.
 
     Raises
     ------
@@ -83,6 +86,7 @@ class Lubricant:
     roelands_z: float = 0.0
     roelands_p0: float = 1.96e8
     density_law: str = "dowson-higginson"
+    shear: ShearLaw = field(default_factory=ShearLaw)
 
     def __post_init__(self) -> None:
         """Check the words and the numbers."""
@@ -116,6 +120,7 @@ class Lubricant:
             roelands_z=float(group.get("roelands_z", 0.0)),
             roelands_p0=float(group["roelands_p0"]),
             density_law=str(group["density_law"]),
+            shear=ShearLaw.from_settings(settings),
         )
 
     def log_viscosity_ratio(self, pressure: ArrayLike) -> Array:

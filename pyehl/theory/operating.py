@@ -43,6 +43,8 @@ class OperatingPoint:
     si
         Whether the SI values were given; False when they were made from (M, L) with the radius
         and modulus of the reference conditions.
+    slide_to_roll
+        Slide-to-roll ratio (u1 - u2)/u [-], u the mean velocity.
 
     Raises
     ------
@@ -57,6 +59,7 @@ class OperatingPoint:
     viscosity: float = 0.04
     pressure_viscosity: float = 2.2e-8
     si: bool = True
+    slide_to_roll: float = 0.02
 
     def __post_init__(self) -> None:
         """Check the numbers."""
@@ -69,6 +72,8 @@ class OperatingPoint:
             raise ValueError(
                 f"pressure_viscosity must not be negative [1/Pa], not {self.pressure_viscosity!r}"
             )
+        if not abs(self.slide_to_roll) <= 2.0:
+            raise ValueError(f"slide_to_roll must be -2 ... 2 [-], not {self.slide_to_roll!r}")
 
     @classmethod
     def from_moes(
@@ -79,6 +84,7 @@ class OperatingPoint:
         viscosity: float = 0.04,
         pressure_viscosity: float = 2.2e-8,
         radius: float = REFERENCE_RADIUS,
+        slide_to_roll: float = 0.02,
     ) -> OperatingPoint:
         """Return the contact that has the given M and L, for a lubricant and a radius [m].
 
@@ -103,6 +109,7 @@ class OperatingPoint:
             viscosity=viscosity,
             pressure_viscosity=pressure_viscosity,
             si=False,
+            slide_to_roll=slide_to_roll,
         )
 
     @classmethod
@@ -111,12 +118,14 @@ class OperatingPoint:
         contact, lubricant = settings["contact"], settings["lubricant"]
         viscosity = float(lubricant["viscosity"])
         alpha = float(lubricant["pressure_viscosity"])
+        slide_to_roll = float(contact.get("slide_to_roll", 0.02))
         if contact.get("moes_m") is not None and contact.get("load") is None:
             return cls.from_moes(
                 float(contact["moes_m"]),
                 float(contact["moes_l"]),
                 viscosity=viscosity,
                 pressure_viscosity=alpha,
+                slide_to_roll=slide_to_roll,
             )
         return cls(
             load=float(contact["load"]),
@@ -125,7 +134,13 @@ class OperatingPoint:
             reduced_modulus=float(contact["reduced_modulus"]),
             viscosity=viscosity,
             pressure_viscosity=alpha,
+            slide_to_roll=slide_to_roll,
         )
+
+    @property
+    def sliding_speed(self) -> float:
+        """Sliding speed |u1 - u2| [m/s]."""
+        return abs(self.slide_to_roll) * self.mean_velocity
 
     @property
     def hertz_radius(self) -> float:

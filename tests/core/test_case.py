@@ -46,7 +46,10 @@ def test_defaults_are_those_of_the_paper():
         "mean_velocity": 0.84,
         "radius": 0.018,
         "reduced_modulus": 2.26e11,
+        "slide_to_roll": 0.02,
+        "rough_surface": 1,
     }
+    assert groups["surface"]["velocity_ratio"] == 1.01
     assert groups["grid"]["points"] == 513
     z = 2.2e-8 * 1.96e8 / (math.log(0.04) + 9.67)
     assert groups["lubricant"]["roelands_z"] == pytest.approx(z, rel=1e-15)
@@ -57,6 +60,8 @@ def test_moes_numbers_default_to_each_other():
     assert Case.from_text("&contact moes_l = 5 /").resolve()["contact"] == {
         "moes_m": 1000.0,
         "moes_l": 5.0,
+        "slide_to_roll": 0.02,
+        "rough_surface": 1,
     }
 
 

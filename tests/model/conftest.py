@@ -15,6 +15,8 @@ RESOLVED = {
         "mean_velocity": 0.84,
         "radius": 0.018,
         "reduced_modulus": 2.26e11,
+        "slide_to_roll": 0.02,
+        "rough_surface": 1,
     },
     "lubricant": {
         "viscosity": 0.04,
@@ -23,6 +25,12 @@ RESOLVED = {
         "roelands_z": 0.6684106340135522,
         "roelands_p0": 1.96e8,
         "density_law": "dowson-higginson",
+        "shear_law": "newtonian",
+        "eyring_stress": 5e6,
+        "limiting_stress": 0.0,
+        "limiting_coefficient": 0.06,
+        "carreau_stress": 0.0,
+        "carreau_exponent": 0.0,
     },
     "surface": {
         "kind": "fractal",
@@ -49,10 +57,6 @@ RESOLVED = {
         "stiffness": "exact",
         "viscosity_law": "roelands",
         "load_balance": False,
-        "friction": "newtonian",
-        "eyring_stress": 5e6,
-        "limiting_coefficient": 0.06,
-        "slide_to_roll": 0.01,
         "positions": 0,
     },
 }

@@ -53,6 +53,10 @@ def test_from_settings_takes_either_kind():
     contact = {"load": 10.0, "mean_velocity": 1.0, "radius": 0.01, "reduced_modulus": 2e11}
     point = OperatingPoint.from_settings({"contact": contact, "lubricant": lubricant})
     assert (point.load, point.si) == (10.0, True)
+    point = OperatingPoint.from_settings(
+        {"contact": contact | {"slide_to_roll": -0.5}, "lubricant": lubricant}
+    )
+    assert point.sliding_speed == 0.5
 
 
 def test_viscosity_slope_at_ambient_pressure_is_alpha():

@@ -42,7 +42,8 @@ def test_summary_says_what_was_done(settings):
 
 
 def test_film_from_the_formula_and_law_from_psd(settings):
-    settings["psd"] |= {"film_thickness": 0.0, "viscosity_law": "barus", "friction": "eyring"}
+    settings["psd"] |= {"film_thickness": 0.0, "viscosity_law": "barus"}
+    settings["lubricant"]["shear_law"] = "eyring"
     result = predict(settings)
     assert result.film == film.central_film(OperatingPoint(), Lubricant())
     assert "Nijenbanning" in result.film_source

@@ -2,6 +2,7 @@
 """Friction along a passage: shear stress over the contact, positions, load balance."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from pyehl.prediction import Options, predict_friction, response
 from pyehl.surfaces import Topography
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.shear import ShearLaw
 
 POINT = OperatingPoint()
 ROELANDS = Lubricant()
@@ -71,21 +73,22 @@ def test_waves_along_the_motion_against_quadrature(wave):
 
 
 @pytest.mark.parametrize(
-    "options",
+    ("law", "options"),
     [
-        Options(),
-        Options(friction="eyring"),
-        Options(friction="limiting"),
-        Options(load_balance=True),
+        ("newtonian", Options()),
+        ("eyring", Options()),
+        ("limiting", Options()),
+        ("newtonian", Options(load_balance=True)),
     ],
     ids=["newtonian", "eyring", "limiting", "balanced"],
 )
-def test_each_position_is_the_moved_surface(table_1, options):
+def test_each_position_is_the_moved_surface(table_1, law, options):
     rough = table_1(pixels=64)
-    passage = predict_friction(rough, POINT, ROELANDS, FILM, options)
+    oil = replace(ROELANDS, shear=ShearLaw(law))
+    passage = predict_friction(rough, POINT, oil, FILM, options)
     for k in (1, 3):
         moved = surfaces.shifted(rough, float(passage.shift[k]))
-        first = predict_friction(moved, POINT, ROELANDS, FILM, options)
+        first = predict_friction(moved, POINT, oil, FILM, options)
         assert first.passage[0] == pytest.approx(passage.passage[k], rel=1e-9)
 
 
@@ -188,8 +191,11 @@ def test_load_balance_follows_hertz():
 
 def test_eyring_and_limiting_friction(table_1):
     rough = table_1()
-    eyring = predict_friction(rough, POINT, ROELANDS, FILM, Options(friction="eyring"))
-    limiting = predict_friction(rough, POINT, ROELANDS, FILM, Options(friction="limiting"))
+    point = replace(POINT, slide_to_roll=0.01)
+    eyring, limiting = (
+        predict_friction(rough, point, replace(ROELANDS, shear=ShearLaw(law)), FILM)
+        for law in ("eyring", "limiting")
+    )
     assert eyring.mu_smooth == pytest.approx(0.040, abs=0.002)
     # the limit is 0.06 p, reached nearly everywhere
     assert 0.05 < limiting.mu_smooth < 0.06
@@ -197,13 +203,14 @@ def test_eyring_and_limiting_friction(table_1):
     assert limiting.mu_ratio == pytest.approx(1.0, abs=0.01)
 
 
-@pytest.mark.parametrize("friction", ["eyring", "limiting"])
-def test_stress_laws_are_newtonian_when_slow(table_1, friction):
+@pytest.mark.parametrize(
+    "law", [ShearLaw("eyring"), ShearLaw("limiting"), ShearLaw("limiting", limiting_stress=1e8)]
+)
+def test_stress_laws_are_newtonian_when_slow(table_1, law):
     rough = table_1(pixels=64)
-    newtonian = predict_friction(rough, POINT, ROELANDS, FILM, Options(slide_to_roll=1e-12))
-    slow = predict_friction(
-        rough, POINT, ROELANDS, FILM, Options(friction=friction, slide_to_roll=1e-12)
-    )
+    point = replace(POINT, slide_to_roll=-1e-12)
+    newtonian = predict_friction(rough, point, ROELANDS, FILM)
+    slow = predict_friction(rough, point, replace(ROELANDS, shear=law), FILM)
     assert slow.mu_ratio == pytest.approx(newtonian.mu_ratio, rel=1e-4)
     assert slow.mu_smooth == pytest.approx(newtonian.mu_smooth, rel=1e-4)
 

@@ -59,10 +59,6 @@ def test_lost_load_is_said():
     [
         ({"wavelength_convention": "crest"}, "pattern"),
         ({"stiffness": "soft"}, "exact"),
-        ({"friction": "dry"}, "eyring"),
-        ({"eyring_stress": 0.0}, "eyring_stress"),
-        ({"slide_to_roll": -0.1}, "slide_to_roll"),
-        ({"limiting_coefficient": math.nan}, "limiting_coefficient"),
         ({"phase_lag": 90.0}, "phase_lag"),
         ({"phase_lag": -1.0}, "phase_lag"),
         ({"phase_lag": math.nan}, "phase_lag"),

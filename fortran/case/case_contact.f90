@@ -1,0 +1,117 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The contact of a case: Moes numbers or SI values, an operating point that can be meant, and the motion of the surfaces
+module ehl_case_contact
+   use ehl_case, only: case_t
+   use ehl_kinds, only: dp
+   use ehl_moes, only: operating_from_si, operating_t
+   use ehl_refusal, only: contradict, first_given, is_before, refuse, short
+   use ehl_schema, only: schema_t
+   use ehl_source, only: point_at, source_t
+   use ehl_status, only: ehl_bad_input, status_t
+   use ehl_text, only: to_text
+   implicit none (type, external)
+   private
+   public :: check_contact_kind, check_operating_point, complete_kinematics
+
+   character(len=12), parameter :: moes_keys(2) = [character(len=12) :: "moes_m", "moes_l"]
+   character(len=16), parameter :: si_keys(4) = &
+      [character(len=16) :: "load", "mean_velocity", "radius", "reduced_modulus"]
+   !> Difference of velocity ratios that is none
+   real(dp), parameter :: rounding = 1.0e-9_dp
+
+contains
+
+   !> Moes numbers or SI values, not both
+   subroutine check_contact_kind(schema, input, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(inout) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+      integer :: moes, si, later
+
+      moes = first_given(schema, "contact", moes_keys)
+      si = first_given(schema, "contact", si_keys)
+      input%contact%si = moes == 0
+      if (moes == 0 .or. si == 0) return
+      later = moes
+      if (is_before(schema, moes, si)) later = si
+      associate (key => schema%keys(later))
+         call status%fail(ehl_bad_input, point_at(sources(key%source), key%name_first, &
+            key%name_last, key%full_name() // " contradicts " &
+            // schema%keys(moes + si - later)%full_name(), &
+            "moes_m and moes_l, or load, mean_velocity, radius and reduced_modulus"))
+      end associate
+   end subroutine check_contact_kind
+
+   !> SI values must make a contact that can exist; a slip of units mostly does not
+   subroutine check_operating_point(schema, input, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(in) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+      type(operating_t) :: point
+      integer :: culprit
+      character(len=:), allocatable :: what, expected
+
+      if (.not. input%contact%si) return
+      associate (c => input%contact)
+         point = operating_from_si(c%load, c%mean_velocity, c%radius, c%reduced_modulus, &
+                                   input%lubricant%viscosity, input%lubricant%pressure_viscosity)
+      end associate
+      what = ""
+      expected = ""
+      if (point%hertz_pressure < 1.0e5_dp .or. point%hertz_pressure > 2.0e10_dp) then
+         what = "the Hertz pressure is " // short(point%hertz_pressure) // " Pa"
+         expected = "values in SI units with a Hertz pressure between 1e5 and 2e10 Pa"
+      else if (point%hertz_radius > input%contact%radius) then
+         what = "the Hertz radius " // short(point%hertz_radius) // " m exceeds contact.radius"
+         expected = "values in SI units with a contact much smaller than the ball"
+      else if (point%moes_m > 1.0e5_dp .or. point%moes_m < 0.1_dp) then
+         what = "the Moes parameter M is " // short(point%moes_m)
+         expected = "values in SI units with M between 0.1 and 1e5"
+      else if (point%moes_l > 100.0_dp) then
+         what = "the Moes parameter L is " // short(point%moes_l)
+         expected = "values in SI units with L of 100 at most"
+      end if
+      if (what == "") return
+      culprit = first_given(schema, "contact", si_keys)
+      if (culprit == 0) culprit = schema%find("lubricant", "viscosity")
+      associate (key => schema%keys(culprit))
+         call refuse(schema, sources, trim(key%group), trim(key%name), what // " with " &
+                     // key%full_name() // " = " // key%value_text(), expected, status)
+      end associate
+   end subroutine check_operating_point
+
+   !> Of slide-to-roll ratio and velocity of the rough surface one follows from the other: surface 1 moves at
+   !> 1 + SRR/2, surface 2 at 1 - SRR/2 times the mean velocity
+   subroutine complete_kinematics(schema, input, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(inout) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+      real(dp) :: side, follows
+
+      side = merge(1.0_dp, -1.0_dp, input%contact%rough_surface == 1)
+      associate (ratio => input%surface%velocity_ratio, srr => input%contact%slide_to_roll)
+         follows = 1.0_dp + 0.5_dp*side*srr
+         if (.not. schema%given("surface", "velocity_ratio")) then
+            ratio = follows
+         else if (.not. schema%given("contact", "slide_to_roll")) then
+            srr = sliding(side, ratio)
+         else if (abs(ratio - follows) > rounding) then
+            call contradict(schema, sources, "surface.velocity_ratio", "contact.slide_to_roll", &
+               "one of the two, or slide_to_roll = " // to_text(sliding(side, ratio)) // " with this velocity_ratio", &
+               status, "with contact.slide_to_roll = " // to_text(srr) // ", surface " &
+               // to_text(input%contact%rough_surface) // ", the rough one, moves at " // to_text(follows) &
+               // " times the mean velocity, not at " // to_text(ratio))
+         end if
+      end associate
+   end subroutine complete_kinematics
+
+   !> Slide-to-roll ratio from the velocity of the rough surface, free of the rounding of the difference: 0.02 for 1.01
+   pure real(dp) function sliding(side, ratio)
+      !> 1 for surface 1, -1 for surface 2
+      real(dp), intent(in) :: side, ratio
+      sliding = anint(side*(ratio - 1.0_dp)*2.0e12_dp)/1.0e12_dp
+   end function sliding
+end module ehl_case_contact

@@ -1,0 +1,63 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The lubricant of a case: defaults that depend on other keys, and laws that need them
+module ehl_case_lubricant
+   use ehl_case, only: case_t
+   use ehl_kinds, only: dp
+   use ehl_refusal, only: contradict, refuse, short
+   use ehl_schema, only: schema_t
+   use ehl_source, only: source_t
+   use ehl_status, only: status_t
+   implicit none (type, external)
+   private
+   public :: complete_lubricant, check_shear_law
+
+contains
+
+   !> Roelands exponent from viscosity, alpha and p0 unless given; the PSD model's viscosity law
+   subroutine complete_lubricant(schema, input, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(inout) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+
+      associate (l => input%lubricant)
+         if (.not. schema%given("lubricant", "roelands_z")) then
+            l%roelands_z = l%pressure_viscosity*l%roelands_p0/(log(l%viscosity) + 9.67_dp)
+            associate (key => schema%keys(schema%find("lubricant", "roelands_z")))
+               if (.not. key%allows(l%roelands_z) .and. l%viscosity_law == "roelands") then
+                  call refuse(schema, sources, "lubricant", "viscosity", &
+                     "lubricant.roelands_z = " // short(l%roelands_z) // " follows from viscosity, " &
+                     // "pressure_viscosity and roelands_p0", key%type_text(), status)
+               end if
+            end associate
+         end if
+         if (input%psd%viscosity_law == "") input%psd%viscosity_law = l%viscosity_law
+      end associate
+   end subroutine complete_lubricant
+
+   !> Parameters of the shear law; a law with a stress needs a contact in SI units
+   subroutine check_shear_law(schema, input, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(in) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+
+      associate (l => input%lubricant)
+         if (l%limiting_stress > 0.0_dp .and. schema%given("lubricant", "limiting_coefficient")) then
+            call contradict(schema, sources, "lubricant.limiting_stress", "lubricant.limiting_coefficient", &
+                            "one of the two, or limiting_stress = 0.0", status)
+            return
+         end if
+         if (l%shear_law == "newtonian") return
+         if (.not. input%contact%si) then
+            call refuse(schema, sources, "lubricant", "shear_law", "lubricant.shear_law = '" // trim(l%shear_law) &
+                        // "' with a contact given by moes_m and moes_l, which has no sliding speed in m/s", &
+                        "'newtonian', or load, mean_velocity, radius and reduced_modulus", status)
+         else if (l%shear_law == "carreau" .and. .not. (l%carreau_stress > 0.0_dp .and. l%carreau_exponent > 0.0_dp)) then
+            call refuse(schema, sources, "lubricant", "shear_law", "lubricant.shear_law = 'carreau' without " &
+                        // "carreau_stress and carreau_exponent", "both, as measured for the oil: no two oils share them", &
+                        status)
+         end if
+      end associate
+   end subroutine check_shear_law
+end module ehl_case_lubricant

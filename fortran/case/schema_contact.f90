@@ -1,0 +1,57 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The keys of contact and lubricant
+submodule (ehl_schema) ehl_schema_contact
+   implicit none (type, external)
+
+contains
+
+   module subroutine add_contact_keys(self, input)
+      class(schema_t), intent(inout) :: self
+      type(case_t), intent(inout), target :: input
+
+      associate (c => input%contact)
+         call self%reals("contact", "moes_m", c%moes_m, "-", "(0, 1e5]", "Moes load parameter M")
+         call self%reals("contact", "moes_l", c%moes_l, "-", "[0, 100]", "Moes material parameter L")
+         call self%reals("contact", "load", c%load, "N", "(0, 1e5]", "load")
+         call self%reals("contact", "mean_velocity", c%mean_velocity, "m/s", "(0, 200]", &
+                         "mean velocity of the two surfaces")
+         call self%reals("contact", "radius", c%radius, "m", "[1e-5, 10]", "reduced radius")
+         call self%reals("contact", "reduced_modulus", c%reduced_modulus, "Pa", "[1e8, 2e12]", &
+                         "E' with 2/E' = sum of (1 - nu^2)/E over the bodies")
+         call self%reals("contact", "slide_to_roll", c%slide_to_roll, "-", "[-2, 2]", &
+                         "slide-to-roll ratio (u1 - u2)/u; follows from a given surface.velocity_ratio")
+         call self%integers("contact", "rough_surface", c%rough_surface, "[1, 2]", "which surface is the rough one")
+      end associate
+   end subroutine add_contact_keys
+
+   module subroutine add_lubricant_keys(self, input)
+      class(schema_t), intent(inout) :: self
+      type(case_t), intent(inout), target :: input
+
+      associate (l => input%lubricant)
+         call self%reals("lubricant", "viscosity", l%viscosity, "Pa s", "[1e-4, 10]", &
+                         "viscosity at ambient pressure")
+         call self%reals("lubricant", "pressure_viscosity", l%pressure_viscosity, "1/Pa", &
+                         "[1e-10, 1e-7]", "pressure-viscosity coefficient")
+         call self%words("lubricant", "viscosity_law", l%viscosity_law, "roelands|barus", &
+                         "viscosity under pressure")
+         call self%reals("lubricant", "roelands_z", l%roelands_z, "-", "[0.05, 2]", &
+                         "Roelands exponent; default alpha p0/(ln eta0 + 9.67)")
+         call self%reals("lubricant", "roelands_p0", l%roelands_p0, "Pa", "[1e7, 1e10]", &
+                         "Roelands reference pressure")
+         call self%words("lubricant", "density_law", l%density_law, &
+                         "dowson-higginson|incompressible", "density under pressure")
+         call self%words("lubricant", "shear_law", l%shear_law, "newtonian|eyring|limiting|carreau", &
+                         "shear stress in the contact, for friction alone")
+         call self%reals("lubricant", "eyring_stress", l%eyring_stress, "Pa", "[1e4, 1e9]", "Eyring stress")
+         call self%reals("lubricant", "limiting_stress", l%limiting_stress, "Pa", "0 or [1e5, 1e10]", &
+                         "limiting shear stress; 0: limiting_coefficient times pressure")
+         call self%reals("lubricant", "limiting_coefficient", l%limiting_coefficient, "-", "[1e-4, 1]", &
+                         "limiting shear stress over pressure")
+         call self%reals("lubricant", "carreau_stress", l%carreau_stress, "Pa", "0 or [1e2, 1e10]", &
+                         "stress G of Carreau at which thinning begins; no default")
+         call self%reals("lubricant", "carreau_exponent", l%carreau_exponent, "-", "0 or [0.05, 1]", &
+                         "power-law exponent n of Carreau; no default")
+      end associate
+   end subroutine add_lubricant_keys
+end submodule ehl_schema_contact

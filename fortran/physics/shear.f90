@@ -1,0 +1,95 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Shear stress of the lubricant in the contact, for friction. The flow that makes the film (Reynolds equation) is
+!> Newtonian whatever the law.
+module ehl_shear
+   use, intrinsic :: iso_c_binding, only: c_double
+   use ehl_kinds, only: dp
+   implicit none (type, external)
+   private
+   public :: shear_law_t, shear_stress
+   public :: shear_newtonian, shear_eyring, shear_limiting, shear_carreau
+
+   integer, parameter :: shear_newtonian = 1, shear_eyring = 2, shear_limiting = 3, shear_carreau = 4
+
+   !> A shear law with its parameters
+   type :: shear_law_t
+      integer :: law = shear_newtonian
+      !> [Pa] Eyring stress, limiting stress (0: `coefficient` times pressure) or Carreau stress
+      real(dp) :: stress = 0.0_dp
+      !> [-] limiting shear stress over pressure
+      real(dp) :: coefficient = 0.0_dp
+      !> [-] power-law exponent n of Carreau
+      real(dp) :: exponent = 1.0_dp
+      !> [Pa] Newtonian stress eta0 |u1 - u2|/(a^2/R) of eta = eta0 and H = 1; 0: not known, or no sliding
+      real(dp) :: scale = 0.0_dp
+      !> [Pa] Hertz pressure
+      real(dp) :: hertz_pressure = 0.0_dp
+   contains
+      procedure :: thins
+      procedure :: reduce
+   end type shear_law_t
+
+   interface
+      !> exp(x) - 1, accurate for small x
+      pure real(c_double) function expm1(x) bind(c, name="expm1")
+         import :: c_double
+         implicit none (type, external)
+         real(c_double), intent(in), value :: x
+      end function expm1
+   end interface
+
+contains
+
+   !> Shear stress [Pa] at the stress eta |u1 - u2|/h [Pa] that a Newtonian lubricant would have and a pressure [Pa].
+   !>
+   !>    Eyring    tau_0 asinh(tau_N/tau_0)                    (Johnson & Tevaarwerk 1977)
+   !>    limiting  tau_L (1 - exp(-tau_N/tau_L))               (Bair & Winer 1979), tau_L constant or coefficient times p
+   !>    Carreau   tau_N (1 + (tau_N/G)^2)^((n - 1)/2)         (Bair 2007; single Newtonian plateau)
+   pure subroutine shear_stress(self, newtonian, pressure, stress)
+      type(shear_law_t), intent(in) :: self
+      real(dp), intent(in) :: newtonian(:), pressure(:)
+      real(dp), intent(out) :: stress(:)
+      real(dp) :: limit
+      integer :: i
+
+      select case (self%law)
+      case (shear_eyring)
+         do i = 1, size(stress)
+            stress(i) = self%stress*asinh(newtonian(i)/self%stress)
+         end do
+      case (shear_limiting)
+         do i = 1, size(stress)
+            limit = self%stress
+            if (limit <= 0.0_dp) limit = self%coefficient*pressure(i)
+            stress(i) = 0.0_dp
+            if (limit > 0.0_dp) stress(i) = -limit*expm1(-newtonian(i)/limit)
+         end do
+      case (shear_carreau)
+         do i = 1, size(stress)
+            stress(i) = newtonian(i)*(1.0_dp + (newtonian(i)/self%stress)**2)**(0.5_dp*(self%exponent - 1.0_dp))
+         end do
+      case default
+         stress = newtonian
+      end select
+   end subroutine shear_stress
+
+   !> Whether the stress is another than the Newtonian one. Without sliding it is not: friction is then meant in the
+   !> limit of vanishing sliding, in which every law here is Newtonian.
+   pure logical function thins(self)
+      class(shear_law_t), intent(in) :: self
+      thins = self%law /= shear_newtonian .and. self%scale > 0.0_dp
+   end function thins
+
+   !> From eta/(eta0 H) to the shear stress over `scale`, at pressures scaled by the Hertz pressure
+   pure subroutine reduce(self, p, values)
+      class(shear_law_t), intent(in) :: self
+      real(dp), intent(in) :: p(:)
+      real(dp), intent(inout) :: values(:)
+      real(dp) :: newtonian(size(p)), pressure(size(p))
+
+      newtonian = self%scale*values
+      pressure = self%hertz_pressure*p
+      call shear_stress(self, newtonian, pressure, values)
+      values = values/self%scale
+   end subroutine reduce
+end module ehl_shear

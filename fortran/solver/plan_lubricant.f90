@@ -1,0 +1,56 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The lubricant of a case in Hertz units
+module ehl_plan_lubricant
+   use ehl_case, only: case_t
+   use ehl_kinds, only: dp
+   use ehl_lubricant, only: density_constant, density_dowson_higginson, lubricant_t, new_lubricant, &
+                            viscosity_barus, viscosity_roelands
+   use ehl_moes, only: operating_t
+   use ehl_shear, only: shear_carreau, shear_eyring, shear_law_t, shear_limiting
+   implicit none (type, external)
+   private
+   public :: plan_lubricant
+
+contains
+
+   !> Viscosity, density and shear law of a case at its operating point
+   pure function plan_lubricant(input, point) result(lubricant)
+      type(case_t), intent(in) :: input
+      type(operating_t), intent(in) :: point
+      type(lubricant_t) :: lubricant
+
+      lubricant = new_lubricant( &
+                  merge(viscosity_barus, viscosity_roelands, input%lubricant%viscosity_law == "barus"), &
+                  merge(density_constant, density_dowson_higginson, input%lubricant%density_law == "incompressible"), &
+                  point%alpha_bar, point%hertz_pressure, input%lubricant%roelands_z, input%lubricant%roelands_p0)
+      lubricant%shear = shear_of(input, point)
+   end function plan_lubricant
+
+   !> Shear law; a contact given by its Moes numbers has no sliding speed and stays Newtonian
+   pure function shear_of(input, point) result(shear)
+      type(case_t), intent(in) :: input
+      type(operating_t), intent(in) :: point
+      type(shear_law_t) :: shear
+
+      if (.not. input%contact%si) return
+      associate (l => input%lubricant, c => input%contact)
+         shear%hertz_pressure = point%hertz_pressure
+         shear%scale = l%viscosity*abs(c%slide_to_roll)*c%mean_velocity/point%film_scale
+         select case (l%shear_law)
+         case ("eyring")
+            shear%law = shear_eyring
+            shear%stress = l%eyring_stress
+         case ("limiting")
+            shear%law = shear_limiting
+            shear%stress = l%limiting_stress
+            shear%coefficient = l%limiting_coefficient
+         case ("carreau")
+            shear%law = shear_carreau
+            shear%stress = l%carreau_stress
+            shear%exponent = l%carreau_exponent
+         case default
+            continue
+         end select
+      end associate
+   end function shear_of
+end module ehl_plan_lubricant

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Shear stress of the lubricant in the contact, for friction.
+
+The same laws as in ``fortran/physics/shear.f90``. They enter friction alone: the flow that makes
+the film (the Reynolds equation) is Newtonian whatever the law.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["LAWS", "ShearLaw", "shear_stress"]
+
+Array = NDArray[np.float64]
+
+LAWS = ("newtonian", "eyring", "limiting", "carreau")
+
+
+@dataclass(frozen=True, slots=True)
+class ShearLaw:
+    """A shear law with its parameters; those of other laws are not looked at.
+
+    Attributes
+    ----------
+    law
+        One of :data:`LAWS`.
+    eyring_stress
+        tau_0 [Pa].
+    limiting_stress
+        tau_L [Pa]; 0: `limiting_coefficient` times pressure.
+    limiting_coefficient
+        tau_L/p [-].
+    carreau_stress, carreau_exponent
+        Stress G at which thinning begins [Pa] and power-law exponent n [-] of Carreau; no defaults.
+
+    Raises
+    ------
+    ValueError
+        For an unknown law or a number out of range.
+    """
+
+    law: str = "newtonian"
+    eyring_stress: float = 5e6
+    limiting_stress: float = 0.0
+    limiting_coefficient: float = 0.06
+    carreau_stress: float = 0.0
+    carreau_exponent: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Check the word and the numbers."""
+        if self.law not in LAWS:
+            raise ValueError(f"shear_law {self.law!r}: expected one of {LAWS}")
+        used = {
+            "eyring": ("eyring_stress",),
+            "limiting": ("limiting_coefficient",),
+            "carreau": ("carreau_stress", "carreau_exponent"),
+        }.get(self.law, ())
+        if self.limiting_stress > 0.0:
+            used = tuple(name for name in used if name != "limiting_coefficient")
+        for name in used:
+            number = getattr(self, name)
+            if not (math.isfinite(number) and number > 0.0):
+                raise ValueError(f"{name} must be positive, not {number!r}")
+        if not (math.isfinite(self.limiting_stress) and self.limiting_stress >= 0.0):
+            raise ValueError(f"limiting_stress must not be negative, not {self.limiting_stress!r}")
+        if self.carreau_exponent > 1.0:
+            raise ValueError(f"carreau_exponent must be at most 1, not {self.carreau_exponent!r}")
+
+    @classmethod
+    def from_settings(cls, settings: Mapping[str, Mapping[str, Any]]) -> ShearLaw:
+        """From the group ``lubricant`` of a resolved case."""
+        group = settings["lubricant"]
+        names = cls.__dataclass_fields__.keys() - {"law"}
+        given = {name: float(group[name]) for name in names if name in group}
+        return cls(law=str(group.get("shear_law", "newtonian")), **given)
+
+
+def shear_stress(newtonian: ArrayLike, pressure: ArrayLike, law: ShearLaw) -> Array:
+    """Shear stress tau [Pa] of the lubricant.
+
+    Eyring: tau_0 asinh(tau_N/tau_0) (Johnson & Tevaarwerk 1977, Proc. R. Soc. A 356, 215).
+    Limiting: tau_L (1 - exp(-tau_N/tau_L)) (Bair & Winer 1979, J. Lubr. Technol. 101, 258).
+    Carreau: tau_N (1 + (tau_N/G)^2)^((n - 1)/2), single Newtonian plateau (Bair 2007,
+    *High-Pressure Rheology for Quantitative Elastohydrodynamics*).
+
+    Parameters
+    ----------
+    newtonian
+        tau_N = eta |u1 - u2|/h [Pa], eta the viscosity at that pressure, any shape.
+    pressure
+        p [Pa], of a shape that broadcasts with it; only the limiting law looks at it.
+    law
+        The law.
+    """
+    tau = np.asarray(newtonian, dtype=float)
+    if law.law == "eyring":
+        return np.asarray(law.eyring_stress * np.arcsinh(tau / law.eyring_stress))
+    if law.law == "carreau":
+        thinning = 1.0 + (tau / law.carreau_stress) ** 2
+        return np.asarray(tau * thinning ** (0.5 * (law.carreau_exponent - 1.0)))
+    if law.law == "limiting":
+        if law.limiting_stress > 0.0:
+            return np.asarray(-law.limiting_stress * np.expm1(-tau / law.limiting_stress))
+        limit = law.limiting_coefficient * np.asarray(pressure, dtype=float)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.where(limit > 0.0, -limit * np.expm1(-tau / limit), 0.0)
+    return tau
