@@ -1,175 +1,174 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Result folders in Python: fields with coordinates and units, history, scalars."""
+"""Result folders as xarray Datasets: fields with coordinates and units, tables, scalars.
+
+Capital letters (X, Y, T, P, H, RR, A_d) are in Hertz units: a, a/u, p_h, a^2/R. Names that end in
+a unit (``_m``, ``_Pa``, ``_s``) are in that unit; they are there when the case was given in SI
+units. No two names differ only in case, so that readers that do not tell them apart can open an
+exported file.
+"""
 
 from __future__ import annotations
 
+import csv
 import json
 import os
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
 from pyehl import namelist
 from pyehl.theory.operating import OperatingPoint
 
-if TYPE_CHECKING:
-    import xarray
-
-__all__ = ["Result", "Variable", "load", "read"]
+__all__ = ["load", "prediction_dataset", "settings_of"]
 
 Array = NDArray[np.float64]
+Settings = Mapping[str, Mapping[str, Any]]
 
 
 @dataclass(frozen=True, slots=True)
-class Variable:
-    """Values on named dimensions, with a unit ('1' for none) and a meaning."""
+class Field:
+    """One file of a solution: its name without .npy, the names it gets, dimensions and meaning."""
 
+    file: str
+    name: str
+    si_name: str
+    si_unit: str
     dims: tuple[str, ...]
-    values: Array
-    units: str
-    long_name: str
+    meaning: str
+    scaled: str
+
+    def scale(self, point: OperatingPoint) -> float:
+        """Hertz unit of the values in SI units."""
+        if self.si_unit == "Pa":
+            return point.hertz_pressure
+        if self.si_unit == "s":
+            return point.time_scale
+        return point.hertz_radius if self.dims == (self.name,) else point.film_scale
 
 
-@dataclass(frozen=True, slots=True)
-class Result:
-    """A result folder.
-
-    Attributes
-    ----------
-    summary
-        The scalars of ``summary.json``; None where a number does not exist.
-    case
-        Groups and values of the resolved case.
-    coords, variables
-        Coordinates and fields by name. X, Y, P, H are in Hertz units (a, p_h, a^2/R); x, y [m],
-        p [Pa] and h [m] are there too when the case was given in SI units. Fields have the shape
-        (nx, ny). A march also has P_smooth and H_smooth (the smooth contact), RR (the
-        roughness, peaks positive) and A_d = H_smooth - H (the roughness deformed in the contact),
-        in metres and pascals p_smooth, h_smooth, rr and a_d; its frames are frame_P and frame_H
-        of shape (nx, ny, frames) at the times T [a/u], frame_p and frame_h at t [s]. History
-        columns are named ``history_<column>``, one value per row.
-    """
-
-    summary: dict[str, Any]
-    case: dict[str, dict[str, Any]]
-    coords: dict[str, Variable] = field(default_factory=dict)
-    variables: dict[str, Variable] = field(default_factory=dict)
-
-    def __getitem__(self, name: str) -> Array:
-        """Values of a field or coordinate."""
-        return (self.variables | self.coords)[name].values
-
-    @property
-    def converged(self) -> bool:
-        """Whether the numbers are a solution; otherwise they are what there was at the end."""
-        return self.summary.get("status") == "converged"
-
-
-# Coordinates of `ehl` and `pyehl run`: name, file, scaling, unit in SI, meaning
-COORDINATES = (
-    ("X", "X", "x/a", "m", "in the direction of motion"),
-    ("Y", "Y", "y/a", "m", "across the motion"),
-    ("T", "frame_T", "t u/a", "s", "time"),
-)
-# Fields of both: name, name and unit in SI, meaning, scaling, dimensions
 PLANE, FRAMES = ("X", "Y"), ("X", "Y", "T")
-FIELDS = (
-    ("P", "p", "Pa", "pressure", "p/p_h", PLANE),
-    ("H", "h", "m", "film thickness", "h R/a^2", PLANE),
-    ("P_smooth", "p_smooth", "Pa", "pressure of the smooth contact", "p/p_h", PLANE),
-    ("H_smooth", "h_smooth", "m", "film thickness of the smooth contact", "h R/a^2", PLANE),
-    ("RR", "rr", "m", "roughness, peaks positive", "r R/a^2", PLANE),
-    ("A_d", "a_d", "m", "deformed roughness: smooth film less film", "R/a^2", PLANE),
-    ("frame_P", "frame_p", "Pa", "pressure in time", "p/p_h", FRAMES),
-    ("frame_H", "frame_h", "m", "film thickness in time", "h R/a^2", FRAMES),
+SOLUTION = (
+    Field("X", "X", "x_m", "m", ("X",), "in the direction of motion", "X = x/a"),
+    Field("Y", "Y", "y_m", "m", ("Y",), "across the motion", "Y = y/a"),
+    Field("frame_T", "T", "t_s", "s", ("T",), "time", "T = t u/a"),
+    Field("P", "P", "p_Pa", "Pa", PLANE, "pressure", "p/p_h"),
+    Field("H", "H", "h_m", "m", PLANE, "film thickness", "h R/a^2"),
+    Field("P_smooth", "P_smooth", "p_smooth_Pa", "Pa", PLANE, "pressure, smooth contact", "p/p_h"),
+    Field("H_smooth", "H_smooth", "h_smooth_m", "m", PLANE, "film, smooth contact", "h R/a^2"),
+    Field("RR", "RR", "rr_m", "m", PLANE, "roughness, peaks positive", "r R/a^2"),
+    Field("A_d", "A_d", "a_d_m", "m", PLANE, "deformed roughness: smooth film less film", "R/a^2"),
+    Field("frame_P", "frame_P", "frame_p_Pa", "Pa", FRAMES, "pressure in time", "p/p_h"),
+    Field("frame_H", "frame_H", "frame_h_m", "m", FRAMES, "film thickness in time", "h R/a^2"),
 )
-
-# File, dimensions, unit and meaning of what a folder of `pyehl predict` holds
+# Arrays of a prediction: name in the Dataset, unit, meaning; coordinates first
 PREDICTION = {
-    "surface": ("m", "undeformed roughness, peaks positive"),
-    "deformed": ("m", "roughness deformed in the contact"),
-    "delta_p": ("Pa", "pressure change by the roughness"),
+    "x": ("x_m", "m", "along the motion"),
+    "y": ("y_m", "m", "across the motion"),
+    "surface": ("surface_m", "m", "undeformed roughness, peaks positive"),
+    "deformed": ("deformed_m", "m", "roughness deformed in the contact"),
+    "delta_p": ("delta_p_Pa", "Pa", "pressure change by the roughness"),
 }
+# Tables are CSV files with a line of names
+SOLUTION_TABLES = ("history",)
+PREDICTION_TABLES = ("passage", "spectrum", "bands")
+# Unit by the end of a name, the longest first
+SUFFIXES = {"_rad_per_m": "rad/m", "_m4": "m4", "_Pa": "Pa", "_m": "m", "_s": "s", "_deg": "deg"}
 
 
-def _array(path: Path) -> Array:
-    values: Array = np.load(path, allow_pickle=False)
-    return values
+def settings_of(data: xr.Dataset) -> dict[str, dict[str, Any]]:
+    """Give the groups and values of the resolved case of a Dataset."""
+    return namelist.values(data.attrs["case"])
 
 
-def _history(path: Path) -> dict[str, Variable]:
-    if not path.is_file():
-        return {}
-    with path.open(encoding="utf-8") as stream:
-        names = stream.readline().strip().split(",")
-        rows = [[float(cell or "nan") for cell in line.strip().split(",")] for line in stream]
-    table = np.array(rows, dtype=np.float64).reshape(len(rows), len(names))
+def _unit(name: str) -> str:
+    return next((unit for end, unit in SUFFIXES.items() if name.endswith(end)), "1")
+
+
+def _variable(dims: tuple[str, ...], values: Array, unit: str, meaning: str) -> xr.Variable:
+    return xr.Variable(dims, values, {"units": unit, "long_name": meaning})
+
+
+def _attributes(summary: Mapping[str, Any], case: str) -> dict[str, Any]:
+    scalars = {k: v for k, v in summary.items() if isinstance(v, str | int | float)}
+    return scalars | {"case": case}
+
+
+def _tables(tables: Mapping[str, Mapping[str, Array]]) -> dict[str, xr.Variable]:
     return {
-        f"history_{name}": Variable(("row",), table[:, k], "1", f"{name} of the history")
-        for k, name in enumerate(names)
+        f"{table}_{name}": _variable((table,), values, _unit(name), f"{name} of the {table}")
+        for table, columns in tables.items()
+        for name, values in columns.items()
     }
 
 
-def _solution(folder: Path, case: dict[str, dict[str, Any]], result: Result) -> None:
-    """Coordinates and fields of `ehl` and `pyehl run`."""
-    if not (folder / "P.npy").is_file():
-        return
-    point = OperatingPoint.from_settings(case) if "load" in case["contact"] else None
-
-    for name, file, scaled, unit, meaning in COORDINATES:
-        if not (folder / f"{file}.npy").is_file():
+def _solution_dataset(
+    summary: Mapping[str, Any],
+    case: str,
+    arrays: Mapping[str, Array],
+    tables: Mapping[str, Mapping[str, Array]],
+) -> xr.Dataset:
+    """Dataset of a folder of ``ehl`` and ``pyehl run``; `arrays` by the names of their files."""
+    settings = namelist.values(case)
+    point = OperatingPoint.from_settings(settings) if "load" in settings["contact"] else None
+    coords: dict[str, xr.Variable] = {}
+    variables = _tables(tables)
+    for field in SOLUTION:
+        if field.file not in arrays:
             continue
-        values = _array(folder / f"{file}.npy")
-        result.coords[name] = Variable((name,), values, "1", f"{name} = {scaled}, {meaning}")
+        values = arrays[field.file]
+        place = coords if len(field.dims) == 1 else variables
+        meaning = f"{field.meaning}, {field.scaled}"
+        place[field.name] = _variable(field.dims, values, "1", meaning)
         if point is not None:
-            scale = point.hertz_radius if unit == "m" else point.time_scale
-            result.coords[name.lower()] = Variable((name,), values * scale, unit, meaning)
-    for name, si, unit, meaning, scaled, dims in FIELDS:
-        if not (folder / f"{name}.npy").is_file():
-            continue
-        values = _array(folder / f"{name}.npy")
-        result.variables[name] = Variable(dims, values, "1", f"{meaning}, {scaled}")
-        if point is not None:
-            scale = point.hertz_pressure if unit == "Pa" else point.film_scale
-            result.variables[si] = Variable(dims, values * scale, unit, meaning)
+            scaled = values * field.scale(point)
+            place[field.si_name] = _variable(field.dims, scaled, field.si_unit, field.meaning)
+    return xr.Dataset(variables, coords, _attributes(summary, case))
 
 
-def _prediction(folder: Path, result: Result) -> None:
-    """Coordinates and fields of `pyehl predict`."""
-    for name in ("x", "y"):
-        result.coords[name] = Variable((name,), _array(folder / f"{name}.npy"), "m", name)
-    for name, (units, meaning) in PREDICTION.items():
-        values = _array(folder / f"{name}.npy")
-        result.variables[name] = Variable(("x", "y"), values, units, meaning)
+def prediction_dataset(
+    summary: Mapping[str, Any],
+    case: str,
+    arrays: Mapping[str, Array],
+    tables: Mapping[str, Mapping[str, Array]],
+) -> xr.Dataset:
+    """Dataset of a prediction.
 
-
-def read(folder: str | os.PathLike[str]) -> Result:
-    """Read a result folder that either driver wrote.
-
-    Raises
-    ------
-    FileNotFoundError
-        If it is not a result folder.
+    Parameters
+    ----------
+    summary
+        Scalars, see `pyehl.schema`; what is no number, text or truth value is left out.
+    case
+        Resolved namelist text.
+    arrays
+        x (nx,), y (ny,) [m] and, of shape (nx, ny), surface, deformed [m], delta_p [Pa].
+    tables
+        Columns by name of ``passage``, ``spectrum`` and ``bands``.
     """
-    folder = Path(folder)
-    if not (folder / "summary.json").is_file():
-        raise FileNotFoundError(f"{folder}: not a result folder (there is no summary.json)")
-    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-    case = namelist.values((folder / "case.nml").read_text(encoding="utf-8"))
-    result = Result(summary, case)
-    if summary.get("kind") == "prediction":
-        _prediction(folder, result)
-    else:
-        _solution(folder, case, result)
-    result.variables.update(_history(folder / "history.csv"))
-    return result
+    coords: dict[str, xr.Variable] = {}
+    variables = _tables(tables)
+    for file, (name, unit, meaning) in PREDICTION.items():
+        if file in ("x", "y"):
+            coords[name] = _variable((name,), arrays[file], unit, meaning)
+        else:
+            variables[name] = _variable(("x_m", "y_m"), arrays[file], unit, meaning)
+    return xr.Dataset(variables, coords, _attributes(summary, case))
 
 
-def load(folder: str | os.PathLike[str]) -> xarray.Dataset | Result:
-    """Open a result folder as an xarray Dataset, or as a `Result` where xarray is missing.
+def _table(path: Path) -> dict[str, Array]:
+    with path.open(newline="", encoding="utf-8") as stream:
+        rows = list(csv.reader(stream))
+    values = [[float(cell or "nan") for cell in row] for row in rows[1:]]
+    table = np.array(values, dtype=np.float64).reshape(len(values), len(rows[0]))
+    return {name: table[:, k].copy() for k, name in enumerate(rows[0])}
+
+
+def load(folder: str | os.PathLike[str]) -> xr.Dataset:
+    """Open a result folder.
 
     Parameters
     ----------
@@ -178,27 +177,49 @@ def load(folder: str | os.PathLike[str]) -> xarray.Dataset | Result:
 
     Returns
     -------
-    xarray.Dataset or Result
-        Fields and coordinates as described at `Result`, each with ``units`` and ``long_name``;
-        scalars of the summary as attributes (those that do not exist are left out).
+    xarray.Dataset
+        Each variable has ``units`` and ``long_name``; the scalars of the summary (see
+        `pyehl.schema`) are attributes, without those that do not exist, and ``case`` is the
+        resolved case.
+
+        Of a solution: X, Y, P, H [Hertz units], P and H of shape (nx, ny), and x_m, y_m, p_Pa,
+        h_m when the case was given in SI units. A transient run also has P_smooth, H_smooth (the
+        smooth contact), RR (the roughness, peaks positive), A_d = H_smooth - H (the roughness
+        deformed in the contact), and its frames frame_P and frame_H of shape (nx, ny, frames) at
+        the times T. Columns of the history are ``history_<column>``.
+
+        Of a prediction: surface_m, deformed_m and delta_p_Pa of shape (nx, ny) over x_m, y_m, and
+        the columns ``passage_...``, ``spectrum_...`` and ``bands_...``.
 
     Raises
     ------
     FileNotFoundError
         If it is not a result folder.
+
+    Examples
+    --------
+    >>> import pyehl
+    >>> solved = pyehl.solve("cases/quick.nml", "grid.points=33", output="out/example")
+    >>> data = pyehl.load("out/example")
+    >>> data.P.shape, data.attrs["status"]
+    ((33, 33), 'converged')
     """
-    result = read(folder)
-    try:
-        import xarray as xr  # noqa: PLC0415 (optional)
-    except ImportError:
-        return result
-
-    def entry(variable: Variable) -> tuple[tuple[str, ...], Array, dict[str, str]]:
-        attributes = {"units": variable.units, "long_name": variable.long_name}
-        return variable.dims, variable.values, attributes
-
-    return xr.Dataset(
-        {name: entry(variable) for name, variable in result.variables.items()},
-        {name: entry(variable) for name, variable in result.coords.items()},
-        {k: v for k, v in result.summary.items() if isinstance(v, str | int | float)},
-    )
+    folder = Path(folder)
+    if not (folder / "summary.json").is_file():
+        raise FileNotFoundError(f"{folder}: not a result folder (there is no summary.json)")
+    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    case = (folder / "case.nml").read_text(encoding="utf-8")
+    prediction = summary.get("kind") == "prediction"
+    files = list(PREDICTION) if prediction else [field.file for field in SOLUTION]
+    arrays = {
+        name: np.load(folder / f"{name}.npy", allow_pickle=False)
+        for name in files
+        if (folder / f"{name}.npy").is_file()
+    }
+    tables = {
+        name: _table(folder / f"{name}.csv")
+        for name in (PREDICTION_TABLES if prediction else SOLUTION_TABLES)
+        if (folder / f"{name}.csv").is_file()
+    }
+    make = prediction_dataset if prediction else _solution_dataset
+    return make(summary, case, arrays, tables)

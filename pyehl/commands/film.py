@@ -22,13 +22,13 @@ def report(values: Mapping[str, Any]) -> str:
     origin = "" if v["si"] else "  (made from M and L with the radius and modulus of a steel ball)"
     lines = [
         f"Contact{origin}",
-        f"  load                 w      {v['load']:12.5g} N",
-        f"  mean velocity        u      {v['mean_velocity']:12.5g} m/s",
-        f"  reduced radius       R      {v['radius'] * 1e3:12.5g} mm",
-        f"  reduced modulus      E'     {v['reduced_modulus'] * 1e-9:12.5g} GPa"
+        f"  load                 w      {v['load_N']:12.5g} N",
+        f"  mean velocity        u      {v['mean_velocity_m_per_s']:12.5g} m/s",
+        f"  reduced radius       R      {v['radius_m'] * 1e3:12.5g} mm",
+        f"  reduced modulus      E'     {v['reduced_modulus_Pa'] * 1e-9:12.5g} GPa"
         "    2/E' = sum (1 - nu^2)/E",
-        f"  viscosity            eta0   {v['viscosity']:12.5g} Pa s",
-        f"  pressure-viscosity   alpha  {v['pressure_viscosity'] * 1e9:12.5g} 1/GPa",
+        f"  viscosity            eta0   {v['viscosity_Pa_s']:12.5g} Pa s",
+        f"  pressure-viscosity   alpha  {v['pressure_viscosity_per_Pa'] * 1e9:12.5g} 1/GPa",
         "",
         "Dimensionless",
         f"  Moes load            M      {v['moes_m']:12.5g}      U = {v['U']:.4g}",
@@ -37,28 +37,28 @@ def report(values: Mapping[str, Any]) -> str:
         f"  speed parameter             {v['speed_parameter']:12.5g}",
         "",
         "Dry contact (Hertz)",
-        f"  maximum pressure     p_h    {v['hertz_pressure'] * 1e-9:12.5g} GPa",
-        f"  contact radius       a      {v['hertz_radius'] * 1e3:12.5g} mm",
-        f"  film unit            a^2/R  {v['film_scale'] * 1e6:12.5g} um",
+        f"  maximum pressure     p_h    {v['hertz_pressure_Pa'] * 1e-9:12.5g} GPa",
+        f"  contact radius       a      {v['hertz_radius_m'] * 1e3:12.5g} mm",
+        f"  film unit            a^2/R  {v['film_scale_m'] * 1e6:12.5g} um",
         "",
         f"Film thickness {'h_c [um]':>23}{'h_min [um]':>12}{'H_c':>11}{'H_min':>11}   range",
     ]
     notes = []
     for f in v["formulas"]:
-        h_min = f"{f['h_min'] * 1e6:12.4f}" if f["h_min"] is not None else f"{'-':>12}"
+        h_min = f"{f['h_min_m'] * 1e6:12.4f}" if f["h_min_m"] is not None else f"{'-':>12}"
         big = f"{f['H_min']:11.5f}" if f["H_min"] is not None else f"{'-':>11}"
         inside = "OUTSIDE" if f["outside"] else "inside"
         lines.append(
-            f"  {f['name']:<26}{f['h_c'] * 1e6:10.4f}{h_min}{f['H_c']:11.5f}{big}   {inside}"
+            f"  {f['name']:<26}{f['h_c_m'] * 1e6:10.4f}{h_min}{f['H_c']:11.5f}{big}   {inside}"
         )
         notes.append(f"  {f['name']}: {f['note']}")
         notes.extend(f"  {f['name']}: {text}" for text in f["outside"])
     lines += ["", *notes]
-    if "rms_height" in v:
+    if "rms_height_m" in v:
         lines += [
             "",
             f"Surface ({v['surface']})",
-            f"  rms height           sigma  {v['rms_height'] * 1e6:12.5g} um",
+            f"  rms height           sigma  {v['rms_height_m'] * 1e6:12.5g} um",
         ]
         if v["lambda_ratio"] is not None:
             lines.append(f"  Lambda = h_c/sigma          {v['lambda_ratio']:12.5g}")

@@ -34,7 +34,7 @@ def report(prediction: Prediction) -> str:
         lines += [
             f"mu_r/mu_s   {f.mu_ratio:.3f} over the passage, {f.mu_ratio_min:.3f} ... "
             f"{f.mu_ratio_max:.3f}   [{f.passage.size} positions, {f.seconds * 1e3:.1f} ms]",
-            f"            {prediction.summary()['note']}",
+            f"            {prediction.summary['note']}",
         ]
         mean, spread = prediction.tracks
         lines.append(f"            {mean:.3f} +- {spread:.3f} over all tracks of the tile")
@@ -87,8 +87,8 @@ def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl predict``; 0 predicted, 1 no prediction is possible, 2 bad input."""
     case = Case.read(args.case, args.overrides)
     try:
-        prediction = predict(case.resolve())
-        write(prediction, args.output, case_text=case.text, draw=draw if args.plots else None)
+        prediction = predict(case.resolve(), case.text)
+        write(prediction, args.output, draw=draw if args.plots else None)
     except (ValueError, FileExistsError, FileNotFoundError) as error:
         print(f"{args.case}: {error}", file=sys.stderr)
         return 2

@@ -7,13 +7,11 @@ and written into folders here. Nothing is drawn on a screen.
 
 from __future__ import annotations
 
-import csv
-import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
 from pyehl import results
@@ -64,77 +62,66 @@ def save_prediction(
     return written
 
 
-def _columns(path: Path) -> dict[str, Array]:
-    with path.open(newline="", encoding="utf-8") as stream:
-        rows = list(csv.reader(stream))
-    table = np.array(rows[1:], dtype=float).reshape(len(rows) - 1, len(rows[0]))
-    return {name: table[:, k] for k, name in enumerate(rows[0])}
-
-
-def _plot_prediction(folder: Path, summary: dict[str, Any], target: Path, dpi: int) -> list[Path]:
+def _plot_prediction(data: xr.Dataset, target: Path, dpi: int) -> list[Path]:
+    about = data.attrs
     surface = Topography(
-        np.load(folder / "surface.npy", allow_pickle=False),
-        float(summary["length_x"]),
-        float(summary["length_y"]),
-        str(summary["surface"]),
+        data.surface_m.values, about["length_x_m"], about["length_y_m"], about["surface"]
     )
-    deformed = np.load(folder / "deformed.npy", allow_pickle=False)
     passage = None
-    if summary["status"] == "predicted":
-        along, bands = _columns(folder / "passage.csv"), _columns(folder / "bands.csv")
-        octaves = zip(bands["longest"], bands["shortest"], bands["rise"], strict=True)
+    if about["status"] == "predicted":
+        octaves = zip(
+            *(data[f"bands_{name}"].values for name in ("longest_m", "shortest_m", "rise")),
+            strict=True,
+        )
         passage = (
-            along["shift_m"],
-            along["mu_ratio"],
+            data.passage_shift_m.values,
+            data.passage_mu_ratio.values,
             [(float(a), float(b), float(c)) for a, b, c in octaves],
         )
-    conditions = (
-        float(summary["hertz_radius"]),
-        float(summary["moes_m"]),
-        float(summary["moes_l"]),
-        str(summary["wavelength_convention"]),
+    names = ("hertz_radius_m", "moes_m", "moes_l", "wavelength_convention")
+    radius, m, ell, convention = (about[name] for name in names)
+    return save_prediction(
+        target, surface, data.deformed_m.values, (radius, m, ell, convention), passage, dpi
     )
-    return save_prediction(target, surface, deformed, conditions, passage, dpi)
 
 
-def _plot_run(folder: Path, target: Path, units: str, dpi: int) -> list[Path]:
-    run = results.read(folder)
-    operating = OperatingPoint.from_settings(run.case)
+def _plot_run(data: xr.Dataset, target: Path, units: str, dpi: int) -> list[Path]:
+    operating = OperatingPoint.from_settings(results.settings_of(data))
     scales = None
     if units == "si" or (units == "auto" and operating.si):
         scales = Scales(operating.hertz_radius, operating.hertz_pressure, operating.film_scale)
-    x, y, pressure, film = (run[name] for name in "XYPH")
+    x, y, pressure, film = (data[name].values for name in "XYPH")
     written = [
         save(centre_lines(x, y, pressure, film, scales), target / "centre_lines.png", dpi),
         save(film_maps(x, y, film, scales), target / "film.png", dpi),
     ]
-    if "A_d" in run.variables:
-        written += _plot_march(run, target, scales, dpi, operating.time_scale if scales else 0.0)
+    if "A_d" in data:
+        seconds = operating.time_scale if scales else 0.0
+        written += _plot_transient(data, target, scales, dpi, seconds)
     return written
 
 
-def _plot_march(
-    run: results.Result, target: Path, scales: Scales | None, dpi: int, seconds: float
+def _plot_transient(
+    data: xr.Dataset, target: Path, scales: Scales | None, dpi: int, seconds: float
 ) -> list[Path]:
-    x, y = run["X"], run["Y"]
-    pair = transient.deformed_roughness(x, y, run["RR"], run["A_d"], scales)
-    lines = transient.rough_and_smooth(
-        x, y, (run["P"], run["P_smooth"]), (run["H"], run["H_smooth"]), scales
-    )
+    names = ("X", "Y", "RR", "A_d", "P", "P_smooth", "H", "H_smooth")
+    x, y, rough, deformed, p, p_smooth, h, h_smooth = (data[name].values for name in names)
+    pair = transient.deformed_roughness(x, y, rough, deformed, scales)
+    lines = transient.rough_and_smooth(x, y, (p, p_smooth), (h, h_smooth), scales)
     written = [
         save(pair, target / "deformed_roughness.png", dpi),
         save(lines, target / "rough_and_smooth.png", dpi),
     ]
-    if "history_T" not in run.variables:  # at rest
+    if "history_T" not in data:  # at rest
         return written
-    time = run["history_T"]
+    time = data.history_T.values
     if time.size > 1:
         figure = transient.friction_history(
             time,
-            run["history_mu_ratio"],
-            period=float(run.summary["T_mean"]),
-            mean=run.summary["mu_ratio"],
-            formula=transient.eq_16(run),
+            data.history_mu_ratio.values,
+            period=float(data.attrs["T_mean"]),
+            mean=data.attrs.get("mu_ratio"),
+            formula=transient.eq_16(data.attrs, results.settings_of(data)),
             seconds=seconds,
         )
         written.append(save(figure, target / "friction.png", dpi))
@@ -160,7 +147,7 @@ def plot_folder(folder: Path, target: Path, units: str = "auto", dpi: int = DPI)
     OSError
         If a file cannot be read or written.
     """
-    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-    if summary.get("kind") == "prediction":
-        return _plot_prediction(folder, summary, target, dpi)
-    return _plot_run(folder, target, units, dpi)
+    data = results.load(folder)
+    if data.attrs.get("kind") == "prediction":
+        return _plot_prediction(data, target, dpi)
+    return _plot_run(data, target, units, dpi)

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib import pyplot
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
@@ -26,6 +27,7 @@ __all__ = [
     "SEQUENTIAL",
     "VERMILLION",
     "Scales",
+    "axes_or_new",
     "axis_unit",
     "edges",
     "height_unit",
@@ -55,6 +57,13 @@ class Scales:
 def new_figure(width: float, height: float) -> Figure:
     """Make an empty figure of a size in inches, laid out by itself."""
     return Figure(figsize=(width, height), layout="constrained")
+
+
+def axes_or_new(ax: Axes | None, width: float, height: float) -> Axes:
+    """Give the axes back, or those of a new pyplot figure of a size in inches."""
+    if ax is None:
+        _, ax = pyplot.subplots(figsize=(width, height), layout="constrained")
+    return ax
 
 
 def save(figure: Figure, path: str | Path, dpi: int = DPI) -> Path:

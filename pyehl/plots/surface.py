@@ -10,6 +10,7 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
@@ -21,6 +22,7 @@ from pyehl.plots.style import (
     GREY,
     SEQUENTIAL,
     VERMILLION,
+    axes_or_new,
     edges,
     height_unit,
     letter,
@@ -29,7 +31,7 @@ from pyehl.plots.style import (
 from pyehl.surfaces import Topography, psd_2d, psd_isotropic
 from pyehl.theory import amplitude
 
-__all__ = ["friction_passage", "roughness_pair", "surface_spectrum"]
+__all__ = ["friction_passage", "octaves", "passage", "roughness_pair", "surface_spectrum"]
 
 Array = NDArray[np.float64]
 
@@ -154,13 +156,8 @@ def roughness_pair(
     return figure
 
 
-def friction_passage(
-    shift: Array,
-    ratio: Array,
-    length: float,
-    bands: Sequence[tuple[float, float, float]] = (),
-) -> Figure:
-    """mu_r/mu_s over one passage of the tile, and what each octave of wavelengths adds.
+def passage(shift: Array, ratio: Array, length: float, ax: Axes | None = None) -> Axes:
+    """Draw mu_r/mu_s over one passage of the tile.
 
     Parameters
     ----------
@@ -168,12 +165,15 @@ def friction_passage(
         (n,) displacement of the tile [m], equally spaced from 0, and mu_r/mu_s there [-].
     length
         Of the tile along x [m].
-    bands
-        Longest and shortest wavelength [m] and rise [-] of each octave; empty: not drawn.
+    ax
+        Where to draw; None: a new figure.
+
+    Returns
+    -------
+    Axes
+        `ax`, or the new ones.
     """
-    figure = new_figure(7.2 if bands else 3.8, 2.9)
-    axes = list(figure.subplots(1, 2 if bands else 1, squeeze=False)[0])
-    ax = axes[0]
+    ax = axes_or_new(ax, 3.8, 2.9)
     n = ratio.size
     half = np.fft.rfft(ratio)
     if n % 2 == 0:
@@ -189,17 +189,49 @@ def friction_passage(
     ax.set_xlabel("displacement of the surface [mm]")
     ax.set_ylabel(r"$\mu_r/\mu_s$")
     ax.legend(loc="best", fontsize="small")
+    return ax
+
+
+def octaves(bands: Sequence[tuple[float, float, float]], ax: Axes | None = None) -> Axes:
+    """Draw what each octave of wavelengths adds to mu_r/mu_s.
+
+    Parameters
+    ----------
+    bands
+        Longest and shortest wavelength [m] and rise [-] of each octave.
+    ax
+        Where to draw; None: a new figure.
+
+    Returns
+    -------
+    Axes
+        `ax`, or the new ones.
+    """
+    ax = axes_or_new(ax, 3.8, 2.9)
+    for longest, shortest, rise in bands:
+        if math.isfinite(rise):
+            ax.fill_between(
+                [shortest * 1e6, longest * 1e6], 0.0, [rise, rise], color=BLUE, alpha=0.75,
+                lw=0.8, ec="white",
+            )  # fmt: skip
+    ax.axhline(0.0, color=GREY, lw=0.8)
+    ax.set_xscale("log")
+    ax.set_xlabel(r"wavelength of the component [$\mu$m]")
+    ax.set_ylabel(r"contribution to $\mu_r/\mu_s - 1$")
+    return ax
+
+
+def friction_passage(
+    shift: Array,
+    ratio: Array,
+    length: float,
+    bands: Sequence[tuple[float, float, float]] = (),
+) -> Figure:
+    """Figure of :func:`passage` and, unless there are no bands, :func:`octaves`."""
+    figure = new_figure(7.2 if bands else 3.8, 2.9)
+    axes = list(figure.subplots(1, 2 if bands else 1, squeeze=False)[0])
+    passage(shift, ratio, length, axes[0])
     if bands:
-        right = axes[1]
-        for longest, shortest, rise in bands:
-            if math.isfinite(rise):
-                right.fill_between(
-                    [shortest * 1e6, longest * 1e6], 0.0, [rise, rise], color=BLUE, alpha=0.75,
-                    lw=0.8, ec="white",
-                )  # fmt: skip
-        right.axhline(0.0, color=GREY, lw=0.8)
-        right.set_xscale("log")
-        right.set_xlabel(r"wavelength of the component [$\mu$m]")
-        right.set_ylabel(r"contribution to $\mu_r/\mu_s - 1$")
+        octaves(bands, axes[1])
     letter(axes)
     return figure

@@ -7,6 +7,9 @@ Each function returns a figure; arrays have their first index along x. Units as 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -27,7 +30,6 @@ from pyehl.plots.style import (
     nearest,
     new_figure,
 )
-from pyehl.results import Result
 from pyehl.theory import stribeck
 
 __all__ = ["deformed_roughness", "eq_16", "friction_history", "rough_and_smooth"]
@@ -35,13 +37,18 @@ __all__ = ["deformed_roughness", "eq_16", "friction_history", "rough_and_smooth"
 Array = NDArray[np.float64]
 
 
-def eq_16(run: Result) -> float | None:
+def eq_16(summary: Mapping[str, Any], settings: Mapping[str, Mapping[str, Any]]) -> float | None:
     """mu_r/mu_s by eq. 16 of Zhang et al. 2019 for the waviness of a run, with its own H_c.
+
+    Parameters
+    ----------
+    summary, settings
+        Scalars of the run, and groups and values of its case.
 
     None when the run is none that the equation is for: equal wavelengths along X and Y, inside
     the range of the fit.
     """
-    surface, summary = run.case["surface"], run.summary
+    surface = settings["surface"]
     film, amplitude = summary.get("H_c"), summary.get("amplitude")
     if surface["kind"] != "harmonic" or not film or not amplitude:
         return None

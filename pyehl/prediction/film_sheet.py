@@ -34,12 +34,13 @@ def sheet(settings: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
     films = film.estimates(operating, lubricant)
     h_c = films[0].h_c
     result: dict[str, Any] = {
-        "load": operating.load,
-        "mean_velocity": operating.mean_velocity,
-        "radius": operating.radius,
-        "reduced_modulus": operating.reduced_modulus,
-        "viscosity": operating.viscosity,
-        "pressure_viscosity": operating.pressure_viscosity,
+        "kind": "film",
+        "load_N": operating.load,
+        "mean_velocity_m_per_s": operating.mean_velocity,
+        "radius_m": operating.radius,
+        "reduced_modulus_Pa": operating.reduced_modulus,
+        "viscosity_Pa_s": operating.viscosity,
+        "pressure_viscosity_per_Pa": operating.pressure_viscosity,
         "si": operating.si,
         "moes_m": operating.moes_m,
         "moes_l": operating.moes_l,
@@ -47,16 +48,16 @@ def sheet(settings: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
         "G": operating.material,
         "W": operating.load_number,
         "alpha_bar": operating.alpha_bar,
-        "hertz_radius": operating.hertz_radius,
-        "hertz_pressure": operating.hertz_pressure,
-        "film_scale": operating.film_scale,
+        "hertz_radius_m": operating.hertz_radius,
+        "hertz_pressure_Pa": operating.hertz_pressure,
+        "film_scale_m": operating.film_scale,
         "speed_parameter": operating.speed_parameter,
         "formulas": [
             {
                 "name": f.name,
                 "source": f.source,
-                "h_c": f.h_c,
-                "h_min": f.h_min if math.isfinite(f.h_min) else None,
+                "h_c_m": f.h_c,
+                "h_min_m": f.h_min if math.isfinite(f.h_min) else None,
                 "H_c": f.h_c / operating.film_scale,
                 "H_min": f.h_min / operating.film_scale if math.isfinite(f.h_min) else None,
                 "outside": list(f.outside),
@@ -70,7 +71,7 @@ def sheet(settings: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
     result["surface"] = kind
     if kind != "smooth":
         rough = surfaces.from_settings(settings, operating, h_c)
-        result["rms_height"] = rough.rms_height
+        result["rms_height_m"] = rough.rms_height
         result["lambda_ratio"] = h_c / rough.rms_height if rough.rms_height > 0.0 else None
     if kind == "harmonic":
         amplitude = surfaces.harmonic_amplitude(settings, operating, h_c)

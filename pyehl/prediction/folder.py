@@ -11,14 +11,10 @@ import tempfile
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
-import f90nml
 import numpy as np
 from numpy.typing import NDArray
 
-from pyehl.prediction.bands import Band
 from pyehl.prediction.of_case import Prediction
-from pyehl.surfaces import psd_isotropic
-from pyehl.theory.amplitude import component_amplitude_ratio
 
 __all__ = ["write"]
 
@@ -27,7 +23,6 @@ def write(
     prediction: Prediction,
     folder: str | Path,
     *,
-    case_text: str | None = None,
     draw: Callable[[Prediction, Path], None] | None = None,
 ) -> None:
     """Write the result folder, whole or not at all.
@@ -35,7 +30,7 @@ def write(
     Files: ``case.nml`` (resolved), ``summary.json``, ``passage.csv``, ``spectrum.csv``,
     ``bands.csv`` and, first index along x: ``x.npy`` (nx,), ``y.npy`` (ny,), ``surface.npy``,
     ``deformed.npy`` [m], ``delta_p.npy`` [Pa], (nx, ny); `draw` may add pictures
-    to the folder. `case_text` is the resolved namelist; without it the settings are written as one.
+    to the folder.
 
     Raises
     ------
@@ -44,11 +39,9 @@ def write(
     OSError
         If it cannot be written.
     """
-    groups = {group: dict(keys) for group, keys in prediction.settings.items()}
-    text = case_text or str(f90nml.Namelist(groups))
 
     def fill(target: Path) -> None:
-        (target / "case.nml").write_text(text.rstrip() + "\n", encoding="utf-8")
+        (target / "case.nml").write_text(prediction.case_text.rstrip() + "\n", encoding="utf-8")
         _write_files(prediction, target)
         if draw is not None:
             draw(prediction, target)
@@ -57,35 +50,12 @@ def write(
 
 
 def _write_files(prediction: Prediction, target: Path) -> None:
-    f, s = prediction.friction, prediction.surface
-    text = json.dumps(prediction.summary(), indent=2, allow_nan=False)
+    text = json.dumps(prediction.summary, indent=2, allow_nan=False)
     (target / "summary.json").write_text(text + "\n", encoding="utf-8")
-    passage = zip(f.shift, f.passage, strict=True)
-    _write_csv(target / "passage.csv", ("shift_m", "mu_ratio"), passage)
-    q, c_iso = psd_isotropic(s)
-    o = prediction.operating
-    ratio = component_amplitude_ratio(
-        q,
-        0.0,
-        o.hertz_radius,
-        o.moes_m,
-        o.moes_l,
-        convention=prediction.options.wavelength_convention,
-    )
-    _write_csv(
-        target / "spectrum.csv",
-        ("q_rad_per_m", "c_iso_m4", "amplitude_ratio_along_x"),
-        zip(q, c_iso, ratio, strict=True),
-    )
-    names = tuple(Band.__dataclass_fields__)
-    _write_csv(
-        target / "bands.csv", names, ([getattr(b, n) for n in names] for b in prediction.bands)
-    )
-    np.save(target / "x.npy", np.arange(s.shape[0]) * s.pixel[0])
-    np.save(target / "y.npy", np.arange(s.shape[1]) * s.pixel[1])
-    np.save(target / "surface.npy", np.asfortranarray(s.heights))
-    np.save(target / "deformed.npy", np.asfortranarray(f.response.deformed))
-    np.save(target / "delta_p.npy", np.asfortranarray(f.response.pressure))
+    for name, columns in prediction.tables.items():
+        _write_csv(target / f"{name}.csv", tuple(columns), zip(*columns.values(), strict=True))
+    for name, values in prediction.arrays.items():
+        np.save(target / f"{name}.npy", values)
 
 
 def _write_csv(

@@ -5,20 +5,39 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
+import f90nml
 import numpy as np
+from numpy.typing import NDArray
 
-from pyehl import surfaces
+from pyehl import display, surfaces
 from pyehl.prediction.bands import Band, contributions
 from pyehl.prediction.friction import RoughFriction, over_tracks, predict_friction
 from pyehl.prediction.options import Options
+from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.axes import Axes
+
 __all__ = ["Prediction", "predict"]
+
+Array = NDArray[np.float64]
+
+# Attributes of a band, and what they are called in results
+BAND_COLUMNS = {
+    "longest": "longest_m",
+    "shortest": "shortest_m",
+    "rms_height": "rms_height_m",
+    "rms_deformed": "rms_deformed_m",
+    "rms_pressure": "rms_pressure_Pa",
+    "rise": "rise",
+}
 
 NEWTONIAN_NOTE = (
     "Newtonian: the ratio is the limit of vanishing sliding; shear thinning at a real "
@@ -27,7 +46,7 @@ NEWTONIAN_NOTE = (
 STRESS_NOTE = "ratio of friction coefficients at the given slide-to-roll ratio"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Prediction:
     """A prediction with all that went into it.
 
@@ -50,6 +69,17 @@ class Prediction:
     tracks
         Mean and standard deviation of the passage mean over the tracks of the tile, see
         :func:`pyehl.prediction.over_tracks`.
+    text
+        The resolved case as namelist text; '' where only its settings are known.
+
+    Examples
+    --------
+    >>> import pyehl
+    >>> p = pyehl.predict("cases/table1.nml", "surface.seed=3")
+    >>> round(p.mu_ratio, 3), p.summary["status"]
+    (1.117, 'predicted')
+    >>> p.data.surface_m.shape
+    (256, 256)
     """
 
     settings: Mapping[str, Mapping[str, Any]]
@@ -62,14 +92,94 @@ class Prediction:
     friction: RoughFriction
     bands: Sequence[Band]
     tracks: tuple[float, float]
+    text: str = ""
+
+    def __repr__(self) -> str:
+        """Give the ratio and the status in one line."""
+        return f"Prediction(mu_ratio={self.mu_ratio:.4g}, {self.friction.status!r})"
+
+    def _repr_html_(self) -> str:
+        """Draw the summary, for notebooks."""
+        rows = {k: v for k, v in self.summary.items() if v is not None and k != "bands"}
+        return display.table("Prediction", rows)
 
     @property
     def thins(self) -> bool:
         """Whether the shear stress is another than the Newtonian one."""
         return self.lubricant.shear.law != "newtonian" and self.operating.sliding_speed > 0.0
 
+    @property
+    def mu_ratio(self) -> float:
+        """Mean mu_r/mu_s over the passage [-]; NaN unless the status is ``"predicted"``."""
+        return self.friction.mu_ratio
+
+    @property
+    def case_text(self) -> str:
+        """The resolved case as namelist text."""
+        if self.text:
+            return self.text
+        return f"{f90nml.Namelist({group: dict(keys) for group, keys in self.settings.items()})}\n"
+
+    @property
+    def arrays(self) -> dict[str, Array]:
+        """Arrays x (nx,), y (ny,), surface, deformed [m] and delta_p [Pa] (nx, ny)."""
+        s, field = self.surface, self.friction.response
+        return {
+            "x": np.arange(s.shape[0], dtype=float) * s.pixel[0],
+            "y": np.arange(s.shape[1], dtype=float) * s.pixel[1],
+            "surface": np.asfortranarray(s.heights),
+            "deformed": np.asfortranarray(field.deformed),
+            "delta_p": np.asfortranarray(field.pressure),
+        }
+
+    @property
+    def tables(self) -> dict[str, dict[str, Array]]:
+        """Columns of the tables ``passage``, ``spectrum`` and ``bands``."""
+        f, o = self.friction, self.operating
+        q, c_iso = surfaces.psd_isotropic(self.surface)
+        ratio = component_amplitude_ratio(
+            q,
+            0.0,
+            o.hertz_radius,
+            o.moes_m,
+            o.moes_l,
+            convention=self.options.wavelength_convention,
+        )
+        return {
+            "passage": {"shift_m": f.shift, "mu_ratio": f.passage},
+            "spectrum": {
+                "q_rad_per_m": q,
+                "c_iso_m4": c_iso,
+                "amplitude_ratio_along_x": ratio,
+            },
+            "bands": {
+                name: np.array([record[name] for record in self._bands()])
+                for name in BAND_COLUMNS.values()
+            },
+        }
+
+    @property
+    def data(self) -> xarray.Dataset:
+        """Fields, tables and scalars, the same as `pyehl.load` of the folder."""
+        # xarray takes longer to import than the prediction takes to compute
+        from pyehl.results import prediction_dataset  # noqa: PLC0415
+
+        return prediction_dataset(self.summary, self.case_text, self.arrays, self.tables)
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw mu_r/mu_s over the passage on `ax`, or on a new figure; returns the axes."""
+        from pyehl.plots.surface import passage  # noqa: PLC0415 (matplotlib, as above)
+
+        return passage(self.friction.shift, self.friction.passage, self.surface.length_x, ax)
+
+    def _bands(self) -> list[dict[str, float]]:
+        return [
+            {name: getattr(band, key) for key, name in BAND_COLUMNS.items()} for band in self.bands
+        ]
+
+    @property
     def summary(self) -> dict[str, Any]:
-        """Return what ``summary.json`` holds: numbers in SI units, null where there is none."""
+        """What ``summary.json`` holds; None for a number that does not exist."""
         f, o, s = self.friction, self.operating, self.surface
         values: dict[str, Any] = {
             "kind": "prediction",
@@ -85,47 +195,49 @@ class Prediction:
             "note": STRESS_NOTE if self.thins else NEWTONIAN_NOTE,
             "mu_smooth": f.mu_smooth if self.thins else None,
             "wavelength_convention": self.options.wavelength_convention,
-            "phase_lag": self.options.phase_lag,
+            "phase_lag_deg": self.options.phase_lag,
             "stiffness": self.options.stiffness,
             "viscosity_law": self.lubricant.viscosity_law,
             "roelands_z": self.lubricant.roelands_z or None,
             "load_balance": self.options.load_balance,
             "shear_law": self.lubricant.shear.law,
             "slide_to_roll": o.slide_to_roll,
-            "h_c": self.film,
+            "h_c_m": self.film,
             "h_c_source": self.film_source,
-            "h_min": f.film_min,
+            "h_min_m": f.film_min,
             "lambda_ratio": self.film / s.rms_height if s.rms_height > 0.0 else None,
             "surface": s.origin,
             "seed": s.seed,
             "pixels": list(s.shape),
-            "length_x": s.length_x,
-            "length_y": s.length_y,
-            "rms_height": s.rms_height,
-            "rms_deformed": float(np.std(f.response.deformed)),
-            "rms_pressure": float(np.std(f.response.pressure)),
+            "length_x_m": s.length_x,
+            "length_y_m": s.length_y,
+            "rms_height_m": s.rms_height,
+            "rms_deformed_m": float(np.std(f.response.deformed)),
+            "rms_pressure_Pa": float(np.std(f.response.pressure)),
             "cavitated_share": f.cavitated_share,
             "cavitated_friction": f.cavitated_friction,
             "load_error": f.load_error,
             "moes_m": o.moes_m,
             "moes_l": o.moes_l,
             "si": o.si,
-            "hertz_radius": o.hertz_radius,
-            "hertz_pressure": o.hertz_pressure,
-            "film_scale": o.film_scale,
-            "bands": [asdict(band) for band in self.bands],
+            "hertz_radius_m": o.hertz_radius,
+            "hertz_pressure_Pa": o.hertz_pressure,
+            "film_scale_m": o.film_scale,
+            "bands": self._bands(),
             "wall_seconds": f.seconds,
         }
         return {key: _finite(value) for key, value in values.items()}
 
 
-def predict(settings: Mapping[str, Mapping[str, Any]]) -> Prediction:
+def predict(settings: Mapping[str, Mapping[str, Any]], text: str = "") -> Prediction:
     """Predict the relative friction of a resolved case.
 
     Parameters
     ----------
     settings
         Mapping of groups to mappings of keys to values, every key present.
+    text
+        The same as namelist text, for the result folder.
 
     Raises
     ------
@@ -148,7 +260,17 @@ def predict(settings: Mapping[str, Mapping[str, Any]]) -> Prediction:
     bands = contributions(surface, operating, lubricant, h_c, options)
     tracks = over_tracks(surface, operating, lubricant, h_c, options)
     return Prediction(
-        settings, operating, lubricant, options, h_c, source, surface, friction, bands, tracks
+        settings,
+        operating,
+        lubricant,
+        options,
+        h_c,
+        source,
+        surface,
+        friction,
+        bands,
+        tracks,
+        text,
     )
 
 

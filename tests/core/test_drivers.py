@@ -13,9 +13,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import pyehl
-from pyehl import cli
+from pyehl import cli, results
+from pyehl.export import export
 
 SMALL = "&contact moes_m = 100.0 moes_l = 5.0 /\n&grid points = 65 /\n"
 SMALL_SI = "&contact load = 20.0 /\n&grid points = 65 /\n"
@@ -187,50 +189,51 @@ def test_ends_with_nothing_when_the_folder_cannot_be_written(drive, tmp_path: Pa
 
 
 def test_load_and_export(drive, tmp_path: Path):
-    xr = pytest.importorskip("xarray")
     (tmp_path / "case.nml").write_text(SMALL_SI)
     assert drive("ehl", "case.nml", "-o", "out").returncode == 0
     data = pyehl.load(tmp_path / "out")
     assert isinstance(data, xr.Dataset)
-    assert data["P"].dims == data["h"].dims == ("X", "Y")
-    assert {name: data[name].units for name in ("X", "x", "y", "P", "H", "p", "h")} == {
+    assert data["P"].dims == data["h_m"].dims == ("X", "Y")
+    assert {name: data[name].units for name in ("X", "x_m", "y_m", "P", "H", "p_Pa", "h_m")} == {
         "X": "1",
-        "x": "m",
-        "y": "m",
+        "x_m": "m",
+        "y_m": "m",
         "P": "1",
         "H": "1",
-        "p": "Pa",
-        "h": "m",
+        "p_Pa": "Pa",
+        "h_m": "m",
     }
     # a^3 = 3wR/(2E'), p_h = 3w/(2 pi a^2)
     a = (1.5 * 20.0 * 0.018 / 2.26e11) ** (1.0 / 3.0)
-    assert data["x"].values == pytest.approx(data["X"].values * a, rel=1e-14)
-    assert data["p"].values == pytest.approx(data["P"].values * 30.0 / (np.pi * a**2), rel=1e-12)
-    assert data["h"].values == pytest.approx(data["H"].values * a**2 / 0.018, rel=1e-12)
+    p_h = 30.0 / (np.pi * a**2)
+    assert data["x_m"].values == pytest.approx(data["X"].values * a, rel=1e-14)
+    assert data["p_Pa"].values == pytest.approx(data["P"].values * p_h, rel=1e-12)
+    assert data["h_m"].values == pytest.approx(data["H"].values * a**2 / 0.018, rel=1e-12)
     assert data.attrs["status"] == "converged"
-    assert data["history_residual"].sizes["row"] >= 1
-
-    from pyehl.export import export
+    assert data["history_residual"].sizes["history"] >= 1
 
     path = export(tmp_path / "out")
     with xr.open_dataset(path, engine="scipy") as again:
-        assert again["p"].dims == ("Y", "X")
-        assert np.array_equal(again["p"].values.T, data["p"].values)
-        assert again["h"].units == "m"
+        assert again["p_Pa"].dims == ("Y", "X")
+        assert {"X", "Y", "x_m", "y_m"} <= set(again.coords)
+        for name in data.variables:
+            assert np.array_equal(again[name].values.T, data[name].values)
+            assert again[name].attrs == data[name].attrs
+        lower = [str(name).lower() for name in again.variables]
+        assert len(lower) == len(set(lower))
+        missing = {name for name in data.attrs if name not in again.attrs}
+        assert not {name for name in missing if data.attrs[name] != ""}
         assert again.attrs["H_c"] == data.attrs["H_c"]
-        assert {"Conventions", "status"} <= set(again.attrs)
+        assert again.attrs["Conventions"] == "CF-1.8"
 
 
-def test_load_without_xarray(drive, tmp_path: Path, monkeypatch):
+def test_load_without_si_input(drive, tmp_path: Path):
     (tmp_path / "case.nml").write_text(SMALL)
     assert drive("ehl", "case.nml", "-o", "out").returncode == 0
-    monkeypatch.setitem(__import__("sys").modules, "xarray", None)
-    result = pyehl.load(tmp_path / "out")
-    assert isinstance(result, pyehl.results.Result)
-    assert result.converged
-    assert result["P"].shape == (65, 65)
-    assert "p" not in result.variables  # no SI values without SI input
-    assert result.case["grid"]["points"] == 65
+    data = pyehl.load(tmp_path / "out")
+    assert data.P.shape == (65, 65)
+    assert "p_Pa" not in data
+    assert results.settings_of(data)["grid"]["points"] == 65
 
 
 def test_load_refuses_other_folders(tmp_path: Path):

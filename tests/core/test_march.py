@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import pyehl
 from pyehl import cli, results
@@ -37,18 +38,17 @@ def march(tmp_path_factory) -> Path:
 
 
 def test_fields_and_frames_with_units(march: Path):
-    xr = pytest.importorskip("xarray")
     data = pyehl.load(march)
     assert isinstance(data, xr.Dataset)
     frames = data.sizes["T"]
     assert frames >= 3
     for name, si, unit, scale in (
-        ("P_smooth", "p_smooth", "Pa", 30.0 / (np.pi * RADIUS**2)),
-        ("H_smooth", "h_smooth", "m", RADIUS**2 / 0.018),
-        ("RR", "rr", "m", RADIUS**2 / 0.018),
-        ("A_d", "a_d", "m", RADIUS**2 / 0.018),
-        ("frame_P", "frame_p", "Pa", 30.0 / (np.pi * RADIUS**2)),
-        ("frame_H", "frame_h", "m", RADIUS**2 / 0.018),
+        ("P_smooth", "p_smooth_Pa", "Pa", 30.0 / (np.pi * RADIUS**2)),
+        ("H_smooth", "h_smooth_m", "m", RADIUS**2 / 0.018),
+        ("RR", "rr_m", "m", RADIUS**2 / 0.018),
+        ("A_d", "a_d_m", "m", RADIUS**2 / 0.018),
+        ("frame_P", "frame_p_Pa", "Pa", 30.0 / (np.pi * RADIUS**2)),
+        ("frame_H", "frame_h_m", "m", RADIUS**2 / 0.018),
     ):
         assert data[name].dims == (("X", "Y", "T") if "frame" in name else ("X", "Y"))
         assert data[name].shape == ((65, 65, frames) if "frame" in name else (65, 65))
@@ -56,8 +56,8 @@ def test_fields_and_frames_with_units(march: Path):
         assert data[name].long_name
         assert data[si].values == pytest.approx(data[name].values * scale, rel=1e-12)
     assert np.array_equal(data["A_d"].values, data["H_smooth"].values - data["H"].values)
-    assert data["t"].units == "s"
-    assert data["t"].values == pytest.approx(data["T"].values * RADIUS / 0.84, rel=1e-12)
+    assert data["t_s"].units == "s"
+    assert data["t_s"].values == pytest.approx(data["T"].values * RADIUS / 0.84, rel=1e-12)
     # frames at the first step past each multiple of the interval
     step = 4.0 / 64
     past = data["T"].values - 0.5 * np.floor(data["T"].values / 0.5)
@@ -65,11 +65,11 @@ def test_fields_and_frames_with_units(march: Path):
     assert np.diff(np.floor(data["T"].values / 0.5)) == pytest.approx(1.0)
     assert float(np.abs(data["RR"]).max()) <= data.attrs["amplitude"]
 
-    with xr.open_dataset(export(march), engine="scipy", decode_times=False) as again:
-        assert again["frame_p"].dims == ("T", "Y", "X")
-        assert np.array_equal(again["frame_p"].values.T, data["frame_p"].values)
-        assert again["a_d"].units == "m"
-        assert np.array_equal(again["t"].values, data["t"].values)
+    with xr.open_dataset(export(march), engine="scipy") as again:
+        assert again["frame_p_Pa"].dims == ("T", "Y", "X")
+        assert np.array_equal(again["frame_p_Pa"].values.T, data["frame_p_Pa"].values)
+        assert again["a_d_m"].units == "m"
+        assert np.array_equal(again["t_s"].values, data["t_s"].values)
 
 
 def test_last_frame_is_of_its_step(drive, tmp_path: Path):
@@ -77,9 +77,9 @@ def test_last_frame_is_of_its_step(drive, tmp_path: Path):
     # a step is 0.0625, and 13 were skipped
     done = drive("ehl", "case.nml", "-o", "out", "--set", "time.steps=11")
     assert done.returncode == 1
-    run = results.read(tmp_path / "out")
-    assert run["T"].tolist() == [1.0, 1.5]
-    assert run["history_T"][-1] == 1.5
+    run = pyehl.load(tmp_path / "out")
+    assert run["T"].values.tolist() == [1.0, 1.5]
+    assert run["history_T"].values[-1] == 1.5
     assert np.array_equal(run["frame_P"][:, :, -1], run["P"])
     assert np.array_equal(run["frame_H"][:, :, -1], run["H"])
     assert not np.array_equal(run["frame_H"][:, :, 0], run["H"])
@@ -151,8 +151,9 @@ def test_plot_on_a_march(march: Path, tmp_path: Path, capsys):
 
 
 def test_friction_history_shows_the_averaging_window(march: Path):
-    run = results.read(march)
-    mean, period = run.summary["mu_ratio"], run.summary["T_mean"]
+    data = pyehl.load(march)
+    mean, period = data.attrs["mu_ratio"], data.attrs["T_mean"]
+    run = {name: data[name].values for name in ("history_T", "history_mu_ratio")}
     figure = transient.friction_history(
         run["history_T"], run["history_mu_ratio"], period=period, mean=mean, formula=2.0
     )
@@ -170,7 +171,8 @@ def test_friction_history_shows_the_averaging_window(march: Path):
 
 
 def test_deformed_roughness_ends_at_the_circle_and_shares_a_scale(march: Path):
-    run = results.read(march)
+    data = pyehl.load(march)
+    run = {name: data[name].values for name in ("X", "Y", "RR", "A_d")}
     figure = transient.deformed_roughness(run["X"], run["Y"], run["RR"], run["A_d"])
     images = [ax.images[0] for ax in figure.axes[:2]]
     assert images[0].get_clim() == images[1].get_clim()
@@ -185,17 +187,18 @@ def test_deformed_roughness_ends_at_the_circle_and_shares_a_scale(march: Path):
 
 
 def test_eq_16_only_where_it_holds(march: Path):
-    run = results.read(march)
+    data = pyehl.load(march)
     # M = 31, outside of the range of the fit
-    assert transient.eq_16(run) is None
+    assert transient.eq_16(data.attrs, results.settings_of(data)) is None
     inside = {"moes_m": 1000.0, "moes_l": 10.0, "H_c": 0.0243, "amplitude": 9.72e-3}
     surface = {"kind": "harmonic", "wavelength_x": 0.5, "wavelength_y": 0.5}
-    known = results.Result(inside, {"surface": surface})
     # theta_2 = 10^-1.1 1000^0.33 0.5^0.67 2.5, 1 + 0.546 theta_2^-2 + 0.219 theta_2^-4
     theta = 10**-1.1 * 1000**0.33 * 0.5**0.67 * 2.5
-    assert transient.eq_16(known) == pytest.approx(1 + 0.546 / theta**2 + 0.219 / theta**4)
+    assert transient.eq_16(inside, {"surface": surface}) == pytest.approx(
+        1 + 0.546 / theta**2 + 0.219 / theta**4
+    )
     for other in ({"kind": "fractal"}, {"wavelength_y": 0.6}):
-        assert transient.eq_16(results.Result(inside, {"surface": surface | other})) is None
+        assert transient.eq_16(inside, {"surface": surface | other}) is None
 
 
 def test_bench_step(tmp_path: Path, capsys, monkeypatch):

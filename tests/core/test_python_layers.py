@@ -12,7 +12,7 @@ import pytest
 # A module imports only from its own layer or from a layer to the left. Imports inside functions
 # and those for typing alone count too.
 LAYERS = [
-    ["errors", "reference"],
+    ["errors", "display", "reference"],
     ["library", "namelist"],
     ["theory"],
     ["surfaces"],
@@ -20,7 +20,7 @@ LAYERS = [
     ["solver", "results"],
     ["plots"],
     ["prediction", "run", "export"],
-    ["bench"],
+    ["api", "bench"],
     ["commands"],
     ["cli"],
     ["__init__", "__main__"],
@@ -103,7 +103,8 @@ def test_nobody_imports_a_command(graph: dict[str, set[str]]):
     [
         ("pyehl._core", {"library"}),
         ("argparse", {"commands", "cli"}),
-        ("matplotlib", {"plots"}),
+        # the prediction names a type of it
+        ("matplotlib", {"plots", "prediction"}),
     ],
 )
 def test_who_imports_what(root: Path, what: str, where: set[str]):

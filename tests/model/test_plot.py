@@ -147,7 +147,6 @@ def test_subcommand_on_a_prediction_that_failed(settings, tmp_path):
 
 
 def test_subcommand_on_a_run(settings, fields, tmp_path):
-    pytest.importorskip("pyehl.results")
     (tmp_path / "summary.json").write_text(json.dumps({"status": "converged"}))
     (tmp_path / "case.nml").write_text(str(f90nml.Namelist(settings)) + "\n")
     for name, values in zip("XYPH", fields, strict=True):

@@ -8,11 +8,13 @@ import json
 import f90nml
 import numpy as np
 import pytest
+import xarray as xr
 
 from pyehl.commands import film as film_command
 from pyehl.commands import predict as predict_command
 from pyehl.prediction.folder import write
 from pyehl.prediction.of_case import predict
+from pyehl.results import load
 from pyehl.theory import film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -20,17 +22,17 @@ from pyehl.theory.operating import OperatingPoint
 
 def test_summary_says_what_was_done(settings):
     result = predict(settings)
-    summary = json.loads(json.dumps(result.summary(), allow_nan=False))
+    summary = json.loads(json.dumps(result.summary, allow_nan=False))
     assert summary["status"] == "predicted"
     assert summary["mu_ratio_min"] < summary["mu_ratio"] < summary["mu_ratio_max"]
     assert summary["wavelength_convention"] == "components"
-    assert summary["phase_lag"] == 0.0
+    assert summary["phase_lag_deg"] == 0.0
     assert summary["stiffness"] == "exact"
     assert summary["viscosity_law"] == "roelands"
-    assert summary["h_c"] == 0.2333e-6
+    assert summary["h_c_m"] == 0.2333e-6
     assert summary["h_c_source"] == "psd.film_thickness"
     assert summary["seed"] == 1
-    assert summary["rms_height"] == pytest.approx(5e-8)
+    assert summary["rms_height_m"] == pytest.approx(5e-8)
     assert summary["mu_ratio_tracks"] == pytest.approx(1.072, abs=0.006)
     assert summary["mu_ratio_tracks_spread"] == pytest.approx(0.1, abs=0.06)
     assert summary["mu_smooth"] is None  # a Newtonian coefficient has no meaning
@@ -48,7 +50,7 @@ def test_film_from_the_formula_and_law_from_psd(settings):
     assert result.film == film.central_film(OperatingPoint(), Lubricant())
     assert "Nijenbanning" in result.film_source
     assert result.lubricant.viscosity_law == "barus"
-    assert result.summary()["mu_smooth"] > 0.0
+    assert result.summary["mu_smooth"] > 0.0
     assert "mu_s " in predict_command.report(result)
 
 
@@ -88,10 +90,14 @@ def test_folder(folder, settings):
     assert np.mean(ratios) == pytest.approx(summary["mu_ratio"], rel=1e-12)
 
 
-def test_folder_is_read_by_results(folder):
-    results = pytest.importorskip("pyehl.results")
-    run = results.read(folder)
-    assert run["deformed"].shape == (256, 256)
+def test_folder_holds_the_data(folder, settings):
+    data = predict(settings).data
+    again = load(folder)
+    assert data.deformed_m.shape == (256, 256)
+    assert data.bands_rise.dims == ("bands",)
+    times = [one.attrs.pop("wall_seconds") for one in (data, again)]
+    assert all(0.0 < time < 5.0 for time in times)
+    xr.testing.assert_identical(data, again)
 
 
 def test_earlier_result_is_replaced(folder, settings):
