@@ -24,6 +24,9 @@ module ehl_grid
       procedure :: coarser
       procedure :: finer
       procedure :: weight
+      procedure :: cell
+      procedure, nopass :: south
+      procedure :: first_inner
       procedure :: full_ny
       procedure :: unfold
    end type grid_t
@@ -109,6 +112,26 @@ contains
       weight = self%hx*self%hy
       if (self%mirror .and. j > 1) weight = 2.0_dp*weight
    end function weight
+
+   !> Area of a node's cell in row j; of its half in row 1 of a folded grid
+   elemental real(dp) function cell(self, j)
+      class(grid_t), intent(in) :: self
+      integer, intent(in) :: j
+      cell = self%hx*self%hy
+      if (self%mirror .and. j == 1) cell = 0.5_dp*cell
+   end function cell
+
+   !> The row below row j: on a folded grid row 0 is row 2
+   elemental integer function south(j)
+      integer, intent(in) :: j
+      south = merge(2, j - 1, j == 1)
+   end function south
+
+   !> First row that is no border row; the last one is ny-1
+   pure integer function first_inner(self)
+      class(grid_t), intent(in) :: self
+      first_inner = merge(1, 2, self%mirror)
+   end function first_inner
 
    !> Rows of the unfolded grid
    pure integer function full_ny(self)

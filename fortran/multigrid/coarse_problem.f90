@@ -52,7 +52,7 @@ contains
          coarse%geometry(:, j) = coarse%h(:, j) - coarse%h00 - coarse%w(:, j)
       end do
       !$omp end parallel do
-      coarse%galerkin = .false.
+      coarse%poiseuille%frozen = .false.
       call update_coefficients(coarse)
       if (coarsening == coarsening_alcouffe) call build_galerkin(fine, coarse, transfer)
       call restrict_residual(fine, coarse, transfer)
@@ -74,7 +74,7 @@ contains
       l = 2*j - 1
       values = fine(::2, l)
       if (j == coarse%grid%ny .or. (j == 1 .and. .not. coarse%grid%mirror)) return
-      across = 0.25_dp*(fine(:, merge(2, l - 1, l == 1)) + fine(:, l + 1)) + 0.5_dp*fine(:, l)
+      across = 0.25_dp*(fine(:, coarse%grid%south(l)) + fine(:, l + 1)) + 0.5_dp*fine(:, l)
       do i = 2, nx - 1
          values(i) = 0.25_dp*(across(2*i - 2) + across(2*i)) + 0.5_dp*across(2*i - 1)
       end do
@@ -89,21 +89,21 @@ contains
       integer :: i, j
 
       ! row 1 of a folded grid consists of half cells
-      if (coarse%galerkin .and. fine%grid%mirror) fine%residual(:, 1) = 0.5_dp*fine%residual(:, 1)
+      if (coarse%poiseuille%frozen .and. fine%grid%mirror) fine%residual(:, 1) = 0.5_dp*fine%residual(:, 1)
       !$omp parallel do default(none) shared(fine, coarse, transfer) private(i, operator_row, residual) &
       !$omp num_threads(coarse%threads) if(coarse%parallel) schedule(static)
       do j = merge(1, 2, coarse%grid%mirror), coarse%grid%ny - 1
          call reynolds_operator(coarse, j, operator_row)
-         if (coarse%galerkin) then
+         if (coarse%poiseuille%frozen) then
             call transfer%restrict_row(fine%residual, j, residual)
-            residual(2:coarse%grid%nx - 1) = residual(2:coarse%grid%nx - 1)*fine%cell(2)/coarse%cell(j)
+            residual(2:coarse%grid%nx - 1) = residual(2:coarse%grid%nx - 1)*fine%grid%cell(2)/coarse%grid%cell(j)
          else
             call weight_row(coarse, fine%residual, j, residual)
          end if
          do i = 2, coarse%grid%nx - 1
             coarse%rhs(i, j) = operator_row(i) + residual(i)
             if (coarse%p(i, j) > 0.0_dp) cycle
-            if (coarse%galerkin) then
+            if (coarse%poiseuille%frozen) then
                coarse%rhs(i, j) = never
             else
                ! keep the slack of cavitated regions, and where there is none make a little, lest rounding
@@ -131,7 +131,7 @@ contains
       !$omp parallel do default(none) shared(fine, transfer, first, last, limit) private(i, below) &
       !$omp num_threads(fine%threads) if(fine%parallel) schedule(static)
       do j = first, last
-         below = merge(2, j - 1, j == 1)
+         below = fine%grid%south(j)
          do i = 2, fine%grid%nx - 1
             if (fine%p(i, j) > 0.0_dp) transfer%fine_free(i, j) = 1.0_dp
             if (max(fine%eps(i, j), fine%eps(i - 1, j), fine%eps(i + 1, j), fine%eps(i, j + 1), &
@@ -139,34 +139,28 @@ contains
          end do
       end do
       !$omp end parallel do
-      if (fine%galerkin) then
-         call transfer%find_weights(fine%poiseuille, transfer%fine_free, transfer%dependent)
-         call galerkin_product(fine%poiseuille, transfer, coarse%poiseuille)
+      if (fine%poiseuille%frozen) then
+         call transfer%find_weights(fine%poiseuille%product, transfer%fine_free, transfer%dependent)
+         call galerkin_product(fine%poiseuille%product, transfer, coarse%poiseuille%product)
       else
          call five_point(fine, transfer%a)
          call transfer%find_weights(transfer%a, transfer%fine_free, transfer%dependent)
-         call galerkin_product(transfer%a, transfer, coarse%poiseuille)
+         call galerkin_product(transfer%a, transfer, coarse%poiseuille%product)
       end if
-      coarse%galerkin = .true.
+      coarse%poiseuille%frozen = .true.
    end subroutine build_galerkin
 
    !> The five-point Poiseuille operator of a level, integrated over the cells
    subroutine five_point(level, a)
       type(level_t), intent(in) :: level
       type(nine_point_t), intent(inout) :: a
-      real(dp) :: rx, ry
-      integer :: i, j
+      integer :: j
 
       a%five = .true.
-      !$omp parallel do default(none) shared(level, a) private(i, rx, ry) &
+      !$omp parallel do default(none) shared(level, a) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny - 1
-         rx = 0.5_dp*level%cell(j)/level%grid%hx**2
-         ry = 0.5_dp*level%grid%hx/level%grid%hy
-         do i = 1, level%grid%nx - 1
-            a%east(i, j) = rx*(level%eps(i, j) + level%eps(i + 1, j))
-            a%north(i, j) = ry*(level%eps(i, j) + level%eps(i, j + 1))
-         end do
+         call level%poiseuille%integrate(level%eps, j, j, a)
       end do
       !$omp end parallel do
    end subroutine five_point
@@ -187,7 +181,7 @@ contains
       end do
       !$omp end parallel do
       fine%h00 = coarse%h00
-      coarse%galerkin = .false.
+      coarse%poiseuille%frozen = .false.
       !$omp parallel do default(none) shared(fine, coarse, transfer, coarsening) private(i, l, middle, row) &
       !$omp num_threads(fine%threads) if(fine%parallel) schedule(static)
       do j = merge(1, 2, fine%grid%mirror), fine%grid%ny - 1

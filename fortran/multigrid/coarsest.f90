@@ -8,7 +8,9 @@ module ehl_coarsest
    use ehl_kernel, only: kernel_coefficient
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
+   use ehl_poiseuille, only: most_neighbours
    use ehl_status, only: ehl_no_memory, status_t
+   use ehl_wedge, only: wedge_reach
    implicit none (type, external)
    private
    public :: coarsest_t
@@ -54,7 +56,7 @@ contains
       integer :: i, j, k, l, col, stat
 
       if (status%failed()) return
-      self%first = merge(1, 2, grid%mirror)
+      self%first = grid%first_inner()
       self%last = grid%ny - 1
       self%n = (grid%nx - 2)*(self%last - self%first + 1)
       allocate (self%k(self%n, grid%nx*grid%ny), self%lu(self%n + 1, self%n + 1), &
@@ -172,18 +174,18 @@ contains
    !> ask for pressure
    subroutine find_residual(self, level, norm)
       class(coarsest_t), intent(inout) :: self
-      type(level_t), intent(inout) :: level
+      type(level_t), intent(in) :: level
       real(dp), intent(out) :: norm
-      real(dp) :: weight
+      real(dp) :: weight, row(level%grid%nx)
       integer :: i, j, u
 
       norm = 0.0_dp
       do j = self%first, self%last
          weight = merge(2.0_dp, 1.0_dp, level%grid%mirror .and. j > 1)
-         call reynolds_operator(level, j, level%residual(:, j))
+         call reynolds_operator(level, j, row)
          do i = 2, level%grid%nx - 1
             u = unknown(self, level%grid%nx, i, j)
-            self%residual(u) = level%rhs(i, j) - level%residual(i, j)
+            self%residual(u) = level%rhs(i, j) - row(i)
             if (level%p(i, j) < 0.0_dp .or. (level%p(i, j) <= 0.0_dp .and. self%residual(u) >= 0.0_dp)) then
                self%cavitated(u) = .true.
                self%residual(u) = -level%p(i, j)
@@ -201,9 +203,9 @@ contains
    !> Jacobian of the residual's operator, factored
    subroutine assemble(self, level)
       class(coarsest_t), intent(inout) :: self
-      type(level_t), intent(inout) :: level
-      real(dp) :: coupling(8), c(0:2), own, part, excess
-      integer :: i, j, m, u, nx, at, nb(2, 8), neighbours
+      type(level_t), intent(in) :: level
+      real(dp) :: coupling(most_neighbours), rate(most_neighbours), own, part, excess, c(0:wedge_reach)
+      integer :: i, j, m, u, nx, at, nb(2, most_neighbours), neighbours
 
       nx = level%grid%nx
       ! transposed, so that a row is contiguous
@@ -216,28 +218,28 @@ contains
                cycle
             end if
             at = i + (j - 1)*nx
-            call find_couplings(level, i, j, neighbours, nb, coupling, excess)
+            call level%poiseuille%couplings(level%eps, i, j, neighbours, nb, coupling, rate, excess)
             own = 0.0_dp
             call add_pressure(i, j, -sum(coupling) - excess)
             do m = 1, neighbours
                associate (e => level%eps(i, j), en => level%eps(nb(1, m), nb(2, m)), ii => nb(1, m), jj => nb(2, m))
                   call add_pressure(ii, jj, coupling(m))
                   ! a Galerkin operator does not change
-                  if (level%galerkin) cycle
-                  part = coupling(m)/(e + en)*(level%p(ii, jj) - level%p(i, j))
+                  if (level%poiseuille%frozen) cycle
+                  part = rate(m)*(level%p(ii, jj) - level%p(i, j))
                   own = own + 3.0_dp*e/level%h(i, j)*part
-                  call add_pressure(ii, jj, en*level%gain(ii, jj)*part)
-                  call add_pressure(i, j, e*level%gain(i, j)*part)
+                  call add_pressure(ii, jj, en*level%dlneps_dp(ii, jj)*part)
+                  call add_pressure(i, j, e*level%dlneps_dp(i, j)*part)
                   call add_film(ii, jj, 3.0_dp*en/level%h(ii, jj)*part)
                end associate
             end do
-            c = merge(level%wedge_first, level%wedge, i == 2)
+            c = level%wedge%weights(i)
             call add_film(i, j, own - c(0)*level%rho(i, j))
-            call add_pressure(i, j, -c(0)*level%stiffness(i, j))
-            do m = 1, 2
+            call add_pressure(i, j, -c(0)*level%h_drho_dp(i, j))
+            do m = 1, ubound(c, 1)
                if (i - m < 1) cycle
                call add_film(i - m, j, -c(m)*level%rho(i - m, j))
-               call add_pressure(i - m, j, -c(m)*level%stiffness(i - m, j))
+               call add_pressure(i - m, j, -c(m)*level%h_drho_dp(i - m, j))
             end do
          end do
       end do
@@ -268,36 +270,4 @@ contains
       end subroutine add_film
    end subroutine assemble
 
-   !> Neighbours of node (i, j) in the Poiseuille term, the couplings to them, and the node's excess
-   pure subroutine find_couplings(level, i, j, n, neighbour, coupling, excess)
-      type(level_t), intent(in) :: level
-      integer, intent(in) :: i, j
-      integer, intent(out) :: n, neighbour(2, 8)
-      real(dp), intent(out) :: coupling(8), excess
-      integer :: m
-
-      coupling = 0.0_dp
-      excess = 0.0_dp
-      neighbour(:, 1:4) = reshape([i + 1, j, i - 1, j, i, j + 1, i, merge(2, j - 1, j == 1)], [2, 4])
-      neighbour(:, 5:8) = reshape([i - 1, j + 1, i + 1, j + 1, i - 1, j - 1, i + 1, j - 1], [2, 4])
-      if (.not. level%galerkin) then
-         n = 4
-         coupling(1:4) = 0.5_dp/[level%grid%hx**2, level%grid%hx**2, level%grid%hy**2, level%grid%hy**2]
-         do m = 1, 4
-            coupling(m) = coupling(m)*(level%eps(i, j) + level%eps(neighbour(1, m), neighbour(2, m)))
-         end do
-         return
-      end if
-      associate (a => level%poiseuille)
-         n = merge(8, 6, j > 1)
-         coupling(1:3) = [a%east(i, j), a%east(i - 1, j), a%north(i, j)]
-         coupling(5:6) = [a%north_west(i, j), a%north_east(i, j)]
-         if (j > 1) then
-            coupling(4) = a%north(i, j - 1)
-            coupling(7:8) = [a%north_east(i - 1, j - 1), a%north_west(i + 1, j - 1)]
-         end if
-         coupling = coupling/level%cell(j)
-         excess = a%excess(i, j)/level%cell(j)
-      end associate
-   end subroutine find_couplings
 end module ehl_coarsest

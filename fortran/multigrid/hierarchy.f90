@@ -86,7 +86,6 @@ contains
             if (status%failed()) return
             call level%engine%setup(level%grid, deflection_accuracy(level%grid), level%threads, status)
             if (status%failed()) return
-            call level%set_upstream(2)
          end associate
          self%ready = k
       end do
@@ -106,7 +105,7 @@ contains
       do k = 2, self%ready
          if (self%transfers(k)%nx > 0) cycle
          associate (fine => self%levels(k), coarse => self%levels(k - 1))
-            call coarse%poiseuille%setup(coarse%grid, status)
+            call coarse%poiseuille%prepare_product(status)
             call self%transfers(k)%setup(fine%grid, coarse%grid, fine%threads, fine%parallel, status)
          end associate
          if (status%failed()) return

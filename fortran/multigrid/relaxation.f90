@@ -68,7 +68,7 @@ contains
       first = merge(1, 2, level%grid%mirror)
       last = level%grid%ny - 1
       call mark_dipoles(level, first, last)
-      if (level%squeeze > 0.0_dp) call find_shares(level, first, last)
+      if (level%wedge%squeeze > 0.0_dp) call find_shares(level, first, last)
       do colour = 0, 1
          ! the line Y = 0 belongs to the first colour, on half and on whole domains alike
          start = first + colour
@@ -85,7 +85,7 @@ contains
          !$omp end parallel do
       end do
       call apply_dipoles(level, first, last)
-      if (level%squeeze > 0.0_dp) call take_back_smooth(level, first, last)
+      if (level%wedge%squeeze > 0.0_dp) call take_back_smooth(level, first, last)
    end subroutine relax
 
    !> 1 where a node changes distributively, else 0
@@ -99,7 +99,7 @@ contains
       !$omp parallel do default(none) shared(level, first, last, limit) private(i, below) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
-         below = merge(2, j - 1, j == 1)
+         below = level%grid%south(j)
          do i = 2, level%grid%nx - 1
             level%dipole(i, j) = merge(1.0_dp, 0.0_dp, &
                                        max(level%eps(i, j), level%eps(i - 1, j), level%eps(i + 1, j), &
@@ -120,11 +120,11 @@ contains
       integer :: i, j, k, below, nx
 
       nx = level%grid%nx
-      scale = 1.0_dp/(weak*level%squeeze*min(level%grid%hx, level%grid%hy)**2)
+      scale = 1.0_dp/(weak*level%wedge%squeeze*min(level%grid%hx, level%grid%hy)**2)
       !$omp parallel do default(none) shared(level, first, last, scale, nx) private(i, k, below, share, largest) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
-         below = merge(2, j - 1, j == 1)
+         below = level%grid%south(j)
          largest = max(level%eps(:, below), level%eps(:, j), level%eps(:, j + 1))
          do i = 1 + around, nx - around
             share = largest(i)
@@ -151,9 +151,9 @@ contains
       lines = min(line_width, (last - j0)/2 + 1)
       rows = [(j0 + 2*min(l - 1, lines - 1), l=1, line_width)]
       scale = 1.0_dp/(strong*min(level%grid%hx, level%grid%hy)**2)
-      time_step = level%squeeze > 0.0_dp
+      time_step = level%wedge%squeeze > 0.0_dp
       ! a Galerkin operator does not change with the pressure
-      limited = time_step .and. .not. level%galerkin
+      limited = time_step .and. .not. level%poiseuille%frozen
       omega = merge(omega_step, omega_line, time_step)
       omega_far = merge(omega_step, omega_dipole, time_step)
       associate (work => level%work(thread))
@@ -170,7 +170,7 @@ contains
                t = level%eps(i, j)*scale
                before = level%p(i, j)
                change = work%change(l, i)
-               if (limited) change = change/max(1.0_dp, abs(level%gain(i, j)*change)/trust)
+               if (limited) change = change/max(1.0_dp, abs(level%dlneps_dp(i, j)*change)/trust)
                level%change(i, j) = omega_far*level%dipole(i, j)*change
                level%p(i, j) = max(0.0_dp, level%p(i, j) + (1.0_dp - level%dipole(i, j))*(omega + t) &
                                    /(1.0_dp + t)*change)
@@ -233,7 +233,7 @@ contains
       !$omp parallel do default(none) shared(level, first, last, nx) private(i, below) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
-         below = merge(2, j - 1, j == 1)
+         below = level%grid%south(j)
          do i = 2, nx - 1
             if (level%p(i, j) > 0.0_dp) level%p(i, j) = &
                max(0.0_dp, level%p(i, j) + level%change(i, j) &

@@ -7,8 +7,9 @@ module ehl_level
    use ehl_kernel, only: kernel_coefficient
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
-   use ehl_nine_point, only: nine_point_t
+   use ehl_poiseuille, only: poiseuille_t
    use ehl_status, only: ehl_no_memory, status_t
+   use ehl_wedge, only: wedge_t
    implicit none (type, external)
    private
    public :: level_t, line_work_t, near_reach, line_fields, line_width
@@ -16,7 +17,7 @@ module ehl_level
    !> The line systems know the deflection kernel up to this distance along X
    integer, parameter :: near_reach = 2
    !> Numbers per node that the line systems are made from
-   integer, parameter :: line_fields = 11
+   integer, parameter :: line_fields = 10
    !> Lines relaxed side by side
    integer, parameter :: line_width = 8
    !> Grids with fewer nodes are worked on by one thread
@@ -33,21 +34,19 @@ module ehl_level
    !>
    !> The discrete Reynolds equation reads, for every node with P > 0,
    !>
-   !>    div(eps grad P) - c(0) (rho H)_i - c(1) (rho H)_(i-1) - c(2) (rho H)_(i-2) = rhs
+   !>    div(eps grad P) - wedge(rho H) = rhs
    !>
-   !> where c holds the implicit part of the wedge and squeeze terms (second-order upstream
-   !> steady: (1.5, -2, 0.5)/hx), rhs the explicit part and the multigrid right-hand side;
-   !> where P = 0 the left-hand side may be smaller.
+   !> where the first term is that of `poiseuille`, the second one the implicit part of `wedge`, and rhs holds
+   !> the part of earlier times and the multigrid right-hand side; where P = 0 the left-hand side may be smaller.
    type :: level_t
       type(grid_t) :: grid
       type(lubricant_t) :: lubricant
       class(deflection_t), allocatable :: engine
       !> 1/lambda_bar
       real(dp) :: inverse_speed = 0.0_dp
-      !> Wedge and squeeze coefficients c(0:2), and those of the first interior column
-      real(dp) :: wedge(0:2) = 0.0_dp, wedge_first(0:2) = 0.0_dp
-      !> Part of wedge(0) that comes from the squeeze term
-      real(dp) :: squeeze = 0.0_dp
+      !> The terms of the Reynolds equation
+      type(poiseuille_t) :: poiseuille
+      type(wedge_t) :: wedge
       !> Rigid separation H00
       real(dp) :: h00 = 0.0_dp
       !> Value that the pressure sum must take (2 pi/3 on the finest grid)
@@ -57,14 +56,9 @@ module ehl_level
       !> Right-hand side of the Reynolds equation, and the residual
       real(dp), allocatable :: rhs(:, :), residual(:, :)
       !> Conductance eps = rho H^3/(eta lambda_bar), d ln(eps)/dP at constant film, density, and H d rho/dP
-      real(dp), allocatable :: eps(:, :), gain(:, :), rho(:, :), stiffness(:, :)
-      !> rho H, and 1 where a node changes distributively in the present sweep, else 0
-      real(dp), allocatable :: mass(:, :), dipole(:, :)
-      !> Whether the Poiseuille term is the Galerkin product of the next finer level's, in place of
-      !> the five-point difference: the operator `poiseuille`, over the cell. It does not change
-      !> with P and H, nor does eps then, which only tells the relaxation where what rules.
-      logical :: galerkin = .false.
-      type(nine_point_t) :: poiseuille
+      real(dp), allocatable :: eps(:, :), dlneps_dp(:, :), rho(:, :), h_drho_dp(:, :)
+      !> Mass content rho H, and 1 where a node changes distributively in the present sweep, else 0
+      real(dp), allocatable :: mass_content(:, :), dipole(:, :)
       !> Pressure as restricted from the next finer level
       real(dp), allocatable :: p_start(:, :)
       !> Change of pressure in the distributive points of a sweep
@@ -82,9 +76,7 @@ module ehl_level
       logical :: parallel = .false.
    contains
       procedure :: setup
-      procedure :: set_upstream
       procedure :: set_transient
-      procedure :: cell
       procedure :: bytes
    end type level_t
 
@@ -100,14 +92,16 @@ contains
       if (status%failed()) return
       associate (nx => self%grid%nx, ny => self%grid%ny)
          allocate (self%p(nx, ny), self%h(nx, ny), self%w(nx, ny), self%geometry(nx, ny), &
-                   self%rhs(nx, ny), self%residual(nx, ny), self%eps(nx, ny), self%gain(nx, ny), &
-                   self%rho(nx, ny), self%stiffness(nx, ny), self%p_start(nx, ny), &
-                   self%change(nx, ny), self%mass(nx, ny), self%dipole(nx, ny), source=0.0_dp, stat=stat)
+                   self%rhs(nx, ny), self%residual(nx, ny), self%eps(nx, ny), self%dlneps_dp(nx, ny), &
+                   self%rho(nx, ny), self%h_drho_dp(nx, ny), self%p_start(nx, ny), &
+                   self%change(nx, ny), self%mass_content(nx, ny), self%dipole(nx, ny), source=0.0_dp, stat=stat)
       end associate
       if (stat /= 0) then
          call status%fail(ehl_no_memory, "no memory for a grid level")
          return
       end if
+      call self%poiseuille%setup(self%grid)
+      call self%wedge%set_steady(self%grid%hx)
       self%parallel = self%threads > 1 .and. self%grid%nx*self%grid%ny >= parallel_from
       allocate (self%work(self%threads))
       do d = 1, self%threads
@@ -129,26 +123,11 @@ contains
       end associate
    end subroutine setup
 
-   !> Steady wedge term, upstream of first or second order (first in the first interior column)
-   subroutine set_upstream(self, order)
+   !> Make it a level of time steps
+   subroutine set_transient(self, scheme, time_step, status)
       class(level_t), intent(inout) :: self
-      integer, intent(in) :: order
-
-      self%squeeze = 0.0_dp
-      self%wedge_first = [1.0_dp, -1.0_dp, 0.0_dp]/self%grid%hx
-      if (order == 1) then
-         self%wedge = self%wedge_first
-      else
-         self%wedge = [1.5_dp, -2.0_dp, 0.5_dp]/self%grid%hx
-      end if
-   end subroutine set_upstream
-
-   !> Implicit part of wedge and squeeze terms for a time step. Narrow upstream: both terms
-   !> together along the characteristic, 1.5 (rho H)_i/dT. Otherwise second-order upstream in X and
-   !> second-order backward in T, of first order in X in the first interior column.
-   subroutine set_transient(self, narrow, time_step, status)
-      class(level_t), intent(inout) :: self
-      logical, intent(in) :: narrow
+      !> wedge_narrow or wedge_separate, of ehl_wedge
+      integer, intent(in) :: scheme
       real(dp), intent(in) :: time_step
       type(status_t), intent(inout) :: status
       integer :: stat
@@ -163,25 +142,8 @@ contains
          call status%fail(ehl_no_memory, "no memory for the time steps of a grid level")
          return
       end if
-      if (narrow) then
-         self%squeeze = 1.5_dp/time_step
-         self%wedge = [1.5_dp, 0.0_dp, 0.0_dp]/time_step
-         self%wedge_first = [1.0_dp, 0.0_dp, 0.0_dp]/time_step
-      else
-         call self%set_upstream(2)
-         self%squeeze = 1.5_dp/time_step
-         self%wedge(0) = self%wedge(0) + 1.5_dp/time_step
-         self%wedge_first(0) = self%wedge_first(0) + 1.5_dp/time_step
-      end if
+      call self%wedge%set_step(scheme, self%grid%hx, time_step)
    end subroutine set_transient
-
-   !> Area of a node's cell in row j; of its half in row 1 of a folded grid
-   elemental real(dp) function cell(self, j)
-      class(level_t), intent(in) :: self
-      integer, intent(in) :: j
-      cell = self%grid%hx*self%grid%hy
-      if (self%grid%mirror .and. j == 1) cell = 0.5_dp*cell
-   end function cell
 
    !> Allocated bytes, the engine's apart
    pure integer(int64) function bytes(self)

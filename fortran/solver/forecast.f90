@@ -124,14 +124,11 @@ contains
       integer, intent(in) :: j
       !> Shape (nx)
       real(dp), intent(in) :: error(:)
-      real(dp) :: weight(size(error)), r
-      integer :: i
+      real(dp) :: weight(size(error)), flow(size(error))
 
-      r = 1.0_dp/level%grid%hx**2
+      call level%poiseuille%flow_row(level%eps(:, j), error, flow)
       weight = error**2
-      do i = 2, size(error) - 1
-         weight(i) = weight(i) + (r*level%eps(i, j)*(2.0_dp*error(i) - error(i - 1) - error(i + 1)))**2
-      end do
+      weight = weight + flow**2
    end function weighty
 
    !> Weights of row j

@@ -16,6 +16,7 @@ module ehl_plan
    use ehl_surface, only: surface_t
    use ehl_transient, only: steps_needed
    use ehl_text, only: to_text
+   use ehl_wedge, only: wedge_narrow, wedge_separate
    implicit none (type, external)
    private
    public :: plan_t, make_plan, relative_wedge_error
@@ -57,8 +58,8 @@ module ehl_plan
       class(surface_t), allocatable :: surface
       !> Amplitude of a waviness as a share of the smooth central film; 0: it is known already
       real(dp) :: amplitude_over_film = 0.0_dp
-      !> Wedge and squeeze terms together along the characteristic
-      logical :: narrow = .true.
+      !> Scheme of the wedge and squeeze terms in time steps
+      integer :: scheme = wedge_narrow
       !> Begin the march when the roughness comes near the contact
       logical :: skip_start = .true.
       !> March on the next coarser grid too, for the grid error of the friction ratio
@@ -225,7 +226,7 @@ contains
       real(dp), allocatable :: tile(:, :)
 
       if (status%failed()) return
-      plan%narrow = input%time%scheme == "narrow"
+      plan%scheme = merge(wedge_narrow, wedge_separate, input%time%scheme == "narrow")
       plan%skip_start = input%time%skip_start
       plan%time_tolerance = input%time%tolerance
       plan%max_periods = input%time%max_periods

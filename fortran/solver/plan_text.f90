@@ -6,6 +6,7 @@ module ehl_plan_text
    use ehl_kinds, only: dp
    use ehl_plan, only: plan_t
    use ehl_text, only: to_text
+   use ehl_wedge, only: wedge_narrow
    implicit none (type, external)
    private
    public :: plan_text
@@ -34,7 +35,7 @@ contains
          write (line, "(a,f6.3,a,f7.4,a)") "scene      roughness on the move, period ", plan%surface%period, &
             " a, velocity ratio ", plan%surface%velocity_ratio, "; the smooth contact is solved once, before"
          text = text//trim(line)//new_line("a")
-         write (line, "(a,f9.6)") "time       "//trim(merge("narrow upstream", "as in the paper", plan%narrow))// &
+         write (line, "(a,f9.6)") "time       "//trim(merge("narrow upstream", "as in the paper", plan%scheme == wedge_narrow))// &
             ", step = mesh size = ", plan%finest%hx
          text = text//trim(line)//new_line("a")
          if (plan%coarse_run) text = text//"error      of the friction ratio: the march is made on the next coarser grid too"// &

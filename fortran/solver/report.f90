@@ -13,6 +13,7 @@ module ehl_report
    use ehl_steady, only: level_result_t, steady_t
    use ehl_text, only: to_text
    use ehl_transient, only: transient_t
+   use ehl_wedge, only: wedge_narrow
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    implicit none (type, external)
    private
@@ -203,7 +204,7 @@ contains
       type is (harmonic_t)
          call record%set("amplitude", surface%amplitude)
       end select
-      call record%set("scheme", trim(merge("narrow", "paper ", plan%narrow)))
+      call record%set("scheme", trim(merge("narrow", "paper ", plan%scheme == wedge_narrow)))
       call record%set("T", march%time)
       call record%set("T_period", march%mean%period)
       call record%set("T_mean", merge(march%mean%window(), 0.0_dp, march%mean%has_mean()))

@@ -59,7 +59,6 @@ contains
 
       n = self%steady%n
       call keep_smooth(self)
-      self%transient%narrow = self%plan%narrow
       self%transient%max_cycles = self%plan%max_cycles
       self%transient%coarsening = self%plan%step_cycle%coarsening
       self%transient%pre = self%plan%step_cycle%pre
@@ -69,7 +68,7 @@ contains
                                 self%steady%results(n)%m%friction, status)
       if (status%failed()) return
       do k = 1, n
-         call self%hierarchy%levels(k)%set_transient(self%plan%narrow, self%transient%time_step, status)
+         call self%hierarchy%levels(k)%set_transient(self%plan%scheme, self%transient%time_step, status)
       end do
       if (status%failed()) return
       self%hierarchy%options = self%plan%step_cycle

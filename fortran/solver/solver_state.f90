@@ -74,7 +74,7 @@ contains
       integer :: k
 
       associate (state => self%state, march => self%transient)
-         if (any(shape(state%march%mass) /= shape(march%mass))) then
+         if (any(shape(state%march%mass_content) /= shape(march%mass_content))) then
             call status%fail(ehl_bad_input, state%path//": error: this state belongs to another grid")
             return
          end if

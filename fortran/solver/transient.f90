@@ -13,6 +13,7 @@ module ehl_transient
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_surface, only: surface_t
    use ehl_time_levels, only: keep, set_geometry, set_history
+   use ehl_wedge, only: old_times
    implicit none (type, external)
    private
    public :: transient_t, step_tolerance, steps_needed
@@ -35,8 +36,6 @@ module ehl_transient
    real(dp), parameter :: x_filled = 1.05_dp
 
    type :: transient_t
-      !> Narrow upstream, or the two separate differences of the paper
-      logical :: narrow = .true.
       !> Steps made, steps not needed at the start, the present time, the time step
       integer :: step = 0, skipped = 0
       real(dp) :: time = 0.0_dp, time_step = 0.0_dp
@@ -56,7 +55,7 @@ module ehl_transient
       integer :: cycles = 0, total_cycles = 0, total_sweeps = 0
       type(friction_mean_t) :: mean
       !> rho H of the last two steps, pressure and H00 of the last three, the roughness now
-      real(dp), allocatable :: mass(:, :, :), p_before(:, :, :), rr(:, :)
+      real(dp), allocatable :: mass_content(:, :, :), p_before(:, :, :), rr(:, :)
       real(dp) :: h00_before(3) = 0.0_dp
       type(forecast_t) :: forecast
    contains
@@ -114,9 +113,9 @@ contains
                                           /surface%velocity_ratio/self%time_step))
       self%time = self%skipped*self%time_step
       self%friction_smooth = friction_smooth
-      if (allocated(self%mass)) deallocate (self%mass, self%p_before, self%rr)
+      if (allocated(self%mass_content)) deallocate (self%mass_content, self%p_before, self%rr)
       associate (nx => level%grid%nx, ny => level%grid%ny)
-         allocate (self%mass(nx, ny, 2), self%p_before(nx, ny, 3), self%rr(nx, ny), stat=stat)
+         allocate (self%mass_content(nx, ny, old_times), self%p_before(nx, ny, 3), self%rr(nx, ny), stat=stat)
       end associate
       if (stat /= 0) then
          call status%fail(ehl_no_memory, "no memory for the time levels")
@@ -124,9 +123,9 @@ contains
       end if
       call self%forecast%setup(level%grid%nx, level%grid%ny, surface%velocity_ratio*self%time_step/level%grid%hx, status)
       if (status%failed()) return
-      do k = 2, 1, -1
+      do k = old_times, 1, -1
          call surface%height(level%grid, self%time - (k - 1)*self%time_step, self%rr)
-         self%mass(:, :, k) = level%rho*(level%h - self%rr)
+         self%mass_content(:, :, k) = level%rho*(level%h - self%rr)
       end do
       self%p_before = spread(level%p, 3, 3)
       self%h00_before = level%h00
@@ -149,7 +148,7 @@ contains
       associate (level => hierarchy%levels(n))
          call surface%height(level%grid, self%time + self%time_step, self%rr)
          call set_geometry(level, self%rr)
-         call set_history(level, self%mass, self%time_step, self%narrow)
+         call set_history(level, self%mass_content)
          trust = full_trust
          call self%begin_step(hierarchy, level, trust, status)
          if (status%failed()) return
@@ -196,7 +195,7 @@ contains
                                central_value(level%grid, self%rr))
          self%h00_before = [level%h00, self%h00_before(1:2)]
          call self%forecast%learn(self%p_before, level)
-         call keep(level, self%mass, self%p_before)
+         call keep(level, self%mass_content, self%p_before)
       end associate
    end subroutine advance
 
@@ -258,7 +257,7 @@ contains
       self%changed_at = state%changed_at
       self%friction_smooth = state%friction_smooth
       self%h00_before = state%h00_before
-      self%mass = state%mass
+      self%mass_content = state%mass_content
       self%p_before = state%p_before
       self%forecast%carried = state%forecast%carried
       do k = 1, state%mean%n
@@ -266,7 +265,7 @@ contains
       end do
       call self%step_back(level, surface)
       self%m = measure(level)
-      same = maxval(abs(level%rho*level%h - self%mass(:, :, 1))) <= rounding*maxval(abs(self%mass(:, :, 1)))
+      same = maxval(abs(level%rho*level%h - self%mass_content(:, :, 1))) <= rounding*maxval(abs(self%mass_content(:, :, 1)))
    end subroutine restore
 
    !> The last good state again

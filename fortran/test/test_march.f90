@@ -160,7 +160,7 @@ contains
          level%p = 0.5_dp*level%p
          call refresh(level)
          p = level%p
-         gain = level%gain
+         gain = level%dlneps_dp
          call relax(level, full_trust)
          largest = 0.0_dp
          do j = 2, level%grid%ny - 1
@@ -298,7 +298,7 @@ contains
       march%max_cycles = plan%max_cycles
       call march%start(hierarchy%levels(n), plan%surface, plan%skip_start, steady%results(n)%m%friction, status)
       do k = 1, n
-         call hierarchy%levels(k)%set_transient(plan%narrow, march%time_step, status)
+         call hierarchy%levels(k)%set_transient(plan%scheme, march%time_step, status)
       end do
       hierarchy%options = plan%step_cycle
    end subroutine begin

@@ -141,7 +141,6 @@ contains
       level%lubricant = new_lubricant(viscosity_roelands, density_dowson_higginson, 36.5_dp, 1.66e9_dp, 0.668_dp, 1.96e8_dp)
       level%inverse_speed = 1.0e3_dp
       call level%setup(status)
-      call level%set_upstream(2)
       do j = 2, level%grid%ny - 1
          do i = 2, level%grid%nx - 1
             associate (r => level%grid%x(i)**2 + level%grid%y(j)**2)

@@ -71,6 +71,35 @@ def test_numerics_does_not_know_cases(root: Path):
     assert not wrong
 
 
+# What gives a stencil away, and the only file of the library that may hold it
+STENCILS = [
+    ("reynolds/poiseuille.f90", r"/[\w%]*h[xy]\s*\*\*\s*2"),
+    ("reynolds/poiseuille.f90", r"\be(?:ps)?\(i [+-] 1, j\) \+"),
+    ("reynolds/poiseuille.f90", r"%product%?\w*\(|%north_east\(i"),
+    ("reynolds/wedge.f90", r"1\.5_dp, -2\.0_dp, 0\.5_dp"),
+    ("reynolds/wedge.f90", r"1\.5_dp/\w*time_step"),
+    ("reynolds/wedge.f90", r"c\(1\)\*\w+\(i - 1"),
+    ("grid/grid.f90", r"merge\(2, j - 1, j == 1\)"),
+]
+
+
+@pytest.mark.parametrize(("owner", "pattern"), STENCILS)
+def test_each_stencil_has_one_owner(root: Path, owner: str, pattern: str):
+    """The discrete equations are written once: whoever needs them asks the owner."""
+    library = root / "fortran"
+    # symmetric operators as such, their transfers and products are no discretisation
+    apart = {"app", "bind", "test"}
+    general = {"nine_point.f90", "alcouffe.f90", "galerkin.f90"}
+    found = {
+        path.relative_to(library).as_posix()
+        for path in library.rglob("*.f90")
+        if folder(path) not in apart and path.name not in general
+        for line in path.read_text().splitlines()
+        if re.search(pattern, line.split("!")[0])
+    }
+    assert found == {owner}
+
+
 def test_module_is_named_as_its_file(root: Path):
     for name, (path, _) in modules(root).items():
         if folder(path) in ("app", "test"):

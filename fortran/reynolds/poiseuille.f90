@@ -1,0 +1,249 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The Poiseuille term div(eps grad P) on one grid, in two forms: the five-point difference with arithmetic means of
+!> eps between nodes (Zhang et al. 2019, eqs. 7 and 8), and the nine-point Galerkin product of a finer grid's term,
+!> frozen while P and H change. No other module knows the stencil.
+module ehl_poiseuille
+   use, intrinsic :: iso_fortran_env, only: int64
+   use ehl_grid, only: grid_t
+   use ehl_kinds, only: dp
+   use ehl_nine_point, only: nine_point_t
+   use ehl_status, only: status_t
+   implicit none (type, external)
+   private
+   public :: poiseuille_t, line_terms_t, most_neighbours, stretch
+
+   !> Most neighbours of a node in either form
+   integer, parameter :: most_neighbours = 8
+   !> Nodes of a row that line systems take at a time, at the most
+   integer, parameter :: stretch = 32
+
+   !> Fields are arrays of shape (nx, ny); rows are those of the grid. All values are per area.
+   type :: poiseuille_t
+      type(grid_t), private :: grid
+      !> Whether the term is `product` over the cell, in place of the five-point difference
+      logical :: frozen = .false.
+      !> Galerkin product; allocated by prepare_product
+      type(nine_point_t) :: product
+   contains
+      procedure :: setup
+      procedure :: prepare_product
+      procedure :: apply_row
+      procedure :: line_row
+      procedure :: couplings
+      procedure :: integrate
+      procedure :: flow_row
+      procedure :: bytes
+   end type poiseuille_t
+
+   !> What a line system along X takes from a stretch of a row; nodes are numbered from 1
+   type :: line_terms_t
+      !> Right-hand side less the term
+      real(dp) :: rest(stretch)
+      !> Sum of the couplings to other rows with the excess, with a minus; its change with the node's conductance
+      real(dp) :: other(stretch), other_rate(stretch)
+      !> Coupling to the next node of the row, from the node before the stretch on; its change with the conductance
+      !> of either node
+      real(dp) :: east(0:stretch), east_rate(0:stretch)
+   end type line_terms_t
+
+contains
+
+   !> For a grid, as the five-point difference
+   subroutine setup(self, grid)
+      class(poiseuille_t), intent(inout) :: self
+      type(grid_t), intent(in) :: grid
+
+      self%grid = grid
+      self%frozen = .false.
+   end subroutine setup
+
+   !> Allocate what a Galerkin product needs, unless that has been done
+   subroutine prepare_product(self, status)
+      class(poiseuille_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+
+      if (.not. allocated(self%product%east)) call self%product%setup(self%grid, status)
+   end subroutine prepare_product
+
+   !> Row j of the term at pressure p, in columns 2 to nx-1; j is no border row
+   pure subroutine apply_row(self, p, eps, j, values)
+      class(poiseuille_t), intent(in) :: self
+      real(dp), contiguous, intent(in) :: p(:, :), eps(:, :)
+      integer, intent(in) :: j
+      !> Shape (nx)
+      real(dp), intent(inout) :: values(:)
+      real(dp) :: rx, ry
+      integer :: i, south, nx
+
+      nx = self%grid%nx
+      if (self%frozen) then
+         call self%product%apply_row(p, j, values)
+         values(2:nx - 1) = values(2:nx - 1)/self%grid%cell(j)
+         return
+      end if
+      south = self%grid%south(j)
+      rx = 0.5_dp/self%grid%hx**2
+      ry = 0.5_dp/self%grid%hy**2
+      associate (e => eps)
+         do i = 2, nx - 1
+            values(i) = rx*((e(i + 1, j) + e(i, j))*(p(i + 1, j) - p(i, j)) &
+                            + (e(i - 1, j) + e(i, j))*(p(i - 1, j) - p(i, j))) &
+                        + ry*((e(i, j + 1) + e(i, j))*(p(i, j + 1) - p(i, j)) &
+                              + (e(i, south) + e(i, j))*(p(i, south) - p(i, j)))
+         end do
+      end associate
+   end subroutine apply_row
+
+   !> What a line system takes from row j, in columns `first` to `last`: nodes are numbered from 1 at `first`. Border
+   !> nodes have a coupling to the east only.
+   pure subroutine line_row(self, p, eps, rhs, j, first, last, terms)
+      class(poiseuille_t), intent(in) :: self
+      real(dp), contiguous, intent(in) :: p(:, :), eps(:, :)
+      !> Shape (nx)
+      real(dp), contiguous, intent(in) :: rhs(:)
+      integer, intent(in) :: j, first, last
+      type(line_terms_t), intent(inout) :: terms
+      real(dp) :: rx, ry, north, south, pn, ps
+      integer :: i, k, below
+
+      if (self%frozen) then
+         call frozen_line_row(self, p, rhs, j, first, last, terms)
+         return
+      end if
+      below = self%grid%south(j)
+      rx = 0.5_dp/self%grid%hx**2
+      ry = 0.5_dp/self%grid%hy**2
+      do i = max(first - 1, 1), min(last, self%grid%nx - 1)
+         k = i - first + 1
+         terms%east(k) = rx*(eps(i + 1, j) + eps(i, j))
+         terms%east_rate(k) = rx
+      end do
+      do i = max(first, 2), min(last, self%grid%nx - 1)
+         k = i - first + 1
+         north = ry*(eps(i, j + 1) + eps(i, j))
+         south = ry*(eps(i, below) + eps(i, j))
+         pn = p(i, j + 1) - p(i, j)
+         ps = p(i, below) - p(i, j)
+         terms%rest(k) = rhs(i) - north*pn - south*ps - terms%east(k)*(p(i + 1, j) - p(i, j)) &
+                         - terms%east(k - 1)*(p(i - 1, j) - p(i, j))
+         terms%other(k) = -(north + south)
+         terms%other_rate(k) = ry*(pn + ps)
+      end do
+   end subroutine line_row
+
+   !> The same for a Galerkin product: the couplings as they are, and no change of them
+   pure subroutine frozen_line_row(self, p, rhs, j, first, last, terms)
+      type(poiseuille_t), intent(in) :: self
+      real(dp), contiguous, intent(in) :: p(:, :)
+      real(dp), contiguous, intent(in) :: rhs(:)
+      integer, intent(in) :: j, first, last
+      type(line_terms_t), intent(inout) :: terms
+      real(dp) :: cell, q, term
+      integer :: i, k
+
+      cell = self%grid%cell(j)
+      associate (a => self%product)
+         do i = max(first - 1, 1), min(last, self%grid%nx - 1)
+            k = i - first + 1
+            terms%east(k) = a%east(i, j)/cell
+            terms%east_rate(k) = 0.0_dp
+         end do
+         do i = max(first, 2), min(last, self%grid%nx - 1)
+            k = i - first + 1
+            q = a%excess(i, j) + a%north_west(i, j) + a%north(i, j) + a%north_east(i, j)
+            term = a%north_west(i, j)*p(i - 1, j + 1) + a%north(i, j)*p(i, j + 1) + a%north_east(i, j)*p(i + 1, j + 1)
+            if (j > 1) then
+               q = q + a%north_east(i - 1, j - 1) + a%north(i, j - 1) + a%north_west(i + 1, j - 1)
+               term = term + a%north_east(i - 1, j - 1)*p(i - 1, j - 1) + a%north(i, j - 1)*p(i, j - 1) &
+                      + a%north_west(i + 1, j - 1)*p(i + 1, j - 1)
+            end if
+            terms%rest(k) = rhs(i) - (term - q*p(i, j))/cell - terms%east(k)*(p(i + 1, j) - p(i, j)) &
+                            - terms%east(k - 1)*(p(i - 1, j) - p(i, j))
+            terms%other(k) = -q/cell
+            terms%other_rate(k) = 0.0_dp
+         end do
+      end associate
+   end subroutine frozen_line_row
+
+   !> Neighbours of node (i, j), the couplings to them, their change with the conductance of either node, and the excess
+   !> of the node over the sum of its couplings
+   pure subroutine couplings(self, eps, i, j, n, neighbour, coupling, rate, excess)
+      class(poiseuille_t), intent(in) :: self
+      real(dp), contiguous, intent(in) :: eps(:, :)
+      integer, intent(in) :: i, j
+      integer, intent(out) :: n, neighbour(2, most_neighbours)
+      real(dp), intent(out) :: coupling(most_neighbours), rate(most_neighbours), excess
+      real(dp) :: sum_eps
+      integer :: m
+
+      coupling = 0.0_dp
+      rate = 0.0_dp
+      excess = 0.0_dp
+      neighbour(:, 1:4) = reshape([i + 1, j, i - 1, j, i, j + 1, i, self%grid%south(j)], [2, 4])
+      neighbour(:, 5:8) = reshape([i - 1, j + 1, i + 1, j + 1, i - 1, j - 1, i + 1, j - 1], [2, 4])
+      if (.not. self%frozen) then
+         n = 4
+         coupling(1:4) = 0.5_dp/[self%grid%hx**2, self%grid%hx**2, self%grid%hy**2, self%grid%hy**2]
+         do m = 1, 4
+            sum_eps = eps(i, j) + eps(neighbour(1, m), neighbour(2, m))
+            coupling(m) = coupling(m)*sum_eps
+            rate(m) = coupling(m)/sum_eps
+         end do
+         return
+      end if
+      associate (a => self%product)
+         n = merge(8, 6, j > 1)
+         coupling(1:3) = [a%east(i, j), a%east(i - 1, j), a%north(i, j)]
+         coupling(5:6) = [a%north_west(i, j), a%north_east(i, j)]
+         if (j > 1) then
+            coupling(4) = a%north(i, j - 1)
+            coupling(7:8) = [a%north_east(i - 1, j - 1), a%north_west(i + 1, j - 1)]
+         end if
+         coupling = coupling/self%grid%cell(j)
+         excess = a%excess(i, j)/self%grid%cell(j)
+      end associate
+   end subroutine couplings
+
+   !> The five-point difference as an operator integrated over the cells; rows from `first` to `last`
+   pure subroutine integrate(self, eps, first, last, a)
+      class(poiseuille_t), intent(in) :: self
+      real(dp), contiguous, intent(in) :: eps(:, :)
+      integer, intent(in) :: first, last
+      type(nine_point_t), intent(inout) :: a
+      real(dp) :: rx, ry
+      integer :: i, j
+
+      do j = first, last
+         rx = 0.5_dp*self%grid%cell(j)/self%grid%hx**2
+         ry = 0.5_dp*self%grid%hx/self%grid%hy
+         do i = 1, self%grid%nx - 1
+            a%east(i, j) = rx*(eps(i, j) + eps(i + 1, j))
+            a%north(i, j) = ry*(eps(i, j) + eps(i, j + 1))
+         end do
+      end do
+   end subroutine integrate
+
+   !> What a change of the pressure in one row does in the term along X, in size: the conductance of the node alone
+   pure subroutine flow_row(self, eps, change, values)
+      class(poiseuille_t), intent(in) :: self
+      !> Shape (nx)
+      real(dp), intent(in) :: eps(:), change(:)
+      !> Shape (nx); zero on the borders
+      real(dp), intent(out) :: values(:)
+      real(dp) :: r
+      integer :: i
+
+      r = 1.0_dp/self%grid%hx**2
+      values(1) = 0.0_dp
+      values(size(values)) = 0.0_dp
+      do i = 2, size(values) - 1
+         values(i) = r*eps(i)*(2.0_dp*change(i) - change(i - 1) - change(i + 1))
+      end do
+   end subroutine flow_row
+
+   !> Allocated bytes
+   pure integer(int64) function bytes(self)
+      class(poiseuille_t), intent(in) :: self
+      bytes = self%product%bytes()
+   end function bytes
+end module ehl_poiseuille
