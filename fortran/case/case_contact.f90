@@ -2,6 +2,7 @@
 !> The contact of a case: Moes numbers or SI values, an operating point that can be meant, and the motion of the surfaces
 module ehl_case_contact
    use ehl_case, only: case_t
+   use ehl_circular, only: circular_from_si, circular_t
    use ehl_kinds, only: dp
    use ehl_moes, only: operating_from_si, operating_t
    use ehl_refusal, only: contradict, first_given, is_before, refuse, short
@@ -50,21 +51,23 @@ contains
       type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
       type(operating_t) :: point
+      type(circular_t) :: contact
       integer :: culprit
       character(len=:), allocatable :: what, expected
 
       if (.not. input%contact%si) return
       associate (c => input%contact)
+         contact = circular_from_si(c%load, c%radius, c%reduced_modulus)
          point = operating_from_si(c%load, c%mean_velocity, c%radius, c%reduced_modulus, &
-                                   input%lubricant%viscosity, input%lubricant%pressure_viscosity)
+                                   input%lubricant%viscosity, input%lubricant%pressure_viscosity, contact%pressure)
       end associate
       what = ""
       expected = ""
-      if (point%hertz_pressure < 1.0e5_dp .or. point%hertz_pressure > 2.0e10_dp) then
-         what = "the Hertz pressure is " // short(point%hertz_pressure) // " Pa"
+      if (contact%pressure < 1.0e5_dp .or. contact%pressure > 2.0e10_dp) then
+         what = "the Hertz pressure is " // short(contact%pressure) // " Pa"
          expected = "values in SI units with a Hertz pressure between 1e5 and 2e10 Pa"
-      else if (point%hertz_radius > input%contact%radius) then
-         what = "the Hertz radius " // short(point%hertz_radius) // " m exceeds contact.radius"
+      else if (contact%radius > input%contact%radius) then
+         what = "the Hertz radius " // short(contact%radius) // " m exceeds contact.radius"
          expected = "values in SI units with a contact much smaller than the ball"
       else if (point%moes_m > 1.0e5_dp .or. point%moes_m < 0.1_dp) then
          what = "the Moes parameter M is " // short(point%moes_m)

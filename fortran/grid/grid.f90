@@ -20,6 +20,7 @@ module ehl_grid
    contains
       procedure :: x => x_of
       procedure :: y => y_of
+      procedure :: columns
       procedure :: can_coarsen
       procedure :: coarser
       procedure :: finer
@@ -68,6 +69,14 @@ contains
       integer, intent(in) :: j
       y_of = self%y0 + (j - 1)*self%hy
    end function y_of
+
+   !> X of all columns
+   pure function columns(self) result(x)
+      class(grid_t), intent(in) :: self
+      real(dp) :: x(self%nx)
+      integer :: i
+      x = self%x([(i, i=1, self%nx)])
+   end function columns
 
    !> Whether every second node in both directions makes a grid of the same extent
    pure logical function can_coarsen(self)

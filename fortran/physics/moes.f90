@@ -1,6 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The operating point of a circular contact: Moes parameters, Hertz scales and the groups of
-!> the dimensionless Reynolds equation
+!> The operating point of a contact: Moes parameters and the groups of the dimensionless Reynolds equation
 module ehl_moes
    use ehl_kinds, only: dp, pi
    implicit none (type, external)
@@ -17,10 +16,6 @@ module ehl_moes
       real(dp) :: speed_parameter = 0.0_dp
       !> Hertz pressure p_h [Pa]
       real(dp) :: hertz_pressure = 0.0_dp
-      !> Hertz radius a [m], 0 when the input was dimensionless
-      real(dp) :: hertz_radius = 0.0_dp
-      !> Film scale a^2/R [m], 0 when the input was dimensionless
-      real(dp) :: film_scale = 0.0_dp
    end type operating_t
 
 contains
@@ -40,7 +35,7 @@ contains
 
    !> Operating point from SI input; 2/E' = sum (1 - nu^2)/E (Zhang et al. 2019, notation)
    pure function operating_from_si(load, mean_velocity, radius, reduced_modulus, viscosity, &
-                                   alpha) result(point)
+                                   alpha, hertz_pressure) result(point)
       !> Normal load w [N]
       real(dp), intent(in) :: load
       !> Mean velocity (u1 + u2)/2 [m/s]
@@ -51,6 +46,8 @@ contains
       real(dp), intent(in) :: reduced_modulus
       !> Viscosity eta0 [Pa s] and pressure-viscosity coefficient alpha [1/Pa] at ambient pressure
       real(dp), intent(in) :: viscosity, alpha
+      !> Hertz pressure p_h [Pa]
+      real(dp), intent(in) :: hertz_pressure
       type(operating_t) :: point
       real(dp) :: speed, load_2d
 
@@ -58,9 +55,7 @@ contains
       load_2d = load/(reduced_modulus*radius**2)
       point = operating_from_moes(load_2d*(2.0_dp*speed)**(-0.75_dp), &
                                   alpha*reduced_modulus*(2.0_dp*speed)**0.25_dp, alpha)
-      point%hertz_radius = (1.5_dp*load*radius/reduced_modulus)**(1.0_dp/3.0_dp)
-      point%hertz_pressure = 1.5_dp*load/(pi*point%hertz_radius**2)
-      point%film_scale = point%hertz_radius**2/radius
-      point%alpha_bar = alpha*point%hertz_pressure
+      point%hertz_pressure = hertz_pressure
+      point%alpha_bar = alpha*hertz_pressure
    end function operating_from_si
 end module ehl_moes

@@ -2,8 +2,9 @@
 !> The plan of a run: what this scene needs, decided once. The only reader of option words.
 module ehl_plan
    use ehl_case, only: case_t
+   use ehl_circular, only: circular_from_si, circular_t
+   use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
-   use ehl_film_formula, only: film_central_formula
    use ehl_grid, only: grid_t, new_grid
    use ehl_harmonic, only: harmonic_t, new_harmonic
    use ehl_height_map, only: height_map_t
@@ -33,6 +34,7 @@ module ehl_plan
    integer, parameter :: most_steps = 100000, most_steps_asked_for = 1000000000
 
    type :: plan_t
+      class(contact_t), allocatable :: contact
       type(operating_t) :: point
       type(lubricant_t) :: lubricant
       !> Coarsest and finest grid
@@ -83,17 +85,10 @@ contains
       type(status_t), intent(inout) :: status
       real(dp) :: rho(1), slope(1)
 
-      if (input%contact%si) then
-         plan%point = operating_from_si(input%contact%load, input%contact%mean_velocity, &
-                                        input%contact%radius, input%contact%reduced_modulus, &
-                                        input%lubricant%viscosity, input%lubricant%pressure_viscosity)
-      else
-         plan%point = operating_from_moes(input%contact%moes_m, input%contact%moes_l, &
-                                          input%lubricant%pressure_viscosity)
-      end if
-      plan%lubricant = plan_lubricant(input, plan%point)
+      call pick_contact(input, plan)
+      plan%lubricant = plan_lubricant(input, plan%point, plan%contact)
       call plan%lubricant%density([1.0_dp], rho, slope)
-      plan%film_expected = film_central_formula(plan%point%moes_m, plan%point%moes_l)/rho(1)
+      plan%film_expected = plan%contact%film_formula(plan%point%moes_m, plan%point%moes_l)/rho(1)
       plan%engine = trim(input%solver%deflection)
       call pick_cycle(input, plan)
       plan%accuracy = input%solver%accuracy
@@ -143,6 +138,25 @@ contains
                        "more than "//to_text(most)//new_line("a")//"expected: a velocity ratio of at least "// &
                        trim(adjustl(least))//" on this grid, or 0: a rough surface at rest is a steady contact")
    end subroutine check_steps
+
+   !> Shape, scales and operating point
+   subroutine pick_contact(input, plan)
+      type(case_t), intent(in) :: input
+      type(plan_t), intent(inout) :: plan
+      type(circular_t) :: circle
+
+      associate (c => input%contact, l => input%lubricant)
+         if (c%si) then
+            circle = circular_from_si(c%load, c%radius, c%reduced_modulus)
+            plan%point = operating_from_si(c%load, c%mean_velocity, c%radius, c%reduced_modulus, l%viscosity, &
+                                           l%pressure_viscosity, circle%pressure)
+         else
+            plan%point = operating_from_moes(c%moes_m, c%moes_l, l%pressure_viscosity)
+            circle%pressure = plan%point%hertz_pressure
+         end if
+      end associate
+      plan%contact = circle
+   end subroutine pick_contact
 
    !> Kind of cycle, for the smooth contact and for time steps
    subroutine pick_cycle(input, plan)
@@ -253,8 +267,8 @@ contains
                                 "the map with 'pyehl surface CASE.nml -o MAP.npy' and name it in surface.file")
                return
             end if
-            tile = (tile - sum(tile)/size(tile))/plan%point%film_scale
-            call map%setup(tile, s%length_x/plan%point%hertz_radius, s%length_y/plan%point%hertz_radius, &
+            tile = (tile - sum(tile)/size(tile))/plan%contact%film_scale
+            call map%setup(tile, s%length_x/plan%contact%radius, s%length_y/plan%contact%radius, &
                            s%velocity_ratio, s%x_start, map_front, status)
             plan%surface = map
          case default

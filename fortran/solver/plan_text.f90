@@ -24,9 +24,9 @@ contains
       write (line, "(a,g0.5,a,g0.5,a,g0.5,a,es9.3)") "contact    M = ", plan%point%moes_m, ", L = ", plan%point%moes_l, &
          ", alpha p_h = ", plan%point%alpha_bar, ", speed parameter = ", plan%point%speed_parameter
       text = trim(line)//new_line("a")
-      if (plan%point%hertz_radius > 0.0_dp) then
-         write (line, "(a,es10.4,a,es10.4,a)") "           a = ", plan%point%hertz_radius, " m, p_h = ", &
-            plan%point%hertz_pressure, " Pa"
+      if (plan%contact%has_size()) then
+         write (line, "(a,es10.4,a,es10.4,a)") "           a = ", plan%contact%radius, " m, p_h = ", &
+            plan%contact%pressure, " Pa"
          text = text//trim(line)//new_line("a")
       end if
       if (plan%rests()) then

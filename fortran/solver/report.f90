@@ -95,10 +95,10 @@ contains
       call record%set("moes_l", plan%point%moes_l)
       call record%set("alpha_bar", plan%point%alpha_bar)
       call record%set("speed_parameter", plan%point%speed_parameter)
-      call record%set("hertz_pressure_Pa", plan%point%hertz_pressure)
-      if (plan%point%hertz_radius > 0.0_dp) then
-         call record%set("hertz_radius_m", plan%point%hertz_radius)
-         call record%set("film_scale_m", plan%point%film_scale)
+      call record%set("hertz_pressure_Pa", plan%contact%pressure)
+      if (plan%contact%has_size()) then
+         call record%set("hertz_radius_m", plan%contact%radius)
+         call record%set("film_scale_m", plan%contact%film_scale)
       end if
       call record%set("points", grid%nx)
       call record%set("x_mesh", grid%hx)
@@ -155,10 +155,10 @@ contains
       call record%set("H_c_algebraic_error", steady%results(n)%algebraic(1))
       call record%set("H_min_algebraic_error", steady%results(n)%algebraic(2))
       call record%set("load_error", m%load_error)
-      if (plan%point%hertz_radius > 0.0_dp) then
-         call record%set("h_c_m", m%film_central*plan%point%film_scale)
-         call record%set("h_min_m", m%film_minimum*plan%point%film_scale)
-         call record%set("p_max_Pa", m%pressure_maximum*plan%point%hertz_pressure)
+      if (plan%contact%has_size()) then
+         call record%set("h_c_m", m%film_central*plan%contact%film_scale)
+         call record%set("h_min_m", m%film_minimum*plan%contact%film_scale)
+         call record%set("p_max_Pa", m%pressure_maximum*plan%contact%pressure)
       end if
       call record%set("cycles", steady%results(n)%cycles)
       call record%set("total_cycles", sum(steady%results%cycles))

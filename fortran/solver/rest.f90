@@ -2,6 +2,7 @@
 !> A rough surface at rest: the steady contact with the roughness at its place in the film equation. It begins from
 !> the smooth solution on the same grid. Where the film would be negative then, the roughness grows in steps.
 module ehl_rest
+   use ehl_contact, only: contact_t
    use ehl_cycle, only: refresh
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
@@ -23,6 +24,7 @@ module ehl_rest
    real(dp), parameter :: least_part = 1.0_dp/64.0_dp
 
    type :: rest_t
+      class(contact_t), allocatable, private :: contact
       integer :: outcome = outcome_running
       !> Whether the smooth contact is still being solved, to the accuracy of the friction
       logical :: smooth = .true.
@@ -56,9 +58,10 @@ module ehl_rest
 contains
 
    !> Begin from the smooth solution of a level
-   subroutine start(self, level, surface, max_cycles, accuracy, status)
+   subroutine start(self, level, contact, surface, max_cycles, accuracy, status)
       class(rest_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
+      class(contact_t), intent(in) :: contact
       class(surface_t), intent(inout) :: surface
       !> Most cycles for a share of the roughness
       integer, intent(in) :: max_cycles
@@ -68,6 +71,7 @@ contains
       integer :: stat
 
       if (status%failed()) return
+      self%contact = contact
       self%max_cycles = max_cycles
       self%tolerance = friction_tolerance*accuracy
       if (allocated(self%rr)) deallocate (self%rr, self%p_done)
@@ -137,7 +141,7 @@ contains
          self%share = min(1.0_dp, self%share_done + self%share_step)
          level%p = self%p_done
          level%h00 = self%h00_done
-         call set_geometry(level, self%share*self%rr)
+         call set_geometry(level, self%contact, self%share*self%rr)
          call refresh(level)
          if (minval(level%h) > 0.0_dp) exit
          self%share_step = 0.5_dp*self%share_step

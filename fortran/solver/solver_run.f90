@@ -64,7 +64,7 @@ contains
       self%transient%pre = self%plan%step_cycle%pre
       self%transient%may_change = self%plan%coarsening_may_change
       self%transient%tolerance = step_tolerance(self%grid%hx, self%plan%accuracy)
-      call self%transient%start(self%hierarchy%levels(n), self%plan%surface, self%plan%skip_start, &
+      call self%transient%start(self%hierarchy%levels(n), self%plan%contact, self%plan%surface, self%plan%skip_start, &
                                 self%steady%results(n)%m%friction, status)
       if (status%failed()) return
       do k = 1, n
@@ -101,7 +101,7 @@ contains
       type(status_t), intent(inout) :: status
 
       call keep_smooth(self)
-      call self%rest%start(self%hierarchy%levels(self%steady%n), self%plan%surface, self%plan%max_cycles, &
+      call self%rest%start(self%hierarchy%levels(self%steady%n), self%plan%contact, self%plan%surface, self%plan%max_cycles, &
                            self%plan%accuracy, status)
       self%resting = .true.
    end subroutine begin_rest

@@ -1,9 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The smooth, steady solution by full multigrid (nested iteration), one cycle at a time
 module ehl_steady
+   use ehl_contact, only: contact_t
    use ehl_cycle, only: prolong_solution, refresh
    use ehl_hierarchy, only: hierarchy_t
-   use ehl_kinds, only: dp, pi
+   use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_measures, only: measure, measures_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, &
@@ -115,7 +116,7 @@ contains
       type(hierarchy_t), intent(inout) :: hierarchy
       type(status_t), intent(inout) :: status
       logical :: have_coarse
-      integer :: i, j
+      integer :: j
 
       call hierarchy%grow(self%n, status)
       if (status%failed()) return
@@ -123,16 +124,14 @@ contains
       if (self%n > 1) have_coarse = self%results(self%n - 1)%solved
       associate (level => hierarchy%levels(self%n), grid => hierarchy%levels(self%n)%grid)
          do j = 1, grid%ny
-            do i = 1, grid%nx
-               level%geometry(i, j) = 0.5_dp*(grid%x(i)**2 + grid%y(j)**2)
-            end do
+            call plan%contact%gap_row(grid%columns(), grid%y(j), level%geometry(:, j))
          end do
          level%rhs = 0.0_dp
-         level%load = 2.0_dp*pi/3.0_dp
+         level%load = plan%contact%load()
          if (have_coarse) then
             call prolong_solution(hierarchy%levels(self%n - 1), level)
          else
-            call guess(level, plan%film_expected)
+            call guess(level, plan%contact, plan%film_expected)
          end if
          call refresh(level)
          self%results(self%n)%m = measure(level)
@@ -142,17 +141,16 @@ contains
    end subroutine enter_level
 
    !> Hertz pressure and the film of the formula
-   subroutine guess(level, film)
+   subroutine guess(level, contact, film)
       type(level_t), intent(inout) :: level
+      class(contact_t), intent(in) :: contact
       real(dp), intent(in) :: film
-      integer :: i, j
+      integer :: j
 
       do j = 1, level%grid%ny
-         do i = 1, level%grid%nx
-            level%p(i, j) = sqrt(max(0.0_dp, 1.0_dp - level%grid%x(i)**2 - level%grid%y(j)**2))
-         end do
+         call contact%pressure_row(level%grid%columns(), level%grid%y(j), level%p(:, j))
       end do
-      level%h00 = film - 1.0_dp
+      level%h00 = film + contact%dry_separation()
    end subroutine guess
 
    !> Whether the level is solved, and what to do then

@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What a time step takes from the ones before it, and leaves to the next
 module ehl_time_levels
+   use ehl_contact, only: contact_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    implicit none (type, external)
@@ -9,18 +10,20 @@ module ehl_time_levels
 
 contains
 
-   !> X^2/2 + Y^2/2 - RR
-   subroutine set_geometry(level, rr)
+   !> Gap of the undeformed bodies, less the roughness
+   subroutine set_geometry(level, contact, rr)
       type(level_t), intent(inout) :: level
+      class(contact_t), intent(in) :: contact
       real(dp), intent(in) :: rr(:, :)
-      integer :: i, j
+      real(dp) :: x(level%grid%nx)
+      integer :: j
 
-      !$omp parallel do default(none) shared(level, rr) private(i) &
+      x = level%grid%columns()
+      !$omp parallel do default(none) shared(level, contact, rr, x) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
-         do i = 1, level%grid%nx
-            level%geometry(i, j) = 0.5_dp*(level%grid%x(i)**2 + level%grid%y(j)**2) - rr(i, j)
-         end do
+         call contact%gap_row(x, level%grid%y(j), level%geometry(:, j))
+         level%geometry(:, j) = level%geometry(:, j) - rr(:, j)
       end do
       !$omp end parallel do
    end subroutine set_geometry

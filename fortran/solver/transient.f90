@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The march of a rough surface through the contact, one time step at a time
 module ehl_transient
+   use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, refresh
    use ehl_film, only: pressure_sum, update_residual
    use ehl_forecast, only: forecast_t
@@ -36,6 +37,7 @@ module ehl_transient
    real(dp), parameter :: x_filled = 1.05_dp
 
    type :: transient_t
+      class(contact_t), allocatable, private :: contact
       !> Steps made, steps not needed at the start, the present time, the time step
       integer :: step = 0, skipped = 0
       real(dp) :: time = 0.0_dp, time_step = 0.0_dp
@@ -93,9 +95,10 @@ contains
    end function steps_needed
 
    !> Begin from the smooth solution of a level, the roughness riding on its film
-   subroutine start(self, level, surface, skip, friction_smooth, status)
+   subroutine start(self, level, contact, surface, skip, friction_smooth, status)
       class(transient_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
+      class(contact_t), intent(in) :: contact
       class(surface_t), intent(inout) :: surface
       !> Begin when the roughness comes near the contact, not when it enters the domain
       logical, intent(in) :: skip
@@ -104,6 +107,7 @@ contains
       integer :: k, stat
 
       if (status%failed()) return
+      self%contact = contact
       self%step = 0
       self%total_cycles = 0
       self%total_sweeps = 0
@@ -147,7 +151,7 @@ contains
       if (status%failed()) return
       associate (level => hierarchy%levels(n))
          call surface%height(level%grid, self%time + self%time_step, self%rr)
-         call set_geometry(level, self%rr)
+         call set_geometry(level, self%contact, self%rr)
          call set_history(level, self%mass_content)
          trust = full_trust
          call self%begin_step(hierarchy, level, trust, status)
@@ -275,7 +279,7 @@ contains
       class(surface_t), intent(inout) :: surface
 
       call surface%height(level%grid, self%time, self%rr)
-      call set_geometry(level, self%rr)
+      call set_geometry(level, self%contact, self%rr)
       level%p = self%p_before(:, :, 1)
       level%h00 = self%h00_before(1)
       call refresh(level)

@@ -297,7 +297,7 @@ contains
       n = steady%n
       march%tolerance = step_tolerance(hierarchy%levels(n)%grid%hx, plan%accuracy)
       march%max_cycles = plan%max_cycles
-      call march%start(hierarchy%levels(n), plan%surface, plan%skip_start, steady%results(n)%m%friction, status)
+      call march%start(hierarchy%levels(n), plan%contact, plan%surface, plan%skip_start, steady%results(n)%m%friction, status)
       do k = 1, n
          call hierarchy%levels(k)%set_transient(plan%scheme, march%time_step, status)
       end do

@@ -5,8 +5,12 @@ module test_solver
    use check, only: is_close, is_equal, is_true
    use ehl_case, only: case_t
    use ehl_case_reader, only: read_case
+   use ehl_circular, only: circular_from_si, circular_t
+   use ehl_contact, only: contact_t
+   use ehl_deflection, only: deflection_t
+   use ehl_deflection_factory, only: new_deflection
    use ehl_film, only: update_coefficients
-   use ehl_grid, only: new_grid
+   use ehl_grid, only: grid_t, new_grid
    use ehl_kinds, only: dp
    use ehl_level, only: level_t, line_width
    use ehl_line_system, only: last_awake, solve_lines
@@ -28,6 +32,7 @@ contains
 
    subroutine run_solver()
       call operating_point_of_table_1()
+      call shapes_are_consistent()
       call lubricant_laws()
       call smooth_against_reference()
       call half_is_whole("", 1.0e-10_dp)
@@ -41,14 +46,43 @@ contains
    !> Zhang et al. 2019, Table 1: a = 0.41540 mm, p_h = 1.6602 GPa, M = 1000.0, L = 10.024
    subroutine operating_point_of_table_1()
       type(operating_t) :: point
+      type(circular_t) :: contact
 
-      point = operating_from_si(600.0_dp, 0.84_dp, 0.018_dp, 2.26e11_dp, 0.04_dp, 2.2e-8_dp)
-      call is_close(point%hertz_radius, 4.1540e-4_dp, 1.0e-8_dp, "Hertz radius")
+      contact = circular_from_si(600.0_dp, 0.018_dp, 2.26e11_dp)
+      point = operating_from_si(600.0_dp, 0.84_dp, 0.018_dp, 2.26e11_dp, 0.04_dp, 2.2e-8_dp, contact%pressure)
+      call is_close(contact%radius, 4.1540e-4_dp, 1.0e-8_dp, "Hertz radius")
       call is_close(point%hertz_pressure, 1.6602e9_dp, 1.0e5_dp, "Hertz pressure")
       call is_close(point%moes_m, 1000.0_dp, 0.05_dp, "M")
       call is_close(point%moes_l, 10.024_dp, 0.001_dp, "L")
       call is_close(point%speed_parameter, 1.0978e-3_dp, 1.0e-7_dp, "speed parameter")
    end subroutine operating_point_of_table_1
+
+   !> The pressure of the dry contact carries its load, and the deflection that it causes fills its gap
+   subroutine shapes_are_consistent()
+      type(circular_t) :: circle
+      class(contact_t), allocatable :: contact
+      class(deflection_t), allocatable :: engine
+      type(grid_t) :: grid
+      type(status_t) :: status
+      real(dp), allocatable :: gap(:, :), p(:, :), w(:, :)
+      integer :: j
+
+      contact = circle
+      grid = new_grid(129, -1.5_dp, 1.5_dp, 1.5_dp, .false.)
+      allocate (gap(129, 129), p(129, 129), w(129, 129))
+      do j = 1, grid%ny
+         call contact%gap_row(grid%columns(), grid%y(j), gap(:, j))
+         call contact%pressure_row(grid%columns(), grid%y(j), p(:, j))
+      end do
+      call is_close(sum(p)*grid%hx*grid%hy, contact%load(), 1.0e-3_dp, "load of the dry contact")
+      call new_deflection("fft", engine, status)
+      call engine%setup(grid, 1.0e-8_dp, 1, status)
+      call engine%apply(p, w)
+      w = gap + w + contact%dry_separation()
+      call is_close(maxval(abs(w), mask=p > 0.0_dp), 0.0_dp, 2.0e-3_dp, "no gap in the dry contact")
+      call is_true(minval(w) > -2.0e-3_dp, "bodies do not overlap")
+      call is_true(.not. contact%has_size(), "a contact without dimensions")
+   end subroutine shapes_are_consistent
 
    !> Slopes against differences, values at 0 and at p_h
    subroutine lubricant_laws()

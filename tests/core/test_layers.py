@@ -12,6 +12,7 @@ import pytest
 LAYERS = [
     ["base"],
     ["physics", "grid"],
+    ["contact"],
     ["surface", "deflection"],
     ["reynolds"],
     ["multigrid"],
@@ -23,7 +24,7 @@ RANK = {folder: rank for rank, folders in enumerate(LAYERS) for folder in folder
 # First line of a program, a module or a submodule
 UNIT = r"^\s*(?:module|program|submodule\s*\(\w+\))\s+(\w+)\s*$"
 # Numerics takes plain arguments; words of a case file stop at the solver
-NUMERICS = ("physics", "grid", "surface", "deflection", "reynolds", "multigrid")
+NUMERICS = ("physics", "contact", "grid", "surface", "deflection", "reynolds", "multigrid")
 
 
 def modules(root: Path) -> dict[str, tuple[Path, set[str]]]:
@@ -71,21 +72,25 @@ def test_numerics_does_not_know_cases(root: Path):
     assert not wrong
 
 
-# What gives a stencil away, and the only file of the library that may hold it
-STENCILS = [
+# What gives a stencil or a shape away, and the only file of the library that may hold it
+OWNED = [
     ("reynolds/poiseuille.f90", r"/[\w%]*h[xy]\s*\*\*\s*2"),
     ("reynolds/poiseuille.f90", r"\be(?:ps)?\(i [+-] 1, j\) \+"),
     ("reynolds/poiseuille.f90", r"%product%?\w*\(|%north_east\(i"),
     ("reynolds/wedge.f90", r"1\.5_dp, -2\.0_dp, 0\.5_dp"),
     ("reynolds/wedge.f90", r"1\.5_dp/\w*time_step"),
     ("reynolds/wedge.f90", r"c\(1\)\*\w+\(i - 1"),
+    (
+        "contact/circular.f90",
+        r"pi/3\.0_dp|sqrt\(max\(0\.0_dp, 1\.0_dp - x|\bx\w*(?:\(i\))?\*\*2 \+ ",
+    ),
     ("grid/grid.f90", r"merge\(2, j - 1, j == 1\)"),
 ]
 
 
-@pytest.mark.parametrize(("owner", "pattern"), STENCILS)
-def test_each_stencil_has_one_owner(root: Path, owner: str, pattern: str):
-    """The discrete equations are written once: whoever needs them asks the owner."""
+@pytest.mark.parametrize(("owner", "pattern"), OWNED)
+def test_one_owner(root: Path, owner: str, pattern: str):
+    """Discrete equations and the macroscopic contact are written once: whoever needs them asks."""
     library = root / "fortran"
     # symmetric operators as such, their transfers and products are no discretisation
     apart = {"app", "bind", "test"}
