@@ -77,7 +77,17 @@ PREDICTION = {
 SOLUTION_TABLES = ("history",)
 PREDICTION_TABLES = ("passage", "spectrum", "bands")
 # Unit by the end of a name, the longest first
-SUFFIXES = {"_rad_per_m": "rad/m", "_m4": "m4", "_Pa": "Pa", "_m": "m", "_s": "s", "_deg": "deg"}
+SUFFIXES = {
+    "_rad_per_m": "rad/m",
+    "_per_s": "1/s",
+    "_Pa_s": "Pa s",
+    "_K": "K",
+    "_m4": "m4",
+    "_Pa": "Pa",
+    "_m": "m",
+    "_s": "s",
+    "_deg": "deg",
+}
 
 
 def settings_of(data: xr.Dataset) -> dict[str, dict[str, Any]]:

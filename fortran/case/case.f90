@@ -32,6 +32,10 @@ module ehl_case
       real(dp) :: slide_to_roll = 0.02_dp
       !> Which surface is rough: 1 (default) or 2
       integer :: rough_surface = 1
+      !> [W/(m K)] thermal conductivity of the solids, default 46 (bearing steel)
+      real(dp) :: thermal_conductivity = 46.0_dp
+      !> [m^2/s] thermal diffusivity of the solids, default 1.25e-5
+      real(dp) :: thermal_diffusivity = 1.25e-5_dp
    end type contact_case_t
 
    !> &lubricant: viscosity and density under pressure
@@ -58,6 +62,18 @@ module ehl_case
       real(dp) :: limiting_coefficient = 0.06_dp
       !> [Pa] stress at which a Carreau fluid begins to thin, and [-] its power-law exponent; no defaults
       real(dp) :: carreau_stress = 0.0_dp, carreau_exponent = 0.0_dp
+      !> [degC] temperature of the inlet, default 40; it rules where the viscosities of a data sheet are given
+      real(dp) :: temperature = 40.0_dp
+      !> [mm^2/s] kinematic viscosities at 40 and 100 degC; 0 (default): `viscosity` is given
+      real(dp) :: kinematic_viscosity_40 = 0.0_dp, kinematic_viscosity_100 = 0.0_dp
+      !> [kg/m^3] density at 15 degC, default 870; [1/K] its relative fall with temperature, default 6.5e-4
+      real(dp) :: density_15 = 870.0_dp, thermal_expansion = 6.5e-4_dp
+      !> whether shear heating of the inlet thins the film, default .false.
+      logical :: thermal_reduction = .false.
+      !> [1/K] -(d eta/dT)/eta; default from the data sheet, set by the reader
+      real(dp) :: temperature_viscosity = 0.0_dp
+      !> [W/(m K)] thermal conductivity of the oil, default 0.14
+      real(dp) :: thermal_conductivity = 0.14_dp
    end type lubricant_case_t
 
    !> &grid: the domain in Hertz radii a and its finest grid

@@ -5,6 +5,7 @@ module ehl_case_check
    use ehl_case, only: case_t, path_length
    use ehl_case_contact, only: check_contact_kind, check_operating_point, complete_kinematics
    use ehl_case_lubricant, only: check_shear_law, complete_lubricant
+   use ehl_case_temperature, only: check_heat, complete_viscosity
    use ehl_files, only: absolute_path, file_exists, folder_of
    use ehl_refusal, only: contradict, refuse
    use ehl_schema, only: schema_t
@@ -26,10 +27,12 @@ contains
       type(status_t), intent(inout) :: status
 
       call check_contact_kind(schema, input, sources, status)
+      if (.not. status%failed()) call complete_viscosity(schema, input, sources, status)
       if (.not. status%failed()) call check_operating_point(schema, input, sources, status)
       if (.not. status%failed()) call complete_kinematics(schema, input, sources, status)
       if (.not. status%failed()) call complete_lubricant(schema, input, sources, status)
       if (.not. status%failed()) call check_shear_law(schema, input, sources, status)
+      if (.not. status%failed()) call check_heat(schema, input, sources, status)
       if (.not. status%failed()) call check_points(schema, input, sources, status)
       if (.not. status%failed()) call complete_surface(schema, input, sources, status)
       if (.not. status%failed()) call check_time(schema, input, sources, status)

@@ -19,13 +19,18 @@ contains
       type(case_t), intent(inout) :: input
       type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
+      character(len=22) :: at
 
       associate (l => input%lubricant)
          if (.not. schema%given("lubricant", "roelands_z")) then
             l%roelands_z = l%pressure_viscosity*l%roelands_p0/(log(l%viscosity) + 9.67_dp)
             associate (key => schema%keys(schema%find("lubricant", "roelands_z")))
                if (.not. key%allows(l%roelands_z) .and. l%viscosity_law == "roelands") then
-                  call refuse(schema, sources, "lubricant", "viscosity", &
+                  at = "viscosity"
+                  if (l%kinematic_viscosity_40 > 0.0_dp .and. .not. schema%given("lubricant", "viscosity")) then
+                     at = "kinematic_viscosity_40"
+                  end if
+                  call refuse(schema, sources, "lubricant", trim(at), &
                      "lubricant.roelands_z = " // short(l%roelands_z) // " follows from viscosity, " &
                      // "pressure_viscosity and roelands_p0", key%type_text(), status)
                end if

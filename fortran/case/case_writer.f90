@@ -45,6 +45,8 @@ contains
          holds = input%surface%amplitude_given
       case ("surface.amplitude_over_film")
          holds = input%surface%kind == "harmonic" .and. .not. input%surface%amplitude_given
+      case ("lubricant.temperature", "lubricant.density_15", "lubricant.thermal_expansion")
+         holds = input%lubricant%kinematic_viscosity_40 > 0.0_dp
       case ("lubricant.limiting_coefficient")
          holds = input%lubricant%limiting_stress <= 0.0_dp
       case default

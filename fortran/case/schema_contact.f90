@@ -21,6 +21,10 @@ contains
          call self%reals("contact", "slide_to_roll", c%slide_to_roll, "-", "[-2, 2]", &
                          "slide-to-roll ratio (u1 - u2)/u; follows from a given surface.velocity_ratio")
          call self%integers("contact", "rough_surface", c%rough_surface, "[1, 2]", "which surface is the rough one")
+         call self%reals("contact", "thermal_conductivity", c%thermal_conductivity, "W/(m K)", "[0.1, 500]", &
+                         "thermal conductivity of the solids, for the flash temperature")
+         call self%reals("contact", "thermal_diffusivity", c%thermal_diffusivity, "m^2/s", "[1e-8, 1e-3]", &
+                         "thermal diffusivity of the solids, for the flash temperature")
       end associate
    end subroutine add_contact_keys
 
@@ -52,6 +56,21 @@ contains
                          "stress G of Carreau at which thinning begins; no default")
          call self%reals("lubricant", "carreau_exponent", l%carreau_exponent, "-", "0 or [0.05, 1]", &
                          "power-law exponent n of Carreau; no default")
+         call self%reals("lubricant", "temperature", l%temperature, "degC", "[-60, 250]", &
+                         "temperature of the inlet; needs the kinematic viscosities")
+         call self%reals("lubricant", "kinematic_viscosity_40", l%kinematic_viscosity_40, "mm^2/s", "0 or [1, 1e5]", &
+                         "at 40 degC, as on data sheets; viscosity then follows. 0: not known")
+         call self%reals("lubricant", "kinematic_viscosity_100", l%kinematic_viscosity_100, "mm^2/s", &
+                         "0 or [0.5, 1e4]", "at 100 degC; both or none")
+         call self%reals("lubricant", "density_15", l%density_15, "kg/m^3", "[500, 2000]", "density at 15 degC")
+         call self%reals("lubricant", "thermal_expansion", l%thermal_expansion, "1/K", "[0, 2e-3]", &
+                         "relative fall of the density with temperature")
+         call self%logicals("lubricant", "thermal_reduction", l%thermal_reduction, &
+                            "shear heating of the inlet thins the film (Gupta et al. 1992)")
+         call self%reals("lubricant", "temperature_viscosity", l%temperature_viscosity, "1/K", "0 or [1e-3, 0.3]", &
+                         "-(d eta/dT)/eta; default from the kinematic viscosities, 0: not known")
+         call self%reals("lubricant", "thermal_conductivity", l%thermal_conductivity, "W/(m K)", "[0.01, 2]", &
+                         "thermal conductivity of the oil, for thermal_reduction")
       end associate
    end subroutine add_lubricant_keys
 end submodule ehl_schema_contact

@@ -11,7 +11,8 @@ module ehl_plan
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
    use ehl_map_file, only: read_map
-   use ehl_moes, only: operating_from_moes, operating_from_si, operating_t
+   use ehl_moes, only: operating_from_moes, operating_t
+   use ehl_plan_friction, only: plan_point, plan_sliding, sliding_t
    use ehl_plan_lubricant, only: plan_lubricant
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_surface, only: surface_t
@@ -37,6 +38,8 @@ module ehl_plan
       class(contact_t), allocatable :: contact
       type(operating_t) :: point
       type(lubricant_t) :: lubricant
+      !> What absolute friction needs to know
+      type(sliding_t) :: sliding
       !> Coarsest and finest grid
       type(grid_t) :: coarsest, finest
       !> Levels, and the one nested iteration starts on
@@ -148,11 +151,12 @@ contains
       associate (c => input%contact, l => input%lubricant)
          if (c%si) then
             circle = circular_from_si(c%load, c%radius, c%reduced_modulus)
-            plan%point = operating_from_si(c%load, c%mean_velocity, c%radius, c%reduced_modulus, l%viscosity, &
-                                           l%pressure_viscosity, circle%pressure)
+            plan%sliding = plan_sliding(input, circle)
+            plan%point = plan_point(input, circle, plan%sliding)
          else
             plan%point = operating_from_moes(c%moes_m, c%moes_l, l%pressure_viscosity)
             circle%pressure = plan%point%hertz_pressure
+            plan%sliding = plan_sliding(input, circle)
          end if
       end associate
       plan%contact = circle

@@ -29,6 +29,7 @@ contains
             plan%contact%pressure, " Pa"
          text = text//trim(line)//new_line("a")
       end if
+      text = text//friction_lines(plan)
       if (plan%rests()) then
          text = text//rest_lines(plan)
       else if (plan%moves()) then
@@ -101,6 +102,27 @@ contains
       text = trim(line)//new_line("a")//"           the smooth contact is solved before"//new_line("a")
       if (plan%coarse_run) text = text//"error      of the friction ratio: solved on the next coarser grid too"//new_line("a")
    end function rest_lines
+
+   !> Sliding and shear law, and the heat of the inlet where it counts
+   function friction_lines(plan) result(text)
+      type(plan_t), intent(in) :: plan
+      character(len=:), allocatable :: text
+      character(len=160) :: line
+
+      associate (s => plan%sliding)
+         write (line, "(a,f8.4)") "friction   "//trim(s%law)//" shear stress, slide-to-roll ratio ", s%slide_to_roll
+         text = trim(line)
+         if (s%mean_velocity > 0.0_dp) then
+            write (line, "(a,es10.3,a)") " (", abs(s%slide_to_roll)*s%mean_velocity, " m/s)"
+            text = text//trim(line)
+         end if
+         text = text//"; the flow is Newtonian"//new_line("a")
+         if (.not. s%loading > 0.0_dp) return
+         write (line, "(a,f7.4,a,es10.3,a)") "heat       shear heating of the inlet (Gupta et al. 1992): film times ", &
+            s%reduction, " by an inlet viscosity of ", s%inlet_viscosity, " Pa s, which M and L belong to"
+         text = text//trim(line)//new_line("a")
+      end associate
+   end function friction_lines
 
    !> Sweeps before and after the coarse grids: '(2,1)'
    function sweeps_of(cycle) result(text)

@@ -4,8 +4,10 @@ submodule (ehl_solver) ehl_solver_results
    use ehl_outcome, only: outcome_names, outcome_target_missed
    use ehl_plan_text, only: plan_text
    use ehl_report, only: cycle_line, march_line, rest_line, report_march, report_rest, report_scene, report_smooth
+   use ehl_report_friction, only: report_friction
    use ehl_skips, only: find_skips, report_skips, skip_lines, skip_t
    use ehl_status, only: ehl_bad_input
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    implicit none (type, external)
 
 contains
@@ -46,9 +48,33 @@ contains
       if (self%marching) call report_march(record, self%plan, self%transient, self%converged(), &
                                               self%step_seconds, self%coarse_mean)
       if (self%resting) call report_rest(record, self%plan, self%rest, self%converged(), self%coarse_mean)
+      call summarise_friction(self, record, good)
       if (self%marching .and. self%done()) call report_skips(record, skips_of(self))
       call record%set("bytes", real(self%hierarchy%bytes(), dp))
    end function summary
+
+   !> Absolute friction of the smooth contact and of the rough one
+   subroutine summarise_friction(self, record, good)
+      type(solver_t), intent(in) :: self
+      type(record_t), intent(inout) :: record
+      !> Whether the smooth contact is converged
+      logical, intent(in) :: good
+      real(dp) :: nothing, friction, ratio
+
+      nothing = ieee_value(nothing, ieee_quiet_nan)
+      friction = merge(self%steady%results(self%level())%m%friction, nothing, good)
+      ratio = 1.0_dp
+      if (allocated(self%plan%surface)) ratio = nothing
+      if (self%marching .and. self%converged()) ratio = self%transient%mean%mean(0.0_dp)
+      if (self%resting .and. self%converged()) ratio = self%rest%mu_ratio()
+      if (self%marching .or. self%resting) then
+         call report_friction(record, self%plan, self%grid, self%p_smooth, self%h_smooth, friction, ratio)
+      else
+         associate (level => self%hierarchy%levels(self%level()))
+            call report_friction(record, self%plan, level%grid, level%p, level%h, friction, ratio)
+         end associate
+      end if
+   end subroutine summarise_friction
 
    module function skipped(self) result(text)
       class(solver_t), intent(in) :: self

@@ -6,6 +6,7 @@ program tester
    use test_alcouffe, only: run_alcouffe
    use test_case, only: run_case
    use test_deflection, only: run_deflection
+   use test_friction, only: run_friction
    use test_march, only: run_march
    use test_mean, only: run_mean
    use test_record, only: run_record
@@ -28,6 +29,8 @@ program tester
       call run_alcouffe()
    case ("mean")
       call run_mean()
+   case ("friction")
+      call run_friction()
    case ("march")
       call run_march()
    case ("solver")

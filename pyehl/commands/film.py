@@ -16,6 +16,16 @@ from pyehl.prediction.film_sheet import sheet
 __all__ = ["add_arguments", "execute", "report"]
 
 
+def _heat(v: Mapping[str, Any]) -> list[str]:
+    """Return what shear heating of the inlet does, in one line or none."""
+    if v["thermal_reduction"] == 1.0:
+        return []
+    return [
+        f"    of the inlet; {v['viscosity_ambient_Pa_s']:.5g} Pa s before shear heating, by which "
+        f"the film is {v['thermal_reduction']:.4f} of the isothermal one (Gupta et al. 1992)"
+    ]
+
+
 def report(values: Mapping[str, Any]) -> str:
     """Return the page that ``pyehl film`` prints, from a :func:`sheet`."""
     v = values
@@ -28,6 +38,7 @@ def report(values: Mapping[str, Any]) -> str:
         f"  reduced modulus      E'     {v['reduced_modulus_Pa'] * 1e-9:12.5g} GPa"
         "    2/E' = sum (1 - nu^2)/E",
         f"  viscosity            eta0   {v['viscosity_Pa_s']:12.5g} Pa s",
+        *_heat(v),
         f"  pressure-viscosity   alpha  {v['pressure_viscosity_per_Pa'] * 1e9:12.5g} 1/GPa",
         "",
         "Dimensionless",

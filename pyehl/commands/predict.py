@@ -38,8 +38,12 @@ def report(prediction: Prediction) -> str:
         ]
         mean, spread = prediction.tracks
         lines.append(f"            {mean:.3f} +- {spread:.3f} over all tracks of the tile")
-        if prediction.thins:
-            lines.append(f"mu_s        {f.mu_smooth:.4f}")
+        values = prediction.summary
+        if values["mu"] is not None:
+            lines.append(
+                f"mu          {values['mu']:.4f}, smooth mu_s {values['mu_smooth']:.4f}; "
+                f"{values['mu_note']}: {values['flash_temperature_K']:.2g} K"
+            )
         strongest = sorted(prediction.bands, key=lambda band: -abs(band.rise))[:3]
         parts = ", ".join(
             f"{b.rise:+.4f} from {b.longest * 1e6:.0f} to {b.shortest * 1e6:.0f} um"

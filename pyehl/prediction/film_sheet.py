@@ -41,6 +41,8 @@ def sheet(settings: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
         "reduced_modulus_Pa": operating.reduced_modulus,
         "viscosity_Pa_s": operating.viscosity,
         "pressure_viscosity_per_Pa": operating.pressure_viscosity,
+        "viscosity_ambient_Pa_s": lubricant.viscosity,
+        "thermal_reduction": operating.thermal_reduction,
         "si": operating.si,
         "moes_m": operating.moes_m,
         "moes_l": operating.moes_l,

@@ -18,6 +18,7 @@ from pyehl.prediction.friction import RoughFriction, over_tracks, predict_fricti
 from pyehl.prediction.options import Options
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.film import central_film
+from pyehl.theory.friction import absolute_friction
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
@@ -193,7 +194,6 @@ class Prediction:
             "mu_ratio_tracks_spread": self.tracks[1],
             "positions": int(f.passage.size),
             "note": STRESS_NOTE if self.thins else NEWTONIAN_NOTE,
-            "mu_smooth": f.mu_smooth if self.thins else None,
             "wavelength_convention": self.options.wavelength_convention,
             "phase_lag_deg": self.options.phase_lag,
             "stiffness": self.options.stiffness,
@@ -202,6 +202,10 @@ class Prediction:
             "load_balance": self.options.load_balance,
             "shear_law": self.lubricant.shear.law,
             "slide_to_roll": o.slide_to_roll,
+            **absolute_friction(
+                o, self.lubricant, film=self.film, mu_smooth=f.mu_smooth, mu_ratio=f.mu_ratio
+            ),
+            "thermal_reduction": o.thermal_reduction,
             "h_c_m": self.film,
             "h_c_source": self.film_source,
             "h_min_m": f.film_min,

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.moes_film import nijenbanning_venner_moes
 from pyehl.theory.operating import OperatingPoint
 
 __all__ = [
@@ -82,35 +83,6 @@ def chittenden(speed: float, material: float, load_number: float) -> tuple[float
     """
     common = speed**0.68 * material**0.49 * load_number**-0.073
     return 4.31 * common * (1 - math.exp(-1.23)), 3.68 * common * (1 - math.exp(-0.67))
-
-
-def nijenbanning_venner_moes(moes_m: float, moes_l: float) -> float:
-    """H_c = h_c R/a^2 [-] of a circular contact with an incompressible lubricant.
-
-    Nijenbanning, Venner & Moes 1994, Wear 176, 217-229, for R_x = R_y: the rigid-isoviscous,
-    elastic-isoviscous, rigid-piezoviscous and elastic-piezoviscous asymptotes, joined. Divide by
-    the density ratio at p_h for a compressible lubricant.
-
-    Raises
-    ------
-    ValueError
-        If M is not positive or L is negative.
-    """
-    if not (moes_m > 0.0 and moes_l >= 0.0):
-        raise ValueError(f"need M > 0 and L >= 0, not M = {moes_m:g}, L = {moes_l:g}")
-    rigid_iso = 145.0 * 1.796 ** (-15 / 7) * moes_m**-2
-    elastic_iso = 3.18 * 1.63 ** (-14 / 25) * moes_m ** (-2 / 15)
-    rigid_piezo = 1.29 * 1.691 ** (-2 / 3) * moes_l ** (2 / 3)
-    elastic_piezo = 1.48 * 1.63 ** (-7 / 20) * moes_m ** (-1 / 12) * moes_l**0.75
-    flat = 1.8
-    s = 1.5 * (1.0 + math.exp(-1.2 * elastic_iso / rigid_iso))
-    isoviscous = rigid_iso**1.5 + (elastic_iso**-4 + flat**-4) ** (-3 / 8)
-    piezoviscous = 0.0
-    if moes_l > 0.0:
-        piezoviscous = (rigid_piezo**-8 + elastic_piezo**-8) ** (-s / 8)
-    h_m = (isoviscous ** (2 * s / 3) + piezoviscous) ** (1 / s)
-    # from the Moes film number h/R (2U)^(-1/2) to h R/a^2
-    return float(h_m * (1.5 * moes_m) ** (-2 / 3))
 
 
 def central_film(operating: OperatingPoint, lubricant: Lubricant) -> float:

@@ -9,9 +9,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
+from pyehl.theory.heat import thermal_loading, thermal_reduction
+from pyehl.theory.moes_film import inlet_viscosity_ratio
 from pyehl.theory.numbers import positive
 
 __all__ = ["OperatingPoint"]
@@ -37,7 +39,7 @@ class OperatingPoint:
     reduced_modulus
         E' [Pa], 2/E' = sum of (1 - nu^2)/E.
     viscosity
-        eta0 [Pa s].
+        eta0 of the inlet [Pa s], which makes the film.
     pressure_viscosity
         alpha [1/Pa]; 0 for the isoviscous limit L = 0.
     si
@@ -45,6 +47,10 @@ class OperatingPoint:
         and modulus of the reference conditions.
     slide_to_roll
         Slide-to-roll ratio (u1 - u2)/u [-], u the mean velocity.
+    thermal_conductivity, thermal_diffusivity
+        Of the solids [W/(m K)], [m^2/s].
+    thermal_reduction
+        Film over the isothermal one [-], which `viscosity` contains; 1 where it is not counted.
 
     Raises
     ------
@@ -60,6 +66,9 @@ class OperatingPoint:
     pressure_viscosity: float = 2.2e-8
     si: bool = True
     slide_to_roll: float = 0.02
+    thermal_conductivity: float = 46.0
+    thermal_diffusivity: float = 1.25e-5
+    thermal_reduction: float = 1.0
 
     def __post_init__(self) -> None:
         """Check the numbers."""
@@ -114,7 +123,10 @@ class OperatingPoint:
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Mapping[str, Any]]) -> OperatingPoint:
-        """From the groups ``contact`` and ``lubricant`` of a resolved case (either kind)."""
+        """From the groups ``contact`` and ``lubricant`` of a resolved case (either kind).
+
+        With ``lubricant.thermal_reduction`` the viscosity is that of the warmer inlet.
+        """
         contact, lubricant = settings["contact"], settings["lubricant"]
         viscosity = float(lubricant["viscosity"])
         alpha = float(lubricant["pressure_viscosity"])
@@ -127,7 +139,7 @@ class OperatingPoint:
                 pressure_viscosity=alpha,
                 slide_to_roll=slide_to_roll,
             )
-        return cls(
+        point = cls(
             load=float(contact["load"]),
             mean_velocity=float(contact["mean_velocity"]),
             radius=float(contact["radius"]),
@@ -135,7 +147,21 @@ class OperatingPoint:
             viscosity=viscosity,
             pressure_viscosity=alpha,
             slide_to_roll=slide_to_roll,
+            thermal_conductivity=float(contact.get("thermal_conductivity", 46.0)),
+            thermal_diffusivity=float(contact.get("thermal_diffusivity", 1.25e-5)),
         )
+        if not lubricant.get("thermal_reduction", False):
+            return point
+        loading = thermal_loading(
+            float(lubricant["temperature_viscosity"]),
+            viscosity,
+            point.mean_velocity,
+            float(lubricant["thermal_conductivity"]),
+        )
+        pressure = point.hertz_pressure / point.reduced_modulus
+        share = thermal_reduction(loading, pressure, slide_to_roll)
+        ratio = inlet_viscosity_ratio(point.moes_m, point.moes_l, share)
+        return replace(point, viscosity=viscosity * ratio, thermal_reduction=share)
 
     @property
     def sliding_speed(self) -> float:

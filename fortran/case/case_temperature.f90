@@ -1,0 +1,106 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Temperature of the lubricant: its viscosity from a data sheet, and shear heating of the inlet
+module ehl_case_temperature
+   use ehl_case, only: case_t
+   use ehl_circular, only: circular_from_si, circular_t
+   use ehl_heat, only: dynamic_viscosity, temperature_viscosity, thermal_loading, thermal_reduction
+   use ehl_kinds, only: dp
+   use ehl_refusal, only: contradict, refuse, short
+   use ehl_schema, only: schema_t
+   use ehl_source, only: source_t
+   use ehl_status, only: status_t
+   use ehl_text, only: to_text
+   implicit none (type, external)
+   private
+   public :: complete_viscosity, check_heat
+
+   !> Keys that mean nothing without the kinematic viscosities
+   character(len=17), parameter :: sheet_keys(3) = &
+      [character(len=17) :: "temperature", "density_15", "thermal_expansion"]
+   !> Relative difference of viscosities that is none
+   real(dp), parameter :: rounding = 1.0e-6_dp
+
+contains
+
+   !> Viscosity, and how it falls with temperature, from the kinematic viscosities of a data sheet
+   subroutine complete_viscosity(schema, input, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(inout) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+      real(dp) :: sheet(2), follows
+      character(len=23) :: at
+      integer :: k
+
+      sheet = [input%lubricant%kinematic_viscosity_40, input%lubricant%kinematic_viscosity_100]
+      if (all(sheet <= 0.0_dp)) then
+         do k = 1, size(sheet_keys)
+            if (.not. schema%given("lubricant", trim(sheet_keys(k)))) cycle
+            call refuse(schema, sources, "lubricant", trim(sheet_keys(k)), "lubricant." // trim(sheet_keys(k)) &
+                        // " without the viscosities of the data sheet", "kinematic_viscosity_40 and " &
+                        // "kinematic_viscosity_100 beside it, or viscosity at the inlet temperature alone", status)
+            return
+         end do
+         return
+      else if (any(sheet <= 0.0_dp) .or. sheet(2) >= sheet(1)) then
+         at = "kinematic_viscosity_100"
+         if (.not. schema%given("lubricant", trim(at))) at = "kinematic_viscosity_40"
+         call refuse(schema, sources, "lubricant", trim(at), "lubricant.kinematic_viscosity_40 = " &
+                     // to_text(sheet(1)) // " and kinematic_viscosity_100 = " // to_text(sheet(2)), &
+                     "both, that at 100 degC the smaller one", status)
+         return
+      end if
+      associate (l => input%lubricant)
+         follows = dynamic_viscosity(l%temperature, sheet, l%density_15, l%thermal_expansion)
+         if (.not. schema%given("lubricant", "temperature_viscosity")) then
+            l%temperature_viscosity = temperature_viscosity(l%temperature, sheet, l%density_15, l%thermal_expansion)
+         end if
+         if (.not. schema%given("lubricant", "viscosity")) then
+            l%viscosity = follows
+            associate (key => schema%keys(schema%find("lubricant", "viscosity")))
+               if (.not. key%allows(follows)) then
+                  call refuse(schema, sources, "lubricant", "temperature", "lubricant.viscosity = " // short(follows) &
+                              // " follows from the data sheet at " // to_text(l%temperature) // " degC", &
+                              key%type_text(), status)
+               end if
+            end associate
+         else if (abs(l%viscosity - follows) > rounding*follows) then
+            call contradict(schema, sources, "lubricant.viscosity", "lubricant.kinematic_viscosity_40", &
+               "viscosity, or the kinematic viscosities", status, "lubricant.viscosity = " // to_text(l%viscosity) &
+               // ", and the data sheet gives " // short(follows) // " Pa s at " // to_text(l%temperature) // " degC")
+         end if
+      end associate
+   end subroutine complete_viscosity
+
+   !> What shear heating of the inlet needs, and where its formula ends
+   subroutine check_heat(schema, input, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(in) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+      type(circular_t) :: contact
+      real(dp) :: loading, reduction
+
+      associate (l => input%lubricant, c => input%contact)
+         if (.not. l%thermal_reduction) return
+         if (.not. c%si) then
+            call refuse(schema, sources, "lubricant", "thermal_reduction", "lubricant.thermal_reduction with a contact " &
+                        // "given by moes_m and moes_l, which has no velocity in m/s", &
+                        "load, mean_velocity, radius and reduced_modulus, or .false.", status)
+            return
+         else if (.not. l%temperature_viscosity > 0.0_dp) then
+            call refuse(schema, sources, "lubricant", "thermal_reduction", "lubricant.thermal_reduction, and nothing " &
+                        // "tells how the viscosity falls with temperature", &
+                        "temperature_viscosity, or kinematic_viscosity_40 and kinematic_viscosity_100", status)
+            return
+         end if
+         contact = circular_from_si(c%load, c%radius, c%reduced_modulus)
+         loading = thermal_loading(l%temperature_viscosity, l%viscosity, c%mean_velocity, l%thermal_conductivity)
+         reduction = thermal_reduction(loading, contact%pressure/c%reduced_modulus, c%slide_to_roll)
+         if (reduction > 0.0_dp) return
+         call refuse(schema, sources, "lubricant", "thermal_reduction", "lubricant.thermal_reduction: the formula gives " &
+                     // "a film of " // short(reduction) // " times the isothermal one at a thermal loading of " &
+                     // short(loading), "a slower contact, or .false.", status)
+      end associate
+   end subroutine check_heat
+end module ehl_case_temperature

@@ -1,0 +1,79 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Temperature: viscosity of an oil from its data sheet, shear heating of the inlet, flash temperature of the surfaces
+module ehl_heat
+   use ehl_kinds, only: dp, pi
+   implicit none (type, external)
+   private
+   public :: kinematic_viscosity, dynamic_viscosity, temperature_viscosity, thermal_loading, thermal_reduction, &
+             flash_temperature
+
+   !> 0 degC in kelvin, and the temperatures of data sheets [degC]
+   real(dp), parameter :: freezing = 273.15_dp, sheet(2) = [40.0_dp, 100.0_dp], sheet_density = 15.0_dp
+
+contains
+
+   !> Kinematic viscosity [mm^2/s] at a temperature [degC] from those at 40 and 100 degC: log log Z = A - B log T with
+   !> Z(nu) of ASTM D341 (Walther 1931: nu + 0.7), valid above 0.21 mm^2/s
+   pure real(dp) function kinematic_viscosity(temperature, points) result(viscosity)
+      real(dp), intent(in) :: temperature, points(2)
+      real(dp) :: log_t(2), double_log(2), z
+      integer :: k
+
+      do k = 1, 2
+         log_t(k) = log(sheet(k) + freezing)
+         z = points(k) + 0.7_dp + exp(-1.47_dp - 1.84_dp*points(k) - 0.51_dp*points(k)**2)
+         double_log(k) = log(log(z))
+      end do
+      z = exp(exp(double_log(1) + (double_log(2) - double_log(1))*(log(temperature + freezing) - log_t(1)) &
+                  /(log_t(2) - log_t(1)))) - 0.7_dp
+      viscosity = z - exp(-0.7487_dp - 3.295_dp*z + 0.6119_dp*z**2 - 0.3193_dp*z**3)
+   end function kinematic_viscosity
+
+   !> Viscosity [Pa s] at a temperature [degC]; density at 15 degC [kg/m^3], its relative fall per kelvin
+   pure real(dp) function dynamic_viscosity(temperature, points, density, expansion)
+      real(dp), intent(in) :: temperature, points(2), density, expansion
+
+      dynamic_viscosity = 1.0e-6_dp*kinematic_viscosity(temperature, points) &
+                          *density*(1.0_dp - expansion*(temperature - sheet_density))
+   end function dynamic_viscosity
+
+   !> Temperature-viscosity coefficient -(d eta/dT)/eta [1/K] of the same oil
+   pure real(dp) function temperature_viscosity(temperature, points, density, expansion)
+      real(dp), intent(in) :: temperature, points(2), density, expansion
+      !> [K] the error of the difference is its square over some hundred K^2
+      real(dp), parameter :: step = 0.01_dp
+
+      temperature_viscosity = log(dynamic_viscosity(temperature - step, points, density, expansion) &
+                                  /dynamic_viscosity(temperature + step, points, density, expansion))/(2.0_dp*step)
+   end function temperature_viscosity
+
+   !> Thermal loading beta eta0 u^2/k [-]
+   pure real(dp) function thermal_loading(coefficient, viscosity, velocity, conductivity)
+      !> beta [1/K], eta0 [Pa s], mean velocity [m/s], conductivity of the oil [W/(m K)]
+      real(dp), intent(in) :: coefficient, viscosity, velocity, conductivity
+      thermal_loading = coefficient*viscosity*velocity**2/conductivity
+   end function thermal_loading
+
+   !> Film with shear heating of the inlet over the isothermal one: Gupta, Cheng, Zhu, Forster & Schrand 1992,
+   !> Tribol. Trans. 35, 269. Not positive far outside its range.
+   pure real(dp) function thermal_reduction(loading, pressure, slide_to_roll)
+      !> Thermal loading [-], p_h/E' [-], slide-to-roll ratio [-]
+      real(dp), intent(in) :: loading, pressure, slide_to_roll
+
+      thermal_reduction = (1.0_dp - 13.2_dp*pressure*loading**0.42_dp) &
+                          /(1.0_dp + 0.213_dp*(1.0_dp + 2.23_dp*abs(slide_to_roll)**0.83_dp)*loading**0.64_dp)
+   end function thermal_reduction
+
+   !> Greatest temperature rise [K] of two surfaces of one material that move at `speeds` [m/s] through the heat of a
+   !> Hertz contact, semi-elliptic over its circle: Tian & Kennedy 1994, J. Tribol. 116, 167, for one surface; the heat
+   !> is shared so that both become as hot (Blok 1937)
+   pure real(dp) function flash_temperature(flux, radius, speeds, conductivity, diffusivity)
+      !> Mean heat flux [W/m^2], Hertz radius [m], of the solids: conductivity [W/(m K)], diffusivity [m^2/s]
+      real(dp), intent(in) :: flux, radius, speeds(2), conductivity, diffusivity
+      real(dp) :: peclet(2)
+
+      peclet = abs(speeds)*radius/(2.0_dp*diffusivity)
+      ! each surface by itself would have 2.32 flux radius/(k sqrt(pi (1.234 + Pe)))
+      flash_temperature = 2.32_dp*flux*radius/(conductivity*sum(sqrt(pi*(1.234_dp + peclet))))
+   end function flash_temperature
+end module ehl_heat

@@ -1,0 +1,111 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What absolute friction and the heat of it need to know of a case
+module ehl_plan_friction
+   use ehl_case, only: case_t
+   use ehl_contact, only: contact_t
+   use ehl_heat, only: thermal_loading, thermal_reduction
+   use ehl_kinds, only: dp
+   use ehl_moes, only: operating_from_si, operating_t
+   implicit none (type, external)
+   private
+   public :: sliding_t, plan_sliding, plan_point
+
+   !> Motion, load and heat of a contact
+   type :: sliding_t
+      !> Name of the shear law
+      character(len=32) :: law = "newtonian"
+      !> [-] slide-to-roll ratio; [m/s] mean velocity, 0 where there is none in m/s
+      real(dp) :: slide_to_roll = 0.0_dp, mean_velocity = 0.0_dp
+      !> [N] load
+      real(dp) :: load = 0.0_dp
+      !> [Pa] oils are not Newtonian above this stress
+      real(dp) :: newtonian_limit = 0.0_dp
+      !> Of the solids: [W/(m K)], [m^2/s]
+      real(dp) :: conductivity = 0.0_dp, diffusivity = 0.0_dp
+      !> Film over the isothermal one, 1 where shear heating of the inlet is left out; thermal loading
+      real(dp) :: reduction = 1.0_dp, loading = 0.0_dp
+      !> [Pa s] viscosity that makes the film: that of the warmer inlet
+      real(dp) :: inlet_viscosity = 0.0_dp
+   end type sliding_t
+
+contains
+
+   !> Motion, load and heat of a case
+   pure function plan_sliding(input, contact) result(sliding)
+      type(case_t), intent(in) :: input
+      class(contact_t), intent(in) :: contact
+      type(sliding_t) :: sliding
+
+      sliding%law = input%lubricant%shear_law
+      sliding%slide_to_roll = input%contact%slide_to_roll
+      sliding%newtonian_limit = input%lubricant%eyring_stress
+      sliding%conductivity = input%contact%thermal_conductivity
+      sliding%diffusivity = input%contact%thermal_diffusivity
+      if (.not. input%contact%si) return
+      associate (c => input%contact, l => input%lubricant)
+         sliding%mean_velocity = c%mean_velocity
+         sliding%load = c%load
+         sliding%inlet_viscosity = l%viscosity
+         if (.not. l%thermal_reduction) return
+         sliding%loading = thermal_loading(l%temperature_viscosity, l%viscosity, c%mean_velocity, l%thermal_conductivity)
+         sliding%reduction = thermal_reduction(sliding%loading, contact%pressure/c%reduced_modulus, c%slide_to_roll)
+         sliding%inlet_viscosity = inlet_viscosity(input, contact, sliding%reduction)
+      end associate
+   end function plan_sliding
+
+   !> Operating point of a contact in SI units, with the viscosity of its inlet
+   pure function plan_point(input, contact, sliding) result(point)
+      type(case_t), intent(in) :: input
+      class(contact_t), intent(in) :: contact
+      type(sliding_t), intent(in) :: sliding
+      type(operating_t) :: point
+      point = point_of(input, contact, sliding%inlet_viscosity)
+   end function plan_point
+
+   pure function point_of(input, contact, viscosity) result(point)
+      type(case_t), intent(in) :: input
+      class(contact_t), intent(in) :: contact
+      real(dp), intent(in) :: viscosity
+      type(operating_t) :: point
+
+      associate (c => input%contact)
+         point = operating_from_si(c%load, c%mean_velocity, c%radius, c%reduced_modulus, viscosity, &
+                                   input%lubricant%pressure_viscosity, contact%pressure)
+      end associate
+   end function point_of
+
+   !> Viscosity [Pa s] at which the film formula gives a share of the film of the lubricant's own viscosity
+   pure real(dp) function inlet_viscosity(input, contact, share)
+      type(case_t), intent(in) :: input
+      class(contact_t), intent(in) :: contact
+      real(dp), intent(in) :: share
+      real(dp) :: low, high, wanted
+      integer :: k
+
+      inlet_viscosity = input%lubricant%viscosity
+      if (.not. (share > 0.0_dp .and. share < 1.0_dp)) return
+      ! the film rises with viscosity, nowhere by less than its 0.4th power
+      high = log(inlet_viscosity)
+      low = high + 2.5_dp*log(share)
+      wanted = share*film_at(input, contact, high)
+      do k = 1, 60
+         if (film_at(input, contact, 0.5_dp*(low + high)) < wanted) then
+            low = 0.5_dp*(low + high)
+         else
+            high = 0.5_dp*(low + high)
+         end if
+      end do
+      inlet_viscosity = exp(0.5_dp*(low + high))
+   end function inlet_viscosity
+
+   !> Central film by formula at the logarithm of a viscosity, over a^2/R, which does not depend on it
+   pure real(dp) function film_at(input, contact, log_viscosity)
+      type(case_t), intent(in) :: input
+      class(contact_t), intent(in) :: contact
+      real(dp), intent(in) :: log_viscosity
+      type(operating_t) :: point
+
+      point = point_of(input, contact, exp(log_viscosity))
+      film_at = contact%film_formula(point%moes_m, point%moes_l)
+   end function film_at
+end module ehl_plan_friction

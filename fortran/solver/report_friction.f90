@@ -1,0 +1,119 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Absolute friction of a run, where it means something, and the heat of it
+module ehl_report_friction
+   use ehl_grid, only: grid_t
+   use ehl_heat, only: flash_temperature
+   use ehl_kinds, only: dp, pi
+   use ehl_plan, only: plan_t
+   use ehl_record, only: record_t
+   use ehl_text, only: to_text
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   implicit none (type, external)
+   private
+   public :: report_friction
+
+contains
+
+   !> Coefficients, shear rate and stress of the smooth contact, flash temperature; null where they are not known or
+   !> mean nothing
+   subroutine report_friction(record, plan, grid, p, h, friction, ratio)
+      type(record_t), intent(inout) :: record
+      type(plan_t), intent(in) :: plan
+      type(grid_t), intent(in) :: grid
+      !> Pressure and film of the smooth contact, its friction integral, and the friction over it (1: smooth); nan:
+      !> not known
+      real(dp), intent(in) :: p(:, :), h(:, :), friction, ratio
+      real(dp) :: nothing, mu_smooth, mu, rate, stress, rise, speed
+      character(len=:), allocatable :: note
+
+      nothing = ieee_value(nothing, ieee_quiet_nan)
+      mu_smooth = nothing
+      rate = nothing
+      stress = nothing
+      rise = nothing
+      associate (s => plan%sliding, shear => plan%lubricant%shear)
+         speed = abs(s%slide_to_roll)*s%mean_velocity
+         if (.not. s%mean_velocity > 0.0_dp) then
+            note = "a ratio alone: moes_m and moes_l give no sliding speed in m/s"
+         else if (.not. speed > 0.0_dp) then
+            note = "a ratio alone, that of vanishing sliding: there is no sliding, and rolling friction is not computed"
+         else if (.not. abs(friction) < huge(1.0_dp)) then
+            note = "the smooth contact is not converged"
+         else
+            rate = speed/plan%contact%film_scale*mean_inverse(grid, h)
+            stress = greatest_stress(plan, p, h)
+            if (shear%thins() .or. stress <= s%newtonian_limit) then
+               mu_smooth = friction*shear%scale*plan%contact%radius**2/s%load
+               note = "isothermal: the oil is not thinned by the flash temperature (Tian & Kennedy 1994)"
+            else
+               note = "a ratio alone: the Newtonian shear stress reaches "//short(stress)//" Pa, and oils shear thin "// &
+                      "above some "//to_text(s%newtonian_limit)//" Pa (lubricant.eyring_stress): give a lubricant.shear_law"
+            end if
+         end if
+         mu = ratio*mu_smooth
+         if (mu < huge(1.0_dp)) rise = flash_temperature(mu*s%load*speed/(pi*plan%contact%radius**2), &
+            plan%contact%radius, s%mean_velocity*(1.0_dp + [0.5_dp, -0.5_dp]*s%slide_to_roll), s%conductivity, &
+            s%diffusivity)
+         call record%set("shear_law", trim(s%law))
+         call record%set("slide_to_roll", s%slide_to_roll)
+         call record%set("mu", mu)
+         call record%set("mu_smooth", mu_smooth)
+         call record%set("shear_rate_mean_per_s", rate)
+         call record%set("shear_stress_max_Pa", stress)
+         call record%set("flash_temperature_K", rise)
+         call record%set("mu_note", note)
+         if (s%loading > 0.0_dp) then
+            call record%set("thermal_loading", s%loading)
+            call record%set("thermal_reduction", s%reduction)
+            call record%set("inlet_viscosity_Pa_s", s%inlet_viscosity)
+         end if
+      end associate
+   end subroutine report_friction
+
+   !> Mean of 1/H over the Hertz circle
+   pure real(dp) function mean_inverse(grid, h)
+      type(grid_t), intent(in) :: grid
+      real(dp), intent(in) :: h(:, :)
+      real(dp) :: area, x, y
+      integer :: i, j
+
+      mean_inverse = 0.0_dp
+      area = 0.0_dp
+      do j = 1, grid%ny
+         y = grid%y(j)
+         do i = 1, grid%nx
+            x = grid%x(i)
+            if (x*x + y*y > 1.0_dp) cycle
+            area = area + grid%weight(j)
+            mean_inverse = mean_inverse + grid%weight(j)/h(i, j)
+         end do
+      end do
+      mean_inverse = mean_inverse/area
+   end function mean_inverse
+
+   !> Greatest shear stress [Pa]
+   pure real(dp) function greatest_stress(plan, p, h)
+      type(plan_t), intent(in) :: plan
+      real(dp), intent(in) :: p(:, :), h(:, :)
+      real(dp) :: log_eta(size(p, 1)), slope(size(p, 1)), stress(size(p, 1))
+      integer :: j
+
+      greatest_stress = 0.0_dp
+      do j = 1, size(p, 2)
+         call plan%lubricant%log_viscosity(p(:, j), log_eta, slope)
+         stress = exp(log_eta)/h(:, j)
+         if (plan%lubricant%shear%thins()) call plan%lubricant%shear%reduce(p(:, j), stress)
+         greatest_stress = max(greatest_stress, plan%lubricant%shear%scale*maxval(stress))
+      end do
+   end function greatest_stress
+
+   !> Two digits of a number
+   function short(x) result(text)
+      real(dp), intent(in) :: x
+      character(len=:), allocatable :: text
+      character(len=16) :: buffer
+
+      write (buffer, "(es8.1e2)") x
+      text = trim(adjustl(buffer))
+   end function short
+end module ehl_report_friction

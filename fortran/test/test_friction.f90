@@ -1,0 +1,124 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Friction integrals of uniform films, shear laws, and the heat of friction
+module test_friction
+   use check, only: is_close, is_true
+   use ehl_grid, only: new_grid
+   use ehl_heat, only: dynamic_viscosity, flash_temperature, kinematic_viscosity, temperature_viscosity, thermal_reduction
+   use ehl_kinds, only: dp, pi
+   use ehl_level, only: level_t
+   use ehl_lubricant, only: density_dowson_higginson, new_lubricant, viscosity_barus
+   use ehl_measures, only: measure, measures_t
+   use ehl_shear, only: shear_carreau, shear_eyring, shear_law_t, shear_limiting, shear_newtonian, shear_stress
+   use ehl_status, only: status_t
+   implicit none (type, external)
+   private
+   public :: run_friction
+
+   !> Uniform pressure over p_h, film over a^2/R; alpha p_h, p_h [Pa], Newtonian stress of eta0 and H = 1 [Pa]
+   real(dp), parameter :: p = 0.4_dp, h = 0.02_dp, alpha_bar = 10.0_dp, hertz_pressure = 1.0e9_dp, scale = 1.0e4_dp
+   real(dp), parameter :: area = 33.0_dp**2*0.125_dp**2, newtonian = scale*exp(alpha_bar*p)/h
+
+contains
+
+   subroutine run_friction()
+      call uniform_films()
+      call limits()
+      call data_sheet()
+      call flash()
+   end subroutine run_friction
+
+   !> Friction integral of the uniform film with a shear law
+   real(dp) function friction_of(law, stress, coefficient, exponent, factor)
+      integer, intent(in) :: law
+      real(dp), intent(in) :: stress, coefficient, exponent, factor
+      type(level_t) :: level
+      type(measures_t) :: m
+      type(status_t) :: status
+
+      level%grid = new_grid(33, -2.0_dp, 2.0_dp, 2.0_dp, .false.)
+      level%lubricant = new_lubricant(viscosity_barus, density_dowson_higginson, alpha_bar, hertz_pressure, 0.6_dp, 1.96e8_dp)
+      level%lubricant%shear = shear_law_t(law, stress, coefficient, exponent, factor*scale, hertz_pressure)
+      level%load = 1.0_dp
+      call level%setup(status)
+      level%p = p
+      level%h = h
+      m = measure(level)
+      friction_of = m%friction
+   end function friction_of
+
+   subroutine uniform_films()
+      real(dp) :: tau
+
+      call is_close(friction_of(shear_newtonian, 0.0_dp, 0.0_dp, 1.0_dp, 1.0_dp)/area, exp(alpha_bar*p)/h, 1.0e-9_dp, &
+                    "a uniform Newtonian film")
+      tau = 5.0e6_dp*log(newtonian/5.0e6_dp + sqrt((newtonian/5.0e6_dp)**2 + 1.0_dp))
+      call is_close(friction_of(shear_eyring, 5.0e6_dp, 0.0_dp, 1.0_dp, 1.0_dp)*scale/area/tau, 1.0_dp, 1.0e-13_dp, &
+                    "a uniform film, Eyring")
+      tau = 2.0e7_dp*(1.0_dp - exp(-newtonian/2.0e7_dp))
+      call is_close(friction_of(shear_limiting, 0.0_dp, 0.05_dp, 1.0_dp, 1.0_dp)*scale/area/tau, 1.0_dp, 1.0e-13_dp, &
+                    "a uniform film, limit in proportion to pressure")
+      call is_close(friction_of(shear_limiting, 2.0e7_dp, 0.3_dp, 1.0_dp, 1.0_dp)*scale/area/tau, 1.0_dp, 1.0e-13_dp, &
+                    "a uniform film, constant limit")
+      tau = newtonian/sqrt(1.0_dp + (newtonian/1.0e6_dp)**2)**0.5_dp
+      call is_close(friction_of(shear_carreau, 1.0e6_dp, 0.0_dp, 0.5_dp, 1.0_dp)*scale/area/tau, 1.0_dp, 1.0e-13_dp, &
+                    "a uniform film, Carreau")
+   end subroutine uniform_films
+
+   !> Slow: Newtonian; fast: the limit
+   subroutine limits()
+      real(dp), parameter :: slow = 1.0e-12_dp, fast = 1.0e9_dp
+      real(dp) :: stress(2)
+
+      call is_close(friction_of(shear_eyring, 5.0e6_dp, 0.0_dp, 1.0_dp, slow)*h*exp(-alpha_bar*p)/area, 1.0_dp, 1.0e-13_dp, &
+                    "Eyring when slow")
+      call is_close(friction_of(shear_limiting, 0.0_dp, 0.05_dp, 1.0_dp, slow)*h*exp(-alpha_bar*p)/area, 1.0_dp, 1.0e-10_dp, &
+                    "limiting stress when slow")
+      call is_close(friction_of(shear_carreau, 1.0e6_dp, 0.0_dp, 0.5_dp, slow)*h*exp(-alpha_bar*p)/area, 1.0_dp, 1.0e-13_dp, &
+                    "Carreau when slow")
+      call is_close(friction_of(shear_eyring, 5.0e6_dp, 0.0_dp, 1.0_dp, 0.0_dp)*h*exp(-alpha_bar*p)/area, 1.0_dp, 1.0e-13_dp, &
+                    "without sliding every law is Newtonian")
+      call is_close(friction_of(shear_limiting, 0.0_dp, 0.05_dp, 1.0_dp, fast)*fast*scale/area, 2.0e7_dp, 1.0e-6_dp, &
+                    "limiting stress when fast")
+      call shear_stress(shear_law_t(shear_limiting, coefficient=0.05_dp), [1.0e6_dp, 0.0_dp], [0.0_dp, 1.0e9_dp], stress)
+      call is_close(maxval(abs(stress)), 0.0_dp, 0.0_dp, "no pressure or no shear, no limited stress")
+   end subroutine limits
+
+   subroutine data_sheet()
+      real(dp), parameter :: sheet(2) = [68.0_dp, 8.7_dp], thin(2) = [1.5_dp, 0.7_dp]
+      real(dp) :: slope
+
+      call is_close(kinematic_viscosity(40.0_dp, sheet), 68.0_dp, 1.0e-10_dp, "viscosity of the sheet at 40 degC")
+      call is_close(kinematic_viscosity(100.0_dp, sheet), 8.7_dp, 1.0e-10_dp, "viscosity of the sheet at 100 degC")
+      ! the inverse of Z in the standard is a fit
+      call is_close(kinematic_viscosity(40.0_dp, thin), 1.5_dp, 1.0e-2_dp, "a thin oil at 40 degC")
+      call is_close(kinematic_viscosity(100.0_dp, thin), 0.7_dp, 1.0e-2_dp, "a thin oil at 100 degC")
+      ! Walther's line by hand: log10(log10(nu + 0.7)) against log10 T
+      call is_close(log10(log10(kinematic_viscosity(60.0_dp, sheet) + 0.7_dp)), &
+                    log10(log10(68.7_dp)) + (log10(log10(9.4_dp)) - log10(log10(68.7_dp))) &
+                    *log10(333.15_dp/313.15_dp)/log10(373.15_dp/313.15_dp), 1.0e-12_dp, "Walther's line at 60 degC")
+      call is_close(dynamic_viscosity(40.0_dp, sheet, 870.0_dp, 6.5e-4_dp), 68.0e-6_dp*870.0_dp*(1.0_dp - 25.0_dp*6.5e-4_dp), &
+                    1.0e-14_dp, "viscosity in Pa s")
+      slope = -log(kinematic_viscosity(60.5_dp, sheet)/kinematic_viscosity(59.5_dp, sheet))
+      call is_close(temperature_viscosity(60.0_dp, sheet, 870.0_dp, 0.0_dp), slope, 1.0e-5_dp, "slope over a kelvin")
+      call is_close(thermal_reduction(0.0_dp, 0.01_dp, 0.5_dp), 1.0_dp, 0.0_dp, "no loading, no reduction")
+      call is_close(thermal_reduction(1.0_dp, 0.01_dp, 0.0_dp), (1.0_dp - 0.132_dp)/1.213_dp, 1.0e-14_dp, "pure rolling")
+      call is_true(thermal_reduction(1.0_dp, 0.01_dp, -1.0_dp) < thermal_reduction(1.0_dp, 0.01_dp, 0.1_dp), &
+                   "sliding of either sense heats the inlet")
+   end subroutine data_sheet
+
+   !> Exact limits of a source that is semi-elliptic over its circle
+   subroutine flash()
+      real(dp), parameter :: flux = 1.0e8_dp, a = 2.0e-4_dp, k = 46.0_dp, kappa = 1.25e-5_dp, fast = 1.0e6_dp
+      !> Largest over s of the integral of sqrt(1 - x^2)/sqrt(s - x) over x from -1 to s, by quadrature
+      real(dp), parameter :: integral = 2.18830_dp
+
+      call is_close(flash_temperature(flux, a, [0.0_dp, 0.0_dp], k, kappa)/(0.5_dp*flux*a/k), 1.5_dp*pi/4.0_dp, 2.0e-3_dp, &
+                    "two surfaces at rest under the same heat")
+      call is_close(flash_temperature(flux, a, [fast, fast], k, kappa)/(0.75_dp*flux/k*sqrt(kappa*a/(pi*fast))*integral), &
+                    1.0_dp, 2.0e-3_dp, "two fast surfaces")
+      ! shared so that both are as hot: 1/T is the sum of those of each surface under all the heat
+      call is_close(1.0_dp/flash_temperature(flux, a, [0.0_dp, fast], k, kappa), &
+                    0.5_dp/flash_temperature(flux, a, [0.0_dp, 0.0_dp], k, kappa) &
+                    + 0.5_dp/flash_temperature(flux, a, [fast, fast], k, kappa), 1.0e-10_dp, "the heat is shared")
+   end subroutine flash
+end module test_friction

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Absolute friction: where it means something, and the heat of it."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from pyehl.theory.heat import flash_temperature
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.shear import shear_stress
+
+__all__ = ["absolute_friction"]
+
+ISOTHERMAL = "isothermal: the oil is not thinned by the flash temperature (Tian & Kennedy 1994)"
+
+
+def absolute_friction(
+    operating: OperatingPoint,
+    lubricant: Lubricant,
+    *,
+    film: float,
+    mu_smooth: float,
+    mu_ratio: float,
+) -> dict[str, Any]:
+    """Coefficients of friction and what stands beside them in ``summary.json``.
+
+    Parameters
+    ----------
+    operating, lubricant
+        Motion, load and solids; shear law.
+    film
+        Central film h_c [m], taken to be the film everywhere in the contact.
+    mu_smooth
+        Coefficient of friction of the smooth contact at the slide-to-roll ratio [-].
+    mu_ratio
+        Friction over that of the smooth contact [-].
+
+    Returns
+    -------
+    dict
+        ``mu``, ``mu_smooth``, ``shear_rate_mean_per_s``, ``shear_stress_max_Pa`` (of the smooth
+        contact), ``flash_temperature_K``, NaN where there is none, and ``mu_note``: why, or the
+        caveat. A Newtonian coefficient is given where the stress stays below the Eyring stress.
+    """
+    speed, law = operating.sliding_speed, lubricant.shear
+    nothing = math.nan
+    rate = stress = rise = nothing
+    smooth = nothing
+    if not operating.si:
+        note = "a ratio alone: moes_m and moes_l give no sliding speed in m/s"
+    elif speed == 0.0:
+        note = (
+            "a ratio alone, that of vanishing sliding: there is no sliding, and rolling friction "
+            "is not computed"
+        )
+    else:
+        rate = speed / film
+        p = operating.hertz_pressure
+        newtonian = lubricant.viscosity * float(lubricant.viscosity_ratio(p)) * rate
+        stress = float(shear_stress(newtonian, p, law))
+        if law.law != "newtonian" or stress <= law.eyring_stress:
+            smooth, note = mu_smooth, ISOTHERMAL
+        else:
+            note = (
+                f"a ratio alone: the Newtonian shear stress reaches {stress:.1E} Pa, and oils "
+                f"shear thin above some {law.eyring_stress!r} Pa (lubricant.eyring_stress): give a "
+                "lubricant.shear_law"
+            )
+    mu = mu_ratio * smooth
+    if math.isfinite(mu):
+        u, srr, a = operating.mean_velocity, operating.slide_to_roll, operating.hertz_radius
+        rise = flash_temperature(
+            mu * operating.load * speed / (math.pi * a**2),
+            a,
+            (u * (1.0 + 0.5 * srr), u * (1.0 - 0.5 * srr)),
+            operating.thermal_conductivity,
+            operating.thermal_diffusivity,
+        )
+    return {
+        "mu": mu,
+        "mu_smooth": smooth,
+        "shear_rate_mean_per_s": rate,
+        "shear_stress_max_Pa": stress,
+        "flash_temperature_K": rise,
+        "mu_note": note,
+    }

@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Oil by its data sheet, shear heating of the inlet, flash temperature: Python against Fortran."""
+
+import math
+
+import numpy as np
+import pytest
+
+from pyehl.case import Case
+from pyehl.prediction.film_sheet import sheet
+from pyehl.solver import Solver
+from pyehl.theory.film import central_film
+from pyehl.theory.friction import absolute_friction
+from pyehl.theory.heat import (
+    flash_temperature,
+    kinematic_viscosity,
+    thermal_loading,
+    thermal_reduction,
+)
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.moes_film import inlet_viscosity_ratio, nijenbanning_venner_moes
+from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.shear import ShearLaw
+
+OIL = """&lubricant temperature = {t} kinematic_viscosity_40 = 68.0 kinematic_viscosity_100 = 8.7
+density_15 = 880.0 shear_law = 'eyring' {more} / &contact mean_velocity = 5.0 slide_to_roll = 0.3 /
+&grid points = 257 /"""
+
+
+def resolved(t: float = 60.0, more: str = "", options: list[str] | None = None):
+    return Case.from_text(OIL.format(t=t, more=more), options or []).resolve()
+
+
+@pytest.mark.parametrize("t", [-20.0, 15.0, 60.0, 140.0])
+def test_viscosity_of_a_case_is_that_of_the_data_sheet(t):
+    oil = resolved(t)["lubricant"]
+    density = 880.0 * (1.0 - 6.5e-4 * (t - 15.0))
+    expected = 1e-6 * float(kinematic_viscosity(t, 68.0, 8.7)) * density
+    assert oil["viscosity"] == pytest.approx(expected, rel=1e-12)
+    near = [resolved(t + d)["lubricant"]["viscosity"] for d in (-0.5, 0.5)]
+    # a difference over one kelvin
+    assert oil["temperature_viscosity"] == pytest.approx(math.log(near[0] / near[1]), rel=2e-4)
+    z = 2.2e-8 * 1.96e8 / (math.log(oil["viscosity"]) + 9.67)
+    assert oil["roelands_z"] == pytest.approx(z, rel=1e-14)
+
+
+def test_both_points_of_the_data_sheet():
+    assert kinematic_viscosity([40.0, 100.0], 68.0, 8.7) == pytest.approx([68.0, 8.7], rel=1e-12)
+
+
+def test_a_resolved_case_reads_back():
+    case = Case.from_text(OIL.format(t=60.0, more="thermal_reduction = T"))
+    assert Case.from_text(case.text).text == case.text
+
+
+def test_thermal_reduction_in_formula_prediction_and_solver():
+    more = "thermal_reduction = .true."
+    warm, cold = resolved(more=more), resolved()
+    point, isothermal = OperatingPoint.from_settings(warm), OperatingPoint.from_settings(cold)
+    oil = warm["lubricant"]
+    loading = thermal_loading(oil["temperature_viscosity"], oil["viscosity"], 5.0, 0.14)
+    share = thermal_reduction(loading, isothermal.hertz_pressure / 2.26e11, 0.3)
+    assert 0.7 < share < 0.99
+    assert point.thermal_reduction == share
+    lubricant = Lubricant.from_settings(warm)
+    assert lubricant.viscosity == oil["viscosity"]  # in the contact nothing is warmer
+    ratio = central_film(point, lubricant) / central_film(isothermal, lubricant)
+    assert ratio == pytest.approx(share, rel=1e-12)
+    assert sheet(warm)["formulas"][0]["h_c_m"] == central_film(point, lubricant)
+    assert sheet(warm)["thermal_reduction"] == share
+    films = {}
+    for text in (more, ""):
+        with Solver.open(Case.from_text(OIL.format(t=60.0, more=text))) as solver:
+            assert ("shear heating" in solver.describe()) == bool(text)
+            assert solver.run()
+            films[text] = solver.summary()
+    assert films[more]["thermal_reduction"] == pytest.approx(share, rel=1e-13)
+    assert films[more]["thermal_loading"] == pytest.approx(loading, rel=1e-13)
+    assert films[more]["inlet_viscosity_Pa_s"] == pytest.approx(point.viscosity, rel=1e-12)
+    assert films[more]["moes_m"] == pytest.approx(point.moes_m, rel=1e-12)
+    assert "thermal_reduction" not in films[""]
+    # the formula is within 0.8 % of the solver
+    assert films[more]["h_c_m"] / films[""]["h_c_m"] == pytest.approx(share, rel=0.01)
+
+
+def test_inlet_viscosity():
+    for share in (1.0, 0.9, 0.3):
+        ratio = inlet_viscosity_ratio(300.0, 8.0, share)
+        film = nijenbanning_venner_moes(300.0 * ratio**-0.75, 8.0 * ratio**0.25)
+        assert film == pytest.approx(share * nijenbanning_venner_moes(300.0, 8.0), rel=1e-13)
+
+
+def test_flash_temperature_limits():
+    q, a, k, kappa = 1e8, 2e-4, 46.0, 1.25e-5
+    # at rest: 3 pi/8 q a/k for each surface under all the heat (the potential of a semi-ellipse)
+    rest = flash_temperature(q, a, (0.0, 0.0), k, kappa)
+    assert rest == pytest.approx(3 * math.pi / 16 * q * a / k, rel=2e-3)
+    # fast: heat flows straight down, along the line through the centre
+    s = np.linspace(0.0, 1.0, 201)[:, np.newaxis]
+    v = (np.arange(2000) + 0.5) / 2000 * np.sqrt(1.0 + s)
+    root = np.sqrt(np.maximum(0.0, 1.0 - (s - v**2) ** 2))
+    greatest = float((2.0 * root * np.sqrt(1.0 + s) / 2000).sum(axis=1).max())
+    u = 1e5
+    expected = 0.5 * 1.5 * q / k * math.sqrt(kappa * a / (math.pi * u)) * greatest
+    assert flash_temperature(q, a, (u, u), k, kappa) == pytest.approx(expected, rel=2e-3)
+
+
+def test_absolute_friction_of_the_solver():
+    keys = ["lubricant.shear_law=limiting", "contact.slide_to_roll=-2.0", "grid.points=129"]
+    case = Case.from_text("", keys)
+    with Solver.open(case) as solver:
+        assert solver.run()
+        s = solver.summary()
+    point = OperatingPoint(slide_to_roll=-2.0)
+    # tau -> tau_L = 0.06 p: the whole load is borne by fluid pressure, p = 0 outside apart
+    assert s["mu"] == s["mu_smooth"] == pytest.approx(0.06, rel=1e-2)
+    assert s["mu"] < 0.06
+    assert s["shear_stress_max_Pa"] == pytest.approx(0.06 * s["p_max_Pa"], rel=1e-6)
+    force = s["F"] * 0.04 * 2.0 * point.mean_velocity / point.film_scale * point.hertz_radius**2
+    assert s["mu"] == pytest.approx(force / 600.0, rel=1e-12)
+    flux = s["mu"] * 600.0 * point.sliding_speed / (math.pi * point.hertz_radius**2)
+    rise = flash_temperature(flux, point.hertz_radius, (0.0, 1.68), 46.0, 1.25e-5)
+    assert s["flash_temperature_K"] == pytest.approx(rise, rel=1e-12)
+    assert "isothermal" in s["mu_note"]
+    h = s["H_c"] * point.film_scale
+    # most of the film is about as thick as in the centre, and 1/h is greater at the rim
+    assert 1.0 < s["shear_rate_mean_per_s"] * h / point.sliding_speed < 2.0
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["grid.points=129", "contact.moes_m=200.0"], "moes_m"),
+        (["grid.points=129", "contact.slide_to_roll=0.0"], "no sliding"),
+        (["grid.points=129"], "Newtonian shear stress reaches"),
+    ],
+)
+def test_only_a_ratio_is_said_in_words(options, words):
+    with Solver.open(Case.from_text("", options)) as solver:
+        assert solver.run()
+        s = solver.summary()
+    assert (s["mu"], s["mu_smooth"], s["flash_temperature_K"]) == (None, None, None)
+    assert words in s["mu_note"]
+
+
+def test_a_newtonian_coefficient_where_pressure_is_low():
+    """Water-thin oil under little load: the stress stays below that of shear thinning."""
+    keys = {
+        "contact.load": 1.0,
+        "contact.reduced_modulus": 1e9,
+        "contact.mean_velocity": 0.5,
+        "grid.points": 65,
+        "lubricant.density_law": "'incompressible'",
+    }
+    with Solver.open(Case.from_text("", [f"{k}={v}" for k, v in keys.items()])) as solver:
+        assert solver.run()
+        s = solver.summary()
+    assert s["shear_stress_max_Pa"] < 5e6
+    assert 0.0 < s["mu"] < 0.1
+    assert "isothermal" in s["mu_note"]
+
+
+def test_absolute_friction_of_a_uniform_film():
+    """The prediction's record: Newtonian where it means something, a ratio alone elsewhere."""
+    point = OperatingPoint(slide_to_roll=0.5)
+    law = Lubricant(shear=ShearLaw("eyring"))
+    s = absolute_friction(point, law, film=2e-7, mu_smooth=0.05, mu_ratio=1.2)
+    assert s["mu"] == pytest.approx(0.06)
+    assert s["shear_rate_mean_per_s"] == pytest.approx(0.42 / 2e-7)
+    flux = 0.06 * 600.0 * 0.42 / (math.pi * point.hertz_radius**2)
+    rise = flash_temperature(flux, point.hertz_radius, (1.05, 0.63), 46.0, 1.25e-5)
+    assert s["flash_temperature_K"] == pytest.approx(rise, rel=1e-12)
+    alone = absolute_friction(point, Lubricant(), film=2e-7, mu_smooth=1e3, mu_ratio=1.2)
+    assert math.isnan(alone["mu"])
+    assert "shear_law" in alone["mu_note"]
