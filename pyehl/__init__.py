@@ -6,12 +6,12 @@ library and write the same result folder::
 
     import pyehl
 
-    p = pyehl.predict("case.nml", "surface.seed=3")
-    case = pyehl.Case.read("case.nml", "grid.points=257")
-    with pyehl.Solver.open(case) as solver:
-        solver.run()
-        pressure = solver.field("P")
-    data = pyehl.load("out")
+    ds = pyehl.solve("case.nml", "grid.points=257")  # xarray.Dataset
+    p = pyehl.predict("case.nml", "surface.seed=3")  # p.mu_ratio
+    with pyehl.Solver("case.nml") as solver:
+        for step in solver:
+            print(step)
+    data = pyehl.load("out")  # a result folder
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from pyehl.api import predict
+    from pyehl.api import predict, solve
     from pyehl.case import Case
-    from pyehl.errors import EhlError, FileError, InputError
+    from pyehl.errors import EhlError, FileError, InputError, NotConverged
     from pyehl.prediction.of_case import Prediction
     from pyehl.results import load
     from pyehl.solver import Solver
@@ -32,10 +32,12 @@ __all__ = [
     "EhlError",
     "FileError",
     "InputError",
+    "NotConverged",
     "Prediction",
     "Solver",
     "load",
     "predict",
+    "solve",
 ]
 __version__ = "0.1.0"
 
@@ -44,10 +46,12 @@ _HOMES = {
     "EhlError": "errors",
     "FileError": "errors",
     "InputError": "errors",
+    "NotConverged": "errors",
     "Prediction": "prediction.of_case",
     "Solver": "solver",
     "load": "results",
     "predict": "api",
+    "solve": "api",
 }
 
 
@@ -60,4 +64,4 @@ def __getattr__(name: str) -> Any:  # noqa: ANN401 (a module, class or function)
 
 def __dir__() -> list[str]:
     """Name what there is to use, also what is not imported yet."""
-    return sorted({*globals(), *__all__})
+    return sorted({*__all__, *(name for name in globals() if name.startswith("__"))})

@@ -4,13 +4,106 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
+
+import xarray as xr
+from tqdm import tqdm
 
 from pyehl.case import Case, Option
-from pyehl.errors import FileError, InputError
+from pyehl.errors import FileError, InputError, NotConverged
 from pyehl.prediction import of_case
 from pyehl.prediction.of_case import Prediction
+from pyehl.results import load
+from pyehl.run import Observer, run
+from pyehl.solver import Solver
 
-__all__ = ["predict"]
+__all__ = ["predict", "solve"]
+
+Progress = bool | Callable[[Solver], object]
+
+
+class _Listener(Observer):
+    """Hands the state of a run on: to a function, or to a line on stderr."""
+
+    def __init__(self, progress: Progress) -> None:
+        self._call = progress if callable(progress) else None
+        self._bar = tqdm(bar_format="{desc} [{elapsed}]", disable=progress is not True)
+
+    def advanced(self, solver: Solver) -> None:
+        """Take the state after a cycle or a step."""
+        if self._call is not None:
+            self._call(solver)
+        if not self._bar.disable:
+            self._bar.set_description_str(solver.progress(), refresh=False)
+            self._bar.update()
+        if solver.done:
+            self._bar.close()
+
+
+def solve(
+    case: Case | str | os.PathLike[str],
+    *options: Option,
+    output: str | os.PathLike[str] | None = None,
+    check: bool = True,
+    progress: Progress = False,
+) -> xr.Dataset:
+    """Solve a case.
+
+    Parameters
+    ----------
+    case
+        A case, or the path of a case file.
+    *options
+        Texts ``group.key=value`` that replace values.
+    output
+        Result folder, as ``pyehl run -o`` writes it, with checkpoints of a transient run beside
+        it; None: nothing is kept on disk.
+    check
+        Raise `NotConverged` if there is no solution.
+    progress
+        True: a line about the state on stderr; a function: called with the solver after each
+        cycle or step.
+
+    Returns
+    -------
+    xarray.Dataset
+        The same as `load` of the result folder.
+
+    Raises
+    ------
+    InputError
+        If the case is not acceptable, or `output` holds something else than results.
+    NotConverged
+        If the run ended without a solution; the results so far are its ``results``.
+    KeyboardInterrupt
+        If the run was interrupted; the folder `output` is written nevertheless.
+
+    Examples
+    --------
+    >>> import pyehl
+    >>> ds = pyehl.solve("cases/quick.nml", "grid.points=65")
+    >>> ds.P.shape, ds.attrs["status"]
+    ((65, 65), 'converged')
+    >>> round(ds.attrs["H_c"], 3)
+    0.071
+    """
+    case = Case.of(case, *options)
+    listener = _Listener(progress)
+    if output is None:
+        with Solver(case) as solver:
+            while not solver.done:
+                solver.advance()
+                listener.advanced(solver)
+            data = solver.dataset()
+    else:
+        outcome = run(case, output, listener)
+        if outcome.interrupted:
+            raise KeyboardInterrupt
+        data = load(output)
+    status = data.attrs["status"]
+    if check and status != "converged":
+        raise NotConverged(f"no solution: the run ended with the status '{status}'", data)
+    return data
 
 
 def predict(case: Case | str | os.PathLike[str], *options: Option) -> Prediction:
@@ -40,7 +133,7 @@ def predict(case: Case | str | os.PathLike[str], *options: Option) -> Prediction
     >>> import pyehl
     >>> p = pyehl.predict("cases/table1.nml", "surface.seed=3")
     >>> p
-    Prediction(mu_ratio=1.117, 'predicted')
+    Prediction(mu_ratio=1..., 'predicted')
     """
     case = Case.of(case, *options)
     try:

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 __all__ = [
     "ClosedError",
     "EhlError",
@@ -10,16 +12,37 @@ __all__ = [
     "InputError",
     "InternalError",
     "NoMemoryError",
+    "NotConverged",
     "check",
 ]
 
 
 class EhlError(Exception):
-    """Any failure that the library reports."""
+    """Any failure that the library reports.
+
+    Examples
+    --------
+    >>> import pyehl
+    >>> try:
+    ...     pyehl.solve("cases/quick.nml", "grid.points=66")
+    ... except pyehl.EhlError as error:
+    ...     print(type(error).__name__)
+    InputError
+    """
 
 
 class InputError(EhlError, ValueError):
-    """A case or an argument is not acceptable; the message says where and why."""
+    """A case or an argument is not acceptable; the message says where and why.
+
+    Examples
+    --------
+    >>> import pyehl
+    >>> try:
+    ...     pyehl.Case.read("cases/quick.nml", "contact.laod=600.0")
+    ... except pyehl.InputError as error:
+    ...     print("load" in str(error))
+    True
+    """
 
 
 class ClosedError(EhlError, ValueError):
@@ -30,8 +53,38 @@ class NoMemoryError(EhlError, MemoryError):
     """An allocation failed, or too many solvers are open."""
 
 
+class NotConverged(EhlError, RuntimeError):  # noqa: N818 (the name of a status)
+    """A run ended without a solution.
+
+    Attributes
+    ----------
+    results
+        What there was at the end, as an xarray Dataset.
+
+    Examples
+    --------
+    >>> import pyehl
+    >>> try:
+    ...     pyehl.solve("cases/quick.nml", "grid.points=65", "solver.max_cycles=1")
+    ... except pyehl.NotConverged as error:
+    ...     print(error.results.attrs["status"])
+    cycle limit
+    """
+
+    def __init__(self, message: str, results: Any) -> None:  # noqa: ANN401 (keeps xarray out)
+        super().__init__(message)
+        self.results = results
+
+
 class FileError(EhlError, OSError):
-    """A file could not be read or written."""
+    """A file could not be read or written.
+
+    Examples
+    --------
+    >>> import pyehl
+    >>> issubclass(pyehl.FileError, OSError)
+    True
+    """
 
 
 class InternalError(EhlError, RuntimeError):

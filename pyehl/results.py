@@ -126,7 +126,7 @@ def _solution_dataset(
     settings = namelist.values(case)
     point = OperatingPoint.from_settings(settings) if "load" in settings["contact"] else None
     coords: dict[str, xr.Variable] = {}
-    variables = _tables(tables)
+    variables: dict[str, xr.Variable] = {}
     for field in SOLUTION:
         if field.file not in arrays:
             continue
@@ -137,7 +137,7 @@ def _solution_dataset(
         if point is not None:
             scaled = values * field.scale(point)
             place[field.si_name] = _variable(field.dims, scaled, field.si_unit, field.meaning)
-    return xr.Dataset(variables, coords, _attributes(summary, case))
+    return xr.Dataset(variables | _tables(tables), coords, _attributes(summary, case))
 
 
 def prediction_dataset(
@@ -160,13 +160,13 @@ def prediction_dataset(
         Columns by name of ``passage``, ``spectrum`` and ``bands``.
     """
     coords: dict[str, xr.Variable] = {}
-    variables = _tables(tables)
+    variables: dict[str, xr.Variable] = {}
     for file, (name, unit, meaning) in PREDICTION.items():
         if file in ("x", "y"):
             coords[name] = _variable((name,), arrays[file], unit, meaning)
         else:
             variables[name] = _variable(("x_m", "y_m"), arrays[file], unit, meaning)
-    return xr.Dataset(variables, coords, _attributes(summary, case))
+    return xr.Dataset(variables | _tables(tables), coords, _attributes(summary, case))
 
 
 def _table(path: Path) -> dict[str, Array]:

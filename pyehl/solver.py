@@ -9,56 +9,123 @@ from __future__ import annotations
 
 import json
 import os
+import tempfile
 import threading
+from collections.abc import Iterator
+from dataclasses import dataclass
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pyehl import display
+from pyehl.case import Case, Option
 from pyehl.errors import check
 from pyehl.library import ehl, text_of
+from pyehl.surfaces import made_heights
 
 if TYPE_CHECKING:
-    from pyehl.case import Case
+    import xarray
 
-__all__ = ["Solver"]
+__all__ = ["Solver", "Step"]
 
 Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """Where a solver is after a cycle (steady contact) or a time step (transient run).
+
+    Attributes
+    ----------
+    number
+        Calls of `Solver.advance` so far.
+    text
+        The state in one line.
+    solver
+        The solver itself, for its fields and its summary.
+    """
+
+    number: int
+    text: str
+    solver: Solver
+
+    def __str__(self) -> str:
+        """Give the state in one line."""
+        return self.text
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """The scalars so far, as `Solver.summary`."""
+        return self.solver.summary()
 
 
 class Solver:
     """A solver on one case, advanced cycle by cycle or step by step.
 
-    A context manager: ``with Solver.open(case) as solver``. One thread at a time works on a
+    A context manager, and an iterator over what is left to do. One thread at a time works on a
     solver; several solvers may run in several threads.
+
+    Parameters
+    ----------
+    case
+        A case, or the path of a case file.
+    *options
+        Texts ``group.key=value`` that replace values.
+
+    Raises
+    ------
+    InputError
+        If the case cannot be solved.
+    NoMemoryError
+        If its arrays do not fit, or too many solvers are open.
+
+    Examples
+    --------
+    >>> import pyehl
+    >>> with pyehl.Solver("cases/quick.nml", "grid.points=33") as solver:
+    ...     for step in solver:
+    ...         if step.number == 20:
+    ...             break
+    ...     pressure = solver.field("P")
+    >>> solver.converged, pressure.shape
+    (True, (33, 33))
     """
 
-    def __init__(self, handle: int) -> None:
-        self._handle = handle
-        self._lock = threading.Lock()
-        self.done = False
-        self.converged = False
+    def __init__(self, case: Case | str | os.PathLike[str], *options: Option) -> None:
+        self._start(Case.of(case, *options), None)
 
     @classmethod
     def open(cls, case: Case, heights: ArrayLike | None = None) -> Self:
-        """Start a solver on a case.
+        """Start a solver on a case with a surface that is given.
 
         Parameters
         ----------
         case
             What to solve.
         heights
-            Surface [m], shape (nx, ny), peaks positive; for the kinds 'map' (in place of the file)
-            and 'fractal', where `pyehl.surfaces` makes it.
+            Surface [m], shape (nx, ny), peaks positive; for the kinds 'map' and 'fractal', in
+            place of the file or the generator. None: that of the case.
 
         Raises
         ------
-        InputError
-            If the case cannot be solved.
-        NoMemoryError
-            If its arrays do not fit, or too many solvers are open.
+        InputError, NoMemoryError
+            As the constructor.
         """
+        solver = cls.__new__(cls)
+        solver._start(case, heights)
+        return solver
+
+    def _start(self, case: Case, heights: ArrayLike | None) -> None:
+        self._handle = 0
+        self._lock = threading.Lock()
+        self._case = case
+        self._calls = 0
+        self.done = False
+        self.converged = False
+        if heights is None:
+            heights = made_heights(case.resolve())
         given = np.zeros((1, 1)) if heights is None else heights
         handle, status, message = ehl.open_case(
             case.text.encode(),
@@ -67,7 +134,23 @@ class Solver:
             np.asfortranarray(given, dtype=np.float64),
         )
         check(status, message)
-        return cls(handle)
+        self._handle = handle
+
+    def __repr__(self) -> str:
+        """Give the case and the state in one line."""
+        state = "closed" if self._handle == 0 else self.summary()["status"]
+        return f"Solver({self._case!r}, {state!r}, {self._calls} advances)"
+
+    def _repr_html_(self) -> str:
+        """Draw the scalars so far, for notebooks."""
+        values = {} if self._handle == 0 else self.summary()
+        return display.table(repr(self), {k: v for k, v in values.items() if v is not None})
+
+    def __iter__(self) -> Iterator[Step]:
+        """Advance to the end, or until the caller stops; yields the state after each advance."""
+        while not self.done:
+            self.advance()
+            yield Step(self._calls, self.progress(), self)
 
     def close(self) -> None:
         """Free the memory; the solver cannot be used afterwards."""
@@ -87,7 +170,7 @@ class Solver:
         self.close()
 
     def __del__(self) -> None:
-        # __init__ may not have run, and at exit the extension may be gone
+        # The constructor may have failed, and at exit the extension may be gone
         if getattr(self, "_handle", 0) and ehl is not None:
             ehl.close_case(self._handle)
 
@@ -96,6 +179,7 @@ class Solver:
         with self._lock:
             done, converged, status, message = ehl.advance(self._handle)
         check(status, message)
+        self._calls += 1
         self.done, self.converged = bool(done), bool(converged)
         return self.done
 
@@ -222,6 +306,15 @@ class Solver:
         values = np.empty(self.shape, order="F")
         check(*ehl.field(self._handle, name.encode(), values))
         return values
+
+    def dataset(self) -> xarray.Dataset:
+        """Give the results so far, the same as `pyehl.load` of the folder that `write` makes."""
+        # xarray takes long to import, and most runs only write
+        from pyehl.results import load  # noqa: PLC0415
+
+        with tempfile.TemporaryDirectory(prefix="pyehl-") as folder:
+            self.write(folder)
+            return load(folder)
 
     def write(self, folder: str | os.PathLike[str]) -> str:
         """Write the result folder, whole or not at all; returns a note, mostly empty.

@@ -53,7 +53,7 @@ def solve_once(text: str) -> dict[str, Any]:
     """Solve a case in this process; seconds, summary, peak memory of the whole process."""
     case = Case.from_text(text)
     began = time.perf_counter()
-    with Solver.open(case) as solver:
+    with Solver(case) as solver:
         solver.run()
         seconds = time.perf_counter() - began
         return {

@@ -22,7 +22,6 @@ from pyehl.bench.unit import ScipyDeflection, hertz
 from pyehl.case import Case
 from pyehl.errors import EhlError
 from pyehl.solver import Solver
-from pyehl.surfaces import made_heights
 
 __all__ = ["CASES", "COLUMNS", "FILLED", "MARCH_COLUMNS", "STEPS", "error_rows", "step_rows"]
 
@@ -193,9 +192,8 @@ def _scene_rows(
     rows: list[dict[str, Any]] = []
     with tempfile.TemporaryDirectory() as folder:
         case = _case(scene, points, scheme, f"solver.threads={max(threads)}", "time.steps=10000000")
-        heights = made_heights(case.resolve())
         place = f"{folder}/state"
-        with Solver.open(case, heights) as solver:
+        with Solver(case) as solver:
             solver.keep(place)
             line.show(f"{name}: march to the steps that are timed", now=True)
             _fill(solver, case, front, lambda text: line.show(f"{name}: {text}"))
@@ -204,7 +202,7 @@ def _scene_rows(
             solvers = []
             for workers in threads:
                 options = case.with_options(f"solver.threads={workers}")
-                solver = stack.enter_context(Solver.open(options, heights))
+                solver = stack.enter_context(Solver(options))
                 solver.resume(place)
                 while "steps" not in solver.summary() and not solver.done:
                     solver.advance()
@@ -263,7 +261,7 @@ def error_rows(
             options = f"solver.threads={threads}", f"time.tolerance={TOLERANCE}"
             case = _case(scene, points, scheme, *options)
             began = time.perf_counter()
-            with Solver.open(case, made_heights(case.resolve())) as solver:
+            with Solver(case) as solver:
                 while not solver.advance():
                     line.show(f"{name}: {solver.progress()}")
                 summary = solver.summary()

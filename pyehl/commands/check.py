@@ -8,7 +8,6 @@ import argparse
 from pyehl.case import Case
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.solver import Solver
-from pyehl.surfaces import made_heights
 
 __all__ = ["add_arguments", "execute"]
 
@@ -23,6 +22,6 @@ def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl check``."""
     case = Case.read(args.case, args.overrides)
     print(case.text)
-    with Solver.open(case, made_heights(case.resolve())) as solver:
+    with Solver(case) as solver:
         print(solver.describe())
     return 0

@@ -4,13 +4,67 @@
 from __future__ import annotations
 
 import argparse
+import sys
+import time
+
+from tqdm import tqdm
 
 from pyehl.case import Case
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.errors import InputError
-from pyehl.run import resume, run
+from pyehl.run import Observer, Outcome, resume, run
+from pyehl.solver import Solver
 
 __all__ = ["add_arguments", "execute"]
+
+EXIT_OK, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 130
+# Seconds between progress lines where the output is not a terminal
+PROGRESS_INTERVAL = 2.0
+
+
+class Terminal(Observer):
+    """Prints; one line about the state in place on a terminal, now and then elsewhere."""
+
+    def __init__(self) -> None:
+        self._bar = tqdm(bar_format="{desc} [{elapsed}]", disable=not sys.stderr.isatty())
+        self._last = time.monotonic()
+
+    def say(self, text: str) -> None:
+        """Print a message."""
+        print(text, flush=True)
+
+    def warn(self, text: str) -> None:
+        """Print the message of a failure."""
+        print(text, file=sys.stderr)
+
+    def advanced(self, solver: Solver) -> None:
+        """Show the state if it is time to, and at the end."""
+        if solver.done:
+            self._bar.close()
+            self.say(solver.progress())
+            return
+        now = time.monotonic()
+        if now - self._last < (PROGRESS_INTERVAL if self._bar.disable else 0.1):
+            return
+        self._last = now
+        if self._bar.disable:
+            self.say(solver.progress())
+        else:
+            self._bar.set_description_str(solver.progress())
+
+
+class Quiet(Observer):
+    """Prints nothing but failures."""
+
+    def warn(self, text: str) -> None:
+        """Print the message of a failure."""
+        print(text, file=sys.stderr)
+
+
+def _status(outcome: Outcome) -> int:
+    if outcome.converged:
+        return EXIT_OK
+    return EXIT_INTERRUPTED if outcome.interrupted else EXIT_FAILED
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -28,15 +82,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl run``."""
+    observer = Quiet() if args.quiet else Terminal()
     if args.resume is not None:
         if args.resume == "":
             raise InputError("pyehl run: error: the folder behind --resume has no name")
         case = None if args.case is None else Case.read(args.case, args.overrides)
-        return resume(args.resume, args.output, case, options=args.overrides, quiet=args.quiet)
+        return _status(resume(args.resume, args.output, case, observer, options=args.overrides))
     if args.case is None or args.output is None:
         missing = "case file" if args.case is None else "result folder: -o DIR is missing"
         raise InputError(
             f"pyehl run: error: no {missing}\n"
             "expected: pyehl run CASE.nml -o DIR, or pyehl run --resume DIR"
         )
-    return run(Case.read(args.case, args.overrides), args.output, quiet=args.quiet)
+    return _status(run(Case.read(args.case, args.overrides), args.output, observer))

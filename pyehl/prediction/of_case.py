@@ -77,8 +77,8 @@ class Prediction:
     --------
     >>> import pyehl
     >>> p = pyehl.predict("cases/table1.nml", "surface.seed=3")
-    >>> round(p.mu_ratio, 3), p.summary["status"]
-    (1.117, 'predicted')
+    >>> p.mu_ratio > 1.0, p.summary["status"]
+    (True, 'predicted')
     >>> p.data.surface_m.shape
     (256, 256)
     """

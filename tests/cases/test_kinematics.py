@@ -100,7 +100,7 @@ def test_both_drivers(solve, tmp_path):
     keys = SI | WAVE | {"lubricant.shear_law": "limiting", "time.steps": 5, "grid.points": 65}
     done = solve(None, 65, keys)
     case = Case.from_text("", [f"{key}={value}" for key, value in keys.items()])
-    with Solver.open(case) as solver:
+    with Solver(case) as solver:
         solver.run()
         solver.write(tmp_path / "out")
     history = (tmp_path / "out" / "history.csv").read_text()

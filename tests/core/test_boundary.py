@@ -18,7 +18,7 @@ SMALL = "&contact moes_m = 100.0 moes_l = 5.0 /\n&grid points = 33 /\n"
 
 @pytest.fixture
 def solver():
-    with Solver.open(Case.from_text(SMALL)) as opened:
+    with Solver(Case.from_text(SMALL)) as opened:
         yield opened
 
 
@@ -86,7 +86,7 @@ def test_values_arrive_in_the_callers_memory(solver: Solver):
 
 
 def test_closed_solver_raises():
-    solver = Solver.open(Case.from_text(SMALL))
+    solver = Solver(Case.from_text(SMALL))
     handle = solver._handle
     solver.close()
     solver.close()
@@ -94,7 +94,7 @@ def test_closed_solver_raises():
         with pytest.raises(errors.ClosedError):
             call()
     # A handle is never used again, also when its place is
-    with Solver.open(Case.from_text(SMALL)) as other:
+    with Solver(Case.from_text(SMALL)) as other:
         assert other._handle != handle
         with pytest.raises(errors.ClosedError):
             errors.check(*ehl.interrupt(handle))
@@ -105,12 +105,12 @@ def test_closed_solver_raises():
 
 def test_places_run_out_and_come_back():
     case = Case.from_text("&contact moes_m = 100.0 /\n&grid points = 17 /\n")
-    opened = [Solver.open(case) for _ in range(64)]
+    opened = [Solver(case) for _ in range(64)]
     with pytest.raises(errors.NoMemoryError, match="64"):
-        Solver.open(case)
+        Solver(case)
     for solver in opened:
         solver.close()
-    with Solver.open(case) as again:
+    with Solver(case) as again:
         assert not again.done
 
 
@@ -119,7 +119,7 @@ def test_solvers_in_threads_do_not_disturb_each_other():
     answers: list[float | None] = [None] * len(texts)
 
     def work(k: int) -> None:
-        with Solver.open(Case.from_text(texts[k])) as solver:
+        with Solver(Case.from_text(texts[k])) as solver:
             solver.run()
             answers[k] = solver.summary()["H_c"]
 
