@@ -24,27 +24,23 @@ module ehl_measures
 
 contains
 
-   !> Read off the present state of a level whose film is up to date
+   !> Read off the present state of a level whose film and coefficients are up to date
    function measure(level) result(m)
       type(level_t), intent(in) :: level
       type(measures_t) :: m
       real(dp), dimension(level%grid%ny) :: smallest, largest, friction
-      real(dp), dimension(level%grid%nx) :: log_eta, slope, stress
+      real(dp) :: stress(level%grid%nx)
       integer :: j
 
-      !$omp parallel do default(none) shared(level, smallest, largest, friction) private(log_eta, slope, stress) &
+      !$omp parallel do default(none) shared(level, smallest, largest, friction) private(stress) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
          smallest(j) = minval(level%h(:, j))
          largest(j) = maxval(level%p(:, j))
-         call level%lubricant%log_viscosity(level%p(:, j), log_eta, slope)
-         if (level%lubricant%shear%thins()) then
-            stress = exp(log_eta)/level%h(:, j)
-            call level%lubricant%shear%reduce(level%p(:, j), stress)
-            friction(j) = sum(stress)*level%grid%weight(j)
-         else
-            friction(j) = sum(exp(log_eta)/level%h(:, j))*level%grid%weight(j)
-         end if
+         ! eta/(eta0 H) from the conductance, which knows the viscosity
+         stress = level%inverse_speed*level%rho(:, j)*level%h(:, j)**2/level%eps(:, j)
+         if (level%lubricant%shear%thins()) call level%lubricant%shear%reduce(level%p(:, j), stress)
+         friction(j) = sum(stress)*level%grid%weight(j)
       end do
       !$omp end parallel do
       m%film_minimum = minval(smallest)

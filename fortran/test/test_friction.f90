@@ -2,6 +2,7 @@
 !> Friction integrals of uniform films, shear laws, and the heat of friction
 module test_friction
    use check, only: is_close, is_true
+   use ehl_film, only: update_coefficients
    use ehl_grid, only: new_grid
    use ehl_heat, only: dynamic_viscosity, flash_temperature, kinematic_viscosity, temperature_viscosity, thermal_reduction
    use ehl_kinds, only: dp, pi
@@ -42,6 +43,8 @@ contains
       call level%setup(status)
       level%p = p
       level%h = h
+      level%inverse_speed = 700.0_dp
+      call update_coefficients(level)
       m = measure(level)
       friction_of = m%friction
    end function friction_of
