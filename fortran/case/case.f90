@@ -204,5 +204,7 @@ module ehl_case
       type(solver_case_t) :: solver
       type(psd_case_t) :: psd
       type(output_case_t) :: output
+      !> Which keys were given, in the order of the table of keys; not allocated: nobody knows
+      logical, allocatable :: given(:)
    end type case_t
 end module ehl_case

@@ -14,7 +14,7 @@ module ehl_case_check
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: check_case
+   public :: check_case, complete_case
 
 contains
 
@@ -37,6 +37,20 @@ contains
       if (.not. status%failed()) call complete_surface(schema, input, sources, status)
       if (.not. status%failed()) call check_time(schema, input, sources, status)
    end subroutine check_case
+
+   !> Give values to keys that follow from others; what cannot be meant is left to check_case
+   subroutine complete_case(schema, input, sources)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(inout) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t) :: ignored(4)
+
+      call check_contact_kind(schema, input, sources, ignored(1))
+      call complete_viscosity(schema, input, sources, ignored(2))
+      call complete_kinematics(schema, input, sources, ignored(3))
+      call complete_lubricant(schema, input, sources, ignored(4))
+      call complete_pattern(schema, input)
+   end subroutine complete_case
 
    !> Halving points - 1 must end at an even number of 32 or less, so that the coarsest grid
    !> is small
@@ -77,18 +91,28 @@ contains
       has_levels = cells <= 32 .and. mod(cells, 2) == 0
    end function has_levels
 
-   !> Defaults of the surface that depend on other keys, and what its kinds need
-   subroutine complete_surface(schema, input, sources, status)
+   !> Defaults of the surface that depend on other keys
+   subroutine complete_pattern(schema, input)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(inout) :: input
-      type(source_t), intent(in) :: sources(:)
-      type(status_t), intent(inout) :: status
 
       associate (s => input%surface)
          if (.not. schema%given("surface", "wavelength_x")) s%wavelength_x = s%wavelength
          if (.not. schema%given("surface", "wavelength_y")) s%wavelength_y = s%wavelength
          if (.not. schema%given("surface", "x_start")) s%x_start = input%grid%x_inlet
          s%amplitude_given = schema%given("surface", "amplitude")
+      end associate
+   end subroutine complete_pattern
+
+   !> What the kinds of surfaces need
+   subroutine complete_surface(schema, input, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(inout) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+
+      call complete_pattern(schema, input)
+      associate (s => input%surface)
          if (s%amplitude_given .and. schema%given("surface", "amplitude_over_film")) then
             call contradict(schema, sources, "surface.amplitude", "surface.amplitude_over_film", "one of the two", status)
             return

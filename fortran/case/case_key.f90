@@ -32,11 +32,14 @@ module ehl_case_key
       !> name, first and last position of the value
       logical :: given = .false.
       integer :: source = 0, name_first = 0, name_last = 0, first = 0, last = 0
+      !> Whether the input says that nobody gave it
+      logical :: marked = .false.
    contains
       procedure :: full_name
       procedure :: value_text
       procedure :: type_text
       procedure :: allows
+      procedure :: copy_value
    end type key_t
 
 contains
@@ -116,4 +119,23 @@ contains
       if (self%allowed(closing:closing) == ")") allows = allows .and. value < high
       if (index(self%allowed, "0 or ") == 1) allows = allows .or. .not. abs(value) > 0.0_dp
    end function allows
+
+   !> Take the value of the same key of another case
+   subroutine copy_value(self, other)
+      class(key_t), intent(inout) :: self
+      type(key_t), intent(in) :: other
+
+      select case (self%kind)
+      case (kind_real)
+         self%real_value = other%real_value
+      case (kind_integer)
+         self%integer_value = other%integer_value
+      case (kind_logical)
+         self%logical_value = other%logical_value
+      case (kind_word)
+         self%word_value = other%word_value
+      case default
+         self%path_value = other%path_value
+      end select
+   end subroutine copy_value
 end module ehl_case_key

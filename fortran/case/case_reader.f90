@@ -3,6 +3,7 @@
 module ehl_case_reader
    use ehl_case, only: case_t
    use ehl_case_check, only: check_case
+   use ehl_derived, only: settle_marks
    use ehl_files, only: read_text
    use ehl_group_reader, only: read_groups
    use ehl_option_reader, only: read_option, split_options
@@ -53,11 +54,13 @@ contains
       sources = [source_t(origin, text)]
       call split_options(options, sources)
       call read_groups(sources(1), schema, status)
+      if (.not. status%failed()) call settle_marks(schema, sources(:1))
       do k = 2, size(sources)
          if (status%failed()) return
          call read_option(sources(k), k, schema, status)
       end do
       if (status%failed()) return
+      input%given = schema%keys%given
       call check_case(schema, input, sources, status)
    end subroutine read_case
 end module ehl_case_reader

@@ -3,6 +3,7 @@
 module ehl_case_writer
    use ehl_case, only: case_t
    use ehl_case_key, only: key_t
+   use ehl_derived, only: mark_default, mark_derived
    use ehl_kinds, only: dp
    use ehl_schema, only: schema_t
    use ehl_text, only: newline
@@ -13,20 +14,26 @@ module ehl_case_writer
 contains
 
    !> A case as namelist text that reads back as the same case, every value spelled out. Of keys
-   !> that exclude each other only the one that holds is written.
+   !> that exclude each other only the one that holds is written. Values that were not given are marked.
    function case_text(input) result(text)
       type(case_t), intent(in) :: input
       character(len=:), allocatable :: text
-      type(case_t), target :: copy
-      type(schema_t) :: schema
+      type(case_t), target :: copy, defaults
+      type(schema_t) :: schema, constant
+      character(len=:), allocatable :: mark
       integer :: k
 
       copy = input
       call schema%bind(copy)
+      call constant%bind(defaults)
       text = ""
       do k = 1, size(schema%keys)
          if (opens_group(schema, k)) text = text // "&" // trim(schema%keys(k)%group) // newline
-         if (holds(input, schema%keys(k))) text = text // key_line(schema%keys(k))
+         if (holds(input, schema%keys(k))) then
+            mark = ""
+            if (allocated(input%given)) mark = mark_of(schema%keys(k), constant%keys(k), input%given(k))
+            text = text // key_line(schema%keys(k), mark) // newline
+         end if
          if (closes_group(schema, k)) text = text // "/" // newline
       end do
    end function case_text
@@ -55,15 +62,28 @@ contains
    end function holds
 
    !> One key with its value and its meaning
-   function key_line(key) result(line)
+   function key_line(key, mark) result(line)
       type(key_t), intent(in) :: key
+      character(len=*), intent(in) :: mark
       character(len=:), allocatable :: line
 
       line = "   " // trim(key%name) // " = " // key%value_text()
       line = line // repeat(" ", max(1, 44 - len(line))) // "! "
       if (key%unit /= "-") line = line // "[" // trim(key%unit) // "] "
-      line = line // trim(key%meaning) // newline
+      line = line // trim(key%meaning) // mark
    end function key_line
+
+   !> What the line of a key ends in: a mark where its value was not given
+   function mark_of(key, default, given) result(mark)
+      type(key_t), intent(in) :: key, default
+      logical, intent(in) :: given
+      character(len=:), allocatable :: mark
+
+      mark = ""
+      if (given) return
+      mark = " " // mark_derived
+      if (key%value_text() == default%value_text()) mark = " " // mark_default
+   end function mark_of
 
    pure logical function opens_group(schema, k)
       type(schema_t), intent(in) :: schema

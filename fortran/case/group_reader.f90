@@ -3,6 +3,7 @@
 module ehl_group_reader
    use ehl_case_key, only: name_length
    use ehl_case_value, only: set_value
+   use ehl_derived, only: has_mark
    use ehl_key_finder, only: find_key, group_position, hint, join
    use ehl_scanner, only: scan_token, token_atom, token_comma, token_end, token_equals, &
                           token_group, token_open_string, token_slash, token_string, token_t
@@ -119,6 +120,7 @@ contains
          if (status%failed()) return
          call set_value(schema%keys(k), source, 1, name, token, status)
          if (status%failed()) return
+         schema%keys(k)%marked = has_mark(source%text, token%last)
       end do
    end subroutine read_group
 

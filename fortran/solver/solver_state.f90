@@ -51,6 +51,7 @@ contains
       plain%psd = default%psd
       plain%output = default%output
       plain%output%frame_interval = input%output%frame_interval
+      if (allocated(plain%given)) deallocate (plain%given)
       text = case_text(plain)
    end function step_text
 

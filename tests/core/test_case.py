@@ -201,3 +201,86 @@ def test_info(capsys):
     printed = capsys.readouterr().out
     assert "GCC" in printed
     assert "numpy" in printed
+
+
+FIG_2 = (
+    "&contact moes_m = 1000.0 moes_l = 10.0 /\n&surface kind = 'harmonic' wavelength = 0.5 {} /\n"
+)
+
+
+@pytest.mark.parametrize(
+    ("given", "option", "followers"),
+    [
+        ("", "surface.wavelength=0.25", {"wavelength_x": 0.25, "wavelength_y": 0.25}),
+        ("wavelength_x = 1.0", "surface.wavelength=0.25", {"wavelength_x": 1.0}),
+        ("wavelength_x = 0.5", "surface.wavelength=0.25", {"wavelength_x": 0.5}),
+        ("", "contact.slide_to_roll=0.1", {"velocity_ratio": 1.05}),
+        ("", "grid.x_inlet=-4.0", {"x_start": -4.0}),
+        ("x_start = -3.0", "grid.x_inlet=-4.0", {"x_start": -3.0}),
+        ("", "lubricant.viscosity=0.08", {"roelands_z": 2.2e-8 * 1.96e8 / (math.log(0.08) + 9.67)}),
+        ("/ &lubricant roelands_z = 0.68", "lubricant.viscosity=0.08", {"roelands_z": 0.68}),
+        ("", "lubricant.viscosity_law=barus", {"viscosity_law": "barus"}),
+        ("/ &psd viscosity_law = 'roelands'", "lubricant.viscosity_law=barus", {}),
+        ("amplitude = 0.01", "surface.amplitude=0.02", {"amplitude": 0.02}),
+        ("", "surface.amplitude=0.02", {"amplitude": 0.02}),
+        (
+            "/ &lubricant kinematic_viscosity_40 = 46.0 kinematic_viscosity_100 = 6.8 "
+            "temperature = 40.0",
+            "lubricant.temperature=80.0",
+            {"temperature": 80.0},
+        ),
+    ],
+)
+def test_what_follows_from_an_override_follows(given: str, option: str, followers: dict):
+    """An override of a resolved case does what it does on the case as it was given."""
+    text = FIG_2.format(given)
+    first = Case.from_text(text)
+    changed = first.with_options(option)
+    assert changed.text == Case.from_text(text, [option]).text
+    groups = changed.resolve()
+    values = groups["surface"] | groups["lubricant"]
+    for name, value in followers.items():
+        assert values[name] == pytest.approx(value, rel=1e-14) if value != "barus" else True
+    if "viscosity_law" in option:
+        expected = "roelands" if "psd" in given else "barus"
+        assert groups["psd"]["viscosity_law"] == expected
+    # and back
+    assert changed.with_options(option).text == changed.text
+
+
+def test_defaults_give_way_to_the_other_kind_of_contact():
+    case = Case.from_text("").with_options("contact.moes_m=500.0")
+    assert case.resolve()["contact"]["moes_m"] == 500.0
+    with pytest.raises(InputError, match="contradicts"):
+        Case.from_text("&contact load = 600.0 /").with_options("contact.moes_m=500.0")
+
+
+def test_an_edited_value_counts_as_given():
+    text = Case.from_text(FIG_2.format("")).text
+    assert re.search(r"wavelength_y = 0\.5 .*! default", text)
+    assert re.search(r"roelands_z = 0\.66\d+ .*! derived", text)
+    assert not re.search(r"wavelength = 0\.5 .*! de", text)
+    edited = text.replace("wavelength_y = 0.5 ", "wavelength_y = 0.7 ")
+    case = Case.from_text(edited, ["surface.wavelength=0.25"])
+    surface = case.resolve()["surface"]
+    assert (surface["wavelength_x"], surface["wavelength_y"]) == (0.25, 0.7)
+    assert not re.search(r"wavelength_y = 0\.7 .*! de", case.text)
+
+
+def test_overrides_of_a_written_case_are_whole(drive, tmp_path: Path):
+    """Both drivers, on the case.nml of a result."""
+    (tmp_path / "case.nml").write_text(
+        "&contact moes_m = 100.0 moes_l = 5.0 /\n&grid points = 33 /\n"
+    )
+    assert drive("ehl", "case.nml", "-o", "first").returncode == 0
+    option = "lubricant.viscosity=0.08"
+    texts = []
+    for driver, case in (
+        ("ehl", "case.nml"),
+        ("ehl", "first/case.nml"),
+        ("pyehl", "first/case.nml"),
+    ):
+        assert drive(driver, case, "--set", option, "-o", "out").returncode == 0
+        texts.append((tmp_path / "out" / "case.nml").read_text())
+    assert texts[0] == texts[1] == texts[2]
+    assert texts[0] != (tmp_path / "first" / "case.nml").read_text()
