@@ -26,11 +26,6 @@ module ehl_alcouffe
       real(dp), allocatable :: centre(:, :, :)
       !> 1 where a coarse node is free, else 0
       real(dp), allocatable :: free(:, :)
-      !> Operator of the fine level, its free nodes, and those where the operator decides
-      type(nine_point_t) :: a
-      real(dp), allocatable :: fine_free(:, :), dependent(:, :)
-      !> What the cells above a coarse row add to the next row's couplings, for the Galerkin product
-      real(dp), allocatable :: above_east(:, :), above_excess(:, :)
       integer :: threads = 1
       logical :: parallel = .false.
    contains
@@ -44,9 +39,9 @@ module ehl_alcouffe
 contains
 
    !> Allocate; threads: OpenMP threads to use on grids large enough for them
-   subroutine setup(self, fine, coarse, threads, parallel, status)
+   subroutine setup(self, coarse, threads, parallel, status)
       class(transfer_t), intent(inout) :: self
-      type(grid_t), intent(in) :: fine, coarse
+      type(grid_t), intent(in) :: coarse
       integer, intent(in) :: threads
       logical, intent(in) :: parallel
       type(status_t), intent(inout) :: status
@@ -59,11 +54,9 @@ contains
       self%parallel = parallel
       associate (nx => coarse%nx, ny => coarse%ny)
          allocate (self%along_x(2, nx - 1, ny), self%along_y(2, nx, ny - 1), self%centre(4, nx - 1, ny - 1), &
-                   self%free(nx, ny), self%above_east(0:nx, ny), self%above_excess(0:nx, ny), source=0.0_dp, stat=stat)
+                   self%free(nx, ny), source=0.0_dp, stat=stat)
       end associate
-      if (stat == 0) allocate (self%fine_free(fine%nx, fine%ny), self%dependent(fine%nx, fine%ny), stat=stat)
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the grid transfer")
-      call self%a%setup(fine, status)
    end subroutine setup
 
    !> Weights for the operator of the fine grid: couplings as shares of their sum. Couplings to nodes that
@@ -221,9 +214,8 @@ contains
    !> Allocated bytes
    pure integer(int64) function bytes(self)
       class(transfer_t), intent(in) :: self
-      bytes = self%a%bytes()
-      if (allocated(self%free)) bytes = bytes + 8*(size(self%along_x, kind=int64) + size(self%along_y, kind=int64) &
-                                                   + size(self%centre, kind=int64) + 3*size(self%free, kind=int64) &
-                                                   + 2*size(self%fine_free, kind=int64))
+      bytes = 0
+      if (allocated(self%free)) bytes = 8*(size(self%along_x, kind=int64) + size(self%along_y, kind=int64) &
+                                           + size(self%centre, kind=int64) + size(self%free, kind=int64))
    end function bytes
 end module ehl_alcouffe

@@ -3,7 +3,8 @@
 module ehl_coarse_problem
    use ehl_alcouffe, only: transfer_t
    use ehl_film, only: pressure_sum, reynolds_operator, update_coefficients
-   use ehl_galerkin, only: galerkin_product
+   use ehl_galerkin, only: coarsening_t, galerkin_product
+   use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_nine_point, only: nine_point_t
@@ -28,20 +29,22 @@ contains
 
    !> Coarse problem whose solution corrects the fine one. Needs the residual of the fine level, and
    !> changes its first row on folded grids.
-   subroutine restrict_problem(fine, coarse, transfer, coarsening)
+   subroutine restrict_problem(fine, coarse, p_start, coarsening, kind_of_coarsening)
       type(level_t), intent(inout) :: fine, coarse
-      type(transfer_t), intent(inout) :: transfer
-      integer, intent(in) :: coarsening
+      !> Pressure that the coarse problem begins from, shape of the coarse grid
+      real(dp), intent(inout) :: p_start(:, :)
+      type(coarsening_t), intent(inout) :: coarsening
+      integer, intent(in) :: kind_of_coarsening
       integer :: j
 
-      !$omp parallel do default(none) shared(fine, coarse) &
+      !$omp parallel do default(none) shared(fine, coarse, p_start) &
       !$omp num_threads(coarse%threads) if(coarse%parallel) schedule(static)
       do j = 1, coarse%grid%ny
-         call weight_row(coarse, fine%p, j, coarse%p(:, j))
+         call weight_row(coarse%grid, fine%p, j, coarse%p(:, j))
          ! a cavitated node stays so
          where (fine%p(::2, 2*j - 1) <= 0.0_dp) coarse%p(:, j) = 0.0_dp
-         coarse%p_start(:, j) = coarse%p(:, j)
-         call weight_row(coarse, fine%h, j, coarse%h(:, j))
+         p_start(:, j) = coarse%p(:, j)
+         call weight_row(coarse%grid, fine%h, j, coarse%h(:, j))
       end do
       !$omp end parallel do
       coarse%h00 = fine%h00
@@ -54,14 +57,14 @@ contains
       !$omp end parallel do
       coarse%poiseuille%frozen = .false.
       call update_coefficients(coarse)
-      if (coarsening == coarsening_alcouffe) call build_galerkin(fine, coarse, transfer)
-      call restrict_residual(fine, coarse, transfer)
+      if (kind_of_coarsening == coarsening_alcouffe) call build_galerkin(fine, coarse, coarsening)
+      call restrict_residual(fine, coarse, coarsening%transfer)
       coarse%load = fine%load - pressure_sum(fine, fine%p) + pressure_sum(coarse, coarse%p)
    end subroutine restrict_problem
 
    !> Coarse row j by full weighting, on the border by injection
    pure subroutine weight_row(coarse, fine, j, values)
-      type(level_t), intent(in) :: coarse
+      type(grid_t), intent(in) :: coarse
       !> Shape of the fine grid
       real(dp), intent(in) :: fine(:, :)
       integer, intent(in) :: j
@@ -70,11 +73,11 @@ contains
       real(dp) :: across(size(fine, 1))
       integer :: i, l, nx
 
-      nx = coarse%grid%nx
+      nx = coarse%nx
       l = 2*j - 1
       values = fine(::2, l)
-      if (j == coarse%grid%ny .or. (j == 1 .and. .not. coarse%grid%mirror)) return
-      across = 0.25_dp*(fine(:, coarse%grid%south(l)) + fine(:, l + 1)) + 0.5_dp*fine(:, l)
+      if (j == coarse%ny .or. (j == 1 .and. .not. coarse%mirror)) return
+      across = 0.25_dp*(fine(:, coarse%south(l)) + fine(:, l + 1)) + 0.5_dp*fine(:, l)
       do i = 2, nx - 1
          values(i) = 0.25_dp*(across(2*i - 2) + across(2*i)) + 0.5_dp*across(2*i - 1)
       end do
@@ -92,13 +95,13 @@ contains
       if (coarse%poiseuille%frozen .and. fine%grid%mirror) fine%residual(:, 1) = 0.5_dp*fine%residual(:, 1)
       !$omp parallel do default(none) shared(fine, coarse, transfer) private(i, operator_row, residual) &
       !$omp num_threads(coarse%threads) if(coarse%parallel) schedule(static)
-      do j = merge(1, 2, coarse%grid%mirror), coarse%grid%ny - 1
+      do j = coarse%grid%first_inner(), coarse%grid%ny - 1
          call reynolds_operator(coarse, j, operator_row)
          if (coarse%poiseuille%frozen) then
             call transfer%restrict_row(fine%residual, j, residual)
             residual(2:coarse%grid%nx - 1) = residual(2:coarse%grid%nx - 1)*fine%grid%cell(2)/coarse%grid%cell(j)
          else
-            call weight_row(coarse, fine%residual, j, residual)
+            call weight_row(coarse%grid, fine%residual, j, residual)
          end if
          do i = 2, coarse%grid%nx - 1
             coarse%rhs(i, j) = operator_row(i) + residual(i)
@@ -117,35 +120,38 @@ contains
 
    !> Transfer from the fine operator, and the Poiseuille operator of the coarse level. It stays as it is
    !> while the coarse level is solved: made to follow P and H of that level, it diverges in the contact.
-   subroutine build_galerkin(fine, coarse, transfer)
-      type(level_t), intent(inout) :: fine, coarse
-      type(transfer_t), intent(inout) :: transfer
+   subroutine build_galerkin(fine, coarse, coarsening)
+      type(level_t), intent(in) :: fine
+      type(level_t), intent(inout) :: coarse
+      type(coarsening_t), intent(inout) :: coarsening
       real(dp) :: limit
       integer :: i, j, below, first, last
 
-      first = merge(1, 2, fine%grid%mirror)
+      first = fine%grid%first_inner()
       last = fine%grid%ny - 1
       limit = dependent_from*min(fine%grid%hx, fine%grid%hy)**2
-      transfer%fine_free = 0.0_dp
-      transfer%dependent = 0.0_dp
-      !$omp parallel do default(none) shared(fine, transfer, first, last, limit) private(i, below) &
+      coarsening%free = 0.0_dp
+      coarsening%dependent = 0.0_dp
+      !$omp parallel do default(none) shared(fine, coarsening, first, last, limit) private(i, below) &
       !$omp num_threads(fine%threads) if(fine%parallel) schedule(static)
       do j = first, last
          below = fine%grid%south(j)
          do i = 2, fine%grid%nx - 1
-            if (fine%p(i, j) > 0.0_dp) transfer%fine_free(i, j) = 1.0_dp
+            if (fine%p(i, j) > 0.0_dp) coarsening%free(i, j) = 1.0_dp
             if (max(fine%eps(i, j), fine%eps(i - 1, j), fine%eps(i + 1, j), fine%eps(i, j + 1), &
-                    fine%eps(i, below)) >= limit) transfer%dependent(i, j) = 1.0_dp
+                    fine%eps(i, below)) >= limit) coarsening%dependent(i, j) = 1.0_dp
          end do
       end do
       !$omp end parallel do
       if (fine%poiseuille%frozen) then
-         call transfer%find_weights(fine%poiseuille%product, transfer%fine_free, transfer%dependent)
-         call galerkin_product(fine%poiseuille%product, transfer, coarse%poiseuille%product)
+         call coarsening%transfer%find_weights(fine%poiseuille%product, coarsening%free, coarsening%dependent)
+         call galerkin_product(fine%poiseuille%product, coarsening%transfer, coarsening%work, &
+                               coarse%poiseuille%product)
       else
-         call five_point(fine, transfer%a)
-         call transfer%find_weights(transfer%a, transfer%fine_free, transfer%dependent)
-         call galerkin_product(transfer%a, transfer, coarse%poiseuille%product)
+         call five_point(fine, coarsening%a)
+         call coarsening%transfer%find_weights(coarsening%a, coarsening%free, coarsening%dependent)
+         call galerkin_product(coarsening%a, coarsening%transfer, coarsening%work, &
+                               coarse%poiseuille%product)
       end if
       coarse%poiseuille%frozen = .true.
    end subroutine build_galerkin
@@ -166,30 +172,32 @@ contains
    end subroutine five_point
 
    !> Add the coarse change where the fine pressure is positive, interpolated bilinearly or as the transfer
-   !> has it. This ends the coarse problem: the coarse level may be a finest one next, and its p_start holds the change.
-   subroutine correct(fine, coarse, transfer, coarsening)
+   !> has it. This ends the coarse problem: the coarse level may be a finest one next, and p_start holds the change then.
+   subroutine correct(fine, coarse, p_start, transfer, coarsening)
       type(level_t), intent(inout) :: fine, coarse
+      !> Pressure that the coarse problem began from
+      real(dp), intent(inout) :: p_start(:, :)
       type(transfer_t), intent(in) :: transfer
       integer, intent(in) :: coarsening
       real(dp) :: middle(coarse%grid%nx), row(fine%grid%nx)
       integer :: i, j, l
 
-      !$omp parallel do default(none) shared(coarse) &
+      !$omp parallel do default(none) shared(coarse, p_start) &
       !$omp num_threads(coarse%threads) if(coarse%parallel) schedule(static)
       do j = 1, coarse%grid%ny
-         coarse%p_start(:, j) = coarse%p(:, j) - coarse%p_start(:, j)
+         p_start(:, j) = coarse%p(:, j) - p_start(:, j)
       end do
       !$omp end parallel do
       fine%h00 = coarse%h00
       coarse%poiseuille%frozen = .false.
-      !$omp parallel do default(none) shared(fine, coarse, transfer, coarsening) private(i, l, middle, row) &
+      !$omp parallel do default(none) shared(fine, coarse, p_start, transfer, coarsening) private(i, l, middle, row) &
       !$omp num_threads(fine%threads) if(fine%parallel) schedule(static)
-      do j = merge(1, 2, fine%grid%mirror), fine%grid%ny - 1
+      do j = fine%grid%first_inner(), fine%grid%ny - 1
          if (coarsening == coarsening_alcouffe) then
-            call transfer%prolong_row(coarse%p_start, j, row)
+            call transfer%prolong_row(p_start, j, row)
          else
             l = (j + 1)/2
-            middle = 0.5_dp*(coarse%p_start(:, l) + coarse%p_start(:, min(l + mod(j + 1, 2), coarse%grid%ny)))
+            middle = 0.5_dp*(p_start(:, l) + p_start(:, min(l + mod(j + 1, 2), coarse%grid%ny)))
             row(::2) = middle
             do i = 1, coarse%grid%nx - 1
                row(2*i) = 0.5_dp*(middle(i) + middle(i + 1))

@@ -1,13 +1,14 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The multigrid cycle: full approximation scheme (Brandt 1977; Venner & Lubrecht 2000)
 module ehl_cycle
-   use ehl_alcouffe, only: transfer_t
    use ehl_coarse_problem, only: coarsening_alcouffe, coarsening_classical, correct, restrict_problem
    use ehl_coarsest, only: coarsest_t
    use ehl_film, only: update_coefficients, update_film, update_residual
+   use ehl_galerkin, only: coarsening_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_relaxation, only: full_trust, relax
+   use ehl_workspace, only: workspace_t
    implicit none (type, external)
    private
    public :: cycle_options_t, finest_cycle, refresh, prolong_solution
@@ -42,11 +43,12 @@ contains
    end subroutine refresh
 
    !> One cycle with level n as the finest. Film and coefficients are up to date before and after.
-   subroutine finest_cycle(levels, transfers, n, coarsest, options, residual, sweeps)
+   subroutine finest_cycle(levels, spaces, coarsenings, n, coarsest, options, residual, sweeps)
       !> Coarsest level first
       type(level_t), intent(inout) :: levels(:)
+      type(workspace_t), intent(inout) :: spaces(:)
       !> Operator-dependent transfer between each level and the next coarser one
-      type(transfer_t), intent(inout) :: transfers(:)
+      type(coarsening_t), intent(inout) :: coarsenings(:)
       integer, intent(in) :: n
       type(coarsest_t), intent(inout) :: coarsest
       type(cycle_options_t), intent(in) :: options
@@ -61,9 +63,9 @@ contains
          call coarsest%solve(levels(1), coarsest_reduction, coarsest_steps)
          call update_residual(levels(1), residual)
       else
-         call visit_coarser(levels, transfers, n, coarsest, options)
+         call visit_coarser(levels, spaces, coarsenings, n, coarsest, options)
          do k = options%pre + 1, options%pre + options%post
-            call sweep(levels(n), 1, options%trust)
+            call sweep(levels(n), spaces(n), 1, options%trust)
             call update_residual(levels(n), residual)
             if (k == options%pre + options%post .or. residual <= options%enough) exit
          end do
@@ -72,9 +74,10 @@ contains
    end subroutine finest_cycle
 
    !> One cycle on level n
-   recursive subroutine fas_cycle(levels, transfers, n, coarsest, options)
+   recursive subroutine fas_cycle(levels, spaces, coarsenings, n, coarsest, options)
       type(level_t), intent(inout) :: levels(:)
-      type(transfer_t), intent(inout) :: transfers(:)
+      type(workspace_t), intent(inout) :: spaces(:)
+      type(coarsening_t), intent(inout) :: coarsenings(:)
       integer, intent(in) :: n
       type(coarsest_t), intent(inout) :: coarsest
       type(cycle_options_t), intent(in) :: options
@@ -83,27 +86,29 @@ contains
          call coarsest%solve(levels(1), coarsest_reduction, coarsest_steps)
          return
       end if
-      call visit_coarser(levels, transfers, n, coarsest, options)
-      call sweep(levels(n), options%post, options%trust)
+      call visit_coarser(levels, spaces, coarsenings, n, coarsest, options)
+      call sweep(levels(n), spaces(n), options%post, options%trust)
    end subroutine fas_cycle
 
    !> Relax so many times
-   subroutine sweep(level, times, trust)
+   subroutine sweep(level, space, times, trust)
       type(level_t), intent(inout) :: level
+      type(workspace_t), intent(inout) :: space
       integer, intent(in) :: times
       real(dp), intent(in) :: trust
       integer :: k
 
       do k = 1, times
-         call relax(level, trust)
+         call relax(level, space, trust)
          call refresh(level)
       end do
    end subroutine sweep
 
    !> Relax level n, solve its problem on the coarser ones and take over the change
-   recursive subroutine visit_coarser(levels, transfers, n, coarsest, options)
+   recursive subroutine visit_coarser(levels, spaces, coarsenings, n, coarsest, options)
       type(level_t), intent(inout) :: levels(:)
-      type(transfer_t), intent(inout) :: transfers(:)
+      type(workspace_t), intent(inout) :: spaces(:)
+      type(coarsening_t), intent(inout) :: coarsenings(:)
       integer, intent(in) :: n
       type(coarsest_t), intent(inout) :: coarsest
       type(cycle_options_t), intent(in) :: options
@@ -111,19 +116,19 @@ contains
       real(dp) :: rms
       integer :: k
 
-      call sweep(levels(n), options%pre, options%trust)
+      call sweep(levels(n), spaces(n), options%pre, options%trust)
       call update_residual(levels(n), rms)
-      call restrict_problem(levels(n), levels(n - 1), transfers(n), options%coarsening)
+      call restrict_problem(levels(n), levels(n - 1), spaces(n - 1)%p_start, coarsenings(n), options%coarsening)
       do k = 1, options%gamma
-         call fas_cycle(levels, transfers, n - 1, coarsest, options)
+         call fas_cycle(levels, spaces, coarsenings, n - 1, coarsest, options)
          if (n == 2) exit
       end do
       if (options%full .and. n > 2) then
          v = options
          v%full = .false.
-         call fas_cycle(levels, transfers, n - 1, coarsest, v)
+         call fas_cycle(levels, spaces, coarsenings, n - 1, coarsest, v)
       end if
-      call correct(levels(n), levels(n - 1), transfers(n), options%coarsening)
+      call correct(levels(n), levels(n - 1), spaces(n - 1)%p_start, coarsenings(n)%transfer, options%coarsening)
       call refresh(levels(n))
    end subroutine visit_coarser
 

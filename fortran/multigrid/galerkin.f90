@@ -1,43 +1,104 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Galerkin product: the coarse operator P^T A P of a nine-point operator A and a transfer P
 module ehl_galerkin
+   use, intrinsic :: iso_fortran_env, only: int64
    use ehl_alcouffe, only: transfer_t
+   use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_nine_point, only: nine_point_t
+   use ehl_status, only: ehl_no_memory, status_t
    implicit none (type, external)
    private
-   public :: galerkin_product
+   public :: coarsening_t, product_work_t, galerkin_product
+
+   !> What the cells above a coarse row add to the next row's couplings, shape (0:nx, ny)
+   type :: product_work_t
+      real(dp), allocatable :: above_east(:, :), above_excess(:, :)
+   contains
+      procedure :: setup => setup_work
+   end type product_work_t
+
+   !> Between a grid and the next coarser one: the transfer and what it is made from. Nothing is allocated before setup.
+   type :: coarsening_t
+      type(transfer_t) :: transfer
+      !> Operator of the fine grid unless that is a product itself; 1 at free nodes, 1 where the operator decides
+      type(nine_point_t) :: a
+      real(dp), allocatable :: free(:, :), dependent(:, :)
+      type(product_work_t) :: work
+   contains
+      procedure :: setup => setup_coarsening
+      procedure :: bytes
+   end type coarsening_t
 
 contains
+
+   !> Allocate for a coarse grid
+   subroutine setup_work(self, coarse, status)
+      class(product_work_t), intent(inout) :: self
+      type(grid_t), intent(in) :: coarse
+      type(status_t), intent(inout) :: status
+      integer :: stat
+
+      if (status%failed()) return
+      allocate (self%above_east(0:coarse%nx, coarse%ny), self%above_excess(0:coarse%nx, coarse%ny), source=0.0_dp, stat=stat)
+      if (stat /= 0) call status%fail(ehl_no_memory, "no memory for a Galerkin product")
+   end subroutine setup_work
+
+   !> Allocate; threads: OpenMP threads to use
+   subroutine setup_coarsening(self, fine, coarse, threads, parallel, status)
+      class(coarsening_t), intent(inout) :: self
+      type(grid_t), intent(in) :: fine, coarse
+      integer, intent(in) :: threads
+      logical, intent(in) :: parallel
+      type(status_t), intent(inout) :: status
+      integer :: stat
+
+      call self%transfer%setup(coarse, threads, parallel, status)
+      call self%work%setup(coarse, status)
+      call self%a%setup(fine, status)
+      if (status%failed()) return
+      allocate (self%free(fine%nx, fine%ny), self%dependent(fine%nx, fine%ny), stat=stat)
+      if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the grid transfer")
+   end subroutine setup_coarsening
+
+   !> Allocated bytes
+   pure integer(int64) function bytes(self)
+      class(coarsening_t), intent(in) :: self
+
+      bytes = self%transfer%bytes() + self%a%bytes()
+      if (allocated(self%free)) bytes = bytes + 16*(size(self%free, kind=int64) + size(self%work%above_east, kind=int64))
+   end function bytes
 
    !> coarse = P^T fine P.
    !>
    !> Taken as an energy, a coupling o between two fine nodes is o (u_1 - u_2)^2 and an excess s is
    !> s u^2, where u = sum of weights times coarse values. Each of them lies inside one coarse
    !> cell, on one coarse edge or at one coarse node, and these are taken one by one.
-   subroutine galerkin_product(fine, transfer, coarse)
+   subroutine galerkin_product(fine, transfer, work, coarse)
       type(nine_point_t), intent(in) :: fine
-      type(transfer_t), intent(inout) :: transfer
+      type(transfer_t), intent(in) :: transfer
+      !> Set up for the coarse grid
+      type(product_work_t), intent(inout) :: work
       !> Set up for the coarse grid
       type(nine_point_t), intent(inout) :: coarse
       integer :: j
 
       coarse%five = .false.
-      !$omp parallel do default(none) shared(fine, transfer, coarse) &
+      !$omp parallel do default(none) shared(fine, transfer, work, coarse) &
       !$omp num_threads(transfer%threads) if(transfer%parallel) schedule(static)
       do j = 1, transfer%ny
          call nodes_and_edges(fine, transfer, j, coarse%east(:, j), coarse%excess(:, j))
          coarse%north(:, j) = 0.0_dp
          coarse%north_east(:, j) = 0.0_dp
          coarse%north_west(:, j) = 0.0_dp
-         if (j < transfer%ny) call cells(fine, transfer, j, coarse, transfer%above_east(:, j), transfer%above_excess(:, j))
+         if (j < transfer%ny) call cells(fine, transfer, j, coarse, work%above_east(:, j), work%above_excess(:, j))
       end do
       !$omp end parallel do
-      !$omp parallel do default(none) shared(transfer, coarse) &
+      !$omp parallel do default(none) shared(transfer, work, coarse) &
       !$omp num_threads(transfer%threads) if(transfer%parallel) schedule(static)
       do j = 2, transfer%ny
-         coarse%east(:, j) = coarse%east(:, j) + transfer%above_east(:, j - 1)
-         coarse%excess(:, j) = coarse%excess(:, j) + transfer%above_excess(:, j - 1)
+         coarse%east(:, j) = coarse%east(:, j) + work%above_east(:, j - 1)
+         coarse%excess(:, j) = coarse%excess(:, j) + work%above_excess(:, j - 1)
       end do
       !$omp end parallel do
    end subroutine galerkin_product

@@ -2,32 +2,34 @@
 !> The grids of a multigrid solution, coarsest first
 module ehl_hierarchy
    use, intrinsic :: iso_fortran_env, only: int64
-   use ehl_alcouffe, only: transfer_t
    use ehl_coarsest, only: coarsest_t
-   use ehl_cycle, only: coarsening_classical, cycle_options_t, finest_cycle
+   use ehl_cycle, only: cycle_options_t, finest_cycle
    use ehl_deflection_factory, only: new_deflection
+   use ehl_galerkin, only: coarsening_t
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_lubricant, only: lubricant_t
    use ehl_status, only: ehl_no_memory, status_t
+   use ehl_workspace, only: workspace_t
    implicit none (type, external)
    private
    public :: hierarchy_t, deflection_accuracy
 
    type :: hierarchy_t
       type(level_t), allocatable :: levels(:)
-      !> Operator-dependent transfer between each level and the next coarser one; set up when first used
-      type(transfer_t), allocatable :: transfers(:)
+      type(workspace_t), allocatable :: spaces(:)
+      !> Operator-dependent coarsening from each level to the next coarser one; set up when first used
+      type(coarsening_t), allocatable :: coarsenings(:)
       type(coarsest_t) :: coarsest
-      type(cycle_options_t) :: options
       !> Levels that have been set up
       integer :: ready = 0
       character(len=:), allocatable :: engine
    contains
       procedure :: setup
       procedure :: grow
-      procedure :: coarsen
+      procedure :: prepare_steps
+      procedure :: prepare_coarsening
       procedure :: cycle => run_cycle
       procedure :: forget
       procedure :: bytes
@@ -36,7 +38,7 @@ module ehl_hierarchy
 contains
 
    !> Levels from the coarsest grid on; only the coarsest one gets its arrays yet
-   subroutine setup(self, coarsest, n, lubricant, speed_parameter, engine, options, threads, status)
+   subroutine setup(self, coarsest, n, lubricant, speed_parameter, engine, threads, status)
       class(hierarchy_t), intent(inout) :: self
       !> Coarsest grid, and how many levels there are to be at the most
       type(grid_t), intent(in) :: coarsest
@@ -45,7 +47,6 @@ contains
       real(dp), intent(in) :: speed_parameter
       !> Deflection engine
       character(len=*), intent(in) :: engine
-      type(cycle_options_t), intent(in) :: options
       integer, intent(in) :: threads
       type(status_t), intent(inout) :: status
       integer :: k, stat
@@ -53,9 +54,8 @@ contains
       if (status%failed()) return
       self%ready = 0
       self%engine = engine
-      self%options = options
-      if (allocated(self%levels)) deallocate (self%levels, self%transfers)
-      allocate (self%levels(n), self%transfers(n), stat=stat)
+      if (allocated(self%levels)) deallocate (self%levels, self%spaces, self%coarsenings)
+      allocate (self%levels(n), self%spaces(n), self%coarsenings(n), stat=stat)
       if (stat /= 0) then
          call status%fail(ehl_no_memory, "no memory for the grid levels")
          return
@@ -81,6 +81,7 @@ contains
          associate (level => self%levels(k))
             if (k > 1) level%grid = self%levels(k - 1)%grid%finer()
             call level%setup(status)
+            call self%spaces(k)%setup(level%grid, level%threads, status)
             if (status%failed()) return
             call new_deflection(self%engine, level%engine, status)
             if (status%failed()) return
@@ -91,26 +92,39 @@ contains
       end do
    end subroutine grow
 
-   !> Coarsen in this way from now on. What only Alcouffe's needs is allocated when it is first asked for.
-   subroutine coarsen(self, coarsening, status)
+   !> Allocate what time steps need, and discretise wedge and squeeze terms for them
+   subroutine prepare_steps(self, n, scheme, time_step, status)
       class(hierarchy_t), intent(inout) :: self
-      !> coarsening_classical or coarsening_alcouffe, of ehl_cycle
-      integer, intent(in) :: coarsening
+      !> Finest level
+      integer, intent(in) :: n
+      !> wedge_narrow or wedge_separate, of ehl_wedge
+      integer, intent(in) :: scheme
+      real(dp), intent(in) :: time_step
       type(status_t), intent(inout) :: status
       integer :: k
 
-      if (status%failed()) return
-      self%options%coarsening = coarsening
-      if (coarsening == coarsening_classical) return
+      do k = 1, n
+         call self%spaces(k)%prepare_steps(status)
+         if (status%failed()) return
+         call self%levels(k)%wedge%set_step(scheme, self%levels(k)%grid%hx, time_step)
+      end do
+   end subroutine prepare_steps
+
+   !> Allocate what Alcouffe coarsening needs, unless that has been done
+   subroutine prepare_coarsening(self, status)
+      class(hierarchy_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+      integer :: k
+
       do k = 2, self%ready
-         if (self%transfers(k)%nx > 0) cycle
+         if (status%failed()) return
+         if (self%coarsenings(k)%transfer%nx > 0) cycle
          associate (fine => self%levels(k), coarse => self%levels(k - 1))
             call coarse%poiseuille%prepare_product(status)
-            call self%transfers(k)%setup(fine%grid, coarse%grid, fine%threads, fine%parallel, status)
+            call self%coarsenings(k)%setup(fine%grid, coarse%grid, fine%threads, fine%parallel, status)
          end associate
-         if (status%failed()) return
       end do
-   end subroutine coarsen
+   end subroutine prepare_coarsening
 
    !> Error of the deflection, relative to its largest value, that stays below a tenth of the
    !> discretisation error of a piecewise-constant Hertz pressure (2.2e-4 at h = 1/128)
@@ -120,15 +134,16 @@ contains
    end function deflection_accuracy
 
    !> One multigrid cycle with level n as the finest
-   subroutine run_cycle(self, n, residual, sweeps)
+   subroutine run_cycle(self, n, options, residual, sweeps)
       class(hierarchy_t), intent(inout) :: self
       integer, intent(in) :: n
+      type(cycle_options_t), intent(in) :: options
       !> What is left (rms)
       real(dp), intent(out) :: residual
       !> Sweeps made on level n
       integer, intent(out), optional :: sweeps
 
-      call finest_cycle(self%levels, self%transfers, n, self%coarsest, self%options, residual, sweeps)
+      call finest_cycle(self%levels, self%spaces, self%coarsenings, n, self%coarsest, options, residual, sweeps)
    end subroutine run_cycle
 
    !> Drop what one cycle leaves for the next beyond the fields of its finest level
@@ -144,7 +159,8 @@ contains
 
       bytes = self%coarsest%bytes()
       do k = 1, self%ready
-         bytes = bytes + self%levels(k)%bytes() + self%levels(k)%engine%bytes() + self%transfers(k)%bytes()
+         bytes = bytes + self%levels(k)%bytes() + self%levels(k)%engine%bytes() + self%spaces(k)%bytes() &
+                 + self%coarsenings(k)%bytes()
       end do
    end function bytes
 end module ehl_hierarchy

@@ -3,9 +3,10 @@
 !> for `line_width` lines side by side
 module ehl_line_system
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t, line_fields, line_width, line_work_t, near_reach
+   use ehl_level, only: level_t
    use ehl_poiseuille, only: line_terms_t, stretch
    use ehl_wedge, only: line_reach
+   use ehl_workspace, only: line_fields, line_width, line_work_t, near_reach
    implicit none (type, external)
    private
    public :: last_awake, solve_lines
@@ -20,16 +21,20 @@ contains
 
    !> Changes of pressure on the lines rows(1), rows(2), ...: work%change(line, node) solves the
    !> linearised equation along X
-   subroutine solve_lines(level, rows, last, work)
+   subroutine solve_lines(level, dipole, near, near_dipole, rows, last, work)
       type(level_t), intent(in) :: level
+      !> 1 where a node changes distributively, else 0, shape (nx, ny)
+      real(dp), contiguous, intent(in) :: dipole(:, :)
+      !> Kernel near the source: itself, and for the distributive change
+      real(dp), intent(in) :: near(-nr:nr), near_dipole(-nr:nr)
       !> Rows of the grid; unused places repeat a row
       integer, intent(in) :: rows(line_width)
       !> Last node that may change, see last_awake; changes of the nodes behind it are not set
       integer, intent(in) :: last
       type(line_work_t), intent(inout) :: work
 
-      call gather(level, rows, min(last + near_reach, level%grid%nx), work%fields)
-      call eliminate(level, last, work%fields, work%upper, work%change)
+      call gather(level, dipole, rows, min(last + near_reach, level%grid%nx), work%fields)
+      call eliminate(level, near, near_dipole - near, last, work%fields, work%upper, work%change)
       call substitute(last, work%upper, work%change)
    end subroutine solve_lines
 
@@ -53,8 +58,9 @@ contains
    end function last_awake
 
    !> Bring the lines side by side, a stretch at a time so that it stays in the cache
-   subroutine gather(level, rows, furthest, g)
+   subroutine gather(level, dipole, rows, furthest, g)
       type(level_t), intent(in) :: level
+      real(dp), contiguous, intent(in) :: dipole(:, :)
       integer, intent(in) :: rows(line_width)
       !> Last node that is brought
       integer, intent(in) :: furthest
@@ -75,8 +81,8 @@ contains
                g(l, f_p, i) = level%p(i, j)
                g(l, f_rho, i) = level%rho(i, j)
                g(l, f_h_drho_dp, i) = level%h_drho_dp(i, j)
-               g(l, f_gain, i) = (1.0_dp - level%dipole(i, j))*level%eps(i, j)*level%dlneps_dp(i, j)
-               g(l, f_dipole, i) = level%dipole(i, j)
+               g(l, f_gain, i) = (1.0_dp - dipole(i, j))*level%eps(i, j)*level%dlneps_dp(i, j)
+               g(l, f_dipole, i) = dipole(i, j)
                g(l, f_residual, i) = terms%rest(k)
                g(l, f_other, i) = terms%other(k)
                g(l, f_other_rate, i) = terms%other_rate(k)
@@ -89,8 +95,10 @@ contains
 
    !> Row i of a line couples the changes at nodes i-4 ... i+2; it is eliminated with the rows before
    !> it as soon as it is made, so that only the upper two diagonals are kept
-   pure subroutine eliminate(level, furthest, g, upper, change)
+   pure subroutine eliminate(level, near, delta, furthest, g, upper, change)
       type(level_t), intent(in) :: level
+      !> Kernel near the source, and what a distributive change adds to it
+      real(dp), intent(in) :: near(-nr:nr), delta(-nr:nr)
       !> Last node
       integer, intent(in) :: furthest
       real(dp), intent(in) :: g(line_width, line_fields, -1:level%grid%nx + 2)
@@ -98,12 +106,10 @@ contains
       real(dp), intent(inout) :: upper(line_width, 2, -3:level%grid%nx), change(line_width, -3:level%grid%nx + 1)
       !> Response of rho H at nodes i, i-1, i-2 to unit changes at their columns -2..2
       real(dp) :: s(line_width, -nr:nr, 0:2)
-      real(dp) :: near(-nr:nr), delta(-nr:nr), c(0:line_reach), c_first(0:line_reach), c_interior(0:line_reach)
+      real(dp) :: c(0:line_reach), c_first(0:line_reach), c_interior(0:line_reach)
       real(dp) :: east, west, re, rw, pe, pw, r, t, d, active, em4, em3, em2, em1, e0, e1, e2
       integer :: i, l, now, last, former
 
-      near = level%near
-      delta = level%near_dipole - level%near
       call level%wedge%line_weights(c_first, c_interior)
       upper(:, :, -3:1) = 0.0_dp
       change(:, -3:1) = 0.0_dp

@@ -21,8 +21,9 @@
 !> lines can be trusted with.
 module ehl_relaxation
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t, line_width
+   use ehl_level, only: level_t
    use ehl_line_system, only: last_awake, solve_lines
+   use ehl_workspace, only: line_width, workspace_t
    !$ use omp_lib, only: omp_get_thread_num
    implicit none (type, external)
    private
@@ -59,49 +60,51 @@ module ehl_relaxation
 contains
 
    !> One sweep. Needs film and coefficients of the present pressure; leaves them out of date.
-   subroutine relax(level, trust)
+   subroutine relax(level, space, trust)
       type(level_t), intent(inout) :: level
+      type(workspace_t), intent(inout) :: space
       !> Largest change of the logarithm of a node's conductance, for time steps
       real(dp), intent(in) :: trust
       integer :: colour, block, blocks, first, last, start, me
 
-      first = merge(1, 2, level%grid%mirror)
+      first = level%grid%first_inner()
       last = level%grid%ny - 1
-      call mark_dipoles(level, first, last)
-      if (level%wedge%squeeze > 0.0_dp) call find_shares(level, first, last)
+      call mark_dipoles(level, space, first, last)
+      if (level%wedge%squeeze > 0.0_dp) call find_shares(level, space, first, last)
       do colour = 0, 1
          ! the line Y = 0 belongs to the first colour, on half and on whole domains alike
          start = first + colour
          if (.not. level%grid%mirror .and. mod((level%grid%ny + 1)/2, 2) == 1) start = first + 1 - colour
          if (start > last) cycle
          blocks = ((last - start)/2 + line_width)/line_width
-         !$omp parallel do default(none) shared(level, trust, last, start, blocks) private(me) &
+         !$omp parallel do default(none) shared(level, space, trust, last, start, blocks) private(me) &
          !$omp num_threads(level%threads) if(level%parallel) schedule(static, 1)
          do block = 1, blocks
             me = 1
             !$ me = omp_get_thread_num() + 1
-            call relax_lines(level, start + 2*line_width*(block - 1), last, trust, me)
+            call relax_lines(level, space, start + 2*line_width*(block - 1), last, trust, me)
          end do
          !$omp end parallel do
       end do
-      call apply_dipoles(level, first, last)
-      if (level%wedge%squeeze > 0.0_dp) call take_back_smooth(level, first, last)
+      call apply_dipoles(level, space, first, last)
+      if (level%wedge%squeeze > 0.0_dp) call take_back_smooth(level, space, first, last)
    end subroutine relax
 
    !> 1 where a node changes distributively, else 0
-   subroutine mark_dipoles(level, first, last)
-      type(level_t), intent(inout) :: level
+   subroutine mark_dipoles(level, space, first, last)
+      type(level_t), intent(in) :: level
+      type(workspace_t), intent(inout) :: space
       integer, intent(in) :: first, last
       real(dp) :: limit
       integer :: i, j, below
 
       limit = switch*min(level%grid%hx, level%grid%hy)**2
-      !$omp parallel do default(none) shared(level, first, last, limit) private(i, below) &
+      !$omp parallel do default(none) shared(level, space, first, last, limit) private(i, below) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
          below = level%grid%south(j)
          do i = 2, level%grid%nx - 1
-            level%dipole(i, j) = merge(1.0_dp, 0.0_dp, &
+            space%dipole(i, j) = merge(1.0_dp, 0.0_dp, &
                                        max(level%eps(i, j), level%eps(i - 1, j), level%eps(i + 1, j), &
                                            level%eps(i, j + 1), level%eps(i, below)) < limit .and. &
                                        min(level%p(i, j), level%p(i - 1, j), level%p(i + 1, j), &
@@ -113,15 +116,16 @@ contains
 
    !> Share of a node's change that is to be free of its smooth part, in time steps: 1 where the conductance
    !> around the node is nothing against the squeeze term, 0 where it is much
-   subroutine find_shares(level, first, last)
-      type(level_t), intent(inout) :: level
+   subroutine find_shares(level, space, first, last)
+      type(level_t), intent(in) :: level
+      type(workspace_t), intent(inout) :: space
       integer, intent(in) :: first, last
       real(dp) :: scale, share, largest(level%grid%nx)
       integer :: i, j, k, below, nx
 
       nx = level%grid%nx
       scale = 1.0_dp/(weak*level%wedge%squeeze*min(level%grid%hx, level%grid%hy)**2)
-      !$omp parallel do default(none) shared(level, first, last, scale, nx) private(i, k, below, share, largest) &
+      !$omp parallel do default(none) shared(level, space, first, last, scale, nx) private(i, k, below, share, largest) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
          below = level%grid%south(j)
@@ -132,7 +136,7 @@ contains
                share = max(share, largest(i - k), largest(i + k))
             end do
             share = 1.0_dp/(1.0_dp + (scale*share)**2)
-            level%share(i, j) = merge(share, 0.0_dp, share > least_share)
+            space%share(i, j) = merge(share, 0.0_dp, share > least_share)
          end do
       end do
       !$omp end parallel do
@@ -140,8 +144,9 @@ contains
 
    !> Solve the lines j0, j0+2, ... (at most `line_width`, up to row `last`): Gauss-Seidel changes are
    !> applied at once, distributive ones are kept for the end of the sweep
-   subroutine relax_lines(level, j0, last, trust, thread)
+   subroutine relax_lines(level, space, j0, last, trust, thread)
       type(level_t), intent(inout) :: level
+      type(workspace_t), intent(inout) :: space
       integer, intent(in) :: j0, last, thread
       real(dp), intent(in) :: trust
       real(dp) :: scale, t, omega, omega_far, before, change
@@ -156,54 +161,55 @@ contains
       limited = time_step .and. .not. level%poiseuille%frozen
       omega = merge(omega_step, omega_line, time_step)
       omega_far = merge(omega_step, omega_dipole, time_step)
-      associate (work => level%work(thread))
+      associate (work => space%lines(thread))
          furthest = 2
          do l = 1, lines
             furthest = max(furthest, last_awake(level, rows(l)))
          end do
-         call solve_lines(level, rows, furthest, work)
+         call solve_lines(level, space%dipole, space%near, space%near_dipole, rows, furthest, work)
          do l = 1, lines
             j = rows(l)
-            level%change(furthest + 1:, j) = 0.0_dp
-            if (time_step) level%rough(furthest + 1:, j) = 0.0_dp
+            space%change(furthest + 1:, j) = 0.0_dp
+            if (time_step) space%rough(furthest + 1:, j) = 0.0_dp
             do i = 2, furthest
                t = level%eps(i, j)*scale
                before = level%p(i, j)
                change = work%change(l, i)
                if (limited) change = change/max(1.0_dp, abs(level%dlneps_dp(i, j)*change)/trust)
-               level%change(i, j) = omega_far*level%dipole(i, j)*change
-               level%p(i, j) = max(0.0_dp, level%p(i, j) + (1.0_dp - level%dipole(i, j))*(omega + t) &
+               space%change(i, j) = omega_far*space%dipole(i, j)*change
+               level%p(i, j) = max(0.0_dp, level%p(i, j) + (1.0_dp - space%dipole(i, j))*(omega + t) &
                                    /(1.0_dp + t)*change)
-               if (time_step) level%rough(i, j) = (level%p(i, j) - before)*level%share(i, j)
+               if (time_step) space%rough(i, j) = (level%p(i, j) - before)*space%share(i, j)
             end do
          end do
       end associate
    end subroutine relax_lines
 
    !> Take the smooth part of the changes of nodes with a weak conductance back
-   subroutine take_back_smooth(level, first, last)
+   subroutine take_back_smooth(level, space, first, last)
       type(level_t), intent(inout) :: level
+      type(workspace_t), intent(inout) :: space
       integer, intent(in) :: first, last
       real(dp) :: smooth(level%grid%nx)
       integer :: from(last), to(last)
       integer :: i, j, k, row
 
-      !$omp parallel do default(none) shared(level, first, last, from, to) private(i, k) &
+      !$omp parallel do default(none) shared(level, space, first, last, from, to) private(i, k) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static, 8)
       do j = first, last
-         from(j) = findloc(level%share(:, j) > 0.0_dp, .true., dim=1)
-         to(j) = findloc(level%share(:, j) > 0.0_dp, .true., dim=1, back=.true.)
-         level%smooth(:, j) = 0.0_dp
+         from(j) = findloc(space%share(:, j) > 0.0_dp, .true., dim=1)
+         to(j) = findloc(space%share(:, j) > 0.0_dp, .true., dim=1, back=.true.)
+         space%smooth(:, j) = 0.0_dp
          if (from(j) == 0) cycle
          do k = -reach, reach
             ! as far as the changes of this row reach, for rows beside it may have shares further out
             do i = max(from(j) - reach, 1 + reach), min(to(j) + reach, level%grid%nx - reach)
-               level%smooth(i, j) = level%smooth(i, j) + binomial(k)*level%rough(i + k, j)
+               space%smooth(i, j) = space%smooth(i, j) + binomial(k)*space%rough(i + k, j)
             end do
          end do
       end do
       !$omp end parallel do
-      !$omp parallel do default(none) shared(level, first, last, from, to) private(i, k, row, smooth) &
+      !$omp parallel do default(none) shared(level, space, first, last, from, to) private(i, k, row, smooth) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static, 8)
       do j = first, last
          if (from(j) == 0) cycle
@@ -213,32 +219,33 @@ contains
             if (row < 1 .and. level%grid%mirror) row = 2 - row
             if (row < first .or. row > last) cycle
             do i = from(j), to(j)
-               smooth(i) = smooth(i) + binomial(k)*level%smooth(i, row)
+               smooth(i) = smooth(i) + binomial(k)*space%smooth(i, row)
             end do
          end do
          do i = from(j), to(j)
-            if (level%p(i, j) > 0.0_dp) level%p(i, j) = max(0.0_dp, level%p(i, j) - level%share(i, j)*smooth(i))
+            if (level%p(i, j) > 0.0_dp) level%p(i, j) = max(0.0_dp, level%p(i, j) - space%share(i, j)*smooth(i))
          end do
       end do
       !$omp end parallel do
    end subroutine take_back_smooth
 
    !> Add the dipoles to the pressure
-   subroutine apply_dipoles(level, first, last)
+   subroutine apply_dipoles(level, space, first, last)
       type(level_t), intent(inout) :: level
+      type(workspace_t), intent(in) :: space
       integer, intent(in) :: first, last
       integer :: i, j, below, nx
 
       nx = level%grid%nx
-      !$omp parallel do default(none) shared(level, first, last, nx) private(i, below) &
+      !$omp parallel do default(none) shared(level, space, first, last, nx) private(i, below) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
          below = level%grid%south(j)
          do i = 2, nx - 1
             if (level%p(i, j) > 0.0_dp) level%p(i, j) = &
-               max(0.0_dp, level%p(i, j) + level%change(i, j) &
-                   - 0.25_dp*(level%change(i - 1, j) + level%change(i + 1, j) &
-                              + level%change(i, below) + level%change(i, j + 1)))
+               max(0.0_dp, level%p(i, j) + space%change(i, j) &
+                   - 0.25_dp*(space%change(i - 1, j) + space%change(i + 1, j) &
+                              + space%change(i, below) + space%change(i, j + 1)))
          end do
       end do
       !$omp end parallel do

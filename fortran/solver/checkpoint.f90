@@ -65,7 +65,8 @@ contains
       if (stat == 0) then
          write (lun, iostat=stat, iomsg=reason) magic, march%step, len(text), text, &
             shape(march%mass_content), march%skipped, march%time, march%time_step, march%residual, march%cycles, &
-            march%total_cycles, march%total_sweeps, march%coarsening, march%changed_at, march%h00_before, march%friction_smooth, &
+            march%total_cycles, march%total_sweeps, march%policy%coarsening, march%policy%changed_at, &
+            march%h00_before, march%friction_smooth, &
             numbers, march%mass_content, march%p_before, march%forecast%carried, &
             march%mean%n, march%mean%values(:march%mean%n), march%mean%film(:march%mean%n), &
             march%mean%roughness(:march%mean%n), shape(rows), rows, shape(frames%p), frames%times, frames%p, frames%h
@@ -159,7 +160,7 @@ contains
             allocate (march%mass_content(dims(1), dims(2), dims(3)), march%p_before(dims(1), dims(2), dims(3) + 1), &
                       march%forecast%carried(dims(1), dims(2)))
             read (lun, iostat=stat, iomsg=reason) march%skipped, march%time, march%time_step, march%residual, march%cycles, &
-               march%total_cycles, march%total_sweeps, march%coarsening, march%changed_at, &
+               march%total_cycles, march%total_sweeps, march%policy%coarsening, march%policy%changed_at, &
                march%h00_before, march%friction_smooth, state%numbers, march%mass_content, march%p_before, &
                march%forecast%carried, n
          end if

@@ -211,9 +211,9 @@ contains
       call record%set("steps", march%step)
       call record%set("steps_skipped", march%skipped)
       call record%set("cycles_per_step", real(march%total_cycles, dp)/max(march%step, 1))
-      call record%set("coarsening_changed_at", march%changed_at)
+      call record%set("coarsening_changed_at", march%policy%changed_at)
       call record%set("seconds_per_step", seconds/max(march%step, 1))
-      call record%set("step_residual_allowed", march%tolerance)
+      call record%set("step_residual_allowed", march%policy%tolerance)
    end subroutine report_march
 
    !> The contact with a rough surface at rest: results null unless they are good

@@ -3,7 +3,7 @@
 !> the smooth solution on the same grid. Where the film would be negative then, the roughness grows in steps.
 module ehl_rest
    use ehl_contact, only: contact_t
-   use ehl_cycle, only: refresh
+   use ehl_cycle, only: cycle_options_t, refresh
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
@@ -86,10 +86,11 @@ contains
    end subroutine start
 
    !> One cycle
-   subroutine advance(self, hierarchy, n)
+   subroutine advance(self, hierarchy, n, options)
       class(rest_t), intent(inout) :: self
       type(hierarchy_t), intent(inout) :: hierarchy
       integer, intent(in) :: n
+      type(cycle_options_t), intent(in) :: options
       real(dp) :: before, change, q, wanted
       logical :: met
 
@@ -98,7 +99,7 @@ contains
          if (self%due) call self%grow(level)
          if (self%outcome /= outcome_running) return
          before = self%m%friction
-         call hierarchy%cycle(n, self%residual)
+         call hierarchy%cycle(n, options, self%residual)
          self%cycles = self%cycles + 1
          self%total_cycles = self%total_cycles + 1
          self%m = measure(level)

@@ -174,7 +174,7 @@ contains
       if (status%failed()) return
       associate (plan => self%plan)
          call self%hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, &
-                                   plan%engine, plan%cycle, plan%threads, status)
+                                   plan%engine, plan%threads, status)
          call self%steady%start(plan)
       end associate
       call self%hierarchy%grow(self%steady%n, status)

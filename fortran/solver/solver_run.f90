@@ -6,7 +6,7 @@ submodule (ehl_solver) ehl_solver_run
    use ehl_judge, only: judge_march
    use ehl_outcome, only: outcome_cycle_limit, outcome_diverged, outcome_negative_film
    use ehl_skips, only: seconds_saved_by_zeros
-   use ehl_transient, only: step_tolerance
+   use ehl_step_policy, only: step_tolerance
    implicit none (type, external)
 
 contains
@@ -55,23 +55,17 @@ contains
    recursive subroutine begin_march(self, status)
       type(solver_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
-      integer :: k, n
+      integer :: n
 
       n = self%steady%n
       call keep_smooth(self)
-      self%transient%max_cycles = self%plan%max_cycles
-      self%transient%coarsening = self%plan%step_cycle%coarsening
-      self%transient%pre = self%plan%step_cycle%pre
-      self%transient%may_change = self%plan%coarsening_may_change
-      self%transient%tolerance = step_tolerance(self%grid%hx, self%plan%accuracy)
+      call self%transient%policy%set(self%plan%step_cycle, self%plan%coarsening_may_change, &
+                                     step_tolerance(self%grid%hx, self%plan%accuracy), self%plan%max_cycles)
       call self%transient%start(self%hierarchy%levels(n), self%plan%contact, self%plan%surface, self%plan%skip_start, &
                                 self%steady%results(n)%m%friction, status)
       if (status%failed()) return
-      do k = 1, n
-         call self%hierarchy%levels(k)%set_transient(self%plan%scheme, self%transient%time_step, status)
-      end do
+      call self%hierarchy%prepare_steps(n, self%plan%scheme, self%transient%time_step, status)
       if (status%failed()) return
-      self%hierarchy%options = self%plan%step_cycle
       self%zeros_seconds = seconds_saved_by_zeros(self%hierarchy%levels(n))
       self%marching = .true.
       call self%frames%start(self%grid)
@@ -113,7 +107,7 @@ contains
       type(clock_t) :: clock
 
       clock = start_clock()
-      call self%rest%advance(self%hierarchy, self%steady%n)
+      call self%rest%advance(self%hierarchy, self%steady%n, self%plan%cycle)
       self%step_seconds = self%step_seconds + clock%seconds()
       associate (rest => self%rest, m => self%rest%m)
          call self%history%append([real(dp) :: rest%total_cycles, rest%share, m%friction/rest%friction_smooth, &

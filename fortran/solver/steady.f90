@@ -88,7 +88,7 @@ contains
       if (status%failed()) return
       associate (result => self%results(self%n), level => hierarchy%levels(self%n))
          before = result%m
-         call hierarchy%cycle(self%n, residual)
+         call hierarchy%cycle(self%n, plan%cycle, residual)
          result%cycles = result%cycles + 1
          result%m = measure(level)
          if (.not. result%m%finite .or. .not. result%m%positive) then

@@ -2,7 +2,7 @@
 !> The march of a rough surface through the contact, one time step at a time
 module ehl_transient
    use ehl_contact, only: contact_t
-   use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, refresh
+   use ehl_cycle, only: coarsening_alcouffe, refresh
    use ehl_film, only: pressure_sum, update_residual
    use ehl_forecast, only: forecast_t
    use ehl_friction_mean, only: friction_mean_t, periods_compared
@@ -10,29 +10,20 @@ module ehl_transient
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_measures, only: central_value, measure, measures_t
-   use ehl_relaxation, only: full_trust
    use ehl_status, only: ehl_no_memory, status_t
+   use ehl_step_policy, only: attempt_predicted, step_begins_again, step_ends, step_policy_t
    use ehl_surface, only: surface_t
    use ehl_time_levels, only: keep, set_geometry, set_history
    use ehl_wedge, only: old_times
    implicit none (type, external)
    private
-   public :: transient_t, step_tolerance, steps_needed
+   public :: transient_t, steps_needed
 
    !> Where the film is thick the roughness rides on it and changes nothing: solving begins
    !> when the front, with half its length, reaches this X
    real(dp), parameter :: x_matters = -1.25_dp
    !> Largest relative error of the force balance of a step
    real(dp), parameter :: load_tolerance = 1.0e-6_dp
-   !> A cycle that leaves more than this share of the residual is slow, unless another such cycle will do
-   real(dp), parameter :: slow = 0.25_dp
-   !> A step whose residual has not halved in so many cycles, from the forecast and once it has begun again, begins
-   !> again from the last pressure, its sweeps trusted with `less` of what they were, unless that is little already. The
-   !> lines can throw a peak of a single node from one node to the next and back, for ever. So in 6 of 942 steps at
-   !> (500, 15), a wave as high as the film, 0.25 a long, on 513 x 513: they end after 14 to 16 cycles, the others
-   !> after 10 at the most. From the forecast again, or with 4 cycles in place of 8, some steps ran out of 30 cycles.
-   integer, parameter :: patience(2) = [4, 8]
-   real(dp), parameter :: less = 1.0_dp/3.0_dp, least_trust = 0.5_dp
    !> The roughness fills the contact when its front has passed this X
    real(dp), parameter :: x_filled = 1.05_dp
 
@@ -41,14 +32,8 @@ module ehl_transient
       !> Steps made, steps not needed at the start, the present time, the time step
       integer :: step = 0, skipped = 0
       real(dp) :: time = 0.0_dp, time_step = 0.0_dp
-      !> Largest residual (rms) of a step, most cycles a step
-      real(dp) :: tolerance = 8.0e-5_dp
-      integer :: max_cycles = 30
-      !> Sweeps before the coarse grids, unless a cycle with Alcouffe coarsening was slow
-      integer :: pre = 1
-      !> Kind of coarsening; whether it changes for good when a cycle is slow, and the step in which it did (0: none)
-      integer :: coarsening = coarsening_classical, changed_at = 0
-      logical :: may_change = .false.
+      !> How the cycles of a step are made
+      type(step_policy_t) :: policy
       !> Friction of the smooth contact on the same grid
       real(dp) :: friction_smooth = 1.0_dp
       !> State after the last step
@@ -65,21 +50,11 @@ module ehl_transient
       procedure :: advance
       procedure :: step_converged
       procedure :: restore
-      procedure, private :: begin_step
+      procedure, private :: begin_attempt
       procedure, private :: step_back
    end type transient_t
 
 contains
-
-   !> Residual (rms) that leaves the algebraic error of mu_r/mu_s below a tenth of the discretisation error: 8e-5 on
-   !> h = 1/128 and in proportion to h elsewhere. Measured on 257 x 257 (grid error: 4/3 of the difference to
-   !> 513 x 513, algebraic error: to a fortieth of this residual), as a share of the grid error, for M, L, wavelength, A/H_c:
-   !> 0.028 (1000, 10, 0.5, 0.42), 0.021 (1000, 10, 0.5, 0.1), 0.025 (2000, 5, 0.5, 1), 0.007 (500, 10, 0.25, 0.5),
-   !> 0.036 (500, 5, 0.25, 0.67), 0.007 (2000, 15, 0.25, 0.67).
-   pure real(dp) function step_tolerance(mesh, accuracy)
-      real(dp), intent(in) :: mesh, accuracy
-      step_tolerance = 8.0e-4_dp*accuracy*(128.0_dp*mesh)
-   end function step_tolerance
 
    !> Time steps until the mean friction over a period can be compared with an earlier one
    real(dp) function steps_needed(surface, time_step, skip)
@@ -145,47 +120,33 @@ contains
       integer, intent(in) :: n
       class(surface_t), intent(inout) :: surface
       type(status_t), intent(inout) :: status
-      real(dp) :: load_error, before, trust, past(0:maxval(patience))
-      integer :: sweeps, made
+      real(dp) :: load_error, before
+      integer :: sweeps, made, next
+      logical :: met
 
       if (status%failed()) return
-      associate (level => hierarchy%levels(n))
-         call surface%height(level%grid, self%time + self%time_step, self%rr)
-         call set_geometry(level, self%contact, self%rr)
-         call set_history(level, self%mass_content)
-         trust = full_trust
-         call self%begin_step(hierarchy, level, trust, status)
+      call surface%height(hierarchy%levels(n)%grid, self%time + self%time_step, self%rr)
+      call set_geometry(hierarchy%levels(n), self%contact, self%rr)
+      call set_history(hierarchy%levels(n), self%mass_content)
+      made = 0
+      call self%policy%begin()
+      next = step_begins_again
+      do
+         if (next == step_begins_again) call self%begin_attempt(hierarchy, n, status)
          if (status%failed()) return
-         self%cycles = 0
-         made = 0
-         past = huge(1.0_dp)
-         do
-            before = self%residual
-            call hierarchy%cycle(n, self%residual, sweeps)
-            self%cycles = self%cycles + 1
-            made = made + sweeps
+         if (.not. self%residual < huge(1.0_dp) .and. self%policy%cycles > 0) exit
+         before = self%residual
+         call hierarchy%cycle(n, self%policy%options, self%residual, sweeps)
+         made = made + sweeps
+         associate (level => hierarchy%levels(n))
             load_error = pressure_sum(level, level%p)/level%load - 1.0_dp
-            if (self%residual <= self%tolerance .and. abs(load_error) <= load_tolerance) exit
-            if (self%cycles >= self%max_cycles) exit
-            past = [self%residual, past(:size(past) - 2)]
-            if (trust > least_trust .and. .not. past(0) <= 0.5_dp*past(patience(merge(1, 2, trust >= full_trust)))) then
-               trust = less*trust
-               past = huge(1.0_dp)
-               call self%begin_step(hierarchy, level, trust, status)
-               if (status%failed()) return
-            else if (.not. self%residual <= max(slow*before, self%tolerance/slow)) then
-               if (self%coarsening == coarsening_alcouffe) then
-                  ! one sweep more for the rest of the step; with classical coarsening it can make cycles slower
-                  hierarchy%options%pre = self%pre + 1
-               else if (self%may_change) then
-                  self%coarsening = coarsening_alcouffe
-                  self%changed_at = self%step + 1
-                  call self%begin_step(hierarchy, level, trust, status)
-                  if (status%failed()) return
-               end if
-            end if
-            if (.not. self%residual < huge(1.0_dp)) exit
-         end do
+         end associate
+         met = self%residual <= self%policy%tolerance .and. abs(load_error) <= load_tolerance
+         call self%policy%after_cycle(self%step + 1, met, before, self%residual, next)
+         if (next == step_ends) exit
+      end do
+      self%cycles = self%policy%cycles
+      associate (level => hierarchy%levels(n))
          self%m = measure(level)
          if (.not. self%step_converged()) then
             call self%step_back(level, surface)
@@ -203,37 +164,33 @@ contains
       end associate
    end subroutine advance
 
-   !> First approximation of a step, and what its cycles need
-   subroutine begin_step(self, hierarchy, level, trust, status)
+   !> First approximation of an attempt at a step, and what its cycles need
+   subroutine begin_attempt(self, hierarchy, n, status)
       class(transient_t), intent(inout) :: self
       type(hierarchy_t), intent(inout) :: hierarchy
-      type(level_t), intent(inout) :: level
-      !> Largest change of the logarithm of a node's conductance in a sweep
-      real(dp), intent(in) :: trust
+      integer, intent(in) :: n
       type(status_t), intent(inout) :: status
 
-      if (trust >= full_trust) then
-         call self%forecast%predict(self%p_before, level)
-         level%h00 = sum([3.0_dp, -3.0_dp, 1.0_dp]*self%h00_before)
-      else
-         ! a forecast that did not lead anywhere
-         level%p = self%p_before(:, :, 1)
-         level%h00 = self%h00_before(1)
-      end if
-      call refresh(level)
-      call update_residual(level, self%residual)
+      associate (level => hierarchy%levels(n))
+         if (self%policy%attempt == attempt_predicted) then
+            call self%forecast%predict(self%p_before, level)
+            level%h00 = sum([3.0_dp, -3.0_dp, 1.0_dp]*self%h00_before)
+         else
+            level%p = self%p_before(:, :, 1)
+            level%h00 = self%h00_before(1)
+         end if
+         call refresh(level)
+         call update_residual(level, self%residual)
+      end associate
       ! nothing but the fields kept here passes from step to step, so that a run can be resumed
       call hierarchy%forget()
-      hierarchy%options%pre = self%pre
-      hierarchy%options%enough = self%tolerance
-      hierarchy%options%trust = trust
-      call hierarchy%coarsen(self%coarsening, status)
-   end subroutine begin_step
+      if (self%policy%options%coarsening == coarsening_alcouffe) call hierarchy%prepare_coarsening(status)
+   end subroutine begin_attempt
 
    !> Whether the last step met its tolerance
    pure logical function step_converged(self)
       class(transient_t), intent(in) :: self
-      step_converged = self%residual <= self%tolerance .and. abs(self%m%load_error) <= load_tolerance &
+      step_converged = self%residual <= self%policy%tolerance .and. abs(self%m%load_error) <= load_tolerance &
                        .and. self%m%finite .and. self%m%positive
    end function step_converged
 
@@ -257,8 +214,8 @@ contains
       self%cycles = state%cycles
       self%total_cycles = state%total_cycles
       self%total_sweeps = state%total_sweeps
-      self%coarsening = state%coarsening
-      self%changed_at = state%changed_at
+      self%policy%coarsening = state%policy%coarsening
+      self%policy%changed_at = state%policy%changed_at
       self%friction_smooth = state%friction_smooth
       self%h00_before = state%h00_before
       self%mass_content = state%mass_content

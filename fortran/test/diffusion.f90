@@ -8,7 +8,7 @@
 module diffusion
    use check, only: is_true
    use ehl_alcouffe, only: transfer_t
-   use ehl_galerkin, only: galerkin_product
+   use ehl_galerkin, only: galerkin_product, product_work_t
    use ehl_grid, only: grid_t, new_grid
    use ehl_kinds, only: dp, pi
    use ehl_nine_point, only: nine_point_t
@@ -28,6 +28,7 @@ module diffusion
       type(nine_point_t) :: a
       !> Transfer to the next coarser grid
       type(transfer_t) :: transfer
+      type(product_work_t) :: work
       real(dp), allocatable :: d(:, :), u(:, :), f(:, :), r(:, :), free(:, :)
    end type problem_t
 
@@ -52,7 +53,8 @@ contains
             p(k)%free(2:nx - 1, merge(1, 2, mirror):ny - 1) = 1.0_dp
          end associate
          call p(k)%a%setup(p(k)%grid, status)
-         if (k > 1) call p(k)%transfer%setup(p(k)%grid, p(k - 1)%grid, 1, .false., status)
+         if (k > 1) call p(k)%transfer%setup(p(k - 1)%grid, 1, .false., status)
+         if (k > 1) call p(k)%work%setup(p(k - 1)%grid, status)
       end do
       call is_true(.not. status%failed(), "set-up of a test problem")
    end subroutine new_problem
@@ -166,7 +168,7 @@ contains
             coarse%free = fine%free(::2, ::2)
             if (operator_dependent) then
                call fine%transfer%find_weights(fine%a, fine%free, fine%free)
-               call galerkin_product(fine%a, fine%transfer, coarse%a)
+               call galerkin_product(fine%a, fine%transfer, fine%work, coarse%a)
             else
                call fine%transfer%find_weights(fine%a, fine%free, 0.0_dp*fine%free)
                call five_point(coarse)

@@ -4,7 +4,7 @@ module test_march
    use check, only: is_close, is_equal, is_true
    use ehl_case, only: case_t
    use ehl_case_reader, only: read_case
-   use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, refresh
+   use ehl_cycle, only: refresh
    use ehl_film, only: update_residual
    use ehl_forecast, only: forecast_t
    use ehl_grid, only: new_grid
@@ -16,7 +16,8 @@ module test_march
    use ehl_relaxation, only: full_trust, relax
    use ehl_status, only: status_t
    use ehl_steady, only: steady_t
-   use ehl_transient, only: step_tolerance, transient_t
+   use ehl_step_policy, only: step_tolerance
+   use ehl_transient, only: transient_t
    implicit none (type, external)
    private
    public :: run_march
@@ -56,21 +57,21 @@ contains
          call march%advance(hierarchy, n, plan%surface, status)
          call is_true(march%step_converged(), "a step converges")
       end do
-      associate (level => hierarchy%levels(n))
+      associate (level => hierarchy%levels(n), space => hierarchy%spaces(n))
          p = level%p
          h = level%h
          h00 = level%h00
-         allowed = march%tolerance
-         march%max_cycles = 1
-         march%tolerance = 1.0e-3_dp*allowed
+         allowed = march%policy%tolerance
+         march%policy%max_cycles = 1
+         march%policy%tolerance = 1.0e-3_dp*allowed
          call march%advance(hierarchy, n, plan%surface, status)
          call is_true(.not. march%step_converged(), "one cycle is too few")
          call is_equal(march%step, 3, "the failed step does not count")
          call is_close(maxval(abs(level%p - p)), 0.0_dp, 0.0_dp, "pressure of the last good step")
          call is_close(maxval(abs(level%h - h)), 0.0_dp, 0.0_dp, "film of the last good step")
          call is_close(level%h00, h00, 0.0_dp, "H00 of the last good step")
-         march%max_cycles = plan%max_cycles
-         march%tolerance = allowed
+         march%policy%max_cycles = plan%max_cycles
+         march%policy%tolerance = allowed
          call march%advance(hierarchy, n, plan%surface, status)
          call is_true(march%step_converged() .and. march%step == 4, "more cycles are enough")
          p_next = level%p
@@ -94,7 +95,7 @@ contains
       integer :: n, k, j, cycles
 
       call begin(heavy, plan, hierarchy, march, n, status)
-      march%tolerance = 0.01_dp*march%tolerance
+      march%policy%tolerance = 0.01_dp*march%policy%tolerance
       do k = 1, 4
          call march%advance(hierarchy, n, plan%surface, status)
       end do
@@ -102,7 +103,7 @@ contains
       cycles = march%cycles
 
       call begin(heavy, plan, hierarchy, march, n, status)
-      march%tolerance = 0.01_dp*march%tolerance
+      march%policy%tolerance = 0.01_dp*march%policy%tolerance
       do k = 1, 3
          call march%advance(hierarchy, n, plan%surface, status)
       end do
@@ -129,12 +130,12 @@ contains
 
       call begin(thin, plan, hierarchy, march, n, status)
       call march%advance(hierarchy, n, plan%surface, status)
-      associate (level => hierarchy%levels(n))
+      associate (level => hierarchy%levels(n), space => hierarchy%spaces(n))
          level%p = level%p*(1.0_dp + 1.0e-3_dp*level%p)
          call refresh(level)
          call update_residual(level, first)
          do k = 1, 15
-            call relax(level, full_trust)
+            call relax(level, space, full_trust)
             call refresh(level)
          end do
          call update_residual(level, last)
@@ -156,17 +157,17 @@ contains
 
       call begin(heavy, plan, hierarchy, march, n, status)
       call march%advance(hierarchy, n, plan%surface, status)
-      associate (level => hierarchy%levels(n))
+      associate (level => hierarchy%levels(n), space => hierarchy%spaces(n))
          level%p = 0.5_dp*level%p
          call refresh(level)
          p = level%p
          gain = level%dlneps_dp
-         call relax(level, full_trust)
+         call relax(level, space, full_trust)
          largest = 0.0_dp
          do j = 2, level%grid%ny - 1
             do i = 2, level%grid%nx - 1
-               if (max(level%dipole(i, j), level%dipole(i - 1, j), level%dipole(i + 1, j), level%dipole(i, j - 1), &
-                       level%dipole(i, j + 1), level%share(i, j)) > 0.0_dp) cycle
+               if (max(space%dipole(i, j), space%dipole(i - 1, j), space%dipole(i + 1, j), space%dipole(i, j - 1), &
+                       space%dipole(i, j + 1), space%share(i, j)) > 0.0_dp) cycle
                change = abs(gain(i, j)*(level%p(i, j) - p(i, j)))
                largest = max(largest, change)
             end do
@@ -191,14 +192,14 @@ contains
 
       call begin(heavy, plan, hierarchy, march, n, status)
       call march%advance(hierarchy, n, plan%surface, status)
-      associate (level => hierarchy%levels(n))
-         call relax(level, full_trust)
+      associate (level => hierarchy%levels(n), space => hierarchy%spaces(n))
+         call relax(level, space, full_trust)
          difference = 0.0_dp
          largest = 0.0_dp
          do j = 1, level%grid%ny - 1
             do i = 5, level%grid%nx - 4
-               difference = max(difference, abs(sum(weights*level%rough(i - 4:i + 4, j)) - level%smooth(i, j)))
-               largest = max(largest, abs(level%smooth(i, j)))
+               difference = max(difference, abs(sum(weights*space%rough(i - 4:i + 4, j)) - space%smooth(i, j)))
+               largest = max(largest, abs(space%smooth(i, j)))
             end do
          end do
       end associate
@@ -260,11 +261,11 @@ contains
       integer :: n
 
       call begin(heavy, plan, hierarchy, march, n, status)
-      call hierarchy%coarsen(coarsening_classical, status)
-      call is_true(all(hierarchy%transfers%nx == 0), "no transfers for classical coarsening")
+      call march%advance(hierarchy, n, plan%surface, status)
+      call is_true(all(hierarchy%coarsenings%transfer%nx == 0), "no transfers for classical coarsening")
       associate (before => hierarchy%bytes())
-         call hierarchy%coarsen(coarsening_alcouffe, status)
-         call is_true(all(hierarchy%transfers(2:n)%nx > 0), "transfers for Alcouffe coarsening")
+         call hierarchy%prepare_coarsening(status)
+         call is_true(all(hierarchy%coarsenings(2:n)%transfer%nx > 0), "transfers for Alcouffe coarsening")
          call is_true(hierarchy%bytes() > before, "transfers take memory")
       end associate
       call is_true(.not. status%failed(), "transfers")
@@ -282,12 +283,11 @@ contains
       type(case_t), target :: input
       type(steady_t) :: steady
       real(dp), parameter :: none(0, 0) = reshape([real(dp) ::], [0, 0])
-      integer :: k
 
       call read_case(text, "test", "", input, status)
       call make_plan(input, none, plan, status)
       call hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, plan%engine, &
-                           plan%cycle, plan%threads, status)
+                           plan%threads, status)
       call steady%start(plan)
       call hierarchy%grow(steady%n, status)
       do while (.not. status%failed() .and. steady%outcome == outcome_running)
@@ -295,12 +295,8 @@ contains
       end do
       call is_true(steady%outcome == outcome_converged, "the smooth contact converges")
       n = steady%n
-      march%tolerance = step_tolerance(hierarchy%levels(n)%grid%hx, plan%accuracy)
-      march%max_cycles = plan%max_cycles
+      call march%policy%set(plan%step_cycle, .false., step_tolerance(hierarchy%levels(n)%grid%hx, plan%accuracy), plan%max_cycles)
       call march%start(hierarchy%levels(n), plan%contact, plan%surface, plan%skip_start, steady%results(n)%m%friction, status)
-      do k = 1, n
-         call hierarchy%levels(k)%set_transient(plan%scheme, march%time_step, status)
-      end do
-      hierarchy%options = plan%step_cycle
+      call hierarchy%prepare_steps(n, plan%scheme, march%time_step, status)
    end subroutine begin
 end module test_march

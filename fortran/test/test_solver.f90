@@ -12,13 +12,14 @@ module test_solver
    use ehl_film, only: update_coefficients
    use ehl_grid, only: grid_t, new_grid
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t, line_width
+   use ehl_level, only: level_t
    use ehl_line_system, only: last_awake, solve_lines
    use ehl_lubricant, only: density_dowson_higginson, lubricant_t, new_lubricant, viscosity_roelands
    use ehl_moes, only: operating_from_si, operating_t
    use ehl_solver, only: solver_t
    use ehl_status, only: status_t
-   use ehl_transient, only: step_tolerance
+   use ehl_step_policy, only: step_tolerance
+   use ehl_workspace, only: line_width, workspace_t
    implicit none (type, external)
    private
    public :: run_solver
@@ -167,6 +168,7 @@ contains
    !> Lines solved as far as last_awake and to their end: the same bits, and no change behind it
    subroutine sleeping_nodes_do_not_change()
       type(level_t) :: level
+      type(workspace_t) :: space
       type(status_t) :: status
       real(dp), allocatable :: short(:, :), long(:, :)
       integer :: rows(line_width), i, j, k, l, furthest, asleep
@@ -175,6 +177,7 @@ contains
       level%lubricant = new_lubricant(viscosity_roelands, density_dowson_higginson, 36.5_dp, 1.66e9_dp, 0.668_dp, 1.96e8_dp)
       level%inverse_speed = 1.0e3_dp
       call level%setup(status)
+      call space%setup(level%grid, 1, status)
       do j = 2, level%grid%ny - 1
          do i = 2, level%grid%nx - 1
             associate (r => level%grid%x(i)**2 + level%grid%y(j)**2)
@@ -189,10 +192,10 @@ contains
          rows = [(k + l - 1, l=1, line_width)]
          furthest = maxval([(last_awake(level, rows(l)), l=1, line_width)])
          asleep = asleep + level%grid%nx - 1 - furthest
-         call solve_lines(level, rows, furthest, level%work(1))
-         short = level%work(1)%change
-         call solve_lines(level, rows, level%grid%nx - 1, level%work(1))
-         long = level%work(1)%change
+         call solve_lines(level, space%dipole, space%near, space%near_dipole, rows, furthest, space%lines(1))
+         short = space%lines(1)%change
+         call solve_lines(level, space%dipole, space%near, space%near_dipole, rows, level%grid%nx - 1, space%lines(1))
+         long = space%lines(1)%change
          call is_true(.not. any(abs(long(:, 2:furthest) - short(:, 2:furthest)) > 0.0_dp), "lines that are awake")
          call is_true(.not. any(abs(long(:, furthest + 1:level%grid%nx - 1)) > 0.0_dp), "sleeping nodes stay")
       end do

@@ -9,6 +9,7 @@ program tester
    use test_friction, only: run_friction
    use test_march, only: run_march
    use test_mean, only: run_mean
+   use test_policy, only: run_policy
    use test_record, only: run_record
    use test_solver, only: run_solver
    use test_text, only: run_text
@@ -31,6 +32,8 @@ program tester
       call run_mean()
    case ("friction")
       call run_friction()
+   case ("policy")
+      call run_policy()
    case ("march")
       call run_march()
    case ("solver")

@@ -1,0 +1,113 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What multigrid needs of a level besides its fields: work space of the relaxation and of the coarse problem
+module ehl_workspace
+   use, intrinsic :: iso_fortran_env, only: int64
+   use ehl_grid, only: grid_t
+   use ehl_kernel, only: kernel_coefficient
+   use ehl_kinds, only: dp
+   use ehl_status, only: ehl_no_memory, status_t
+   implicit none (type, external)
+   private
+   public :: workspace_t, line_work_t, near_reach, line_fields, line_width
+
+   !> The line systems know the deflection kernel up to this distance along X
+   integer, parameter :: near_reach = 2
+   !> Numbers per node that the line systems are made from
+   integer, parameter :: line_fields = 10
+   !> Lines relaxed side by side
+   integer, parameter :: line_width = 8
+
+   !> Work space of one thread's line systems: what they are made from (line, number, node), nodes from
+   !> -1; upper diagonals (line, diagonal, node) and changes (line, node), nodes from -3
+   type :: line_work_t
+      real(dp), allocatable :: fields(:, :, :), upper(:, :, :), change(:, :)
+   end type line_work_t
+
+   !> Arrays of shape (nx, ny) unless said otherwise
+   type :: workspace_t
+      !> 1 where a node changes distributively in the present sweep, else 0; changes of pressure in these nodes
+      real(dp), allocatable :: dipole(:, :), change(:, :)
+      !> For time steps only: the share of a node's change that is to be free of its smooth part, these
+      !> changes in a sweep, and their smooth part after its first pass
+      real(dp), allocatable :: share(:, :), rough(:, :), smooth(:, :)
+      !> Kernel near the source: itself, and for the distributive (dipole) change
+      real(dp) :: near(-near_reach:near_reach) = 0.0_dp, near_dipole(-near_reach:near_reach) = 0.0_dp
+      !> Line systems, one a thread
+      type(line_work_t), allocatable :: lines(:)
+      !> Pressure that the problem of this level began from, when it is the coarse problem of a finer one; then the
+      !> change of it
+      real(dp), allocatable :: p_start(:, :)
+   contains
+      procedure :: setup
+      procedure :: prepare_steps
+      procedure :: bytes
+   end type workspace_t
+
+contains
+
+   !> For a grid and a number of threads
+   subroutine setup(self, grid, threads, status)
+      class(workspace_t), intent(inout) :: self
+      type(grid_t), intent(in) :: grid
+      integer, intent(in) :: threads
+      type(status_t), intent(inout) :: status
+      integer :: d, stat
+
+      if (status%failed()) return
+      associate (nx => grid%nx, ny => grid%ny)
+         allocate (self%dipole(nx, ny), self%change(nx, ny), self%p_start(nx, ny), source=0.0_dp, stat=stat)
+         if (stat == 0) allocate (self%lines(threads), stat=stat)
+         do d = 1, threads
+            if (stat == 0) allocate (self%lines(d)%fields(line_width, line_fields, -1:nx + 2), &
+                                     self%lines(d)%upper(line_width, 2, -3:nx), &
+                                     self%lines(d)%change(line_width, -3:nx + 1), source=0.0_dp, stat=stat)
+         end do
+      end associate
+      if (stat /= 0) then
+         call status%fail(ehl_no_memory, "no memory for the relaxation of a grid level")
+         return
+      end if
+      associate (hx => grid%hx, hy => grid%hy)
+         do d = -near_reach, near_reach
+            self%near(d) = kernel_coefficient(d, 0, hx, hy)
+            self%near_dipole(d) = self%near(d) - 0.25_dp*(kernel_coefficient(d - 1, 0, hx, hy) &
+                                                          + kernel_coefficient(d + 1, 0, hx, hy) &
+                                                          + 2.0_dp*kernel_coefficient(d, 1, hx, hy))
+         end do
+      end associate
+   end subroutine setup
+
+   !> Allocate what time steps need, unless that has been done
+   subroutine prepare_steps(self, status)
+      class(workspace_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+      integer :: stat
+
+      if (status%failed() .or. allocated(self%rough)) return
+      allocate (self%share, self%rough, self%smooth, mold=self%change, stat=stat)
+      if (stat /= 0) then
+         call status%fail(ehl_no_memory, "no memory for the time steps of a grid level")
+         return
+      end if
+      self%share = 0.0_dp
+      self%rough = 0.0_dp
+      self%smooth = 0.0_dp
+   end subroutine prepare_steps
+
+   !> Allocated bytes
+   pure integer(int64) function bytes(self)
+      class(workspace_t), intent(in) :: self
+      integer(int64) :: numbers
+      integer :: k
+
+      numbers = 0
+      if (allocated(self%dipole)) numbers = 3*size(self%dipole, kind=int64)
+      if (allocated(self%rough)) numbers = numbers + 3*size(self%rough, kind=int64)
+      if (allocated(self%lines)) then
+         do k = 1, size(self%lines)
+            numbers = numbers + size(self%lines(k)%fields) + size(self%lines(k)%upper) + size(self%lines(k)%change)
+         end do
+      end if
+      bytes = 8*numbers
+   end function bytes
+end module ehl_workspace

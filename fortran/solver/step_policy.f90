@@ -1,0 +1,133 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> How the cycles of a time step are made: attempts one after another, and the kind of coarsening
+module ehl_step_policy
+   use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
+   use ehl_kinds, only: dp
+   use ehl_relaxation, only: full_trust
+   implicit none (type, external)
+   private
+   public :: step_policy_t, step_tolerance
+   public :: attempt_predicted, attempt_last, attempt_careful
+   public :: step_ends, step_goes_on, step_begins_again
+
+   !> Attempts at a step, in this order: from the predicted pressure; from the pressure of the last step, its sweeps
+   !> trusted less; the same with care. The next one is made when the residual does not fall.
+   integer, parameter :: attempt_predicted = 1, attempt_last = 2, attempt_careful = 3
+   !> Largest change of the logarithm of a node's conductance in a sweep, by attempt
+   real(dp), parameter :: trust(3) = full_trust/[1.0_dp, 3.0_dp, 9.0_dp]
+   !> Cycles in which the residual must halve, by attempt; the last attempt is not given up
+   integer, parameter :: patience(2) = [4, 8]
+   !> A cycle that leaves more than this share of the residual is slow, unless another such cycle will do
+   real(dp), parameter :: slow = 0.25_dp
+   !> What comes after a cycle
+   integer, parameter :: step_ends = 1, step_goes_on = 2, step_begins_again = 3
+
+   type :: step_policy_t
+      !> Largest residual (rms) of a step, most cycles a step
+      real(dp) :: tolerance = 8.0e-5_dp
+      integer :: max_cycles = 30
+      !> Cycles of a step to begin with
+      type(cycle_options_t) :: cycle
+      !> Kind of coarsening; whether it changes for good when a cycle is slow, and the step in which it did (0: none)
+      integer :: coarsening = coarsening_classical, changed_at = 0
+      logical :: may_change = .false.
+      !> The step under way: the attempt, the cycles made and how the next one is made
+      integer :: attempt = attempt_predicted, cycles = 0
+      type(cycle_options_t) :: options
+      !> Residuals after the last cycles of the attempt, the latest first
+      real(dp), private :: past(0:maxval(patience)) = huge(1.0_dp)
+   contains
+      procedure :: set
+      procedure :: begin
+      procedure :: after_cycle
+      procedure, private :: set_options
+   end type step_policy_t
+
+contains
+
+   !> Residual (rms) that leaves the algebraic error of mu_r/mu_s below a tenth of the discretisation error: 8e-5 on
+   !> h = 1/128 and in proportion to h elsewhere; see docs/design.md
+   pure real(dp) function step_tolerance(mesh, accuracy)
+      real(dp), intent(in) :: mesh, accuracy
+      step_tolerance = 8.0e-4_dp*accuracy*(128.0_dp*mesh)
+   end function step_tolerance
+
+   !> For a run
+   pure subroutine set(self, cycle_options, may_change, tolerance, max_cycles)
+      class(step_policy_t), intent(inout) :: self
+      type(cycle_options_t), intent(in) :: cycle_options
+      logical, intent(in) :: may_change
+      real(dp), intent(in) :: tolerance
+      integer, intent(in) :: max_cycles
+
+      self%cycle = cycle_options
+      self%coarsening = cycle_options%coarsening
+      self%may_change = may_change
+      self%tolerance = tolerance
+      self%max_cycles = max_cycles
+   end subroutine set
+
+   !> A new step
+   pure subroutine begin(self)
+      class(step_policy_t), intent(inout) :: self
+
+      self%attempt = attempt_predicted
+      self%cycles = 0
+      self%past = huge(1.0_dp)
+      call self%set_options()
+   end subroutine begin
+
+   !> What comes after a cycle that has changed the residual from `before` to `residual`
+   pure subroutine after_cycle(self, step, met, before, residual, next)
+      class(step_policy_t), intent(inout) :: self
+      !> Number of the step
+      integer, intent(in) :: step
+      !> Whether the step has met all its tolerances
+      logical, intent(in) :: met
+      real(dp), intent(in) :: before, residual
+      integer, intent(out) :: next
+
+      self%cycles = self%cycles + 1
+      next = step_ends
+      if (met .or. self%cycles >= self%max_cycles) return
+      self%past = [residual, self%past(:ubound(self%past, 1) - 1)]
+      if (stuck(self)) then
+         self%attempt = self%attempt + 1
+         self%past = huge(1.0_dp)
+         call self%set_options()
+         next = step_begins_again
+         return
+      end if
+      next = step_goes_on
+      if (residual <= max(slow*before, self%tolerance/slow)) return
+      if (self%coarsening == coarsening_alcouffe) then
+         ! one sweep more for the rest of the attempt; with classical coarsening it can make cycles slower
+         self%options%pre = self%cycle%pre + 1
+      else if (self%may_change) then
+         self%coarsening = coarsening_alcouffe
+         self%changed_at = step
+         call self%set_options()
+         next = step_begins_again
+      end if
+   end subroutine after_cycle
+
+   !> Whether the residual has not halved in the cycles that the attempt has for it
+   pure logical function stuck(self)
+      type(step_policy_t), intent(in) :: self
+
+      stuck = .false.
+      if (self%attempt == attempt_careful) return
+      ! a NaN has not halved
+      stuck = .not. self%past(0) <= 0.5_dp*self%past(patience(self%attempt))
+   end function stuck
+
+   !> Options of the first cycle of an attempt
+   pure subroutine set_options(self)
+      class(step_policy_t), intent(inout) :: self
+
+      self%options = self%cycle
+      self%options%coarsening = self%coarsening
+      self%options%enough = self%tolerance
+      self%options%trust = trust(self%attempt)
+   end subroutine set_options
+end module ehl_step_policy

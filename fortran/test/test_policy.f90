@@ -1,0 +1,53 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> How the cycles of a time step follow one another
+module test_policy
+   use check, only: is_equal, is_true
+   use ehl_cycle, only: coarsening_alcouffe, cycle_options_t
+   use ehl_kinds, only: dp
+   use ehl_step_policy, only: attempt_careful, attempt_last, attempt_predicted, step_begins_again, step_ends, &
+                              step_goes_on, step_policy_t
+   implicit none (type, external)
+   private
+   public :: run_policy
+
+contains
+
+   subroutine run_policy()
+      call attempts_in_order()
+   end subroutine run_policy
+
+   !> A step that does not converge is attempted from the predicted pressure, from the last one, and with care;
+   !> a slow cycle changes the coarsening for good where that is allowed
+   subroutine attempts_in_order()
+      type(step_policy_t) :: policy
+      type(cycle_options_t) :: options
+      integer :: attempts(30), next, k
+
+      call policy%set(options, .false., 1.0e-4_dp, 30)
+      call policy%begin()
+      do k = 1, 30
+         attempts(k) = policy%attempt
+         call policy%after_cycle(1, .false., 1.0e-4_dp, 1.0e-4_dp, next)
+         if (k == 5 .or. k == 14) call is_equal(next, step_begins_again, "the residual does not fall")
+         if (k < 30 .and. k /= 5 .and. k /= 14) call is_equal(next, step_goes_on, "a cycle more")
+      end do
+      call is_equal(next, step_ends, "no more cycles")
+      call is_true(all(attempts(:5) == attempt_predicted) .and. all(attempts(6:14) == attempt_last) .and. &
+                   all(attempts(15:) == attempt_careful), "attempts in their order")
+      call policy%begin()
+      call is_equal(policy%attempt, attempt_predicted, "the next step begins from the predicted pressure")
+      call policy%after_cycle(2, .true., 1.0e-3_dp, 1.0e-5_dp, next)
+      call is_equal(next, step_ends, "tolerances are met")
+      call is_equal(policy%changed_at, 0, "no change of the coarsening")
+
+      call policy%set(options, .true., 1.0e-4_dp, 30)
+      call policy%begin()
+      call policy%after_cycle(3, .false., 1.0_dp, 0.5_dp, next)
+      call is_equal(next, step_begins_again, "a slow cycle")
+      call is_equal(policy%changed_at, 3, "changes the coarsening")
+      call is_equal(policy%options%coarsening, coarsening_alcouffe, "to Alcouffe's")
+      call policy%after_cycle(3, .false., 1.0_dp, 0.5_dp, next)
+      call is_equal(next, step_goes_on, "another slow cycle")
+      call is_equal(policy%options%pre, options%pre + 1, "is followed by a sweep more")
+   end subroutine attempts_in_order
+end module test_policy
