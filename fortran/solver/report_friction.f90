@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Absolute friction of a run, where it means something, and the heat of it
 module ehl_report_friction
+   use ehl_contact, only: contact_t
    use ehl_grid, only: grid_t
    use ehl_heat, only: flash_temperature
    use ehl_kinds, only: dp, pi
@@ -40,7 +41,7 @@ contains
          else if (.not. abs(friction) < huge(1.0_dp)) then
             note = "the smooth contact is not converged"
          else
-            rate = speed/plan%contact%film_scale*mean_inverse(grid, h)
+            rate = speed/plan%contact%film_scale*mean_inverse(plan%contact, grid, h)
             stress = greatest_stress(plan, p, h)
             if (shear%thins() .or. stress <= s%newtonian_limit) then
                mu_smooth = friction*shear%scale*plan%contact%radius**2/s%load
@@ -70,23 +71,21 @@ contains
       end associate
    end subroutine report_friction
 
-   !> Mean of 1/H over the Hertz circle
-   pure real(dp) function mean_inverse(grid, h)
+   !> Mean of 1/H over the dry contact
+   pure real(dp) function mean_inverse(contact, grid, h)
+      class(contact_t), intent(in) :: contact
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: h(:, :)
-      real(dp) :: area, x, y
+      real(dp) :: area, x(grid%nx), pressure(grid%nx)
       integer :: i, j
 
       mean_inverse = 0.0_dp
       area = 0.0_dp
+      x = grid%x([(i, i=1, grid%nx)])
       do j = 1, grid%ny
-         y = grid%y(j)
-         do i = 1, grid%nx
-            x = grid%x(i)
-            if (x*x + y*y > 1.0_dp) cycle
-            area = area + grid%weight(j)
-            mean_inverse = mean_inverse + grid%weight(j)/h(i, j)
-         end do
+         call contact%pressure_row(x, grid%y(j), pressure)
+         area = area + grid%weight(j)*count(pressure > 0.0_dp)
+         mean_inverse = mean_inverse + grid%weight(j)*sum(1.0_dp/h(:, j), mask=pressure > 0.0_dp)
       end do
       mean_inverse = mean_inverse/area
    end function mean_inverse
