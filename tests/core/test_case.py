@@ -215,6 +215,8 @@ FIG_2 = (
         ("wavelength_x = 1.0", "surface.wavelength=0.25", {"wavelength_x": 1.0}),
         ("wavelength_x = 0.5", "surface.wavelength=0.25", {"wavelength_x": 0.5}),
         ("", "contact.slide_to_roll=0.1", {"velocity_ratio": 1.05}),
+        ("velocity_ratio = 1.05", "surface.velocity_ratio=1.1", {"velocity_ratio": 1.1}),
+        ("", "contact.rough_surface=2", {"velocity_ratio": 0.99}),
         ("", "grid.x_inlet=-4.0", {"x_start": -4.0}),
         ("x_start = -3.0", "grid.x_inlet=-4.0", {"x_start": -3.0}),
         ("", "lubricant.viscosity=0.08", {"roelands_z": 2.2e-8 * 1.96e8 / (math.log(0.08) + 9.67)}),

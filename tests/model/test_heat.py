@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 
 from pyehl.case import Case
+from pyehl.prediction import predict_friction
 from pyehl.prediction.film_sheet import sheet
 from pyehl.solver import Solver
+from pyehl.surfaces import Topography
 from pyehl.theory.film import central_film
 from pyehl.theory.friction import absolute_friction
 from pyehl.theory.heat import (
@@ -125,6 +127,20 @@ def test_absolute_friction_of_the_solver():
     h = s["H_c"] * point.film_scale
     # most of the film is about as thick as in the centre, and 1/h is greater at the rim
     assert 1.0 < s["shear_rate_mean_per_s"] * h / point.sliding_speed < 2.0
+
+
+def test_eyring_friction_of_table_1():
+    keys = ["lubricant.shear_law=eyring", "grid.points=257"]
+    with Solver.open(Case.from_text("", keys)) as solver:
+        assert solver.run()
+        s = solver.summary()
+    # a semi-ellipse of pressure and a uniform film: the rim is thinner, the inlet carries too
+    flat = Topography(np.zeros((64, 64)), 8.29e-4, 8.29e-4)
+    oil = Lubricant(shear=ShearLaw("eyring"))
+    uniform = predict_friction(flat, OperatingPoint(), oil, s["h_c_m"])
+    assert s["mu"] == pytest.approx(uniform.mu_smooth, rel=0.02)
+    # 0.1 m/s of sliding would heat by some ten kelvin, 0.017 m/s does not
+    assert 0.5 < s["flash_temperature_K"] < 3.0
 
 
 @pytest.mark.parametrize(
