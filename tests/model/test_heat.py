@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 
 from pyehl.case import Case
+from pyehl.commands.film import report as film_report
 from pyehl.prediction import predict_friction
 from pyehl.prediction.film_sheet import sheet
+from pyehl.prediction.of_case import predict
 from pyehl.solver import Solver
 from pyehl.surfaces import Topography
 from pyehl.theory.film import central_film
@@ -189,3 +191,17 @@ def test_absolute_friction_of_a_uniform_film():
     alone = absolute_friction(point, Lubricant(), film=2e-7, mu_smooth=1e3, mu_ratio=1.2)
     assert math.isnan(alone["mu"])
     assert "shear_law" in alone["mu_note"]
+
+
+def test_prediction_and_film_sheet_say_it():
+    """Film, coefficients and the heat of both, in the summary and in print."""
+    surface = ["surface.kind=fractal", "surface.pixels=64"]
+    warm = predict(resolved(more="thermal_reduction = T", options=surface))
+    cold = predict(resolved(options=surface))
+    s = warm.summary
+    assert warm.film / cold.film == pytest.approx(s["thermal_reduction"], rel=1e-12)
+    assert s["mu"] == pytest.approx(s["mu_smooth"] * s["mu_ratio"])
+    assert 0.02 < s["mu_smooth"] < 0.1
+    assert s["shear_rate_mean_per_s"] == pytest.approx(1.5 / warm.film)
+    assert "isothermal" in film_report(sheet(resolved(more="thermal_reduction = T")))
+    assert "isothermal" not in film_report(sheet(resolved()))
