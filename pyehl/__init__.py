@@ -12,6 +12,7 @@ library and write the same result folder::
         for step in solver:
             print(step)
     data = pyehl.load("out")  # a result folder
+    ds = pyehl.sweep("case.nml", {"contact.load": [100.0, 200.0]}, run="predict")
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from pyehl.prediction.of_case import Prediction
     from pyehl.results import load
     from pyehl.solver import Solver
+    from pyehl.studies.sweep import sweep
 
 __all__ = [
     "Case",
@@ -38,6 +40,7 @@ __all__ = [
     "load",
     "predict",
     "solve",
+    "sweep",
 ]
 __version__ = "0.1.0"
 
@@ -52,6 +55,7 @@ _HOMES = {
     "load": "results",
     "predict": "api",
     "solve": "api",
+    "sweep": "studies.sweep",
 }
 
 

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from pyehl import namelist
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["load", "prediction_dataset", "settings_of"]
+__all__ = ["load", "prediction_dataset", "settings_of", "unit_of"]
 
 Array = NDArray[np.float64]
 Settings = Mapping[str, Mapping[str, Any]]
@@ -95,7 +95,8 @@ def settings_of(data: xr.Dataset) -> dict[str, dict[str, Any]]:
     return namelist.values(data.attrs["case"])
 
 
-def _unit(name: str) -> str:
+def unit_of(name: str) -> str:
+    """Give the unit that the end of a name says; '1' where it says none."""
     return next((unit for end, unit in SUFFIXES.items() if name.endswith(end)), "1")
 
 
@@ -110,7 +111,7 @@ def _attributes(summary: Mapping[str, Any], case: str) -> dict[str, Any]:
 
 def _tables(tables: Mapping[str, Mapping[str, Array]]) -> dict[str, xr.Variable]:
     return {
-        f"{table}_{name}": _variable((table,), values, _unit(name), f"{name} of the {table}")
+        f"{table}_{name}": _variable((table,), values, unit_of(name), f"{name} of the {table}")
         for table, columns in tables.items()
         for name, values in columns.items()
     }

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How long a case takes, by estimate, and what it has in common with others.
+
+The numbers are of one thread of the machine that `CALIBRATION` was measured on; `speed` compares
+this machine with it. They are good to a factor of two or so: what matters is that long cases begin
+first, and that the time of a study is known before it runs.
+"""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Mapping
+from typing import Any
+
+from pyehl.case import Case
+from pyehl.solver import Solver
+from pyehl.theory.operating import OperatingPoint
+
+__all__ = ["seconds_of", "shares_of", "speed"]
+
+Settings = Mapping[str, Mapping[str, Any]]
+
+CALIBRATION = 0.030
+"""Seconds of the smooth contact on 65 x 65 nodes where the others were measured."""
+PREDICTION = 0.5
+"""Seconds of a prediction of a tile of 256 x 256 pixels."""
+FILM = 2e-3
+SMOOTH_NODE = 4.0e-6
+"""Seconds of a smooth contact per node of its finest grid."""
+STEP_NODE = 7.0e-7
+"""Seconds of a time step per node; rough surfaces of many wavelengths take twice that."""
+
+
+def speed() -> float:
+    """Seconds of this machine over those of the one that was measured on."""
+    text = "&contact moes_m = 200.0 moes_l = 10.0 /\n&grid points = 65 /\n"
+    case = Case.from_text(text)
+    best = min(_once(case) for _ in range(3))
+    return best / CALIBRATION
+
+
+def _once(case: Case) -> float:
+    began = time.perf_counter()
+    with Solver(case) as solver:
+        solver.run()
+    return time.perf_counter() - began
+
+
+def seconds_of(settings: Settings, run: str) -> float:
+    """Seconds of a resolved case on one thread of the machine that was measured on."""
+    if run == "film":
+        return FILM
+    surface = settings["surface"]
+    if run == "predict":
+        pixels = int(surface["pixels"]) if surface["kind"] == "fractal" else 256
+        return PREDICTION * max(0.2, pixels / 256) ** 2
+    grid = settings["grid"]
+    points = int(grid["points"])
+    smooth = SMOOTH_NODE * points**2
+    velocity = float(surface["velocity_ratio"])
+    if surface["kind"] == "smooth" or velocity == 0.0:
+        return smooth
+    mesh = (float(grid["x_outlet"]) - float(grid["x_inlet"])) / (points - 1)
+    steps = int(settings["time"]["steps"]) or _time_to_settle(settings) / mesh
+    hard = 1.0 if surface["kind"] == "harmonic" else 2.0
+    coarser = 9.0 / 8.0 if settings["time"]["estimate_error"] else 1.0
+    return smooth + hard * coarser * STEP_NODE * points**2 * steps
+
+
+def _time_to_settle(settings: Settings) -> float:
+    """Time in a/u until the friction is known: the way into the contact and three periods."""
+    surface = settings["surface"]
+    if surface["kind"] == "harmonic":
+        period = float(surface["wavelength_x"])
+    elif settings["contact"].get("moes_l") == 0.0:
+        period = 2.0  # no length follows from M alone
+    else:
+        period = float(surface["length_x"]) / OperatingPoint.from_settings(settings).hertz_radius
+    way = 1.05 - max(-1.5, float(surface["x_start"]))
+    return (way + 3.0 * period) / float(surface["velocity_ratio"])
+
+
+def shares_of(settings: Settings, run: str) -> str:
+    """Name the smooth contact that cases have in common; '' where there is none to share."""
+    if run != "predict":
+        return ""
+    return json.dumps([settings[group] for group in ("contact", "lubricant")], default=str)

@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The journal of a study: one line for each finished case, safe against a kill at any instant.
+
+A line is the CRC-32 of its text in eight hexadecimal digits, a blank, and JSON. The first line is
+the study; it is there with the file or the file is not there. Lines are only ever added, and are
+on the disk when `Journal.append` returns. What a kill leaves of the last line is cut off.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import json
+import os
+import zlib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+from pyehl.errors import FileError, InputError
+
+__all__ = ["NAME", "Journal", "difference"]
+
+NAME = "journal.jsonl"
+VERSION = 1
+# What a study may have in its folder before its journal is there
+LEFTOVERS = (f"{NAME}.partial",)
+
+Row = dict[str, Any]
+
+
+def _line(value: Mapping[str, Any]) -> bytes:
+    text = json.dumps(value, allow_nan=False, separators=(",", ":")).encode()
+    return b"%08x %s\n" % (zlib.crc32(text), text)
+
+
+def _read(line: bytes) -> Row | None:
+    """Give what a line says, or None for a damaged one."""
+    mark, _, text = line.partition(b" ")
+    try:
+        if int(mark, 16) != zlib.crc32(text):
+            return None
+        value = json.loads(text)
+    except ValueError:
+        return None
+    return value if isinstance(value, dict) else None
+
+
+def difference(old: Mapping[str, Any], new: Mapping[str, Any]) -> list[str]:
+    """Say in words where two studies differ; empty when they do not."""
+    lines = []
+    for name in dict.fromkeys([*old, *new]):
+        a, b = old.get(name), new.get(name)
+        if a == b:
+            continue
+        if isinstance(a, dict) and isinstance(b, dict):
+            lines += [f"{name}.{text}" for text in difference(a, b)]
+        else:
+            lines.append(f"{name}: there {_short(a)}, here {_short(b)}")
+    return lines
+
+
+def _short(value: object) -> str:
+    if value is None:
+        return "nothing"
+    text = str(value)
+    return text if len(text) <= 100 else f"{text[:60]} ... {text[-30:]}"
+
+
+class Journal:
+    """The journal of one study in one folder; a context manager that holds a lock on it.
+
+    Parameters
+    ----------
+    folder
+        Where the study is; made when it is not there.
+    study
+        What the study is, as values of JSON. Two studies are the same when these are.
+
+    Attributes
+    ----------
+    rows
+        Finished cases by their number.
+    damaged
+        Lines that could not be read.
+
+    Raises
+    ------
+    InputError
+        If the folder holds another study (with the difference), or something else, or another
+        process works on it.
+    FileError
+        If it cannot be written.
+    """
+
+    def __init__(self, folder: str | os.PathLike[str], study: Mapping[str, Any]) -> None:
+        self.folder = Path(folder)
+        self.path = self.folder / NAME
+        self.rows: dict[int, Row] = {}
+        self.damaged = 0
+        header = {"version": VERSION, **json.loads(json.dumps(study))}
+        try:
+            if not self.path.exists():
+                self._begin(header)
+            self._file = self.path.open("r+b")
+            self._lock()
+            self._load(header)
+        except OSError as error:
+            if isinstance(error, FileError):
+                raise
+            raise FileError(f"{self.path}: {error.strerror or error}") from error
+
+    def _begin(self, header: Mapping[str, Any]) -> None:
+        if self.folder.exists() and not self.folder.is_dir():
+            raise InputError(f"{self.folder}: exists and is not a folder")
+        self.folder.mkdir(parents=True, exist_ok=True)
+        others = [p.name for p in self.folder.iterdir() if not p.name.startswith(LEFTOVERS)]
+        if others:
+            raise InputError(
+                f"{self.folder}: not empty ({others[0]}), and not the folder of a study; "
+                "choose another"
+            )
+        partial = self.folder / f"{NAME}.partial-{os.getpid()}"
+        with partial.open("wb") as stream:
+            stream.write(_line(header))
+            stream.flush()
+            os.fsync(stream.fileno())
+        partial.replace(self.path)
+        _sync_folder(self.folder)
+
+    def _lock(self) -> None:
+        try:
+            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError as error:
+            self._file.close()
+            raise InputError(f"{self.folder}: another process works on this study") from error
+
+    def _load(self, header: Mapping[str, Any]) -> None:
+        data = self._file.read()
+        whole = data[: data.rfind(b"\n") + 1]
+        lines = whole.splitlines()
+        found = _read(lines[0]) if lines else None
+        if found is None:
+            self.close()
+            raise InputError(f"{self.path}: its first line is damaged; it cannot be gone on with")
+        wrong = difference(found, header)
+        if wrong:
+            self.close()
+            raise InputError(
+                "\n  ".join([f"{self.folder}: holds another study. It differs in", *wrong])
+            )
+        if len(whole) < len(data):
+            self._file.truncate(len(whole))
+        self._file.seek(len(whole))
+        for line in lines[1:]:
+            row = _read(line)
+            if row is None or "case" not in row:
+                self.damaged += 1
+            else:
+                self.rows[int(row.pop("case"))] = row
+
+    def append(self, rows: Sequence[tuple[int, Row]]) -> None:
+        """Add finished cases; they are on the disk when this returns.
+
+        Raises
+        ------
+        FileError
+            If they cannot be written.
+        """
+        if not rows:
+            return
+        data = b"".join(_line({"case": number} | row) for number, row in rows)
+        try:
+            self._file.write(data)
+            self._file.flush()
+            os.fsync(self._file.fileno())
+        except OSError as error:
+            raise FileError(f"{self.path}: cannot write: {error.strerror}") from error
+        self.rows |= dict(rows)
+
+    def forget(self, numbers: Sequence[int]) -> None:
+        """Leave out rows, so that their cases run again; their lines stay in the file."""
+        for number in numbers:
+            self.rows.pop(number, None)
+
+    def close(self) -> None:
+        """Close the file, which gives the lock back."""
+        self._file.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+
+def _sync_folder(folder: Path) -> None:
+    number = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(number)
+    finally:
+        os.close(number)

@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Worker processes on this machine: tasks to rows, in the order in which they are finished."""
+
+from __future__ import annotations
+
+import json
+import os
+import selectors
+import signal
+import subprocess
+import sys
+from collections import deque
+from collections.abc import Generator, Sequence
+from typing import Any
+
+from pyehl.errors import InternalError
+from pyehl.studies.tasks import FAILED, Task
+
+__all__ = ["Queue", "processors", "rows"]
+
+Row = dict[str, Any]
+
+# A worker has the next task waiting where tasks are shorter than this [s]
+SHORT = 0.5
+# How often a task may end its worker before it has failed
+TRIES = 2
+ONE_THREAD = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")}
+
+
+def processors() -> int:
+    """Processors that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+class Queue:
+    """Tasks that wait, the longest first; those that share something stay with one worker."""
+
+    def __init__(self, tasks: Sequence[Task]) -> None:
+        groups: dict[str, deque[Task]] = {}
+        for task in sorted(tasks, key=lambda t: (-t.seconds, t.number)):
+            groups.setdefault(task.shares or str(task.number), deque()).append(task)
+        self._free = deque(groups)
+        self._groups = groups
+        self._again: deque[Task] = deque()
+
+    def take(self, last: str) -> Task | None:
+        """Give the next task to a worker whose last one shared `last`; None when none is left."""
+        if self._again:
+            return self._again.popleft()
+        if last not in self._groups:
+            if self._free:
+                last = self._free.popleft()
+            elif self._groups:
+                # all groups are begun: help with the longest
+                last = max(self._groups, key=lambda key: len(self._groups[key]))
+            else:
+                return None
+        group = self._groups[last]
+        task = group.popleft()
+        if not group:
+            del self._groups[last]
+        return task
+
+    def put_back(self, task: Task) -> None:
+        """Give a task back that its worker has not done."""
+        self._again.append(task)
+
+
+class Worker:
+    """A worker process and what it has to do."""
+
+    def __init__(self) -> None:
+        # A session of its own: Ctrl-C is for the parent alone, which then ends its workers
+        self.process = subprocess.Popen(
+            [sys.executable, "-P", "-m", "pyehl.studies.worker"],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            env=os.environ | ONE_THREAD,
+            start_new_session=True,
+        )
+        assert self.process.stdin is not None
+        assert self.process.stdout is not None
+        self.stdin, self.stdout = self.process.stdin, self.process.stdout
+        os.set_blocking(self.stdout.fileno(), False)
+        self.tasks: deque[Task] = deque()
+        self.last = ""
+        self._rest = b""
+
+    def give(self, task: Task) -> None:
+        """Send a task."""
+        self.tasks.append(task)
+        self.last = task.shares or str(task.number)
+        try:
+            self.stdin.write(json.dumps(task.message()).encode() + b"\n")
+            self.stdin.flush()
+        except BrokenPipeError:
+            pass  # its end is seen when its output ends
+
+    def wants(self) -> bool:
+        """Whether it should be given another task."""
+        return not self.tasks or (len(self.tasks) == 1 and self.tasks[0].seconds < SHORT)
+
+    def read(self) -> tuple[list[tuple[int, Row]], bool]:
+        """Give the rows that have come, and whether the process has ended."""
+        ended = False
+        while True:
+            part = self.stdout.read(1 << 16)
+            if part is None:
+                break
+            if not part:
+                ended = True
+                break
+            self._rest += part
+        *lines, self._rest = self._rest.split(b"\n")
+        found = []
+        for line in lines:
+            number, row = json.loads(line)
+            self.tasks.popleft()
+            found.append((int(number), row))
+        return found, ended
+
+    def end(self) -> int:
+        """End the process, whatever it does; returns its exit status."""
+        self.process.kill()
+        status = self.process.wait()
+        self.stdout.close()
+        try:
+            self.stdin.close()
+        except BrokenPipeError:
+            pass
+        return status
+
+
+def rows(tasks: Sequence[Task], jobs: int) -> Generator[list[tuple[int, Row]]]:
+    """Do tasks in `jobs` worker processes; yields what has been finished, some rows at a time.
+
+    A task whose worker dies is given to another one once more; then its row says so. When the
+    caller stops early, or an exception is raised in it, the workers end at once.
+
+    Raises
+    ------
+    InternalError
+        If no worker comes as far as its first row.
+    """
+    crew = _Crew(tasks, jobs)
+    left = len(tasks)
+    try:
+        crew.begin(min(jobs, left))
+        while left:
+            finished = crew.wait()
+            left -= len(finished)
+            if finished:
+                yield finished
+    finally:
+        crew.end()
+
+
+class _Crew:
+    """The workers and the tasks that wait for them."""
+
+    def __init__(self, tasks: Sequence[Task], jobs: int) -> None:
+        self.waiting = Queue(tasks)
+        self.workers: list[Worker] = []
+        self.selector = selectors.DefaultSelector()
+        self.died: dict[int, int] = {}
+        self.most = 2 * jobs
+        self.works = False
+
+    def begin(self, count: int) -> None:
+        """Start the workers and give each two short tasks or one long."""
+        for _ in range(count):
+            self._start()
+        for _ in range(2):
+            for worker in self.workers:
+                self._feed(worker)
+
+    def wait(self) -> list[tuple[int, Row]]:
+        """Wait for rows; those that have come."""
+        finished: list[tuple[int, Row]] = []
+        for key, _ in self.selector.select():
+            worker: Worker = key.data
+            found, ended = worker.read()
+            self.works = self.works or bool(found)
+            finished += found
+            if ended:
+                finished += self._bury(worker)
+                self._start()
+            else:
+                while self._feed(worker):
+                    pass
+        for worker in self.workers:
+            if not worker.tasks:
+                self._feed(worker)
+        return finished
+
+    def end(self) -> None:
+        """End all workers, whatever they do."""
+        for worker in self.workers:
+            worker.end()
+        self.selector.close()
+
+    def _start(self) -> None:
+        worker = Worker()
+        self.workers.append(worker)
+        self.selector.register(worker.stdout, selectors.EVENT_READ, worker)
+
+    def _feed(self, worker: Worker) -> bool:
+        """Give a worker a task if it wants one; whether it got one."""
+        task = self.waiting.take(worker.last) if worker.wants() else None
+        if task is not None:
+            worker.give(task)
+        return task is not None
+
+    def _bury(self, worker: Worker) -> list[tuple[int, Row]]:
+        """Give back the tasks of a worker that has died; the row of one it died of too often."""
+        self.selector.unregister(worker.stdout)
+        self.workers.remove(worker)
+        left = list(worker.tasks)
+        status = worker.end()
+        failed: list[tuple[int, Row]] = []
+        if left:
+            first = left.pop(0)
+            died = self.died[first.number] = self.died.get(first.number, 0) + 1
+            if not self.works and sum(self.died.values()) > self.most:
+                raise InternalError("the worker processes end before they begin")
+            if died < TRIES:
+                left.insert(0, first)
+            else:
+                cause = signal.Signals(-status).name if status < 0 else f"exit status {status}"
+                message = f"its worker process died {TRIES} times, at last by {cause}"
+                failed = [(first.number, {"status": FAILED, "message": message, "seconds": None})]
+        for task in left:
+            self.waiting.put_back(task)
+        return failed

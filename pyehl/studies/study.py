@@ -1,0 +1,288 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A study: a case, what is varied in it, and what each case is for."""
+
+from __future__ import annotations
+
+import difflib
+import itertools
+import os
+import tomllib
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from pyehl.case import Case
+from pyehl.errors import InputError
+from pyehl.studies.vary import Axis, Value, axis, option
+
+__all__ = ["RUNS", "Point", "Study", "make", "read_study"]
+
+RUNS = ("solve", "predict", "film")
+"""What may be done with each case."""
+STUDY_KEYS = ("case", "run", "set", "vary", "zip", "outputs")
+MAX_CASES = 1_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class Point:
+    """One case of a study.
+
+    Attributes
+    ----------
+    number
+        Its place in the table, from 0.
+    index
+        Its place along each dimension of the study.
+    values
+        What is varied, by key.
+    """
+
+    number: int
+    index: tuple[int, ...]
+    values: dict[str, Value]
+
+    def __str__(self) -> str:
+        """Give what is varied, in one line."""
+        return ", ".join(option(key, value) for key, value in self.values.items())
+
+
+@dataclass(frozen=True, slots=True)
+class Study:
+    """A case and what is varied in it.
+
+    Attributes
+    ----------
+    case
+        A case, or the path of a case file.
+    options
+        Texts ``group.key=value`` that hold for all cases.
+    dimensions
+        What is varied: the keys of one dimension move together. The last dimension is the
+        fastest in the table.
+    run
+        One of `RUNS`.
+    outputs
+        Names of results wanted in the table; empty: all numbers.
+    """
+
+    case: Case | str
+    options: tuple[str, ...]
+    dimensions: tuple[tuple[Axis, ...], ...]
+    run: str
+    outputs: tuple[str, ...] = ()
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Number of values along each dimension."""
+        return tuple(len(axes[0].values) for axes in self.dimensions)
+
+    @property
+    def size(self) -> int:
+        """Number of cases."""
+        size = 1
+        for n in self.shape:
+            size *= n
+        return size
+
+    @property
+    def keys(self) -> list[str]:
+        """All keys that are varied."""
+        return [a.key for axes in self.dimensions for a in axes]
+
+    def points(self) -> Iterator[Point]:
+        """All cases in the order of the table."""
+        for number, index in enumerate(itertools.product(*(range(n) for n in self.shape))):
+            values = {
+                a.key: a.values[k]
+                for k, axes in zip(index, self.dimensions, strict=True)
+                for a in axes
+            }
+            yield Point(number, index, values)
+
+    def resolved(self, point: Point) -> Case:
+        """Give the case of a point, checked and complete.
+
+        Raises
+        ------
+        InputError
+            If it is not acceptable; the message names the case.
+        """
+        texts = [*self.options, *(option(key, value) for key, value in point.values.items())]
+        try:
+            return Case.of(self.case, texts)
+        except InputError as error:
+            raise InputError(
+                f"case {point.number + 1} of {self.size} ({point}):\n{error}"
+            ) from error
+
+    def identity(self) -> dict[str, Any]:
+        """Give what makes this study another one than others, as values of JSON."""
+        base = self.case.text if isinstance(self.case, Case) else _text(self.case)
+        return {
+            "run": self.run,
+            "case": base,
+            "set": list(self.options),
+            "vary": {a.key: list(a.values) for axes in self.dimensions for a in axes},
+            "zip": [[a.key for a in axes] for axes in self.dimensions if len(axes) > 1],
+        }
+
+
+def _text(path: str) -> str:
+    try:
+        return Path(path).read_text(encoding="utf-8", errors="replace")
+    except OSError as error:
+        raise InputError(f"{path}: cannot read: {error.strerror}") from error
+
+
+def make(
+    case: Case | str | os.PathLike[str],
+    axes: Sequence[Axis],
+    *,
+    options: Iterable[str] = (),
+    zipped: bool | Sequence[Sequence[str]] = False,
+    run: str = "solve",
+    outputs: Iterable[str] = (),
+) -> Study:
+    """Put a study together.
+
+    Parameters
+    ----------
+    case
+        A case, or the path of a case file.
+    axes
+        What is varied.
+    options
+        Texts ``group.key=value`` that hold for all cases.
+    zipped
+        True: all keys move together; else lists of the keys that move together.
+    run
+        One of `RUNS`.
+    outputs
+        Names of results wanted in the table; none: all numbers.
+
+    Raises
+    ------
+    InputError
+        If a key is varied twice, or keys that move together have not as many values.
+    """
+    if run not in RUNS:
+        raise InputError(f"run = '{run}': expected one of {', '.join(RUNS)}{_near(run, RUNS)}")
+    if not axes:
+        raise InputError("nothing is varied: at least one --vary group.key=VALUES is needed")
+    names = [a.key for a in axes]
+    for name in names:
+        if names.count(name) > 1:
+            raise InputError(f"{name} is varied twice")
+    groups = [names] if zipped is True else [[k.strip().lower() for k in g] for g in zipped or ()]
+    dimensions = _dimensions(axes, groups)
+    texts = tuple(str(text) for text in options)
+    for text in texts:
+        key = text.partition("=")[0].strip().lower()
+        if key in names:
+            raise InputError(f"{key} is varied and set")
+    base = case if isinstance(case, Case) else os.fspath(case)
+    study = Study(base, texts, dimensions, run, tuple(outputs))
+    if study.size > MAX_CASES:
+        raise InputError(f"{study.size} cases; a study can have {MAX_CASES}")
+    return study
+
+
+def _dimensions(
+    axes: Sequence[Axis], groups: Sequence[Sequence[str]]
+) -> tuple[tuple[Axis, ...], ...]:
+    known = {a.key: a for a in axes}
+    home: dict[str, int] = {}
+    for number, group in enumerate(groups):
+        for key in group:
+            if key not in known:
+                raise InputError(f"zip: '{key}' is not varied{_near(key, known)}")
+            if key in home:
+                raise InputError(f"zip: '{key}' is there twice")
+            home[key] = number
+        sizes = {key: len(known[key].values) for key in group}
+        if len(set(sizes.values())) > 1:
+            told = ", ".join(f"{key} {size}" for key, size in sizes.items())
+            raise InputError(f"zip: keys that move together need as many values each: {told}")
+    dimensions: list[tuple[Axis, ...]] = []
+    done: set[int] = set()
+    for a in axes:
+        if a.key not in home:
+            dimensions.append((a,))
+        elif home[a.key] not in done:
+            done.add(home[a.key])
+            dimensions.append(tuple(known[key] for key in groups[home[a.key]]))
+    return tuple(dimensions)
+
+
+def _near(word: str, known: Iterable[str]) -> str:
+    near = difflib.get_close_matches(word, list(known), n=1)
+    return f"; did you mean '{near[0]}'?" if near else ""
+
+
+def read_study(path: str | os.PathLike[str]) -> dict[str, Any]:
+    """Read a study file (TOML) into the arguments of `make`.
+
+    Its keys are ``case`` (a path from the folder of the file), ``run``, ``zip`` (true, or lists of
+    keys), ``outputs`` (a list of names), and the tables ``set`` and ``vary`` of ``group.key``.
+
+    Raises
+    ------
+    InputError
+        With the file, the key and what was expected.
+    """
+    name = os.fspath(path)
+    try:
+        values = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"{name}: cannot read: {error.strerror}") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"{name}: error: {error}") from error
+    for key in values:
+        if key not in STUDY_KEYS:
+            hint = _near(key, STUDY_KEYS)
+            raise InputError(
+                f"{name}: error: unknown key '{key}'\nexpected: one of the keys "
+                f"{', '.join(STUDY_KEYS)}{hint}"
+            )
+    _expect(name, values, "case", str)
+    _expect(name, values, "run", str)
+    _expect(name, values, "set", dict)
+    _expect(name, values, "vary", dict)
+    _expect(name, values, "zip", bool | list)
+    _expect(name, values, "outputs", list)
+    if "case" not in values:
+        raise InputError(f"{name}: error: there is no 'case'\nexpected: the path of a case file")
+    try:
+        axes = [axis(key, found) for key, found in _flat(values.get("vary", {})).items()]
+        fixed = [
+            option(a.key, a.values[0])
+            for a in (axis(key, [found]) for key, found in _flat(values.get("set", {})).items())
+        ]
+    except InputError as error:
+        raise InputError(f"{name}: error: {error}") from error
+    return {
+        "case": os.path.join(os.path.dirname(name), values["case"]),
+        "axes": axes,
+        "options": fixed,
+        "zipped": values.get("zip", False),
+        "run": values.get("run", "solve"),
+        "outputs": [str(word) for word in values.get("outputs", [])],
+    }
+
+
+def _expect(name: str, values: Mapping[str, Any], key: str, kind: Any) -> None:  # noqa: ANN401
+    if key in values and not isinstance(values[key], kind):
+        words = {str: "a text", dict: "a table", list: "a list"}.get(kind, "true, false or lists")
+        raise InputError(f"{name}: error: {key} = {values[key]!r}\nexpected: {words}")
+
+
+def _flat(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Keys ``group.key`` of a table whose groups may be tables themselves."""
+    flat: dict[str, Any] = {}
+    for key, value in table.items():
+        if isinstance(value, dict):
+            flat |= {f"{key}.{inner}": found for inner, found in value.items()}
+        else:
+            flat[key] = value
+    return flat

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a worker does: one case of a study, to a row of its table.
+
+Nothing that a case does ends a worker: whatever goes wrong is the status and the message of a row.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from pyehl.case import Case
+from pyehl.prediction import film_sheet, folder, of_case
+from pyehl.run import run
+from pyehl.solver import Solver
+
+__all__ = ["FAILED", "Task", "execute"]
+
+FAILED = "failed"
+"""Status of a case that gave no result."""
+
+Row = dict[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """One case to be done.
+
+    Attributes
+    ----------
+    number
+        Place in the table.
+    text
+        The resolved case.
+    run
+        'solve', 'predict' or 'film'.
+    folder
+        Where its results go; '' for nowhere.
+    seconds
+        How long it may take, by estimate.
+    shares
+        What it has in common with others; those go to one worker where possible.
+    """
+
+    number: int
+    text: str
+    run: str
+    folder: str = ""
+    seconds: float = 0.0
+    shares: str = ""
+
+    def message(self) -> dict[str, Any]:
+        """Give the task as values of JSON."""
+        return asdict(self)
+
+
+def execute(task: Task) -> Row:
+    """Do a task; results by their names in ``summary.json``, ``status``, ``seconds``, ``message``.
+
+    `seconds` is the time of the case itself [s].
+    """
+    began = time.perf_counter()
+    try:
+        row = RUNNERS[task.run](task)
+    except Exception as error:
+        row = {"status": FAILED, "message": f"{type(error).__name__}: {error}"}
+    row["seconds"] = round(time.perf_counter() - began, 6)
+    return row
+
+
+def _solve(task: Task) -> Row:
+    case = Case(task.text)
+    if task.folder:
+        run(case, task.folder)
+        text = (Path(task.folder) / "summary.json").read_text(encoding="utf-8")
+        return _scalars(json.loads(text))
+    with Solver(case) as solver:
+        solver.run()
+        return _scalars(solver.summary())
+
+
+def _predict(task: Task) -> Row:
+    case = Case(task.text)
+    prediction = of_case.predict(case.resolve(), case.text)
+    if task.folder:
+        folder.write(prediction, task.folder)
+    return _scalars(prediction.summary)
+
+
+def _film(task: Task) -> Row:
+    values = film_sheet.sheet(Case(task.text).resolve())
+    row = _scalars(values)
+    row["h_c_m"] = values["formulas"][0]["h_c_m"]
+    for formula in values["formulas"]:
+        name = "".join(c if c.isalnum() else "_" for c in formula["name"].lower()).strip("_")
+        row[f"h_c_m_{name}"] = formula["h_c_m"]
+        if formula["h_min_m"] is not None:
+            row[f"h_min_m_{name}"] = formula["h_min_m"]
+    outside = [f["name"] for f in values["formulas"] if f["outside"]]
+    row["status"] = "outside the range of a formula" if outside else "inside all ranges"
+    row["message"] = ", ".join(outside)
+    return row
+
+
+RUNNERS: dict[str, Callable[[Task], Row]] = {"solve": _solve, "predict": _predict, "film": _film}
+
+
+def _scalars(summary: Mapping[str, Any]) -> Row:
+    """Numbers, truth values and words of a summary; None for a number that does not exist."""
+    row: Row = {}
+    for name, value in summary.items():
+        if isinstance(value, float) and not math.isfinite(value):
+            row[name] = None
+        elif value is None or isinstance(value, bool | int | float | str):
+            row[name] = value
+    row.pop("wall_seconds", None)
+    return row

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The journal of a study: what is in it stays in it, whatever happens to process or file."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from pyehl import InputError
+from pyehl.studies.journal import NAME, Journal, difference
+
+STUDY = {"run": "film", "vary": {"contact.load": [1.0, 2.0]}}
+
+
+def rows_of(folder: Path) -> dict[int, dict[str, object]]:
+    with Journal(folder, STUDY) as journal:
+        return dict(journal.rows)
+
+
+def test_rows_come_back(tmp_path: Path):
+    with Journal(tmp_path, STUDY) as journal:
+        journal.append([(0, {"x": 0.1 + 0.2}), (2, {"x": None, "status": "failed"})])
+        journal.append([(1, {"x": 1e-300, "message": 'two\nlines, "quoted" µ'})])
+        told = dict(journal.rows)
+    assert rows_of(tmp_path) == told
+    assert told[0]["x"] == 0.1 + 0.2
+
+
+def test_cut_anywhere_it_has_all_rows_before_the_cut(tmp_path: Path):
+    """A kill leaves some first part of the bytes that were to be written."""
+    whole = tmp_path / "whole"
+    with Journal(whole, STUDY) as journal:
+        for number in range(4):
+            journal.append([(number, {"x": float(number)})])
+    data = (whole / NAME).read_bytes()
+    first = data.index(b"\n") + 1
+    for length in range(first, len(data) + 1):
+        cut = tmp_path / "cut"
+        cut.mkdir()
+        (cut / NAME).write_bytes(data[:length])
+        complete = data[:length].count(b"\n") - 1
+        assert rows_of(cut) == {n: {"x": float(n)} for n in range(complete)}
+        # and it can be gone on with
+        with Journal(cut, STUDY) as journal:
+            journal.append([(9, {"x": 9.0})])
+        assert list(rows_of(cut)) == [*range(complete), 9]
+        shutil.rmtree(cut)
+
+
+def test_a_damaged_row_is_left_out(tmp_path: Path):
+    with Journal(tmp_path, STUDY) as journal:
+        journal.append([(n, {"x": float(n)}) for n in range(3)])
+    path = tmp_path / NAME
+    data = bytearray(path.read_bytes())
+    place = data.index(b'"x":1.0') + 4
+    data[place] = ord("7")
+    path.write_bytes(data)
+    with Journal(tmp_path, STUDY) as journal:
+        assert list(journal.rows) == [0, 2]
+        assert journal.damaged == 1
+
+
+def test_a_damaged_first_line_is_refused(tmp_path: Path):
+    Journal(tmp_path, STUDY).close()
+    path = tmp_path / NAME
+    path.write_bytes(b"0" + path.read_bytes()[1:])
+    with pytest.raises(InputError, match="first line is damaged"):
+        Journal(tmp_path, STUDY)
+
+
+def test_another_study_is_refused_with_the_difference(tmp_path: Path):
+    Journal(tmp_path, STUDY).close()
+    other = {"run": "solve", "vary": {"contact.load": [1.0, 2.0], "surface.seed": [1]}}
+    with pytest.raises(InputError) as refusal:
+        Journal(tmp_path, other)
+    text = str(refusal.value)
+    assert "run: there film, here solve" in text
+    assert "vary.surface.seed: there nothing, here [1]" in text
+    assert "contact.load" not in text
+    assert rows_of(tmp_path) == {}
+
+
+def test_difference_of_the_same_is_nothing():
+    assert difference(STUDY, dict(STUDY)) == []
+
+
+def test_two_processes_do_not_write_one_journal(tmp_path: Path):
+    with Journal(tmp_path, STUDY), pytest.raises(InputError, match="another process"):
+        Journal(tmp_path, STUDY)
+
+
+def test_other_folders_are_left_alone(tmp_path: Path):
+    (tmp_path / "thesis.txt").write_text("all of it")
+    with pytest.raises(InputError, match=r"thesis\.txt"):
+        Journal(tmp_path, STUDY)
+    assert [p.name for p in tmp_path.iterdir()] == ["thesis.txt"]
+    with pytest.raises(InputError, match="not a folder"):
+        Journal(tmp_path / "thesis.txt", STUDY)
