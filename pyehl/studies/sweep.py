@@ -223,7 +223,7 @@ def sweep(
     >>> ds = pyehl.sweep(
     ...     "cases/quick.nml", {"contact.moes_m": [100.0, 200.0]}, "grid.points=33", jobs=1
     ... )
-    >>> ds.H_c.dims, list(ds.status.values)
+    >>> ds.H_c.dims, ds.status.values.tolist()
     (('contact.moes_m',), ['converged', 'converged'])
     """
     flat = [text for o in options for text in ([o] if isinstance(o, str) else o)]

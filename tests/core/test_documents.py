@@ -21,7 +21,13 @@ import pytest
 
 from pyehl import Case, library
 
-DOCUMENTS = ("README.md", "cases/README.md", "tests/README.md", "fortran/README.md", "docs/howto/sweep.md")
+DOCUMENTS = (
+    "README.md",
+    "cases/README.md",
+    "tests/README.md",
+    "fortran/README.md",
+    "docs/howto/sweep.md",
+)
 INSTALL = "bash .ci/install"
 # First words of commands that are not run here, and who runs them
 EXEMPT = {
