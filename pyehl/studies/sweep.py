@@ -19,7 +19,7 @@ import xarray as xr
 
 from pyehl.case import Case, Option
 from pyehl.errors import InputError
-from pyehl.studies import pool, table
+from pyehl.studies import cluster, pool, table
 from pyehl.studies.journal import Journal
 from pyehl.studies.plan import Plan, plan
 from pyehl.studies.study import make
@@ -164,7 +164,7 @@ def perform(
 
 def _source(tasks: Sequence[Task], jobs: int, scheduler: str) -> Generator[list[tuple[int, Row]]]:
     if scheduler:
-        raise InputError("--scheduler: not there yet")
+        return cluster.rows(tasks, scheduler)
     return pool.rows(tasks, jobs or pool.processors())
 
 

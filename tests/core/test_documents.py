@@ -27,6 +27,7 @@ DOCUMENTS = (
     "tests/README.md",
     "fortran/README.md",
     "docs/howto/sweep.md",
+    "docs/howto/cluster.md",
 )
 INSTALL = "bash .ci/install"
 # First words of commands that are not run here, and who runs them
@@ -36,6 +37,7 @@ EXEMPT = {
     ".venv/bin/pytest": "runs this test",
     "pytest": "runs this test",
     "pip install": "needs the network",
+    "dask": "studies/test_cluster.py",
     "meson": ".ci/run",
 }
 # Options of meson itself, that are not in meson.options
