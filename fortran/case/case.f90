@@ -170,10 +170,12 @@ module ehl_case
    type :: psd_case_t
       !> [m] central film; 0 (default): from the Nijenbanning-Venner-Moes formula
       real(dp) :: film_thickness = 0.0_dp
+      !> 'response' (default) or 'amplitude': complex response of the contact, or the real ratio of the paper
+      character(len=word_length) :: reduction = "response"
+      !> 'solved' (default) or 'hertz': pressure and film under the roughness
+      character(len=word_length) :: smooth = "solved"
       !> 'components' (default), 'wavevector' or 'pattern': the wavelength of a component
       character(len=word_length) :: wavelength_convention = "components"
-      !> [deg] how far the film wave lags the roughness, default 0 as in the paper
-      real(dp) :: phase_lag = 0.0_dp
       !> 'exact' (default) or 'paper' stiffness of the half-space
       character(len=word_length) :: stiffness = "exact"
       !> 'roelands' or 'barus'; default '': as in &lubricant, set by the reader

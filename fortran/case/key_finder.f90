@@ -11,11 +11,12 @@ module ehl_key_finder
    public :: group_position, find_key, join, hint
 
    !> Keys that there were, and what to give in their place
-   character(len=48), parameter :: moved(2, 4) = reshape([character(len=48) :: &
+   character(len=48), parameter :: moved(2, 5) = reshape([character(len=48) :: &
       "psd.slide_to_roll", "contact.slide_to_roll", &
       "psd.friction", "lubricant.shear_law", &
       "psd.eyring_stress", "lubricant.eyring_stress", &
-      "psd.limiting_coefficient", "lubricant.limiting_coefficient"], [2, 4])
+      "psd.limiting_coefficient", "lubricant.limiting_coefficient", &
+      "psd.phase_lag", "psd.reduction = 'response', whose lag is physics"], [2, 5])
 
 contains
 

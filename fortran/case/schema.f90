@@ -159,12 +159,14 @@ contains
       type(case_t), intent(inout), target :: input
 
       associate (p => input%psd)
+         call self%words("psd", "reduction", p%reduction, "response|amplitude", &
+                         "what is left of a wave: complex response, or the real ratio of the paper")
+         call self%words("psd", "smooth", p%smooth, "solved|hertz", &
+                         "smooth contact: solved, or semi-ellipse and uniform film as in the paper")
          call self%reals("psd", "film_thickness", p%film_thickness, "m", "[0, 1e-3]", &
-                         "central film; 0: from the Nijenbanning-Venner-Moes formula")
+                         "central film; 0: solved, or with smooth = 'hertz' from the Nijenbanning-Venner-Moes formula")
          call self%words("psd", "wavelength_convention", p%wavelength_convention, &
-                         "components|wavevector|pattern", "what the wavelength of a component is")
-         call self%reals("psd", "phase_lag", p%phase_lag, "deg", "[0, 90)", &
-                         "how far the film wave lags the roughness; 0: in phase, as in the paper")
+                         "components|wavevector|pattern", "what the wavelength of a component is, for reduction = 'amplitude'")
          call self%words("psd", "stiffness", p%stiffness, "exact|paper", "stiffness of the half-space")
          call self%words("psd", "viscosity_law", p%viscosity_law, "roelands|barus|", &
                          "viscosity under pressure; default as in &lubricant")

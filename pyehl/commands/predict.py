@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 from pathlib import Path
 
@@ -17,23 +18,21 @@ __all__ = ["add_arguments", "draw", "execute", "report"]
 
 def report(prediction: Prediction) -> str:
     """Return the lines that ``pyehl predict`` prints."""
-    f, s, options = prediction.friction, prediction.surface, prediction.options
+    f, s = prediction.friction, prediction.surface
     lines = [
         f"surface     {s.origin}: rms {s.rms_height * 1e6:.4g} um, "
         f"{s.shape[0]} x {s.shape[1]} pixels, "
         f"{s.length_x * 1e3:.4g} x {s.length_y * 1e3:.4g} mm",
         f"film        h_c = {prediction.film * 1e6:.4g} um ({prediction.film_source}), "
         f"least {f.film_min * 1e6:.4g} um",
-        f"model       {prediction.lubricant.viscosity_law} viscosity, "
-        f"{options.stiffness} stiffness, wavelength of a component by "
-        f"{options.wavelength_convention}, {prediction.lubricant.shear.law} shear stress"
-        + (f", lag {options.phase_lag:g} deg" if options.phase_lag > 0.0 else "")
-        + (", load balanced" if options.load_balance else ""),
+        f"model       {_model(prediction)}",
     ]
     if f.status == "predicted":
         lines += [
             f"mu_r/mu_s   {f.mu_ratio:.3f} over the passage, {f.mu_ratio_min:.3f} ... "
-            f"{f.mu_ratio_max:.3f}   [{f.passage.size} positions, {f.seconds * 1e3:.1f} ms]",
+            f"{f.mu_ratio_max:.3f}   [{f.passage.size} positions, "
+            f"{prediction.seconds * 1e3:.0f} ms]",
+            f"            {_trust(prediction)}",
             f"            {prediction.summary['note']}",
         ]
         mean, spread = prediction.tracks
@@ -57,6 +56,30 @@ def report(prediction: Prediction) -> str:
             f"at most {f.cavitated_friction:.1g} of the friction"
         )
     return "\n".join(lines)
+
+
+def _trust(prediction: Prediction) -> str:
+    error = prediction.model_error
+    text = f"model error {error:.3f}" if math.isfinite(error) else "model error unknown"
+    if prediction.outside_range:
+        text += ": outside the range of the response by " + ", ".join(prediction.outside_range)
+    return text
+
+
+def _model(prediction: Prediction) -> str:
+    options = prediction.options
+    words = [f"{prediction.lubricant.viscosity_law} viscosity"]
+    if options.reduction == "response":
+        words.append(f"complex response at velocity ratio {prediction.velocity_ratio:g}")
+    else:
+        words.append(f"real amplitude ratio, wavelengths by {options.wavelength_convention}")
+    words.append("smooth contact " + ("solved" if options.smooth == "solved" else "of Hertz"))
+    if options.stiffness == "paper":
+        words.append("stiffness of the paper")
+    if options.load_balance:
+        words.append("load balanced")
+    words.append(f"{prediction.lubricant.shear.law} shear stress")
+    return ", ".join(words)
 
 
 def draw(prediction: Prediction, folder: Path) -> None:

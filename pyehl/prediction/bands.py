@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,7 +18,9 @@ from pyehl.surfaces import Topography, wavenumbers
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["Band", "contributions"]
+__all__ = ["Band", "contributions", "octaves"]
+
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +50,34 @@ class Band:
     rise: float
 
 
+def octaves(
+    q: Array, power: Array, *, share: float = 1e-20
+) -> Iterator[tuple[float, NDArray[np.bool_], bool]]:
+    """Octaves of wavelengths that hold roughness, longest first.
+
+    Parameters
+    ----------
+    q
+        |q| of the components, any shape and unit.
+    power
+        What each adds to the mean square height; at most `share` of the largest counts for none
+        (a harmonic pattern has rounding errors in all octaves but its own).
+
+    Yields
+    ------
+    longest, inside, last
+        The longest wavelength 2 pi/|q| of the octave, which components are in it, and whether it is
+        the last one.
+    """
+    lowest = float(q[q > 0.0].min())
+    octave = np.full(q.shape, -1)
+    octave[q > 0.0] = np.floor(np.log2(q[q > 0.0] / lowest) + 1e-9).astype(int)
+    present = power > share * power.max()
+    filled = [k for k in range(int(octave.max()) + 1) if (present & (octave == k)).any()]
+    for k in filled:
+        yield 2.0 * math.pi / (lowest * 2.0**k), octave == k, k == filled[-1]
+
+
 def contributions(
     topography: Topography,
     operating: OperatingPoint,
@@ -73,17 +104,11 @@ def contributions(
     qx, qy = wavenumbers(topography)
     q = np.hypot(qx, qy)
     heights = scipy.fft.rfft2(topography.heights - topography.heights.mean())
-    # a harmonic pattern has rounding errors in all bands but its own
-    present = np.abs(heights) > 1e-10 * np.abs(heights).max()
-    lowest = float(q[q > 0.0].min())
-    octave = np.full(q.shape, -1)
-    octave[q > 0.0] = np.floor(np.log2(q[q > 0.0] / lowest) + 1e-9).astype(int)
     bands: list[Band] = []
     before = 1.0
-    for k in range(int(octave.max()) + 1):
-        in_band, so_far = octave == k, octave <= k
-        if not (in_band & present).any():
-            continue
+    so_far = np.zeros(q.shape, dtype=bool)
+    for longest, in_band, _ in octaves(q, np.square(np.abs(heights))):
+        so_far = so_far | in_band
         part = _filtered(topography, heights, in_band)
         field = response(part, operating, options)
         total = predict_friction(
@@ -91,8 +116,8 @@ def contributions(
         )
         bands.append(
             Band(
-                longest=2.0 * math.pi / (lowest * 2.0**k),
-                shortest=2.0 * math.pi / (lowest * 2.0 ** (k + 1)),
+                longest=longest,
+                shortest=0.5 * longest,
                 rms_height=part.rms_height,
                 rms_deformed=float(np.std(field.deformed)),
                 rms_pressure=float(np.std(field.pressure)),

@@ -86,7 +86,7 @@ def response(
     operating
         Gives a, E', M, L.
     options
-        How the model is read: its convention, phase lag and stiffness.
+        How the model is read: its convention and stiffness.
 
     Raises
     ------
@@ -106,23 +106,9 @@ def response(
     component = scipy.fft.rfft2(topography.heights)
     # the mean height is no roughness: it is taken up by the rigid approach
     component[0, 0] = 0.0
-    transfer: NDArray[np.float64] | NDArray[np.complex128] = ratio
-    if options.phase_lag > 0.0:
-        transfer = ratio * np.exp(1j * math.radians(options.phase_lag) * _direction(qx))
-    flattening = stiffness(qx, qy, operating.reduced_modulus, options.stiffness) * (1.0 - transfer)
+    flattening = stiffness(qx, qy, operating.reduced_modulus, options.stiffness) * (1.0 - ratio)
     shape = topography.shape
     return Response(
         np.asarray(scipy.fft.irfft2(flattening * component, s=shape)),
-        np.asarray(scipy.fft.irfft2(transfer * component, s=shape)),
+        np.asarray(scipy.fft.irfft2(ratio * component, s=shape)),
     )
-
-
-def _direction(qx: Array) -> Array:
-    """Sign of q_x, of shape (nx, 1): what turns a lag in time, exp(i phi), into one in space.
-
-    Zero for the shortest wave of an even number of pixels, which has no phase of its own.
-    """
-    sign = np.sign(qx)
-    if qx.shape[0] % 2 == 0:
-        sign[qx.shape[0] // 2] = 0.0
-    return np.asarray(sign)

@@ -4,8 +4,9 @@
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import f90nml
@@ -14,8 +15,11 @@ from numpy.typing import NDArray
 
 from pyehl import display, surfaces
 from pyehl.prediction.bands import Band, contributions
+from pyehl.prediction.by_response import RoughPassage
+from pyehl.prediction.errors import cutoff_error, model_error, outside_range
 from pyehl.prediction.friction import RoughFriction, over_tracks, predict_friction
 from pyehl.prediction.options import Options
+from pyehl.prediction.smooth import SmoothContact, hertz_contact, solve_contact
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.film import central_film
 from pyehl.theory.friction import absolute_friction
@@ -41,8 +45,8 @@ BAND_COLUMNS = {
 }
 
 NEWTONIAN_NOTE = (
-    "Newtonian: the ratio is the limit of vanishing sliding; shear thinning at a real "
-    "slide-to-roll ratio brings it close to 1, see lubricant.shear_law"
+    "Newtonian: a ratio at this slip, no absolute coefficient; shear thinning brings it close to "
+    "1, see lubricant.shear_law"
 )
 STRESS_NOTE = "ratio of friction coefficients at the given slide-to-roll ratio"
 
@@ -57,6 +61,8 @@ class Prediction:
         The resolved case.
     operating, lubricant, options
         The operating point, the lubricant with the viscosity law used, and how the model was read.
+    velocity_ratio
+        Velocity of the rough surface over the mean velocity [-].
     film
         Smooth central film h_c [m].
     film_source
@@ -70,6 +76,8 @@ class Prediction:
     tracks
         Mean and standard deviation of the passage mean over the tracks of the tile, see
         :func:`pyehl.prediction.over_tracks`.
+    seconds
+        Wall time of the whole prediction, tracks and bands included.
     text
         The resolved case as namelist text; '' where only its settings are known.
 
@@ -87,12 +95,14 @@ class Prediction:
     operating: OperatingPoint
     lubricant: Lubricant
     options: Options
+    velocity_ratio: float
     film: float
     film_source: str
     surface: surfaces.Topography
     friction: RoughFriction
     bands: Sequence[Band]
     tracks: tuple[float, float]
+    seconds: float
     text: str = ""
 
     def __repr__(self) -> str:
@@ -113,6 +123,19 @@ class Prediction:
     def mu_ratio(self) -> float:
         """Mean mu_r/mu_s over the passage [-]; NaN unless the status is ``"predicted"``."""
         return self.friction.mu_ratio
+
+    @property
+    def outside_range(self) -> list[str]:
+        """What of the case lies outside the range in which the response was measured; mostly []."""
+        return outside_range(self.operating, self.velocity_ratio, self.options)
+
+    @property
+    def model_error(self) -> float:
+        """Error of `mu_ratio` by the model, estimated [-]; NaN where it is not known."""
+        known = self.options.reduction == "response" and self.options.smooth == "solved"
+        if not known or self.outside_range or self.thins:
+            return math.nan
+        return model_error(self.mu_ratio)
 
     @property
     def case_text(self) -> str:
@@ -187,6 +210,9 @@ class Prediction:
             "status": f.status,
             "message": f.message,
             "mu_ratio": f.mu_ratio,
+            "mu_ratio_model_error": self.model_error,
+            "mu_ratio_cutoff_error": cutoff_error(self.bands),
+            "outside_range": self.outside_range,
             "mu_ratio_min": f.mu_ratio_min,
             "mu_ratio_max": f.mu_ratio_max,
             "position_error": f.position_error,
@@ -194,8 +220,10 @@ class Prediction:
             "mu_ratio_tracks_spread": self.tracks[1],
             "positions": int(f.passage.size),
             "note": STRESS_NOTE if self.thins else NEWTONIAN_NOTE,
+            "reduction": self.options.reduction,
+            "smooth": self.options.smooth,
+            "velocity_ratio": self.velocity_ratio,
             "wavelength_convention": self.options.wavelength_convention,
-            "phase_lag_deg": self.options.phase_lag,
             "stiffness": self.options.stiffness,
             "viscosity_law": self.lubricant.viscosity_law,
             "roelands_z": self.lubricant.roelands_z or None,
@@ -228,7 +256,7 @@ class Prediction:
             "hertz_pressure_Pa": o.hertz_pressure,
             "film_scale_m": o.film_scale,
             "bands": self._bands(),
-            "wall_seconds": f.seconds,
+            "wall_seconds": self.seconds,
         }
         return {key: _finite(value) for key, value in values.items()}
 
@@ -250,32 +278,65 @@ def predict(settings: Mapping[str, Mapping[str, Any]], text: str = "") -> Predic
     OSError
         If a map cannot be opened.
     """
+    start = time.perf_counter()
     operating = OperatingPoint.from_settings(settings)
     lubricant = Lubricant.from_settings(settings, str(settings["psd"]["viscosity_law"]))
     options = Options.from_settings(settings)
-    given = float(settings["psd"]["film_thickness"])
-    if given > 0.0:
-        h_c, source = given, "psd.film_thickness"
+    if not options.as_in_paper and (options.load_balance or options.stiffness == "paper"):
+        raise ValueError(
+            "psd.load_balance and psd.stiffness = 'paper' belong to the model of the paper: "
+            "psd.reduction = 'amplitude' with psd.smooth = 'hertz'"
+        )
+    velocity_ratio = float(settings["surface"]["velocity_ratio"])
+    contact = _smooth_contact(settings, operating, lubricant, options)
+    film = contact.central_film * operating.film_scale
+    surface = surfaces.from_settings(settings, operating, film)
+    if options.as_in_paper:
+        friction = predict_friction(surface, operating, lubricant, film, options)
+        bands = contributions(surface, operating, lubricant, film, options)
+        tracks = over_tracks(surface, operating, lubricant, film, options)
     else:
-        h_c = central_film(operating, lubricant)
-        source = "Nijenbanning-Venner-Moes formula over rho(p_h)/rho0"
-    surface = surfaces.from_settings(settings, operating, h_c)
-    friction = predict_friction(surface, operating, lubricant, h_c, options)
-    bands = contributions(surface, operating, lubricant, h_c, options)
-    tracks = over_tracks(surface, operating, lubricant, h_c, options)
+        passage = RoughPassage(surface, contact, operating, lubricant, options, velocity_ratio)
+        friction, tracks, bands = passage.run()
     return Prediction(
-        settings,
-        operating,
-        lubricant,
-        options,
-        h_c,
-        source,
-        surface,
-        friction,
-        bands,
-        tracks,
-        text,
+        settings=settings,
+        operating=operating,
+        lubricant=lubricant,
+        options=options,
+        velocity_ratio=velocity_ratio,
+        film=film,
+        film_source=contact.source,
+        surface=surface,
+        friction=friction,
+        bands=bands,
+        tracks=tracks,
+        seconds=time.perf_counter() - start,
+        text=text,
     )
+
+
+def _smooth_contact(
+    settings: Mapping[str, Mapping[str, Any]],
+    operating: OperatingPoint,
+    lubricant: Lubricant,
+    options: Options,
+) -> SmoothContact:
+    """Pressure and film under the roughness."""
+    given = float(settings["psd"]["film_thickness"]) / operating.film_scale
+    if options.smooth == "hertz":
+        if given > 0.0:
+            return hertz_contact(given, "psd.film_thickness")
+        formula = central_film(operating, lubricant) / operating.film_scale
+        return hertz_contact(formula, "Nijenbanning-Venner-Moes formula over rho(p_h)/rho0")
+    contact = solve_contact(settings)
+    if given > 0.0:
+        return replace(
+            contact,
+            film=contact.film * (given / contact.central_film),
+            central_film=given,
+            source="psd.film_thickness",
+        )
+    return contact
 
 
 def _finite(value: object) -> object:

@@ -11,6 +11,8 @@ from pyehl.theory import amplitude
 
 __all__ = ["MAX_POSITIONS", "STIFFNESSES", "Options"]
 
+REDUCTIONS = ("response", "amplitude")
+SMOOTH = ("solved", "hertz")
 STIFFNESSES = ("exact", "paper")
 
 MAX_POSITIONS = 4096
@@ -22,11 +24,14 @@ class Options:
 
     Attributes
     ----------
+    reduction
+        What is left of a wave in the contact: ``"response"``, the complex response of
+        :mod:`pyehl.theory.response`, or ``"amplitude"``, the real ratio of the paper.
+    smooth
+        Pressure and film under the roughness: ``"solved"``, of the smooth contact, or ``"hertz"``,
+        semi-ellipse and uniform film, as in the paper.
     wavelength_convention
         One of :data:`pyehl.theory.amplitude.CONVENTIONS`.
-    phase_lag
-        How far the film wave of a component lags its roughness [deg], 0 <= phase_lag < 90; the
-        paper has 0. Waves with their crests along the motion never lag.
     stiffness
         ``"exact"``: E'|q|/4; ``"paper"``: eq. 11 with wavelength 2 pi/|q|.
     load_balance
@@ -41,8 +46,9 @@ class Options:
         For an unknown word or a number out of range.
     """
 
+    reduction: str = "response"
+    smooth: str = "solved"
     wavelength_convention: str = "components"
-    phase_lag: float = 0.0
     stiffness: str = "exact"
     load_balance: bool = False
     positions: int = 0
@@ -50,15 +56,20 @@ class Options:
     def __post_init__(self) -> None:
         """Check the words and the numbers."""
         for name, value, allowed in (
+            ("reduction", self.reduction, REDUCTIONS),
+            ("smooth", self.smooth, SMOOTH),
             ("wavelength_convention", self.wavelength_convention, amplitude.CONVENTIONS),
             ("stiffness", self.stiffness, STIFFNESSES),
         ):
             if value not in allowed:
                 raise ValueError(f"{name} {value!r}: expected one of {allowed}")
-        if not 0.0 <= self.phase_lag < 90.0:
-            raise ValueError(f"phase_lag must be 0 <= ... < 90 [deg], not {self.phase_lag!r}")
         if not 0 <= self.positions <= MAX_POSITIONS:
             raise ValueError(f"positions must be 0 ... {MAX_POSITIONS}, not {self.positions!r}")
+
+    @property
+    def as_in_paper(self) -> bool:
+        """Whether both the reduction and the smooth contact are those of the paper."""
+        return self.reduction == "amplitude" and self.smooth == "hertz"
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Mapping[str, Any]]) -> Options:
@@ -71,8 +82,9 @@ class Options:
         """
         group = settings["psd"]
         return cls(
+            reduction=str(group["reduction"]),
+            smooth=str(group["smooth"]),
             wavelength_convention=str(group["wavelength_convention"]),
-            phase_lag=float(group["phase_lag"]),
             stiffness=str(group["stiffness"]),
             load_balance=bool(group["load_balance"]),
             positions=int(group["positions"]),

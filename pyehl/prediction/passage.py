@@ -4,16 +4,16 @@
 from __future__ import annotations
 
 import math
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pyehl.prediction.contact import Contact
 from pyehl.prediction.options import MAX_POSITIONS
 from pyehl.surfaces import MAX_PIXELS, Topography, resampled
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["friction_along", "interpolated", "working_grid"]
+__all__ = ["RADIUS_PIXELS", "friction_along", "interpolated", "working_grid"]
 
 Array = NDArray[np.float64]
 
@@ -48,8 +48,16 @@ def working_grid(topography: Topography, operating: OperatingPoint, positions: i
     return resampled(topography, (want_x, want_y))
 
 
+class HasFriction(Protocol):
+    """A contact that tells its friction when the tile has moved by so many pixels."""
+
+    def friction(self, step: int, /) -> float:
+        """Friction over that of the smooth contact."""
+        ...
+
+
 def friction_along(
-    contact: Contact, pixels: int, positions: int
+    contact: HasFriction, pixels: int, positions: int
 ) -> tuple[NDArray[np.int_], Array, float]:
     """Positions [pixels], ratios there and what they leave undecided at most (relative)."""
     n = positions or FIRST_POSITIONS

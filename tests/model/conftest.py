@@ -8,7 +8,7 @@ import pytest
 
 from pyehl import surfaces
 
-# A resolved case: the reference conditions with the fractal surface
+# A resolved case: the reference conditions with the fractal surface, the model of the paper
 RESOLVED = {
     "contact": {
         "load": 600.0,
@@ -51,9 +51,10 @@ RESOLVED = {
         "modulus": "deterministic",
     },
     "psd": {
+        "reduction": "amplitude",
+        "smooth": "hertz",
         "film_thickness": 0.2333e-6,
         "wavelength_convention": "components",
-        "phase_lag": 0.0,
         "stiffness": "exact",
         "viscosity_law": "roelands",
         "load_balance": False,

@@ -1,0 +1,248 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Friction over a passage by the response of the contact, over its tracks, and by bands.
+
+The model is that of Zhang et al. 2019, section 3, with two changes: the ratio of deformed to
+undeformed amplitude is the complex response of :mod:`pyehl.theory.response`, and pressure and film
+are those of the smooth contact of :mod:`pyehl.prediction.smooth`. With ``reduction="amplitude"``
+the real ratio of the paper takes the place of the response: it moves with the roughness.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pyehl.prediction.bands import Band, octaves
+from pyehl.prediction.flattening import Response
+from pyehl.prediction.friction import RoughFriction
+from pyehl.prediction.options import Options
+from pyehl.prediction.passage import (
+    RADIUS_PIXELS,
+    friction_along,
+    interpolated,
+    working_grid,
+)
+from pyehl.prediction.rough_contact import Edge, RoughContact
+from pyehl.prediction.smooth import SmoothContact, zone_of
+from pyehl.prediction.waves import Spectrum, Transfer, Waves
+from pyehl.surfaces import Topography
+from pyehl.theory.amplitude import component_amplitude_ratio
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.response import stiffness
+
+__all__ = ["RoughPassage"]
+
+Array = NDArray[np.float64]
+
+# Points per Hertz radius at which the shear stress is taken: the tile is finer, and its other
+# pixels are met at other positions
+POINTS = 60
+# Positions of a passage for a track other than the first, and for a band
+FEW_POSITIONS = 8
+
+
+@dataclass(frozen=True, slots=True)
+class RoughPassage:
+    """A rough tile in a contact: what is common to its passage, its tracks and its bands.
+
+    Attributes
+    ----------
+    topography
+        The tile; its pixel [0, 0] starts at the centre of the contact and moves along x.
+    contact
+        The smooth contact.
+    operating, lubricant, options
+        Operating point, lubricant with its shear law, and how the model is read.
+    velocity_ratio
+        Velocity of the rough surface over the mean velocity [-].
+    """
+
+    topography: Topography
+    contact: SmoothContact
+    operating: OperatingPoint
+    lubricant: Lubricant
+    options: Options
+    velocity_ratio: float
+
+    def _spectrum(self, tile: Topography) -> Spectrum:
+        o = self.operating
+        lengths = tile.length_x / o.hertz_radius, tile.length_y / o.hertz_radius
+        return Spectrum.of(tile.heights / o.film_scale, *lengths)
+
+    def _transfer(self, spectrum: Spectrum) -> Transfer:
+        o = self.operating
+        if self.options.reduction == "response":
+            zone = zone_of(self.contact, o, self.lubricant)
+            return Transfer.of(spectrum, zone, (o.moes_m, o.moes_l), self.velocity_ratio)
+        ratio = component_amplitude_ratio(
+            spectrum.qx[:, np.newaxis],
+            spectrum.qy[np.newaxis, :],
+            1.0,
+            o.moes_m,
+            o.moes_l,
+            convention=self.options.wavelength_convention,
+        )
+        return Transfer.carried(ratio)
+
+    def _contact(self, spectrum: Spectrum, transfer: Transfer, edge: Edge) -> RoughContact:
+        stride = max(1, int(1.0 / (POINTS * max(spectrum.pixel))))
+        while spectrum.shape[1] % stride:
+            stride -= 1
+        return RoughContact(
+            Waves.of(spectrum, transfer, self.contact.central_film, stride),
+            edge,
+            self.contact,
+            pixel=spectrum.pixel,
+            stride=stride,
+            operating=self.operating,
+            lubricant=self.lubricant,
+            velocity_ratio=self.velocity_ratio,
+        )
+
+    def run(self, tracks: int = 8) -> tuple[RoughFriction, tuple[float, float], list[Band]]:
+        """Friction over the passage, mean and spread over the tracks, and what each band adds."""
+        start = time.perf_counter()
+        grid = working_grid(self.topography, self.operating, self.options.positions)
+        spectrum = self._spectrum(grid)
+        transfer = self._transfer(spectrum)
+        edge = Edge.of(spectrum, 1.0 - transfer.at_centre(spectrum, self.velocity_ratio))
+        contact = self._contact(spectrum, transfer, edge)
+        with np.errstate(over="ignore", invalid="ignore"):
+            passage = friction_along(contact, grid.shape[0], self.options.positions)
+            found = self._result(contact, grid, spectrum, transfer, passage, start)
+            if found.status != "predicted":
+                return found, (math.nan, math.nan), []
+            lines = grid.shape[1] // contact.waves.stride
+            others = [
+                _mean(contact, grid.shape[0], k * lines // tracks * contact.waves.stride)
+                for k in range(1, tracks)
+            ]
+            ratios = np.array([found.mu_ratio, *others])
+            bands = self._bands(spectrum, transfer, edge, found.mu_ratio)
+        return found, (float(ratios.mean()), float(ratios.std())), bands
+
+    def _result(
+        self,
+        contact: RoughContact,
+        grid: Topography,
+        spectrum: Spectrum,
+        transfer: Transfer,
+        passage: tuple[NDArray[np.int_], Array, float],
+        start: float,
+    ) -> RoughFriction:
+        steps, ratios, error = passage
+        o = self.operating
+        status, message = "predicted", "full film throughout the passage"
+        mean = least = greatest = math.nan
+        if contact.thinnest <= 0.0:
+            status = "film breakdown"
+            depth = -contact.thinnest * o.film_scale
+            message = (
+                f"deformed roughness reaches {depth:.3g} m through the film at a point of the "
+                "contact: no full film, no ratio"
+            )
+        elif not np.all(np.isfinite(ratios)):
+            status, message = "overflow", "the viscosity at p_s + delta p is not a number"
+        else:
+            fine = interpolated(ratios, 8)
+            mean, least, greatest = (float(v) for v in (ratios.mean(), fine.min(), fine.max()))
+        smooth = contact.smooth * contact.area / o.load
+        if not contact.thins:
+            smooth *= self.lubricant.viscosity * o.sliding_speed
+        points = contact.count * int(np.count_nonzero(contact.inside))
+        return RoughFriction(
+            status=status,
+            message=message,
+            mu_ratio=mean,
+            mu_ratio_min=least,
+            mu_ratio_max=greatest,
+            position_error=error,
+            shift=np.asarray(steps * grid.pixel[0], dtype=np.float64),
+            passage=ratios,
+            mu_smooth=smooth,
+            film_min=contact.thinnest * o.film_scale,
+            cavitated_share=contact.cavitated / max(1, points),
+            cavitated_friction=contact.cavitated_bound(least)
+            if status == "predicted"
+            else math.nan,
+            load_error=contact.imbalance,
+            response=self._tiles(spectrum, transfer, grid.shape == self.topography.shape),
+            seconds=time.perf_counter() - start,
+        )
+
+    def _tiles(self, spectrum: Spectrum, transfer: Transfer, same: bool) -> Response:
+        """Pressure and deformed roughness at the centre of the contact, on the pixels given."""
+        if not same:
+            spectrum = self._spectrum(self.topography)
+            transfer = self._transfer(spectrum)
+        t = transfer.at_centre(spectrum, self.velocity_ratio)
+        o = self.operating
+        return Response(
+            spectrum.tile(stiffness(spectrum.q) * (1.0 - t)) * o.hertz_pressure,
+            spectrum.tile(t) * o.film_scale,
+        )
+
+    def _bands(
+        self, spectrum: Spectrum, transfer: Transfer, edge: Edge, total: float
+    ) -> list[Band]:
+        """Return what each octave adds when it joins all the longer ones."""
+        o = self.operating
+        t = transfer.at_centre(spectrum, self.velocity_ratio)
+        power = np.square(np.abs(spectrum.values)) / np.prod(spectrum.shape, dtype=float) ** 2
+        # components with 0 < qx < Nyquist stand for two
+        power[1 : (spectrum.shape[0] + 1) // 2] *= 2.0
+        pressure = stiffness(spectrum.q) * np.abs(1.0 - t)
+        found: list[Band] = []
+        before = 1.0
+        for longest, inside, last in octaves(spectrum.q, power):
+            ratio = total if last else self._below(spectrum, transfer, edge, 4.0 * np.pi / longest)
+            rms = (
+                math.sqrt(float((power * np.square(factor))[inside].sum()))
+                for factor in (np.ones_like(pressure), np.abs(t), pressure)
+            )
+            heights, deformed, stress = rms
+            found.append(
+                Band(
+                    longest=longest * o.hertz_radius,
+                    shortest=0.5 * longest * o.hertz_radius,
+                    rms_height=heights * o.film_scale,
+                    rms_deformed=deformed * o.film_scale,
+                    rms_pressure=stress * o.hertz_pressure,
+                    rise=ratio - before,
+                )
+            )
+            before = ratio
+        return found
+
+    def _below(self, spectrum: Spectrum, transfer: Transfer, edge: Edge, limit: float) -> float:
+        """mu_r/mu_s of the waves with |q| below a limit [1/a], on as few pixels as they need."""
+        shape = tuple(
+            _fewer(n, pixel * n, limit)
+            for n, pixel in zip(spectrum.shape, spectrum.pixel, strict=True)
+        )
+        nx, ny = shape[0], shape[1]
+        rows: NDArray[np.int_] = np.arange(nx // 2 + 1)
+        columns = np.rint(np.fft.fftfreq(ny, 1.0 / ny)).astype(np.int_) % spectrum.shape[1]
+        part = spectrum.kept((rows, columns), (nx, ny))
+        part.values[part.q >= limit] = 0.0
+        contact = self._contact(part, transfer.kept((rows, columns)), edge.below(limit))
+        return _mean(contact, nx)
+
+
+def _fewer(pixels: int, length: float, limit: float) -> int:
+    """Pixels, a multiple of the positions, for waves below a limit [1/a] in a contact."""
+    highest = int(limit * length / (2.0 * math.pi))
+    few = max(2 * highest + 2, math.ceil(RADIUS_PIXELS * length))
+    few = FEW_POSITIONS * math.ceil(few / FEW_POSITIONS)
+    return few if few < pixels else pixels
+
+
+def _mean(contact: RoughContact, pixels: int, track: int = 0) -> float:
+    """Mean of mu_r/mu_s over a few positions of a track."""
+    steps = np.arange(FEW_POSITIONS) * (pixels // FEW_POSITIONS)
+    return float(np.mean([contact.friction(int(s), track) for s in steps]))

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How far a prediction can be trusted."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from pyehl.prediction.bands import Band
+from pyehl.prediction.options import Options
+from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.response import fitted_range
+
+__all__ = ["cutoff_error", "model_error", "outside_range"]
+
+# Error of mu_r/mu_s against the full simulation: a part that small waves and tracks make at any
+# ratio, and a part that grows with the rise. Measured in docs/evidence/prediction.
+CONSTANT = 0.008
+SHARE_OF_RISE = 0.05
+# Largest ratio at which it was measured
+LARGEST_RATIO = 3.0
+
+
+def model_error(mu_ratio: float) -> float:
+    """Error of a predicted mu_r/mu_s [-]; NaN beyond the largest ratio that was measured.
+
+    It covers the deviation from the full simulation of this package, grid errors of that
+    simulation taken off, in at least nine of ten cases of docs/evidence/prediction.
+    """
+    if not mu_ratio <= LARGEST_RATIO:
+        return math.nan
+    return CONSTANT + SHARE_OF_RISE * abs(mu_ratio - 1.0)
+
+
+def cutoff_error(bands: Sequence[Band]) -> float:
+    """Return what the last octave of wavelengths adds to mu_r/mu_s [-], by its modulus.
+
+    This much hangs on the cut-off: a measure of what waves shorter than those of the map would
+    add. NaN without bands.
+    """
+    return abs(bands[-1].rise) if bands else math.nan
+
+
+def outside_range(operating: OperatingPoint, velocity_ratio: float, options: Options) -> list[str]:
+    """Names of the numbers that lie outside the range in which the response was measured."""
+    if options.reduction != "response":
+        return []
+    values = {
+        "moes_m": operating.moes_m,
+        "moes_l": operating.moes_l,
+        "velocity_ratio": velocity_ratio,
+    }
+    limits = fitted_range()
+    return [name for name, v in values.items() if not limits[name][0] <= v <= limits[name][1]]

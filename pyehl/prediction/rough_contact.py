@@ -1,0 +1,220 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Friction of a contact at one position of a rough tile, by the linear response.
+
+Pressure P_s + delta P and film H_s - rr_d with P_s and H_s of the smooth contact; friction is the
+integral of the shear stress (Zhang et al. 2019, eqs 13, 14). The waves that the tile makes come
+from :mod:`pyehl.prediction.waves`; a wave longer than half the contact radius also feels the edge
+of the contact (:mod:`pyehl.theory.disc`).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pyehl.prediction.smooth import SmoothContact
+from pyehl.prediction.waves import OFF_CENTRE, REFINEMENT, STATIONS, Spectrum, Waves
+from pyehl.theory.disc import LARGEST, disc_correction, monomials
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.shear import shear_stress
+
+__all__ = ["Edge", "RoughContact"]
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+REACH = 1.0
+"""Friction is taken within this distance from the centre [a]."""
+# The polynomials of the edge are held constant beyond this radius
+EDGE_RADIUS = 0.85
+# The change of T off the centre line is linear in Y^2 up to here
+FARTHEST = 0.75
+
+
+class Edge:
+    """What the edge of the contact does to the pressure of the long waves of a tile.
+
+    Attributes
+    ----------
+    coefficients
+        (28, m) of :func:`pyehl.theory.disc.monomials` for the waves of the tile [p_h].
+    qx, qy
+        Their wavenumbers (m,) [1/a], qx >= 0.
+    """
+
+    def __init__(self, qx: Array, qy: Array, coefficients: Complex) -> None:
+        self.qx, self.qy, self.coefficients = qx, qy, coefficients
+
+    @classmethod
+    def of(cls, spectrum: Spectrum, flattened: Complex) -> Edge:
+        """Of a tile, each component flattened by a factor (shape of the spectrum)."""
+        nx, ny = spectrum.shape
+        q = spectrum.q
+        strong = np.abs(spectrum.values) > 1e-9 * np.abs(spectrum.values).max()
+        i, j = np.nonzero((q > 0.0) & (q < LARGEST) & strong)
+        qx, qy = spectrum.qx[i], spectrum.qy[j]
+        # a component stands for its conjugate at -q too, unless both are in the half spectrum
+        twice = np.where((i == 0) | ((nx % 2 == 0) & (i == nx // 2)), 1.0, 2.0)
+        amplitude = twice * spectrum.values[i, j] * flattened[i, j] / (nx * ny)
+        if not i.size:
+            return cls(qx, qy, np.zeros((monomials(np.zeros(1), np.zeros(1)).shape[1], 0), complex))
+        return cls(qx, qy, disc_correction(qx, qy) * amplitude)
+
+    def below(self, limit: float) -> Edge:
+        """Return the part of the waves with |q| below a limit [1/a]."""
+        keep = np.hypot(self.qx, self.qy) < limit
+        return Edge(self.qx[keep], self.qy[keep], self.coefficients[:, keep])
+
+    def at(self, shift: float, track: float) -> Array:
+        """Coefficients (28,) for a tile moved along and across the motion [a]."""
+        phase = np.exp(-1j * (self.qx * shift + self.qy * track))
+        return np.asarray((self.coefficients @ phase).real)
+
+
+class RoughContact:
+    """Points of the contact, and the shear stress integrals over them.
+
+    Attributes
+    ----------
+    area
+        That one point stands for [m^2].
+    smooth
+        Sum of the shear stress of the smooth contact over the points [Pa]; of a Newtonian oil
+        divided by eta0 and the sliding speed.
+    thinnest
+        Least film that any position had so far [a^2/R].
+    cavitated, count
+        Points where the pressure is not positive, and positions, so far.
+    imbalance
+        Greatest share of the load that delta P has carried or taken off so far [-].
+    """
+
+    def __init__(
+        self,
+        waves: Waves,
+        edge: Edge,
+        contact: SmoothContact,
+        *,
+        pixel: tuple[float, float],
+        stride: int,
+        operating: OperatingPoint,
+        lubricant: Lubricant,
+        velocity_ratio: float,
+    ) -> None:
+        self.waves, self.edge, self.pixel = waves, edge, pixel
+        self.operating, self.lubricant = operating, lubricant
+        self.thins = lubricant.shear.law != "newtonian" and operating.sliding_speed > 0.0
+        half = [int(REACH / (stride * p)) for p in pixel]
+        self.rows, self.columns = (np.arange(-n, n + 1) * stride for n in half)
+        self.x = np.asarray(self.rows * pixel[0], dtype=float)
+        self.y = np.asarray(self.columns * pixel[1], dtype=float)
+        self.pressure, self.film = contact.at(self.x, self.y)
+        radius = np.hypot(self.x[:, np.newaxis], self.y[np.newaxis, :])
+        self.inside = (radius < REACH) & (self.pressure > 0.0)
+        self.weights = np.stack(
+            [np.interp(self.x, STATIONS, unit) for unit in np.eye(STATIONS.size)]
+        ).astype(np.float32)
+        self.off = np.minimum(np.abs(self.y), FARTHEST) ** 2 / OFF_CENTRE**2
+        # the free wave is that of the roughness where it was when the inlet made it
+        behind = self.x + (velocity_ratio - 1.0) * (self.x + 1.0)
+        place = behind / pixel[0] * REFINEMENT
+        self.free_rows = np.floor(place).astype(int)
+        self.between = (place - self.free_rows).astype(np.float32)[:, np.newaxis, np.newaxis]
+        held = np.minimum(1.0, EDGE_RADIUS / np.maximum(radius, 1e-12))
+        grid = np.meshgrid(self.x, self.y, indexing="ij")
+        self.monomials = monomials(*(held * values for values in grid))
+        self.area = stride**2 * pixel[0] * pixel[1] * operating.hertz_radius**2
+        self.smooth = float(self._stress(self.pressure, self.film)[self.inside].sum())
+        self.thinnest = float(self.film[self.inside].min())
+        self.cavitated = 0
+        self.count = 0
+        self.imbalance = 0.0
+        self.track = 0
+        self._cut(0)
+
+    def _cut(self, track: int) -> None:
+        """Take the columns of the tile that pass through the contact."""
+        stride = self.waves.stride
+        columns = (self.columns - track) // stride % self.waves.driven[0].shape[1]
+        self.driven = [np.take(tile, columns, axis=1) for tile in self.waves.driven]
+        self.free = [np.take(tile, columns, axis=1) for tile in self.waves.free]
+        if self.waves.off_centre is not None:
+            self.off_centre = np.take(self.waves.off_centre, columns, axis=1)
+            self.off_centre *= self.off[:, np.newaxis].astype(np.float32)
+        self.track = track
+
+    def _stress(self, pressure: Array, film: Array) -> Array:
+        """Shear stress at P [p_h] in H [a^2/R]: [Pa], or of a Newtonian oil over eta0 and speed."""
+        p = pressure * self.operating.hertz_pressure
+        ratio = self.lubricant.viscosity_ratio(p) / (film * self.operating.film_scale)
+        if not self.thins:
+            return np.asarray(ratio)
+        newtonian = ratio * (self.lubricant.viscosity * self.operating.sliding_speed)
+        return np.asarray(shear_stress(newtonian, p, self.lubricant.shear))
+
+    def change(self, shift: int, track: int = 0) -> Array:
+        """Loss of film [a^2/R] and gain of pressure [p_h] at the points, (m, n, 2).
+
+        Parameters
+        ----------
+        shift, track
+            Pixels that the tile has moved along and across the motion; `track` is a multiple of
+            the stride of the waves.
+        """
+        if track != self.track:
+            self._cut(track)
+        rows = (self.rows - shift) % self.driven[0].shape[0]
+        total = np.zeros((*self.film.shape, 2), dtype=np.float32)
+        for weight, driven in zip(self.weights, self.driven, strict=True):
+            part = _support(weight)
+            total[part] += weight[part, np.newaxis, np.newaxis] * driven[rows[part]]
+        if self.free:
+            self._add_free(total, shift)
+        total[..., 1] += self.monomials @ self.edge.at(shift * self.pixel[0], track * self.pixel[1])
+        return np.asarray(total)
+
+    def _add_free(self, total: Array, shift: int) -> None:
+        """Add the free waves, linear between the points of their table."""
+        low = (self.free_rows - shift * REFINEMENT) % self.free[0].shape[0]
+        high = (low + 1) % self.free[0].shape[0]
+        total += self.off_centre[low] * (1.0 - self.between)
+        total += self.off_centre[high] * self.between
+        for weight, free in zip(self.weights, self.free, strict=True):
+            part = _support(weight)
+            between, w = self.between[part], weight[part, np.newaxis, np.newaxis]
+            total[part] += (w * (1.0 - between)) * free[low[part]]
+            total[part] += (w * between) * free[high[part]]
+
+    def cavitated_bound(self, least: float) -> float:
+        """Bound of the share of friction where P = 0, `least` the least ratio of all positions."""
+        if self.cavitated == 0:
+            return 0.0
+        stress = float(self._stress(np.array(0.0), np.array(self.thinnest)))
+        return self.cavitated * stress / (self.count * least * self.smooth)
+
+    def friction(self, shift: int, track: int = 0) -> float:
+        """Friction over that of the smooth contact; NaN where the film is not positive."""
+        change = self.change(shift, track)
+        film = (self.film - change[..., 0])[self.inside]
+        pressure = (self.pressure + change[..., 1])[self.inside]
+        self.count += 1
+        carried = 1.5 * float(change[..., 1][self.inside].mean())
+        self.imbalance = max(self.imbalance, abs(carried))
+        self.thinnest = min(self.thinnest, float(film.min()))
+        if self.thinnest <= 0.0:
+            return math.nan
+        lost = pressure <= 0.0
+        if lost.any():
+            self.cavitated += int(np.count_nonzero(lost))
+            pressure[lost] = 0.0
+        with np.errstate(over="ignore"):
+            return float(self._stress(pressure, film).sum()) / self.smooth
+
+
+def _support(weight: Array) -> slice:
+    """Rows with a weight."""
+    used = np.nonzero(weight)[0]
+    return slice(int(used[0]), int(used[-1]) + 1)

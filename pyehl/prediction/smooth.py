@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The smooth contact under a prediction: solved, or the dry contact of the paper."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import f90nml
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import map_coordinates
+
+from pyehl.case import Case
+from pyehl.errors import EhlError
+from pyehl.solver import Solver
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.response import Zone
+
+__all__ = ["SmoothContact", "hertz_contact", "solve_contact", "zone_of"]
+
+Array = NDArray[np.float64]
+
+POINTS = 257
+"""Nodes per side of the solution. Its film is scaled to the extrapolated central film, so that the
+inlet error of the grid (4 % at M = 1000) is not in it."""
+
+
+@dataclass(frozen=True, slots=True)
+class SmoothContact:
+    """Pressure and film of the smooth contact.
+
+    Attributes
+    ----------
+    x, y
+        Ascending and equidistant [a], (nx,) and (ny,).
+    pressure
+        P (nx, ny) [p_h].
+    film
+        H (nx, ny) [a^2/R].
+    central_film
+        H_c, extrapolated [a^2/R].
+    central_film_error
+        Its estimated error [a^2/R]; NaN for none.
+    source
+        Where it is from, in words.
+    """
+
+    x: Array
+    y: Array
+    pressure: Array
+    film: Array
+    central_film: float
+    central_film_error: float
+    source: str
+
+    def at(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """P and H on the grid of places x (m,) and y (n,), both (m, n); outside P is zero."""
+        places = [
+            (values - axis[0]) / (axis[1] - axis[0]) for values, axis in ((x, self.x), (y, self.y))
+        ]
+        grid = np.meshgrid(*places, indexing="ij")
+        pressure = map_coordinates(self.pressure, grid, order=1, mode="constant")
+        film = map_coordinates(self.film, grid, order=1, mode="nearest")
+        return np.asarray(pressure), np.asarray(film)
+
+
+def solve_contact(settings: Mapping[str, Mapping[str, Any]]) -> SmoothContact:
+    """Solve the smooth contact of a resolved case on POINTS x POINTS nodes.
+
+    Raises
+    ------
+    EhlError
+        If it does not converge.
+    """
+    groups: dict[str, dict[str, Any]] = {
+        group: dict(settings[group]) for group in ("contact", "lubricant")
+    }
+    groups["grid"] = {"points": POINTS}
+    case = Case.from_text(str(f90nml.Namelist(groups)) + "\n", origin="smooth contact")
+    with Solver.open(case) as solver:
+        if not solver.run():
+            status = solver.summary()["status"]
+            raise EhlError(f"the smooth contact under the prediction did not converge: {status}")
+        summary = solver.summary()
+        (x, y), pressure, film = solver.axes(), solver.field("P"), solver.field("H")
+    scale = summary["H_c_extrapolated"] / summary["H_c"]
+    return SmoothContact(
+        x,
+        y,
+        pressure,
+        film * scale,
+        summary["H_c_extrapolated"],
+        summary["H_c_error"],
+        f"solved on {POINTS} x {POINTS} nodes, extrapolated",
+    )
+
+
+def hertz_contact(central_film: float, source: str) -> SmoothContact:
+    """Semi-ellipse of pressure and a uniform film [a^2/R], as Zhang et al. 2019, section 3."""
+    line = np.linspace(-1.0, 1.0, POINTS)
+    square = line[:, np.newaxis] ** 2 + line[np.newaxis, :] ** 2
+    pressure = np.sqrt(np.maximum(0.0, 1.0 - square))
+    film = np.full(pressure.shape, central_film)
+    return SmoothContact(line, line, pressure, film, central_film, float("nan"), source)
+
+
+def zone_of(contact: SmoothContact, operating: OperatingPoint, lubricant: Lubricant) -> Zone:
+    """Return the centre line of a smooth contact with what enters the transport of waves."""
+    middle = int(np.argmin(np.abs(contact.y)))
+    pressure = np.maximum(contact.pressure[:, middle], 0.0)
+    film = contact.film[:, middle]
+    p = pressure * operating.hertz_pressure
+    rho = lubricant.density_ratio(p)
+    step = 1e-3 * operating.hertz_pressure
+    slope = (np.log(lubricant.density_ratio(p + step)) - np.log(rho)) / 1e-3
+    conductance = rho * film**3 / (lubricant.viscosity_ratio(p) * operating.speed_parameter)
+    return Zone(contact.x, film, rho, np.asarray(slope), np.asarray(conductance))

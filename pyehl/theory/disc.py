@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pressure of a wave of roughness on the Hertz disc, in closed form.
+
+A half-space resists a periodic wave of flattening exp(i q x) with the pressure E'|q|/4. A contact
+is a disc, and a wave as long as its radius feels the edge: inside the disc the pressure differs
+from that of the periodic wave by what the pressure outside would have done, and the load that a
+wave carries is balanced by the approach of the bodies.
+
+On the unit disc, with z = sqrt(1 - r^2), a pressure Y_lm/z with l - m even deflects the disc into
+Y_lm (Copson 1947; Boersma & Danicki 1993), Y_lm(r, theta) = P_lm(z) cos(m theta). These are
+spherical harmonics on the hemisphere over the disc, so the expansion of a plane wave with a
+wavevector in the plane is the one everybody knows, with spherical Bessel functions; l = 0 alone
+carries load and is left out. All lengths are scaled by the Hertz radius a, heights by a^2/R,
+pressures by p_h.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import cast
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import gammaln, lpmv, spherical_jn
+
+__all__ = ["LARGEST", "disc_correction", "disc_pressure", "monomials"]
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+DEGREE = 6
+"""Degree of the polynomials in x, y that carry the correction."""
+LARGEST = 14.0
+"""Largest wavenumber |q| that needs it [1/a]: shorter waves, below 0.45 a, feel no edge."""
+RADIUS = 0.8
+"""Radius within which they are fitted; friction comes from there. Nearer to the edge the pressure
+of a disc with a fixed edge is singular and that of a contact is not."""
+
+
+def monomials(x: Array, y: Array) -> Array:
+    """x^i y^j for all i + j <= DEGREE, shape (n, 28), for x, y of shape (n,) or any other."""
+    powers = [[np.ones_like(values)] for values in (x, y)]
+    for values, found in zip((x, y), powers, strict=True):
+        for _ in range(DEGREE):
+            found.append(found[-1] * values)
+    terms = [powers[0][i] * powers[1][j] for i in range(DEGREE + 1) for j in range(DEGREE + 1 - i)]
+    return np.stack(terms, axis=-1)
+
+
+def disc_pressure(qx: Array, qy: Array, x: Array, y: Array) -> Complex:
+    """Pressure on the unit disc that deflects it by exp(i q x) less its mean part, at zero load.
+
+    Parameters
+    ----------
+    qx, qy
+        Wavenumbers (m,) [1/a].
+    x, y
+        Places (n,) inside the disc [a].
+
+    Returns
+    -------
+    ndarray
+        (n, m) [p_h per a^2/R]. The deflection is (2/pi^2) iint P dX' dY'/r.
+    """
+    # the series converges like that of exp(i q): a few terms more than the largest q
+    last = math.ceil(float(np.hypot(qx, qy).max())) + 12
+    return _series(qx, qy, np.arctan2(y, x), _radial(np.sqrt(1.0 - x * x - y * y), last))
+
+
+def _radial(z: Array, last: int) -> list[tuple[range, Array]]:
+    """For each m up to `last` the l that go with it, and P_lm(z)/z for them with all factors."""
+    found = []
+    for m in range(last + 1):
+        orders = range(m or 2, last + 1, 2)
+        values = [_weight(n, m) * lpmv(m, n, z) / z for n in orders]
+        if values:
+            found.append((orders, np.stack(values, axis=-1)))
+    return found
+
+
+def _series(qx: Array, qy: Array, theta: Array, radial: list[tuple[range, Array]]) -> Complex:
+    """Sum the series at the angles (n,) that the radial parts (n, number of l) belong to."""
+    q, phi = np.hypot(qx, qy), np.arctan2(qy, qx)
+    bessel = [(2 * n + 1) * spherical_jn(n, q) for n in range(radial[0][0].stop)]
+    total = np.zeros((theta.size, q.size), dtype=complex)
+    for m, (orders, values) in enumerate(radial):
+        part = values @ np.stack([(-1) ** ((n - m) // 2) * bessel[n] for n in orders])
+        # i^l = i^m (-1)^((l - m)/2); cos(m(theta - phi)) by the addition theorem
+        part *= np.cos(m * theta)[:, np.newaxis] * np.cos(m * phi) + (
+            np.sin(m * theta)[:, np.newaxis] * np.sin(m * phi)
+        )
+        total += 1j**m * part
+    return total
+
+
+def _weight(n: int, m: int) -> float:
+    """Pressure per deflection of Y_nm, times its share in a plane wave."""
+    inverse = gammaln((n + m + 2) / 2) + gammaln((n - m + 2) / 2)
+    inverse -= gammaln((n + m + 1) / 2) + gammaln((n - m + 1) / 2)
+    share = math.exp(inverse + gammaln(n - m + 1) - gammaln(n + m + 1)) * lpmv(m, n, 0.0)
+    return float(share * (2.0 if m else 1.0) * math.pi / 2.0)
+
+
+@lru_cache(maxsize=1)
+def _fit() -> tuple[Array, Array, list[tuple[range, Array]], Array]:
+    """Places of a fit within RADIUS, their radial parts, and the matrix of least squares."""
+    line = np.linspace(-RADIUS, RADIUS, 13)
+    x, y = (values.ravel() for values in np.meshgrid(line, line, indexing="ij"))
+    inside = np.hypot(x, y) <= RADIUS
+    x, y = x[inside], y[inside]
+    radial = _radial(np.sqrt(1.0 - x * x - y * y), math.ceil(LARGEST) + 12)
+    return x, y, radial, np.asarray(np.linalg.pinv(monomials(x, y)), dtype=float)
+
+
+def disc_correction(qx: Array, qy: Array) -> Complex:
+    """Return what a wave on the disc has in pressure beyond the periodic wave, pi/4 |q|.
+
+    Parameters
+    ----------
+    qx, qy
+        Wavenumbers (m,) [1/a].
+
+    Returns
+    -------
+    ndarray
+        (28, m): coefficients of :func:`monomials` [p_h per a^2/R], right to 1.5 % of the pressure
+        of the wave within 0.75 of the radius, for |q| up to LARGEST.
+    """
+    x, y, radial, inverse = _fit()
+    local = 0.25 * math.pi * np.hypot(qx, qy) * np.exp(1j * (np.outer(x, qx) + np.outer(y, qy)))
+    return cast(Complex, inverse @ (_series(qx, qy, np.arctan2(y, x), radial) - local))

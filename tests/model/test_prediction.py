@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The prediction by the response of the contact: its parts and its limits."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import pyehl
+from pyehl.prediction.by_response import RoughPassage
+from pyehl.prediction.options import Options
+from pyehl.prediction.smooth import hertz_contact, solve_contact, zone_of
+from pyehl.prediction.waves import Spectrum, Transfer, Waves
+from pyehl.surfaces import Topography
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.response import stiffness
+
+POINT, OIL = OperatingPoint(), Lubricant()
+
+
+@pytest.fixture(scope="module")
+def contact():
+    """The smooth contact of Table 1."""
+    settings = pyehl.Case.from_text("").resolve()
+    return solve_contact(settings)
+
+
+def passage(contact, tile, ratio=1.01, **options):
+    return RoughPassage(tile, contact, POINT, OIL, Options(**options), ratio)
+
+
+def test_smooth_contact_is_that_of_a_fine_grid(contact):
+    # the Richardson limit of two solvers (z = 0.6684), good to 0.2 %
+    assert contact.central_film == pytest.approx(0.02459, rel=3e-3)
+    assert contact.pressure.max() == pytest.approx(1.004, abs=0.01)
+
+
+def test_no_roughness_no_change(contact, table_1):
+    flat = Topography(1e-9 * table_1(pixels=64).heights, 8.29e-4, 8.29e-4)
+    friction, tracks, bands = passage(contact, flat).run()
+    assert friction.mu_ratio == pytest.approx(1.0, abs=1e-7)
+    assert tracks[0] == pytest.approx(1.0, abs=1e-7)
+    assert sum(band.rise for band in bands) == pytest.approx(friction.mu_ratio - 1.0, abs=1e-12)
+
+
+def test_a_wave_in_the_contact_is_its_transfer():
+    """Tiles of a single wave against cos and sin, driven and free."""
+    n, side, turns = 48, 2.0, 3
+    x = np.arange(n) * side / n
+    q = 2.0 * np.pi * turns / side
+    spectrum = Spectrum.of(np.tile(np.cos(q * x)[:, np.newaxis], n), side, side)
+    t = np.full(spectrum.values.shape, 0.4 * np.exp(0.6j))
+    transfer = Transfer([t] * 3, [0.5 * t] * 3, 0.1 * t)
+    waves = Waves.of(spectrum, transfer, 0.0)
+    k = float(stiffness(q))
+    film, pressure = np.moveaxis(waves.driven[1], -1, 0)
+    assert film[:, 7] == pytest.approx(np.real(0.4 * np.exp(1j * (q * x + 0.6))), abs=1e-6)
+    expected = k * np.real((1.0 - 0.4 * np.exp(0.6j)) * np.exp(1j * q * x))
+    assert pressure[:, 7] == pytest.approx(expected, abs=1e-5)
+    fine = np.arange(4 * n) * side / (4 * n)
+    free = np.real(0.2 * np.exp(1j * (q * fine + 0.6)))
+    # brighter by what linear interpolation between four points a pixel dims
+    assert waves.free[0][:, 5, 0] == pytest.approx(free, abs=2e-3 * 0.2)
+    assert waves.free[0][:, 5, 1] == pytest.approx(-k * free, abs=2e-3 * 0.2 * k)
+
+
+def test_real_ratio_that_moves_with_the_roughness(table_1, settings):
+    """Without slip, lag and a solved contact the model is that of the paper."""
+    film = 0.2333e-6
+    tile = table_1(seed=4)
+    options = {"reduction": "amplitude", "smooth": "hertz"}
+    contact = hertz_contact(film / POINT.film_scale, "given")
+    ours = passage(contact, tile, **options).run(tracks=1)[0].mu_ratio
+    settings["surface"]["seed"] = 4
+    paper = pyehl.prediction.of_case.predict(settings).mu_ratio
+    # long waves feel the edge of the contact, which the model of the paper leaves out
+    assert ours == pytest.approx(paper, rel=0.02)
+
+
+def test_slip_turns_the_free_wave(contact, table_1):
+    """One per cent of slip, forward or backward, makes the rise of a Table 1 surface."""
+    tile = table_1(seed=21)
+    rise = {u: passage(contact, tile, u).run(tracks=1)[0].mu_ratio for u in (0.99, 1.0, 1.01)}
+    assert rise[1.0] < 1.0 < min(rise[0.99], rise[1.01])
+    assert rise[0.99] == pytest.approx(rise[1.01], rel=0.1)
+
+
+def test_a_surface_in_motion_and_its_mirror_image(contact, table_1):
+    """A contact is symmetric in Y."""
+    z = table_1(seed=3).heights
+    mirrored = Topography(np.roll(z[:, ::-1], 1, axis=1), 8.29e-4, 8.29e-4)
+    both = [passage(contact, Topography(h, 8.29e-4, 8.29e-4)).run(1)[0].mu_ratio for h in (z,)]
+    both.append(passage(contact, mirrored).run(1)[0].mu_ratio)
+    assert both[0] == pytest.approx(both[1], rel=1e-5)
+
+
+def test_table_is_fine_enough(contact, table_1, monkeypatch):
+    """Neither the table of responses, nor the stations, nor the points of friction matter."""
+    tile = table_1(seed=5)
+    usual = passage(contact, tile).run(tracks=1)[0].mu_ratio
+    monkeypatch.setattr("pyehl.prediction.waves.TABLE", (144, 49))
+    assert passage(contact, tile).run(1)[0].mu_ratio == pytest.approx(usual, rel=5e-4)
+    monkeypatch.setattr("pyehl.prediction.by_response.POINTS", 128)
+    assert passage(contact, tile).run(1)[0].mu_ratio == pytest.approx(usual, rel=1e-3)
+
+
+def test_film_breakdown_has_no_ratio(contact, table_1):
+    high = Topography(12.0 * table_1().heights, 8.29e-4, 8.29e-4)
+    friction, tracks, bands = passage(contact, high).run()
+    assert friction.status == "film breakdown"
+    assert np.isnan(friction.mu_ratio)
+    assert np.isnan(tracks[0])
+    assert bands == []
+
+
+def test_transfer_is_interpolated_from_its_table(contact):
+    """Components between the places of the table: T to 2e-3."""
+    rng = np.random.default_rng(2)
+    spectrum = Spectrum.of(rng.standard_normal((40, 36)), 1.7, 1.9)
+    zone = zone_of(contact, POINT, OIL)
+    coarse = Transfer.of(spectrum, zone, (1000.0, 10.0), 1.02)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("pyehl.prediction.waves.TABLE", (400, 151))
+        fine = Transfer.of(spectrum, zone, (1000.0, 10.0), 1.02)
+    for a, b in zip(coarse.driven + coarse.free, fine.driven + fine.free, strict=True):
+        assert np.abs(a - b)[spectrum.q > 0].max() < 2e-3
+
+
+def test_outside_the_range_is_said(settings):
+    settings["psd"] |= {"reduction": "response", "smooth": "solved"}
+    settings["surface"]["velocity_ratio"] = 1.5
+    summary = pyehl.prediction.of_case.predict(settings).summary
+    assert summary["outside_range"] == ["velocity_ratio"]
+    assert summary["mu_ratio_model_error"] is None
+    settings["surface"]["velocity_ratio"] = 1.01
+    summary = pyehl.prediction.of_case.predict(settings).summary
+    assert summary["outside_range"] == []
+    assert 0.0 < summary["mu_ratio_model_error"] < 0.1
+
+
+def test_options_of_the_paper_alone(settings):
+    settings["psd"] |= {"reduction": "response", "load_balance": True}
+    with pytest.raises(ValueError, match="belong to the model of the paper"):
+        pyehl.prediction.of_case.predict(settings)
+
+
+def test_phase_lag_is_refused_with_its_reason():
+    with pytest.raises(pyehl.InputError, match="a key no more") as refused:
+        pyehl.Case.from_text("&psd\n phase_lag = 40.0\n/\n")
+    assert "psd.reduction" in str(refused.value)
