@@ -1,4 +1,4 @@
-"""The compiled extension: modules ehl_f2py_solver and ehl_f2py_functions of fortran/bind.
+"""The compiled extension: modules of fortran/bind.
 
 Text goes in and comes out as bytes. Arrays are float64 in Fortran order, first index X; they are
 passed by reference, never copied: another dtype or order is refused with a ValueError. Every
@@ -73,5 +73,28 @@ class _Functions:
     ) -> tuple[int, bytes]: ...
     def density(self, p: _Array, values: _Array, slopes: _Array, hertz_pressure: float) -> None: ...
 
+class _Surfaces:
+    def fractal(
+        self,
+        heights: _Array,
+        length_x: float,
+        length_y: float,
+        rms_height: float,
+        hurst: float,
+        rolloff_wavenumber: float,
+        words: NDArray[np.int32],
+        gaussian: int,
+    ) -> tuple[int, bytes]: ...
+    def filter_tile(
+        self,
+        heights: _Array,
+        length_x: float,
+        length_y: float,
+        shortest: float,
+        longest: float,
+        gaussian: int,
+    ) -> tuple[int, bytes]: ...
+
 ehl_f2py_solver: _Solver
 ehl_f2py_functions: _Functions
+ehl_f2py_surfaces: _Surfaces

@@ -22,6 +22,7 @@ from pyehl.errors import InputError, check
 try:
     from pyehl._core import ehl_f2py_functions as functions
     from pyehl._core import ehl_f2py_solver as ehl
+    from pyehl._core import ehl_f2py_surfaces as surface_functions
 except ImportError as error:  # pragma: no cover
     raise ImportError(
         "the compiled part of pyehl is not here. Install the package (pip install .) and run "
@@ -42,6 +43,7 @@ __all__ = [
     "log_viscosity",
     "resolve",
     "shear_stress",
+    "surface_functions",
     "text_of",
     "version",
 ]

@@ -3,11 +3,11 @@
 module ehl_npy
    use, intrinsic :: iso_fortran_env, only: int32, int64, int8
    use ehl_kinds, only: dp
-   use ehl_status, only: ehl_file, status_t
+   use ehl_status, only: ehl_file, ehl_no_memory, status_t
    use ehl_text, only: newline, to_text
    implicit none (type, external)
    private
-   public :: write_npy, read_npy
+   public :: write_npy, read_npy, npy_shape
 
    !> Write a vector or a matrix; a matrix keeps Fortran order, so that values(i, j) in Fortran
    !> is values[i - 1, j - 1] in Python
@@ -69,7 +69,7 @@ contains
       real(dp), intent(in) :: values(:, :)
       type(status_t), intent(inout) :: status
       character(len=256) :: reason
-      integer :: lun, stat
+      integer :: lun, stat, closing
 
       if (transfer(1_int32, 0_int8) /= 1_int8) then
          call status%fail(ehl_file, path // ": this machine is not little-endian")
@@ -77,27 +77,81 @@ contains
       end if
       open (newunit=lun, file=path, status="replace", action="write", access="stream", &
             form="unformatted", iostat=stat, iomsg=reason)
-      if (stat == 0) write (lun, iostat=stat, iomsg=reason) head, values
-      if (stat == 0) close (lun, iostat=stat, iomsg=reason)
+      if (stat == 0) then
+         write (lun, iostat=stat, iomsg=reason) head, values
+         if (stat == 0) then
+            close (lun, iostat=stat, iomsg=reason)
+         else
+            close (lun, iostat=closing)
+            if (closing /= 0) stat = closing
+         end if
+      end if
       if (stat /= 0) call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
    end subroutine write_values
+
+   !> Shape of the matrix in a file, as read_npy would return it
+   subroutine npy_shape(path, n, status)
+      character(len=*), intent(in) :: path
+      integer, intent(out) :: n(2)
+      type(status_t), intent(inout) :: status
+      logical :: by_rows
+      integer :: lun
+
+      call open_npy(path, lun, n, by_rows, status)
+      if (.not. status%failed()) close (lun)
+   end subroutine npy_shape
 
    !> Read a matrix of little-endian float64 in either order, format 1.0 to 3.0;
    !> values(i, j) is the file's [i - 1, j - 1]
    subroutine read_npy(path, values, status)
       character(len=*), intent(in) :: path
-      real(dp), allocatable, intent(out) :: values(:, :)
+      real(dp), allocatable, intent(inout) :: values(:, :)
+      type(status_t), intent(inout) :: status
+      !> Rows of the file that are read at a time where its order is not Fortran's
+      integer, parameter :: block = 64
+      real(dp), allocatable :: rows(:, :)
+      logical :: by_rows
+      integer :: lun, stat, n(2), i, last
+
+      call open_npy(path, lun, n, by_rows, status)
+      if (status%failed()) return
+      if (allocated(values)) deallocate (values)
+      allocate (values(n(1), n(2)), stat=stat)
+      if (stat /= 0) then
+         call status%fail(ehl_no_memory, path // ": no memory for " // to_text(n(1)) // " x " // to_text(n(2)) // " numbers")
+      else if (by_rows) then
+         allocate (rows(n(2), min(block, n(1))))
+         do i = 1, n(1), block
+            last = min(i + block - 1, n(1))
+            read (lun, iostat=stat) rows(:, :last - i + 1)
+            if (stat /= 0) exit
+            values(i:last, :) = transpose(rows(:, :last - i + 1))
+         end do
+      else
+         read (lun, iostat=stat) values
+      end if
+      if (stat /= 0) call status%fail(ehl_file, path // ": cannot read the array: it is shorter than it says")
+      close (lun)
+   end subroutine read_npy
+
+   !> Open a file and read its header, as far as the first number
+   subroutine open_npy(path, lun, n, by_rows, status)
+      character(len=*), intent(in) :: path
+      integer, intent(out) :: lun, n(2)
+      !> Whether the last index of the array runs fastest
+      logical, intent(out) :: by_rows
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: head, problem
       character(len=10) :: front
       character(len=2) :: more
       character(len=256) :: reason
-      real(dp), allocatable :: rows(:, :)
-      integer :: lun, stat, length, n(2)
+      integer :: stat, length
       integer(int64) :: bytes
 
-      allocate (values(0, 0))
+      n = 0
+      by_rows = .true.
       head = ""
+      if (status%failed()) return
       open (newunit=lun, file=path, status="old", action="read", access="stream", &
             form="unformatted", iostat=stat, iomsg=reason)
       if (stat /= 0) then
@@ -120,21 +174,11 @@ contains
          end if
       end if
       if (problem == "" .and. 8*int(n(1), int64)*n(2) > bytes) problem = "it is shorter than it says"
-      if (problem == "") then
-         deallocate (values)
-         if (index(head, "'fortran_order': True") > 0) then
-            allocate (values(n(1), n(2)))
-            read (lun, iostat=stat) values
-         else
-            allocate (rows(n(2), n(1)))
-            read (lun, iostat=stat) rows
-            values = transpose(rows)
-         end if
-         if (stat /= 0) problem = "it is shorter than it says"
-      end if
-      if (problem /= "") call status%fail(ehl_file, path // ": cannot read the array: " // problem)
+      by_rows = index(head, "'fortran_order': True") == 0
+      if (problem == "") return
+      call status%fail(ehl_file, path // ": cannot read the array: " // problem)
       close (lun)
-   end subroutine read_npy
+   end subroutine open_npy
 
    !> Shape of the array that a header describes; problem becomes empty when it can be read
    subroutine read_header(head, n, problem)

@@ -4,6 +4,7 @@ module ehl_handles
    use ehl_case, only: case_t
    use ehl_clock, only: clock_t, start_clock
    use ehl_keeper, only: keeper_t
+   use ehl_lock, only: lock, lock_t, unlock
    use ehl_solver, only: solver_t
    use ehl_status, only: ehl_closed, ehl_no_memory, status_t
    use ehl_text, only: to_text
@@ -28,6 +29,7 @@ module ehl_handles
 
    integer, parameter :: places = 64
    type(slot_t) :: table(places)
+   type(lock_t), target :: table_lock
 
 contains
 
@@ -40,7 +42,7 @@ contains
 
       handle = 0
       nullify (run)
-      !$omp critical (ehl_handle_table)
+      call lock(table_lock)
       do k = 1, places
          if (associated(table(k)%run)) cycle
          allocate (run, stat=stat)
@@ -51,7 +53,7 @@ contains
          handle = places*table(k)%generation + k
          exit
       end do
-      !$omp end critical (ehl_handle_table)
+      call unlock(table_lock)
       if (handle == 0) call status%fail(ehl_no_memory, "no room for another solver: close one of " &
                                         // to_text(places))
    end subroutine new_handle
@@ -66,9 +68,9 @@ contains
       nullify (run)
       if (handle > places) then
          k = modulo(handle - 1, places) + 1
-         !$omp critical (ehl_handle_table)
+         call lock(table_lock)
          if (places*table(k)%generation + k == handle) run => table(k)%run
-         !$omp end critical (ehl_handle_table)
+         call unlock(table_lock)
       end if
       if (.not. associated(run)) call status%fail(ehl_closed, "the solver is closed")
    end subroutine run_of
@@ -81,9 +83,9 @@ contains
 
       call run_of(handle, run, status)
       if (.not. associated(run)) return
-      !$omp critical (ehl_handle_table)
+      call lock(table_lock)
       nullify (table(modulo(handle - 1, places) + 1)%run)
-      !$omp end critical (ehl_handle_table)
+      call unlock(table_lock)
       deallocate (run)
    end subroutine drop_handle
 end module ehl_handles

@@ -4,7 +4,7 @@ module ehl_case
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: case_t, word_length, path_length
+   public :: case_t, surface_case_t, word_length, path_length
 
    !> Longest option word
    integer, parameter :: word_length = 32
@@ -117,7 +117,11 @@ module ehl_case
       character(len=path_length) :: file = ""
       !> [m] size of the tile of a map or fractal surface, default 8.29e-4
       real(dp) :: length_x = 8.29e-4_dp, length_y = 8.29e-4_dp
-      !> [m] rms height of a fractal surface, default 0.05e-6
+      !> [m] shortest and longest wavelength of a map or fractal surface that are left, default 0: no limit
+      real(dp) :: shortest_wavelength = 0.0_dp, longest_wavelength = 0.0_dp
+      !> 'sharp' (default) or 'gaussian': how the spectrum is cut there
+      character(len=word_length) :: filter = "sharp"
+      !> [m] rms height of a fractal surface before its spectrum is cut, default 0.05e-6
       real(dp) :: rms_height = 0.05e-6_dp
       !> [-] Hurst exponent of a fractal surface, default 0.8
       real(dp) :: hurst = 0.8_dp

@@ -7,7 +7,8 @@ module ehl_case_check
    use ehl_case_lubricant, only: check_shear_law, complete_lubricant
    use ehl_case_temperature, only: check_heat, complete_viscosity
    use ehl_files, only: absolute_path, file_exists, folder_of
-   use ehl_refusal, only: contradict, refuse
+   use ehl_kinds, only: dp
+   use ehl_refusal, only: contradict, refuse, short
    use ehl_schema, only: schema_t
    use ehl_source, only: source_t
    use ehl_status, only: status_t
@@ -117,6 +118,8 @@ contains
             call contradict(schema, sources, "surface.amplitude", "surface.amplitude_over_film", "one of the two", status)
             return
          end if
+         if (.not. status%failed()) call check_filter(schema, input, sources, status)
+         if (status%failed()) return
          if (s%kind == "map" .and. s%file == "") then
             call refuse(schema, sources, "surface", "kind", "surface.kind = 'map' without " &
                // "surface.file", "file = '...', a height map in .npy or text", status)
@@ -125,6 +128,30 @@ contains
       end associate
       if (input%surface%file /= "") call find_map(schema, input, sources, status)
    end subroutine complete_surface
+
+   !> A single wave has no spectrum to cut, and something must be left of others
+   subroutine check_filter(schema, input, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(in) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+      character(len=20), parameter :: names(2) = [character(len=20) :: "shortest_wavelength", "longest_wavelength"]
+      real(dp) :: limits(2)
+      integer :: k
+
+      limits = [input%surface%shortest_wavelength, input%surface%longest_wavelength]
+      do k = 1, 2
+         if (.not. limits(k) > 0.0_dp .or. input%surface%kind /= "harmonic") cycle
+         call refuse(schema, sources, "surface", trim(names(k)), "surface."//trim(names(k))// &
+                     ": a harmonic surface is a single wave, there is no spectrum to cut", &
+                     "0, or surface.kind = 'map' or 'fractal'", status)
+         return
+      end do
+      if (.not. limits(2) > 0.0_dp .or. limits(1) < limits(2)) return
+      call refuse(schema, sources, "surface", "longest_wavelength", "surface.longest_wavelength = "// &
+                  short(limits(2))//" m is not longer than surface.shortest_wavelength = "//short(limits(1))//" m", &
+                  "a longest wavelength above the shortest one, or 0", status)
+   end subroutine check_filter
 
    !> Make the name of the height map absolute; it must be there when it is used
    subroutine find_map(schema, input, sources, status)

@@ -109,8 +109,13 @@ contains
          call self%paths("surface", "file", s%file, "height map of kind 'map': .npy or text, in m")
          call self%reals("surface", "length_x", s%length_x, "m", "[1e-9, 1]", "size of the tile along X")
          call self%reals("surface", "length_y", s%length_y, "m", "[1e-9, 1]", "size of the tile along Y")
+         call self%reals("surface", "shortest_wavelength", s%shortest_wavelength, "m", "[0, 1]", &
+                         "waves of a map or fractal surface shorter than this are cut; 0: none")
+         call self%reals("surface", "longest_wavelength", s%longest_wavelength, "m", "[0, 1]", &
+                         "waves of a map or fractal surface longer than this are cut; 0: none")
+         call self%words("surface", "filter", s%filter, "sharp|gaussian", "how the spectrum is cut")
          call self%reals("surface", "rms_height", s%rms_height, "m", "[0, 1e-4]", &
-                         "rms height of a fractal surface")
+                         "rms height of a fractal surface, before its spectrum is cut")
          call self%reals("surface", "hurst", s%hurst, "-", "[0, 1]", "Hurst exponent")
          call self%reals("surface", "rolloff_wavenumber", s%rolloff_wavenumber, "rad/m", &
                          "[0, 1e11]", "the spectrum is flat below it; 0: no roll-off")

@@ -18,9 +18,10 @@ module ehl_fft
    use ehl_deflection, only: deflection_t
    use ehl_kernel, only: fill_kernel
    use ehl_fft_passes, only: side_by_side, rows_to_spectra, convolve_columns, spectra_to_rows
-   use ehl_fftw, only: fftw_alloc_real, fftw_alloc_complex, fftw_free, fftw_destroy_plan, &
+   use ehl_fftw, only: fftw_alloc_real, fftw_alloc_complex, fftw_free, &
       fftw_plan_r2r_2d, fftw_plan_dft_r2c_1d, fftw_plan_dft_c2r_1d, fftw_plan_many_dft, &
       fftw_execute_r2r, FFTW_ESTIMATE, FFTW_REDFT00, FFTW_FORWARD, FFTW_BACKWARD
+   use ehl_fftw_planner, only: drop_plan, good_size, lock_planner, unlock_planner
    implicit none (type, external)
    private
    public :: fft_deflection_t
@@ -75,9 +76,9 @@ contains
       self%nk = self%lx/2 + 1
       call reserve(self, status)
       if (status%failed()) return
-      !$omp critical (ehl_fftw_planner)
+      call lock_planner()
       call make_plans(self)
-      !$omp end critical (ehl_fftw_planner)
+      call unlock_planner()
       if (.not. (c_associated(self%row_forward) .and. c_associated(self%row_backward) .and. &
                  c_associated(self%column_forward) .and. c_associated(self%column_backward))) then
          call status%fail(ehl_internal, "FFTW made no plan for the deflection")
@@ -145,7 +146,7 @@ contains
       call c_f_pointer(self%storage(4), self%columns, [self%ly*side_by_side, 2, self%threads])
    end subroutine reserve
 
-   !> The four one-dimensional plans; inside the planner's critical section only
+   !> The four one-dimensional plans; with the planner locked only
    subroutine make_plans(self)
       type(fft_deflection_t), intent(inout) :: self
       integer(c_int) :: length(1)
@@ -170,10 +171,10 @@ contains
       real(dp), pointer, contiguous :: in_place(:, :)
 
       in_place => self%kernel
-      !$omp critical (ehl_fftw_planner)
+      call lock_planner()
       plan = fftw_plan_r2r_2d(self%nk, self%ly/2 + 1, self%kernel, in_place, &
                               FFTW_REDFT00, FFTW_REDFT00, FFTW_ESTIMATE)
-      !$omp end critical (ehl_fftw_planner)
+      call unlock_planner()
       if (.not. c_associated(plan)) then
          call status%fail(ehl_internal, "FFTW made no plan for the kernel of the deflection")
          return
@@ -182,45 +183,18 @@ contains
       call fill_kernel(self%kernel, hy, hx)
       call fftw_execute_r2r(plan, self%kernel, in_place)
       self%kernel = self%kernel/(real(self%lx, dp)*real(self%ly, dp))
-      !$omp critical (ehl_fftw_planner)
-      call fftw_destroy_plan(plan)
-      !$omp end critical (ehl_fftw_planner)
+      call drop_plan(plan)
    end subroutine transform_kernel
-
-   !> Smallest number >= n without prime factors above 7
-   pure integer function good_size(n)
-      integer, intent(in) :: n
-      integer :: rest, k
-      integer, parameter :: primes(4) = [2, 3, 5, 7]
-
-      good_size = max(n, 1)
-      do
-         rest = good_size
-         do k = 1, size(primes)
-            do while (mod(rest, primes(k)) == 0)
-               rest = rest/primes(k)
-            end do
-         end do
-         if (rest == 1) return
-         good_size = good_size + 1
-      end do
-   end function good_size
 
    !> Give plans and memory back
    subroutine clear(self)
       type(fft_deflection_t), intent(inout) :: self
       integer :: k
 
-      !$omp critical (ehl_fftw_planner)
-      if (c_associated(self%row_forward)) call fftw_destroy_plan(self%row_forward)
-      if (c_associated(self%row_backward)) call fftw_destroy_plan(self%row_backward)
-      if (c_associated(self%column_forward)) call fftw_destroy_plan(self%column_forward)
-      if (c_associated(self%column_backward)) call fftw_destroy_plan(self%column_backward)
-      !$omp end critical (ehl_fftw_planner)
-      self%row_forward = c_null_ptr
-      self%row_backward = c_null_ptr
-      self%column_forward = c_null_ptr
-      self%column_backward = c_null_ptr
+      call drop_plan(self%row_forward)
+      call drop_plan(self%row_backward)
+      call drop_plan(self%column_forward)
+      call drop_plan(self%column_backward)
       nullify (self%kernel, self%spectrum, self%row, self%columns)
       do k = 1, size(self%storage)
          if (c_associated(self%storage(k))) call fftw_free(self%storage(k))

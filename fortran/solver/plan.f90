@@ -6,16 +6,14 @@ module ehl_plan
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
    use ehl_grid, only: grid_t, new_grid
-   use ehl_harmonic, only: harmonic_t, new_harmonic
-   use ehl_height_map, only: height_map_t
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
-   use ehl_map_file, only: read_map
    use ehl_moes, only: operating_from_moes, operating_t
    use ehl_plan_friction, only: plan_point, plan_sliding, sliding_t
    use ehl_plan_lubricant, only: plan_lubricant
+   use ehl_plan_surface, only: check_carried, make_surface
    use ehl_status, only: ehl_bad_input, status_t
-   use ehl_surface, only: surface_t
+   use ehl_surface, only: aliased_below, resolved_from, surface_t
    use ehl_transient, only: steps_needed
    use ehl_text, only: to_text
    use ehl_wedge, only: wedge_narrow, wedge_separate
@@ -23,8 +21,6 @@ module ehl_plan
    private
    public :: plan_t, make_plan, relative_wedge_error
 
-   !> Length over which the front of a map fades [a]
-   real(dp), parameter :: map_front = 0.5_dp
    !> Fewest and most intervals per side of the coarsest grid, which is solved directly
    integer, parameter :: coarsest_fewest = 16, coarsest_most = 32
    !> Nested iteration starts on a grid of at least that many nodes a side ...
@@ -63,6 +59,9 @@ module ehl_plan
       class(surface_t), allocatable :: surface
       !> Amplitude of a waviness as a share of the smooth central film; 0: it is known already
       real(dp) :: amplitude_over_film = 0.0_dp
+      !> Shares of the variance of the surface: in waves that the grid would alias, which are left out; in waves with
+      !> fewer than eight nodes a period, those included
+      real(dp) :: left_out = 0.0_dp, unresolved = 0.0_dp
       !> Scheme of the wedge and squeeze terms in time steps
       integer :: scheme = wedge_narrow
       !> Begin the march when the roughness comes near the contact
@@ -75,15 +74,18 @@ module ehl_plan
    contains
       procedure :: moves
       procedure :: rests
+      procedure :: see_waves
    end type plan_t
 
 contains
 
    !> Decide how a case is solved
-   subroutine make_plan(input, heights, plan, status)
+   subroutine make_plan(input, heights, surface, plan, status)
       type(case_t), intent(in) :: input
       !> Heights of a map [m] if they are not to be read from a file, else of size 0
       real(dp), intent(in) :: heights(:, :)
+      !> The surface, if it has been made already; the plan takes it over
+      class(surface_t), allocatable, intent(inout) :: surface
       type(plan_t), intent(out) :: plan
       type(status_t), intent(inout) :: status
       real(dp) :: rho(1), slope(1)
@@ -98,13 +100,35 @@ contains
       plan%max_cycles = input%solver%max_cycles
       plan%threads = input%solver%threads
       plan%target_error = input%grid%target_error
-      call pick_surface(input, heights, plan, status)
+      plan%scheme = merge(wedge_narrow, wedge_separate, input%time%scheme == "narrow")
+      plan%skip_start = input%time%skip_start
+      plan%time_tolerance = input%time%tolerance
+      plan%max_periods = input%time%max_periods
+      plan%steps = input%time%steps
+      if (allocated(surface)) then
+         call move_alloc(surface, plan%surface)
+      else
+         call make_surface(input, plan%contact, heights, plan%surface, plan%amplitude_over_film, status)
+      end if
       call pick_grids(input, plan, status)
       if (status%failed() .or. .not. allocated(plan%surface)) return
       plan%surface%threads = plan%threads
       plan%coarse_run = input%time%estimate_error .and. plan%levels > 2 .and. (plan%rests() .or. plan%steps == 0)
-      call check_steps(input, plan, status)
+      call plan%see_waves(plan%finest)
+      call check_carried(plan%surface, plan%finest, status)
+      if (.not. status%failed()) call check_steps(input, plan, status)
    end subroutine make_plan
+
+   !> What of the surface a grid carries
+   subroutine see_waves(self, grid)
+      class(plan_t), intent(inout) :: self
+      type(grid_t), intent(in) :: grid
+
+      self%left_out = self%surface%unresolved(grid, aliased_below)
+      self%unresolved = self%surface%unresolved(grid, resolved_from)
+      ! nothing would be left of the surface on the next coarser grid
+      if (self%coarse_run) self%coarse_run = self%surface%unresolved(grid%coarser(), aliased_below) < 1.0_dp
+   end subroutine see_waves
 
    !> Whether there is a rough surface on the move: time steps
    pure logical function moves(self)
@@ -232,54 +256,6 @@ contains
       if (plan%start == 0) plan%start = plan%levels
       plan%finest = grid
    end subroutine pick_grids
-
-   !> Roughness and how it is marched
-   subroutine pick_surface(input, heights, plan, status)
-      type(case_t), intent(in) :: input
-      real(dp), intent(in) :: heights(:, :)
-      type(plan_t), intent(inout) :: plan
-      type(status_t), intent(inout) :: status
-      type(harmonic_t) :: waviness
-      type(height_map_t) :: map
-      real(dp), allocatable :: tile(:, :)
-
-      if (status%failed()) return
-      plan%scheme = merge(wedge_narrow, wedge_separate, input%time%scheme == "narrow")
-      plan%skip_start = input%time%skip_start
-      plan%time_tolerance = input%time%tolerance
-      plan%max_periods = input%time%max_periods
-      plan%steps = input%time%steps
-      associate (s => input%surface)
-         select case (s%kind)
-         case ("harmonic")
-            waviness = new_harmonic(s%amplitude, s%wavelength_x, s%wavelength_y, s%velocity_ratio, s%x_start)
-            if (.not. s%amplitude_given) plan%amplitude_over_film = s%amplitude_over_film
-            plan%surface = waviness
-         case ("map", "fractal")
-            if (.not. input%contact%si) then
-               call status%fail(ehl_bad_input, "a surface in metres needs a contact in SI units: give &contact load, "// &
-                                "mean_velocity, radius and reduced_modulus instead of moes_m and moes_l")
-               return
-            end if
-            if (size(heights) > 0) then
-               tile = heights
-            else if (s%file /= "") then
-               call read_map(s%file, tile, status)
-               if (status%failed()) return
-            else
-               call status%fail(ehl_bad_input, "a fractal surface is made by pyehl: run the case with 'pyehl run', or write "// &
-                                "the map with 'pyehl surface CASE.nml -o MAP.npy' and name it in surface.file")
-               return
-            end if
-            tile = (tile - sum(tile)/size(tile))/plan%contact%film_scale
-            call map%setup(tile, s%length_x/plan%contact%radius, s%length_y/plan%contact%radius, &
-                           s%velocity_ratio, s%x_start, map_front, status)
-            plan%surface = map
-         case default
-            continue
-         end select
-      end associate
-   end subroutine pick_surface
 
    !> Rough a-priori error of H_c by the second-order wedge term, relative: 0.16 M h^2
    !> (fitted to grids of 65^2 to 513^2 for 20 <= M <= 1000, 10 <= L <= 15)

@@ -51,6 +51,7 @@ contains
       else
          text = text//"scene      smooth and steady: no time levels, no roughness"//new_line("a")
       end if
+      if (allocated(plan%surface)) text = text//wave_lines(plan)
       if (plan%coarsest%mirror) then
          text = text//"domain     symmetric in Y: the half Y >= 0 is solved"//new_line("a")
       else
@@ -90,6 +91,30 @@ contains
          if (level == plan%start) words = "solution, from the Hertz pressure"
       end function use_of
    end function plan_text
+
+   !> How much of the surface the finest grid carries
+   function wave_lines(plan) result(text)
+      type(plan_t), intent(in) :: plan
+      character(len=:), allocatable :: text
+      character(len=128) :: line
+
+      text = ""
+      if (plan%surface%variance > 0.0_dp .and. plan%contact%film_scale > 0.0_dp) then
+         write (line, "(a,es9.2,a)") "surface    rms height ", sqrt(plan%surface%variance)*plan%contact%film_scale, " m"
+         text = trim(line)
+         if (plan%surface%variance < plan%surface%variance_whole) then
+            write (line, "(a,es9.2,a)") ", of", sqrt(plan%surface%variance_whole)*plan%contact%film_scale, &
+               " m before its spectrum was cut"
+            text = text//trim(line)
+         end if
+         text = text//new_line("a")
+      end if
+      write (line, "(a,es8.1,a)") "waves      with fewer than 8 nodes a period hold ", plan%unresolved, &
+         " of the variance of the surface;"
+      text = text//trim(line)
+      write (line, "(es8.1,a)") plan%left_out, " of it, with 2 and fewer, is left out"
+      text = text//" "//trim(adjustl(line))//new_line("a")
+   end function wave_lines
 
    !> A rough surface at rest: where it lies, and where the error comes from
    function rest_lines(plan) result(text)

@@ -17,7 +17,7 @@ module ehl_report
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    implicit none (type, external)
    private
-   public :: cycle_line, march_line, rest_line, report_scene, report_smooth, report_march, report_rest
+   public :: cycle_line, march_line, rest_line, report_scene, report_smooth, report_march, report_rest, report_waves
 
 contains
 
@@ -215,6 +215,21 @@ contains
       call record%set("seconds_per_step", seconds/max(march%step, 1))
       call record%set("step_residual_allowed", march%policy%tolerance)
    end subroutine report_march
+
+   !> What of the surface the grid carries
+   subroutine report_waves(record, plan)
+      type(record_t), intent(inout) :: record
+      type(plan_t), intent(in) :: plan
+
+      associate (surface => plan%surface)
+         if (surface%variance > 0.0_dp .and. plan%contact%film_scale > 0.0_dp) then
+            call record%set("surface_rms_m", sqrt(surface%variance)*plan%contact%film_scale)
+            call record%set("variance_cut", max(0.0_dp, 1.0_dp - surface%variance/surface%variance_whole))
+         end if
+      end associate
+      call record%set("variance_unresolved", plan%unresolved)
+      call record%set("variance_left_out", plan%left_out)
+   end subroutine report_waves
 
    !> The contact with a rough surface at rest: results null unless they are good
    subroutine report_rest(record, plan, rest, good, coarse_ratio)

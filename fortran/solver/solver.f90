@@ -13,6 +13,7 @@ module ehl_solver
    use ehl_rest, only: rest_t
    use ehl_status, only: status_t
    use ehl_steady, only: steady_t
+   use ehl_surface, only: surface_t
    use ehl_table, only: table_t
    use ehl_transient, only: transient_t
    implicit none (type, external)
@@ -37,6 +38,8 @@ module ehl_solver
       real(dp), private :: step_seconds = 0.0_dp, smooth_seconds = 0.0_dp
       !> Seconds that zeros save in a deflection
       real(dp), private :: zeros_seconds = 0.0_dp
+      !> A surface that was made already
+      class(surface_t), allocatable, private :: surface
       !> Heights of a map [m] that was given and not read
       real(dp), allocatable, private :: heights(:, :)
       type(case_t), private :: input
@@ -170,7 +173,7 @@ contains
 
       self%input = input
       if (.not. allocated(self%heights)) allocate (self%heights(0, 0))
-      call make_plan(input, self%heights, self%plan, status)
+      call make_plan(input, self%heights, self%surface, self%plan, status)
       if (status%failed()) return
       associate (plan => self%plan)
          call self%hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, &

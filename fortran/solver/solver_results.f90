@@ -3,7 +3,7 @@
 submodule (ehl_solver) ehl_solver_results
    use ehl_outcome, only: outcome_names, outcome_target_missed
    use ehl_plan_text, only: plan_text
-   use ehl_report, only: cycle_line, march_line, rest_line, report_march, report_rest, report_scene, report_smooth
+   use ehl_report, only: cycle_line, march_line, rest_line, report_march, report_rest, report_scene, report_smooth, report_waves
    use ehl_report_friction, only: report_friction
    use ehl_skips, only: find_skips, report_skips, skip_lines, skip_t
    use ehl_status, only: ehl_bad_input
@@ -37,6 +37,7 @@ contains
       class(solver_t), intent(in) :: self
       type(record_t) :: record
       logical :: good
+      real(dp) :: bytes
 
       call record%set("status", trim(outcome_names(self%stand())))
       call record%set("converged", self%converged())
@@ -47,10 +48,13 @@ contains
       call report_smooth(record, self%plan, self%steady, self%level(), good)
       if (self%marching) call report_march(record, self%plan, self%transient, self%converged(), &
                                               self%step_seconds, self%coarse_mean)
+      if (self%marching .or. self%resting) call report_waves(record, self%plan)
       if (self%resting) call report_rest(record, self%plan, self%rest, self%converged(), self%coarse_mean)
       call summarise_friction(self, record, good)
       if (self%marching .and. self%done()) call report_skips(record, skips_of(self))
-      call record%set("bytes", real(self%hierarchy%bytes(), dp))
+      bytes = real(self%hierarchy%bytes(), dp)
+      if (allocated(self%plan%surface)) bytes = bytes + self%plan%surface%bytes()
+      call record%set("bytes", bytes)
    end function summary
 
    !> Absolute friction of the smooth contact and of the rough one

@@ -4,6 +4,7 @@ submodule (ehl_solver) ehl_solver_run
    use ehl_clock, only: clock_t, start_clock
    use ehl_harmonic, only: harmonic_t
    use ehl_judge, only: judge_march
+   use ehl_plan_surface, only: check_carried
    use ehl_outcome, only: outcome_cycle_limit, outcome_diverged, outcome_negative_film
    use ehl_skips, only: seconds_saved_by_zeros
    use ehl_step_policy, only: step_tolerance
@@ -58,7 +59,7 @@ contains
       integer :: n
 
       n = self%steady%n
-      call keep_smooth(self)
+      call keep_smooth(self, status)
       call self%transient%policy%set(self%plan%step_cycle, self%plan%coarsening_may_change, &
                                      step_tolerance(self%grid%hx, self%plan%accuracy), self%plan%max_cycles)
       call self%transient%start(self%hierarchy%levels(n), self%plan%contact, self%plan%surface, self%plan%skip_start, &
@@ -75,9 +76,13 @@ contains
    end subroutine begin_march
 
    !> The smooth contact is solved: what a rough one needs of it
-   subroutine keep_smooth(self)
+   subroutine keep_smooth(self, status)
       type(solver_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
 
+      call self%plan%see_waves(self%grid)
+      call check_carried(self%plan%surface, self%grid, status)
+      call self%plan%surface%prepare(self%grid, status)
       associate (n => self%steady%n)
          self%p_smooth = self%hierarchy%levels(n)%p
          self%h_smooth = self%hierarchy%levels(n)%h
@@ -94,7 +99,7 @@ contains
       type(solver_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
 
-      call keep_smooth(self)
+      call keep_smooth(self, status)
       call self%rest%start(self%hierarchy%levels(self%steady%n), self%plan%contact, self%plan%surface, self%plan%max_cycles, &
                            self%plan%accuracy, status)
       self%resting = .true.
@@ -155,13 +160,8 @@ contains
       input%grid%points = (self%grid%nx + 1)/2
       input%grid%target_error = 0.0_dp
       input%time%estimate_error = .false.
-      select type (waviness => self%plan%surface)
-      type is (harmonic_t)
-         input%surface%amplitude = waviness%amplitude
-         input%surface%amplitude_given = .true.
-      end select
       allocate (self%coarse)
-      call self%coarse%give_surface(self%heights)
+      call self%plan%surface%hand_over(self%coarse%surface)
       call self%coarse%start(input, status)
       if (allocated(self%coarse_state)) call move_alloc(self%coarse_state, self%coarse%state)
    end subroutine begin_coarse

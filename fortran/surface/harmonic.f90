@@ -3,7 +3,7 @@
 module ehl_harmonic
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp, pi
-   use ehl_surface, only: surface_t
+   use ehl_surface, only: aliased_below, surface_t
    implicit none (type, external)
    private
    public :: harmonic_t, new_harmonic
@@ -16,6 +16,7 @@ module ehl_harmonic
       real(dp) :: wavelength_x = 0.5_dp, wavelength_y = 0.5_dp
    contains
       procedure :: height
+      procedure :: unresolved
    end type harmonic_t
 
 contains
@@ -33,6 +34,18 @@ contains
       self%period = wavelength_x
       self%front_length = wavelength_x
    end function new_harmonic
+
+   !> One wave: all of it or nothing
+   pure real(dp) function unresolved(self, grid, nodes)
+      class(harmonic_t), intent(in) :: self
+      type(grid_t), intent(in) :: grid
+      real(dp), intent(in) :: nodes
+      real(dp) :: has(2)
+
+      has = [self%wavelength_x, self%wavelength_y]/self%meshes(grid)
+      unresolved = 0.0_dp
+      if (any(has < nodes) .or. any(has <= aliased_below)) unresolved = 1.0_dp
+   end function unresolved
 
    !> Roughness at the nodes, at time T
    subroutine height(self, grid, time, rr)

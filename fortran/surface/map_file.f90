@@ -2,15 +2,16 @@
 !> Height maps from files: .npy, or text with one row of numbers for each X
 module ehl_map_file
    use ehl_kinds, only: dp
-   use ehl_npy, only: read_npy
-   use ehl_status, only: ehl_file, status_t
+   use ehl_memory, only: free_bytes
+   use ehl_npy, only: npy_shape, read_npy
+   use ehl_status, only: ehl_file, ehl_no_memory, status_t
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: read_map
+   public :: read_map, check_memory
 
-   !> Longest line of a text map
-   integer, parameter :: line_length = 1048576
+   !> What numbers, "nan" and "inf" are made of, and what stands between them
+   character(len=*), parameter :: number_characters = "0123456789+-.eEdDnNaAiIfFtTyY, "
 
 contains
 
@@ -19,24 +20,50 @@ contains
       character(len=*), intent(in) :: path
       real(dp), allocatable, intent(out) :: heights(:, :)
       type(status_t), intent(inout) :: status
-      integer :: length
+      integer :: length, n(2), j
 
       length = len_trim(path)
       if (length > 4 .and. path(max(1, length - 3):length) == ".npy") then
-         call read_npy(trim(path), heights, status)
+         call npy_shape(trim(path), n, status)
+         call check_memory(trim(path), n, status)
+         allocate (heights(0, 0))
+         if (.not. status%failed()) call read_npy(trim(path), heights, status)
       else
          call read_text(trim(path), heights, status)
       end if
       if (status%failed()) return
-      if (.not. all(abs(heights) < huge(1.0_dp))) then
+      do j = 1, size(heights, 2)
+         if (all(abs(heights(:, j)) < huge(1.0_dp))) cycle
          call status%fail(ehl_file, trim(path)//": the map has points that are not finite: fill them first")
-      else if (size(heights, 1) < 4 .or. size(heights, 2) < 4) then
+         return
+      end do
+      if (size(heights, 1) < 4 .or. size(heights, 2) < 4) then
          call status%fail(ehl_file, trim(path)//": the map has "//to_text(size(heights, 1))//" x "// &
                           to_text(size(heights, 2))//" pixels; at least 4 x 4 are needed")
       end if
    end subroutine read_map
 
-   !> Text: blank-separated numbers, '#' begins a comment, every row of the same length
+   !> Refuse a map that would not fit, before memory is taken. It needs room twice: for the heights and their spectrum.
+   subroutine check_memory(what, n, status)
+      !> What wants the memory
+      character(len=*), intent(in) :: what
+      !> Pixels along X and Y
+      integer, intent(in) :: n(2)
+      type(status_t), intent(inout) :: status
+      real(dp), parameter :: gigabyte = 1.0e9_dp
+      real(dp) :: needed, free
+      character(len=16) :: numbers(2)
+
+      if (status%failed()) return
+      needed = 16.0_dp*n(1)*real(n(2), dp)
+      free = free_bytes()
+      if (needed <= free) return
+      write (numbers, "(f16.1)") needed/gigabyte, free/gigabyte
+      call status%fail(ehl_no_memory, what//": "//to_text(n(1))//" x "//to_text(n(2))//" heights need "// &
+                       trim(adjustl(numbers(1)))//" GB of memory, "//trim(adjustl(numbers(2)))//" GB are free")
+   end subroutine check_memory
+
+   !> Text: numbers separated by blanks, tabs, commas or semicolons, '#' begins a comment, every row of the same length
    subroutine read_text(path, heights, status)
       character(len=*), intent(in) :: path
       real(dp), allocatable, intent(out) :: heights(:, :)
@@ -44,7 +71,7 @@ contains
       character(len=:), allocatable :: line
       character(len=256) :: reason
       real(dp), allocatable :: rows(:, :)
-      integer :: lun, stat, number, columns, n
+      integer :: lun, stat, number, columns, n, last
 
       allocate (heights(0, 0))
       open (newunit=lun, file=path, status="old", action="read", iostat=stat, iomsg=reason)
@@ -52,28 +79,34 @@ contains
          call status%fail(ehl_file, path//": cannot open: "//trim(reason))
          return
       end if
-      allocate (character(len=line_length) :: line)
+      allocate (character(len=4096) :: line)
       number = 0
       n = 0
       columns = 0
       do
-         read (lun, "(a)", iostat=stat, iomsg=reason) line
+         call read_line(lun, line, last, stat)
          if (stat /= 0) exit
          number = number + 1
-         if (index(line, "#") > 0) line(index(line, "#"):) = ""
-         if (line == "") cycle
+         call plain(line, last)
+         if (last == 0) cycle
          if (columns == 0) then
-            columns = count_words(line)
+            columns = count_words(line(:last))
             allocate (rows(columns, 64))
          end if
-         if (count_words(line) /= columns) then
-            call status%fail(ehl_file, path//":"//to_text(number)//": "//to_text(count_words(line))// &
+         if (count_words(line(:last)) /= columns) then
+            call status%fail(ehl_file, path//":"//to_text(number)//": "//to_text(count_words(line(:last)))// &
                              " numbers where "//to_text(columns)//" were expected")
             exit
          end if
-         if (n == size(rows, 2)) rows = reshape(rows, [columns, 2*n], pad=[0.0_dp])
+         if (n == size(rows, 2)) then
+            call check_memory(path//" (so far)", [columns, 2*n], status)
+            if (status%failed()) exit
+            call make_room(rows, n)
+         end if
          n = n + 1
-         read (line, *, iostat=stat) rows(:, n)
+         ! '/' and '2*1.0' mean something else to Fortran
+         stat = verify(line(:last), number_characters)
+         if (stat == 0) read (line(:last), *, iostat=stat) rows(:, n)
          if (stat /= 0) then
             call status%fail(ehl_file, path//":"//to_text(number)//": this row is not numbers alone")
             exit
@@ -85,8 +118,57 @@ contains
          call status%fail(ehl_file, path//": there are no numbers in it")
          return
       end if
+      deallocate (heights)
+      allocate (heights(n, columns))
       heights = transpose(rows(:, :n))
    end subroutine read_text
+
+   !> The next line, of any length, in line(:last)
+   subroutine read_line(lun, line, last, stat)
+      integer, intent(in) :: lun
+      character(len=:), allocatable, intent(inout) :: line
+      integer, intent(out) :: last, stat
+      character(len=:), allocatable :: longer
+      integer :: got
+
+      last = 0
+      do
+         read (lun, "(a)", advance="no", size=got, iostat=stat) line(last + 1:)
+         last = last + got
+         if (stat /= 0) exit
+         ! the line goes on
+         allocate (character(len=2*len(line)) :: longer)
+         longer(:last) = line(:last)
+         call move_alloc(longer, line)
+      end do
+      if (is_iostat_eor(stat) .or. (is_iostat_end(stat) .and. last > 0)) stat = 0
+   end subroutine read_line
+
+   !> A line without its comment and the blanks at its end; semicolons and tabs become separators of Fortran
+   pure subroutine plain(line, last)
+      character(len=:), allocatable, intent(inout) :: line
+      integer, intent(inout) :: last
+      integer :: i
+
+      i = index(line(:last), "#")
+      if (i > 0) last = i - 1
+      do i = 1, last
+         if (line(i:i) == ";") line(i:i) = ","
+         if (line(i:i) == achar(9) .or. line(i:i) == achar(13)) line(i:i) = " "
+      end do
+      last = len_trim(line(:last))
+   end subroutine plain
+
+   !> Twice as many rows
+   pure subroutine make_room(rows, n)
+      real(dp), allocatable, intent(inout) :: rows(:, :)
+      integer, intent(in) :: n
+      real(dp), allocatable :: more(:, :)
+
+      allocate (more(size(rows, 1), 2*n))
+      more(:, :n) = rows
+      call move_alloc(more, rows)
+   end subroutine make_room
 
    !> Words of a line, separated by blanks, tabs or commas
    pure integer function count_words(line)

@@ -3,9 +3,14 @@
 module ehl_surface
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
+   use ehl_status, only: status_t
    implicit none (type, external)
    private
-   public :: surface_t
+   public :: surface_t, aliased_below, resolved_from
+
+   !> A wave with so many nodes a period or fewer is another wave on the grid: it must be left out. One with at least
+   !> so many is resolved.
+   real(dp), parameter :: aliased_below = 2.0_dp, resolved_from = 8.0_dp
 
    !> Roughness RR(X, Y, T), scaled by a^2/R, peaks positive, that moves along X with
    !> velocity_ratio times the mean velocity and enters behind a front at
@@ -21,11 +26,19 @@ module ehl_surface
       real(dp) :: front_length = 0.0_dp
       !> Whether RR(X, -Y) = RR(X, Y), to the bit: half the domain is enough
       logical :: even_in_y = .true.
+      !> Variance of the heights [(a^2/R)^2], and before their spectrum was cut; 0: not known
+      real(dp) :: variance = 0.0_dp, variance_whole = 0.0_dp
       !> Threads to use; the heights do not depend on it
       integer :: threads = 1
    contains
       !> Roughness on a grid at a time
       procedure(height_i), deferred :: height
+      !> Share of the variance in waves that a grid does not resolve
+      procedure(unresolved_i), deferred :: unresolved
+      procedure :: prepare
+      procedure :: hand_over
+      procedure :: meshes
+      procedure :: bytes
       !> Position of the front at time T
       procedure :: front_position
       !> Time in which the pattern repeats
@@ -44,9 +57,54 @@ module ehl_surface
          real(dp), intent(in) :: time
          real(dp), intent(out) :: rr(:, :)
       end subroutine height_i
+
+      !> Share of the variance in waves with fewer nodes a period than that, along X or along Y, of those that a wave
+      !> has in space and those that it passes in time (a step is a mesh size at the mean velocity). Waves with
+      !> aliased_below nodes count as well.
+      pure real(dp) function unresolved_i(self, grid, nodes)
+         import :: surface_t, grid_t, dp
+         implicit none (type, external)
+         class(surface_t), intent(in) :: self
+         type(grid_t), intent(in) :: grid
+         real(dp), intent(in) :: nodes
+      end function unresolved_i
    end interface
 
 contains
+
+   !> Get ready for a grid: once, before heights are asked for
+   subroutine prepare(self, grid, status)
+      class(surface_t), intent(inout) :: self
+      type(grid_t), intent(in) :: grid
+      type(status_t), intent(inout) :: status
+
+      associate (unused => self, unused_grid => grid, unused_status => status)
+      end associate
+   end subroutine prepare
+
+   !> A surface like this one for another grid; what this one has been prepared for stays
+   subroutine hand_over(self, other)
+      class(surface_t), intent(inout) :: self
+      class(surface_t), allocatable, intent(out) :: other
+
+      allocate (other, source=self)
+   end subroutine hand_over
+
+   !> Bytes of its arrays
+   pure real(dp) function bytes(self)
+      class(surface_t), intent(in) :: self
+      associate (unused => self)
+      end associate
+      bytes = 0.0_dp
+   end function bytes
+
+   !> Distances in which waves are sampled along X, in space or in time, and along Y [a]
+   pure function meshes(self, grid)
+      class(surface_t), intent(in) :: self
+      type(grid_t), intent(in) :: grid
+      real(dp) :: meshes(2)
+      meshes = [grid%hx*max(1.0_dp, self%velocity_ratio), grid%hy]
+   end function meshes
 
    !> x_start + velocity_ratio T
    elemental real(dp) function front_position(self, time)

@@ -17,6 +17,7 @@ module test_march
    use ehl_status, only: status_t
    use ehl_steady, only: steady_t
    use ehl_step_policy, only: step_tolerance
+   use ehl_surface, only: surface_t
    use ehl_transient, only: transient_t
    implicit none (type, external)
    private
@@ -282,10 +283,11 @@ contains
       type(status_t), intent(inout) :: status
       type(case_t), target :: input
       type(steady_t) :: steady
+      class(surface_t), allocatable :: no_surface
       real(dp), parameter :: none(0, 0) = reshape([real(dp) ::], [0, 0])
 
       call read_case(text, "test", "", input, status)
-      call make_plan(input, none, plan, status)
+      call make_plan(input, none, no_surface, plan, status)
       call hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, plan%engine, &
                            plan%threads, status)
       call steady%start(plan)
@@ -296,6 +298,7 @@ contains
       call is_true(steady%outcome == outcome_converged, "the smooth contact converges")
       n = steady%n
       call march%policy%set(plan%step_cycle, .false., step_tolerance(hierarchy%levels(n)%grid%hx, plan%accuracy), plan%max_cycles)
+      call plan%surface%prepare(hierarchy%levels(n)%grid, status)
       call march%start(hierarchy%levels(n), plan%contact, plan%surface, plan%skip_start, steady%results(n)%m%friction, status)
       call hierarchy%prepare_steps(n, plan%scheme, march%time_step, status)
    end subroutine begin

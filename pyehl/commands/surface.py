@@ -11,7 +11,8 @@ import numpy as np
 from pyehl.case import Case
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.errors import FileError, InputError
-from pyehl.surfaces import made_heights
+from pyehl.surfaces import from_settings
+from pyehl.theory.operating import OperatingPoint
 
 __all__ = ["add_arguments", "execute"]
 
@@ -26,11 +27,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl surface``."""
-    heights = made_heights(Case.read(args.case, args.overrides).resolve())
-    if heights is None:
+    settings = Case.read(args.case, args.overrides).resolve()
+    if settings["surface"]["kind"] != "fractal":
         raise InputError(
             "pyehl surface: the case has no fractal surface\nexpected: surface.kind = 'fractal'"
         )
+    # the film is the scale of harmonic patterns alone
+    made = from_settings(settings, OperatingPoint.from_settings(settings), film=0.0)
+    heights = np.asfortranarray(made.heights)
     partial = args.output.with_name(f"{args.output.name}.partial")
     try:
         with partial.open("wb") as stream:

@@ -6,6 +6,7 @@ direction); peaks are positive and thin the film. Pixel [i, j] lies at x = i len
 y = j length_y/ny. Spectra are those of Jacobs, Junge & Pastewka 2017, in m^4.
 """
 
+from pyehl.surfaces.filters import filtered
 from pyehl.surfaces.generators import fractal, harmonic
 from pyehl.surfaces.interpolation import resampled, shifted
 from pyehl.surfaces.maps import read_map
@@ -22,6 +23,7 @@ from pyehl.surfaces.tile import MAX_PIXELS, Topography
 __all__ = [
     "MAX_PIXELS",
     "Topography",
+    "filtered",
     "fractal",
     "from_settings",
     "harmonic",

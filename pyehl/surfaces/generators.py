@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Surfaces that are made: fractal and harmonic.
 
-The fractal generator is written here and not taken from a surface library for three reasons: the
-seed must give the same surface for as long as the package lives, which only raw output of a named
-bit generator promises; the modulus of each Fourier component must be selectable, exactly on the
-power law or random; and a surface is needed without heavy dependencies.
+The fractal generator is that of the compiled library, which the program `ehl` uses too: a seed is
+the same surface in both, to the bit. It is written there and not taken from a surface library
+because the seed must give the same surface for as long as the package lives, and because the
+modulus of each Fourier component must be selectable, exactly on the power law or random.
 """
 
 from __future__ import annotations
@@ -12,10 +12,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import scipy.fft
-from numpy.typing import NDArray
 
-from pyehl.surfaces.spectra import wavenumbers
+from pyehl.errors import check
+from pyehl.library import surface_functions
 from pyehl.surfaces.tile import MAX_PIXELS, Topography
 
 __all__ = ["fractal", "harmonic"]
@@ -50,8 +49,7 @@ def fractal(
     rolloff_wavenumber
         q_r [rad/m] below which the spectrum is flat; 0: no roll-off.
     seed
-        Not negative. The phases come from the raw words of PCG64, which NumPy promises not to
-        change.
+        Not negative, of any size. The phases come from the raw words of PCG64, as NumPy seeds it.
     modulus
         ``"deterministic"``: each component lies exactly on the power law, only phases are random
         (the usual generator); ``"gaussian"``: amplitudes of a Gaussian random field.
@@ -77,47 +75,31 @@ def fractal(
         raise ValueError(
             f"rolloff_wavenumber must not be negative [rad/m], not {rolloff_wavenumber!r}"
         )
+    for name, value in (("length_x", length_x), ("length_y", length_y)):
+        if not (math.isfinite(value) and value > 0.0):
+            raise ValueError(f"{name} must be positive [m], not {value!r}")
     if seed < 0:
         raise ValueError(f"seed must not be negative, not {seed!r}")
     if modulus not in ("deterministic", "gaussian"):
         raise ValueError(f"modulus {modulus!r}: expected 'deterministic' or 'gaussian'")
 
-    half = ny // 2 + 1
-    words = np.random.PCG64(seed).random_raw(2 * nx * half)
-    uniform = ((words >> np.uint64(11)).astype(float) * 2.0**-53).reshape(2, nx, half)
-    component = np.exp(2j * np.pi * uniform[0])
-    if modulus == "gaussian":
-        component *= np.sqrt(-np.log1p(-uniform[1]))
-    _make_hermitian(component, ny, gaussian=modulus == "gaussian")
-
-    blank = Topography(np.zeros((nx, ny)), length_x, length_y)
-    qx, qy = wavenumbers(blank)
-    q = np.maximum(np.hypot(qx, qy), rolloff_wavenumber)
-    q[0, 0] = np.inf
-    component *= q ** (-1.0 - hurst)
-    z = scipy.fft.irfft2(component, s=(nx, ny))
-    z -= z.mean()
-    z *= rms_height / np.sqrt(np.mean(z * z))
+    size = max(1, (seed.bit_length() + 31) // 32)
+    words = np.frombuffer(seed.to_bytes(4 * size, "little"), dtype="<i4").astype(np.int32)
+    z = np.empty((nx, ny))
+    # y is the first index of the library's array
+    status, message = surface_functions.fractal(
+        z.T,
+        length_x,
+        length_y,
+        rms_height,
+        hurst,
+        rolloff_wavenumber,
+        words,
+        int(modulus == "gaussian"),
+    )
+    check(status, message)
     origin = f"fractal, hurst {hurst:g}, seed {seed}, {modulus} modulus"
-    return Topography(np.ascontiguousarray(z), length_x, length_y, origin, seed)
-
-
-def _make_hermitian(component: NDArray[np.complex128], ny: int, *, gaussian: bool) -> None:
-    """Give the columns q_y = 0 and Nyquist of a half spectrum the symmetry of a real surface.
-
-    Component (q_x, q_y) there is the partner of (-q_x, q_y), so one half is copied from the other.
-    The up to four components that are their own partner are real: a random sign at the given
-    modulus, or, of a Gaussian field, a real normal number of the same mean square.
-    """
-    nx = component.shape[0]
-    for j in [0] if ny % 2 else [0, ny // 2]:
-        component[: nx // 2 : -1, j] = np.conj(component[1 : (nx + 1) // 2, j])
-        for i in [0] if nx % 2 else [0, nx // 2]:
-            value = component[i, j]
-            if gaussian:
-                component[i, j] = math.sqrt(2.0) * value.real
-            else:
-                component[i, j] = math.copysign(abs(value), value.real)
+    return Topography(z, length_x, length_y, origin, seed)
 
 
 def harmonic(

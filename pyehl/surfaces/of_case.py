@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.surfaces.filters import filtered
 from pyehl.surfaces.generators import fractal, harmonic
 from pyehl.surfaces.maps import read_map
 from pyehl.surfaces.tile import Topography
@@ -57,7 +58,7 @@ def from_settings(
     surface = settings["surface"]
     kind = str(surface["kind"])
     if kind == "fractal":
-        return fractal(
+        made = fractal(
             int(surface["pixels"]),
             float(surface["length_x"]),
             float(surface["length_y"]),
@@ -67,6 +68,7 @@ def from_settings(
             seed=int(surface["seed"]),
             modulus=str(surface["modulus"]),
         )
+        return _cut(made, surface)
     if kind == "harmonic":
         shares = (float(surface["wavelength_x"]), float(surface["wavelength_y"]))
         # a long wave is sampled as finely as the contact needs, not only as it needs itself
@@ -78,22 +80,31 @@ def from_settings(
             (pixels[0], pixels[1]),
         )
     if kind == "map":
-        return read_map(
+        read = read_map(
             str(surface["file"]), float(surface["length_x"]), float(surface["length_y"])
         )
+        return _cut(read, surface)
     raise ValueError(
         f"surface.kind = {kind!r} has no heights; expected 'harmonic', 'map' or 'fractal'"
+    )
+
+
+def _cut(topography: Topography, surface: Mapping[str, Any]) -> Topography:
+    return filtered(
+        topography,
+        float(surface["shortest_wavelength"]),
+        float(surface["longest_wavelength"]),
+        str(surface["filter"]),
     )
 
 
 def made_heights(settings: Mapping[str, Mapping[str, Any]]) -> NDArray[np.float64] | None:
     """Heights [m] that the solver needs from Python, shape (nx, ny); None where it needs none.
 
-    The solver reads maps and makes harmonic patterns itself. A fractal surface is made here, by
-    the generator that the prediction uses too: the same seed is the same surface everywhere.
+    The solver reads maps, makes harmonic patterns and fractal surfaces and cuts their spectra
+    itself; only what it cannot read must come from here, before its spectrum is cut.
     """
-    if settings["surface"]["kind"] != "fractal":
+    kinds = ("smooth", "harmonic", "fractal", "map")
+    if settings["surface"]["kind"] in kinds:
         return None
-    # The film is the scale of harmonic patterns alone
-    made = from_settings(settings, OperatingPoint.from_settings(settings), film=0.0)
-    return np.asfortranarray(made.heights, dtype=np.float64)
+    raise ValueError(f"surface.kind = {settings['surface']['kind']!r}: expected one of {kinds}")

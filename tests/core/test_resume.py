@@ -17,6 +17,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from pyehl.case import Case
+from pyehl.solver import Solver
+
 WAVE = (
     "&contact moes_m = 200.0 /\n&grid points = {points} /\n"
     "&surface kind = 'harmonic' {extra} /\n&output frame_interval = 0.5 /\n"
@@ -93,15 +96,35 @@ def test_resumed_march_gives_the_same_bits(drive, unbroken, tmp_path: Path, firs
     assert not (tmp_path / "out.checkpoint").exists()
 
 
-def test_made_surface_is_kept_for_both_drivers(drive, unbroken, tmp_path: Path):
+def test_either_driver_goes_on_with_a_fractal_surface(drive, unbroken, tmp_path: Path):
     shutil.copy(unbroken["fractal"] / "case.nml", tmp_path)
     for driver in ("ehl", "pyehl"):
         stop_after_steps(drive, tmp_path, "pyehl", 20)
-        kept = np.load(tmp_path / "out.checkpoint" / "surface.npy")
-        assert kept.shape == (32, 32)
         done = drive(driver, "--resume", "out", "--set", "time.steps=0")
         assert (done.returncode, done.stderr) == (0, "")
         same(unbroken["fractal"] / "out", tmp_path / "out")
+
+
+def test_given_surface_is_kept_for_both_drivers(drive, tmp_path: Path):
+    """Heights that came from Python lie beside the state."""
+    text = FRACTAL.replace("'fractal' pixels = 32", "'map' file = 'other.npy'")
+    heights = np.random.default_rng(1).normal(scale=2e-9, size=(16, 16))
+    np.save(tmp_path / "other.npy", 0.0 * heights)
+    (tmp_path / "case.nml").write_text(text)
+    case = Case.read(tmp_path / "case.nml")
+    with Solver.open(case, heights) as solver:
+        solver.keep(tmp_path / "out")
+        while solver.summary().get("steps", 0) < 10:
+            solver.advance()
+        assert solver.save_state(at_once=True)
+    assert np.array_equal(np.load(tmp_path / "out.checkpoint" / "surface.npy"), heights)
+    shutil.copytree(tmp_path / "out.checkpoint", tmp_path / "two.checkpoint")
+    histories = []
+    for driver, place in (("ehl", "out"), ("pyehl", "two")):
+        done = drive(driver, "--resume", place, "--set", "time.steps=14")
+        assert (done.returncode, done.stderr) == (1, "")
+        histories.append((tmp_path / place / "history.csv").read_bytes())
+    assert histories[0] == histories[1]
 
 
 def test_resume_into_another_folder_leaves_the_state(drive, unbroken, tmp_path: Path):

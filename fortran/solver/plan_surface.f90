@@ -1,0 +1,124 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The rough surface that a case asks for
+module ehl_plan_surface
+   use, intrinsic :: iso_fortran_env, only: int32
+   use ehl_case, only: case_t, surface_case_t
+   use ehl_contact, only: contact_t
+   use ehl_fractal, only: fractal_t, make_fractal
+   use ehl_grid, only: grid_t
+   use ehl_harmonic, only: harmonic_t, new_harmonic
+   use ehl_height_map, only: height_map_t
+   use ehl_kinds, only: dp
+   use ehl_map_file, only: check_memory, read_map
+   use ehl_status, only: ehl_bad_input, ehl_no_memory, status_t
+   use ehl_surface, only: aliased_below, surface_t
+   use ehl_text, only: to_text
+   use ehl_tile_filter, only: filter_t
+   implicit none (type, external)
+   private
+   public :: make_surface, check_carried
+
+   !> Length over which the front of a map fades [a]
+   real(dp), parameter :: map_front = 0.5_dp
+
+contains
+
+   !> The surface of a case; not allocated: smooth
+   subroutine make_surface(input, contact, heights, surface, amplitude_over_film, status)
+      type(case_t), intent(in) :: input
+      class(contact_t), intent(in) :: contact
+      !> Heights of a map [m] if they are not to be read from a file, else of size 0
+      real(dp), intent(in) :: heights(:, :)
+      class(surface_t), allocatable, intent(out) :: surface
+      !> Amplitude of a waviness as a share of the smooth central film; 0: it is known already
+      real(dp), intent(out) :: amplitude_over_film
+      type(status_t), intent(inout) :: status
+      real(dp), allocatable :: tile(:, :)
+
+      amplitude_over_film = 0.0_dp
+      if (status%failed()) return
+      associate (s => input%surface)
+         select case (s%kind)
+         case ("harmonic")
+            allocate (surface, source=new_harmonic(s%amplitude, s%wavelength_x, s%wavelength_y, s%velocity_ratio, s%x_start))
+            if (.not. s%amplitude_given) amplitude_over_film = s%amplitude_over_film
+         case ("map", "fractal")
+            if (.not. input%contact%si) then
+               call status%fail(ehl_bad_input, "a surface in metres needs a contact in SI units: give &contact load, "// &
+                                "mean_velocity, radius and reduced_modulus instead of moes_m and moes_l")
+               return
+            end if
+            if (size(heights) > 0) then
+               call make_map(s, contact, heights, surface, status)
+            else
+               if (s%kind == "map") then
+                  call read_map(s%file, tile, status)
+               else
+                  call generate(s, tile, status)
+               end if
+               if (.not. status%failed()) call make_map(s, contact, tile, surface, status)
+            end if
+         case default
+            continue
+         end select
+      end associate
+   end subroutine make_surface
+
+   !> A tile of heights [m]
+   subroutine make_map(s, contact, heights, surface, status)
+      type(surface_case_t), intent(in) :: s
+      class(contact_t), intent(in) :: contact
+      real(dp), intent(in) :: heights(:, :)
+      class(surface_t), allocatable, intent(out) :: surface
+      type(status_t), intent(inout) :: status
+      type(height_map_t), allocatable :: placed
+      type(filter_t) :: filter
+
+      filter = filter_t(s%shortest_wavelength/contact%radius, s%longest_wavelength/contact%radius, &
+                        s%filter == "gaussian")
+      allocate (placed)
+      placed%velocity_ratio = s%velocity_ratio
+      placed%x_start = s%x_start
+      call placed%setup(heights, 1.0_dp/contact%film_scale, s%length_x/contact%radius, s%length_y/contact%radius, &
+                     filter, map_front, status)
+      if (status%failed()) return
+      if (placed%variance_whole > 0.0_dp .and. .not. placed%variance > 1.0e-24_dp*placed%variance_whole) then
+         call status%fail(ehl_bad_input, "surface.shortest_wavelength and surface.longest_wavelength leave nothing of the "// &
+                          "surface"//new_line("a")//"expected: wavelengths [m] with waves of the surface between them")
+         return
+      end if
+      call move_alloc(placed, surface)
+   end subroutine make_map
+
+   !> Heights of a fractal surface [m], X first
+   subroutine generate(s, tile, status)
+      type(surface_case_t), intent(in) :: s
+      real(dp), allocatable, intent(out) :: tile(:, :)
+      type(status_t), intent(inout) :: status
+      type(fractal_t) :: what
+      real(dp), allocatable :: rows(:, :)
+      integer :: stat
+
+      call check_memory("surface.pixels = "//to_text(s%pixels), [s%pixels, s%pixels], status)
+      if (status%failed()) return
+      what = fractal_t(s%length_x, s%length_y, s%rms_height, s%hurst, s%rolloff_wavenumber, [int(s%seed, int32)], &
+                       s%modulus == "gaussian")
+      allocate (rows(s%pixels, s%pixels), stat=stat)
+      if (stat /= 0) call status%fail(ehl_no_memory, "no memory for a fractal surface")
+      if (.not. status%failed()) call make_fractal(what, rows, status)
+      if (.not. status%failed()) tile = transpose(rows)
+   end subroutine generate
+
+   !> Refuse a surface of which a grid carries nothing
+   subroutine check_carried(surface, grid, status)
+      class(surface_t), intent(in) :: surface
+      type(grid_t), intent(in) :: grid
+      type(status_t), intent(inout) :: status
+
+      if (status%failed()) return
+      if (surface%unresolved(grid, aliased_below) < 1.0_dp) return
+      call status%fail(ehl_bad_input, "all waves of the surface are shorter than two nodes of the grid of "// &
+                       to_text(grid%nx)//" x "//to_text(grid%full_ny())//" nodes, in space or in the time steps: it carries "// &
+                       "nothing of them"//new_line("a")//"expected: a finer grid (grid.points), or longer waves")
+   end subroutine check_carried
+end module ehl_plan_surface
