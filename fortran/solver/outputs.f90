@@ -21,7 +21,10 @@ module ehl_outputs
       "case.nml", "plan.txt", "summary.json", "history.csv", "X.npy", "Y.npy", "P.npy", "H.npy", &
       "P_smooth.npy", "H_smooth.npy", "RR.npy", "A_d.npy", "frame_T.npy", "frame_P.npy", "frame_H.npy", &
       "results.nc", "centre_lines.png", "film.png", "interferogram.png", &
-      "deformed_roughness.png", "rough_and_smooth.png", "friction.png"]
+      "deformed_roughness.png", "rough_and_smooth.png", "friction.png", &
+      "centre_lines.pdf", "film.pdf", "deformed_roughness.pdf", "rough_and_smooth.pdf", "friction.pdf", &
+      "centre_lines.svg", "film.svg", "deformed_roughness.svg", "rough_and_smooth.svg", "friction.svg", &
+      "movie.gif", "movie.mp4"]
 
 contains
 

@@ -85,17 +85,10 @@ def _model(prediction: Prediction) -> str:
 def draw(prediction: Prediction, folder: Path) -> None:
     """Write the pictures of a prediction into a folder."""
     # matplotlib takes longer to import than the prediction takes to compute
-    from pyehl.plots import folder as pictures  # noqa: PLC0415
+    from pyehl.plots.figures import prediction_figures  # noqa: PLC0415
+    from pyehl.plots.folder import save_all  # noqa: PLC0415
 
-    f, o = prediction.friction, prediction.operating
-    bands = [(b.longest, b.shortest, b.rise) for b in prediction.bands]
-    pictures.save_prediction(
-        folder,
-        prediction.surface,
-        f.response.deformed,
-        (o.hertz_radius, o.moes_m, o.moes_l, prediction.options.wavelength_convention),
-        (f.shift, f.passage, bands) if f.status == "predicted" else None,
-    )
+    save_all(prediction_figures(prediction.data), folder)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

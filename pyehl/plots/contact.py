@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of pressure and film: centre lines, fringes and contours.
+"""Pressure and film of a contact: lines, interference fringes, contours.
 
-Each function returns a figure; arrays have their first index along x.
+Each function draws on `ax`, or on a new figure, and returns the axes; arrays have their first
+index along x, the direction of motion. Units as in `pyehl.plots.style`.
 """
 
 from __future__ import annotations
@@ -11,7 +12,6 @@ import math
 import numpy as np
 from matplotlib import colormaps
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from numpy.typing import NDArray
 from scipy.ndimage import zoom
@@ -22,85 +22,147 @@ from pyehl.plots.style import (
     SEQUENTIAL,
     VERMILLION,
     Scales,
+    axes_or_new,
     axis_unit,
-    edges,
-    letter,
+    colour_bar,
+    extent_of,
+    film_unit,
+    hertz_ticks,
     nearest,
-    new_figure,
+    pressure_unit,
 )
 
-__all__ = ["centre_lines", "film_maps"]
+__all__ = ["contours", "fringe_colours", "fringe_spacings", "interferogram", "pressure_and_film"]
 
 Array = NDArray[np.float64]
 
-# Light and lubricant of the pseudo-interferogram: red laser line, mineral oil
-LIGHT = 633e-9
+# Light of the interferogram [m]: red and green, as in two-colour interferometry; mineral oil
+RED, GREEN = 633e-9, 532e-9
 REFRACTIVE_INDEX = 1.5
+# Films [m] whose fringes this light tells apart; for others the fringes are a share of the film
+THINNEST, THICKEST = 0.9e-7, 1.2e-6
+RED_SHARE = 0.9
+# Fringes after which the contrast has faded, as under filtered light
 COHERENT_FRINGES = 8.0
 # Half side of the film maps [a]
 VIEW = 1.3
 
 
-def centre_lines(
-    x: Array, y: Array, pressure: Array, film: Array, scales: Scales | None = None
-) -> Figure:
-    """Pressure and film on the centre lines y = 0 and x = 0, with the Hertz ellipse.
+def pressure_and_film(
+    along: Array,
+    pressure: Array,
+    film: Array,
+    scales: Scales | None = None,
+    *,
+    name: str = "x",
+    ax: Axes | None = None,
+) -> Axes:
+    """Pressure and film on a line through the centre, with the Hertz pressure.
 
     Parameters
     ----------
-    x, y
-        (nx,), (ny,) in Hertz radii.
+    along
+        (n,) coordinate in Hertz radii.
     pressure, film
-        P and H, (nx, ny), in Hertz units.
+        P and H, (n,), in Hertz units.
+    scales
+        For SI units; None for Hertz units.
+    name
+        Of the coordinate, 'x' or 'y'.
+    ax
+        Where to draw; None: a new figure. The film has a second axis on the right.
+    """
+    ax = axes_or_new(ax, 4.2, 3.3)
+    unit, label = axis_unit(scales, name)
+    unit_p, label_p = pressure_unit(scales)
+    unit_h, label_h = film_unit(scales)
+    hertz = np.linspace(-1.0, 1.0, 401)
+    ax.plot(hertz * unit, np.sqrt(1.0 - hertz**2) * unit_p, "--", color=GREY, lw=0.9, label="Hertz")
+    ax.plot(along * unit, pressure * unit_p, color=BLUE, lw=1.4, label="pressure")
+    twin = ax.twinx()
+    twin.plot(along * unit, film * unit_h, color=VERMILLION, lw=1.4, label="film")
+    twin.set_ylim(0.0, 5.0 * float(film[nearest(along, 0.0)]) * unit_h)
+    twin.tick_params(axis="y", colors=VERMILLION)
+    twin.set_ylabel(label_h, color=VERMILLION)
+    ax.set_xlim(along[0] * unit, along[-1] * unit)
+    ax.set_ylim(0.0, 1.08 * max(unit_p, float(pressure.max()) * unit_p))
+    ax.set_xlabel(label)
+    ax.set_ylabel(label_p, color=BLUE)
+    ax.tick_params(axis="y", colors=BLUE)
+    return ax
+
+
+def fringe_spacings(central: float, scales: Scales | None) -> tuple[float, float, str]:
+    """Difference in film from fringe to fringe in red and in green, and a caption.
+
+    Parameters
+    ----------
+    central
+        Central film, in um with scales and in Hertz units without.
     scales
         For SI units; None for Hertz units.
     """
-    figure = new_figure(7.2, 3.3)
-    unit_p = 1.0 if scales is None else scales.pressure * 1e-9
-    unit_h = 1.0 if scales is None else scales.film * 1e6
-    label_p = r"$P = p/p_h$" if scales is None else r"$p$ [GPa]"
-    label_h = r"$H = hR/a^2$" if scales is None else r"$h$ [$\mu$m]"
-    i0, j0 = nearest(x, 0.0), nearest(y, 0.0)
-    central = float(film[i0, j0]) * unit_h
-    p_top = 1.08 * max(unit_p, float(pressure.max()) * unit_p)
-    axes = list(figure.subplots(1, 2, sharey=True))
-    twins: list[Axes] = []
-    for ax, along, name, p, h in (
-        (axes[0], x, "x", pressure[:, j0], film[:, j0]),
-        (axes[1], y, "y", pressure[i0, :], film[i0, :]),
-    ):
-        unit, label = axis_unit(scales, name)
-        hertz = np.linspace(-1.0, 1.0, 401)
-        (dashed,) = ax.plot(
-            hertz * unit, np.sqrt(1.0 - hertz**2) * unit_p, "--", color=GREY, lw=0.9, label="Hertz"
-        )
-        (solid,) = ax.plot(along * unit, p * unit_p, color=BLUE, lw=1.4, label="pressure")
-        twin = ax.twinx()
-        (thick,) = twin.plot(along * unit, h * unit_h, color=VERMILLION, lw=1.4, label="film")
-        twin.set_ylim(0.0, 5.0 * central)
-        twin.tick_params(axis="y", colors=VERMILLION)
-        twins.append(twin)
-        ax.set_xlim(along[0] * unit, along[-1] * unit)
-        ax.set_ylim(0.0, p_top)
-        ax.set_xlabel(label)
-        ax.tick_params(axis="y", colors=BLUE)
-        if name == "y":
-            figure.legend(handles=[solid, dashed, thick], loc="outside lower center", ncols=3)
-    axes[0].set_ylabel(label_p, color=BLUE)
-    twins[1].set_ylabel(label_h, color=VERMILLION)
-    twins[0].set_yticklabels([])
-    letter(axes)
-    return figure
+    if scales is not None and THINNEST <= central * 1e-6 <= THICKEST:
+        red, green = (1e6 * light / (2.0 * REFRACTIVE_INDEX) for light in (RED, GREEN))
+        return red, green, f"{RED * 1e9:.0f} and {GREEN * 1e9:.0f} nm, n = {REFRACTIVE_INDEX:g}"
+    red, green = RED_SHARE * central, RED_SHARE * central * GREEN / RED
+    of = r"$\Delta H$" if scales is None else r"$\Delta h$ [$\mu$m]"
+    return red, green, f"fringes {of} = {red:.2g} and {green:.2g}"
 
 
-def _round_step(value: float) -> float:
-    """Return the 1, 2 or 5 times a power of ten nearest below a positive value."""
-    power = 10.0 ** math.floor(math.log10(value))
-    return max(step for step in (1.0, 2.0, 5.0) if step * power <= value * (1 + 1e-12)) * power
+def fringe_colours(film: Array, red: float, green: float) -> Array:
+    """Colours (..., 3) of two-colour interference fringes over a film.
+
+    Dark where the paths differ by whole wavelengths: the reflection at one face turns the phase.
+    Contrast fades with the film as under filtered light, before the screen aliases.
+
+    Parameters
+    ----------
+    film
+        Any shape.
+    red, green
+        Difference in film from fringe to fringe, in the unit of the film.
+    """
+    colours = np.zeros((*film.shape, 3))
+    for channel, spacing in enumerate((red, green)):
+        contrast = np.exp(-((film / (COHERENT_FRINGES * spacing)) ** 2))
+        colours[..., channel] = 0.5 * (1.0 - contrast * np.cos(2.0 * np.pi * film / spacing))
+    # a little of the red light lightens the dark green for those who see no red
+    colours[..., 2] = 0.15 * colours[..., 0]
+    return colours
 
 
-def film_maps(x: Array, y: Array, film: Array, scales: Scales | None = None) -> Figure:
-    """Draw the film as a pseudo-interferogram and as contours.
+def _central(x: Array, y: Array, h: Array) -> float:
+    central = float(h[nearest(x, 0.0), nearest(y, 0.0)])
+    if not (math.isfinite(central) and central > 0.0):
+        raise ValueError(f"the film at the centre is {central:.4g}: no map of it can be drawn")
+    return central
+
+
+def _frame(ax: Axes, x: Array, y: Array, scales: Scales | None) -> None:
+    """Hertz circle, limits and labels of a map."""
+    unit, label_x = axis_unit(scales, "x")
+    _, label_y = axis_unit(scales, "y")
+    ax.add_patch(Circle((0.0, 0.0), unit, fill=False, ls="--", lw=0.9, ec=VERMILLION))
+    ax.set_aspect("equal")
+    ax.set_xlim(max(x[0], -VIEW) * unit, min(x[-1], VIEW) * unit)
+    ax.set_ylim(max(y[0], -VIEW) * unit, min(y[-1], VIEW) * unit)
+    ax.set_xlabel(label_x)
+    ax.set_ylabel(label_y)
+    if scales is None:
+        hertz_ticks(ax)
+
+
+def interferogram(
+    x: Array,
+    y: Array,
+    film: Array,
+    scales: Scales | None = None,
+    *,
+    fringes: tuple[float, float, str] | None = None,
+    ax: Axes | None = None,
+) -> Axes:
+    """Film as interference fringes in red and green.
 
     Parameters
     ----------
@@ -109,72 +171,76 @@ def film_maps(x: Array, y: Array, film: Array, scales: Scales | None = None) -> 
     film
         H (nx, ny) in Hertz units.
     scales
-        For SI units; the interferogram is then that of red light (633 nm) in oil, else its fringe
-        is a round share of the central film.
+        For SI units; the fringes are then those of light of 633 and 532 nm in oil, unless the film
+        is too thin or too thick for them. Else they are a share of the central film.
+    fringes
+        As `fringe_spacings` gives them, for several films in the same light; None: for this film.
+    ax
+        Where to draw; None: a new figure.
+
+    Raises
+    ------
+    ValueError
+        If the film at the centre is not a positive number and `fringes` are not given.
+    """
+    ax = axes_or_new(ax, 3.6, 3.6)
+    unit_h, _ = film_unit(scales)
+    unit, _ = axis_unit(scales, "x")
+    h = film * unit_h
+    red, green, caption = fringes or fringe_spacings(_central(x, y, h), scales)
+    inner_x, inner_y = np.abs(x) <= VIEW, np.abs(y) <= VIEW
+    view = h[np.ix_(inner_x, inner_y)]
+    factor = max(1, math.ceil(1200 / max(view.shape)))
+    fine = zoom(view, factor, order=1, grid_mode=True, mode="nearest")
+    extent = extent_of(x[inner_x], y[inner_y], unit)
+    colours = fringe_colours(fine, red, green).transpose(1, 0, 2)
+    ax.imshow(colours, origin="lower", extent=extent, interpolation="antialiased")
+    ax.text(
+        0.03, 0.03, caption, transform=ax.transAxes, fontsize="small",
+        bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 2.0},
+    )  # fmt: skip
+    _frame(ax, x, y, scales)
+    return ax
+
+
+def _round_step(value: float) -> float:
+    """Return the 1, 2 or 5 times a power of ten nearest below a positive value."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return max(step for step in (1.0, 2.0, 5.0) if step * power <= value * (1 + 1e-12)) * power
+
+
+def contours(
+    x: Array, y: Array, film: Array, scales: Scales | None = None, *, ax: Axes | None = None
+) -> Axes:
+    """Film as contours with a colour bar; what is thicker is the gap around, left white.
+
+    Parameters
+    ----------
+    x, y
+        (nx,), (ny,) in Hertz radii.
+    film
+        H (nx, ny) in Hertz units.
+    scales
+        For SI units; None for Hertz units.
+    ax
+        Where to draw; None: a new figure.
 
     Raises
     ------
     ValueError
         If the film at the centre is not a positive number.
     """
-    figure = new_figure(7.2, 3.3)
-    axes = list(figure.subplots(1, 2, sharey=True))
-    unit_x, label_x = axis_unit(scales, "x")
-    _, label_y = axis_unit(scales, "y")
-    unit = 1.0 if scales is None else scales.film * 1e6
-    h = film * unit
-    central = float(h[nearest(x, 0.0), nearest(y, 0.0)])
-    if not (math.isfinite(central) and central > 0.0):
-        raise ValueError(f"the film at the centre is {central:.4g}: no map of it can be drawn")
-    if scales is None:
-        fringe = _round_step(0.5 * central)
-        caption = f"fringe $\\Delta H$ = {fringe:g}"
-    else:
-        fringe = 1e6 * LIGHT / (2.0 * REFRACTIVE_INDEX)
-        caption = f"fringe {fringe:.3f} $\\mu$m ({LIGHT * 1e9:.0f} nm, n = {REFRACTIVE_INDEX:g})"
-    inner_x, inner_y = np.abs(x) <= VIEW, np.abs(y) <= VIEW
-    view = h[np.ix_(inner_x, inner_y)]
-    factor = max(1, math.ceil(1200 / max(view.shape)))
-    fine = zoom(view, factor, order=1, grid_mode=True, mode="nearest")
-    extent = (
-        *(v * unit_x for v in edges(x[inner_x])),
-        *(v * unit_x for v in edges(y[inner_y])),
-    )
-    # Dark where the paths differ by whole wavelengths: the reflection at one face turns the
-    # phase. Contrast fades with the film as under filtered light, before the screen aliases.
-    contrast = np.exp(-((fine / (COHERENT_FRINGES * fringe)) ** 2))
-    intensity = 0.5 * (1.0 - contrast * np.cos(2.0 * np.pi * fine / fringe))
-    axes[0].imshow(
-        intensity.T, origin="lower", extent=extent, cmap="gray", vmin=0.0, vmax=1.0,
-        interpolation="antialiased",
-    )  # fmt: skip
-    axes[0].set_xlabel(label_x)
-    axes[0].set_ylabel(label_y)
-    axes[0].text(
-        0.03, 0.03, caption, transform=axes[0].transAxes, fontsize="small",
-        bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 2.0},
-    )  # fmt: skip
-
-    least = float(h.min())
+    ax = axes_or_new(ax, 4.2, 3.6)
+    unit_h, label = film_unit(scales)
+    unit, _ = axis_unit(scales, "x")
+    h = film * unit_h
+    central, least = _central(x, y, h), float(h.min())
     step = _round_step(max((central - least) / 4.0, central / 20.0))
     first = step * math.floor(least / step)
     levels = np.arange(first, 1.6 * central + 0.5 * step, step)
-    # what is thicker is the gap around the contact: left white
     shades = colormaps[SEQUENTIAL].with_extremes(over="white")
-    filled = axes[1].contourf(x * unit_x, y * unit_x, h.T, levels=levels, cmap=shades, extend="max")
-    axes[1].contour(
-        x * unit_x, y * unit_x, h.T, levels=levels, colors="black", linewidths=0.3, alpha=0.6
-    )
-    bar = figure.colorbar(filled, ax=axes[1], shrink=0.9)
-    bar.set_label(r"$H = hR/a^2$" if scales is None else r"$h$ [$\mu$m]")
-    axes[1].set_xlabel(label_x)
-    for ax in axes:
-        ax.add_patch(Circle((0.0, 0.0), unit_x, fill=False, ls="--", lw=0.9, ec=VERMILLION))
-        ax.set_aspect("equal")
-        ax.set_xlim(max(x[0], -VIEW) * unit_x, min(x[-1], VIEW) * unit_x)
-        ax.set_ylim(max(y[0], -VIEW) * unit_x, min(y[-1], VIEW) * unit_x)
-        if scales is None:
-            ax.set_xticks([-1.0, -0.5, 0.0, 0.5, 1.0])
-            ax.set_yticks([-1.0, -0.5, 0.0, 0.5, 1.0])
-    letter(axes)
-    return figure
+    filled = ax.contourf(x * unit, y * unit, h.T, levels=levels, cmap=shades, extend="max")
+    ax.contour(x * unit, y * unit, h.T, levels=levels, colors="black", linewidths=0.3, alpha=0.6)
+    colour_bar(filled, ax, label, shrink=0.9)
+    _frame(ax, x, y, scales)
+    return ax

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from matplotlib import pyplot
 from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -29,11 +30,16 @@ __all__ = [
     "Scales",
     "axes_or_new",
     "axis_unit",
+    "colour_bar",
     "edges",
+    "extent_of",
+    "film_unit",
     "height_unit",
+    "hertz_ticks",
     "letter",
     "nearest",
     "new_figure",
+    "pressure_unit",
     "save",
 ]
 
@@ -66,6 +72,21 @@ def axes_or_new(ax: Axes | None, width: float, height: float) -> Axes:
     return ax
 
 
+def colour_bar(
+    image: ScalarMappable, ax: Axes, label: str, *, shrink: float = 1.0, fraction: float = 0.15
+) -> None:
+    """Put a colour bar beside axes, so much shorter than they are, with a share of their room."""
+    ax.figure.colorbar(image, ax=ax, shrink=shrink, fraction=fraction).set_label(label)
+
+
+def extent_of(
+    x: NDArray[np.floating[Any]], y: NDArray[np.floating[Any]], unit: float = 1.0
+) -> tuple[float, float, float, float]:
+    """Outer edges of a map with such pixels, for imshow, in a unit."""
+    (left, right), (bottom, top) = edges(x), edges(y)
+    return left * unit, right * unit, bottom * unit, top * unit
+
+
 def save(figure: Figure, path: str | Path, dpi: int = DPI) -> Path:
     """Write a figure as PNG (or what the suffix says) at `dpi` dots per inch; returns the path."""
     path = Path(path)
@@ -85,6 +106,26 @@ def axis_unit(scales: Scales | None, name: str) -> tuple[float, str]:
     if scales is None:
         return 1.0, f"${name.upper()} = {name}/a$"
     return scales.radius * 1e3, f"${name}$ [mm]"
+
+
+def pressure_unit(scales: Scales | None) -> tuple[float, str]:
+    """Factor from Hertz pressures to the unit of an axis, and its label."""
+    if scales is None:
+        return 1.0, r"$P = p/p_h$"
+    return scales.pressure * 1e-9, r"$p$ [GPa]"
+
+
+def film_unit(scales: Scales | None) -> tuple[float, str]:
+    """Factor from films in a^2/R to the unit of an axis, and its label."""
+    if scales is None:
+        return 1.0, r"$H = hR/a^2$"
+    return scales.film * 1e6, r"$h$ [$\mu$m]"
+
+
+def hertz_ticks(ax: Axes) -> None:
+    """Mark the contact radius and its half on both axes."""
+    ax.set_xticks([-1.0, -0.5, 0.0, 0.5, 1.0])
+    ax.set_yticks([-1.0, -0.5, 0.0, 0.5, 1.0])
 
 
 def height_unit(largest: float) -> tuple[float, str]:

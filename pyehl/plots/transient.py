@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of a march: friction in time, deformed roughness, rough and smooth centre lines.
+"""A transient run: friction in time, roughness in the contact, rough and smooth profiles.
 
-Each function returns a figure; arrays have their first index along x. Units as in
-`pyehl.plots.style`.
+Each function draws on `ax`, or on a new figure, and returns the axes; arrays have their first
+index along x, the direction of motion. Units as in `pyehl.plots.style`.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from numpy.typing import ArrayLike, NDArray
 
@@ -23,16 +22,16 @@ from pyehl.plots.style import (
     GREY,
     VERMILLION,
     Scales,
+    axes_or_new,
     axis_unit,
-    edges,
+    colour_bar,
+    extent_of,
     height_unit,
-    letter,
-    nearest,
-    new_figure,
+    hertz_ticks,
 )
 from pyehl.theory import stribeck
 
-__all__ = ["deformed_roughness", "eq_16", "friction_history", "rough_and_smooth"]
+__all__ = ["eq_16", "friction_history", "profiles", "roughness", "roughness_top"]
 
 Array = NDArray[np.float64]
 
@@ -45,8 +44,11 @@ def eq_16(summary: Mapping[str, Any], settings: Mapping[str, Mapping[str, Any]])
     summary, settings
         Scalars of the run, and groups and values of its case.
 
-    None when the run is none that the equation is for: equal wavelengths along X and Y, inside
-    the range of the fit.
+    Returns
+    -------
+    float or None
+        None when the run is none that the equation is for: equal wavelengths along X and Y,
+        inside the range of the fit.
     """
     surface = settings["surface"]
     film, amplitude = summary.get("H_c"), summary.get("amplitude")
@@ -69,8 +71,9 @@ def friction_history(
     mean: float | None = None,
     formula: float | None = None,
     seconds: float = 0.0,
-) -> Figure:
-    """Draw mu_r/mu_s over time (as Fig. 2 of Zhang et al. 2019).
+    ax: Axes | None = None,
+) -> Axes:
+    """mu_r/mu_s over time (as Fig. 2 of Zhang et al. 2019).
 
     Parameters
     ----------
@@ -84,9 +87,10 @@ def friction_history(
         mu_r/mu_s by eq. 16; None: not drawn.
     seconds
         a/u [s] for a second axis in SI units; 0: none.
+    ax
+        Where to draw; None: a new figure.
     """
-    figure = new_figure(5.4, 3.4)
-    ax = figure.subplots()
+    ax = axes_or_new(ax, 5.4, 3.4)
     end = float(time[-1])
     if mean is not None and period > 0.0:
         ax.axvspan(end - period, end, color=VERMILLION, alpha=0.13, lw=0.0)
@@ -113,98 +117,113 @@ def friction_history(
 
         top = ax.secondary_xaxis("top", functions=(milliseconds, back))
         top.set_xlabel("$t$ [ms]")
-    figure.legend(loc="outside lower center", ncols=4, fontsize="small", columnspacing=1.2)
-    return figure
+    ax.legend(loc="best", fontsize="small")
+    return ax
 
 
-def deformed_roughness(
-    x: Array, y: Array, roughness: Array, deformed: Array, scales: Scales | None = None
-) -> Figure:
-    """Roughness and what is left of it in the contact, X^2 + Y^2 <= 1, on one scale (Fig. 6, left).
+def _inside(x: Array, y: Array) -> tuple[tuple[Any, ...], NDArray[np.bool_]]:
+    """Index of the square around the contact, and which of its nodes are in the circle."""
+    inner_x, inner_y = np.abs(x) <= 1.0, np.abs(y) <= 1.0
+    circle = x[inner_x][:, None] ** 2 + y[inner_y][None, :] ** 2 <= 1.0
+    return np.ix_(inner_x, inner_y), circle
+
+
+def roughness_top(x: Array, y: Array, *fields: Array) -> float:
+    """Largest height of several fields inside the Hertz circle, for a common scale."""
+    at, circle = _inside(x, y)
+    return max(float(np.abs(field[at][circle]).max()) for field in fields)
+
+
+def roughness(
+    x: Array,
+    y: Array,
+    heights: Array,
+    scales: Scales | None = None,
+    *,
+    top: float = 0.0,
+    name: str = "",
+    ax: Axes | None = None,
+) -> Axes:
+    """Heights inside the Hertz circle as a map with a colour bar (Fig. 6, left).
 
     Parameters
     ----------
     x, y
         (nx,), (ny,) in Hertz radii.
-    roughness, deformed
-        RR and A_d = H_smooth - H, (nx, ny), in Hertz units.
+    heights
+        RR or A_d = H_smooth - H, (nx, ny), in Hertz units.
     scales
         For SI units; None for Hertz units.
+    top
+        Largest height of the scale, in Hertz units; 0: that of the field.
+    name
+        What the field is called in the title, which also gives its rms.
+    ax
+        Where to draw; None: a new figure.
     """
-    inner_x, inner_y = np.abs(x) <= 1.0, np.abs(y) <= 1.0
-    at = np.ix_(inner_x, inner_y)
-    inside = x[inner_x][:, None] ** 2 + y[inner_y][None, :] ** 2 <= 1.0
-    top = max(float(np.abs(field[at][inside]).max()) for field in (roughness, deformed))
+    ax = axes_or_new(ax, 4.0, 3.4)
+    at, circle = _inside(x, y)
+    top = top or roughness_top(x, y, heights)
     if scales is None:
-        unit, height = 1e3, r"$10^{-3}\,a^2/R$"
+        unit, label = 1e3, r"$10^{-3}\,a^2/R$"
     else:
-        unit, height = height_unit(top * scales.film)
+        unit, label = height_unit(top * scales.film)
         unit *= scales.film
     unit_x, label_x = axis_unit(scales, "x")
     _, label_y = axis_unit(scales, "y")
-    left, right = (v * unit_x for v in edges(x[inner_x]))
-    bottom, upper = (v * unit_x for v in edges(y[inner_y]))
-    figure = new_figure(7.2, 3.6)
-    axes: list[Axes] = list(figure.subplots(1, 2, sharey=True))
-    names = "(a) undeformed", "(b) deformed"
-    for ax, field, name in zip(axes, (roughness, deformed), names, strict=True):
-        shown = np.where(inside, field[at], np.nan) * unit
-        image = ax.imshow(
-            shown.T, origin="lower", extent=(left, right, bottom, upper), cmap=DIVERGING,
-            vmin=-top * unit, vmax=top * unit, interpolation="nearest",
-        )  # fmt: skip
-        ax.add_patch(Circle((0.0, 0.0), unit_x, fill=False, lw=0.8, ec=GREY))
-        rms = float(np.std(field[at][inside])) * unit
-        ax.set_title(f"{name}, rms {rms:.3g} {height}", loc="left", fontsize="medium")
-        ax.set_xlabel(label_x)
-        ax.set_xlim(-1.05 * unit_x, 1.05 * unit_x)
-        ax.set_ylim(-1.05 * unit_x, 1.05 * unit_x)
-        if scales is None:
-            ax.set_xticks([-1.0, -0.5, 0.0, 0.5, 1.0])
-            ax.set_yticks([-1.0, -0.5, 0.0, 0.5, 1.0])
-    axes[0].set_ylabel(label_y)
-    figure.colorbar(image, ax=axes, shrink=0.8).set_label(f"height [{height}]")
-    return figure
+    within_x, within_y = x[np.abs(x) <= 1.0], y[np.abs(y) <= 1.0]
+    extent = extent_of(within_x, within_y, unit_x)
+    shown = np.where(circle, heights[at], np.nan) * unit
+    image = ax.imshow(
+        shown.T, origin="lower", extent=extent, cmap=DIVERGING,
+        vmin=-top * unit, vmax=top * unit, interpolation="nearest",
+    )  # fmt: skip
+    ax.add_patch(Circle((0.0, 0.0), unit_x, fill=False, lw=0.8, ec=GREY))
+    rms = float(np.std(heights[at][circle])) * unit
+    ax.set_title(f"{name} rms {rms:.3g} {label}".strip(), loc="left", fontsize="medium")
+    ax.set_xlabel(label_x)
+    ax.set_ylabel(label_y)
+    ax.set_xlim(-1.05 * unit_x, 1.05 * unit_x)
+    ax.set_ylim(-1.05 * unit_x, 1.05 * unit_x)
+    if scales is None:
+        hertz_ticks(ax)
+    colour_bar(image, ax, f"height [{label}]", shrink=0.8)
+    return ax
 
 
-def rough_and_smooth(
+def profiles(
     x: Array,
-    y: Array,
-    pressures: tuple[Array, Array],
-    films: tuple[Array, Array],
+    rough: Array,
+    smooth: Array,
     scales: Scales | None = None,
-) -> Figure:
-    """Pressure and film on the line y = 0, rough over smooth.
+    *,
+    unit: tuple[float, str] = (1.0, ""),
+    colour: str = BLUE,
+    ax: Axes | None = None,
+) -> Axes:
+    """Rough over smooth values on the line y = 0.
 
     Parameters
     ----------
-    x, y
-        (nx,), (ny,) in Hertz radii.
-    pressures, films
-        Rough and smooth field, (nx, ny), in Hertz units.
+    x
+        (nx,) in Hertz radii.
+    rough, smooth
+        (nx,) pressure or film in Hertz units.
     scales
-        For SI units; None for Hertz units.
+        For SI units of x; None for Hertz units.
+    unit
+        Factor to the unit of the values, and their label, see `pyehl.plots.style`.
+    colour
+        Of the rough line.
+    ax
+        Where to draw; None: a new figure.
     """
-    figure = new_figure(7.2, 3.2)
-    axes: list[Axes] = list(figure.subplots(1, 2))
-    row = nearest(y, 0.0)
+    ax = axes_or_new(ax, 3.8, 3.2)
     unit_x, label_x = axis_unit(scales, "x")
-    unit_p = 1.0 if scales is None else scales.pressure * 1e-9
-    unit_h = 1.0 if scales is None else scales.film * 1e6
-    label_p = r"$P = p/p_h$" if scales is None else r"$p$ [GPa]"
-    label_h = r"$H = hR/a^2$" if scales is None else r"$h$ [$\mu$m]"
-    central = float(films[1][nearest(x, 0.0), row]) * unit_h
-    for ax, pair, unit, label, colour in (
-        (axes[0], pressures, unit_p, label_p, BLUE),
-        (axes[1], films, unit_h, label_h, VERMILLION),
-    ):
-        ax.plot(x * unit_x, pair[0][:, row] * unit, color=colour, lw=1.3, label="rough")
-        ax.plot(x * unit_x, pair[1][:, row] * unit, "--", color="black", lw=0.9, label="smooth")
-        ax.set_xlabel(label_x)
-        ax.set_ylabel(label)
-        ax.set_xlim(-1.5 * unit_x, 1.5 * unit_x)
-        ax.legend(loc="best", fontsize="small", framealpha=0.9)
-    axes[0].set_ylim(0.0, 1.06 * max(float(p[:, row].max()) for p in pressures) * unit_p)
-    axes[1].set_ylim(0.0, 3.0 * central)
-    letter(axes)
-    return figure
+    ax.plot(x * unit_x, rough * unit[0], color=colour, lw=1.3, label="rough")
+    ax.plot(x * unit_x, smooth * unit[0], "--", color="black", lw=0.9, label="smooth")
+    ax.set_xlabel(label_x)
+    ax.set_ylabel(unit[1])
+    ax.set_xlim(-1.5 * unit_x, 1.5 * unit_x)
+    ax.legend(loc="best", fontsize="small", framealpha=0.9)
+    return ax

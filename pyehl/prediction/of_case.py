@@ -194,7 +194,7 @@ class Prediction:
         """Draw mu_r/mu_s over the passage on `ax`, or on a new figure; returns the axes."""
         from pyehl.plots.surface import passage  # noqa: PLC0415 (matplotlib, as above)
 
-        return passage(self.friction.shift, self.friction.passage, self.surface.length_x, ax)
+        return passage(self.friction.shift, self.friction.passage, self.surface.length_x, ax=ax)
 
     def _bands(self) -> list[dict[str, float]]:
         return [

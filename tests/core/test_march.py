@@ -9,11 +9,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from PIL import Image
 
 import pyehl
 from pyehl import cli, results
 from pyehl.export import export
 from pyehl.plots import transient
+from pyehl.plots.figures import solution_figures
+from pyehl.plots.style import new_figure
 
 WAVE = (
     "&contact load = 20.0 /\n&grid points = 65 /\n"
@@ -150,14 +153,25 @@ def test_plot_on_a_march(march: Path, tmp_path: Path, capsys):
     assert {path.name for path in tmp_path.iterdir()} == written
 
 
+def test_movie_has_all_frames(march: Path, tmp_path: Path):
+    assert cli.main(["plot", str(march), "-o", str(tmp_path), "--movie"]) == 0
+    with Image.open(tmp_path / "movie.gif") as picture:
+        assert picture.n_frames == pyehl.load(march).sizes["T"]
+    assert {path.name for path in tmp_path.iterdir()} == {"movie.gif"}
+
+
 def test_friction_history_shows_the_averaging_window(march: Path):
     data = pyehl.load(march)
     mean, period = data.attrs["mu_ratio"], data.attrs["T_mean"]
     run = {name: data[name].values for name in ("history_T", "history_mu_ratio")}
-    figure = transient.friction_history(
-        run["history_T"], run["history_mu_ratio"], period=period, mean=mean, formula=2.0
+    ax = transient.friction_history(
+        run["history_T"],
+        run["history_mu_ratio"],
+        period=period,
+        mean=mean,
+        formula=2.0,
+        ax=new_figure(5.4, 3.4).subplots(),
     )
-    ax = figure.axes[0]
     lines = {line.get_label(): line.get_xydata() for line in ax.get_lines()}
     assert np.array_equal(lines["rough"][:, 1], run["history_mu_ratio"])
     end = run["history_T"][-1]
@@ -173,7 +187,7 @@ def test_friction_history_shows_the_averaging_window(march: Path):
 def test_deformed_roughness_ends_at_the_circle_and_shares_a_scale(march: Path):
     data = pyehl.load(march)
     run = {name: data[name].values for name in ("X", "Y", "RR", "A_d")}
-    figure = transient.deformed_roughness(run["X"], run["Y"], run["RR"], run["A_d"])
+    figure = solution_figures(data, "hertz")["deformed_roughness"]
     images = [ax.images[0] for ax in figure.axes[:2]]
     assert images[0].get_clim() == images[1].get_clim()
     inside = (run["X"][:, None] ** 2 + run["Y"] ** 2 <= 1.0)[np.abs(run["X"]) <= 1.0]

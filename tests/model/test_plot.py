@@ -1,18 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures: what they show, on fields that are known."""
 
-import argparse
 import json
 import struct
 
 import f90nml
 import numpy as np
 import pytest
+from matplotlib import pyplot
 
-from pyehl import reference
-from pyehl.commands import plot
+from pyehl import cli, reference
 from pyehl.commands.predict import draw
-from pyehl.plots import contact, style, surface
+from pyehl.plots import contact, figures, folder, style, surface, transient
 from pyehl.prediction.folder import write
 from pyehl.prediction.of_case import predict
 from pyehl.theory.operating import OperatingPoint
@@ -38,61 +37,124 @@ def curves(ax):
     return {line.get_label(): line.get_xydata() for line in ax.get_lines()}
 
 
-def test_centre_lines_in_hertz_units(fields):
-    figure = contact.centre_lines(*fields)
-    left, right = figure.axes[:2]
-    drawn = curves(left)
+def test_pressure_and_film_in_hertz_units(fields):
+    x, y, pressure, film = fields
+    ax = contact.pressure_and_film(x, pressure[:, 64], film[:, 64])
+    drawn = curves(ax)
     assert drawn["Hertz"][:, 1].max() == 1.0
-    assert drawn["pressure"][:, 0] == pytest.approx(fields[0])
-    assert drawn["pressure"][:, 1] == pytest.approx(fields[2][:, 64])
-    assert curves(right)["pressure"][:, 0] == pytest.approx(fields[1])
-    assert "p/p_h" in left.get_ylabel()
+    assert drawn["pressure"][:, 0] == pytest.approx(x)
+    assert drawn["pressure"][:, 1] == pytest.approx(pressure[:, 64])
+    assert "p/p_h" in ax.get_ylabel()
+    across = contact.pressure_and_film(y, pressure[80, :], film[80, :], name="y")
+    assert curves(across)["pressure"][:, 0] == pytest.approx(y)
+    assert "y/a" in across.get_xlabel()
 
 
-def test_centre_lines_in_si(fields, scales):
-    figure = contact.centre_lines(*fields, scales)
-    assert curves(figure.axes[0])["Hertz"][:, 1].max() == pytest.approx(1.6602, rel=1e-4)
-    assert "GPa" in figure.axes[0].get_ylabel()
-    films = [curves(ax)["film"] for ax in figure.axes if "film" in curves(ax)]
-    assert len(films) == 2
-    assert np.interp(0.0, *films[0].T) == pytest.approx(0.0243 * scales.film * 1e6, rel=1e-3)
+def test_pressure_and_film_in_si(fields, scales):
+    x, _, pressure, film = fields
+    ax = contact.pressure_and_film(x, pressure[:, 64], film[:, 64], scales)
+    assert curves(ax)["Hertz"][:, 1].max() == pytest.approx(1.6602, rel=1e-4)
+    assert "GPa" in ax.get_ylabel()
+    (twin,) = (other for other in ax.figure.axes if other is not ax)
+    film_line = curves(twin)["film"]
+    assert np.interp(0.0, *film_line.T) == pytest.approx(0.0243 * scales.film * 1e6, rel=1e-3)
 
 
 @pytest.mark.parametrize("si", [True, False])
-def test_film_maps(fields, scales, si):
+def test_interferogram(fields, scales, si):
     x, y, _, film = fields
-    figure = contact.film_maps(x, y, film, scales if si else None)
-    fringe, contours = figure.axes[:2]
-    image = fringe.get_images()[0].get_array()
+    ax = contact.interferogram(x, y, film, scales if si else None)
+    image = ax.get_images()[0].get_array()
+    assert image.shape[2] == 3
     assert 0.0 <= image.min()
     assert image.max() <= 1.0
-    # the centre by the law of two beams
-    step = contact.LIGHT / 3e-6 * 1e-6 * 1e6 if si else 0.01
+    # the centre by the law of two beams, in red and in green
     h = 0.0243 * (scales.film * 1e6 if si else 1.0)
-    fade = np.exp(-((h / (contact.COHERENT_FRINGES * step)) ** 2))
-    expected = 0.5 * (1 - fade * np.cos(2 * np.pi * h / step))
-    n = image.shape
-    assert image[n[0] // 2, n[1] // 2] == pytest.approx(expected, abs=0.02)
-    assert contours.get_aspect() == 1.0
-    text = fringe.texts[0].get_text()
-    assert ("0.211" in text) if si else ("0.01" in text)
+    spacings = (0.633 / 3.0, 0.532 / 3.0) if si else (0.9 * h, 0.9 * h * 532 / 633)
+    middle = image[image.shape[0] // 2, image.shape[1] // 2]
+    for channel, step in enumerate(spacings):
+        fade = np.exp(-((h / (contact.COHERENT_FRINGES * step)) ** 2))
+        expected = 0.5 * (1 - fade * np.cos(2 * np.pi * h / step))
+        assert middle[channel] == pytest.approx(expected, abs=0.02)
+    # the centre is not dark, and differs from a film a third as thick
+    thin = contact.fringe_colours(np.array(h / 3), *spacings)
+    assert middle.max() > 0.5
+    assert np.abs(middle - thin).max() > 0.3
+    assert ("532 nm" in ax.texts[0].get_text()) == si
 
 
-def test_surface_spectrum(settings):
-    result = predict(settings)
-    figure = surface.surface_spectrum(result.surface, 4.154e-4, 1000.0, 10.0)
-    ratio = figure.axes[-1].get_lines()[0].get_ydata()
-    assert np.all(np.diff(ratio) > 0.0)
-    assert figure.axes[0].get_images()[0].get_array().max() == pytest.approx(
-        result.surface.heights.max() * 1e9
+def test_thin_and_thick_films_have_fringes_of_their_own(scales):
+    for central in (0.02, 5.0):
+        red, green, caption = contact.fringe_spacings(central, scales)
+        assert red == pytest.approx(0.9 * central)
+        assert green < red
+        assert "nm" not in caption
+
+
+def test_contours(fields, scales):
+    x, y, _, film = fields
+    ax = contact.contours(x, y, film, scales)
+    assert ax.get_aspect() == 1.0
+    for function in (contact.contours, contact.interferogram):
+        with pytest.raises(ValueError, match="no map"):
+            function(x, y, 0.0 * film, scales)
+
+
+def test_every_function_takes_axes_and_returns_them(fields, settings):
+    x, y, pressure, film = fields
+    p = predict(settings)
+    tile, deformed = p.surface, p.friction.response.deformed
+    line = np.linspace(1.0, 2.0, 8)
+    calls = [
+        lambda ax: contact.pressure_and_film(x, pressure[:, 64], film[:, 64], ax=ax),
+        lambda ax: contact.interferogram(x, y, film, ax=ax),
+        lambda ax: contact.contours(x, y, film, ax=ax),
+        lambda ax: surface.heights(tile, ax=ax),
+        lambda ax: surface.spectrum_map(tile, ax=ax),
+        lambda ax: surface.spectrum_line(tile, 4.154e-4, 1000.0, 10.0, ax=ax),
+        lambda ax: surface.roughness(tile, deformed, 4.154e-4, ax=ax),
+        lambda ax: surface.passage(line * 1e-4, line, 8e-4, ax=ax),
+        lambda ax: surface.octaves([(1e-4, 5e-5, 0.1)], ax=ax),
+        lambda ax: transient.friction_history(line, line, ax=ax),
+        lambda ax: transient.roughness(x, y, pressure, ax=ax),
+        lambda ax: transient.profiles(x, pressure[:, 64], pressure[:, 64], ax=ax),
+    ]
+    for call in calls:
+        ax = style.new_figure(3.0, 3.0).subplots()
+        assert call(ax) is ax
+        assert ax.has_data()
+
+
+def test_headline():
+    about = {"moes_m": 1000.0, "moes_l": 10.0, "hertz_pressure_Pa": 1.66e9, "status": "converged"}
+    title = figures.headline(about | {"H_c": 0.0243, "H_min": 0.008})
+    for part in ("$M$ = 1000", "$L$ = 10", "1.66 GPa", "= 0.0243", "= 0.008", "motion"):
+        assert part in title
+    title = figures.headline(
+        about | {"H_c": 0.0243, "h_c_m": 2.3e-7, "h_min_m": 8e-8}, style.Scales(1.0, 1.0, 1.0)
     )
+    assert "0.23 $" in title
+    assert "0.08 $" in title
+    assert "FILM" in figures.headline(about | {"status": "negative film"})
 
 
-def test_roughness_pair_shares_one_scale(settings):
+def test_amplitude_ratio_for_both_directions(settings):
     result = predict(settings)
-    deformed = result.friction.response.deformed
-    figure = surface.roughness_pair(result.surface, deformed, result.operating.hertz_radius)
-    left, right = (ax.get_images()[0] for ax in figure.axes[:2])
+    ax = surface.spectrum_line(result.surface, 4.154e-4, 1000.0, 10.0)
+    (twin,) = (other for other in ax.figure.axes if other is not ax)
+    for label in ("wave along $x$", "wave along $y$"):
+        assert np.all(np.diff(curves(twin)[label][:, 1]) > 0.0)
+    ax = surface.heights(result.surface)
+    assert ax.get_images()[0].get_array().max() == pytest.approx(result.surface.heights.max() * 1e9)
+
+
+def test_roughness_shares_one_scale(settings):
+    result = predict(settings)
+    tile, deformed = result.surface, result.friction.response.deformed
+    radius = result.operating.hertz_radius
+    left, right = (
+        surface.roughness(tile, field, radius).get_images()[0] for field in (tile.heights, deformed)
+    )
     assert left.get_clim() == right.get_clim()
     assert left.get_clim()[0] == -left.get_clim()[1]
     # the first pixel of the tile is at the centre
@@ -106,21 +168,34 @@ def test_roughness_pair_shares_one_scale(settings):
 def test_passage_closes():
     shift = np.arange(8) * 1e-4
     ratio = 1.2 + 0.1 * np.cos(2 * np.pi * shift / 8e-4)
-    figure = surface.friction_passage(shift, ratio, 8e-4)
-    line = figure.axes[0].get_lines()[0].get_xydata()
+    line = surface.passage(shift, ratio, 8e-4).get_lines()[0].get_xydata()
     assert line[0, 1] == pytest.approx(line[-1, 1])
     assert line[:, 1] == pytest.approx(1.2 + 0.1 * np.cos(2 * np.pi * line[:, 0] / 0.8), abs=1e-9)
 
 
-def test_png_at_300_dots_per_inch(fields, tmp_path):
-    path = style.save(contact.centre_lines(*fields), tmp_path / "a.png")
+@pytest.fixture(autouse=True)
+def no_open_figures():
+    yield
+    pyplot.close("all")
+
+
+def test_files_of_all_formats(fields, tmp_path):
+    x, _, pressure, film = fields
+    figure = style.new_figure(7.2, 3.3)
+    contact.pressure_and_film(x, pressure[:, 64], film[:, 64], ax=figure.subplots())
+    path = style.save(figure, tmp_path / "a.png")
     data = path.read_bytes()
     width, height = struct.unpack(">II", data[16:24])
     assert (width, height) == (2160, 990)
+    for suffix, magic in (("pdf", b"%PDF"), ("svg", b"<?xml")):
+        (path,) = folder.save_all({"b": figure}, tmp_path, suffix)
+        assert path.name == f"b.{suffix}"
+        assert path.read_bytes().startswith(magic)
 
 
-def run_subcommand(folder, output=None, units="auto", dpi=style.DPI):
-    return plot.execute(argparse.Namespace(folder=folder, output=output, units=units, dpi=dpi))
+def run_subcommand(where, output=None, *words):
+    out = [] if output is None else ["-o", str(output)]
+    return cli.main(["plot", str(where), *out, *words])
 
 
 def test_subcommand_on_a_prediction(settings, tmp_path, capsys):
@@ -128,15 +203,19 @@ def test_subcommand_on_a_prediction(settings, tmp_path, capsys):
     assert run_subcommand(tmp_path / "out", tmp_path / "png") == 0
     assert len(capsys.readouterr().out.split()) == 3
     assert (tmp_path / "png" / "roughness.png").stat().st_size > 1e4
+    assert run_subcommand(tmp_path / "out", None, "--movie") == 2
+    assert "no frames" in capsys.readouterr().err
 
 
-def test_subcommand_at_other_resolutions(settings, tmp_path, capsys):
+def test_subcommand_at_other_resolutions_and_formats(settings, tmp_path, capsys):
     write(predict(settings), tmp_path / "out")
-    assert run_subcommand(tmp_path / "out", dpi=100) == 0
+    assert run_subcommand(tmp_path / "out", None, "--dpi", "100") == 0
     data = (tmp_path / "out" / "roughness.png").read_bytes()
-    assert struct.unpack(">II", data[16:24]) == (700, 310)
-    assert run_subcommand(tmp_path / "out", dpi=1) == 2
+    assert struct.unpack(">II", data[16:24]) == (800, 340)
+    assert run_subcommand(tmp_path / "out", None, "--dpi", "1") == 2
     assert "--dpi 1" in capsys.readouterr().err
+    assert run_subcommand(tmp_path / "out", None, "--format", "svg") == 0
+    assert (tmp_path / "out" / "roughness.svg").is_file()
 
 
 def test_subcommand_on_a_prediction_that_failed(settings, tmp_path):
@@ -146,14 +225,28 @@ def test_subcommand_on_a_prediction_that_failed(settings, tmp_path):
     assert not (tmp_path / "out" / "passage.png").exists()
 
 
+SUMMARY = {
+    "status": "converged", "moes_m": 1000.0, "moes_l": 10.0, "hertz_pressure_Pa": 1.66e9,
+    "H_c": 0.0243, "H_min": 0.008,
+}  # fmt: skip
+
+
 def test_subcommand_on_a_run(settings, fields, tmp_path):
-    (tmp_path / "summary.json").write_text(json.dumps({"status": "converged"}))
+    (tmp_path / "summary.json").write_text(json.dumps(SUMMARY))
     (tmp_path / "case.nml").write_text(str(f90nml.Namelist(settings)) + "\n")
     for name, values in zip("XYPH", fields, strict=True):
         np.save(tmp_path / f"{name}.npy", np.asfortranarray(values))
     assert run_subcommand(tmp_path) == 0
     assert {p.name for p in tmp_path.glob("*.png")} == {"centre_lines.png", "film.png"}
-    assert run_subcommand(tmp_path, units="hertz") == 0
+    assert run_subcommand(tmp_path, None, "--units", "hertz") == 0
+
+
+def test_subcommand_without_fields_says_so(settings, tmp_path, capsys):
+    (tmp_path / "summary.json").write_text(json.dumps(SUMMARY))
+    (tmp_path / "case.nml").write_text(str(f90nml.Namelist(settings)) + "\n")
+    assert run_subcommand(tmp_path, tmp_path / "new") == 2
+    assert "output.fields" in capsys.readouterr().err
+    assert not (tmp_path / "new").exists()
 
 
 def test_subcommand_without_a_result(tmp_path, capsys):

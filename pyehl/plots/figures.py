@@ -1,0 +1,218 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Whole figures of results: panels side by side under a line that says what they show."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import xarray as xr
+from matplotlib.figure import Figure
+
+from pyehl import results
+from pyehl.plots import contact, surface, transient
+from pyehl.plots.style import (
+    BLUE,
+    VERMILLION,
+    Scales,
+    film_unit,
+    letter,
+    nearest,
+    new_figure,
+    pressure_unit,
+)
+from pyehl.surfaces import Topography
+from pyehl.theory.operating import OperatingPoint
+
+__all__ = ["headline", "prediction_figures", "scales_of", "solution_figures", "surface_figures"]
+
+
+def headline(summary: Mapping[str, Any], scales: Scales | None = None) -> str:
+    """M, L, p_h, film and direction of motion in one line; the status unless it is a good one.
+
+    Parameters
+    ----------
+    summary
+        Scalars of a solution or a prediction.
+    scales
+        For the film in SI units; None for Hertz units.
+    """
+    parts = [f"$M$ = {summary['moes_m']:.4g}", f"$L$ = {summary['moes_l']:.4g}"]
+    parts.append(f"$p_h$ = {summary['hertz_pressure_Pa'] * 1e-9:.3g} GPa")
+    for name, word in (("c", "c"), ("min", r"\min")):
+        si, big = summary.get(f"h_{name}_m"), summary.get(f"H_{name}")
+        if si is None and scales is not None and big is not None:
+            si = big * scales.film
+        if si is not None and (scales is not None or big is None):
+            parts.append(rf"$h_{{{word}}}$ = {si * 1e6:.3g} $\mu$m")
+        elif big is not None:
+            parts.append(f"$H_{{{word}}}$ = {big:.3g}")
+    if summary["status"] not in ("converged", "predicted"):
+        parts.append(str(summary["status"]).upper())
+    return ",  ".join(parts) + r",  motion $\rightarrow$"
+
+
+def scales_of(data: xr.Dataset, units: str = "auto") -> Scales | None:
+    """Scales of a solution for `units`: 'si', 'hertz', or 'auto' for SI when the case has them."""
+    operating = OperatingPoint.from_settings(results.settings_of(data))
+    if units == "si" or (units == "auto" and operating.si):
+        return Scales(operating.hertz_radius, operating.hertz_pressure, operating.film_scale)
+    return None
+
+
+def _row(count: int, size: tuple[float, float], title: str, *, sharey: bool = False) -> Figure:
+    figure = new_figure(*size)
+    letter(list(figure.subplots(1, count, sharey=sharey, squeeze=False)[0]))
+    figure.suptitle(title, fontsize="medium")
+    return figure
+
+
+def solution_figures(data: xr.Dataset, units: str = "auto") -> dict[str, Figure]:
+    """All figures of a solution, by the names of their files.
+
+    Parameters
+    ----------
+    data
+        What `pyehl.solve` and `pyehl.load` give.
+    units
+        'si', 'hertz', or 'auto' for SI when the case was given in SI.
+    """
+    scales = scales_of(data, units)
+    title = headline(data.attrs, scales)
+    figures = {}
+    if "P" in data:
+        figures["centre_lines"] = _centre_lines(data, scales, title)
+        figures["film"] = _film(data, scales, title)
+    if "A_d" in data:
+        figures["deformed_roughness"] = _deformed(data, scales, title)
+        figures["rough_and_smooth"] = _rough_and_smooth(data, scales, title)
+    if "history_T" in data and data.sizes["history"] > 1:
+        figures["friction"] = _friction(data, scales, title)
+    return figures
+
+
+def _centre_lines(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
+    figure = _row(2, (8.0, 3.5), title)
+    left, right = figure.axes
+    x, y, p, h = (data[name].values for name in "XYPH")
+    i, j = nearest(x, 0.0), nearest(y, 0.0)
+    contact.pressure_and_film(x, p[:, j], h[:, j], scales, name="x", ax=left)
+    contact.pressure_and_film(y, p[i, :], h[i, :], scales, name="y", ax=right)
+    twins = [ax for ax in figure.axes if ax not in (left, right)]
+    lines = [*left.get_lines(), *twins[0].get_lines()]
+    figure.legend(handles=lines, loc="outside lower center", ncols=3)
+    return figure
+
+
+def _film(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
+    figure = _row(2, (7.2, 3.6), title, sharey=True)
+    left, right = figure.axes
+    x, y, film = (data[name].values for name in "XYH")
+    fringes = None
+    if "H_smooth" in data:
+        fringes = contact.fringe_spacings(
+            float(data.H_smooth.values[nearest(x, 0.0), nearest(y, 0.0)]) * film_unit(scales)[0],
+            scales,
+        )
+    contact.interferogram(x, y, film, scales, fringes=fringes, ax=left)
+    contact.contours(x, y, film, scales, ax=right)
+    right.set_ylabel("")
+    return figure
+
+
+def _deformed(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
+    figure = _row(2, (8.2, 3.6), title, sharey=True)
+    x, y, rough, deformed = (data[name].values for name in ("X", "Y", "RR", "A_d"))
+    top = transient.roughness_top(x, y, rough, deformed)
+    names = ("(a) undeformed,", "(b) deformed,")
+    for ax, field, name in zip(list(figure.axes), (rough, deformed), names, strict=True):
+        transient.roughness(x, y, field, scales, top=top, name=name, ax=ax)
+    return figure
+
+
+def _rough_and_smooth(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
+    figure = _row(2, (7.6, 3.4), title)
+    left, right = figure.axes
+    x, row = data["X"].values, nearest(data["Y"].values, 0.0)
+    for ax, name, unit, colour in (
+        (left, "P", pressure_unit(scales), BLUE),
+        (right, "H", film_unit(scales), VERMILLION),
+    ):
+        rough, smooth = (data[n].values[:, row] for n in (name, f"{name}_smooth"))
+        transient.profiles(x, rough, smooth, scales, unit=unit, colour=colour, ax=ax)
+        if name == "P":
+            ax.set_ylim(0.0, 1.06 * max(float(rough.max()), float(smooth.max())) * unit[0])
+        else:
+            ax.set_ylim(0.0, 3.0 * float(smooth[nearest(x, 0.0)]) * unit[0])
+    return figure
+
+
+def _friction(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
+    figure = _row(1, (6.4, 3.6), title)
+    settings = results.settings_of(data)
+    transient.friction_history(
+        data.history_T.values,
+        data.history_mu_ratio.values,
+        period=float(data.attrs["T_mean"]),
+        mean=data.attrs.get("mu_ratio"),
+        formula=transient.eq_16(data.attrs, settings),
+        seconds=OperatingPoint.from_settings(settings).time_scale if scales else 0.0,
+        ax=figure.axes[0],
+    )
+    return figure
+
+
+def surface_figures(
+    tile: Topography, hertz_radius: float, moes_m: float, moes_l: float, convention: str, title: str
+) -> dict[str, Figure]:
+    """Figure of a tile, its two-dimensional and its radially averaged spectrum with A_d/A_i."""
+    figure = _row(3, (10.6, 3.2), title)
+    first, second, third = figure.axes
+    third.set_box_aspect(1.0)
+    surface.heights(tile, ax=first)
+    surface.spectrum_map(tile, ax=second)
+    surface.spectrum_line(tile, hertz_radius, moes_m, moes_l, convention, ax=third)
+    figure.axes[-1].set_box_aspect(1.0)
+    return {"surface_spectrum": figure}
+
+
+def prediction_figures(data: xr.Dataset) -> dict[str, Figure]:
+    """All figures of a prediction, by the names of their files.
+
+    Parameters
+    ----------
+    data
+        ``data`` of a prediction, or what `pyehl.load` gives of its folder.
+    """
+    about = data.attrs
+    title = headline(about)
+    tile = Topography(
+        data.surface_m.values, about["length_x_m"], about["length_y_m"], about["surface"]
+    )
+    names = ("hertz_radius_m", "moes_m", "moes_l", "wavelength_convention")
+    radius, m, ell, convention = (about[name] for name in names)
+    figures = surface_figures(tile, radius, m, ell, convention, title)
+    figure = _row(2, (8.0, 3.4), title, sharey=True)
+    for ax, values, name in zip(
+        list(figure.axes),
+        (tile.heights, data.deformed_m.values),
+        ("(a) undeformed,", "(b) deformed,"),
+        strict=True,
+    ):
+        surface.roughness(tile, values, radius, name=name, ax=ax)
+    figures["roughness"] = figure
+    if about["status"] == "predicted":
+        figures["passage"] = _passage(data, title)
+    return figures
+
+
+def _passage(data: xr.Dataset, title: str) -> Figure:
+    figure = _row(2, (7.6, 3.2), title)
+    left, right = figure.axes
+    shift, ratio = data.passage_shift_m.values, data.passage_mu_ratio.values
+    surface.passage(shift, ratio, data.attrs["length_x_m"], ax=left)
+    columns = [data[f"bands_{name}"].values for name in ("longest_m", "shortest_m", "rise")]
+    surface.octaves(
+        [(float(a), float(b), float(c)) for a, b, c in zip(*columns, strict=True)], ax=right
+    )
+    return figure
