@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Compare the prediction, and the model of the paper, with the simulated cases of cases.csv.
+
+Writes table.csv and prediction.png beside this file and prints bias, scatter and coverage:
+
+    python docs/evidence/prediction/compare.py
+"""
+
+from __future__ import annotations
+
+import csv
+
+import matplotlib as mpl
+import matplotlib.pyplot as plt
+import numpy as np
+
+from cases import HERE, case, rows, surface
+from pyehl.prediction.by_response import RoughPassage
+from pyehl.prediction.errors import model_error
+from pyehl.prediction.friction import predict_friction
+from pyehl.prediction.options import Options
+from pyehl.prediction.smooth import solve_contact
+from pyehl.theory.film import central_film
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+
+
+def predictions(row: dict[str, float]) -> tuple[float, float]:
+    """mu_r/mu_s of a row by the response, and by the model of the paper."""
+    settings = case(row).resolve()
+    operating, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
+    tile = surface(row)
+    passage = RoughPassage(
+        tile, solve_contact(settings), operating, oil, Options(), row["velocity_ratio"]
+    )
+    paper = predict_friction(tile, operating, oil, central_film(operating, oil), Options())
+    return passage.run(tracks=1)[0].mu_ratio, paper.mu_ratio
+
+
+def main() -> None:
+    """Compare all cases whose simulation converged."""
+    table = []
+    for row in rows():
+        if row["status"] != "converged":
+            continue
+        ours, paper = predictions(row)
+        simulated, error = row["mu_ratio"], row["mu_ratio_error"]
+        table.append(
+            {
+                "name": row["name"],
+                "moes_m": row["moes_m"],
+                "moes_l": row["moes_l"],
+                "velocity_ratio": row["velocity_ratio"],
+                "mu_ratio": simulated,
+                "mu_ratio_error": error,
+                "prediction": round(ours, 4),
+                "deviation_percent": round(100.0 * (ours / simulated - 1.0), 2),
+                "model_error": round(model_error(ours), 4),
+                "covered": int(abs(ours - simulated) <= model_error(ours)),
+                "paper": round(paper, 4),
+                "paper_deviation_percent": round(100.0 * (paper / simulated - 1.0), 2),
+            }
+        )
+        print(*table[-1].values(), flush=True)
+    with (HERE / "table.csv").open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, table[0].keys(), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(table)
+    report(table)
+    draw(table)
+
+
+def report(table: list[dict[str, float]]) -> None:
+    """Print bias, scatter and coverage for ranges of the ratio."""
+    for low, high in ((0.0, 1.3), (1.3, 1.6), (1.6, 2.5), (2.5, 9.9)):
+        part = [r for r in table if low < r["mu_ratio"] <= high]
+        for name in ("deviation_percent", "paper_deviation_percent"):
+            d = np.array([r[name] for r in part])
+            print(
+                f"{low} < mu_r/mu_s <= {high}: {len(part)} cases, {name} mean {d.mean():.2f}, "
+                f"rms {np.sqrt((d**2).mean()):.2f}, largest {np.abs(d).max():.2f}"
+            )
+    known = [r for r in table if np.isfinite(r["model_error"])]
+    print(f"covered by its error: {sum(r['covered'] for r in known)} of {len(known)}")
+
+
+def draw(table: list[dict[str, float]]) -> None:
+    """Draw prediction and model of the paper against the simulation."""
+    mpl.use("Agg")
+    figure, ax = plt.subplots(figsize=(5.2, 4.6), layout="constrained")
+    x = np.array([r["mu_ratio"] for r in table])
+    error = np.array([r["mu_ratio_error"] for r in table])
+    ours = np.array([r["prediction"] for r in table])
+    paper = np.array([r["paper"] for r in table])
+    line = np.array([0.85, 6.0])
+    ax.plot(line, line, color="0.6", linewidth=1, zorder=0)
+    ax.errorbar(
+        x, ours, xerr=error, fmt="o", color="C0", markersize=5, label="prediction by the response"
+    )
+    ax.plot(x, paper, "s", color="C3", markerfacecolor="none", label="model of the paper")
+    ax.set(
+        xscale="log",
+        yscale="log",
+        xlim=line,
+        ylim=line,
+        xlabel=r"$\mu_r/\mu_s$ by full simulation, 513 × 513 nodes",
+        ylabel=r"$\mu_r/\mu_s$ predicted",
+    )
+    ticks = [0.9, 1.0, 1.2, 1.5, 2.0, 3.0, 5.0]
+    for axis in (ax.xaxis, ax.yaxis):
+        axis.set_major_locator(mpl.ticker.FixedLocator(ticks))
+        axis.set_major_formatter(mpl.ticker.FormatStrFormatter("%g"))
+        axis.set_minor_locator(mpl.ticker.NullLocator())
+    ax.set_title(f"{len(table)} rough surfaces, M = 200 to 2000, L = 5 to 15", fontsize=10)
+    ax.legend(frameon=False, loc="upper left")
+    figure.savefig(HERE / "prediction.png", dpi=120)
+
+
+if __name__ == "__main__":
+    main()
