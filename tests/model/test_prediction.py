@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import pyehl
+from pyehl.prediction import of_case
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.options import Options
 from pyehl.prediction.smooth import hertz_contact, solve_contact, zone_of
@@ -73,7 +74,7 @@ def test_real_ratio_that_moves_with_the_roughness(table_1, settings):
     contact = hertz_contact(film / POINT.film_scale, "given")
     ours = passage(contact, tile, **options).run(tracks=1)[0].mu_ratio
     settings["surface"]["seed"] = 4
-    paper = pyehl.prediction.of_case.predict(settings).mu_ratio
+    paper = of_case.predict(settings).mu_ratio
     # long waves feel the edge of the contact, which the model of the paper leaves out
     assert ours == pytest.approx(paper, rel=0.02)
 
@@ -130,11 +131,11 @@ def test_transfer_is_interpolated_from_its_table(contact):
 def test_outside_the_range_is_said(settings):
     settings["psd"] |= {"reduction": "response", "smooth": "solved"}
     settings["surface"]["velocity_ratio"] = 1.5
-    summary = pyehl.prediction.of_case.predict(settings).summary
+    summary = of_case.predict(settings).summary
     assert summary["outside_range"] == ["velocity_ratio"]
     assert summary["mu_ratio_model_error"] is None
     settings["surface"]["velocity_ratio"] = 1.01
-    summary = pyehl.prediction.of_case.predict(settings).summary
+    summary = of_case.predict(settings).summary
     assert summary["outside_range"] == []
     assert 0.0 < summary["mu_ratio_model_error"] < 0.1
 
@@ -142,7 +143,7 @@ def test_outside_the_range_is_said(settings):
 def test_options_of_the_paper_alone(settings):
     settings["psd"] |= {"reduction": "response", "load_balance": True}
     with pytest.raises(ValueError, match="belong to the model of the paper"):
-        pyehl.prediction.of_case.predict(settings)
+        of_case.predict(settings)
 
 
 def test_phase_lag_is_refused_with_its_reason():
