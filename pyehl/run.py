@@ -16,12 +16,12 @@ from dataclasses import dataclass
 from types import FrameType
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl import library
 from pyehl.case import Case
 from pyehl.errors import FileError
 from pyehl.solver import Solver
+from pyehl.surfaces import for_solver
 
 __all__ = ["Observer", "Outcome", "resume", "run"]
 
@@ -140,15 +140,23 @@ def resume(
     return _drive(case, results if folder is None else folder, results, observer or Observer())
 
 
-def _heights(resumed: str | os.PathLike[str]) -> NDArray[np.float64] | None:
-    """Surface [m] that was kept with a state; None where there is none."""
-    if not os.fspath(resumed):
-        return None
-    kept = library.checkpoint_case(resumed).with_name("surface.npy")
-    if not kept.is_file():
-        return None
-    heights: NDArray[np.float64] = np.load(kept, allow_pickle=False)
-    return heights
+def _open(case: Case, resumed: str | os.PathLike[str]) -> Solver:
+    """Open a solver on a case, with the surface that was kept if it is gone on with."""
+    place = library.checkpoint_case(resumed) if os.fspath(resumed) else None
+    if place is None or not place.with_name("surface.npy").is_file():
+        return Solver.open(case)
+    kept = np.load(place.with_name("surface.npy"), allow_pickle=False)
+    old = Case.read(place).resolve()["surface"]
+    size = [f"surface.{key}={old[key]!r}" for key in ("tile_x", "tile_y") if old[key]]
+    solver = Solver.open(case.with_options(*size) if size else case, kept)
+    try:
+        made = for_solver(case.resolve())
+    except (ValueError, OSError):
+        # the file of the map is no longer needed
+        return solver
+    if made.heights is not None and np.array_equal(made.heights, kept):
+        solver.preparation = made.preparation
+    return solver
 
 
 def _keep_state(solver: Solver, observer: Observer, *, at_once: bool) -> bool:
@@ -168,8 +176,7 @@ def _drive(
 ) -> Outcome:
     """Solve a case, from its beginning or from the state of a run with the results `resumed`."""
     library.check_output(folder)
-    heights = _heights(resumed)
-    with stop_on_signals() as request, Solver.open(case, heights) as solver:
+    with stop_on_signals() as request, _open(case, resumed) as solver:
         observer.say(solver.describe())
         if os.fspath(resumed):
             begins = "there is no state yet: the run begins at its beginning"

@@ -13,6 +13,7 @@ import tempfile
 import threading
 from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
@@ -21,9 +22,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from pyehl import display
 from pyehl.case import Case, Option
-from pyehl.errors import check
+from pyehl.errors import FileError, InputError, check
 from pyehl.library import ehl, text_of
-from pyehl.surfaces import made_heights
+from pyehl.surfaces import Preparation, for_solver
 
 if TYPE_CHECKING:
     import xarray
@@ -106,7 +107,8 @@ class Solver:
             What to solve.
         heights
             Surface [m], shape (nx, ny), peaks positive; for the kinds 'map' and 'fractal', in
-            place of the file or the generator. None: that of the case.
+            place of the file or the generator. None: that of the case. Its size is `surface.tile_x`
+            and `tile_y` or, where these are 0, `surface.length_x` and `length_y`.
 
         Raises
         ------
@@ -124,11 +126,18 @@ class Solver:
         self._calls = 0
         self.done = False
         self.converged = False
+        self.preparation: Preparation | None = None
+        options: tuple[str, ...] = ()
         if heights is None:
-            heights = made_heights(case.resolve())
+            try:
+                made = for_solver(case.resolve())
+            except (ValueError, OSError) as error:
+                raise InputError(str(error)) from error
+            heights, options, self.preparation = made.heights, made.options, made.preparation
+        text = case.with_options(*options).text if options else case.text
         given = np.zeros((1, 1)) if heights is None else heights
         handle, status, message = ehl.open_case(
-            case.text.encode(),
+            text.encode(),
             b"resolved case",
             int(heights is not None),
             np.asfortranarray(given, dtype=np.float64),
@@ -260,7 +269,11 @@ class Solver:
         """Tell the plan: what will be solved and how, with a table of the levels."""
         text, status, message = ehl.describe(self._handle)
         check(status, message)
-        return text_of(text)
+        return "\n".join([text_of(text), *self._map_lines()])
+
+    def _map_lines(self) -> list[str]:
+        """Tell how a map was prepared."""
+        return self.preparation.report() if self.preparation else []
 
     def progress(self) -> str:
         """Tell the state in one line."""
@@ -279,6 +292,8 @@ class Solver:
         text, status, message = ehl.summary(self._handle)
         check(status, message)
         values: dict[str, Any] = json.loads(text_of(text))
+        if self.preparation:
+            values["surface_preparation"] = self.preparation.summary()
         return values
 
     @property
@@ -327,4 +342,24 @@ class Solver:
         with self._lock:
             note, status, message = ehl.write_output(self._handle, os.fsencode(folder))
         check(status, message)
+        if self.preparation:
+            self._add_preparation(Path(folder))
         return text_of(note)
+
+    def _add_preparation(self, folder: Path) -> None:
+        """Add to plan and summary how a map was prepared; the library does not know."""
+        try:
+            for name in ("summary.json", "plan.txt"):
+                text = (folder / name).read_text(encoding="utf-8")
+                if name == "plan.txt":
+                    text = "\n".join([text.rstrip("\n"), *self._map_lines(), ""])
+                else:
+                    values = json.loads(text)
+                    assert self.preparation is not None
+                    values["surface_preparation"] = self.preparation.summary()
+                    text = json.dumps(values, indent=2, allow_nan=False) + "\n"
+                fresh = folder / f"{name}.new"
+                fresh.write_text(text, encoding="utf-8")
+                fresh.replace(folder / name)
+        except OSError as error:
+            raise FileError(f"{folder}: cannot write: {error.strerror or error}") from error

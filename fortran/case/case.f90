@@ -112,11 +112,32 @@ module ehl_case
       real(dp) :: velocity_ratio = 1.01_dp
       !> [a] where the roughness begins at time 0, default grid x_inlet; set by the reader
       real(dp) :: x_start = -2.5_dp
-      !> Height map of kind 'map', .npy or text, heights in m, peaks positive; made absolute by
-      !> the reader (a relative name starts at the folder of the case file)
+      !> Height map of kind 'map', heights in m, peaks positive; made absolute by the reader (a relative
+      !> name starts at the folder of the case file). .npy and text are read here, the rest by pyehl
       character(len=path_length) :: file = ""
-      !> [m] size of the tile of a map or fractal surface, default 8.29e-4
-      real(dp) :: length_x = 8.29e-4_dp, length_y = 8.29e-4_dp
+      !> Channel or data set of an instrument file, by name or number from 1; '' (default): its first
+      character(len=path_length) :: channel = ""
+      !> [m] size of the tile of a map or fractal surface; 0 (default): that of the file. Of a fractal
+      !> surface the reader makes it 8.29e-4
+      real(dp) :: length_x = 0.0_dp, length_y = 0.0_dp
+      !> [m] part of the map that is used; a maximum of 0 (default): to its end
+      real(dp) :: crop_x_min = 0.0_dp, crop_x_max = 0.0_dp, crop_y_min = 0.0_dp, crop_y_max = 0.0_dp
+      !> 1 (default), or -1 for a map whose valleys are positive
+      integer :: sign = 1
+      !> [-] spikes beyond so many standard deviations are removed; 0 (default): none
+      real(dp) :: outliers = 0.0_dp
+      !> 'harmonic' (default): missing points are interpolated; 'none': refused
+      character(len=word_length) :: fill = "harmonic"
+      !> 'none', 'centre', 'tilt', 'curvature'; 'auto' (default): tilt for files of instruments, else none
+      character(len=word_length) :: detrend = "auto"
+      !> [deg] the map is turned counter-clockwise, default 0
+      real(dp) :: rotate = 0.0_dp
+      !> 'mirror', 'window', 'periodic'; 'auto' (default): mirror for files of instruments, else periodic
+      character(len=word_length) :: edges = "auto"
+      !> [m] the map is moved across the motion, so that the line at y = track passes the centre, default 0
+      real(dp) :: track = 0.0_dp
+      !> [m] size of the tile that pyehl has made of a map; 0 (default): length_x, length_y
+      real(dp) :: tile_x = 0.0_dp, tile_y = 0.0_dp
       !> [m] shortest and longest wavelength of a map or fractal surface that are left, default 0: no limit
       real(dp) :: shortest_wavelength = 0.0_dp, longest_wavelength = 0.0_dp
       !> 'sharp' (default) or 'gaussian': how the spectrum is cut there

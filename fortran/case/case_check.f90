@@ -2,7 +2,7 @@
 !> What one key alone cannot tell: keys that exclude each other, defaults that depend on other
 !> keys, and operating points that cannot be meant
 module ehl_case_check
-   use ehl_case, only: case_t, path_length
+   use ehl_case, only: case_t, path_length, surface_case_t
    use ehl_case_contact, only: check_contact_kind, check_operating_point, complete_kinematics
    use ehl_case_lubricant, only: check_shear_law, complete_lubricant
    use ehl_case_temperature, only: check_heat, complete_viscosity
@@ -16,6 +16,9 @@ module ehl_case_check
    implicit none (type, external)
    private
    public :: check_case, complete_case
+
+   !> Size of the tile of Table 1 of Zhang et al. 2019 [m]
+   real(dp), parameter :: fractal_length = 8.29e-4_dp
 
 contains
 
@@ -122,10 +125,12 @@ contains
          if (status%failed()) return
          if (s%kind == "map" .and. s%file == "") then
             call refuse(schema, sources, "surface", "kind", "surface.kind = 'map' without " &
-               // "surface.file", "file = '...', a height map in .npy or text", status)
+               // "surface.file", "file = '...', a height map: .npy, text or a file of an instrument", status)
             return
          end if
       end associate
+      call check_map_keys(schema, input%surface, sources, status)
+      if (status%failed()) return
       if (input%surface%file /= "") call find_map(schema, input, sources, status)
    end subroutine complete_surface
 
@@ -153,6 +158,28 @@ contains
                   "a longest wavelength above the shortest one, or 0", status)
    end subroutine check_filter
 
+   !> The size of a fractal surface, and keys of a map that do not go together
+   subroutine check_map_keys(schema, s, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(surface_case_t), intent(inout) :: s
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+
+      if (s%kind == "fractal") then
+         if (.not. s%length_x > 0.0_dp) s%length_x = fractal_length
+         if (.not. s%length_y > 0.0_dp) s%length_y = fractal_length
+      end if
+      if (s%sign == 0) then
+         call refuse(schema, sources, "surface", "sign", "surface.sign = 0", "1 or -1", status)
+      else if (s%crop_x_max > 0.0_dp .and. s%crop_x_max <= s%crop_x_min) then
+         call refuse(schema, sources, "surface", "crop_x_max", "surface.crop_x_max is not beyond crop_x_min", &
+                     "a larger value [m], or 0 for the end of the map", status)
+      else if (s%crop_y_max > 0.0_dp .and. s%crop_y_max <= s%crop_y_min) then
+         call refuse(schema, sources, "surface", "crop_y_max", "surface.crop_y_max is not beyond crop_y_min", &
+                     "a larger value [m], or 0 for the end of the map", status)
+      end if
+   end subroutine check_map_keys
+
    !> Make the name of the height map absolute; it must be there when it is used
    subroutine find_map(schema, input, sources, status)
       type(schema_t), intent(in) :: schema
@@ -173,7 +200,7 @@ contains
       else if (input%surface%kind == "map") then
          if (.not. file_exists(path)) then
             call refuse(schema, sources, "surface", "file", "surface.file: there is no file " // path, &
-               "a height map in .npy or text", status)
+               "a height map: .npy, text or a file of an instrument", status)
          end if
       end if
       if (.not. status%failed()) input%surface%file = path

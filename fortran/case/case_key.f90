@@ -7,12 +7,12 @@ module ehl_case_key
    implicit none (type, external)
    private
    public :: key_t, name_length
-   public :: kind_real, kind_integer, kind_logical, kind_word, kind_path
+   public :: kind_real, kind_integer, kind_logical, kind_word, kind_path, kind_text
 
    integer, parameter :: name_length = 24
    integer, parameter :: kind_real = 1, kind_integer = 2, kind_logical = 3
-   !> One of a list of words; a file name
-   integer, parameter :: kind_word = 4, kind_path = 5
+   !> One of a list of words; a file name; any text
+   integer, parameter :: kind_word = 4, kind_path = 5, kind_text = 6
 
    !> One key
    type :: key_t
@@ -97,8 +97,10 @@ contains
             rest = rest(bar + 1:)
          end do
          text = text // "or " // apostrophe // rest // apostrophe
-      case default
+      case (kind_path)
          text = "a file name between quotes"
+      case default
+         text = "a text between quotes"
       end select
    end function type_text
 

@@ -2,7 +2,7 @@
 !> From a piece of text to the value of one key, or a message that says why not
 module ehl_case_value
    use ehl_case, only: path_length, word_length
-   use ehl_case_key, only: key_t, kind_integer, kind_logical, kind_path, kind_real, kind_word
+   use ehl_case_key, only: key_t, kind_integer, kind_logical, kind_path, kind_real, kind_text, kind_word
    use ehl_kinds, only: dp
    use ehl_scanner, only: is_real_number, is_whole_number, token_atom, token_open_string, &
                           token_string, token_t
@@ -49,7 +49,7 @@ contains
          call set_logical(key, token, problem)
       case (kind_word)
          call set_word(key, token, number > 1, problem)
-      case (kind_path)
+      case (kind_path, kind_text)
          call set_path(key, token, number > 1, problem)
       case default
          problem = "no such kind"
@@ -232,7 +232,7 @@ contains
       list = [character(len=len(allowed)) :: list, trim(allowed(start:))]
    end function choices
 
-   !> A file name
+   !> A file name, or any text
    subroutine set_path(key, token, bare, problem)
       type(key_t), intent(inout) :: key
       type(token_t), intent(in) :: token
@@ -240,7 +240,7 @@ contains
       character(len=:), allocatable, intent(inout) :: problem
 
       if (token%kind == token_atom .and. .not. bare) then
-         problem = "no quotes around the file name"
+         problem = "no quotes around the " // trim(merge("file name", "text     ", key%kind == kind_path))
       else if (len(token%text) > path_length) then
          problem = "longer than " // to_text(path_length) // " characters"
       else

@@ -3,8 +3,8 @@
 !> lives in a case. Reading, checking, writing and documenting all walk this table; the
 !> defaults are those of the types in ehl_case.
 module ehl_schema
-   use ehl_case, only: case_t, path_length, word_length
-   use ehl_case_key, only: key_t, kind_integer, kind_logical, kind_path, kind_real, kind_word, name_length
+   use ehl_case, only: case_t, path_length, surface_case_t, word_length
+   use ehl_case_key, only: key_t, kind_integer, kind_logical, kind_path, kind_real, kind_text, kind_word, name_length
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
@@ -23,6 +23,7 @@ module ehl_schema
       procedure, private :: add_lubricant_keys
       procedure, private :: add_grid_keys
       procedure, private :: add_surface_keys
+      procedure, private :: add_map_keys
       procedure, private :: add_march_keys
       procedure, private :: add_psd_keys
       procedure, private :: reals
@@ -30,6 +31,7 @@ module ehl_schema
       procedure, private :: logicals
       procedure, private :: words
       procedure, private :: paths
+      procedure, private :: texts
    end type schema_t
 
    ! in schema_contact.f90
@@ -43,6 +45,12 @@ module ehl_schema
          class(schema_t), intent(inout) :: self
          type(case_t), intent(inout), target :: input
       end subroutine add_lubricant_keys
+
+      !> A height map: its size, and what is done to it before it is a tile
+      module subroutine add_map_keys(self, s)
+         class(schema_t), intent(inout) :: self
+         type(surface_case_t), intent(inout), target :: s
+      end subroutine add_map_keys
    end interface
 
 contains
@@ -106,9 +114,8 @@ contains
                          "velocity of the rough surface over the mean one; default 1 + SRR/2, surface 2: 1 - SRR/2")
          call self%reals("surface", "x_start", s%x_start, "a", "[-100, 20]", &
                          "where the roughness begins at time 0, at rest its origin; default x_inlet")
-         call self%paths("surface", "file", s%file, "height map of kind 'map': .npy or text, in m")
-         call self%reals("surface", "length_x", s%length_x, "m", "[1e-9, 1]", "size of the tile along X")
-         call self%reals("surface", "length_y", s%length_y, "m", "[1e-9, 1]", "size of the tile along Y")
+         call self%paths("surface", "file", s%file, "height map of kind 'map': .npy, text, instrument file")
+         call self%add_map_keys(s)
          call self%reals("surface", "shortest_wavelength", s%shortest_wavelength, "m", "[0, 1]", &
                          "waves of a map or fractal surface shorter than this are cut; 0: none")
          call self%reals("surface", "longest_wavelength", s%longest_wavelength, "m", "[0, 1]", &
@@ -230,6 +237,16 @@ contains
                                     allowed="", meaning=meaning)]
       self%keys(size(self%keys))%path_value => value
    end subroutine paths
+
+   subroutine texts(self, group, name, value, meaning)
+      class(schema_t), intent(inout) :: self
+      character(len=*), intent(in) :: group, name, meaning
+      character(len=path_length), intent(inout), target :: value
+
+      self%keys = [self%keys, key_t(group=group, name=name, kind=kind_text, unit="-", &
+                                    allowed="", meaning=meaning)]
+      self%keys(size(self%keys))%path_value => value
+   end subroutine texts
 
    !> Position of a key in the table; 0 when there is no such key
    pure integer function find(self, group, name)

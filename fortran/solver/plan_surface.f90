@@ -10,6 +10,7 @@ module ehl_plan_surface
    use ehl_height_map, only: height_map_t
    use ehl_kinds, only: dp
    use ehl_map_file, only: check_memory, read_map
+   use ehl_map_needs, only: map_needs
    use ehl_status, only: ehl_bad_input, ehl_no_memory, status_t
    use ehl_surface, only: aliased_below, surface_t
    use ehl_text, only: to_text
@@ -51,10 +52,13 @@ contains
             if (size(heights) > 0) then
                call make_map(s, contact, heights, surface, status)
             else
-               if (s%kind == "map") then
-                  call read_map(s%file, tile, status)
-               else
-                  call generate(s, tile, status)
+               call check_map(s, status)
+               if (.not. status%failed()) then
+                  if (s%kind == "map") then
+                     call read_map(s%file, tile, status)
+                  else
+                     call generate(s, tile, status)
+                  end if
                end if
                if (.not. status%failed()) call make_map(s, contact, tile, surface, status)
             end if
@@ -63,6 +67,25 @@ contains
          end select
       end associate
    end subroutine make_surface
+
+   !> Refuse a map that has to be prepared, or has no size
+   subroutine check_map(s, status)
+      type(surface_case_t), intent(in) :: s
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: why, what
+
+      why = map_needs(s)
+      what = trim(s%file)
+      if (s%kind == "fractal") what = "surface.kind = 'fractal'"
+      if (why /= "") then
+         call status%fail(ehl_bad_input, what//": error: the surface has to be prepared by pyehl: "//why//new_line("a")// &
+                          "expected: 'pyehl run' in place of 'ehl'; or the tile that 'pyehl surface CASE.nml -o prepared.npy' "// &
+                          "writes, by the case prepared.npy.nml beside it")
+      else if (s%length_x <= 0.0_dp .or. s%length_y <= 0.0_dp) then
+         call status%fail(ehl_bad_input, what//": error: the size of the map is not known"//new_line("a")// &
+                          "expected: surface.length_x and surface.length_y [m]")
+      end if
+   end subroutine check_map
 
    !> A tile of heights [m]
    subroutine make_map(s, contact, heights, surface, status)
@@ -73,13 +96,17 @@ contains
       type(status_t), intent(inout) :: status
       type(height_map_t), allocatable :: placed
       type(filter_t) :: filter
+      real(dp) :: length(2)
 
+      length = [s%length_x, s%length_y]
+      if (s%tile_x > 0.0_dp .and. s%tile_y > 0.0_dp) length = [s%tile_x, s%tile_y]
+      length = length/contact%radius
       filter = filter_t(s%shortest_wavelength/contact%radius, s%longest_wavelength/contact%radius, &
                         s%filter == "gaussian")
       allocate (placed)
       placed%velocity_ratio = s%velocity_ratio
       placed%x_start = s%x_start
-      call placed%setup(heights, 1.0_dp/contact%film_scale, s%length_x/contact%radius, s%length_y/contact%radius, &
+      call placed%setup(heights, 1.0_dp/contact%film_scale, length(1), length(2), &
                      filter, map_front, status)
       if (status%failed()) return
       if (placed%variance_whole > 0.0_dp .and. .not. placed%variance > 1.0e-24_dp*placed%variance_whole) then

@@ -11,6 +11,7 @@ from pathlib import Path
 from pyehl.case import Case
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.prediction.folder import write
+from pyehl.prediction.friction import TRACKS
 from pyehl.prediction.of_case import Prediction, predict
 
 __all__ = ["add_arguments", "draw", "execute", "report"]
@@ -19,7 +20,8 @@ __all__ = ["add_arguments", "draw", "execute", "report"]
 def report(prediction: Prediction) -> str:
     """Return the lines that ``pyehl predict`` prints."""
     f, s = prediction.friction, prediction.surface
-    lines = [
+    lines = [*s.preparation.report()] if s.preparation else []
+    lines += [
         f"surface     {s.origin}: rms {s.rms_height * 1e6:.4g} um, "
         f"{s.shape[0]} x {s.shape[1]} pixels, "
         f"{s.length_x * 1e3:.4g} x {s.length_y * 1e3:.4g} mm",
@@ -36,7 +38,9 @@ def report(prediction: Prediction) -> str:
             f"            {prediction.summary['note']}",
         ]
         mean, spread = prediction.tracks
-        lines.append(f"            {mean:.3f} +- {spread:.3f} over all tracks of the tile")
+        lines.append(
+            f"            {mean:.3f} +- {spread:.3f} over {prediction.track_count} tracks across it"
+        )
         values = prediction.summary
         if values["mu"] is not None:
             lines.append(
@@ -50,6 +54,8 @@ def report(prediction: Prediction) -> str:
         )
         lines.append(f"rise        {parts}")
     lines.append(f"status      {f.status}: {f.message}")
+    if prediction.advice:
+        lines += prediction.advice.report()
     if f.cavitated_share > 0.0:
         lines.append(
             f"            p_s + delta p <= 0 on {f.cavitated_share:.2g} of the contact (rim), "
@@ -96,6 +102,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_case_arguments(parser)
     parser.add_argument("-o", "--output", type=Path, required=True, help="result folder")
     parser.add_argument(
+        "--tracks",
+        type=int,
+        default=TRACKS,
+        metavar="N",
+        help=f"tracks across the surface, for mean and spread of mu_r/mu_s (default: {TRACKS})",
+    )
+    parser.add_argument(
         "--plots",
         action=argparse.BooleanOptionalAction,
         default=True,
@@ -107,7 +120,7 @@ def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl predict``; 0 predicted, 1 no prediction is possible, 2 bad input."""
     case = Case.read(args.case, args.overrides)
     try:
-        prediction = predict(case.resolve(), case.text)
+        prediction = predict(case.resolve(), case.text, tracks=args.tracks)
         write(prediction, args.output, draw=draw if args.plots else None)
     except (ValueError, FileExistsError, FileNotFoundError) as error:
         print(f"{args.case}: {error}", file=sys.stderr)

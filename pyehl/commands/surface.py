@@ -1,47 +1,161 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``pyehl surface``: the surface of a case as a height map."""
+"""``pyehl surface``: a rough surface in numbers, as a picture and as a file.
+
+A file of an instrument or an array, or the surface of a case, whatever its kind.
+"""
 
 from __future__ import annotations
 
 import argparse
 from pathlib import Path
 
-import numpy as np
-
 from pyehl.case import Case
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.errors import FileError, InputError
-from pyehl.surfaces import from_settings
+from pyehl.surfaces import Topography, from_settings
+from pyehl.surfaces.areal import AREAL_NAMES, areal_numbers
+from pyehl.surfaces.writing import SUFFIXES, write_map
+from pyehl.theory.film import central_film
+from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["add_arguments", "execute"]
+__all__ = ["add_arguments", "execute", "numbers"]
+
+MADE = "! A tile made by pyehl surface, in the contact that it was made for\n"
+
+# Keys of a tile that is ready: nothing is left to do
+READY = (
+    "kind='map'",
+    "channel=''",
+    "detrend='none'",
+    "edges='periodic'",
+    "outliers=0.0",
+    "rotate=0.0",
+    "sign=1",
+    "track=0.0",
+    "crop_x_min=0.0",
+    "crop_x_max=0.0",
+    "crop_y_min=0.0",
+    "crop_y_max=0.0",
+    "tile_x=0.0",
+    "tile_y=0.0",
+    "shortest_wavelength=0.0",
+    "longest_wavelength=0.0",
+)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of ``pyehl surface``."""
     add_case_arguments(parser)
     parser.add_argument(
-        "-o", "--output", required=True, type=Path, metavar="MAP.npy", help="file to write"
+        "-o",
+        "--output",
+        type=Path,
+        metavar="MAP",
+        help=f"write the tile: {', '.join(SUFFIXES)}; a case for it, MAP.nml, and a picture, "
+        "MAP.png, are written beside it",
+    )
+    parser.add_argument(
+        "--plots",
+        action=argparse.BooleanOptionalAction,
+        default=True,
+        help="draw the picture (default: yes)",
     )
 
 
 def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl surface``."""
-    settings = Case.read(args.case, args.overrides).resolve()
-    if settings["surface"]["kind"] != "fractal":
+    is_case = Path(args.case).suffix.lower() == ".nml"
+    if is_case:
+        case = Case.read(args.case, args.overrides)
+    else:
+        name = str(Path(args.case).absolute()).replace("'", "''")
+        text = f"&surface kind = 'map' file = '{name}' /"
+        case = Case.from_text(text, args.overrides, args.case)
+    settings = case.resolve()
+    if settings["surface"]["kind"] == "smooth":
         raise InputError(
-            "pyehl surface: the case has no fractal surface\nexpected: surface.kind = 'fractal'"
+            f"{args.case}: the case has no rough surface\n"
+            "expected: surface.kind = 'harmonic', 'map' or 'fractal'"
         )
-    # the film is the scale of harmonic patterns alone
-    made = from_settings(settings, OperatingPoint.from_settings(settings), film=0.0)
-    heights = np.asfortranarray(made.heights)
-    partial = args.output.with_name(f"{args.output.name}.partial")
+    if args.output is not None and args.output.suffix not in SUFFIXES:
+        raise InputError(
+            f"pyehl surface: cannot write {args.output}\n"
+            f"expected: a name with {', '.join(SUFFIXES)}"
+        )
+    operating = OperatingPoint.from_settings(settings)
+    lubricant = Lubricant.from_settings(settings, str(settings["psd"]["viscosity_law"]))
     try:
-        with partial.open("wb") as stream:
-            np.save(stream, heights)
-        partial.replace(args.output)
-    except OSError as error:
-        partial.unlink(missing_ok=True)
-        raise FileError(f"{args.output}: cannot write: {error.strerror or error}") from error
-    print(args.output)
+        surface = from_settings(settings, operating, central_film(operating, lubricant))
+    except (ValueError, OSError) as error:
+        raise InputError(f"{args.case}: {error}") from error
+    print("\n".join([*_lines(surface), *numbers(surface)]))
+    if args.output is not None:
+        known = is_case or any(o.startswith(("contact.", "lubricant.")) for o in args.overrides)
+        conditions = (
+            operating.hertz_radius,
+            operating.moes_m,
+            operating.moes_l,
+            str(settings["psd"]["wavelength_convention"]),
+        )
+        for path in _write(surface, case, args.output, conditions if known else None, args.plots):
+            print(path)
     return 0
+
+
+def _lines(surface: Topography) -> list[str]:
+    """Tell what the surface is, and how it was prepared."""
+    if surface.preparation is None:
+        lines = [f"surface    {surface.origin}"]
+    else:
+        lines = surface.preparation.report()
+    nx, ny = surface.shape
+    lines.append(
+        f"tile       {nx} x {ny} pixels, {surface.length_x * 1e3:.5g} x "
+        f"{surface.length_y * 1e3:.5g} mm"
+    )
+    return lines
+
+
+def numbers(surface: Topography) -> list[str]:
+    """Lines with the numbers of ISO 25178-2; of a map, those before its edges were joined."""
+    made = surface.preparation
+    values = areal_numbers(
+        made.prepared if made else surface.heights, made.pixel if made else surface.pixel
+    )
+    lines = []
+    for name, (unit, meaning) in AREAL_NAMES.items():
+        value = f"{values[name] * 1e9:.4g} nm" if unit == "m" else f"{values[name]:.4g}"
+        lines.append(f"{name:10} {value:14} {meaning}")
+    return lines
+
+
+def _write(
+    surface: Topography,
+    case: Case,
+    path: Path,
+    conditions: tuple[float, float, float, str] | None,
+    plots: bool,
+) -> list[Path]:
+    """Write the tile, a case for it, and the picture; returns their names."""
+    try:
+        written = [write_map(surface, path)]
+        options = [f"surface.{option}" for option in READY]
+        options += [f"surface.length_x={surface.length_x!r}"]
+        options += [f"surface.length_y={surface.length_y!r}"]
+        name = str(path.absolute()).replace("'", "''")
+        text = case.with_options(*options, f"surface.file='{name}'").text
+        # beside it: the folder may be moved
+        text = text.replace(f"'{name}'", "'" + path.name.replace("'", "''") + "'")
+        beside = path.with_name(f"{path.name}.nml")
+        beside.write_text(MADE + text, encoding="utf-8")
+        written.append(beside)
+        if plots:
+            from pyehl.plots.preparation import before_and_after  # noqa: PLC0415 (slow to import)
+            from pyehl.plots.style import save  # noqa: PLC0415
+
+            picture = path.with_name(f"{path.name}.png")
+            written.append(save(before_and_after(surface, conditions), picture))
+    except OSError as error:
+        raise FileError(f"{path}: cannot write: {error.strerror or error}") from error
+    return written

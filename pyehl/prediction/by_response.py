@@ -29,7 +29,7 @@ from pyehl.prediction.passage import (
 from pyehl.prediction.rough_contact import Edge, RoughContact
 from pyehl.prediction.smooth import SmoothContact, zone_of
 from pyehl.prediction.waves import Spectrum, Transfer, Waves
-from pyehl.surfaces import Topography
+from pyehl.surfaces import Topography, track_offsets
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -104,6 +104,12 @@ class RoughPassage:
             velocity_ratio=self.velocity_ratio,
         )
 
+    def deformed(self) -> Array:
+        """Deformed roughness (nx, ny) [m] at the centre of the contact, on the pixels given."""
+        spectrum = self._spectrum(self.topography)
+        t = self._transfer(spectrum).at_centre(spectrum, self.velocity_ratio)
+        return np.asarray(spectrum.tile(t) * self.operating.film_scale)
+
     def run(self, tracks: int = 8) -> tuple[RoughFriction, tuple[float, float], list[Band]]:
         """Friction over the passage, mean and spread over the tracks, and what each band adds."""
         start = time.perf_counter()
@@ -117,14 +123,19 @@ class RoughPassage:
             found = self._result(contact, grid, spectrum, transfer, passage, start)
             if found.status != "predicted":
                 return found, (math.nan, math.nan), []
-            lines = grid.shape[1] // contact.waves.stride
-            others = [
-                _mean(contact, grid.shape[0], k * lines // tracks * contact.waves.stride)
-                for k in range(1, tracks)
-            ]
-            ratios = np.array([found.mu_ratio, *others])
+            ratios = np.array(
+                [
+                    found.mu_ratio if offset == 0.0 else _mean(contact, grid.shape[0], track)
+                    for offset, track in self._tracks(grid, contact.waves.stride, tracks)
+                ]
+            )
             bands = self._bands(spectrum, transfer, edge, found.mu_ratio)
         return found, (float(ratios.mean()), float(ratios.std())), bands
+
+    def _tracks(self, grid: Topography, stride: int, tracks: int) -> list[tuple[float, int]]:
+        """Offsets of the tracks [m], and in pixels that are multiples of the stride."""
+        offsets = track_offsets(self.topography, tracks)
+        return [(d, round(d / (stride * grid.pixel[1])) * stride) for d in offsets]
 
     def _result(
         self,

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,13 +14,16 @@ from pyehl.prediction.contact import Contact
 from pyehl.prediction.flattening import Response, response
 from pyehl.prediction.options import Options
 from pyehl.prediction.passage import friction_along, interpolated, working_grid
-from pyehl.surfaces import Topography, shifted
+from pyehl.surfaces import Topography, shifted, track_offsets
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["RoughFriction", "over_tracks", "predict_friction"]
+__all__ = ["TRACKS", "RoughFriction", "broken", "over_tracks", "predict_friction"]
 
 Array = NDArray[np.float64]
+
+TRACKS = 8
+"""Tracks over which mean and spread are taken unless asked for otherwise."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,6 +182,21 @@ def predict_friction(
     )
 
 
+def broken(friction: RoughFriction, film: float) -> RoughFriction:
+    """Return a prediction whose film ends between its positions: least film [m], no ratio."""
+    return replace(
+        friction,
+        status="film breakdown",
+        message=f"deformed roughness reaches {-film:.3g} m through the film: no full film",
+        mu_ratio=math.nan,
+        mu_ratio_min=math.nan,
+        mu_ratio_max=math.nan,
+        position_error=math.nan,
+        film_min=film,
+        cavitated_friction=math.nan,
+    )
+
+
 def over_tracks(
     topography: Topography,
     operating: OperatingPoint,
@@ -186,12 +204,12 @@ def over_tracks(
     film: float,
     options: Options | None = None,
     *,
-    tracks: int = 8,
+    tracks: int = TRACKS,
 ) -> tuple[float, float]:
     """Mean and standard deviation of the passage mean of mu_r/mu_s over the tracks of a tile [-].
 
-    Parameters as :func:`predict_friction`; the tile is moved across the motion by `tracks` equal
-    parts of its width. NaN where one of them has no ratio.
+    Parameters as :func:`predict_friction`; the tile is moved across the motion to `tracks` equally
+    spaced tracks, see :func:`pyehl.surfaces.track_offsets`. NaN where one of them has no ratio.
 
     Raises
     ------
@@ -203,13 +221,13 @@ def over_tracks(
     ratios = np.array(
         [
             predict_friction(
-                shifted(topography, 0.0, k * topography.length_y / tracks),
+                shifted(topography, 0.0, offset),
                 operating,
                 lubricant,
                 film,
                 options,
             ).mu_ratio
-            for k in range(tracks)
+            for offset in track_offsets(topography, tracks)
         ]
     )
     return float(ratios.mean()), float(ratios.std())

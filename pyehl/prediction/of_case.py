@@ -15,9 +15,17 @@ from numpy.typing import NDArray
 
 from pyehl import display, surfaces
 from pyehl.prediction.bands import Band, contributions
+from pyehl.prediction.breakdown import Advice, BelowZero, advise, below_zero
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.errors import cutoff_error, model_error, outside_range
-from pyehl.prediction.friction import RoughFriction, over_tracks, predict_friction
+from pyehl.prediction.flattening import response
+from pyehl.prediction.friction import (
+    TRACKS,
+    RoughFriction,
+    broken,
+    over_tracks,
+    predict_friction,
+)
 from pyehl.prediction.options import Options
 from pyehl.prediction.smooth import SmoothContact, hertz_contact, solve_contact
 from pyehl.theory.amplitude import component_amplitude_ratio
@@ -80,6 +88,12 @@ class Prediction:
         Wall time of the whole prediction, tracks and bands included.
     text
         The resolved case as namelist text; '' where only its settings are known.
+    track_count
+        Number of these tracks.
+    below
+        Where the film is below zero, and on which share of the contact.
+    advice
+        With the status ``"film breakdown"``: where the film ends, and what would carry.
 
     Examples
     --------
@@ -104,6 +118,9 @@ class Prediction:
     tracks: tuple[float, float]
     seconds: float
     text: str = ""
+    track_count: int = TRACKS
+    below: BelowZero | None = None
+    advice: Advice | None = None
 
     def __repr__(self) -> str:
         """Give the ratio and the status in one line."""
@@ -218,6 +235,9 @@ class Prediction:
             "position_error": f.position_error,
             "mu_ratio_tracks": self.tracks[0],
             "mu_ratio_tracks_spread": self.tracks[1],
+            "tracks": self.track_count,
+            "film_below_zero_share": self.below.share if self.below else None,
+            "film_breakdown": self.advice.summary() if self.advice else None,
             "positions": int(f.passage.size),
             "note": STRESS_NOTE if self.thins else NEWTONIAN_NOTE,
             "reduction": self.options.reduction,
@@ -239,6 +259,7 @@ class Prediction:
             "h_min_m": f.film_min,
             "lambda_ratio": self.film / s.rms_height if s.rms_height > 0.0 else None,
             "surface": s.origin,
+            "surface_preparation": s.preparation.summary() if s.preparation else None,
             "seed": s.seed,
             "pixels": list(s.shape),
             "length_x_m": s.length_x,
@@ -261,7 +282,9 @@ class Prediction:
         return {key: _finite(value) for key, value in values.items()}
 
 
-def predict(settings: Mapping[str, Mapping[str, Any]], text: str = "") -> Prediction:
+def predict(
+    settings: Mapping[str, Mapping[str, Any]], text: str = "", *, tracks: int = TRACKS
+) -> Prediction:
     """Predict the relative friction of a resolved case.
 
     Parameters
@@ -270,6 +293,8 @@ def predict(settings: Mapping[str, Mapping[str, Any]], text: str = "") -> Predic
         Mapping of groups to mappings of keys to values, every key present.
     text
         The same as namelist text, for the result folder.
+    tracks
+        Number of tracks across the surface, for mean and spread.
 
     Raises
     ------
@@ -291,13 +316,42 @@ def predict(settings: Mapping[str, Mapping[str, Any]], text: str = "") -> Predic
     contact = _smooth_contact(settings, operating, lubricant, options)
     film = contact.central_film * operating.film_scale
     surface = surfaces.from_settings(settings, operating, film)
+    passage = RoughPassage(surface, contact, operating, lubricant, options, velocity_ratio)
     if options.as_in_paper:
         friction = predict_friction(surface, operating, lubricant, film, options)
-        bands = contributions(surface, operating, lubricant, film, options)
-        tracks = over_tracks(surface, operating, lubricant, film, options)
+        bands: Sequence[Band] = contributions(surface, operating, lubricant, film, options)
+        over = over_tracks(surface, operating, lubricant, film, options, tracks=tracks)
     else:
-        passage = RoughPassage(surface, contact, operating, lubricant, options, velocity_ratio)
-        friction, tracks, bands = passage.run()
+        friction, over, bands = passage.run(tracks)
+
+    def deformed_of(tile: surfaces.Topography) -> Array:
+        """Deformed roughness of another tile [m]."""
+        if options.as_in_paper:
+            return response(tile, operating, options).deformed
+        return replace(passage, topography=tile).deformed()
+
+    def smooth_film(x: Array, y: Array) -> Array:
+        """Smooth film [m] at places [m]."""
+        a = operating.hertz_radius
+        return contact.at(x / a, y / a)[1] * operating.film_scale
+
+    radius = operating.hertz_radius
+    below = below_zero(friction.response.deformed, surface.pixel, radius, smooth_film)
+    advice = None
+    if friction.status == "predicted" and below.deepest <= 0.0:
+        # the positions of the passage have missed it
+        friction = broken(friction, below.deepest)
+        over, bands = (math.nan, math.nan), []
+    if friction.status == "film breakdown":
+        kind = str(settings["surface"].get("filter", "sharp"))
+        advice = advise(
+            surface,
+            deformed_of,
+            radius,
+            smooth_film,
+            lambda tile, shortest: surfaces.filtered(tile, shortest, kind=kind),
+            lambda threshold: surfaces.without_spikes(surface, threshold, settings["surface"]),
+        )
     return Prediction(
         settings=settings,
         operating=operating,
@@ -309,9 +363,12 @@ def predict(settings: Mapping[str, Mapping[str, Any]], text: str = "") -> Predic
         surface=surface,
         friction=friction,
         bands=bands,
-        tracks=tracks,
+        tracks=over,
         seconds=time.perf_counter() - start,
         text=text,
+        track_count=tracks,
+        below=below,
+        advice=advice,
     )
 
 

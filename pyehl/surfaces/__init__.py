@@ -9,8 +9,18 @@ y = j length_y/ny. Spectra are those of Jacobs, Junge & Pastewka 2017, in m^4.
 from pyehl.surfaces.filters import filtered
 from pyehl.surfaces.generators import fractal, harmonic
 from pyehl.surfaces.interpolation import resampled, shifted
-from pyehl.surfaces.maps import read_map
-from pyehl.surfaces.of_case import from_settings, harmonic_amplitude, made_heights
+from pyehl.surfaces.maps import read_map, tile_of
+from pyehl.surfaces.of_case import (
+    SolverSurface,
+    for_solver,
+    from_settings,
+    harmonic_amplitude,
+    made_heights,
+    track_offsets,
+    without_spikes,
+)
+from pyehl.surfaces.prepare import Options, Preparation, prepare
+from pyehl.surfaces.reading import Scan, read_scan
 from pyehl.surfaces.spectra import (
     psd_2d,
     psd_isotropic,
@@ -22,19 +32,29 @@ from pyehl.surfaces.tile import MAX_PIXELS, Topography
 
 __all__ = [
     "MAX_PIXELS",
+    "Options",
+    "Preparation",
+    "Scan",
+    "SolverSurface",
     "Topography",
     "filtered",
+    "for_solver",
     "fractal",
     "from_settings",
     "harmonic",
     "harmonic_amplitude",
     "made_heights",
+    "prepare",
     "psd_2d",
     "psd_isotropic",
     "read_map",
+    "read_scan",
     "resampled",
     "rms_from_psd",
     "shifted",
     "spectrum",
+    "tile_of",
+    "track_offsets",
     "wavenumbers",
+    "without_spikes",
 ]

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -69,10 +70,4 @@ def filtered(
         int(kind == "gaussian"),
     )
     check(status, message)
-    return Topography(
-        np.ascontiguousarray(z),
-        topography.length_x,
-        topography.length_y,
-        topography.origin,
-        topography.seed,
-    )
+    return replace(topography, heights=np.ascontiguousarray(z))

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import cast
 
 import numpy as np
@@ -38,13 +39,7 @@ def shifted(topography: Topography, distance_x: float, distance_y: float = 0.0) 
     fy = _shift_factor(qy[0, :], distance_y, None if ny % 2 else ny // 2)
     z = scipy.fft.rfft2(topography.heights) * fx[:, np.newaxis] * fy[np.newaxis, :]
     heights = scipy.fft.irfft2(z, s=(nx, ny))
-    return Topography(
-        np.ascontiguousarray(heights),
-        topography.length_x,
-        topography.length_y,
-        topography.origin,
-        topography.seed,
-    )
+    return replace(topography, heights=np.ascontiguousarray(heights))
 
 
 def resampled(topography: Topography, pixels: tuple[int, int]) -> Topography:
@@ -71,10 +66,4 @@ def resampled(topography: Topography, pixels: tuple[int, int]) -> Topography:
             index[axis] = slice(old // 2, old // 2 + 1)
             values[tuple(index)] *= 0.5
         z = scipy.fft.irfft(values, n=new, axis=axis, norm="forward")
-    return Topography(
-        np.ascontiguousarray(z),
-        topography.length_x,
-        topography.length_y,
-        topography.origin,
-        topography.seed,
-    )
+    return replace(topography, heights=np.ascontiguousarray(z))

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,11 +13,22 @@ from numpy.typing import NDArray
 
 from pyehl.surfaces.filters import filtered
 from pyehl.surfaces.generators import fractal, harmonic
-from pyehl.surfaces.maps import read_map
+from pyehl.surfaces.interpolation import shifted
+from pyehl.surfaces.maps import tile_of
+from pyehl.surfaces.prepare import NEUTRAL, Options, Preparation
+from pyehl.surfaces.reading import Scan, read_scan
 from pyehl.surfaces.tile import Topography
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["from_settings", "harmonic_amplitude", "made_heights"]
+__all__ = [
+    "SolverSurface",
+    "for_solver",
+    "from_settings",
+    "harmonic_amplitude",
+    "made_heights",
+    "track_offsets",
+    "without_spikes",
+]
 
 # Least pixels per wavelength, and per Hertz radius, of a sampled harmonic pattern
 HARMONIC_PIXELS = 32
@@ -55,10 +67,17 @@ def from_settings(
     OSError
         If the map cannot be opened.
     """
+    return _finished(_whole(settings, operating, film), settings["surface"])
+
+
+def _whole(
+    settings: Mapping[str, Mapping[str, Any]], operating: OperatingPoint, film: float
+) -> Topography:
+    """Surface on its first track, with all of its waves."""
     surface = settings["surface"]
     kind = str(surface["kind"])
     if kind == "fractal":
-        made = fractal(
+        return fractal(
             int(surface["pixels"]),
             float(surface["length_x"]),
             float(surface["length_y"]),
@@ -68,7 +87,6 @@ def from_settings(
             seed=int(surface["seed"]),
             modulus=str(surface["modulus"]),
         )
-        return _cut(made, surface)
     if kind == "harmonic":
         shares = (float(surface["wavelength_x"]), float(surface["wavelength_y"]))
         # a long wave is sampled as finely as the contact needs, not only as it needs itself
@@ -80,31 +98,124 @@ def from_settings(
             (pixels[0], pixels[1]),
         )
     if kind == "map":
-        read = read_map(
-            str(surface["file"]), float(surface["length_x"]), float(surface["length_y"])
-        )
-        return _cut(read, surface)
+        return tile_of(_scan(surface), Options.from_settings(surface))
     raise ValueError(
         f"surface.kind = {kind!r} has no heights; expected 'harmonic', 'map' or 'fractal'"
     )
 
 
-def _cut(topography: Topography, surface: Mapping[str, Any]) -> Topography:
-    return filtered(
-        topography,
-        float(surface["shortest_wavelength"]),
-        float(surface["longest_wavelength"]),
-        str(surface["filter"]),
+def _scan(surface: Mapping[str, Any]) -> Scan:
+    """Read the map of the group ``surface``; a length of 0 is that of the file."""
+    return read_scan(
+        str(surface["file"]),
+        float(surface.get("length_x", 0.0)) or None,
+        float(surface.get("length_y", 0.0)) or None,
+        str(surface.get("channel", "")),
+    )
+
+
+def _moved(tile: Topography, surface: Mapping[str, Any]) -> Topography:
+    """Tile on its track: the line at y = track passes the centre of the contact."""
+    track = float(surface.get("track", 0.0))
+    return shifted(tile, 0.0, -track) if track else tile
+
+
+def _finished(tile: Topography, surface: Mapping[str, Any]) -> Topography:
+    """Tile on its track, its spectrum cut; the solver cuts that of its surfaces itself."""
+    shortest = float(surface.get("shortest_wavelength", 0.0))
+    longest = float(surface.get("longest_wavelength", 0.0))
+    cut = filtered(tile, shortest, longest, str(surface.get("filter", "sharp")))
+    return _moved(cut, surface)
+
+
+def without_spikes(surface: Topography, threshold: float, group: Mapping[str, Any]) -> Topography:
+    """Make the tile of a map anew, with a threshold of `surface.outliers`.
+
+    Parameters
+    ----------
+    surface
+        The tile, which was prepared from a map.
+    threshold
+        See :func:`pyehl.surfaces.spikes.prominence`.
+    group
+        The group ``surface`` of the case.
+
+    Raises
+    ------
+    ValueError
+        If it was not, or cannot be.
+    """
+    made = surface.preparation
+    if made is None:
+        raise ValueError(f"{surface.origin}: not prepared from a map")
+    return _finished(tile_of(made.scan, replace(made.options, outliers=threshold)), group)
+
+
+def track_offsets(surface: Topography, tracks: int) -> list[float]:
+    """How far the tracks of a surface lie from the present one, equally spaced [m].
+
+    Over the width of the tile; of a mirrored one over that of the map, whose mirror image has the
+    same tracks again.
+    """
+    made = surface.preparation
+    if made is None or made.options.edges != "mirror":
+        return [k * surface.length_y / tracks for k in range(tracks)]
+    return [(k + 0.5 - 0.5 * tracks) * made.measured_width / tracks for k in range(tracks)]
+
+
+@dataclass(frozen=True, slots=True)
+class SolverSurface:
+    """What the solver needs from Python for the surface of a case.
+
+    Attributes
+    ----------
+    heights
+        (nx, ny) [m], Fortran order; None where the solver makes or reads the surface itself.
+    options
+        Texts ``group.key=value`` to set in its case: the size of a prepared tile.
+    preparation
+        How a map became a tile, else None.
+    """
+
+    heights: NDArray[np.float64] | None = None
+    options: tuple[str, ...] = ()
+    preparation: Preparation | None = None
+
+
+def for_solver(settings: Mapping[str, Mapping[str, Any]]) -> SolverSurface:
+    """Make what the solver needs from Python for a resolved case.
+
+    The solver makes harmonic patterns and fractal surfaces, reads arrays that need no preparation,
+    and cuts their spectra itself: so these give the same bits by the program `ehl`. Only what it
+    cannot read or prepare comes from here, before its spectrum is cut.
+
+    Raises
+    ------
+    ValueError
+        If a map is not usable.
+    OSError
+        If it cannot be opened.
+    """
+    surface = settings["surface"]
+    if surface["kind"] == "fractal" and surface.get("track"):
+        # the film is the scale of harmonic patterns alone
+        made = _whole(settings, OperatingPoint.from_settings(settings), film=0.0)
+        return SolverSurface(np.asfortranarray(_moved(made, surface).heights))
+    if surface["kind"] != "map":
+        return SolverSurface()
+    scan, options = _scan(surface), Options.from_settings(surface)
+    tile = tile_of(scan, options)
+    given = surface.get("length_x") and surface.get("length_y")
+    changed = surface.get("track") or not scan.is_array or not given
+    if not changed and options == NEUTRAL and np.isfinite(scan.heights).all():
+        return SolverSurface()
+    return SolverSurface(
+        np.asfortranarray(_moved(tile, surface).heights),
+        (f"surface.tile_x={tile.length_x!r}", f"surface.tile_y={tile.length_y!r}"),
+        tile.preparation,
     )
 
 
 def made_heights(settings: Mapping[str, Mapping[str, Any]]) -> NDArray[np.float64] | None:
-    """Heights [m] that the solver needs from Python, shape (nx, ny); None where it needs none.
-
-    The solver reads maps, makes harmonic patterns and fractal surfaces and cuts their spectra
-    itself; only what it cannot read must come from here, before its spectrum is cut.
-    """
-    kinds = ("smooth", "harmonic", "fractal", "map")
-    if settings["surface"]["kind"] in kinds:
-        return None
-    raise ValueError(f"surface.kind = {settings['surface']['kind']!r}: expected one of {kinds}")
+    """Heights [m] that the solver needs from Python, see :func:`for_solver`; None: none."""
+    return for_solver(settings).heights

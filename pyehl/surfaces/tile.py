@@ -9,6 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.surfaces.prepare import Preparation
+
 __all__ = ["MAX_PIXELS", "Topography"]
 
 Array = NDArray[np.float64]
@@ -31,6 +33,8 @@ class Topography:
         Where it came from, in words.
     seed
         Seed of a generated surface, else None.
+    preparation
+        How a map became this tile, else None.
 
     Raises
     ------
@@ -43,6 +47,7 @@ class Topography:
     length_y: float
     origin: str = ""
     seed: int | None = None
+    preparation: Preparation | None = None
 
     def __post_init__(self) -> None:
         """Check shape, numbers and size."""

@@ -13,6 +13,7 @@ import pytest
 # Words of the summary that speak of the threads and their work space; none that tells seconds is a
 # result either
 NOT_RESULTS = {"threads", "bytes"}
+SIZE = {"surface.length_x": 8.29e-4, "surface.length_y": 8.29e-4}
 HARMONIC = {
     "surface.kind": "harmonic",
     # The front lies behind the contact at the start: rough from the first step, less than H_min
@@ -68,7 +69,7 @@ def test_drivers(drivers, tmp_path: Path, scene: dict[str, object]):
         tile = tmp_path / "tile.npy"
         rng = np.random.default_rng(1)
         np.save(tile, 2e-8 * rng.standard_normal((8, 8)))
-        settings |= {"surface.kind": "map", "surface.file": f"'{tile}'"}
+        settings |= {"surface.kind": "map", "surface.file": f"'{tile}'"} | SIZE
     options = [part for key, value in settings.items() for part in ("--set", f"{key}={value}")]
     (tmp_path / "case.nml").write_text("&contact load = 20.0 /\n")
     for driver, words in drivers.items():
@@ -115,6 +116,7 @@ def test_half_domain_for_an_even_map(solve, tmp_path: Path, even: bool):
     settings = {
         "surface.kind": "map",
         "surface.file": f"'{tmp_path / 'map.npy'}'",
+        **SIZE,
         "surface.x_start": 1.5,
         "time.steps": 12,
         "time.estimate_error": False,

@@ -26,6 +26,7 @@ DOCUMENTS = (
     "cases/README.md",
     "tests/README.md",
     "fortran/README.md",
+    "docs/howto/measured-surface.md",
     "docs/howto/sweep.md",
     "docs/howto/cluster.md",
 )

@@ -104,7 +104,9 @@ def test_result_folder_solves_itself_again(drive, tmp_path: Path):
 def test_fractal_surface_is_the_same_for_both_drivers(drive, tmp_path: Path):
     text = SMALL_SI + "&surface pixels = 32 {} /\n&time steps = 2 /\n"
     (tmp_path / "fractal.nml").write_text(text.format("kind = 'fractal'"))
-    (tmp_path / "map.nml").write_text(text.format("kind = 'map' file = 'map.npy'"))
+    (tmp_path / "map.nml").write_text(
+        text.format("kind = 'map' file = 'map.npy' length_x = 8.29e-4 length_y = 8.29e-4")
+    )
     assert (
         cli.main(["surface", str(tmp_path / "fractal.nml"), "-o", str(tmp_path / "map.npy")]) == 0
     )

@@ -148,7 +148,13 @@ def command(settings, monkeypatch, tmp_path):
         monkeypatch.setattr(module, "Case", Case)
 
     def run(execute, **arguments):
-        defaults = {"case": "a.nml", "overrides": [], "output": tmp_path / "out", "plots": False}
+        defaults = {
+            "case": "a.nml",
+            "overrides": [],
+            "output": tmp_path / "out",
+            "plots": False,
+            "tracks": 2,
+        }
         return execute(argparse.Namespace(**(defaults | arguments)))
 
     return run

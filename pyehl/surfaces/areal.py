@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Numbers of a height map by their ISO 25178-2 names."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.fft
+import scipy.ndimage
+from numpy.typing import NDArray
+
+__all__ = ["AREAL_NAMES", "Extent", "areal_numbers", "extent", "texture_aspect_ratio"]
+
+Array = NDArray[np.float64]
+
+AREAL_NAMES = {
+    "Sq": ("m", "root mean square height"),
+    "Sa": ("m", "arithmetical mean height"),
+    "Sz": ("m", "maximum height, peak to valley"),
+    "Ssk": ("-", "skewness; negative: valleys deeper than peaks are high"),
+    "Sku": ("-", "kurtosis; 3: normal distribution"),
+    "Sdq": ("-", "root mean square gradient"),
+    "Str": ("-", "texture aspect ratio; 1: no lay"),
+}
+"""Unit and meaning of each number of :func:`areal_numbers`."""
+
+DECAY = 0.2
+"""Height of the autocorrelation at which ISO 25178-2 takes its lengths."""
+
+ANGLES = 180
+
+
+@dataclass(frozen=True, slots=True)
+class Extent:
+    """How rough a map is, in three numbers.
+
+    Attributes
+    ----------
+    rms
+        Of the heights about their mean [m].
+    peak
+        Largest distance of a height from the mean [m].
+    slope
+        Rms gradient, from differences of neighbours [-].
+    """
+
+    rms: float
+    peak: float
+    slope: float
+
+
+def extent(heights: Array, pixel: tuple[float, float]) -> Extent:
+    """Rms, peak and slope of the points of a map that are not missing.
+
+    Parameters
+    ----------
+    heights
+        (nx, ny) [m], NaN where missing.
+    pixel
+        Pixel size along x and y [m].
+    """
+    mean = float(np.nanmean(heights))
+    rms = math.sqrt(float(np.nanmean((heights - mean) ** 2)))
+    peak = max(float(np.nanmax(heights)) - mean, mean - float(np.nanmin(heights)))
+    # at the points that have a neighbour along x and along y
+    square = (np.diff(heights, axis=0)[:, :-1] / pixel[0]) ** 2
+    square += (np.diff(heights, axis=1)[:-1] / pixel[1]) ** 2
+    return Extent(rms, peak, math.sqrt(float(np.nanmean(square))))
+
+
+def areal_numbers(heights: Array, pixel: tuple[float, float]) -> dict[str, float]:
+    """Sq, Sa, Sz, Ssk, Sku, Sdq and Str of a map, about its mean plane z = mean.
+
+    Sq and Sdq are those of SurfaceTopography where it is installed; without it the same formulas
+    in numpy give the same numbers to rounding.
+
+    Parameters
+    ----------
+    heights
+        (nx, ny) [m], none missing, levelled.
+    pixel
+        Pixel size along x and y [m].
+
+    Returns
+    -------
+    dict
+        In the units of `AREAL_NAMES`.
+    """
+    z = heights - heights.mean()
+    spread = extent(heights, pixel)
+    sq, sdq = spread.rms, spread.slope
+    try:
+        from SurfaceTopography import Topography  # noqa: PLC0415 (heavy, and optional)
+    except ImportError:
+        pass
+    else:
+        sizes = tuple(n * p for n, p in zip(heights.shape, pixel, strict=True))
+        scan = Topography(z, sizes, unit="m", periodic=False)
+        sq, sdq = float(scan.Sq()), float(scan.rms_gradient())
+    cube, fourth = float(np.mean(z**3)), float(np.mean(z**4))
+    return {
+        "Sq": sq,
+        "Sa": float(np.mean(np.abs(z))),
+        "Sz": float(z.max() - z.min()),
+        "Ssk": cube / sq**3 if sq > 0.0 else math.nan,
+        "Sku": fourth / sq**4 if sq > 0.0 else math.nan,
+        "Sdq": sdq,
+        "Str": texture_aspect_ratio(z, pixel),
+    }
+
+
+def texture_aspect_ratio(heights: Array, pixel: tuple[float, float]) -> float:
+    """Str of ISO 25178-2: shortest over longest distance at which the autocorrelation is 0.2.
+
+    The autocorrelation is that of the map about its mean, each lag over the points that overlap,
+    up to half of the map. A direction in which it never falls to 0.2 counts with the length to
+    which it is known, so that the Str of a perfect lay is a bound and not zero.
+
+    Parameters
+    ----------
+    heights
+        (nx, ny) [m], none missing.
+    pixel
+        Pixel size along x and y [m].
+    """
+    nx, ny = heights.shape
+    z = heights - heights.mean()
+    shape = (scipy.fft.next_fast_len(2 * nx, real=True), scipy.fft.next_fast_len(2 * ny, real=True))
+    power = np.abs(scipy.fft.rfft2(z, s=shape)) ** 2
+    correlation = scipy.fft.irfft2(power, s=shape)
+    hx, hy = nx // 2, ny // 2
+    lag_x, lag_y = np.arange(-hx, hx + 1), np.arange(-hy, hy + 1)
+    overlap = (nx - np.abs(lag_x))[:, None] * (ny - np.abs(lag_y))[None, :]
+    correlation = correlation[np.ix_(lag_x % shape[0], lag_y % shape[1])] / overlap
+    if correlation[hx, hy] <= 0.0:
+        return math.nan
+    correlation /= correlation[hx, hy]
+    reach = min(hx * pixel[0], hy * pixel[1])
+    radius = np.arange(0.0, reach, 0.5 * min(pixel))
+    angle = np.arange(ANGLES) * math.pi / ANGLES
+    along = scipy.ndimage.map_coordinates(
+        correlation,
+        [
+            hx + radius[None, :] * np.cos(angle)[:, None] / pixel[0],
+            hy + radius[None, :] * np.sin(angle)[:, None] / pixel[1],
+        ],
+        order=1,
+    )
+    below = along <= DECAY
+    first = np.where(below.any(axis=1), below.argmax(axis=1), radius.size - 1)
+    length = radius[first]
+    return float(length.min() / length.max()) if length.max() > 0.0 else math.nan

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Spikes of a map: points that stand out of their neighbourhood.
+
+Optical instruments give single pixels or small groups of them that lie micrometres off, at steep
+slopes and specks of dirt. Their heights are not those of the surface, and one of them ends a film.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.ndimage
+from numpy.typing import NDArray
+
+from pyehl.surfaces.holes import nearest
+from pyehl.surfaces.levelling import fit
+
+__all__ = ["WINDOW", "prominence"]
+
+Array = NDArray[np.float64]
+
+WINDOW = 5
+"""Pixels per side of the median that a point is compared with."""
+
+MAD_TO_SIGMA = 1.482602218505602
+"""Standard deviation of a normal distribution over its median absolute deviation."""
+
+
+def prominence(heights: Array) -> Array:
+    """Distance of each point from the median around it, over the spread of these distances.
+
+    The high-passed map is z minus the median of the 5 x 5 points around, after tilt and curvature
+    are taken off (on a plane each point is the median of those around); its spread is its median
+    absolute deviation times 1.4826, the standard deviation if it were normal, which spikes do not
+    change. Of normal noise 6e-7 of all points lie beyond 5, 1e-15 beyond 8.
+
+    Parameters
+    ----------
+    heights
+        (nx, ny) [m], NaN where missing.
+
+    Returns
+    -------
+    Array
+        (nx, ny), dimensionless, not negative; 0 where missing.
+
+    Raises
+    ------
+    ValueError
+        If more than half of the map equals its median: then there is no spread to compare with.
+    """
+    valid = np.isfinite(heights)
+    z = nearest(heights - fit(heights, 2))
+    above = z - scipy.ndimage.median_filter(z, WINDOW, mode="nearest")
+    spread = MAD_TO_SIGMA * float(np.median(np.abs(above[valid])))
+    # what is left of a plane is rounding
+    if not spread > 1e-12 * float(np.abs(z).max()):
+        raise ValueError(
+            "surface.outliers: half of the map or more is flat to the last digit, so that there "
+            "is no spread to tell spikes by; remove them in the program of the instrument"
+        )
+    return np.where(valid, np.abs(above) / spread, 0.0)

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tiles as files: `.npy`, text and netCDF, with their size."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+from scipy.io import netcdf_file
+
+from pyehl.surfaces.tile import Topography
+
+__all__ = ["SUFFIXES", "write_map"]
+
+SUFFIXES = (".npy", ".txt", ".nc")
+"""What a tile can be written as."""
+
+
+def write_map(tile: Topography, path: str | Path) -> Path:
+    """Write a tile, whole or not at all.
+
+    ``.npy`` holds the heights alone, (nx, ny) in Fortran order. Text has one x per line and its
+    size in the header, ``# length_x = ... m``. netCDF holds ``heights(x, y)`` with the coordinates
+    of the pixels, their length, unit and that they are periodic, as xarray and SurfaceTopography
+    read it. Heights and lengths are in m.
+
+    Parameters
+    ----------
+    tile
+        What to write.
+    path
+        The suffix says which; replaced when it is there.
+
+    Raises
+    ------
+    ValueError
+        For any other suffix.
+    OSError
+        If the file cannot be written.
+    """
+    path = Path(path)
+    writers = {".npy": _write_npy, ".txt": _write_text, ".nc": _write_netcdf}
+    if path.suffix not in writers:
+        raise ValueError(f"{path}: a map is written as one of {', '.join(SUFFIXES)}")
+    partial = path.with_name(f"{path.name}.partial-{os.getpid()}")
+    try:
+        writers[path.suffix](tile, partial)
+        partial.replace(path)
+    except BaseException:
+        partial.unlink(missing_ok=True)
+        raise
+    return path
+
+
+def _write_npy(tile: Topography, path: Path) -> None:
+    with path.open("wb") as stream:
+        np.save(stream, np.asfortranarray(tile.heights))
+
+
+def _write_text(tile: Topography, path: Path) -> None:
+    header = (
+        "heights [m] of a tile, one x per line, y along the line\n"
+        f"length_x = {tile.length_x!r} m\nlength_y = {tile.length_y!r} m\nperiodic"
+    )
+    with path.open("wb") as stream:
+        # 17 digits: the same numbers when it is read
+        np.savetxt(stream, tile.heights, fmt="%.17g", header=header)
+
+
+def _write_netcdf(tile: Topography, path: Path) -> None:
+    with netcdf_file(path, "w", version=2) as file:
+        file.Conventions = "CF-1.8"
+        file.title = tile.origin or "tile of heights"
+        lengths = (tile.length_x, tile.length_y)
+        for name, n, length in zip("xy", tile.shape, lengths, strict=True):
+            file.createDimension(name, n)
+            axis = file.createVariable(name, "f8", (name,))
+            axis[:] = np.arange(n) * (length / n)
+            axis.length = np.float64(length)
+            axis.periodic = np.int32(1)
+            axis.unit = axis.units = "m"
+        heights = file.createVariable("heights", "f8", ("x", "y"))
+        heights[:] = tile.heights
+        heights.unit = heights.units = "m"
+        heights.long_name = "height, peaks positive"

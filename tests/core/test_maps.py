@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Height maps in the subcommands and the program: prepared, refused, written, resumed."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pyehl import Case, InputError, Solver, cli, surfaces
+
+pytest.importorskip("SurfaceTopography")
+
+LENGTH = 1e-4
+CASE = (
+    "&contact load = 20.0 /\n&grid points = 33 /\n&time steps = 3 /\n"
+    "&surface kind = 'map' file = '{}' {} /\n"
+)
+
+
+def heights(pixels: int = 32, seed: int = 1) -> np.ndarray:
+    made = surfaces.fractal(pixels, LENGTH, LENGTH, rms_height=2e-8, hurst=0.8, seed=seed)
+    return made.heights
+
+
+@pytest.fixture
+def scan(tmp_path: Path) -> Path:
+    """A tilted scan of an instrument, with a hole and a spike."""
+    from SurfaceTopography import Topography
+
+    z = heights() + np.linspace(0.0, 1e-6, 32)[:, None]
+    z[3, 4] = np.nan
+    z[20, 10] += 2e-6
+    topography = Topography(np.ma.masked_invalid(z), (LENGTH, LENGTH), unit="m")
+    topography.to_x3p(str(tmp_path / "scan.x3p"))
+    return tmp_path / "scan.x3p"
+
+
+def write_case(path: Path, file: str, keys: str = "") -> str:
+    path.write_text(CASE.format(file, keys))
+    return str(path)
+
+
+def run(case: str | Path, folder: Path, *options: str) -> int:
+    """`pyehl run`, without another process."""
+    return cli.main(["run", str(case), "-o", str(folder), "-q", *options])
+
+
+def test_run_of_a_scan(scan: Path, tmp_path: Path, capsys):
+    """The plan, the summary and the plan.txt tell how it was prepared; the tile has its size."""
+    case = write_case(tmp_path / "case.nml", "scan.x3p", "outliers = 50.0")
+    assert cli.main(["check", case]) == 0
+    plan = capsys.readouterr().out
+    assert "outliers 50 (given), 1 points" in plan
+    # three steps are too few to know the friction
+    assert run(case, tmp_path / "out") == 1
+    made = json.loads((tmp_path / "out" / "summary.json").read_text())["surface_preparation"]
+    assert [s["key"].partition(".")[2] for s in made["steps"]] == [
+        "outliers", "fill", "detrend", "edges",
+    ]  # fmt: skip
+    assert made["tile_size_m"] == pytest.approx([2 * LENGTH, 2 * LENGTH], rel=1e-6)
+    assert "outliers 50" in (tmp_path / "out" / "plan.txt").read_text()
+    kept = Case.read(tmp_path / "out" / "case.nml").resolve()["surface"]
+    assert kept["tile_x"] == pytest.approx(2 * LENGTH, rel=1e-6)
+    assert kept["length_x"] == 0.0
+    # the case of a result solves itself again
+    assert run(tmp_path / "out" / "case.nml", tmp_path / "again") == 1
+    assert np.array_equal(
+        np.load(tmp_path / "out" / "P.npy"), np.load(tmp_path / "again" / "P.npy")
+    )
+
+
+def test_program_takes_what_pyehl_surface_writes(scan: Path, tmp_path: Path, drive, capsys):
+    case = write_case(tmp_path / "case.nml", "scan.x3p", "outliers = 50.0 track = 1e-5")
+    refused = drive("ehl", case, "-o", "none")
+    assert refused.returncode == 2
+    assert "has to be prepared by pyehl" in refused.stderr
+    assert "pyehl surface CASE.nml -o prepared.npy" in refused.stderr
+    assert not (tmp_path / "none").exists()
+    assert cli.main(["surface", case, "-o", str(tmp_path / "prepared.npy")]) == 0
+    printed = capsys.readouterr().out
+    assert "Sq " in printed
+    assert (tmp_path / "prepared.npy.png").stat().st_size > 10_000
+    assert drive("ehl", tmp_path / "prepared.npy.nml", "-o", "ehl").returncode == 1
+    assert run(case, tmp_path / "pyehl") == 1
+    for name in ("P.npy", "H.npy"):
+        one, other = (np.load(tmp_path / d / name) for d in ("ehl", "pyehl"))
+        assert np.array_equal(one, other)
+
+
+@pytest.mark.parametrize(
+    ("keys", "why"),
+    [
+        ("detrend = 'tilt'", "surface.detrend"),
+        ("edges = 'mirror'", "surface.edges"),
+        ("crop_x_max = 5e-5", "surface.crop"),
+        ("outliers = 10.0", "surface.outliers"),
+        ("rotate = 90.0", "surface.rotate"),
+        ("sign = -1", "surface.sign"),
+        ("track = 1e-5", "surface.track"),
+        ("length_x = 0.0", "size of the map is not known"),
+    ],
+)
+def test_program_refuses_what_it_cannot_prepare(tmp_path: Path, drive, keys: str, why: str):
+    np.save(tmp_path / "map.npy", heights())
+    size = "" if "length_x" in keys else f"length_x = {LENGTH}"
+    case = write_case(tmp_path / "case.nml", "map.npy", f"{size} length_y = {LENGTH} {keys}")
+    refused = drive("ehl", case, "-o", "none")
+    assert refused.returncode == 2
+    assert why in refused.stderr
+    assert str(tmp_path / "map.npy") in refused.stderr
+
+
+def test_program_refuses_exports(tmp_path: Path, drive):
+    """Their lines run along x: read as an array they would be turned."""
+    text = "# Width: 100 µm\n# Height: 100 µm\n# Value units: m\n"
+    with (tmp_path / "map.txt").open("w", encoding="utf-8") as stream:
+        stream.write(text)
+        np.savetxt(stream, heights())
+    size = f"length_x = {LENGTH} length_y = {LENGTH}"
+    refused = drive("ehl", write_case(tmp_path / "case.nml", "map.txt", size), "-o", "none")
+    assert refused.returncode == 2
+    assert "file of an instrument" in refused.stderr
+
+
+def test_neutral_arrays_have_the_same_bits(tmp_path: Path, drive):
+    np.save(tmp_path / "map.npy", heights())
+    size = f"length_x = {LENGTH} length_y = {LENGTH}"
+    case = write_case(tmp_path / "case.nml", "map.npy", size)
+    assert drive("ehl", case, "-o", "ehl").returncode == run(case, tmp_path / "pyehl") == 1
+    for name in ("P.npy", "H.npy"):
+        assert (tmp_path / "ehl" / name).read_bytes() == (tmp_path / "pyehl" / name).read_bytes()
+    # `sign` twice is nothing: a prepared map marches as the same heights from a file do
+    np.save(tmp_path / "map.npy", -heights())
+    other = write_case(tmp_path / "other.nml", "map.npy", f"{size} sign = -1")
+    assert run(other, tmp_path / "other") == 1
+    one, same = (np.load(tmp_path / d / "P.npy") for d in ("pyehl", "other"))
+    assert same == pytest.approx(one, abs=1e-12)
+
+
+def test_prepared_march_is_resumed_to_the_same_bits(scan: Path, tmp_path: Path):
+    """With its size, and without the file of the instrument."""
+    case = write_case(tmp_path / "case.nml", "scan.x3p", "outliers = 50.0")
+    longer = ("--set", "time.steps=5")
+    assert run(case, tmp_path / "whole", *longer) == 1
+    assert run(case, tmp_path / "part") == 1
+    scan.rename(tmp_path / "moved.x3p")
+    part = str(tmp_path / "part")
+    assert cli.main(["run", "--resume", part, *longer, "-q"]) == 2
+    scan.with_name("moved.x3p").rename(scan)
+    assert cli.main(["run", "--resume", part, *longer, "-q"]) == 1
+    assert (tmp_path / "part" / "P.npy").read_bytes() == (tmp_path / "whole" / "P.npy").read_bytes()
+    summary = json.loads((tmp_path / "part" / "summary.json").read_text())
+    assert summary["surface_preparation"]["missing"] == 1
+
+
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        ("channel = '9'", "there is no such channel"),
+        ("crop_x_max = 1e-2", "surface.crop_x_max"),
+        ("fill = 'none'", "surface.fill = 'none'"),
+    ],
+)
+def test_unusable_maps_are_bad_input(scan: Path, tmp_path: Path, capsys, keys: str, message: str):
+    case = write_case(tmp_path / "case.nml", "scan.x3p", keys)
+    assert run(case, tmp_path / "none") == 2
+    assert message in capsys.readouterr().err
+    assert not (tmp_path / "none").exists()
+    with pytest.raises(InputError):
+        Solver.open(Case.read(case))
+
+
+def test_surface_of_a_bare_file(scan: Path, tmp_path: Path, capsys):
+    assert cli.main(["surface", str(scan), "--set", "surface.detrend='curvature'"]) == 0
+    printed = capsys.readouterr().out
+    assert "0.1 x 0.1 mm by the file" in printed
+    assert "detrend  curvature (given)" in printed
+    for name in ("Sa", "Sq", "Ssk", "Sku", "Sz", "Sdq", "Str"):
+        assert f"\n{name} " in printed
+    assert {p.name for p in tmp_path.iterdir()} == {"scan.x3p"}
+
+
+@pytest.mark.parametrize("kind", ["harmonic", "fractal"])
+def test_surface_of_every_kind(tmp_path: Path, kind: str):
+    (tmp_path / "case.nml").write_text(f"&surface kind = '{kind}' pixels = 32 /\n")
+    out = tmp_path / "map.txt"
+    assert cli.main(["surface", str(tmp_path / "case.nml"), "-o", str(out), "--no-plots"]) == 0
+    tile = surfaces.read_map(out)
+    assert tile.shape == (32, 32)
+    assert not (tmp_path / "map.txt.png").exists()
+
+
+def test_surface_refuses(tmp_path: Path, capsys):
+    (tmp_path / "case.nml").write_text("&grid points = 33 /\n")
+    assert cli.main(["surface", str(tmp_path / "case.nml")]) == 2
+    assert "no rough surface" in capsys.readouterr().err
+    (tmp_path / "case.nml").write_text("&surface kind = 'fractal' /\n")
+    assert cli.main(["surface", str(tmp_path / "case.nml"), "-o", "map.x3p"]) == 2
+    assert ".npy, .txt, .nc" in capsys.readouterr().err

@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Height maps from files: arrays, and files of instruments in several formats."""
+
+import struct
+import sys
+
+import numpy as np
+import pytest
+
+from pyehl.surfaces import memory, read_scan, reading
+
+pytest.importorskip("SurfaceTopography")
+from SurfaceTopography import Topography
+
+SIZE = (3e-5, 2e-5)
+
+
+def slope_map(nx=30, ny=20):
+    """Heights that tell x from y, and which end is which: 2 nm a pixel along x, 7 along y."""
+    return 1e-9 * (2.0 * np.arange(nx)[:, None] + 7.0 * np.arange(ny)[None, :])
+
+
+def scan_of(z, unit="m"):
+    scale = {"m": 1.0, "µm": 1e6, "nm": 1e9}[unit]
+    sizes = tuple(s * scale for s in SIZE)
+    return Topography(np.ma.masked_invalid(z * scale), sizes, unit=unit)
+
+
+def write_sdf(path, z):
+    """Binary file of ISO 25178-71, as optical profilers write it."""
+    nx, ny = z.shape
+    header = struct.pack(
+        "<8s10s12s12sHHddddBBB",
+        b"bISO-1.0", b"nobody    ", b"010120260000", b"010120260000", nx, ny,
+        SIZE[0] / nx, SIZE[1] / ny, 1.0, -1.0, 0, 7, 0,
+    )  # fmt: skip
+    path.write_bytes(header + np.ascontiguousarray(z.T).astype("<f8").tobytes())
+
+
+WRITERS = {
+    "x3p": lambda z, path: scan_of(z, "µm").to_x3p(str(path)),
+    "gwy": lambda z, path: scan_of(z, "nm").to_gwy(str(path)),
+    "nc": lambda z, path: scan_of(z, "µm").to_netcdf(str(path)),
+    "txt": lambda z, path: scan_of(z, "µm").to_matrix(str(path)),
+    "sdf": lambda z, path: write_sdf(path, z),
+}
+
+
+@pytest.mark.parametrize("suffix", WRITERS)
+def test_instrument_files_bring_unit_size_and_axes(tmp_path, suffix):
+    path = tmp_path / f"scan.{suffix}"
+    z = slope_map()
+    WRITERS[suffix](z, path)
+    scan = read_scan(path)
+    assert not scan.is_array
+    assert scan.heights.shape == (30, 20)
+    # gwy keeps the heights in single precision
+    assert scan.heights - scan.heights[0, 0] == pytest.approx(z, abs=2e-14)
+    assert (scan.length_x, scan.length_y) == pytest.approx(SIZE, rel=1e-6)
+    assert scan.size_from == "the file"
+
+
+# the library leaves a netCDF file open
+@pytest.mark.filterwarnings("ignore::ResourceWarning")
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+@pytest.mark.parametrize("suffix", ["x3p", "gwy", "nc", "txt", "sdf"])
+def test_missing_points_of_instrument_files(tmp_path, suffix):
+    path = tmp_path / f"scan.{suffix}"
+    z = slope_map()
+    z[3:5, 7] = np.nan
+    WRITERS[suffix](z, path)
+    missing = np.argwhere(~np.isfinite(read_scan(path).heights))
+    assert missing.tolist() == [[3, 7], [4, 7]]
+
+
+def test_size_of_the_case_replaces_that_of_the_file(tmp_path):
+    WRITERS["x3p"](slope_map(), tmp_path / "scan.x3p")
+    scan = read_scan(tmp_path / "scan.x3p", length_y=5e-5)
+    assert (scan.length_x, scan.length_y) == pytest.approx((SIZE[0], 5e-5))
+    assert scan.size_from == (
+        "surface.length_y and the file (in place of 3e-05 x 2e-05 m of the file)"
+    )
+
+
+TWO_CHANNELS = """# Channel: Up
+# Width: 10 µm
+# Height: 20 µm
+# Value units: nm
+1 2 3 4
+2 3 4 6
+3 4 5 6
+3 4 5 8
+
+# Channel: Down
+# Width: 10 µm
+# Height: 20 µm
+# Value units: nm
+-1 2 3 4
+2 3 4 6
+3 4 5 6
+3 4 5 9
+"""
+
+
+@pytest.mark.parametrize(("wanted", "last"), [("", 8.0), ("2", 9.0), ("Down", 9.0), ("Up", 8.0)])
+def test_channel_by_name_or_number(tmp_path, wanted, last):
+    path = tmp_path / "two.txt"
+    path.write_text(TWO_CHANNELS, encoding="utf-8")
+    scan = read_scan(path, channel=wanted)
+    assert scan.heights[3, 3] == pytest.approx(last * 1e-9)
+    # lines of an export run along x
+    assert scan.heights[1, 0] == pytest.approx(2e-9)
+    assert scan.channel == ("Down" if last == 9.0 else "Up")
+    assert (scan.length_x, scan.length_y) == pytest.approx((1e-5, 2e-5))
+
+
+def test_unknown_channel_lists_the_channels(tmp_path):
+    path = tmp_path / "two.txt"
+    path.write_text(TWO_CHANNELS, encoding="utf-8")
+    with pytest.raises(ValueError, match=r"surface.channel = '3'(.|\n)*1 'Up', 2 'Down'"):
+        read_scan(path, channel="3")
+    np.save(tmp_path / "map.npy", slope_map())
+    with pytest.raises(ValueError, match=r"surface\.channel.*one map alone"):
+        read_scan(tmp_path / "map.npy", 1e-5, 1e-5, channel="1")
+
+
+def test_array_axes(tmp_path):
+    """One x per line of a text; the first index of .npy."""
+    z = slope_map()
+    np.save(tmp_path / "map.npy", z)
+    np.savetxt(tmp_path / "map.txt", z)
+    for name in ("map.npy", "map.txt"):
+        scan = read_scan(tmp_path / name, *SIZE)
+        assert scan.is_array
+        assert scan.heights == pytest.approx(z, abs=1e-24)
+        with pytest.raises(ValueError, match=r"surface\.length_x \[m\]"):
+            read_scan(tmp_path / name)
+
+
+def test_long_lines_of_text(tmp_path):
+    """A line of more than a megabyte is a line."""
+    z = np.zeros((4, 100_000))
+    z[:, -1] = 1e-8
+    np.savetxt(tmp_path / "long.txt", z, fmt="%.10e")
+    assert (tmp_path / "long.txt").stat().st_size > 4 * 2**20
+    scan = read_scan(tmp_path / "long.txt", 1e-5, 1e-4)
+    assert scan.heights.shape == (4, 100_000)
+    assert np.all(scan.heights[:, -1] == 1e-8)
+
+
+def test_unreadable_instrument_file(tmp_path):
+    (tmp_path / "scan.x3p").write_bytes(b"PK\x03\x04 and nothing else")
+    with pytest.raises(ValueError, match=r"scan\.x3p: cannot be read as a height map"):
+        read_scan(tmp_path / "scan.x3p")
+    WRITERS["sdf"](slope_map(), tmp_path / "scan.sdf")
+    whole = (tmp_path / "scan.sdf").read_bytes()
+    (tmp_path / "scan.sdf").write_bytes(whole[: len(whole) // 2])
+    with pytest.raises(ValueError, match=r"scan\.sdf: cannot be read"):
+        read_scan(tmp_path / "scan.sdf")
+
+
+def test_file_without_a_unit_is_refused(tmp_path):
+    Topography(slope_map(), (1.0, 2.0)).to_netcdf(str(tmp_path / "scan.nc"))
+    with pytest.raises(ValueError, match="names no unit"):
+        read_scan(tmp_path / "scan.nc")
+
+
+def test_missing_package_says_how_to_install_it(tmp_path, monkeypatch):
+    (tmp_path / "scan.x3p").write_bytes(b"")
+    monkeypatch.setitem(sys.modules, "SurfaceTopography.IO", None)
+    with pytest.raises(ValueError, match=r"pip install 'pyehl\[surfaces\]'"):
+        read_scan(tmp_path / "scan.x3p")
+
+
+def test_map_larger_than_the_memory(tmp_path, monkeypatch):
+    np.save(tmp_path / "map.npy", slope_map())
+    monkeypatch.setattr(memory, "available_bytes", lambda: 12 * 8 * 600 - 1)
+    with pytest.raises(ValueError, match=r"30 x 20 heights take .* GiB .* GiB are available"):
+        read_scan(tmp_path / "map.npy", *SIZE)
+    monkeypatch.setattr(memory, "available_bytes", lambda: 12 * 8 * 600)
+    assert read_scan(tmp_path / "map.npy", *SIZE).heights.shape == (30, 20)
+
+
+def test_lengths_in_other_units_are_noticed(tmp_path):
+    np.save(tmp_path / "map.npy", slope_map())
+    with pytest.raises(ValueError, match="is the length in m"):
+        read_scan(tmp_path / "map.npy", 0.829, 0.829)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "array"),
+    [
+        ("plain.txt", "# heights in m\n1 2\n", True),
+        ("plain.dat", "1 2\n", True),
+        ("gwyddion.txt", "# Channel: A\n# Width: 10 µm\n1 2\n", False),
+        ("spip.asc", "# File Format = ASCII\n# x-length = 1000\n1 2\n", False),
+        ("binary.dat", "\0\1\2\3", False),
+        ("scan.sur", "1 2\n", False),
+    ],
+)
+def test_what_counts_as_an_array(tmp_path, name, text, array):
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    assert reading.is_array_file(tmp_path / name) is array
