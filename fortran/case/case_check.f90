@@ -101,6 +101,10 @@ contains
       type(case_t), intent(inout) :: input
 
       associate (s => input%surface)
+         if (s%kind == "fractal") then
+            if (.not. s%length_x > 0.0_dp) s%length_x = fractal_length
+            if (.not. s%length_y > 0.0_dp) s%length_y = fractal_length
+         end if
          if (.not. schema%given("surface", "wavelength_x")) s%wavelength_x = s%wavelength
          if (.not. schema%given("surface", "wavelength_y")) s%wavelength_y = s%wavelength
          if (.not. schema%given("surface", "x_start")) s%x_start = input%grid%x_inlet
@@ -158,17 +162,13 @@ contains
                   "a longest wavelength above the shortest one, or 0", status)
    end subroutine check_filter
 
-   !> The size of a fractal surface, and keys of a map that do not go together
+   !> Keys of a map that do not go together
    subroutine check_map_keys(schema, s, sources, status)
       type(schema_t), intent(in) :: schema
-      type(surface_case_t), intent(inout) :: s
+      type(surface_case_t), intent(in) :: s
       type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
 
-      if (s%kind == "fractal") then
-         if (.not. s%length_x > 0.0_dp) s%length_x = fractal_length
-         if (.not. s%length_y > 0.0_dp) s%length_y = fractal_length
-      end if
       if (s%sign == 0) then
          call refuse(schema, sources, "surface", "sign", "surface.sign = 0", "1 or -1", status)
       else if (s%crop_x_max > 0.0_dp .and. s%crop_x_max <= s%crop_x_min) then
