@@ -7,6 +7,7 @@ module ehl_case_check
    use ehl_case_lubricant, only: check_shear_law, complete_lubricant
    use ehl_case_temperature, only: check_heat, complete_viscosity
    use ehl_files, only: absolute_path, file_exists, folder_of
+   use ehl_grid, only: coarsest_most, find_levels
    use ehl_kinds, only: dp
    use ehl_refusal, only: contradict, refuse, short
    use ehl_schema, only: schema_t
@@ -56,8 +57,7 @@ contains
       call complete_pattern(schema, input)
    end subroutine complete_case
 
-   !> Halving points - 1 must end at an even number of 32 or less, so that the coarsest grid
-   !> is small
+   !> Halving points - 1 must end at a grid that can be the coarsest one
    subroutine check_points(schema, input, sources, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(in) :: input
@@ -79,20 +79,17 @@ contains
       why = "too few grids can be made by halving"
       if (mod(points, 2) == 0) why = "an even number of points"
       call refuse(schema, sources, "grid", "points", "grid.points = " // to_text(points) // ": " &
-         // why, "an odd number with points - 1 halved down to an even number of 32 or less; " &
+         // why, "an odd number with points - 1 halved down to an even number of " // to_text(coarsest_most) // " or less; " &
          // "the nearest are " // to_text(below) // " and " // to_text(above), status)
    end subroutine check_points
 
    !> Whether a grid can be coarsened far enough
    pure logical function has_levels(points)
       integer, intent(in) :: points
-      integer :: cells
+      integer :: levels, intervals
 
-      cells = points - 1
-      do while (cells > 32 .and. mod(cells, 2) == 0)
-         cells = cells/2
-      end do
-      has_levels = cells <= 32 .and. mod(cells, 2) == 0
+      call find_levels(points, levels, intervals)
+      has_levels = levels > 0
    end function has_levels
 
    !> Defaults of the surface that depend on other keys

@@ -4,7 +4,10 @@ module ehl_grid
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: grid_t, new_grid
+   public :: grid_t, new_grid, find_levels, coarsest_most
+
+   !> Fewest and most intervals per side of the coarsest grid, which is solved directly
+   integer, parameter :: coarsest_fewest = 16, coarsest_most = 32
 
    !> Uniform node-centred grid; fields on it are real(dp) arrays of shape (nx, ny), X first.
    !> Lengths are dimensionless, scaled by the Hertz radius a.
@@ -55,6 +58,21 @@ contains
          grid%y0 = -y_extent
       end if
    end function new_grid
+
+   !> Levels that a grid of points x points nodes has, and intervals per side of the coarsest one; no levels where
+   !> halving does not end at an even number of `coarsest_most` or less
+   pure subroutine find_levels(points, levels, intervals)
+      integer, intent(in) :: points
+      integer, intent(out) :: levels, intervals
+
+      intervals = points - 1
+      levels = 1
+      do while (mod(intervals, 4) == 0 .and. intervals >= 2*coarsest_fewest)
+         intervals = intervals/2
+         levels = levels + 1
+      end do
+      if (intervals > coarsest_most .or. mod(intervals, 2) /= 0 .or. points < 3) levels = 0
+   end subroutine find_levels
 
    !> X of column i
    elemental real(dp) function x_of(self, i)

@@ -179,7 +179,7 @@ contains
       real(dp), intent(inout) :: p_start(:, :)
       type(transfer_t), intent(in) :: transfer
       integer, intent(in) :: coarsening
-      real(dp) :: middle(coarse%grid%nx), row(fine%grid%nx)
+      real(dp) :: middle(coarse%grid%nx), row(fine%grid%nx), after
       integer :: i, j, l
 
       !$omp parallel do default(none) shared(coarse, p_start) &
@@ -190,7 +190,7 @@ contains
       !$omp end parallel do
       fine%h00 = coarse%h00
       coarse%poiseuille%frozen = .false.
-      !$omp parallel do default(none) shared(fine, coarse, p_start, transfer, coarsening) private(i, l, middle, row) &
+      !$omp parallel do default(none) shared(fine, coarse, p_start, transfer, coarsening) private(i, l, middle, row, after) &
       !$omp num_threads(fine%threads) if(fine%parallel) schedule(static)
       do j = fine%grid%first_inner(), fine%grid%ny - 1
          if (coarsening == coarsening_alcouffe) then
@@ -204,7 +204,11 @@ contains
             end do
          end if
          do i = 2, fine%grid%nx - 1
-            if (fine%p(i, j) > 0.0_dp) fine%p(i, j) = max(0.0_dp, fine%p(i, j) + row(i))
+            if (fine%p(i, j) > 0.0_dp) then
+               after = fine%p(i, j) + row(i)
+               ! a NaN stays one
+               fine%p(i, j) = merge(after, 0.0_dp, .not. after <= 0.0_dp)
+            end if
          end do
       end do
       !$omp end parallel do

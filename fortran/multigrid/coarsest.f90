@@ -120,15 +120,17 @@ contains
          self%h00_before = level%h00
          norm_before = norm
          call self%move(level, fresh, norm)
-         if (fresh) then
+         if (fresh .and. norm < huge(1.0_dp)) then
             if (norm > slow*norm_before) self%factored = .false.
-         else if (norm > slow*norm_before .or. .not. minval(level%h) > 0.0_dp) then
+         else if (.not. norm <= slow*norm_before .or. .not. minval(level%h) > 0.0_dp) then
             ! the old factors no longer serve: take the step back and factor anew
             level%p = self%p_before
             level%h00 = self%h00_before
             call refresh_film(level)
             call self%find_residual(level, norm)
             self%factored = .false.
+            ! new ones did not either: the matrix is singular, or not a number was in it
+            if (fresh) exit
          end if
       end do
    end subroutine solve
@@ -139,7 +141,7 @@ contains
       type(level_t), intent(inout) :: level
       logical, intent(in) :: fresh
       real(dp), intent(out) :: norm
-      real(dp) :: damping
+      real(dp) :: damping, after
       integer :: half, i, j, u
 
       self%held = self%cavitated
@@ -148,7 +150,9 @@ contains
          do j = self%first, self%last
             do i = 2, level%grid%nx - 1
                u = unknown(self, level%grid%nx, i, j)
-               level%p(i, j) = max(0.0_dp, self%p_before(i, j) + damping*self%direction(u))
+               after = self%p_before(i, j) + damping*self%direction(u)
+               ! a NaN stays one
+               level%p(i, j) = merge(after, 0.0_dp, .not. after <= 0.0_dp)
                ! exactly zero, lest rounding frees the node
                if (self%held(u)) level%p(i, j) = 0.0_dp
             end do

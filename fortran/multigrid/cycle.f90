@@ -145,7 +145,7 @@ contains
       do j = 1, fine%grid%nx
          call refine_line(tmp(j, :), fine%p(j, :), coarse%grid%mirror)
       end do
-      fine%p = max(fine%p, 0.0_dp)
+      where (fine%p <= 0.0_dp) fine%p = 0.0_dp
       fine%h00 = coarse%h00
    end subroutine prolong_solution
 

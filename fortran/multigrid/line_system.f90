@@ -12,6 +12,8 @@ module ehl_line_system
    public :: last_awake, solve_lines
 
    integer, parameter :: nr = near_reach
+   !> Smaller pivots are none: those of nodes that may change are of the order of the wedge term's factor
+   real(dp), parameter :: least_pivot = 1.0e-100_dp
    !> What is known of a node: pressure, density, H d rho/dP, the change of the conductance with pressure, 1 if
    !> distributive, the residual; and of the Poiseuille term, see line_terms_t
    integer, parameter :: f_p = 1, f_rho = 2, f_h_drho_dp = 3, f_gain = 4, f_dipole = 5, f_residual = 6, &
@@ -107,6 +109,7 @@ contains
       !> Response of rho H at nodes i, i-1, i-2 to unit changes at their columns -2..2
       real(dp) :: s(line_width, -nr:nr, 0:2)
       real(dp) :: c(0:line_reach), c_first(0:line_reach), c_interior(0:line_reach)
+      real(dp) :: pivot(line_width)
       real(dp) :: east, west, re, rw, pe, pw, r, t, d, active, em4, em3, em2, em1, e0, e1, e2
       integer :: i, l, now, last, former
 
@@ -157,12 +160,19 @@ contains
                em2 = em2 - em4*upper(l, 2, i - 4) - em3*upper(l, 1, i - 3)
                em1 = em1 - em3*upper(l, 2, i - 3) - em2*upper(l, 1, i - 2)
                e0 = e0 - em2*upper(l, 2, i - 2) - em1*upper(l, 1, i - 1)
+               ! without a pivot the node keeps its pressure in this sweep
                t = 1.0_dp/e0
+               pivot(l) = e0
                upper(l, 1, i) = (e1 - em1*upper(l, 2, i - 1))*t
                upper(l, 2, i) = e2*t
                change(l, i) = (d - em4*change(l, i - 4) - em3*change(l, i - 3) - em2*change(l, i - 2) &
                                - em1*change(l, i - 1))*t
             end do
+            ! without a pivot the node keeps its pressure in this sweep
+            if (minval(abs(pivot)) < least_pivot) then
+               where (abs(pivot) < least_pivot) change(:, i) = 0.0_dp
+               where (spread(abs(pivot) < least_pivot, 2, 2)) upper(:, :, i) = 0.0_dp
+            end if
          end if
          l = former
          former = last

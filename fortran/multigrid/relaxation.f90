@@ -149,7 +149,7 @@ contains
       type(workspace_t), intent(inout) :: space
       integer, intent(in) :: j0, last, thread
       real(dp), intent(in) :: trust
-      real(dp) :: scale, t, omega, omega_far, before, change
+      real(dp) :: scale, t, omega, omega_far, before, after, change
       logical :: time_step, limited
       integer :: rows(line_width), lines, furthest, i, j, l
 
@@ -177,8 +177,9 @@ contains
                change = work%change(l, i)
                if (limited) change = change/max(1.0_dp, abs(level%dlneps_dp(i, j)*change)/trust)
                space%change(i, j) = omega_far*space%dipole(i, j)*change
-               level%p(i, j) = max(0.0_dp, level%p(i, j) + (1.0_dp - space%dipole(i, j))*(omega + t) &
-                                   /(1.0_dp + t)*change)
+               after = level%p(i, j) + (1.0_dp - space%dipole(i, j))*(omega + t)/(1.0_dp + t)*change
+               ! here and below: a NaN stays one, where max(0, NaN) could be cavitation
+               level%p(i, j) = merge(after, 0.0_dp, .not. after <= 0.0_dp)
                if (time_step) space%rough(i, j) = (level%p(i, j) - before)*space%share(i, j)
             end do
          end do
@@ -190,7 +191,7 @@ contains
       type(level_t), intent(inout) :: level
       type(workspace_t), intent(inout) :: space
       integer, intent(in) :: first, last
-      real(dp) :: smooth(level%grid%nx)
+      real(dp) :: smooth(level%grid%nx), after
       integer :: from(last), to(last)
       integer :: i, j, k, row
 
@@ -209,7 +210,7 @@ contains
          end do
       end do
       !$omp end parallel do
-      !$omp parallel do default(none) shared(level, space, first, last, from, to) private(i, k, row, smooth) &
+      !$omp parallel do default(none) shared(level, space, first, last, from, to) private(i, k, row, smooth, after) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static, 8)
       do j = first, last
          if (from(j) == 0) cycle
@@ -223,7 +224,10 @@ contains
             end do
          end do
          do i = from(j), to(j)
-            if (level%p(i, j) > 0.0_dp) level%p(i, j) = max(0.0_dp, level%p(i, j) - space%share(i, j)*smooth(i))
+            if (level%p(i, j) > 0.0_dp) then
+               after = level%p(i, j) - space%share(i, j)*smooth(i)
+               level%p(i, j) = merge(after, 0.0_dp, .not. after <= 0.0_dp)
+            end if
          end do
       end do
       !$omp end parallel do
@@ -234,18 +238,20 @@ contains
       type(level_t), intent(inout) :: level
       type(workspace_t), intent(in) :: space
       integer, intent(in) :: first, last
+      real(dp) :: after
       integer :: i, j, below, nx
 
       nx = level%grid%nx
-      !$omp parallel do default(none) shared(level, space, first, last, nx) private(i, below) &
+      !$omp parallel do default(none) shared(level, space, first, last, nx) private(i, below, after) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
          below = level%grid%south(j)
          do i = 2, nx - 1
-            if (level%p(i, j) > 0.0_dp) level%p(i, j) = &
-               max(0.0_dp, level%p(i, j) + space%change(i, j) &
-                   - 0.25_dp*(space%change(i - 1, j) + space%change(i + 1, j) &
-                              + space%change(i, below) + space%change(i, j + 1)))
+            if (level%p(i, j) > 0.0_dp) then
+               after = level%p(i, j) + space%change(i, j) - 0.25_dp*(space%change(i - 1, j) + space%change(i + 1, j) &
+                                                                      + space%change(i, below) + space%change(i, j + 1))
+               level%p(i, j) = merge(after, 0.0_dp, .not. after <= 0.0_dp)
+            end if
          end do
       end do
       !$omp end parallel do

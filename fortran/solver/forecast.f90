@@ -58,8 +58,9 @@ contains
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
          call candidates(self, before, j, standing, carried)
-         level%p(:, j) = merge(max(0.0_dp, standing + self%carried(:, j)*(carried - standing)), &
-                               0.0_dp, before(:, j, 1) > 0.0_dp)
+         standing = standing + self%carried(:, j)*(carried - standing)
+         ! a NaN stays one
+         level%p(:, j) = merge(standing, 0.0_dp, .not. standing <= 0.0_dp .and. before(:, j, 1) > 0.0_dp)
       end do
       !$omp end parallel do
    end subroutine predict

@@ -7,7 +7,10 @@ module ehl_measures
    use ehl_level, only: level_t
    implicit none (type, external)
    private
-   public :: measures_t, measure, central_value
+   public :: measures_t, measure, central_value, load_tolerance
+
+   !> Largest relative error of the force balance of a solution
+   real(dp), parameter :: load_tolerance = 1.0e-6_dp
 
    !> Results of one state. Dimensionless: films by a^2/R, pressure by p_h.
    type :: measures_t

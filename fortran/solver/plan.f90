@@ -5,7 +5,7 @@ module ehl_plan
    use ehl_circular, only: circular_from_si, circular_t
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
-   use ehl_grid, only: grid_t, new_grid
+   use ehl_grid, only: find_levels, grid_t, new_grid
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
    use ehl_moes, only: operating_from_moes, operating_t
@@ -21,8 +21,6 @@ module ehl_plan
    private
    public :: plan_t, make_plan, relative_wedge_error
 
-   !> Fewest and most intervals per side of the coarsest grid, which is solved directly
-   integer, parameter :: coarsest_fewest = 16, coarsest_most = 32
    !> Nested iteration starts on a grid of at least that many nodes a side ...
    integer, parameter :: start_fewest = 33
    !> ... whose wedge error, relative to the central film, is at most this
@@ -228,14 +226,8 @@ contains
       mirror = input%solver%symmetry == "auto"
       if (mirror .and. allocated(plan%surface)) mirror = plan%surface%even_in_y
       points = input%grid%points
-      intervals = points - 1
-      plan%levels = 1
-      do while (intervals > coarsest_most .or. (intervals >= 2*coarsest_fewest .and. mod(intervals, 4) == 0))
-         if (mod(intervals, 4) /= 0) exit
-         intervals = intervals/2
-         plan%levels = plan%levels + 1
-      end do
-      if (intervals > coarsest_most .or. mod(intervals, 2) /= 0) then
+      call find_levels(points, plan%levels, intervals)
+      if (plan%levels == 0) then
          call status%fail(ehl_bad_input, "grid of "//to_text(points)//" points cannot be coarsened far enough")
          return
       end if

@@ -7,10 +7,10 @@ module ehl_rest
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
-   use ehl_measures, only: measure, measures_t
+   use ehl_measures, only: load_tolerance, measure, measures_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, outcome_running
    use ehl_status, only: ehl_no_memory, status_t
-   use ehl_steady, only: least_reduction, load_tolerance, residual_tolerance
+   use ehl_steady, only: least_reduction, residual_tolerance
    use ehl_surface, only: surface_t
    use ehl_time_levels, only: set_geometry
    implicit none (type, external)

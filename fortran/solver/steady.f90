@@ -6,17 +6,15 @@ module ehl_steady
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
-   use ehl_measures, only: measure, measures_t
+   use ehl_measures, only: load_tolerance, measure, measures_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, &
                           outcome_running, outcome_target_missed
    use ehl_plan, only: plan_t
    use ehl_status, only: status_t
    implicit none (type, external)
    private
-   public :: level_result_t, steady_t, least_reduction, load_tolerance, residual_tolerance
+   public :: level_result_t, steady_t, least_reduction, residual_tolerance
 
-   !> Largest relative error of the force balance of a converged solution
-   real(dp), parameter :: load_tolerance = 1.0e-6_dp
    !> The error after a cycle is at most q/(1 - q) of the last change, q being the reduction per
    !> cycle; no better reduction than this is believed
    real(dp), parameter :: least_reduction = 0.3_dp

@@ -9,7 +9,7 @@ module ehl_transient
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
-   use ehl_measures, only: central_value, measure, measures_t
+   use ehl_measures, only: central_value, load_tolerance, measure, measures_t
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_step_policy, only: attempt_predicted, step_begins_again, step_ends, step_policy_t
    use ehl_surface, only: surface_t
@@ -22,8 +22,6 @@ module ehl_transient
    !> Where the film is thick the roughness rides on it and changes nothing: solving begins
    !> when the front, with half its length, reaches this X
    real(dp), parameter :: x_matters = -1.25_dp
-   !> Largest relative error of the force balance of a step
-   real(dp), parameter :: load_tolerance = 1.0e-6_dp
    !> The roughness fills the contact when its front has passed this X
    real(dp), parameter :: x_filled = 1.05_dp
 

@@ -2,6 +2,8 @@
 !> Whole solutions on small grids, smooth and in time: with run-time checks and traps they pass every line
 !> of the solver
 module test_solver
+   use, intrinsic :: ieee_arithmetic, only: ieee_get_halting_mode, ieee_invalid, ieee_is_nan, ieee_quiet_nan, &
+                                            ieee_set_halting_mode, ieee_value
    use check, only: is_close, is_equal, is_true
    use ehl_case, only: case_t
    use ehl_case_reader, only: read_case
@@ -16,9 +18,11 @@ module test_solver
    use ehl_line_system, only: last_awake, solve_lines
    use ehl_lubricant, only: density_dowson_higginson, lubricant_t, new_lubricant, viscosity_roelands
    use ehl_moes, only: operating_from_si, operating_t
+   use ehl_relaxation, only: full_trust, relax
    use ehl_solver, only: solver_t
    use ehl_status, only: status_t
    use ehl_step_policy, only: step_tolerance
+   use ehl_wedge, only: wedge_narrow, wedge_steady
    use ehl_workspace, only: line_width, workspace_t
    implicit none (type, external)
    private
@@ -42,6 +46,7 @@ contains
       call steps_converge("paper")
       call threads_change_nothing()
       call sleeping_nodes_do_not_change()
+      call nan_is_no_cavitation()
    end subroutine run_solver
 
    !> Zhang et al. 2019, Table 1: a = 0.41540 mm, p_h = 1.6602 GPa, M = 1000.0, L = 10.024
@@ -201,6 +206,35 @@ contains
       end do
       call is_true(asleep > 0, "some nodes sleep")
    end subroutine sleeping_nodes_do_not_change
+
+   !> What is not a number stays so in a sweep: it must not look like a cavitated node
+   subroutine nan_is_no_cavitation()
+      type(level_t) :: level
+      type(workspace_t) :: space
+      type(status_t) :: status
+      logical :: halting
+      integer :: k
+
+      call ieee_get_halting_mode(ieee_invalid, halting)
+      call ieee_set_halting_mode(ieee_invalid, .false.)
+      level%grid = new_grid(33, -2.5_dp, 1.5_dp, 2.0_dp, .false.)
+      level%lubricant = new_lubricant(viscosity_roelands, density_dowson_higginson, 36.5_dp, 1.66e9_dp, 0.668_dp, 1.96e8_dp)
+      level%inverse_speed = 1.0e3_dp
+      call level%setup(status)
+      call space%setup(level%grid, 1, status)
+      call space%prepare_steps(status)
+      do k = wedge_steady, wedge_narrow
+         if (k == wedge_narrow) call level%wedge%set_step(k, level%grid%hx, level%grid%hx)
+         level%p(10:20, 10:20) = 0.5_dp
+         level%h = 0.1_dp
+         level%rhs = 0.0_dp
+         level%rhs(15, 15) = ieee_value(1.0_dp, ieee_quiet_nan)
+         call update_coefficients(level)
+         call relax(level, space, full_trust)
+         call is_true(ieee_is_nan(level%p(15, 15)), "not a number stays so")
+      end do
+      call ieee_set_halting_mode(ieee_invalid, halting)
+   end subroutine nan_is_no_cavitation
 
    !> Read a case and run it to its end
    subroutine solve(text, solver)
