@@ -9,6 +9,7 @@ module ehl_f2py_solver
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use ehl_case, only: case_t
    use ehl_case_reader, only: read_case
+   use ehl_grid, only: grid_t
    use ehl_handles, only: drop_handle, new_handle, run_of, run_t
    use ehl_keeper, only: checkpoint_folder
    use ehl_outputs, only: write_results
@@ -157,13 +158,15 @@ contains
       character(len=4096), intent(out) :: message
       type(run_t), pointer :: run
       type(status_t) :: status
+      type(grid_t) :: grid
 
       nx = 0
       ny = 0
       call run_of(handle, run, status)
       if (.not. status%failed()) then
-         nx = run%solver%grid%nx
-         ny = run%solver%grid%full_ny()
+         grid = run%solver%finest()
+         nx = grid%nx
+         ny = grid%full_ny()
       end if
       call reply(status, stat, message)
    end subroutine grid_shape
@@ -177,18 +180,20 @@ contains
       character(len=4096), intent(out) :: message
       type(run_t), pointer :: run
       type(status_t) :: status
+      type(grid_t) :: grid
       integer :: i
 
       call run_of(handle, run, status)
       if (.not. status%failed()) call check_shape(run, nx, ny, status)
       if (.not. status%failed()) then
-         x = run%solver%grid%x([(i, i=1, nx)])
-         y = run%solver%grid%y([(i, i=1, ny)] - (ny - run%solver%grid%ny))
+         grid = run%solver%finest()
+         x = grid%x([(i, i=1, nx)])
+         y = grid%y([(i, i=1, ny)] - (ny - grid%ny))
       end if
       call reply(status, stat, message)
    end subroutine axes
 
-   !> Field 'P' or 'H' on the whole grid
+   !> Field 'P' or 'H' on the whole finest grid
    subroutine field(handle, name, nx, ny, values, stat, message)
       integer(c_int), intent(in) :: handle
       character(len=*), intent(in) :: name
@@ -305,8 +310,10 @@ contains
       type(run_t), intent(in) :: run
       integer(c_int), intent(in) :: nx, ny
       type(status_t), intent(inout) :: status
+      type(grid_t) :: grid
 
-      if (nx == run%solver%grid%nx .and. ny == run%solver%grid%full_ny()) return
+      grid = run%solver%finest()
+      if (nx == grid%nx .and. ny == grid%full_ny()) return
       call status%fail(ehl_bad_input, "the arrays do not have the shape of the grid")
    end subroutine check_shape
 end module ehl_f2py_solver

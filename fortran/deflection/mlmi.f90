@@ -47,7 +47,7 @@ module ehl_mlmi
    !> Grids are halved until they have no more nodes a side than this
    integer, parameter :: few = 17
    !> Grids with fewer nodes are left to one thread. Two threads gain 1.73 and 1.88 on a step of half a contact with
-   !> 513 x 513 nodes; 1.61 and 1.74 with 4096 here and in ehl_level (two runs of each, in turn).
+   !> 513 x 513 nodes; 1.61 and 1.74 with 4096 (two runs of each, in turn).
    integer, parameter :: small = 1024
    !> Operations for a node on its grid, roughly; on the coarsest as many as there are nodes
    integer, parameter :: operations = 16

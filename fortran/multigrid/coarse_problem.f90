@@ -17,8 +17,7 @@ module ehl_coarse_problem
    integer, parameter :: coarsening_classical = 1, coarsening_alcouffe = 2
    !> The operator decides on the interpolation where conductance/mesh-size^2 in the neighbourhood is
    !> above this; elsewhere the deflection has its say, of which the operator knows nothing, and
-   !> interpolation is bilinear. Residual reduction a V(2,1) cycle in steps of (500, 15), (500, 5) with a wave 1 a
-   !> long: 0.085 and 0.075 with 1, 0.092 and 0.065 with 10, 0.080 and 0.061 with 1000; with 0.3 cycles may not end.
+   !> interpolation is bilinear
    real(dp), parameter :: dependent_from = 10.0_dp
    !> Slack of a coarse node that neither asks for pressure nor refuses it (the wedge term is of order 1)
    real(dp), parameter :: least_slack = 1.0e-8_dp

@@ -16,6 +16,9 @@ module ehl_hierarchy
    private
    public :: hierarchy_t, deflection_accuracy
 
+   !> Nodes of a grid from which several threads pay, measured on two cores that others use too; see docs/design.md
+   integer, parameter :: parallel_from = 60000
+
    type :: hierarchy_t
       type(level_t), allocatable :: levels(:)
       type(workspace_t), allocatable :: spaces(:)
@@ -25,6 +28,8 @@ module ehl_hierarchy
       !> Levels that have been set up
       integer :: ready = 0
       character(len=:), allocatable :: engine
+      !> Most threads
+      integer :: threads = 1
    contains
       procedure :: setup
       procedure :: grow
@@ -54,6 +59,7 @@ contains
       if (status%failed()) return
       self%ready = 0
       self%engine = engine
+      self%threads = threads
       if (allocated(self%levels)) deallocate (self%levels, self%spaces, self%coarsenings)
       allocate (self%levels(n), self%spaces(n), self%coarsenings(n), stat=stat)
       if (stat /= 0) then
@@ -63,7 +69,6 @@ contains
       do k = 1, n
          self%levels(k)%lubricant = lubricant
          self%levels(k)%inverse_speed = 1.0_dp/speed_parameter
-         self%levels(k)%threads = threads
       end do
       self%levels(1)%grid = coarsest
       call self%coarsest%setup(coarsest, status)
@@ -80,6 +85,7 @@ contains
       do k = self%ready + 1, n
          associate (level => self%levels(k))
             if (k > 1) level%grid = self%levels(k - 1)%grid%finer()
+            level%threads = threads_that_pay(level%grid, self%threads)
             call level%setup(status)
             call self%spaces(k)%setup(level%grid, level%threads, status)
             if (status%failed()) return
@@ -125,6 +131,13 @@ contains
          end associate
       end do
    end subroutine prepare_coarsening
+
+   !> How many of the threads work on a grid: all, or one where waiting for one another costs more than they gain
+   pure integer function threads_that_pay(grid, threads)
+      type(grid_t), intent(in) :: grid
+      integer, intent(in) :: threads
+      threads_that_pay = merge(threads, 1, grid%nx*grid%ny >= parallel_from)
+   end function threads_that_pay
 
    !> Error of the deflection, relative to its largest value, that stays below a tenth of the
    !> discretisation error of a piecewise-constant Hertz pressure (2.2e-4 at h = 1/128)

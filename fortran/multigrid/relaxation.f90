@@ -4,21 +4,8 @@
 !> own node (Gauss-Seidel). Where it is negligible, a change is a dipole: -1/4 of it goes to each
 !> of the four neighbours, so that the deflection it causes stays local (distributive Jacobi).
 !>
-!> Departures from the school, measured. Steady (residual reduction of a W(2,1) cycle at 513 x 513
-!> from 0.3-0.5 to 0.13-0.25 for 20 <= M <= 2000, 5 <= L <= 15):
-!> a node is distributive only if the conductance is small at its neighbours too, for the dipole
-!> reaches them; and the lines know how the conductance varies with pressure (Newton instead
-!> of Picard), which is what holds at the pressure spike. Where a node or a neighbour is cavitated
-!> there are no dipoles, nor do they change a node that the lines have just made cavitated, lest they lift a
-!> boundary that the lines push back, for ever.
-!>
-!> In a time step the squeeze term multiplies the deflection by 1.5/dT, dT = h, and smooth changes of
-!> Gauss-Seidel nodes with a small conductance, whose deflection the lines do not see, overshoot (the more the
-!> finer the grid and the lower L). Coarse grids are there for smooth changes: what is smooth in the
-!> changes of these nodes is taken back at the end of a sweep, from the dipoles beside them too, lest something
-!> of one sign remain around each thin place, and all of these together overshoot. From 4.4 to 2 cycles a step
-!> at M = 1000, L = 10, from 12 to 3 at (500, 5), and (1000, 5) converges. Changes are limited to what the linearised
-!> lines can be trusted with.
+!> In time steps the smooth part of changes at nodes with a small conductance is taken back at the end of a sweep:
+!> the lines do not see its deflection. Where the values of the constants come from: docs/design.md.
 module ehl_relaxation
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
@@ -37,15 +24,13 @@ module ehl_relaxation
    !> The same in time steps, where smooth changes are taken back
    real(dp), parameter :: omega_step = 0.8_dp
    !> Largest change of the logarithm of a node's conductance in a sweep of a time step, to begin with: beyond it the
-   !> linearised line says nothing. Where pressure falls from its peak to almost nothing from one node to the next, cycles ended
-   !> nowhere without it. Measured at (500, 15), a wave as high as the film, 0.25 a long, on 513 x 513: the first
-   !> 499 steps converge with 2, 3 and 4, not with 6; where some step does not, see ehl_transient.
+   !> linearised line says nothing
    real(dp), parameter :: full_trust = 3.0_dp
    !> Conductance/mesh-size^2 around a node, as a share of the squeeze term's factor, at which half of the change
    !> counts as one to be freed of its smooth part: a change smooth over a length l has a residual of about
    !> squeeze*l*2/pi^2 by its deflection, and overshoots where the line holds less than half of that against
    !> it. The largest conductance around the node counts, for in a valley narrower than the mean below nothing is
-   !> smooth. Measured: no difference from 0.5 to 1; with 0.3 twice the cycles in places.
+   !> smooth.
    real(dp), parameter :: weak = 0.6_dp
    !> What is around a node: so many columns on each side, and a row
    integer, parameter :: around = 2

@@ -13,9 +13,6 @@ module ehl_level
    private
    public :: level_t
 
-   !> Grids with fewer nodes are worked on by one thread
-   integer, parameter :: parallel_from = 1024
-
    !> Fields of one level, arrays of shape (nx, ny). Dimensionless: P by p_h, lengths by a,
    !> films by a^2/R.
    !>
@@ -46,8 +43,8 @@ module ehl_level
       real(dp), allocatable :: eps(:, :), dlneps_dp(:, :), rho(:, :), h_drho_dp(:, :)
       !> Mass content rho H
       real(dp), allocatable :: mass_content(:, :)
+      !> Threads that work on it, and whether they are several
       integer :: threads = 1
-      !> Whether the grid is large enough for more than one thread
       logical :: parallel = .false.
    contains
       procedure :: setup
@@ -74,7 +71,7 @@ contains
       end if
       call self%poiseuille%setup(self%grid)
       call self%wedge%set_steady(self%grid%hx)
-      self%parallel = self%threads > 1 .and. self%grid%nx*self%grid%ny >= parallel_from
+      self%parallel = self%threads > 1
    end subroutine setup
 
    !> Allocated bytes, the engine's apart

@@ -135,7 +135,7 @@ contains
       character(len=8), allocatable :: names(:)
       integer :: i, ny, k
 
-      associate (grid => solver%grid)
+      associate (grid => solver%finest())
          ny = grid%full_ny()
          allocate (x(grid%nx), y(ny), values(grid%nx, ny))
          x(:) = grid%x([(i, i=1, grid%nx)])

@@ -65,6 +65,7 @@ module ehl_solver
       procedure :: describe
       procedure :: advance
       procedure :: done
+      procedure :: finest
       procedure :: converged
       procedure :: interrupt
       procedure :: progress
@@ -147,7 +148,8 @@ module ehl_solver
          character(len=8), allocatable, intent(out) :: names(:)
       end subroutine field_names
 
-      !> A field on the whole domain, values(nx, full_ny); see field_names
+      !> A field on the whole domain, values(nx, full_ny) of the grid reached so far, or bilinear between its nodes of a
+      !> finer one; see field_names
       module subroutine field(self, name, values, status)
          class(solver_t), intent(in) :: self
          character(len=*), intent(in) :: name
@@ -229,6 +231,16 @@ contains
          stand = outcome_running
       end if
    end function stand
+
+   !> The grid that fields refer to: the finest one of the plan; with a wanted error, which ends on a grid that nobody
+   !> knows before, the finest one so far
+   pure function finest(self) result(grid)
+      class(solver_t), intent(in) :: self
+      type(grid_t) :: grid
+
+      grid = self%plan%finest
+      if (self%plan%target_error > 0.0_dp) grid = self%grid
+   end function finest
 
    !> Whether the run has ended, well or not
    pure logical function done(self)

@@ -6,7 +6,7 @@ submodule (ehl_solver) ehl_solver_results
    use ehl_report, only: cycle_line, march_line, rest_line, report_march, report_rest, report_scene, report_smooth, report_waves
    use ehl_report_friction, only: report_friction
    use ehl_skips, only: find_skips, report_skips, skip_lines, skip_t
-   use ehl_status, only: ehl_bad_input
+   use ehl_status, only: ehl_bad_input, ehl_no_memory
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    implicit none (type, external)
 
@@ -114,6 +114,8 @@ contains
       real(dp), intent(out) :: values(:, :)
       type(status_t), intent(inout) :: status
       character(len=8), allocatable :: names(:)
+      real(dp), allocatable :: own(:, :)
+      integer :: stat
 
       values = 0.0_dp
       call self%field_names(names)
@@ -123,24 +125,54 @@ contains
          return
       end if
       associate (level => self%hierarchy%levels(self%level()))
+         allocate (own(level%grid%nx, level%grid%full_ny()), stat=stat)
+         if (stat /= 0) then
+            call status%fail(ehl_no_memory, "no memory for a field")
+            return
+         end if
          select case (name)
          case ("P")
-            call level%grid%unfold(level%p, values)
+            call level%grid%unfold(level%p, own)
          case ("H")
-            call level%grid%unfold(level%h, values)
+            call level%grid%unfold(level%h, own)
          case ("P_smooth")
-            call level%grid%unfold(self%p_smooth, values)
+            call level%grid%unfold(self%p_smooth, own)
          case ("H_smooth")
-            call level%grid%unfold(self%h_smooth, values)
+            call level%grid%unfold(self%h_smooth, own)
          case ("RR")
             if (self%resting) then
-               call level%grid%unfold(self%rest%rr, values)
+               call level%grid%unfold(self%rest%rr, own)
             else
-               call level%grid%unfold(self%transient%rr, values)
+               call level%grid%unfold(self%transient%rr, own)
             end if
          case default
-            call level%grid%unfold(self%h_smooth - level%h, values)
+            call level%grid%unfold(self%h_smooth - level%h, own)
          end select
       end associate
+      call refine(own, values)
    end subroutine field
+
+   !> Values on a grid of the same extent that has as many or more nodes, bilinear in between
+   pure subroutine refine(coarse, fine)
+      real(dp), intent(in) :: coarse(:, :)
+      real(dp), intent(out) :: fine(:, :)
+      real(dp) :: s, t
+      integer :: i, j, k, l, m
+
+      if (all(shape(fine) == shape(coarse))) then
+         fine = coarse
+         return
+      end if
+      m = (size(fine, 1) - 1)/(size(coarse, 1) - 1)
+      do j = 1, size(fine, 2)
+         l = min((j - 1)/m + 1, size(coarse, 2) - 1)
+         t = real(j - 1 - (l - 1)*m, dp)/m
+         do i = 1, size(fine, 1)
+            k = min((i - 1)/m + 1, size(coarse, 1) - 1)
+            s = real(i - 1 - (k - 1)*m, dp)/m
+            fine(i, j) = (1.0_dp - t)*((1.0_dp - s)*coarse(k, l) + s*coarse(k + 1, l)) &
+                         + t*((1.0_dp - s)*coarse(k, l + 1) + s*coarse(k + 1, l + 1))
+         end do
+      end do
+   end subroutine refine
 end submodule ehl_solver_results

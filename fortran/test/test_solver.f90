@@ -161,10 +161,13 @@ contains
    !> The same bits with one thread and with three
    subroutine threads_change_nothing()
       type(solver_t) :: one, three
+      ! enough nodes for all threads
+      character(len=*), parameter :: whole = "&contact moes_m = 200, moes_l = 10 / &grid points = 257 / "// &
+         "&surface kind = 'harmonic', amplitude = 0.02, wavelength = 1, x_start = 0 / &time steps = 1 / "
       real(dp), allocatable :: p(:, :), p_three(:, :)
 
-      call solve(moderate//wavy, one)
-      call solve(moderate//wavy//"&solver threads = 3 / ", three)
+      call solve(whole//"&solver symmetry = 'full' / ", one)
+      call solve(whole//"&solver symmetry = 'full', threads = 3 / ", three)
       call get(one, "P", p)
       call get(three, "P", p_three)
       call is_true(.not. any(abs(p - p_three) > 0.0_dp), "threads change no bit")

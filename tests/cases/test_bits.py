@@ -21,6 +21,7 @@ HARMONIC = {
     "surface.x_start": 1.5,
     "time.steps": 12,
 }
+FULL = {"solver.symmetry": "full"}
 
 
 def results(folder: Path) -> dict[str, object]:
@@ -44,7 +45,10 @@ def results(folder: Path) -> dict[str, object]:
 
 @pytest.mark.parametrize("engine", ["mlmi", "fft"])
 @pytest.mark.parametrize(
-    ("points", "scene"), [(257, {}), (129, HARMONIC)], ids=["smooth", "harmonic"]
+    # whole domains of 257 x 257 nodes are worked on by all threads
+    ("points", "scene"),
+    [(257, FULL), (129, HARMONIC), (257, FULL | HARMONIC | {"time.steps": 3})],
+    ids=["smooth", "harmonic", "harmonic-whole"],
 )
 def test_threads(solve, points: int, scene: dict[str, object], engine: str):
     settings = scene | {"solver.deflection": engine}

@@ -55,6 +55,21 @@ def test_solver_in_python(solver: Solver):
         solver.field("Q")
 
 
+def test_fields_refer_to_the_finest_grid_from_the_start():
+    """Nested iteration begins on a coarser grid: its values are given on the finest one."""
+    with Solver(Case.from_text(SMALL.replace("33", "129"))) as solver:
+        shapes = set()
+        while not solver.done:
+            x, y = solver.axes()
+            pressure = solver.field("P")
+            shapes.add((solver.shape, pressure.shape, x.shape, y.shape))
+            # linear between the nodes of the coarser grid: symmetric but for rounding
+            assert np.allclose(pressure, pressure[:, ::-1], rtol=0.0, atol=1e-14)
+            solver.advance()
+        assert shapes == {((129, 129), (129, 129), (129,), (129,))}
+        assert solver.summary()["P_max"] == solver.field("P").max()
+
+
 def test_interrupted_solver(solver: Solver):
     solver.advance()
     solver.interrupt()
