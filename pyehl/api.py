@@ -106,7 +106,11 @@ def solve(
     return data
 
 
-def predict(case: Case | str | os.PathLike[str], *options: Option) -> Prediction:
+def predict(
+    case: Case | str | os.PathLike[str],
+    *options: Option,
+    smooth: str | os.PathLike[str] | None = None,
+) -> Prediction:
     """Predict the relative friction of a rough contact from the spectrum of its surface.
 
     Parameters
@@ -115,6 +119,9 @@ def predict(case: Case | str | os.PathLike[str], *options: Option) -> Prediction
         A case, or the path of a case file.
     *options
         Texts ``group.key=value`` that replace values.
+    smooth
+        Result folder with the smooth contact (of `solve`, or under a transient run); without it the
+        contact is solved on the spot.
 
     Returns
     -------
@@ -137,7 +144,7 @@ def predict(case: Case | str | os.PathLike[str], *options: Option) -> Prediction
     """
     case = Case.of(case, *options)
     try:
-        return of_case.predict(case.resolve(), case.text)
+        return of_case.predict(case.resolve(), case.text, smooth=smooth)
     except OSError as error:
         raise FileError(str(error)) from error
     except ValueError as error:

@@ -109,6 +109,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help=f"tracks across the surface, for mean and spread of mu_r/mu_s (default: {TRACKS})",
     )
     parser.add_argument(
+        "--smooth",
+        metavar="DIR",
+        help="result folder with the smooth contact (default: solved on the spot)",
+    )
+    parser.add_argument(
         "--plots",
         action=argparse.BooleanOptionalAction,
         default=True,
@@ -120,7 +125,7 @@ def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl predict``; 0 predicted, 1 no prediction is possible, 2 bad input."""
     case = Case.read(args.case, args.overrides)
     try:
-        prediction = predict(case.resolve(), case.text, tracks=args.tracks)
+        prediction = predict(case.resolve(), case.text, tracks=args.tracks, smooth=args.smooth)
         write(prediction, args.output, draw=draw if args.plots else None)
     except (ValueError, FileExistsError, FileNotFoundError) as error:
         print(f"{args.case}: {error}", file=sys.stderr)

@@ -137,6 +137,15 @@ class RoughPassage:
         offsets = track_offsets(self.topography, tracks)
         return [(d, round(d / (stride * grid.pixel[1])) * stride) for d in offsets]
 
+    def below(self, shortest: float) -> float:
+        """mu_r/mu_s without the waves shorter than a length [a], over a few positions [-]."""
+        grid = working_grid(self.topography, self.operating, self.options.positions)
+        spectrum = self._spectrum(grid)
+        transfer = self._transfer(spectrum)
+        edge = Edge.of(spectrum, 1.0 - transfer.at_centre(spectrum, self.velocity_ratio))
+        with np.errstate(over="ignore", invalid="ignore"):
+            return self._below(spectrum, transfer, edge, 2.0 * math.pi / shortest)
+
     def _result(
         self,
         contact: RoughContact,

@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 import math
+import os
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import f90nml
@@ -27,7 +29,7 @@ from pyehl.prediction.friction import (
     predict_friction,
 )
 from pyehl.prediction.options import Options
-from pyehl.prediction.smooth import SmoothContact, hertz_contact, solve_contact
+from pyehl.prediction.smooth import SmoothContact, hertz_contact, read_contact, solve_contact
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.film import central_film
 from pyehl.theory.friction import absolute_friction
@@ -283,7 +285,11 @@ class Prediction:
 
 
 def predict(
-    settings: Mapping[str, Mapping[str, Any]], text: str = "", *, tracks: int = TRACKS
+    settings: Mapping[str, Mapping[str, Any]],
+    text: str = "",
+    *,
+    tracks: int = TRACKS,
+    smooth: str | os.PathLike[str] | None = None,
 ) -> Prediction:
     """Predict the relative friction of a resolved case.
 
@@ -295,6 +301,8 @@ def predict(
         The same as namelist text, for the result folder.
     tracks
         Number of tracks across the surface, for mean and spread.
+    smooth
+        Result folder with the smooth contact, in place of a solution on the spot.
 
     Raises
     ------
@@ -313,7 +321,10 @@ def predict(
             "psd.reduction = 'amplitude' with psd.smooth = 'hertz'"
         )
     velocity_ratio = float(settings["surface"]["velocity_ratio"])
-    contact = _smooth_contact(settings, operating, lubricant, options)
+    if smooth is None:
+        contact = _smooth_contact(settings, operating, lubricant, options)
+    else:
+        contact = read_contact(Path(smooth), operating)
     film = contact.central_film * operating.film_scale
     surface = surfaces.from_settings(settings, operating, film)
     passage = RoughPassage(surface, contact, operating, lubricant, options, velocity_ratio)

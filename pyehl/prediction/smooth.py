@@ -3,8 +3,11 @@
 
 from __future__ import annotations
 
+import json
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import f90nml
@@ -19,7 +22,7 @@ from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import Zone
 
-__all__ = ["SmoothContact", "hertz_contact", "solve_contact", "zone_of"]
+__all__ = ["SmoothContact", "hertz_contact", "read_contact", "solve_contact", "zone_of"]
 
 Array = NDArray[np.float64]
 
@@ -95,6 +98,34 @@ def solve_contact(settings: Mapping[str, Mapping[str, Any]]) -> SmoothContact:
         summary["H_c_extrapolated"],
         summary["H_c_error"],
         f"solved on {POINTS} x {POINTS} nodes, extrapolated",
+    )
+
+
+def read_contact(folder: str | Path, operating: OperatingPoint) -> SmoothContact:
+    """Pressure and film from a result folder, of a smooth contact or under a transient run.
+
+    Raises
+    ------
+    ValueError
+        If it is not the folder of a converged solution at the same M and L.
+    """
+    folder = Path(folder)
+    try:
+        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+        rough = (folder / "P_smooth.npy").is_file()
+        names = ("X", "Y", "P_smooth", "H_smooth") if rough else ("X", "Y", "P", "H")
+        x, y, pressure, film = (np.load(folder / f"{n}.npy", allow_pickle=False) for n in names)
+    except OSError as error:
+        raise ValueError(f"{folder}: not a result folder with fields ({error.strerror})") from error
+    if summary["status"] != "converged":
+        raise ValueError(f"{folder}: not a solution, its status is '{summary['status']}'")
+    for name, here in (("moes_m", operating.moes_m), ("moes_l", operating.moes_l)):
+        there = summary[name]
+        if not math.isclose(there, here, rel_tol=1e-4):
+            raise ValueError(f"{folder}: {name} is {there:.6g} there and {here:.6g} in the case")
+    middle = np.argmin(np.abs(x)), np.argmin(np.abs(y))
+    return SmoothContact(
+        x, y, pressure, film, float(film[middle]), math.nan, f"smooth contact in {folder}"
     )
 
 

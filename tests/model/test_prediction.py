@@ -10,6 +10,7 @@ import pyehl
 from pyehl.prediction import of_case
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.options import Options
+from pyehl.prediction.resolution import resolution
 from pyehl.prediction.smooth import hertz_contact, solve_contact, zone_of
 from pyehl.prediction.waves import Spectrum, Transfer, Waves
 from pyehl.surfaces import Topography
@@ -150,3 +151,28 @@ def test_phase_lag_is_refused_with_its_reason():
     with pytest.raises(pyehl.InputError, match="a key no more") as refused:
         pyehl.Case.from_text("&psd\n phase_lag = 40.0\n/\n")
     assert "psd.reduction" in str(refused.value)
+
+
+def test_smooth_contact_from_a_result_folder(tmp_path):
+    """A folder of the smooth contact gives what is solved on the spot; another contact does not."""
+    case = pyehl.Case.read("cases/table1.nml", "surface.kind=smooth", "grid.points=257")
+    folder = tmp_path / "smooth"
+    pyehl.solve(case, output=folder)
+    given = pyehl.predict("cases/table1.nml", smooth=folder)
+    assert given.mu_ratio == pytest.approx(pyehl.predict("cases/table1.nml").mu_ratio, rel=0.01)
+    with pytest.raises(pyehl.InputError, match="moes_m is"):
+        pyehl.predict("cases/table1.nml", "contact.load=500.0", smooth=folder)
+    with pytest.raises(pyehl.InputError, match="not a result folder"):
+        pyehl.predict("cases/table1.nml", smooth=tmp_path)
+
+
+def test_what_a_grid_does_not_resolve():
+    """More of the rise hangs on unresolved waves on a coarser grid; the parts agree with bands."""
+    found = {}
+    for points in (129, 513):
+        case = pyehl.Case.read("cases/table1.nml", f"grid.points={points}")
+        found[points] = resolution(case)
+    assert found[129].mu_ratio == found[513].mu_ratio
+    assert found[129].matters
+    assert found[129].resolved < found[513].resolved < found[513].mu_ratio
+    assert resolution(pyehl.Case.read("cases/quick.nml")) is None
