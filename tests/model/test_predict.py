@@ -154,6 +154,7 @@ def command(settings, monkeypatch, tmp_path):
             "output": tmp_path / "out",
             "plots": False,
             "tracks": 2,
+            "smooth": None,
         }
         return execute(argparse.Namespace(**(defaults | arguments)))
 
