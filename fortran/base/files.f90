@@ -136,12 +136,20 @@ contains
       character(len=*), intent(in) :: path, text
       type(status_t), intent(inout) :: status
       character(len=256) :: reason
-      integer :: lun, stat
+      integer :: lun, stat, closing
 
       open (newunit=lun, file=path, status="replace", action="write", access="stream", &
             form="unformatted", iostat=stat, iomsg=reason)
-      if (stat == 0) write (lun, iostat=stat, iomsg=reason) text
-      if (stat == 0) close (lun, iostat=stat, iomsg=reason)
+      if (stat == 0) then
+         write (lun, iostat=stat, iomsg=reason) text
+         if (stat == 0) then
+            close (lun, iostat=stat, iomsg=reason)
+         else
+            ! what could not be written must not hold its unit
+            close (lun, iostat=closing)
+            if (closing /= 0) stat = closing
+         end if
+      end if
       if (stat /= 0) call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
    end subroutine write_text
 

@@ -108,7 +108,7 @@ contains
       logical, allocatable :: whole(:)
       character(len=:), allocatable :: line
       character(len=256) :: reason
-      integer :: lun, stat, i, k
+      integer :: lun, stat, closing, i, k
 
       if (.not. allocated(self%names)) then
          call status%fail(ehl_internal, "the table for " // path // " has no columns")
@@ -137,7 +137,13 @@ contains
          end do
          write (lun, "(a)", iostat=stat, iomsg=reason) line
       end do
-      if (stat == 0) close (lun, iostat=stat, iomsg=reason)
+      if (stat == 0) then
+         close (lun, iostat=stat, iomsg=reason)
+      else
+         ! what could not be written must not hold its unit
+         close (lun, iostat=closing)
+         if (closing /= 0) stat = closing
+      end if
       if (stat /= 0) call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
    end subroutine write_csv
 
