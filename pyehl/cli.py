@@ -22,6 +22,7 @@ SUBCOMMANDS = {
     "run": "solve a case and write a result folder",
     "check": "print a case resolved, and how it would be solved",
     "predict": "predict the relative friction of a rough surface from its PSD",
+    "stribeck": "friction against speed, film ratio and theta_2",
     "sweep": "many cases with one table of results",
     "surface": "write the surface of a case as a height map",
     "film": "film formulas side by side for a case",

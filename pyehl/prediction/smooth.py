@@ -17,6 +17,7 @@ from scipy.ndimage import map_coordinates
 
 from pyehl.case import Case
 from pyehl.errors import EhlError
+from pyehl.kept import Kept
 from pyehl.solver import Solver
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -70,8 +71,13 @@ class SmoothContact:
         return np.asarray(pressure), np.asarray(film)
 
 
+_KEPT: Kept[SmoothContact] = Kept(4)
+
+
 def solve_contact(settings: Mapping[str, Mapping[str, Any]]) -> SmoothContact:
     """Solve the smooth contact of a resolved case on POINTS x POINTS nodes.
+
+    The last few are kept: cases that differ in their surface alone share one.
 
     Raises
     ------
@@ -82,22 +88,33 @@ def solve_contact(settings: Mapping[str, Mapping[str, Any]]) -> SmoothContact:
         group: dict(settings[group]) for group in ("contact", "lubricant")
     }
     groups["grid"] = {"points": POINTS}
-    case = Case.from_text(str(f90nml.Namelist(groups)) + "\n", origin="smooth contact")
+    text = str(f90nml.Namelist(groups)) + "\n"
+    return _KEPT.get(text, lambda: _solved(text))
+
+
+def _solved(text: str) -> SmoothContact:
+    case = Case.from_text(text, origin="smooth contact")
     with Solver.open(case) as solver:
         if not solver.run():
             status = solver.summary()["status"]
             raise EhlError(f"the smooth contact under the prediction did not converge: {status}")
         summary = solver.summary()
         (x, y), pressure, film = solver.axes(), solver.field("P"), solver.field("H")
-    scale = summary["H_c_extrapolated"] / summary["H_c"]
+    # without a solution on the next coarser grid there is nothing to extrapolate from
+    limit = summary["H_c_extrapolated"]
+    how = "extrapolated" if limit is not None else "not extrapolated"
+    central = summary["H_c"] if limit is None else limit
+    scale = central / summary["H_c"]
+    for values in (x, y, pressure, film):
+        values.flags.writeable = False
     return SmoothContact(
         x,
         y,
         pressure,
         film * scale,
-        summary["H_c_extrapolated"],
+        central,
         summary["H_c_error"],
-        f"solved on {POINTS} x {POINTS} nodes, extrapolated",
+        f"solved on {POINTS} x {POINTS} nodes, {how}",
     )
 
 

@@ -4,96 +4,26 @@
 from __future__ import annotations
 
 import os
-import signal
 import tempfile
-import threading
-import time
-from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
-from contextlib import closing, contextmanager
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from types import FrameType
 from typing import Any
 
 import xarray as xr
 
 from pyehl.case import Case, Option
 from pyehl.errors import InputError
-from pyehl.studies import cluster, pool, table
-from pyehl.studies.journal import Journal
+from pyehl.studies import table
+from pyehl.studies.gather import Outcome, Watcher, gather
 from pyehl.studies.plan import Plan, plan
 from pyehl.studies.study import make
-from pyehl.studies.tasks import FAILED, Task
 from pyehl.studies.vary import axis
 
-__all__ = ["Outcome", "Watcher", "perform", "sweep"]
+__all__ = ["CASES", "CSV", "NETCDF", "perform", "sweep"]
 
 Row = dict[str, Any]
 
 CSV, NETCDF, CASES = "results.csv", "results.nc", "cases"
-# Seconds between tables that are written while a study runs
-TABLE_INTERVAL = 30.0
-# What a worker tells beside its row: seconds that shared parts saved
-SAVED = "saved_seconds"
-
-
-class Watcher:
-    """What a driver does when a study tells something; this one does nothing."""
-
-    def began(self, plan: Plan, done: Sequence[int], damaged: int) -> None:
-        """Take the plan, the cases that are done already, and how many rows were damaged."""
-
-    def finished(self, rows: Sequence[tuple[int, Row]]) -> None:
-        """Take rows that are in the journal now."""
-
-
-@dataclass(slots=True)
-class Outcome:
-    """How a study ended.
-
-    Attributes
-    ----------
-    rows
-        Results by the number of the case.
-    data
-        The same as a Dataset.
-    ran
-        Cases that ran now.
-    interrupted
-        Whether somebody stopped it.
-    saved
-        Seconds that parts shared between cases saved.
-    busy
-        Seconds that the cases took, all workers together.
-    wall
-        Seconds from the first task to the last row.
-    """
-
-    rows: dict[int, Row]
-    data: xr.Dataset | None = None
-    ran: int = 0
-    interrupted: bool = False
-    saved: float = 0.0
-    busy: float = 0.0
-    wall: float = 0.0
-    statuses: dict[str, int] = field(default_factory=dict)
-
-
-@contextmanager
-def _stopped_by_sigterm() -> Iterator[None]:
-    """SIGTERM is as Ctrl-C."""
-
-    def stop(number: int, frame: FrameType | None) -> None:
-        raise KeyboardInterrupt
-
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = signal.signal(signal.SIGTERM, stop)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
 
 
 def perform(
@@ -113,14 +43,8 @@ def perform(
         The plan.
     folder
         Gets ``journal.jsonl``, ``results.csv`` and ``results.nc``.
-    jobs
-        Worker processes; 0: as many as processors.
-    scheduler
-        Address of a dask scheduler; '': workers on this machine.
-    retry
-        Run cases again that failed.
-    watcher
-        Who is told what happens.
+    jobs, scheduler, retry, watcher
+        As `gather`.
 
     Raises
     ------
@@ -129,43 +53,23 @@ def perform(
     FileError
         If it cannot be written.
     """
-    watcher = watcher or Watcher()
     folder = Path(folder)
-    with Journal(folder, todo.study.identity()) as journal:
-        if retry:
-            journal.forget([n for n, row in journal.rows.items() if row.get("status") == FAILED])
-        watcher.began(todo, sorted(journal.rows), journal.damaged)
-        outcome = Outcome(journal.rows)
-        tasks = [task for task in todo.tasks if task.number not in journal.rows]
-        began = written = time.monotonic()
-        try:
-            with _stopped_by_sigterm(), closing(_source(tasks, jobs, scheduler)) as source:
-                for rows in source:
-                    for _, row in rows:
-                        outcome.saved += row.pop(SAVED, 0.0)
-                        outcome.busy += row.get("seconds") or 0.0
-                    journal.append(rows)
-                    outcome.ran += len(rows)
-                    watcher.finished(rows)
-                    if time.monotonic() - written > TABLE_INTERVAL:
-                        table.write_csv(folder / CSV, todo.study, todo.points, journal.rows)
-                        written = time.monotonic()
-        except KeyboardInterrupt:
-            outcome.interrupted = True
-        outcome.wall = time.monotonic() - began
-        outcome.data = table.dataset(todo.study, todo.points, journal.rows)
-        table.write_csv(folder / CSV, todo.study, todo.points, journal.rows)
-        table.write_netcdf(folder / NETCDF, outcome.data)
-    for row in outcome.rows.values():
-        status = str(row.get("status"))
-        outcome.statuses[status] = outcome.statuses.get(status, 0) + 1
+
+    def write(rows: Mapping[int, Row]) -> None:
+        table.write_csv(folder / CSV, todo.study, todo.points, rows)
+
+    outcome = gather(
+        todo.tasks,
+        folder,
+        todo.study.identity(),
+        jobs=jobs,
+        scheduler=scheduler,
+        retry=retry,
+        watcher=watcher,
+        write=write,
+    )
+    table.write_netcdf(folder / NETCDF, table.dataset(todo.study, todo.points, outcome.rows))
     return outcome
-
-
-def _source(tasks: Sequence[Task], jobs: int, scheduler: str) -> Generator[list[tuple[int, Row]]]:
-    if scheduler:
-        return cluster.rows(tasks, scheduler)
-    return pool.rows(tasks, jobs or pool.processors())
 
 
 def sweep(
@@ -245,5 +149,4 @@ def sweep(
             outcome = perform(todo, place, jobs=jobs, scheduler=scheduler)
     if outcome.interrupted:
         raise KeyboardInterrupt
-    assert outcome.data is not None
-    return outcome.data
+    return table.dataset(todo.study, todo.points, outcome.rows)

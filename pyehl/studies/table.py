@@ -18,12 +18,12 @@ from pyehl.errors import FileError
 from pyehl.results import unit_of
 from pyehl.studies.study import Point, Study
 
-__all__ = ["columns", "dataset", "replace", "write_csv", "write_netcdf"]
+__all__ = ["cell", "columns", "dataset", "replace", "write_csv", "write_netcdf"]
 
 Row = Mapping[str, Any]
 
 # Words that are always in the table; other words only where they are asked for
-WORDS = ("flags",)
+WORDS = ("flags", "outside_range")
 LAST = ("status", "seconds", "message")
 
 
@@ -58,11 +58,12 @@ def write_csv(path: Path, study: Study, points: Sequence[Point], rows: Mapping[i
         row = rows.get(point.number)
         if row is not None:
             cells = [*point.values.values(), *(row.get(name) for name in names)]
-            writer.writerow([_cell(value) for value in cells])
+            writer.writerow([cell(value) for value in cells])
     replace(path, text.getvalue().encode())
 
 
-def _cell(value: object) -> str:
+def cell(value: object) -> str:
+    """Give the text of a value in a table; empty for one that does not exist."""
     if value is None:
         return ""
     if isinstance(value, bool):

@@ -15,12 +15,15 @@ from pathlib import Path
 from typing import Any
 
 from pyehl.case import Case
+from pyehl.kept import saved_seconds
 from pyehl.prediction import film_sheet, folder, of_case
 from pyehl.run import run
 from pyehl.solver import Solver
 
-__all__ = ["FAILED", "Task", "execute"]
+__all__ = ["FAILED", "SAVED", "Task", "execute"]
 
+SAVED = "saved_seconds"
+"""What shared parts saved; it goes with a row but is not a column."""
 FAILED = "failed"
 """Status of a case that gave no result."""
 
@@ -64,12 +67,13 @@ def execute(task: Task) -> Row:
 
     `seconds` is the time of the case itself [s].
     """
-    began = time.perf_counter()
+    began, saved = time.perf_counter(), saved_seconds()
     try:
         row = RUNNERS[task.run](task)
     except Exception as error:
         row = {"status": FAILED, "message": f"{type(error).__name__}: {error}"}
     row["seconds"] = round(time.perf_counter() - began, 6)
+    row[SAVED] = round(saved_seconds() - saved, 6)
     return row
 
 
@@ -116,6 +120,8 @@ def _scalars(summary: Mapping[str, Any]) -> Row:
     for name, value in summary.items():
         if isinstance(value, float) and not math.isfinite(value):
             row[name] = None
+        elif isinstance(value, list) and all(isinstance(word, str) for word in value):
+            row[name] = "; ".join(value)
         elif value is None or isinstance(value, bool | int | float | str):
             row[name] = value
     row.pop("wall_seconds", None)

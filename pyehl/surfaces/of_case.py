@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.kept import Kept
 from pyehl.surfaces.filters import filtered
 from pyehl.surfaces.generators import fractal, harmonic
 from pyehl.surfaces.interpolation import shifted
@@ -33,6 +34,20 @@ __all__ = [
 # Least pixels per wavelength, and per Hertz radius, of a sampled harmonic pattern
 HARMONIC_PIXELS = 32
 RADIUS_PIXELS = 64
+# Fractal tiles up to so many pixels a side are kept, a few of them
+KEPT_PIXELS = 1024
+_KEPT: Kept[Topography] = Kept(4)
+# What a fractal tile follows from
+FRACTAL = (
+    "pixels",
+    "length_x",
+    "length_y",
+    "rms_height",
+    "hurst",
+    "rolloff_wavenumber",
+    "seed",
+    "modulus",
+)
 
 
 def harmonic_amplitude(
@@ -77,16 +92,9 @@ def _whole(
     surface = settings["surface"]
     kind = str(surface["kind"])
     if kind == "fractal":
-        return fractal(
-            int(surface["pixels"]),
-            float(surface["length_x"]),
-            float(surface["length_y"]),
-            rms_height=float(surface["rms_height"]),
-            hurst=float(surface["hurst"]),
-            rolloff_wavenumber=float(surface["rolloff_wavenumber"]),
-            seed=int(surface["seed"]),
-            modulus=str(surface["modulus"]),
-        )
+        if int(surface["pixels"]) > KEPT_PIXELS:
+            return _fractal(surface)
+        return _KEPT.get(tuple(surface[key] for key in FRACTAL), lambda: _fractal(surface))
     if kind == "harmonic":
         shares = (float(surface["wavelength_x"]), float(surface["wavelength_y"]))
         # a long wave is sampled as finely as the contact needs, not only as it needs itself
@@ -102,6 +110,21 @@ def _whole(
     raise ValueError(
         f"surface.kind = {kind!r} has no heights; expected 'harmonic', 'map' or 'fractal'"
     )
+
+
+def _fractal(surface: Mapping[str, Any]) -> Topography:
+    made = fractal(
+        int(surface["pixels"]),
+        float(surface["length_x"]),
+        float(surface["length_y"]),
+        rms_height=float(surface["rms_height"]),
+        hurst=float(surface["hurst"]),
+        rolloff_wavenumber=float(surface["rolloff_wavenumber"]),
+        seed=int(surface["seed"]),
+        modulus=str(surface["modulus"]),
+    )
+    made.heights.flags.writeable = False
+    return made
 
 
 def _scan(surface: Mapping[str, Any]) -> Scan:

@@ -29,6 +29,7 @@ DOCUMENTS = (
     "docs/howto/measured-surface.md",
     "docs/howto/sweep.md",
     "docs/howto/cluster.md",
+    "docs/howto/stribeck.md",
 )
 INSTALL = "bash .ci/install"
 # First words of commands that are not run here, and who runs them

@@ -1,0 +1,201 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``pyehl stribeck``: friction against speed, film ratio and theta_2."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pyehl.commands.arguments import add_case_arguments
+from pyehl.commands.watching import (
+    EXIT_FAILED,
+    EXIT_INTERRUPTED,
+    EXIT_OK,
+    Terminal,
+    add_worker_arguments,
+    jobs_of,
+)
+from pyehl.errors import InputError
+from pyehl.studies.curve import BREAKDOWN, curve_rows, full_film_ends
+from pyehl.studies.curve_table import Measured, curve_dataset, read_measured, write_csv
+from pyehl.studies.gather import gather
+from pyehl.studies.stribeck import KEYS, CurvePlan, plan_curve
+from pyehl.studies.table import write_netcdf
+from pyehl.studies.vary import axis
+
+__all__ = ["add_arguments", "execute"]
+
+Row = Mapping[str, Any]
+Array = NDArray[np.float64]
+
+CSV, NETCDF, PICTURE = "stribeck.csv", "stribeck.nc", "stribeck.png"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments of ``pyehl stribeck``."""
+    parser.description = (
+        "Friction of a rough contact over speed, viscosity, load or temperature: the smooth "
+        "contact solved, the friction of the roughness predicted, the full simulation at some "
+        "points. VALUES as of pyehl sweep: start:stop:count, start:stop:countlog or a,b,c."
+    )
+    add_case_arguments(parser)
+    for name, key in KEYS.items():
+        parser.add_argument(f"--{name}", metavar="VALUES", help=f"values of {key}")
+    parser.add_argument(
+        "--ehl", type=int, default=0, metavar="N", help="full simulation at N points"
+    )
+    parser.add_argument(
+        "--surfaces",
+        type=int,
+        default=1,
+        metavar="K",
+        help="mean and spread over K surfaces, of the seed of the case and those that follow",
+    )
+    parser.add_argument(
+        "--measured", metavar="FILE.csv", help="measured friction, drawn over the curve"
+    )
+    parser.add_argument("--dpi", type=int, default=150, help="of the picture (default 150)")
+    add_worker_arguments(parser)
+
+
+def _plan(args: argparse.Namespace) -> CurvePlan:
+    given = {key: getattr(args, name) for name, key in KEYS.items()}
+    axes = [axis(key, values) for key, values in given.items() if values is not None]
+    if not axes:
+        options = ", ".join(f"--{name}" for name in KEYS)
+        raise InputError(f"pyehl stribeck: expected at least one of {options}")
+    return plan_curve(args.case, axes, options=args.overrides, ehl=args.ehl, seeds=args.surfaces)
+
+
+def curves_of(plan: CurvePlan, rows: Sequence[Row]) -> list[tuple[str, Array, Sequence[Row]]]:
+    """Split a table into curves: name, values of the first key, rows."""
+    keys = plan.study.keys
+    found: dict[str, tuple[list[float], list[Row]]] = {}
+    for point, row in zip(plan.points, rows, strict=True):
+        name = ", ".join(f"{key} = {point.point.values[key]}" for key in keys[1:])
+        places, those = found.setdefault(name, ([], []))
+        places.append(float(point.point.values[keys[0]]))
+        those.append(row)
+    return [(name, np.array(places), those) for name, (places, those) in found.items()]
+
+
+def _numbers(rows: Sequence[Row], name: str) -> Array:
+    return np.array([np.nan if row[name] is None else row[name] for row in rows], dtype=float)
+
+
+def draw(
+    plan: CurvePlan, rows: Sequence[Row], measured: Measured | None, path: Path, dpi: int
+) -> None:
+    """Draw the curves of a table."""
+    from pyehl.plots.stribeck import (  # noqa: PLC0415 (matplotlib takes long to import)
+        ABSCISSAE,
+        Curve,
+        Points,
+        draw_stribeck,
+    )
+    from pyehl.plots.style import save  # noqa: PLC0415
+
+    key = plan.study.keys[0]
+    absolute = all(row["mu"] is not None for row in rows if row["mu_ratio"] is not None)
+    absolute = absolute and any(row["mu"] is not None for row in rows)
+    if measured is not None and measured.ordinate != ("mu" if absolute else "mu_ratio"):
+        raise InputError(
+            f"--measured: it holds {measured.ordinate}, the curve "
+            + ("mu" if absolute else "mu_ratio alone (give a lubricant.shear_law for mu)")
+        )
+    curves = []
+    overlay = None
+    for label, places, those in curves_of(plan, rows):
+        scale = _numbers(those, "mu_smooth") if absolute else np.ones(len(those))
+        full = _numbers(those, "mu_ratio_ehl") * scale
+        known = np.isfinite(full)
+        abscissae = {name: _numbers(those, name) for name in ABSCISSAE}
+        curves.append(
+            Curve(
+                label,
+                abscissae,
+                _numbers(those, "mu_ratio") * scale,
+                _numbers(those, "mu_ratio_model_error") * scale,
+                _numbers(those, "mu_ratio_spread") * scale,
+                Points(
+                    {name: values[known] for name, values in abscissae.items()},
+                    full[known],
+                    (_numbers(those, "mu_ratio_ehl_error") * scale)[known],
+                ),
+                np.array([row["status"] == BREAKDOWN for row in those]),
+                full_film_ends(key, places, those)[0],
+            )
+        )
+        if measured is not None:
+            over = {name: measured.over(name, key, places, those) for name in ABSCISSAE}
+            overlay = Points(over, measured.friction, measured.error)
+    surface = plan.points[0].settings["surface"]
+    count = f", {plan.surfaces} surfaces" if plan.surfaces > 1 else ""
+    words = f"surface '{surface['kind']}'{count}"
+    figure = draw_stribeck(curves, absolute=absolute, surface=words, measured=overlay)
+    save(figure, path, dpi)
+
+
+def report(plan: CurvePlan, rows: Sequence[Row]) -> str:
+    """Return the table that is printed."""
+    keys = plan.study.keys
+    columns = {
+        "h_c_m": "h_c [m]",
+        "lambda_ratio": "Lambda",
+        "theta_2": "theta_2",
+        "hersey": "Hersey",
+        "mu_ratio": "mu_r/mu_s",
+        "mu_ratio_model_error": "+- model",
+        "mu": "mu",
+        "mu_ratio_ehl": "simulated",
+    }
+    names = [name for name in columns if any(row[name] is not None for row in rows)]
+    head = [*(f"{key:>21}" for key in keys), *(f"{columns[name]:>10}" for name in names)]
+    lines = ["  ".join([*head, "status"])]
+    for point, row in zip(plan.points, rows, strict=True):
+        cells = [f"{point.point.values[key]:>21}" for key in keys]
+        cells += [f"{'-' if row[n] is None else format(row[n], '.4g'):>10}" for n in names]
+        lines.append("  ".join([*cells, str(row["status"])]))
+    for label, places, those in curves_of(plan, rows):
+        lines.append(f"{label + ': ' if label else ''}{full_film_ends(keys[0], places, those)[0]}")
+    return "\n".join(lines)
+
+
+def execute(args: argparse.Namespace) -> int:
+    """Run ``pyehl stribeck``."""
+    plan = _plan(args)
+    jobs = jobs_of(args)
+    measured = None
+    if args.measured is not None:
+        if len(plan.study.keys) > 1:
+            raise InputError("--measured: expected one curve, over one of the options")
+        measured = read_measured(args.measured, plan.study.keys[0])
+    folder = Path(args.output)
+    watcher = Terminal(lambda done: plan.text(jobs, done), quiet=args.quiet)
+    try:
+        outcome = gather(
+            plan.tasks,
+            folder,
+            plan.identity(),
+            jobs=jobs,
+            scheduler=args.scheduler,
+            watcher=watcher,
+            write=lambda rows: write_csv(folder / CSV, plan, curve_rows(plan, rows)),
+        )
+    finally:
+        watcher.close()
+    rows = curve_rows(plan, outcome.rows)
+    write_netcdf(folder / NETCDF, curve_dataset(plan, rows))
+    if outcome.interrupted:
+        watcher.goes_on(folder)
+        return EXIT_INTERRUPTED
+    draw(plan, rows, measured, folder / PICTURE, args.dpi)
+    if not args.quiet:
+        print(report(plan, rows))
+        print(f"results    {', '.join(str(folder / name) for name in (CSV, NETCDF, PICTURE))}")
+    return EXIT_OK if any(row["mu_ratio"] is not None for row in rows) else EXIT_FAILED

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What subcommands that run many cases share: arguments, and what they print meanwhile."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from tqdm import tqdm
+
+from pyehl.errors import InputError
+from pyehl.studies.gather import Watcher
+from pyehl.studies.plan import duration
+from pyehl.studies.pool import processors
+from pyehl.studies.tasks import FAILED, Task
+
+__all__ = [
+    "EXIT_FAILED",
+    "EXIT_INTERRUPTED",
+    "EXIT_OK",
+    "Terminal",
+    "add_worker_arguments",
+    "jobs_of",
+]
+
+EXIT_OK, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 130
+# Seconds between lines where the output is not a terminal
+LINE_INTERVAL = 5.0
+
+
+class Terminal(Watcher):
+    """Prints the plan, then a bar that counts estimated seconds, or a line now and then."""
+
+    def __init__(self, told: Callable[[Sequence[int]], str], *, quiet: bool = False) -> None:
+        self._plan, self._quiet = told, quiet
+        self._seconds: dict[int, float] = {}
+        self._count = self._failed = self._size = 0
+        self._bar: tqdm | None = None
+        self._last = self._start = time.monotonic()
+        self._done = 0.0
+
+    def began(self, tasks: Sequence[Task], done: Sequence[int], damaged: int) -> None:
+        """Print the plan."""
+        self._size = len(tasks)
+        self._count = len(done)
+        finished = set(done)
+        self._seconds = {t.number: t.seconds for t in tasks if t.number not in finished}
+        if self._quiet:
+            return
+        if damaged:
+            print(f"note       {damaged} damaged rows of the journal run again", file=sys.stderr)
+        print(self._plan(done), flush=True)
+        self._start = self._last = time.monotonic()
+        self._bar = tqdm(
+            total=sum(self._seconds.values()) or None,
+            bar_format="{percentage:3.0f}%|{bar}|{desc} [{elapsed}, left {remaining}]",
+            disable=not sys.stderr.isatty(),
+        )
+
+    def finished(self, rows: Sequence[tuple[int, dict[str, Any]]]) -> None:
+        """Show how far it is."""
+        self._count += len(rows)
+        self._failed += sum(row.get("status") == FAILED for _, row in rows)
+        seconds = sum(self._seconds[number] for number, _ in rows)
+        self._done += seconds
+        if self._bar is None:
+            return
+        if not self._bar.disable:
+            self._bar.set_description_str(f" {self._told()}", refresh=False)
+            self._bar.update(seconds)
+        elif time.monotonic() - self._last > LINE_INTERVAL and self._count < self._size:
+            self._last = time.monotonic()
+            left = (self._last - self._start) * (sum(self._seconds.values()) / self._done - 1.0)
+            print(f"{self._told()}, about {duration(max(left, 0.0))} left", flush=True)
+
+    def _told(self) -> str:
+        failed = f", {self._failed} failed" if self._failed else ""
+        return f"{self._count} of {self._size} cases{failed}"
+
+    def close(self) -> None:
+        """End the bar."""
+        if self._bar is not None:
+            self._bar.close()
+
+    def goes_on(self, folder: Path) -> None:
+        """Say how an interrupted study goes on."""
+        print(f"interrupted; the same command goes on in {folder}", file=sys.stderr)
+
+
+def add_worker_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of all subcommands that run many cases."""
+    parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the study")
+    parser.add_argument(
+        "--jobs", type=int, default=0, metavar="N", help="worker processes (default: processors)"
+    )
+    parser.add_argument(
+        "--scheduler",
+        default="",
+        metavar="ADDRESS",
+        help="use the workers of a dask scheduler, as tcp://host:8786 (extra 'cluster')",
+    )
+    parser.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
+
+
+def jobs_of(args: argparse.Namespace) -> int:
+    """Give the number of worker processes.
+
+    Raises
+    ------
+    InputError
+        If it is negative.
+    """
+    if args.jobs < 0:
+        raise InputError(f"--jobs {args.jobs}: expected a number of worker processes")
+    return int(args.jobs) or processors()

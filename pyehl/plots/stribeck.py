@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The picture of Stribeck curves: friction over Hersey number, Lambda and theta_2 side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from numpy.typing import NDArray
+
+from pyehl.plots.style import BLUE, GREEN, GREY, VERMILLION, letter, new_figure
+from pyehl.theory import stribeck
+
+__all__ = ["ABSCISSAE", "Curve", "Points", "draw_stribeck"]
+
+Array = NDArray[np.float64]
+
+ABSCISSAE = {
+    "hersey": r"Hersey number $\eta_0 \bar u R/w$",
+    "lambda_ratio": r"$\Lambda = h_\mathrm{min}/\sigma$",
+    "theta_2": r"$\theta_2$",
+}
+COLOURS = (BLUE, VERMILLION, GREEN, "#CC79A7", "#E69F00", "#56B4E9")
+
+
+@dataclass(frozen=True, slots=True)
+class Points:
+    """Friction at some places: places by abscissa, values and errors, all (n,)."""
+
+    places: Mapping[str, Array]
+    friction: Array
+    error: Array
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """One curve.
+
+    Attributes
+    ----------
+    label
+        Its name in the legend; '' for the only one.
+    places
+        Values by abscissa, each (n,), NaN where there is none.
+    friction
+        Prediction (n,) [-].
+    error
+        Error of the model (n,) [-], NaN for none.
+    spread
+        Standard deviation over the surfaces (n,) [-], NaN for none.
+    full
+        The full simulation.
+    broken
+        (n,) whether the film breaks down there.
+    ends
+        Where full film ends, in words.
+    """
+
+    label: str
+    places: Mapping[str, Array]
+    friction: Array
+    error: Array
+    spread: Array
+    full: Points
+    broken: NDArray[np.bool_]
+    ends: str = field(default="")
+
+
+def draw_stribeck(
+    curves: Sequence[Curve],
+    *,
+    absolute: bool,
+    surface: str,
+    measured: Points | None = None,
+    eq_16: bool = True,
+) -> Figure:
+    """Draw friction over all abscissae.
+
+    Parameters
+    ----------
+    curves
+        One or several.
+    absolute
+        Whether the friction is a coefficient, else a ratio mu_r/mu_s.
+    surface
+        What the surface is, in a few words.
+    measured
+        Measured friction, laid over.
+    eq_16
+        Draw the curve of Zhang et al. 2019 over theta_2.
+    """
+    figure = new_figure(11.5, 4.4)
+    axes = figure.subplots(1, len(ABSCISSAE), sharey=True)
+    for ax, (name, label) in zip(axes, ABSCISSAE.items(), strict=True):
+        for curve, colour in zip(curves, COLOURS * 9, strict=False):
+            _draw_curve(ax, curve, name, colour)
+        _shade(ax, curves, name)
+        if measured is not None:
+            ax.errorbar(
+                measured.places[name],
+                measured.friction,
+                _bars(measured.error),
+                fmt="k^",
+                ms=4,
+                mfc="none",
+                capsize=2,
+                lw=0.8,
+                label="measured",
+            )
+        if name == "theta_2" and eq_16 and not absolute:
+            _draw_eq_16(ax)
+        ax.set_xscale("log")
+        _label_ticks(ax)
+        ax.set_xlabel(label)
+        ax.grid(visible=True, which="major", color="0.92", lw=0.6)
+        ax.set_axisbelow(True)
+    axes[0].set_ylabel(r"$\mu$" if absolute else r"$\mu_r/\mu_s$")
+    letter(axes)
+    # the last panel has all that the others have
+    handles, labels = axes[-1].get_legend_handles_labels()
+    unique = dict(zip(labels, handles, strict=True))
+    figure.legend(
+        unique.values(), unique.keys(), loc="outside lower center", ncols=5, fontsize="small"
+    )
+    words = "; ".join(f"{c.label + ': ' if c.label else ''}{c.ends}" for c in curves if c.ends)
+    figure.suptitle(f"{surface}\n{words}", fontsize="medium")
+    return figure
+
+
+def _label_ticks(ax: Axes) -> None:
+    """Label 1, 2 and 5 of each decade where there are few decades."""
+    low, high = ax.get_xlim()
+    if high < 100.0 * low:
+        ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high > 4.0 * low else "all"))
+        ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        ax.xaxis.set_minor_formatter(NullFormatter())
+
+
+def _bars(error: Array) -> Array | None:
+    """Give error bars, none where all are zero or unknown."""
+    known = np.nan_to_num(error)
+    return known if known.any() else None
+
+
+def _draw_curve(ax: Axes, curve: Curve, name: str, colour: str) -> None:
+    x, y = curve.places[name], curve.friction
+    known = np.isfinite(x) & np.isfinite(y)
+    tail = f" ({curve.label})" if curve.label else ""
+    ax.plot(x[known], y[known], "o-", ms=3, lw=1.2, color=colour, label=f"prediction{tail}")
+    for width, alpha, label in (
+        (curve.spread, 0.15, "spread over the surfaces"),
+        (curve.error, 0.35, "error of the model"),
+    ):
+        wide = known & np.isfinite(width)
+        if wide.any():
+            low, high = y[wide] - width[wide], y[wide] + width[wide]
+            ax.fill_between(x[wide], low, high, color=colour, alpha=alpha, lw=0, label=label)
+    if curve.full.friction.size:
+        ax.errorbar(
+            curve.full.places[name],
+            curve.full.friction,
+            _bars(curve.full.error),
+            fmt="s",
+            ms=5,
+            mfc="white",
+            color=colour,
+            capsize=3,
+            label=f"full simulation{tail}",
+        )
+
+
+def _shade(ax: Axes, curves: Sequence[Curve], name: str) -> None:
+    """Shade where the film breaks down: up to half-way to the first point of full film."""
+    for curve in curves:
+        x = curve.places[name]
+        broken = curve.broken & np.isfinite(x)
+        if not broken.any():
+            continue
+        low, high = float(x[broken].min()), float(x[broken].max())
+        others = x[~curve.broken & np.isfinite(x) & np.isfinite(curve.friction)]
+        above = others[others > high]
+        if above.size:
+            high = float(np.sqrt(high * above.min()))
+        below = others[others < low]
+        low = float(np.sqrt(low * below.max())) if below.size else min(low, ax.get_xlim()[0])
+        ax.axvspan(low, high, color=GREY, alpha=0.2, lw=0, label="no full film")
+
+
+def _draw_eq_16(ax: Axes) -> None:
+    low, high = ax.get_xlim()
+    theta = np.geomspace(max(low, 0.3), max(high, 0.6), 100)
+    bottom, top = ax.get_ylim()
+    ratio = stribeck.relative_friction(theta)
+    shown = ratio < top
+    ax.plot(theta[shown], ratio[shown], "--", lw=1, color="black", label="harmonic waves (eq. 16)")
+    ax.set_ylim(bottom, top)

@@ -1,0 +1,244 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A Stribeck curve from the rows of its tasks: its columns, and where full film ends.
+
+theta_2 is that of Zhang et al. 2019, section 4.2, made for a pattern of one wavelength. For another
+surface it is taken for the pattern cos(2 pi x/wavelength) cos(2 pi y/wavelength) with the same rms
+height (A_i = 2 sigma) and the same mean wavenumber, which is 2 sqrt(2) pi/wavelength.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import scipy.fft
+from numpy.typing import NDArray
+
+from pyehl import surfaces
+from pyehl.studies.stribeck import CurvePlan, CurvePoint, Settings
+from pyehl.studies.tasks import FAILED
+from pyehl.theory import stribeck
+from pyehl.theory.film import central_film
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+
+__all__ = ["BREAKDOWN", "FULL_FILM", "OUTSIDE", "UNITS", "curve_rows", "full_film_ends", "pattern"]
+
+Row = Mapping[str, Any]
+
+FULL_FILM, BREAKDOWN, OUTSIDE, UNSOLVED = (
+    "full film",
+    "film breakdown",
+    "outside the range",
+    "not solved",
+)
+UNITS = {
+    "h_c_m": "m",
+    "h_c_error_m": "m",
+    "h_min_m": "m",
+    "h_min_error_m": "m",
+    "lambda_ratio": "1",
+    "lambda_ratio_central": "1",
+    "theta_2": "1",
+    "theta_2_wavelength_m": "m",
+    "hersey": "1",
+    "mu_smooth": "1",
+    "mu": "1",
+    "mu_spread": "1",
+    "mu_ratio": "1",
+    "mu_ratio_spread": "1",
+    "mu_ratio_model_error": "1",
+    "mu_ratio_ehl": "1",
+    "mu_ratio_ehl_error": "1",
+    "moes_m": "1",
+    "moes_l": "1",
+    "surfaces": "1",
+}
+"""Columns that are numbers, and their units; behind them come ``status`` and ``message``."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pattern:
+    """The pattern of one wavelength that stands for a surface: rms height and wavelength [m]."""
+
+    rms_height: float
+    wavelength: float
+
+
+def pattern(settings: Settings, operating: OperatingPoint, film: float) -> Pattern:
+    """Give the pattern that theta_2 is taken for.
+
+    Parameters
+    ----------
+    settings
+        A resolved case with a rough surface.
+    operating
+        Gives the scales.
+    film
+        Central film [m], of which the amplitude of harmonic roughness may be a share.
+    """
+    if settings["surface"]["kind"] == "harmonic":
+        lengths = [float(settings["surface"][f"wavelength_{axis}"]) for axis in "xy"]
+        amplitude = surfaces.harmonic_amplitude(settings, operating, film)
+        return Pattern(0.5 * amplitude, min(lengths) * operating.hertz_radius)
+    tile = surfaces.from_settings(settings, operating, film)
+    qx, qy = surfaces.wavenumbers(tile)
+    power = np.abs(scipy.fft.rfft2(tile.heights)) ** 2
+    power[0, 0] = 0.0
+    # the half of the spectrum that is not there has the same power
+    last = -1 if tile.shape[1] % 2 == 0 else None
+    power[:, 1:last] *= 2.0
+    mean = float((np.hypot(qx, qy) * power).sum() / power.sum())
+    return Pattern(tile.rms_height, 2.0 * math.sqrt(2.0) * math.pi / mean)
+
+
+def curve_rows(plan: CurvePlan, rows: Mapping[int, Row]) -> list[dict[str, Any]]:
+    """Give the columns of a curve at all points, in the order of the table.
+
+    Names and units are those of `UNITS`; None for a number that does not exist.
+    """
+    kept: dict[str, Pattern] = {}
+    return [_at(point, rows, kept) for point in plan.points]
+
+
+def _at(point: CurvePoint, rows: Mapping[int, Row], kept: dict[str, Pattern]) -> dict[str, Any]:
+    operating = OperatingPoint.from_settings(point.settings)
+    nothing = {"status": FAILED, "message": "not done"}
+    smooth = rows.get(point.smooth, nothing)
+    found = [rows.get(number, nothing) for number in point.predictions]
+    values: dict[str, Any] = dict.fromkeys(UNITS)
+    values |= _film(smooth, operating)
+    h_c, h_min = values["h_c_m"], values["h_min_m"]
+    film = h_c or central_film(operating, Lubricant.from_settings(point.settings))
+    values |= {
+        "hersey": float(point.settings["lubricant"]["viscosity"])
+        * operating.mean_velocity
+        * operating.radius
+        / operating.load,
+        "moes_m": operating.moes_m,
+        "moes_l": operating.moes_l,
+        "surfaces": len(found),
+    }
+    likeness = _pattern(point.settings, operating, film, kept)
+    if h_c is not None and likeness.rms_height > 0.0:
+        wavelength = likeness.wavelength / operating.hertz_radius
+        ratio = h_c / (2.0 * likeness.rms_height)
+        place = (operating.moes_m, operating.moes_l, wavelength, ratio)
+        values["lambda_ratio"] = h_min / likeness.rms_height
+        values["lambda_ratio_central"] = h_c / likeness.rms_height
+        values["theta_2"] = float(stribeck.theta_2(*place)) if operating.moes_l > 0.0 else None
+        values["theta_2_wavelength_m"] = likeness.wavelength
+    values |= _friction(found)
+    if point.full is not None:
+        full = rows.get(point.full, nothing)
+        if full["status"] == "converged":
+            values["mu_ratio_ehl"] = full["mu_ratio"]
+            values["mu_ratio_ehl_error"] = full["mu_ratio_error"]
+        else:
+            values["message"] = _joined(values, f"full simulation: {full['status']}")
+    if smooth["status"] != "converged":
+        values["message"] = _joined(values, f"smooth contact: {_why(smooth)}")
+        if values["status"] == FULL_FILM:
+            values["status"] = UNSOLVED
+    return values
+
+
+def _pattern(
+    settings: Settings, operating: OperatingPoint, film: float, kept: dict[str, Pattern]
+) -> Pattern:
+    """Give the pattern of a surface; one that knows nothing of the contact is made once."""
+    name = str(sorted(settings["surface"].items(), key=str))
+    if settings["surface"]["kind"] == "harmonic":
+        return pattern(settings, operating, film)
+    if name not in kept:
+        kept[name] = pattern(settings, operating, film)
+    return kept[name]
+
+
+def _film(smooth: Row, operating: OperatingPoint) -> dict[str, Any]:
+    """Film of the smooth contact, extrapolated where it could be, with its error."""
+    if smooth["status"] != "converged":
+        return {}
+    values: dict[str, Any] = {}
+    for name in ("c", "min"):
+        limit = smooth.get(f"H_{name}_extrapolated")
+        best = smooth[f"H_{name}"] if limit is None else limit
+        error = smooth.get(f"H_{name}_error")
+        values[f"h_{name}_m"] = best * operating.film_scale
+        values[f"h_{name}_error_m"] = None if error is None else error * operating.film_scale
+    return values
+
+
+def _friction(found: Sequence[Row]) -> dict[str, Any]:
+    """Mean and spread over the surfaces; no mean where one of them has no ratio."""
+    lost = [row for row in found if row["status"] != "predicted"]
+    if lost:
+        broken = sum(row["status"] == BREAKDOWN for row in lost)
+        status = BREAKDOWN if broken else UNSOLVED
+        share = f"{broken or len(lost)} of {len(found)} surfaces: " if len(found) > 1 else ""
+        row = next(row for row in lost if not broken or row["status"] == BREAKDOWN)
+        return {"status": status, "message": f"{share}{_why(row)}"}
+    outside = sorted({row["outside_range"] for row in found if row.get("outside_range")})
+    return {
+        **_mean(found, "mu_ratio"),
+        **_mean(found, "mu"),
+        "mu_smooth": found[0].get("mu_smooth"),
+        "mu_ratio_model_error": _largest(found, "mu_ratio_model_error"),
+        "status": OUTSIDE if outside else FULL_FILM,
+        "message": f"outside the range of the prediction: {'; '.join(outside)}" if outside else "",
+    }
+
+
+def _mean(found: Sequence[Row], name: str) -> dict[str, float | None]:
+    numbers = [row.get(name) for row in found]
+    if any(number is None for number in numbers):
+        return {name: None, f"{name}_spread": None}
+    values = np.array(numbers, dtype=float)
+    spread = float(values.std(ddof=1)) if values.size > 1 else None
+    return {name: float(values.mean()), f"{name}_spread": spread}
+
+
+def _largest(found: Sequence[Row], name: str) -> float | None:
+    numbers = [row.get(name) for row in found]
+    return max(numbers) if all(number is not None for number in numbers) else None  # type: ignore[type-var]
+
+
+def _why(row: Row) -> str:
+    return f"{row['status']}: {row['message']}" if row.get("message") else str(row["status"])
+
+
+def _joined(values: Row, text: str) -> str:
+    return f"{values['message']}; {text}" if values.get("message") else text
+
+
+def full_film_ends(
+    key: str, places: Sequence[float] | NDArray[np.float64], rows: Sequence[Row]
+) -> tuple[str, tuple[int, ...]]:
+    """Say where full film ends along a curve, and give the points without it.
+
+    Parameters
+    ----------
+    key
+        What the curve goes over.
+    places
+        Its values, ascending or descending.
+    rows
+        Columns of the curve at these.
+    """
+    broken = tuple(k for k, row in enumerate(rows) if row["status"] == BREAKDOWN)
+    known = [k for k, row in enumerate(rows) if row["status"] in (FULL_FILM, OUTSIDE)]
+    if not broken:
+        lost = len(rows) - len(known)
+        rest = f"; {lost} points have no answer" if lost else ""
+        return f"full film at all points with an answer{rest}", broken
+    if not known:
+        return "no full film at any point", broken
+    pairs = [
+        (k, j) for k in broken for j in known if not any(min(k, j) < m < max(k, j) for m in known)
+    ]
+    edge = min(pairs, key=lambda pair: abs(pair[0] - pair[1]))
+    low, high = sorted((places[edge[0]], places[edge[1]]))
+    return f"full film ends between {key} = {low:.4g} and {high:.4g}", broken

@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The files of a Stribeck curve, and measured data to lay over it."""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from pyehl import library
+from pyehl.errors import InputError
+from pyehl.studies.curve import UNITS
+from pyehl.studies.stribeck import CurvePlan
+from pyehl.studies.table import cell, replace
+
+__all__ = ["Measured", "curve_csv", "curve_dataset", "read_measured", "write_csv"]
+
+Array = NDArray[np.float64]
+Row = Mapping[str, Any]
+
+WORDS = ("status", "message")
+
+
+def curve_csv(plan: CurvePlan, rows: Sequence[Row]) -> str:
+    """Give the table of a curve as CSV: what was varied, `UNITS`, status, message."""
+    text = io.StringIO(newline="")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow([*plan.study.keys, *UNITS, *WORDS])
+    for point, row in zip(plan.points, rows, strict=True):
+        cells = [*point.point.values.values(), *(row[name] for name in (*UNITS, *WORDS))]
+        writer.writerow([cell(value) for value in cells])
+    return text.getvalue()
+
+
+def write_csv(path: Path, plan: CurvePlan, rows: Sequence[Row]) -> None:
+    """Write the table of a curve, whole or not at all.
+
+    Raises
+    ------
+    FileError
+        If it cannot be written.
+    """
+    replace(path, curve_csv(plan, rows).encode())
+
+
+def curve_dataset(plan: CurvePlan, rows: Sequence[Row]) -> xr.Dataset:
+    """Give a curve as a Dataset whose dimensions are what was varied."""
+    study = plan.study
+    names = tuple(axes[0].key for axes in study.dimensions)
+    units = {key.name: key.unit for key in library.keys()}
+    coords = {
+        a.key: xr.Variable((a.key,), np.array(a.values, dtype=float), {"units": units[a.key]})
+        for axes in study.dimensions
+        for a in axes
+    }
+    variables = {}
+    for name, unit in UNITS.items():
+        values = np.array([np.nan if row[name] is None else float(row[name]) for row in rows])
+        variables[name] = xr.Variable(names, values.reshape(study.shape), {"units": unit})
+    for name in WORDS:
+        words = np.array([str(row[name]) for row in rows])
+        variables[name] = xr.Variable(names, words.reshape(study.shape))
+    return xr.Dataset(variables, coords, {"title": "Stribeck curve of pyehl"})
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """Measured friction.
+
+    Attributes
+    ----------
+    abscissa
+        Name of the column of the curve that it is given over.
+    places
+        Values of it, (n,).
+    ordinate
+        'mu' or 'mu_ratio'.
+    friction, error
+        Values and their error (n,); zeros where none is given [-].
+    """
+
+    abscissa: str
+    places: Array
+    ordinate: str
+    friction: Array
+    error: Array
+
+    def over(self, name: str, key: str, places: Array, rows: Sequence[Row]) -> Array:
+        """Give the places in another column of the curve, (n,); NaN outside of the curve.
+
+        Interpolated along the curve, in logarithms. `key` and `places` are what the curve goes
+        over.
+        """
+        if name == self.abscissa:
+            return self.places
+        source = _column(self.abscissa, key, places, rows)
+        target = _column(name, key, places, rows)
+        known = np.isfinite(source) & np.isfinite(target)
+        if np.count_nonzero(known) < 2:
+            return np.full(self.places.shape, np.nan)
+        order = np.argsort(source[known])
+        x, y = np.log(source[known][order]), np.log(target[known][order])
+        found = np.interp(np.log(self.places), x, y, left=np.nan, right=np.nan)
+        return np.asarray(np.exp(found))
+
+
+def _column(name: str, key: str, places: Array, rows: Sequence[Row]) -> Array:
+    if name == key:
+        return places
+    return np.array([np.nan if row[name] is None else row[name] for row in rows], dtype=float)
+
+
+def read_measured(path: str | os.PathLike[str], key: str) -> Measured:
+    """Read measured friction: CSV with a line of names.
+
+    Parameters
+    ----------
+    path
+        The file. One column is `key`, ``hersey``, ``lambda_ratio`` or ``theta_2``; another ``mu``
+        or ``mu_ratio``; a third, which may be missing, ``error``.
+    key
+        What the curve goes over.
+
+    Raises
+    ------
+    InputError
+        With the file and the line, and what was expected.
+    """
+    name = os.fspath(path)
+    try:
+        text = Path(path).read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"{name}: cannot read: {error}") from error
+    lines = list(csv.reader(io.StringIO(text)))
+    head = [word.strip() for word in lines[0]] if lines else []
+    known = (key, "hersey", "lambda_ratio", "theta_2")
+    abscissae = [word for word in head if word in known]
+    ordinates = [word for word in head if word in ("mu", "mu_ratio")]
+    if len(abscissae) != 1 or len(ordinates) != 1:
+        raise InputError(
+            f"{name}:1: error: the columns are {', '.join(head) or 'none'}\nexpected: one of "
+            f"{', '.join(known)}; one of mu, mu_ratio; and error, which may be missing"
+        )
+    columns = {word: head.index(word) for word in (abscissae[0], ordinates[0])}
+    if "error" in head:
+        columns["error"] = head.index("error")
+    values: dict[str, list[float]] = {word: [] for word in columns}
+    for number, line in enumerate(lines[1:], start=2):
+        if not any(word.strip() for word in line):
+            continue
+        for word, place in columns.items():
+            try:
+                value = float(line[place])
+            except (ValueError, IndexError):
+                value = np.nan
+            least = -np.inf if word != abscissae[0] else 0.0
+            if not (np.isfinite(value) and value > least):
+                given = line[place] if place < len(line) else "nothing"
+                raise InputError(f"{name}:{number}: error: {word} = '{given}'\nexpected: a number")
+            values[word].append(value)
+    if not values[ordinates[0]]:
+        raise InputError(f"{name}: error: there are no rows")
+    friction = np.array(values[ordinates[0]])
+    errors = np.array(values["error"]) if "error" in columns else np.zeros_like(friction)
+    return Measured(abscissae[0], np.array(values[abscissae[0]]), ordinates[0], friction, errors)

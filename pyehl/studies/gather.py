@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Do what is missing of some tasks, and keep what is finished."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+import time
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from contextlib import closing, contextmanager
+from dataclasses import dataclass
+from types import FrameType
+from typing import Any
+
+from pyehl.studies import cluster, pool
+from pyehl.studies.journal import Journal
+from pyehl.studies.tasks import FAILED, SAVED, Task
+
+__all__ = ["Outcome", "Watcher", "gather"]
+
+Row = dict[str, Any]
+
+# Seconds between tables that are written while a study runs
+TABLE_INTERVAL = 30.0
+
+
+class Watcher:
+    """What a driver does when a study tells something; this one does nothing."""
+
+    def began(self, tasks: Sequence[Task], done: Sequence[int], damaged: int) -> None:
+        """Take all tasks, the numbers of those done before, and how many rows were damaged."""
+
+    def finished(self, rows: Sequence[tuple[int, Row]]) -> None:
+        """Take rows that are in the journal now."""
+
+
+@dataclass(slots=True)
+class Outcome:
+    """How a study ended.
+
+    Attributes
+    ----------
+    rows
+        Results by the number of the task.
+    ran
+        Tasks that were done now.
+    interrupted
+        Whether somebody stopped it.
+    saved
+        Seconds that shared parts saved.
+    busy
+        Seconds that these tasks took, all workers together.
+    wall
+        Seconds from the first task to the last row.
+    """
+
+    rows: dict[int, Row]
+    ran: int = 0
+    interrupted: bool = False
+    saved: float = 0.0
+    busy: float = 0.0
+    wall: float = 0.0
+
+    def statuses(self) -> dict[str, int]:
+        """How many rows have each status."""
+        counts: dict[str, int] = {}
+        for row in self.rows.values():
+            status = str(row.get("status"))
+            counts[status] = counts.get(status, 0) + 1
+        return counts
+
+
+@contextmanager
+def _stopped_by_sigterm() -> Iterator[None]:
+    """SIGTERM is as Ctrl-C."""
+
+    def stop(number: int, frame: FrameType | None) -> None:
+        raise KeyboardInterrupt
+
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGTERM, stop)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def gather(
+    tasks: Sequence[Task],
+    folder: str | os.PathLike[str],
+    identity: Mapping[str, Any],
+    *,
+    jobs: int = 0,
+    scheduler: str = "",
+    retry: bool = False,
+    watcher: Watcher | None = None,
+    write: Callable[[Mapping[int, Row]], None] | None = None,
+) -> Outcome:
+    """Do the tasks that are not in the journal of a folder.
+
+    Parameters
+    ----------
+    tasks
+        All of them.
+    folder
+        Gets ``journal.jsonl``.
+    identity
+        What makes them another study than others.
+    jobs
+        Worker processes; 0: as many as processors.
+    scheduler
+        Address of a dask scheduler; '': workers on this machine.
+    retry
+        Do tasks again that failed.
+    watcher
+        Who is told what happens.
+    write
+        Writes tables of the rows; called now and then, and at the end.
+
+    Raises
+    ------
+    InputError
+        If the folder holds another study or something else, or is in use.
+    FileError
+        If it cannot be written.
+    """
+    watcher = watcher or Watcher()
+    with Journal(folder, identity) as journal:
+        if retry:
+            journal.forget([n for n, row in journal.rows.items() if row.get("status") == FAILED])
+        watcher.began(tasks, sorted(journal.rows), journal.damaged)
+        outcome = Outcome(journal.rows)
+        left = [task for task in tasks if task.number not in journal.rows]
+        began = written = time.monotonic()
+        try:
+            with _stopped_by_sigterm(), closing(_source(left, jobs, scheduler)) as source:
+                for rows in source:
+                    outcome.saved += sum(row.pop(SAVED, 0.0) for _, row in rows)
+                    journal.append(rows)
+                    outcome.ran += len(rows)
+                    outcome.busy += sum(row.get("seconds") or 0.0 for _, row in rows)
+                    watcher.finished(rows)
+                    if write is not None and time.monotonic() - written > TABLE_INTERVAL:
+                        write(journal.rows)
+                        written = time.monotonic()
+        except KeyboardInterrupt:
+            outcome.interrupted = True
+        outcome.wall = time.monotonic() - began
+        if write is not None:
+            write(journal.rows)
+    return outcome
+
+
+def _source(tasks: Sequence[Task], jobs: int, scheduler: str) -> Generator[list[tuple[int, Row]]]:
+    if scheduler:
+        return cluster.rows(tasks, scheduler)
+    return pool.rows(tasks, jobs or pool.processors())

@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A Stribeck curve: the tasks behind it.
+
+At each point the smooth contact is solved, the friction of one or several surfaces is predicted,
+and at some points the passage of the surface is solved in full. All of these are tasks of one
+study, so that a curve that was interrupted goes on.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from pyehl import surfaces
+from pyehl.case import Case
+from pyehl.errors import EhlError, InputError
+from pyehl.prediction.options import Options
+from pyehl.studies.estimate import seconds_of, shares_of, speed
+from pyehl.studies.plan import duration
+from pyehl.studies.study import Point, Study, make
+from pyehl.studies.tasks import Task
+from pyehl.studies.vary import Axis
+from pyehl.theory.film import central_film
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+
+__all__ = ["KEYS", "CurvePlan", "CurvePoint", "plan_curve"]
+
+Settings = Mapping[str, Mapping[str, Any]]
+
+KEYS = {
+    "speed": "contact.mean_velocity",
+    "viscosity": "lubricant.viscosity",
+    "load": "contact.load",
+    "temperature": "lubricant.temperature",
+}
+"""What a curve may go over, by the option of the command."""
+SEED = "surface.seed"
+
+
+@dataclass(frozen=True, slots=True)
+class CurvePoint:
+    """One point of a curve and its tasks.
+
+    Attributes
+    ----------
+    point
+        Its place and what is varied.
+    settings
+        The resolved case.
+    smooth
+        Number of the task that solves the smooth contact.
+    predictions
+        Numbers of the tasks that predict, one for each surface.
+    full
+        Number of the task that solves the passage of the surface; None for none.
+    """
+
+    point: Point
+    settings: Settings
+    smooth: int
+    predictions: tuple[int, ...]
+    full: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class CurvePlan:
+    """A curve before it is computed.
+
+    Attributes
+    ----------
+    study
+        What is varied.
+    points
+        Points in the order of the table.
+    tasks
+        All tasks.
+    surfaces
+        Surfaces at each point.
+    """
+
+    study: Study
+    points: tuple[CurvePoint, ...]
+    tasks: tuple[Task, ...]
+    surfaces: int
+
+    def identity(self) -> dict[str, Any]:
+        """Give what makes this curve another one than others, as values of JSON."""
+        full = [p.point.number for p in self.points if p.full is not None]
+        return self.study.identity() | {"run": "stribeck", "surfaces": self.surfaces, "ehl": full}
+
+    def text(self, jobs: int, done: Sequence[int] = ()) -> str:
+        """Tell the plan in a few lines, for `jobs` worker processes and the tasks left."""
+        finished = set(done)
+        left = [t.seconds for t in self.tasks if t.number not in finished]
+        full = sum(p.full is not None for p in self.points)
+        each = "surface" if self.surfaces == 1 else f"{self.surfaces} surfaces"
+        lines = [
+            f"curve      {len(self.points)} points over {', '.join(self.study.keys)}: at each the "
+            f"smooth contact and a prediction for the {each}"
+            + (f"; the full simulation at {full}" if full else "")
+        ]
+        if finished:
+            lines.append(f"           {len(finished)} of {len(self.tasks)} tasks are done")
+        if left:
+            seconds = max(sum(left) / min(jobs, len(left)), *left)
+            lines.append(f"time       about {duration(seconds)} by estimate")
+        return "\n".join(lines)
+
+
+def plan_curve(
+    case: Case | str | os.PathLike[str],
+    axes: Sequence[Axis],
+    *,
+    options: Iterable[str] = (),
+    ehl: int = 0,
+    seeds: int = 1,
+) -> CurvePlan:
+    """Resolve and check all points of a curve.
+
+    Parameters
+    ----------
+    case
+        A case with a rough surface, or the path of a case file.
+    axes
+        What the curve goes over, keys of `KEYS`; every value of one meets those of the others.
+    options
+        Texts ``group.key=value`` that hold for all points.
+    ehl
+        Points at which the passage of the surface is solved in full, spread over the curve.
+    seeds
+        Surfaces at each point: with the seed of the case and those that follow.
+
+    Raises
+    ------
+    InputError
+        If a case is not acceptable; the message names it.
+    """
+    study = make(case, axes, options=options, run="predict")
+    size = study.size
+    if not 0 <= ehl <= size:
+        raise InputError(f"--ehl {ehl}: expected 0 to {size}, the number of points")
+    if seeds < 1:
+        raise InputError(f"--surfaces {seeds}: expected 1 or more")
+    chosen = {int((k + 0.5) * size / ehl) for k in range(ehl)}
+    factor = speed()
+    points: list[CurvePoint] = []
+    tasks: list[Task] = []
+
+    def add(made: Case, run: str) -> int:
+        settings = made.resolve()
+        seconds = factor * seconds_of(settings, run)
+        tasks.append(Task(len(tasks), made.text, run, "", seconds, shares_of(settings, run)))
+        return tasks[-1].number
+
+    for point in study.points():
+        rough = study.resolved(point)
+        settings = rough.resolve()
+        _check(study, point, settings, seeds)
+        first = int(settings["surface"]["seed"])
+        varied = [rough, *(rough.with_options(f"{SEED}={first + k}") for k in range(1, seeds))]
+        points.append(
+            CurvePoint(
+                point,
+                settings,
+                smooth=add(rough.with_options("surface.kind=smooth"), "solve"),
+                predictions=tuple(add(made, "predict") for made in varied),
+                full=add(rough, "solve") if point.number in chosen else None,
+            )
+        )
+    return CurvePlan(replace(study, run="predict"), tuple(points), tuple(tasks), seeds)
+
+
+def _check(study: Study, point: Point, settings: Settings, seeds: int) -> None:
+    """Refuse what no curve can be made of."""
+    kind = settings["surface"]["kind"]
+    try:
+        if kind == "smooth":
+            raise InputError("surface.kind = 'smooth': a Stribeck curve needs a rough surface")
+        if seeds > 1 and kind != "fractal":
+            raise InputError(f"--surfaces {seeds}: surface.kind = '{kind}' has no seed")
+        if "load" not in settings["contact"]:
+            raise InputError("a Stribeck curve needs a contact in SI units (load, mean_velocity)")
+        operating = OperatingPoint.from_settings(settings)
+        film = central_film(operating, Lubricant.from_settings(settings))
+        Options.from_settings(settings)
+        if kind == "map":
+            surfaces.from_settings(settings, operating, film)
+            Path(str(settings["surface"]["file"])).stat()
+    except (EhlError, ValueError, OSError) as error:
+        raise InputError(f"point {point.number + 1} of {study.size} ({point}):\n{error}") from error

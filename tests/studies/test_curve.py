@@ -1,0 +1,244 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``pyehl stribeck``: columns, what theta_2 is taken for, where full film ends, measured data."""
+
+from __future__ import annotations
+
+import csv
+import io
+from contextlib import redirect_stderr, redirect_stdout
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import pyehl
+from pyehl.cli import main
+from pyehl.errors import InputError
+from pyehl.studies.curve import BREAKDOWN, FULL_FILM, OUTSIDE, full_film_ends, pattern
+from pyehl.studies.curve_table import Measured, read_measured
+from pyehl.surfaces import harmonic
+from pyehl.theory import stribeck
+from pyehl.theory.operating import OperatingPoint
+
+WANTED = (
+    "h_c_m h_min_m lambda_ratio theta_2 hersey mu_smooth mu mu_ratio mu_ratio_model_error "
+    "mu_ratio_ehl mu_ratio_ehl_error status"
+).split()
+WAVE = (
+    "--set",
+    "surface.kind=harmonic",
+    "--set",
+    "surface.amplitude=0.002",
+    "--set",
+    "grid.points=129",
+    "--set",
+    "lubricant.shear_law=eyring",
+)
+KEY = "contact.mean_velocity"
+
+
+def run(*words: str, expect: int = 0) -> tuple[str, str]:
+    told, complaint = io.StringIO(), io.StringIO()
+    with redirect_stdout(told), redirect_stderr(complaint):
+        status = main(["stribeck", *words])
+    assert status == expect, told.getvalue() + complaint.getvalue()
+    return told.getvalue(), complaint.getvalue()
+
+
+def table(folder: Path) -> list[dict[str, str]]:
+    with (folder / "stribeck.csv").open(newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+@pytest.fixture(scope="module")
+def wave(cases: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
+    """A curve of three points over a waviness, with the full simulation at one."""
+    folder = tmp_path_factory.mktemp("curve")
+    words = (str(cases / "table1.nml"), *WAVE, "--speed", "0.8:3.2:3log", "--ehl", "1")
+    (folder / "m.csv").write_text(f"{KEY},mu,error\n1.0,0.043,0.001\n\n3.0,0.044,0.001\n")
+    told, _ = run(*words, "--measured", str(folder / "m.csv"), "-o", str(folder / "out"))
+    return folder / "out", told
+
+
+def test_columns(wave: tuple[Path, str], cases: Path):
+    rows = table(wave[0])
+    assert next(iter(rows[0])) == KEY
+    assert set(WANTED) <= set(rows[0])
+    assert [float(row[KEY]) for row in rows] == [0.8, 1.6, 3.2]
+    for row in rows:
+        u = float(row[KEY])
+        assert row["status"] == "full film"
+        assert float(row["hersey"]) == pytest.approx(0.04 * u * 0.018 / 600.0, rel=1e-12)
+        assert float(row["mu"]) == pytest.approx(
+            float(row["mu_smooth"]) * float(row["mu_ratio"]), rel=1e-9
+        )
+        case = pyehl.Case.read(cases / "table1.nml", f"{KEY}={u}").resolve()
+        point = OperatingPoint.from_settings(case)
+        amplitude = 0.002 * point.film_scale
+        ratio = float(row["h_c_m"]) / amplitude
+        theta = stribeck.theta_2(point.moes_m, point.moes_l, 0.5, ratio)
+        assert float(row["theta_2"]) == pytest.approx(float(theta), rel=1e-9)
+        assert float(row["theta_2_wavelength_m"]) == pytest.approx(0.5 * point.hertz_radius)
+        # the rms height of cos cos is half its amplitude
+        assert float(row["lambda_ratio"]) == pytest.approx(
+            float(row["h_min_m"]) / (0.5 * amplitude), rel=1e-9
+        )
+    films = [float(row["h_c_m"]) for row in rows]
+    assert films == sorted(films)
+
+
+def test_film_is_that_of_the_solved_contact(wave: tuple[Path, str], cases: Path):
+    row = table(wave[0])[1]
+    with pyehl.Solver(
+        cases / "table1.nml", "surface.kind=smooth", "grid.points=129", f"{KEY}=1.6"
+    ) as solver:
+        solver.run()
+        alone = solver.summary()
+    limit = alone["H_c_extrapolated"] or alone["H_c"]
+    assert float(row["h_c_m"]) == pytest.approx(limit * alone["film_scale_m"], rel=1e-12)
+    assert float(row["h_c_error_m"]) == pytest.approx(
+        alone["H_c_error"] * alone["film_scale_m"], rel=1e-12
+    )
+
+
+def test_full_simulation_at_some_points(wave: tuple[Path, str]):
+    rows = table(wave[0])
+    assert [bool(row["mu_ratio_ehl"]) for row in rows] == [False, True, False]
+    assert float(rows[1]["mu_ratio_ehl_error"]) > 0.0
+    # a wave of a tenth of the film under Eyring's law: both are near one
+    assert float(rows[1]["mu_ratio_ehl"]) == pytest.approx(float(rows[1]["mu_ratio"]), abs=0.01)
+
+
+def test_files_and_words(wave: tuple[Path, str]):
+    folder, told = wave
+    assert "3 points over contact.mean_velocity" in told
+    assert "the full simulation at 1" in told
+    assert "full film at all points" in told
+    with xr.open_dataset(folder / "stribeck.nc") as data:
+        assert data.mu_ratio.dims == (KEY,)
+        assert data.h_c_m.attrs["units"] == "m"
+        assert data[KEY].attrs["units"] == "m/s"
+        assert float(data.h_c_m[0]) == float(table(folder)[0]["h_c_m"])
+    assert (folder / "stribeck.png").stat().st_size > 20_000
+
+
+def test_mean_over_surfaces_and_the_end_of_full_film(cases: Path, tmp_path: Path):
+    words = ("--set", "grid.points=257", "--set", "surface.pixels=64", "--speed", "0.3,3")
+    words += ("--set", "surface.rms_height=1.2e-7")
+    told, _ = run(str(cases / "table1.nml"), *words, "--surfaces", "2", "-o", str(tmp_path))
+    slow, fast = table(tmp_path)
+    assert slow["status"] == BREAKDOWN
+    assert slow["mu_ratio"] == ""
+    assert "of 2 surfaces" in slow["message"]
+    each = [
+        pyehl.predict(
+            cases / "table1.nml",
+            "surface.pixels=64",
+            "surface.rms_height=1.2e-7",
+            f"{KEY}=3.0",
+            f"surface.seed={k}",
+        )
+        for k in (1, 2)
+    ]
+    ratios = [p.mu_ratio for p in each]
+    assert float(fast["mu_ratio"]) == pytest.approx(np.mean(ratios), rel=1e-9)
+    assert float(fast["mu_ratio_spread"]) == pytest.approx(np.std(ratios, ddof=1), rel=1e-6)
+    errors = [p.summary["mu_ratio_model_error"] for p in each]
+    assert float(fast["mu_ratio_model_error"]) == max(errors)
+    # Newtonian at this pressure: the coefficient has no meaning and is not there
+    assert fast["mu"] == ""
+    assert "full film ends between contact.mean_velocity = 0.3 and 3" in told
+
+
+def test_pattern_of_a_map_of_one_wave_is_that_wave(tmp_path: Path):
+    """The likeness for any surface gives the wave itself where the surface is one."""
+    point = OperatingPoint()
+    wavelength = 0.4 * point.hertz_radius
+    tile = harmonic(3e-8, wavelength, wavelength, (32, 32))
+    np.save(tmp_path / "map.npy", np.tile(tile.heights, (2, 3)))
+    case = pyehl.Case.from_text(
+        "",
+        [
+            "surface.kind=map",
+            f"surface.file={tmp_path / 'map.npy'}",
+            f"surface.length_x={2 * wavelength}",
+            f"surface.length_y={3 * wavelength}",
+        ],
+    )
+    found = pattern(case.resolve(), point, 2e-7)
+    assert found.wavelength == pytest.approx(wavelength, rel=1e-9)
+    assert found.rms_height == pytest.approx(1.5e-8, rel=1e-9)
+
+
+def statuses(*words: str) -> list[dict[str, str]]:
+    return [{"status": word} for word in words]
+
+
+@pytest.mark.parametrize(
+    ("rows", "says", "broken"),
+    [
+        (statuses(FULL_FILM, OUTSIDE, FULL_FILM), "at all points", ()),
+        (statuses(BREAKDOWN, BREAKDOWN, FULL_FILM), "between u = 2 and 3", (0, 1)),
+        (statuses(BREAKDOWN, "not solved", FULL_FILM), "between u = 1 and 3", (0,)),
+        (statuses(FULL_FILM, BREAKDOWN, BREAKDOWN), "between u = 1 and 2", (1, 2)),
+        (statuses(BREAKDOWN, BREAKDOWN, BREAKDOWN), "no full film", (0, 1, 2)),
+        (statuses("not solved", FULL_FILM, FULL_FILM), "1 points have no answer", ()),
+    ],
+)
+def test_where_full_film_ends(rows: list[dict[str, str]], says: str, broken: tuple[int, ...]):
+    words, found = full_film_ends("u", [1.0, 2.0, 3.0], rows)
+    assert says in words
+    assert found == broken
+
+
+def test_measured_data_over_other_abscissae(tmp_path: Path):
+    (tmp_path / "m.csv").write_text("u,mu\n2.0,0.05\n8.0,0.04\n99.0,0.03\n")
+    measured = read_measured(tmp_path / "m.csv", "u")
+    places = np.array([1.0, 4.0, 16.0])
+    # lambda goes as u^2 on this curve
+    rows = [{"lambda_ratio": u**2} for u in places]
+    assert measured.over("u", "u", places, rows) == pytest.approx([2.0, 8.0, 99.0])
+    found = measured.over("lambda_ratio", "u", places, rows)
+    assert found[:2] == pytest.approx([4.0, 64.0])
+    assert np.isnan(found[2])
+    back = Measured("lambda_ratio", np.array([9.0]), "mu", np.array([0.1]), np.zeros(1))
+    assert back.over("u", "u", places, rows) == pytest.approx([3.0])
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("", "the columns are none"),
+        ("speed,mu\n1,2\n", "expected: one of u, hersey"),
+        ("u,hersey,mu\n1,1,2\n", "expected: one of u, hersey"),
+        ("u,mu\n1,high\n", ":2: error: mu = 'high'"),
+        ("u,mu\n1,0.1\n-1,0.1\n", ":3: error: u = '-1'"),
+        ("u,mu\n1\n", ":2: error: mu = 'nothing'"),
+        ("u,mu\n", "there are no rows"),
+    ],
+)
+def test_measured_data_that_are_refused(tmp_path: Path, text: str, says: str):
+    (tmp_path / "m.csv").write_text(text)
+    with pytest.raises(InputError) as refusal:
+        read_measured(tmp_path / "m.csv", "u")
+    assert says in str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        ([], "expected at least one of --speed"),
+        (["--speed", "0.5", "--set", "surface.kind=smooth"], "needs a rough surface"),
+        (["--speed", "0.5", "--ehl", "2"], "--ehl 2: expected 0 to 1"),
+        (["--speed", "0.5", "--surfaces", "0"], "--surfaces 0"),
+        (["--speed", "0.5,-1"], "case 2 of 2"),
+        (["--temperature", "40:100:4"], "lubricant.temperature"),
+        (["--speed", "1", "--set", "surface.kind=harmonic", "--surfaces", "2"], "has no seed"),
+        (["--speed", "1", "--load", "300", "--measured", "x.csv"], "expected one curve"),
+    ],
+)
+def test_curves_that_are_refused(cases: Path, tmp_path: Path, words: list[str], says: str):
+    _, complaint = run(str(cases / "table1.nml"), *words, "-o", str(tmp_path / "out"), expect=2)
+    assert says in complaint
+    assert not (tmp_path / "out").exists()
