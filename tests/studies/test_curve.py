@@ -124,8 +124,8 @@ def test_files_and_words(wave: tuple[Path, str]):
 
 
 def test_mean_over_surfaces_and_the_end_of_full_film(cases: Path, tmp_path: Path):
-    words = ("--set", "grid.points=257", "--set", "surface.pixels=64", "--speed", "0.3,3")
-    words += ("--set", "surface.rms_height=1.2e-7")
+    words = ("--set", "grid.points=257", "--set", "surface.pixels=64", "--speed", "0.2,4")
+    words += ("--set", "surface.rms_height=1.5e-7")
     told, _ = run(str(cases / "table1.nml"), *words, "--surfaces", "2", "-o", str(tmp_path))
     slow, fast = table(tmp_path)
     assert slow["status"] == BREAKDOWN
@@ -135,8 +135,8 @@ def test_mean_over_surfaces_and_the_end_of_full_film(cases: Path, tmp_path: Path
         pyehl.predict(
             cases / "table1.nml",
             "surface.pixels=64",
-            "surface.rms_height=1.2e-7",
-            f"{KEY}=3.0",
+            "surface.rms_height=1.5e-7",
+            f"{KEY}=4.0",
             f"surface.seed={k}",
         )
         for k in (1, 2)
@@ -145,10 +145,11 @@ def test_mean_over_surfaces_and_the_end_of_full_film(cases: Path, tmp_path: Path
     assert float(fast["mu_ratio"]) == pytest.approx(np.mean(ratios), rel=1e-9)
     assert float(fast["mu_ratio_spread"]) == pytest.approx(np.std(ratios, ddof=1), rel=1e-6)
     errors = [p.summary["mu_ratio_model_error"] for p in each]
-    assert float(fast["mu_ratio_model_error"]) == max(errors)
+    # beyond what the model was measured on there is no error
+    assert fast["mu_ratio_model_error"] == ("" if None in errors else repr(max(errors)))
     # Newtonian at this pressure: the coefficient has no meaning and is not there
     assert fast["mu"] == ""
-    assert "full film ends between contact.mean_velocity = 0.3 and 3" in told
+    assert "full film ends between contact.mean_velocity = 0.2 and 4" in told
 
 
 def test_pattern_of_a_map_of_one_wave_is_that_wave(tmp_path: Path):
