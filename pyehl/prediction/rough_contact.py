@@ -119,10 +119,11 @@ class RoughContact:
         ).astype(np.float32)
         self.off = np.minimum(np.abs(self.y), FARTHEST) ** 2 / OFF_CENTRE**2
         # the free wave is that of the roughness where it was when the inlet made it
-        behind = self.x + (velocity_ratio - 1.0) * (self.x + 1.0)
-        place = behind / pixel[0] * REFINEMENT
+        inlet = np.sqrt(np.maximum(0.0, 1.0 - self.y * self.y)) if waves.bent else np.ones(1)
+        slipped = (velocity_ratio - 1.0) * (self.x[:, np.newaxis] + inlet)
+        place = (self.x[:, np.newaxis] + slipped) / pixel[0] * REFINEMENT
         self.free_rows = np.floor(place).astype(int)
-        self.between = (place - self.free_rows).astype(np.float32)[:, np.newaxis, np.newaxis]
+        self.between = (place - self.free_rows).astype(np.float32)[..., np.newaxis]
         held = np.minimum(1.0, EDGE_RADIUS / np.maximum(radius, 1e-12))
         grid = np.meshgrid(self.x, self.y, indexing="ij")
         self.monomials = monomials(*(held * values for values in grid))
@@ -178,15 +179,24 @@ class RoughContact:
 
     def _add_free(self, total: Array, shift: int) -> None:
         """Add the free waves, linear between the points of their table."""
-        low = (self.free_rows - shift * REFINEMENT) % self.free[0].shape[0]
-        high = (low + 1) % self.free[0].shape[0]
-        total += self.off_centre[low] * (1.0 - self.between)
-        total += self.off_centre[high] * self.between
+        points, lines = self.free[0].shape[:2]
+        low = (self.free_rows - shift * REFINEMENT) % points
+        high = (low + 1) % points
+        if self.waves.bent:
+            low, high = low * lines + np.arange(lines), high * lines + np.arange(lines)
+
+        def pick(tile: Array, part: slice) -> Array:
+            if self.waves.bent:
+                flat = tile.reshape(-1, 2)
+                below, above = flat[low[part]], flat[high[part]]
+            else:
+                below, above = tile[low[part, 0]], tile[high[part, 0]]
+            return np.asarray(below + self.between[part] * (above - below))
+
+        total += pick(self.off_centre, slice(None))
         for weight, free in zip(self.weights, self.free, strict=True):
             part = _support(weight)
-            between, w = self.between[part], weight[part, np.newaxis, np.newaxis]
-            total[part] += (w * (1.0 - between)) * free[low[part]]
-            total[part] += (w * between) * free[high[part]]
+            total[part] += weight[part, np.newaxis, np.newaxis] * pick(free, part)
 
     def cavitated_bound(self, least: float) -> float:
         """Bound of the share of friction where P = 0, `least` the least ratio of all positions."""

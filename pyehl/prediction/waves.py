@@ -35,6 +35,10 @@ OFF_CENTRE = 0.5
 REFINEMENT = 4
 """Points per pixel along the motion at which the free wave is tabulated."""
 
+# Standard deviation of the friction over Y [a], and the phase that may be interpolated over it
+FRICTION_LINES = 0.24
+BENDING = 0.2
+
 # Wavenumbers and directions of the table of responses: the interpolated T is right to 1e-3
 TABLE = (72, 25)
 
@@ -102,6 +106,15 @@ class Spectrum:
         return np.asarray(scipy.fft.irfft(lines, n=nx * refinement, axis=0) * refinement)
 
 
+def _bends(spectrum: Spectrum, velocity_ratio: float) -> bool:
+    """Whether slip bends the free waves of a tile so much that it must be followed line by line.
+
+    The inlet is curved: off the centre line the free wave has slipped less. Where the phase of the
+    shortest wave differs little over the lines that friction comes from, it is interpolated.
+    """
+    return abs(velocity_ratio - 1.0) * float(spectrum.qx[-1]) * 0.5 * FRICTION_LINES**2 > BENDING
+
+
 @dataclass(frozen=True, slots=True)
 class Transfer:
     """T of every component of a tile: driven and free part at the stations.
@@ -115,11 +128,15 @@ class Transfer:
         on the way from X = -1.
     off_centre
         What the distance OFF_CENTRE from the centre line adds to the free part at X = 0.
+    bent
+        Whether the phase that slip loses by the curved inlet is left out of `off_centre`: the
+        free waves are then to be read line by line.
     """
 
     driven: list[Complex]
     free: list[Complex]
     off_centre: Complex | None
+    bent: bool
 
     @classmethod
     def of(
@@ -130,6 +147,7 @@ class Transfer:
         velocity_ratio: float,
     ) -> Transfer:
         """Of a tile in a contact with M, L, from a table over |q| and direction."""
+        bent = _bends(spectrum, velocity_ratio)
         q = spectrum.q
         present = q > 0.0
         low, high = np.log(q[present].min()), np.log(q.max())
@@ -138,8 +156,8 @@ class Transfer:
         kx = (np.exp(log_q)[:, np.newaxis] * np.cos(direction)).ravel()
         ky = (np.exp(log_q)[:, np.newaxis] * np.sin(direction)).ravel()
         kx[TABLE[1] - 1 :: TABLE[1]] = 0.0
-        slip = velocity_ratio - 1.0
         # the inlet of a strip off the centre line lies further along the motion
+        slip = 0.0 if bent else velocity_ratio - 1.0
         behind = np.exp(1j * kx * slip * (np.sqrt(1.0 - OFF_CENTRE**2) - 1.0))
         inlet = (
             inlet_transfer(kx, ky, *moes, velocity_ratio),
@@ -164,18 +182,19 @@ class Transfer:
             [spread(driven) for driven, _ in stations],
             [spread(free * inlet[0]) for _, free in stations],
             spread(stations[MIDDLE][1] * (inlet[1] - inlet[0])),
+            bent,
         )
 
     @classmethod
     def carried(cls, ratio: Array) -> Transfer:
         """Return a real ratio that is the same everywhere and moves with the roughness."""
-        return cls([ratio.astype(np.complex128)] * STATIONS.size, [], None)
+        return cls([ratio.astype(np.complex128)] * STATIONS.size, [], None, bent=False)
 
     def kept(self, index: tuple[Indices, Indices]) -> Transfer:
         """Return the part of the components at rows and columns of the spectrum."""
         cut = np.ix_(*index)
         off = None if self.off_centre is None else self.off_centre[cut]
-        return Transfer([t[cut] for t in self.driven], [t[cut] for t in self.free], off)
+        return Transfer([t[cut] for t in self.driven], [t[cut] for t in self.free], off, self.bent)
 
     def at_centre(self, spectrum: Spectrum, velocity_ratio: float) -> Complex:
         """T at X = Y = 0."""
@@ -199,16 +218,23 @@ class Waves:
         What OFF_CENTRE adds to the free waves (REFINEMENT nx, ny/stride, 2).
     stride
         Every so many-th column of the tile is there. Single precision is enough for waves.
+    bent
+        As in :class:`Transfer`.
     """
 
     driven: list[Array]
     free: list[Array]
     off_centre: Array | None
     stride: int
+    bent: bool
 
     @classmethod
     def of(
-        cls, spectrum: Spectrum, transfer: Transfer, central_film: float, stride: int = 1
+        cls,
+        spectrum: Spectrum,
+        transfer: Transfer,
+        central_film: float,
+        stride: int = 1,
     ) -> Waves:
         """Make the tiles of all waves in a contact with a film H_c [a^2/R]."""
         k = stiffness(spectrum.q) * edge_gain(
@@ -232,4 +258,5 @@ class Waves:
             [free(t) for t in transfer.free],
             None if transfer.off_centre is None else free(transfer.off_centre),
             stride,
+            transfer.bent,
         )
