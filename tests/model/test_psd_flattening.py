@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a loaded contact makes of a wave: stiffness, response, phase lag."""
+"""What a loaded contact makes of a wave: stiffness and amplitude reduction."""
 
 import math
 
@@ -146,6 +146,3 @@ def test_parseval_of_the_response(table_1):
     assert np.mean(field.deformed**2) == pytest.approx(np.sum(ratio**2 * c2d) / area, rel=1e-12)
     expected = np.sum((k * (1 - ratio)) ** 2 * c2d) / area
     assert np.mean(field.pressure**2) == pytest.approx(expected, rel=1e-12)
-
-
-# --- phase lag
