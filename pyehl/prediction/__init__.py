@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Relative friction of a rough EHL contact from the spectrum of its surface.
 
-Zhang, Biboulet, Venner & Lubrecht 2019 (doi 10.1016/j.triboint.2019.01.028), section 3: each
+Zhang, Biboulet, Venner & Lubrecht 2019 (doi 10.1016/j.triboint.2019.01.028), section 3. Each
 Fourier component of the roughness rr is reduced in the contact to rr_d, which costs a pressure
-delta p; friction is the integral of the shear stress at p_s + delta p in a film h_s - rr_d (eqs 13, 14).
+delta p. Friction is the integral of the shear stress at p_s + delta p in a film h_s - rr_d
+(eqs 13, 14).
 
 ``reduction="response"`` (default)
     The complex response of the contact, :mod:`pyehl.theory.response`: a driven wave that moves with
