@@ -42,8 +42,6 @@ __all__ = [
     "solve",
     "sweep",
 ]
-__version__ = "0.1.0"
-
 _HOMES = {
     "Case": "case",
     "EhlError": "errors",
@@ -63,6 +61,8 @@ def __getattr__(name: str) -> Any:  # noqa: ANN401 (a module, class or function)
     """Import on first use: ``import pyehl`` alone loads neither NumPy nor the extension."""
     if name in _HOMES:
         return getattr(import_module(f"pyehl.{_HOMES[name]}"), name)
+    if name == "__version__":
+        return import_module("importlib.metadata").version("pyehl")
     raise AttributeError(f"module 'pyehl' has no attribute {name!r}")
 
 

@@ -7,7 +7,7 @@ import argparse
 import difflib
 import sys
 from collections.abc import Sequence
-from importlib import import_module
+from importlib import import_module, metadata
 
 from pyehl.errors import EhlError, InputError
 
@@ -40,7 +40,7 @@ def _parser(chosen: str) -> argparse.ArgumentParser:
         description="Elastohydrodynamically lubricated point contacts with rough surfaces.",
         allow_abbrev=False,
     )
-    parser.add_argument("--version", action="store_true", help="as the subcommand info")
+    parser.add_argument("--version", action="store_true", help="print the version")
     subparsers = parser.add_subparsers(dest="subcommand", metavar="SUBCOMMAND")
     for name, text in SUBCOMMANDS.items():
         sub = subparsers.add_parser(
@@ -58,8 +58,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     words = list(sys.argv[1:] if argv is None else argv)
     if words[:1] == ["help"]:
         words[0] = "--help"
-    if words[:1] == ["--version"]:
-        words[0] = "info"
+    if words == ["--version"]:
+        print(f"pyehl {metadata.version('pyehl')}")
+        return 0
     chosen = words[0] if words else ""
     parser = _parser(chosen)
     if chosen not in SUBCOMMANDS and not chosen.startswith("-"):

@@ -22,11 +22,15 @@ def _version(name: str) -> str:
 
 def lines() -> list[str]:
     """Versions, compiler, processor."""
-    from pyehl import library  # noqa: PLC0415 (the rest must print even where this fails)
+    try:
+        from pyehl import library  # noqa: PLC0415 (the rest must print even where this fails)
 
+        compiled = f"{library.version()}, {library.build()}"
+    except ImportError as error:
+        compiled = f"missing: {error}"
     return [
-        f"pyehl      {library.version()}",
-        f"compiler   {library.build()}",
+        f"pyehl      {_version('pyehl')}",
+        f"library    {compiled}",
         f"python     {platform.python_version()}",
         *(f"{name:10} {_version(name)}" for name in LIBRARIES),
         f"machine    {platform.machine()}, {os.cpu_count()} processors, {platform.platform()}",

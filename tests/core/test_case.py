@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 from pathlib import Path
 
 import pytest
@@ -286,3 +287,18 @@ def test_overrides_of_a_written_case_are_whole(drive, tmp_path: Path):
         texts.append((tmp_path / "out" / "case.nml").read_text())
     assert texts[0] == texts[1] == texts[2]
     assert texts[0] != (tmp_path / "first" / "case.nml").read_text()
+
+
+def test_version_is_one_line(capsys):
+    assert cli.main(["--version"]) == 0
+    printed = capsys.readouterr().out
+    assert printed == f"pyehl {library.version()}\n"
+
+
+def test_info_without_the_compiled_part(capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pyehl.library", None)
+    monkeypatch.delattr("pyehl.library", raising=False)
+    assert cli.main(["info"]) == 0
+    printed = capsys.readouterr().out
+    assert "missing" in printed
+    assert "numpy" in printed

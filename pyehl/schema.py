@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What stands in ``summary.json`` and in the attributes of results: name, unit, meaning, kinds.
+
+Names that end in a unit (``_m``, ``_Pa``, ...) are in that unit (`moes_m` is the Moes load M);
+capital letters are Hertz units. Kinds: ``solution`` (``ehl``, ``pyehl run``), ``prediction``
+(``pyehl predict``) and ``film`` (``pyehl film --json``). To add a quantity, add a line: a test
+compares this table with all that writes summaries.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+__all__ = ["KINDS", "QUANTITIES", "Quantity", "markdown"]
+
+KINDS = {"s": "solution", "p": "prediction", "f": "film"}
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """One quantity: its name, unit ('-' for none, '' for what is no number), meaning and kinds."""
+
+    name: str
+    unit: str
+    meaning: str
+    kinds: tuple[str, ...]
+
+
+# Letters of the kinds | name | unit | meaning
+_TABLE = """
+pf | kind | | what the summary is of: 'prediction' or 'film'; a solution has none
+sp | status | | 'converged', 'predicted', or why there is no result
+s | converged | | whether the results are a solution
+p | message | | the status in a sentence
+s | version | | version of the library
+sp | wall_seconds | s | time of the run
+s | bytes | byte | memory of the solver
+spf | moes_m | - | Moes load M
+spf | moes_l | - | Moes material number L
+sf | alpha_bar | - | alpha p_h
+sf | speed_parameter | - | 12 eta0 u R^2/(a^3 p_h)
+spf | hertz_pressure_Pa | Pa | p_h
+spf | hertz_radius_m | m | a
+spf | film_scale_m | m | a^2/R
+pf | si | | whether the case was given in SI units
+f | load_N | N | load w
+f | mean_velocity_m_per_s | m/s | mean velocity u
+f | radius_m | m | reduced radius R
+f | reduced_modulus_Pa | Pa | E', 2/E' = sum of (1 - nu^2)/E
+f | viscosity_Pa_s | Pa s | viscosity eta0 of the inlet
+f | viscosity_ambient_Pa_s | Pa s | viscosity at the inlet temperature, without shear heating
+f | pressure_viscosity_per_Pa | 1/Pa | alpha
+f | U | - | eta0 u/(E' R)
+f | G | - | alpha E'
+f | W | - | w/(E' R^2)
+s | points | - | nodes per side
+s | x_mesh | a | mesh size along X
+s | y_mesh | a | mesh size along Y
+s | half_domain | | whether only Y >= 0 was solved
+s | deflection | | engine of the elastic deflection
+s | threads | - | OpenMP threads
+s | H_c | a^2/R | central film
+s | H_c_extrapolated | a^2/R | central film extrapolated to fine grids
+s | H_c_error | a^2/R | estimate of its error
+s | H_c_algebraic_error | a^2/R | part of the error that more cycles would take away
+s | H_min | a^2/R | minimum film
+s | H_min_extrapolated | a^2/R | minimum film extrapolated to fine grids
+s | H_min_error | a^2/R | estimate of its error
+s | H_min_algebraic_error | a^2/R | part of the error that more cycles would take away
+s | error_estimate | | where the estimates are from: 'two grids' or 'a priori'
+s | P_max | p_h | largest pressure
+s | F | - | friction integral
+s | last_H_c | a^2/R | central film at the end of a run without a solution
+s | last_H_min | a^2/R | minimum film at the end of a run without a solution
+s | last_P_max | p_h | largest pressure at the end of a run without a solution
+s | last_F | - | friction integral at the end of a run without a solution
+s | last_mu_ratio | - | mu_r/mu_s at the end of a run without a solution
+s | last_mu_ratio_mean | - | its mean over a period at the end of a run without a solution
+sp | h_c_m | m | central film
+p | h_c_source | | where it is from
+sp | h_min_m | m | minimum film; of a prediction the least of the rough film
+s | p_max_Pa | Pa | largest pressure
+sp | load_error | - | relative error of the force balance
+s | cycles | - | cycles on the finest grid
+s | total_cycles | - | cycles on all grids
+s | residual | - | residual (rms) at the end
+s | restarts | - | how often the solution began again
+s | H_c_rough | a^2/R | central film of a rough surface at rest
+s | H_min_rough | a^2/R | minimum film of a rough surface at rest
+s | P_max_rough | p_h | largest pressure of a rough surface at rest
+s | rough_cycles | - | cycles of a rough surface at rest
+s | rough_parts | - | parts in which its roughness was raised
+s | rough_residual | - | its residual at the end
+s | x_start | a | origin of a rough surface at rest
+sp | mu_ratio | - | friction over that of the smooth contact: mean over a period or a passage
+sp | mu_ratio_min | - | its least value
+sp | mu_ratio_max | - | its largest value
+s | mu_ratio_error | - | estimate of the error of mu_ratio
+s | mu_ratio_error_grid | - | part of it from the grid
+s | mu_ratio_error_stop | - | part of it from the end of the run
+p | mu_ratio_model_error | - | error of the model
+p | mu_ratio_cutoff_error | - | error from waves that are left out
+p | mu_ratio_tracks | - | mean over all tracks of the tile
+p | mu_ratio_tracks_spread | - | standard deviation between the tracks
+f | mu_ratio_eq_16 | - | mu_ratio by eq. 16 of Zhang et al. 2019
+f | theta_2 | - | theta_2 of that equation
+f | theta_2_outside | | what lies outside of its range
+sp | mu | - | coefficient of friction of the rough contact
+sp | mu_smooth | - | coefficient of friction of the smooth contact
+sp | mu_note | | what mu leaves out
+sp | flash_temperature_K | K | rise of temperature that mu leaves out
+sp | shear_rate_mean_per_s | 1/s | mean shear rate
+sp | shear_stress_max_Pa | Pa | largest shear stress
+sp | shear_law | | law of the shear stress
+sp | slide_to_roll | - | (u1 - u2)/u
+s | inlet_viscosity_Pa_s | Pa s | viscosity of the inlet
+s | thermal_loading | - | loading parameter of shear heating
+spf | thermal_reduction | - | film over the isothermal one
+s | amplitude | a^2/R | amplitude A_i of a waviness
+s | amplitude_ratio | - | A_d/A_i at the centre
+s | surface_rms_m | m | rms height of the surface that is solved
+s | variance_cut | - | share of the height's variance that was cut on purpose
+s | variance_left_out | - | share of it in waves that the grid does not carry
+s | variance_unresolved | - | share of it in waves that the grid does not resolve
+s | scheme | | time scheme
+s | T | a/u | time at the end
+s | T_period | a/u | period of the roughness
+s | T_mean | a/u | time that mu_ratio is the mean over
+s | steps | - | time steps
+s | steps_skipped | - | steps that were not needed at the start
+s | cycles_per_step | - | cycles of a step
+s | seconds_per_step | s | time of a step
+s | step_residual_allowed | - | residual at which a step ends
+s | coarsening_changed_at | - | step in which the coarsening changed; 0: none
+s | skips | | what was not done
+s | skips_seconds | s | time that this saved, for each
+p | outside_range | | what lies outside of the range of the model
+p | note | | what mu_ratio is
+p | tracks | - | tracks of the tile that mu_ratio_tracks is over
+p | film_below_zero_share | - | share of the contact where the film would be below zero
+p | film_breakdown | | where the film ends, and what would carry
+sp | surface_preparation | | what was done to a measured map
+p | positions | - | positions of the tile over a passage
+p | position_error | - | relative error that they leave
+p | reduction | | how waves are flattened
+p | smooth | | the smooth contact of the model
+p | velocity_ratio | - | velocity of the rough surface over the mean one
+p | wavelength_convention | | what the wavelength of a component is
+p | stiffness | | stiffness of the half-space
+p | viscosity_law | | viscosity under pressure
+p | roelands_z | - | Roelands exponent
+p | load_balance | | whether the load is balanced
+pf | surface | | the surface in words
+p | seed | - | seed of a fractal surface
+p | pixels | - | pixels of the tile along x and y
+p | length_x_m | m | size of the tile along x
+p | length_y_m | m | size of the tile along y
+pf | rms_height_m | m | rms height of the roughness
+p | rms_deformed_m | m | rms height of the deformed roughness
+p | rms_pressure_Pa | Pa | rms of the pressure change
+pf | lambda_ratio | - | h_c over the rms height
+p | cavitated_share | - | share of the contact where the pressure would be negative
+p | cavitated_friction | - | bound of the share of the friction from there
+p | bands | | what each octave of wavelengths adds
+f | formulas | | what each film formula gives
+"""
+
+
+def _row(line: str) -> Quantity:
+    letters, name, unit, meaning = (cell.strip() for cell in line.split("|"))
+    return Quantity(name, unit, meaning, tuple(KINDS[letter] for letter in letters))
+
+
+QUANTITIES = tuple(_row(line) for line in _TABLE.strip().splitlines())
+
+
+def markdown() -> str:
+    """Return the table in Markdown."""
+    lines = ["| name | unit | meaning | of |", "|---|---|---|---|"]
+    lines += [f"| `{q.name}` | {q.unit} | {q.meaning} | {', '.join(q.kinds)} |" for q in QUANTITIES]
+    return "\n".join(lines)
