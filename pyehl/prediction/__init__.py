@@ -23,6 +23,8 @@ What happens where the model ends
   stake is bounded (`cavitated_friction`); near the rim p_s vanishes, so a few are normal.
 * h_s - rr_d <= 0: the surfaces touch. There is no full film and the model has nothing to say:
   status ``"film breakdown"``, no ratio.
+* mu_r/mu_s above 10: status ``"beyond linear response"``, no ratio; the message names a cut-off of
+  the spectrum that brings it into the range in which the model was compared.
 * A viscosity that overflows, or roughness that carries the whole load: status ``"overflow"``,
   ``"load lost"``, no ratio.
 

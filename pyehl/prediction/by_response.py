@@ -42,6 +42,9 @@ Array = NDArray[np.float64]
 # Points per Hertz radius at which the shear stress is taken: the tile is finer, and its other
 # pixels are met at other positions
 POINTS = 60
+# Largest mu_r/mu_s that is told, and the largest of those that the model was compared at
+LARGEST_RATIO = 10.0
+KNOWN_RATIO = 2.5
 # Positions of a passage for a track other than the first, and for a band
 FEW_POSITIONS = 8
 
@@ -119,7 +122,7 @@ class RoughPassage:
         edge = Edge.of(spectrum, 1.0 - transfer.at_centre(spectrum, self.velocity_ratio))
         contact = self._contact(spectrum, transfer, edge)
         with np.errstate(over="ignore", invalid="ignore"):
-            passage = friction_along(contact, grid.shape[0], self.options.positions)
+            passage = friction_along(contact, grid.shape[0], self.options.positions, LARGEST_RATIO)
             found = self._result(contact, grid, spectrum, transfer, passage, start)
             if found.status != "predicted":
                 return found, (math.nan, math.nan), []
@@ -168,6 +171,9 @@ class RoughPassage:
             )
         elif not np.all(np.isfinite(ratios)):
             status, message = "overflow", "the viscosity at p_s + delta p is not a number"
+        elif float(ratios.mean()) > LARGEST_RATIO:
+            status = "beyond linear response"
+            message = self._beyond(float(ratios.mean()), spectrum, transfer)
         else:
             fine = interpolated(ratios, 8)
             mean, least, greatest = (float(v) for v in (ratios.mean(), fine.min(), fine.max()))
@@ -194,6 +200,20 @@ class RoughPassage:
             response=self._tiles(spectrum, transfer, grid.shape == self.topography.shape),
             seconds=time.perf_counter() - start,
         )
+
+    def _beyond(self, ratio: float, spectrum: Spectrum, transfer: Transfer) -> str:
+        """Say which cut-off would bring the ratio into the range of the model."""
+        edge = Edge.of(spectrum, 1.0 - transfer.at_centre(spectrum, self.velocity_ratio))
+        told = f"pressures that raise mu_r/mu_s to {ratio:.3g} are beyond a linear response"
+        low, high = min(spectrum.pixel), 2.0 * math.pi / float(spectrum.q[spectrum.q > 0].min())
+        if not self._below(spectrum, transfer, edge, 2.0 * math.pi / high) <= KNOWN_RATIO:
+            return told
+        while high > 1.1 * low:
+            middle = math.sqrt(low * high)
+            known = self._below(spectrum, transfer, edge, 2.0 * math.pi / middle) <= KNOWN_RATIO
+            low, high = (low, middle) if known else (middle, high)
+        cut = high * self.operating.hertz_radius
+        return f"{told}; surface.shortest_wavelength = {cut:.2g} would leave {KNOWN_RATIO} or less"
 
     def _tiles(self, spectrum: Spectrum, transfer: Transfer, same: bool) -> Response:
         """Pressure and deformed roughness at the centre of the contact, on the pixels given."""

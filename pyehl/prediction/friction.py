@@ -33,7 +33,8 @@ class RoughFriction:
     Attributes
     ----------
     status
-        ``"predicted"``, ``"film breakdown"``, ``"overflow"`` or ``"load lost"``. Unless
+        ``"predicted"``, ``"film breakdown"``, ``"beyond linear response"``, ``"overflow"`` or
+        ``"load lost"``. Unless
         ``"predicted"`` the ratios are NaN.
     message
         The status in a sentence.

@@ -57,15 +57,19 @@ class HasFriction(Protocol):
 
 
 def friction_along(
-    contact: HasFriction, pixels: int, positions: int
+    contact: HasFriction, pixels: int, positions: int, largest: float = math.inf
 ) -> tuple[NDArray[np.int_], Array, float]:
-    """Positions [pixels], ratios there and what they leave undecided at most (relative)."""
+    """Positions [pixels], ratios there and what they leave undecided at most (relative).
+
+    No positions are added to a passage with a mean above `largest`.
+    """
     n = positions or FIRST_POSITIONS
     steps = np.arange(n) * (pixels // n)
     ratios = np.array([contact.friction(int(s)) for s in steps])
     while np.all(np.isfinite(ratios)):
         error = _undecided(ratios)
-        if positions or error <= POSITION_TOLERANCE or pixels % (2 * n) or 2 * n > MAX_POSITIONS:
+        enough = error <= POSITION_TOLERANCE or float(ratios.mean()) > largest
+        if positions or enough or pixels % (2 * n) or 2 * n > MAX_POSITIONS:
             return steps, ratios, error
         spacing = pixels // (2 * n)
         merged = np.empty(2 * n)

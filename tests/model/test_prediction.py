@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
@@ -176,3 +178,13 @@ def test_what_a_grid_does_not_resolve():
     assert found[129].matters
     assert found[129].resolved < found[513].resolved < found[513].mu_ratio
     assert resolution(pyehl.Case.read("cases/quick.nml")) is None
+
+
+def test_beyond_the_linear_response(contact, table_1):
+    """Short waves as high as the film: no number, and a cut-off that would bring one."""
+    rough = table_1(seed=21, rms_height=8e-8, hurst=0.4)
+    friction, _, _ = passage(contact, rough, 1.03).run()
+    assert friction.status == "beyond linear response"
+    assert np.isnan(friction.mu_ratio)
+    cut = float(re.search(r"shortest_wavelength = (\S+)", friction.message)[1])
+    assert 1.0 < passage(contact, rough, 1.03).below(cut / POINT.hertz_radius) < 3.0
