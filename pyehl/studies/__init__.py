@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Studies: many cases with one table of results, and Stribeck curves."""
+"""Studies: many cases with one table of results, Stribeck curves, the response to waves."""

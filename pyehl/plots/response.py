@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The measured response of a contact to waves of roughness: amplitude and lag over wavelength."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from pyehl.plots.style import GREY, SEQUENTIAL, letter, new_figure
+from pyehl.theory.amplitude import amplitude_ratio, wavelength_parameter
+
+__all__ = ["response_figure"]
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+def response_figure(
+    waves: Mapping[str, Array],
+    lines: Mapping[float, tuple[Array, Complex]],
+    label: str,
+) -> Figure:
+    """Draw |T| and the phase of T at X = 0 over nabla_2.
+
+    Parameters
+    ----------
+    waves
+        nabla_2, direction [deg], amplitude and lag [deg] of the measured waves, (m,).
+    lines
+        By direction [deg] the shipped response: nabla_2 (n,) and T (n,).
+    label
+        What was measured, for the title.
+    """
+    figure = new_figure(9.0, 4.0)
+    axes: Any = figure.subplots(1, 2, sharex=True)
+    colours: Any = {"cmap": SEQUENTIAL, "vmin": 0.0, "vmax": 90.0}
+    for ax, name in zip(axes, ("amplitude", "lag"), strict=True):
+        dots = ax.scatter(waves["nabla_2"], waves[name], c=waves["direction"], s=14, **colours)
+        for direction, (nabla, t) in lines.items():
+            values = np.abs(t) if name == "amplitude" else np.degrees(np.unwrap(np.angle(t)))
+            colour = dots.cmap(dots.norm(direction))
+            ax.plot(nabla, values, color=colour, lw=1, label=rf"shipped, {direction:g}$\degree$")
+        ax.set_xscale("log")
+        ax.set_xlabel(r"$\nabla_2 = (\lambda/a)\sqrt{M/L}$")
+    nabla = np.geomspace(waves["nabla_2"].min(), waves["nabla_2"].max(), 100)
+    paper = amplitude_ratio(wavelength_parameter(nabla, 1.0, 1.0))
+    axes[0].plot(nabla, paper, color=GREY, ls="--", lw=1, label=r"$1/(1 + 0.15x + 0.015x^2)$")
+    axes[0].set_ylabel(r"$|T|$ at $X = Y = 0$")
+    axes[1].set_ylabel(r"lag of the film wave [$\degree$]")
+    axes[0].legend(fontsize="small", frameon=False)
+    figure.colorbar(dots, ax=axes[1], label=r"crests to across the motion [$\degree$]")
+    figure.suptitle(label, fontsize="medium")
+    letter(axes)
+    return figure

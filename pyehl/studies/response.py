@@ -1,0 +1,294 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The response T(q; X) of a contact to waves of roughness, measured with the solver.
+
+Waves of 4 a down to a/32, each on a grid with at least eight nodes a wavelength, in tiers: a
+coarse grid and a long tile for long waves, finer grids and shorter tiles for short ones. A tier is
+one transient run (:mod:`pyehl.studies.superposition`) in a process of its own, and one file of the
+result folder; a tier whose file is there is not run again.
+"""
+
+from __future__ import annotations
+
+import json
+import multiprocessing as mp
+import os
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from queue import Empty
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pyehl.case import Case
+from pyehl.errors import EhlError, FileError, InputError
+from pyehl.studies.superposition import WaveSet, superpose
+from pyehl.theory.operating import OperatingPoint
+
+__all__ = ["DIRECTIONS", "TIERS", "Tier", "measure", "tier_waves"]
+
+Array = NDArray[np.float64]
+Progress = Callable[[str, int, int], None]
+
+# Angles of the crests to those across the motion, one wave after the other [deg]
+DIRECTIONS = (0, 45, 75, 26, 0, 63, 15, 80, 0, 56, 35, 70, 0, 45, 62, 20)
+NODES = 8
+"""Least number of nodes a wavelength."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tier:
+    """One run.
+
+    Attributes
+    ----------
+    name
+        Of the tier and of its file.
+    tile
+        Side of the tile [a].
+    points
+        Nodes per side of the domain, 4 a by 4 a.
+    longest, shortest
+        Wavelengths along the motion, and shortest of all [a].
+    """
+
+    name: str
+    tile: float
+    points: int
+    longest: float
+    shortest: float
+
+
+TIERS = (
+    Tier("long", 4.0, 257, 4.0, 0.125),
+    Tier("middle", 1.0, 513, 0.25, 0.0625),
+    Tier("short", 0.5, 1025, 0.0625, 0.03125),
+)
+"""The tiers of the command; the first two are those of a quick measurement."""
+
+
+def tier_waves(tier: Tier) -> WaveSet:
+    """Waves of a tier: all wavelengths it can tell apart, up to 24, in scattered directions.
+
+    Raises
+    ------
+    ValueError
+        If the grid has fewer than NODES nodes for the shortest wave.
+    """
+    nodes = tier.shortest * (tier.points - 1) / 4.0
+    if nodes < NODES - 1e-9:
+        raise ValueError(f"tier '{tier.name}': {nodes:g} nodes for the shortest wave, not {NODES}")
+    first, last = round(tier.tile / tier.longest), round(tier.tile / tier.shortest)
+    along = np.unique(np.round(np.geomspace(first, last, 24)).astype(np.int64))
+    angles = np.resize(np.array(DIRECTIONS, dtype=float), along.size)
+    across = np.round(along * np.tan(np.radians(angles))).astype(np.int64)
+    # no wave is shorter than the shortest: the steepest that is left keeps its number along
+    limit = np.floor(np.sqrt(np.maximum(last**2 - along**2, 0))).astype(np.int64)
+    phase = np.random.default_rng(5).uniform(0.0, 2.0 * np.pi, along.size)
+    return WaveSet(tier.tile, along, np.minimum(across, limit), phase)
+
+
+def _identity(settings: Mapping[str, Mapping[str, Any]], velocity_ratio: float, tier: Tier) -> str:
+    """Tell what a tier depends on, as text."""
+    o = OperatingPoint.from_settings(settings)
+    values = {
+        "contact": [o.load, o.mean_velocity, o.radius, o.reduced_modulus],
+        "lubricant": dict(settings["lubricant"]),
+        "velocity_ratio": velocity_ratio,
+        "tier": asdict(tier),
+    }
+    return json.dumps(values, sort_keys=True)
+
+
+def _file(folder: Path, tier: Tier) -> Path:
+    return folder / f"tier_{tier.name}.npz"
+
+
+def run_tier(
+    text: str, velocity_ratio: float, tier: Tier, threads: int, path: Path, progress: Progress
+) -> None:
+    """Run a tier of a resolved case and write its file, whole or not at all."""
+    settings = Case.from_text(text).resolve()
+    waves = tier_waves(tier)
+    began = time.perf_counter()
+    found = superpose(
+        settings,
+        waves,
+        points=tier.points,
+        velocity_ratio=velocity_ratio,
+        threads=threads,
+        progress=lambda done, total: progress(tier.name, done, total),
+    )
+    partial = path.with_name(f"{path.name}.partial-{os.getpid()}")
+    with partial.open("wb") as stream:
+        np.savez(
+            stream,
+            identity=_identity(settings, velocity_ratio, tier),
+            tile=waves.tile,
+            along=waves.along,
+            across=waves.across,
+            phase=waves.phase,
+            seconds=time.perf_counter() - began,
+            **asdict(found),
+        )
+    partial.replace(path)
+
+
+def _child(
+    text: str,
+    velocity_ratio: float,
+    tier: Tier,
+    threads: int,
+    path: Path,
+    queue: Any,  # noqa: ANN401
+) -> None:
+    """Run a tier in a process of its own; its progress and its end go into a queue."""
+    try:
+        run_tier(text, velocity_ratio, tier, threads, path, lambda *now: queue.put(("step", now)))
+        queue.put(("end", (tier.name, "")))
+    except (EhlError, OSError, ValueError) as error:
+        queue.put(("end", (tier.name, str(error))))
+    except KeyboardInterrupt:
+        queue.put(("end", (tier.name, "interrupted")))
+
+
+def _check_folder(
+    folder: Path, settings: Mapping[str, Mapping[str, Any]], velocity_ratio: float, names: set[str]
+) -> list[Tier]:
+    """Tiers that are there already; refuses a folder with anything else in it."""
+    if folder.exists() and not folder.is_dir():
+        raise InputError(f"{folder}: not a folder")
+    files = sorted(path.name for path in folder.iterdir()) if folder.is_dir() else []
+    own = names | {_file(folder, tier).name for tier in TIERS}
+    foreign = [n for n in files if n not in own and ".partial-" not in n]
+    if foreign:
+        raise InputError(
+            f"{folder}: holds '{foreign[0]}', which is not of a measured response; "
+            "expected: a new or empty folder, or one of `pyehl response`"
+        )
+    done = []
+    for tier in TIERS:
+        path = _file(folder, tier)
+        if not path.is_file():
+            continue
+        try:
+            with np.load(path, allow_pickle=False) as stored:
+                same = str(stored["identity"]) == _identity(settings, velocity_ratio, tier)
+        except (OSError, ValueError, KeyError, EOFError) as error:
+            raise InputError(f"{path}: cannot be read ({error}); remove it") from error
+        if not same:
+            raise InputError(f"{path}: belongs to another case; use another folder, or remove it")
+        done.append(tier)
+    return done
+
+
+def measure(
+    case: Case,
+    folder: str | os.PathLike[str],
+    *,
+    tiers: Sequence[Tier] = TIERS,
+    jobs: int = 2,
+    files: set[str] | None = None,
+    progress: Progress = lambda name, done, total: None,
+) -> dict[str, dict[str, Any]]:
+    """Measure the response at the operating point and velocity ratio of a case.
+
+    Parameters
+    ----------
+    case
+        Its groups contact and lubricant and `surface.velocity_ratio` are used.
+    folder
+        Where the tiers are kept; those that are there are not run again.
+    tiers
+        What to run.
+    jobs
+        Processes at a time; the processors are shared among them.
+    files
+        Names that may be in the folder beside those of the tiers.
+    progress
+        Called with the name of a tier, its steps done and its steps in all.
+
+    Returns
+    -------
+    dict
+        By the name of the tier what :class:`pyehl.studies.superposition.Superposition` has, with
+        tile [a], along, across, phase [rad] and seconds.
+
+    Raises
+    ------
+    InputError
+        If the velocity ratio is not positive, or the folder holds something else.
+    FileError
+        If the folder cannot be made.
+    EhlError
+        If a tier fails; those that have ended stay.
+    """
+    settings = case.resolve()
+    ratio = float(settings["surface"]["velocity_ratio"])
+    if not ratio > 0.0:
+        raise InputError(
+            f"surface.velocity_ratio = {ratio:g}: a surface at rest makes no waves in time; "
+            "expected: a positive number"
+        )
+    if jobs < 1:
+        raise InputError(f"jobs = {jobs}; expected: 1 or more")
+    folder = Path(folder)
+    done = _check_folder(folder, settings, ratio, files or set())
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise FileError(f"{folder}: cannot be made: {error.strerror or error}") from error
+    wanted = [tier for tier in tiers if tier not in done]
+    _run_all(case.text, ratio, wanted, jobs, folder, progress)
+    found = {}
+    for tier in tiers:
+        with np.load(_file(folder, tier), allow_pickle=False) as stored:
+            found[tier.name] = {name: stored[name] for name in stored.files}
+    return found
+
+
+def _run_all(
+    text: str,
+    velocity_ratio: float,
+    tiers: Sequence[Tier],
+    jobs: int,
+    folder: Path,
+    progress: Progress,
+) -> None:
+    """Run tiers side by side, the largest first."""
+    context = mp.get_context("spawn")
+    queue: Any = context.Queue()
+    waiting = sorted(tiers, key=lambda tier: tier.points)
+    threads = max(1, (os.cpu_count() or 1) // max(1, min(jobs, len(waiting))))
+    running: dict[str, Any] = {}
+    failed: list[str] = []
+    try:
+        while waiting or running:
+            while waiting and len(running) < jobs:
+                tier = waiting.pop()
+                arguments = (text, velocity_ratio, tier, threads, _file(folder, tier), queue)
+                process = context.Process(target=_child, args=arguments, daemon=True)
+                process.start()
+                running[tier.name] = process
+            try:
+                kind, values = queue.get(timeout=1.0)
+            except Empty:
+                for name in [n for n, p in running.items() if not p.is_alive() and queue.empty()]:
+                    code = running.pop(name).exitcode
+                    failed.append(f"tier '{name}': its process ended with status {code}")
+                continue
+            if kind == "step":
+                progress(*values)
+                continue
+            name, message = values
+            running.pop(name).join()
+            if message:
+                failed.append(f"tier '{name}': {message}")
+    finally:
+        for process in running.values():
+            process.terminate()
+            process.join()
+    if failed:
+        raise EhlError("; ".join(failed))

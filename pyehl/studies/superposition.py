@@ -1,0 +1,282 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a contact makes of many small waves of roughness, from one transient run.
+
+Waves of small amplitude do not feel each other, so that one surface can hold many of them. Each has
+its own number of wavelengths n along the tile, hence its own frequency U k at a fixed place; when
+the front and the free wave have passed, film and pressure on the line Y = 0 are fitted by the
+cosines and sines of all frequencies over one period of the tile. The waves are even in Y,
+cos(k_Y Y), so that half the domain is solved.
+
+Film and roughness: H = H_0 - sum A Re T exp(i(k(X - U t) + phase)); pressure: P = P_0 + sum A Re Pi
+exp(...). Lengths along the surface are scaled by the Hertz radius a, films by a^2/R, pressures by
+p_h, times by a/u.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import f90nml
+import numpy as np
+from numpy.typing import NDArray
+
+from pyehl.case import Case
+from pyehl.errors import EhlError
+from pyehl.solver import Solver
+from pyehl.theory.operating import OperatingPoint
+
+__all__ = [
+    "SLOPE",
+    "Superposition",
+    "WaveSet",
+    "linear_surface",
+    "step_counts",
+    "superpose",
+    "transient_case",
+]
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+SLOPE = 1.2e-3
+"""Amplitude of a wave times its wavenumber [a/R]: small enough for the response to be linear."""
+REACH = 1.0
+"""The response is found for |X| up to here [a]."""
+# Pixels per shortest wave; the solver interpolates a map by its Fourier series
+PIXELS = 4
+# Way of the slowest wave [a] from the place where the run begins until the contact is in order
+FILLING = 2.3
+FRONT = -2.5
+
+
+@dataclass(frozen=True, slots=True)
+class WaveSet:
+    """Waves on a square tile.
+
+    Attributes
+    ----------
+    tile
+        Its side [a].
+    along, across
+        Wavelengths per tile along and across the motion, (m,); those along are all different and
+        not 0.
+    phase
+        (m,) [rad].
+    """
+
+    tile: float
+    along: NDArray[np.int64]
+    across: NDArray[np.int64]
+    phase: Array
+
+    def __post_init__(self) -> None:
+        """Check that the frequencies can be told apart."""
+        if np.unique(self.along).size != self.along.size or self.along.min() < 1:
+            raise ValueError(
+                "the waves of a tile need different numbers along the motion, 1 or more"
+            )
+
+    @property
+    def kx(self) -> Array:
+        """Wavenumbers along the motion (m,) [1/a]."""
+        return np.asarray(2.0 * np.pi / self.tile * self.along)
+
+    @property
+    def ky(self) -> Array:
+        """Wavenumbers across the motion (m,) [1/a]."""
+        return np.asarray(2.0 * np.pi / self.tile * self.across)
+
+    @property
+    def q(self) -> Array:
+        """|q| (m,) [1/a]."""
+        return np.asarray(np.hypot(self.kx, self.ky))
+
+
+@dataclass(frozen=True, slots=True)
+class Superposition:
+    """Response of a contact to the waves of a tile, on Y = 0.
+
+    Attributes
+    ----------
+    x
+        Places within REACH (n,) [a].
+    film, pressure
+        Means over a period, H [a^2/R] and P [p_h], (n,).
+    response
+        T, (m, n).
+    stiffness
+        Pi: pressure [p_h] per roughness [a^2/R], (m, n).
+    residual
+        rms of what the fit leaves of the film, over the amplitude of each wave, (m, n).
+    spacing
+        Grid spacing [a].
+    central_film
+        H_c of the smooth contact on this grid [a^2/R].
+    """
+
+    x: Array
+    film: Array
+    pressure: Array
+    response: Complex
+    stiffness: Complex
+    residual: Array
+    spacing: float
+    central_film: float
+
+
+def linear_surface(waves: WaveSet, slope: float = SLOPE) -> tuple[Array, Array]:
+    """Heights [a^2/R] of a tile, even in Y, and the amplitudes (m,) of its waves."""
+    pixels = PIXELS * int(max(waves.along.max(), waves.across.max(), 2))
+    x = np.arange(pixels) / pixels * waves.tile
+    # cos of the distance from the nearest edge: even to the last bit
+    y = np.minimum(x, waves.tile - x)
+    amplitude = slope / waves.q
+    along = amplitude * np.cos(np.outer(x, waves.kx) + waves.phase)
+    return np.asarray(along @ np.cos(np.outer(y, waves.ky)).T), np.asarray(amplitude)
+
+
+def step_counts(points: int, tile: float, velocity_ratio: float) -> tuple[int, int]:
+    """Count the steps of a period of a tile [a], and of a run without its smooth contact."""
+    per_radius = (points - 1) / 4.0
+    period = math.ceil(tile / velocity_ratio * per_radius)
+    return period, math.ceil(FILLING / min(1.0, velocity_ratio) * per_radius) + period
+
+
+def transient_case(
+    settings: Mapping[str, Mapping[str, Any]],
+    *,
+    points: int,
+    tile: float,
+    velocity_ratio: float,
+    threads: int = 1,
+    accuracy: float = 0.02,
+) -> Case:
+    """Return the case of a run with a tile of a side [a] at the operating point of a case."""
+    o = OperatingPoint.from_settings(settings)
+    groups = {
+        "contact": {
+            "load": o.load,
+            "mean_velocity": o.mean_velocity,
+            "radius": o.radius,
+            "reduced_modulus": o.reduced_modulus,
+        },
+        "lubricant": dict(settings["lubricant"]),
+        "surface": {
+            "kind": "fractal",
+            "length_x": tile * o.hertz_radius,
+            "length_y": tile * o.hertz_radius,
+            "velocity_ratio": velocity_ratio,
+            "x_start": FRONT,
+        },
+        "grid": {"points": points},
+        "solver": {"accuracy": accuracy, "threads": threads},
+        "time": {"steps": 100000, "estimate_error": False},
+    }
+    return Case.from_text(str(f90nml.Namelist(groups)) + "\n", origin="response")
+
+
+def superpose(
+    settings: Mapping[str, Mapping[str, Any]],
+    waves: WaveSet,
+    *,
+    points: int,
+    velocity_ratio: float,
+    threads: int = 1,
+    accuracy: float = 0.02,
+    slope: float = SLOPE,
+    progress: Callable[[int, int], None] = lambda done, total: None,
+) -> Superposition:
+    """Run a tile of waves through the contact of a resolved case.
+
+    Parameters
+    ----------
+    settings
+        A resolved case: operating point and lubricant are taken from it.
+    waves
+        What is on the tile.
+    points
+        Nodes per side; the domain is 4 a by 4 a.
+    velocity_ratio
+        U, positive.
+    threads, accuracy
+        As `solver.threads` and `solver.accuracy`.
+    slope
+        Amplitude times wavenumber [a/R].
+    progress
+        Called with the steps done and the steps in all.
+
+    Raises
+    ------
+    EhlError
+        If the run ends before its time.
+    """
+    case = transient_case(
+        settings,
+        points=points,
+        tile=waves.tile,
+        velocity_ratio=velocity_ratio,
+        threads=threads,
+        accuracy=accuracy,
+    )
+    operating = OperatingPoint.from_settings(case.resolve())
+    heights, amplitude = linear_surface(waves, slope)
+    with Solver.open(case, heights * operating.film_scale) as solver:
+        while not solver.done and float(solver.summary().get("steps") or 0) < 1:
+            solver.advance()
+        central_film = float(solver.summary().get("H_c_smooth") or solver.summary()["H_c"])
+        x, y = solver.axes()
+        spacing = float(x[1] - x[0])
+        near = np.abs(x) <= REACH + 0.5 * spacing
+        middle = int(np.argmin(np.abs(y)))
+        period, total = step_counts(points, waves.tile, velocity_ratio)
+        times, films, pressures = [], [], []
+        for step in range(1, total + 1):
+            solver.advance()
+            if solver.done:
+                raise EhlError(f"the run ended too early: {solver.summary()['status']}")
+            if step > total - period:
+                times.append(float(solver.summary()["T"]))
+                films.append(solver.field("H")[near, middle])
+                pressures.append(solver.field("P")[near, middle])
+            progress(step, total)
+    return _fit(
+        waves,
+        amplitude,
+        velocity_ratio,
+        (x[near], np.array(times), np.array(films), np.array(pressures)),
+        (spacing, central_film),
+    )
+
+
+def _fit(
+    waves: WaveSet,
+    amplitude: Array,
+    velocity_ratio: float,
+    record: tuple[Array, Array, Array, Array],
+    grid: tuple[float, float],
+) -> Superposition:
+    """Least squares of film and pressure (times, n) with all frequencies at every X."""
+    x, times, films, pressures = record
+    angle = np.outer(times, waves.kx * velocity_ratio)
+    basis = np.hstack([np.ones((times.size, 1)), np.cos(angle), np.sin(angle)])
+    inverse = np.linalg.pinv(basis)
+    film, pressure = inverse @ films, inverse @ pressures
+    m = waves.kx.size
+    # a cos + b sin = Re (a + i b) exp(-i U k t)
+    film_wave = film[1 : m + 1] + 1j * film[m + 1 :]
+    pressure_wave = pressure[1 : m + 1] + 1j * pressure[m + 1 :]
+    phase = np.outer(waves.kx, x - FRONT) + waves.phase[:, np.newaxis]
+    roughness = amplitude[:, np.newaxis] * np.exp(1j * phase)
+    left = np.sqrt(np.mean((films - basis @ film) ** 2, axis=0))
+    return Superposition(
+        x,
+        film[0],
+        pressure[0],
+        np.asarray(-film_wave / roughness),
+        np.asarray(pressure_wave / roughness),
+        left[np.newaxis, :] / amplitude[:, np.newaxis],
+        *grid,
+    )
