@@ -173,7 +173,12 @@ def _polynomial(terms: list[list[float]], variables: tuple[Array | float, ...]) 
 
 
 def transport(
-    zone: Zone, qx: Array, qy: Array, velocity_ratio: float, stations: Array
+    zone: Zone,
+    qx: Array,
+    qy: Array,
+    velocity_ratio: float,
+    stations: Array,
+    spacing: float = 0.0,
 ) -> list[tuple[Complex, Complex]]:
     """Integrate the transport equation from the inlet to the stations.
 
@@ -187,6 +192,9 @@ def transport(
         U.
     stations
         Ascending X (n,) [a], behind INLET.
+    spacing
+        Of the grid of a simulation to compare with [a]: on cells of constant pressure a wave is
+        stiffer by the mean of its cosine over a cell. 0: the half-space itself.
 
     Returns
     -------
@@ -194,7 +202,8 @@ def transport(
         At each station T = driven + free G exp(i qx (U - 1)(X + 1)), both (m,).
     """
     q = np.hypot(qx, qy)
-    k = stiffness(q)
+    cells = 0.5 * spacing / np.pi
+    k = stiffness(q) / (np.sinc(cells * qx) * np.sinc(cells * qy))
     steps = np.ceil((stations - np.concatenate([[INLET], stations[:-1]])) / STEP).astype(int)
     ends = np.cumsum(steps)
     x = np.concatenate(

@@ -1,0 +1,290 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Fit the inlet transfer of :mod:`pyehl.theory.response` to the measured waves.
+
+    python docs/evidence/response/fit.py [response.json]
+
+reads ``waves.csv`` and ``ridges.csv``, writes ``pyehl/theory/response.json`` (or the file that is
+named) and ``residuals.csv``, and prints the residuals.
+
+T = driven + free G, G = exp(i k_x (U - 1) X_0)/(1 + z): ln|z| and arg z/c are polynomials in
+s = ln(nabla_2)/2, c = |k_x|/|q|, ln(L/10), ln(M/1000)/2 and U - 1, and so is X_0. Terms with
+M h^2, h the grid spacing, take the error of the grids and are left out of the result, which holds
+for h = 0. Least squares of T at all X (Gauss-Newton), the larger residuals with more weight.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import sys
+from collections import defaultdict
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+HERE = Path(__file__).resolve().parent
+TARGET = HERE.parents[2] / "pyehl" / "theory" / "response.json"
+Array = NDArray[np.float64]
+
+# s is held within these; beyond them z goes on as nabla_2 to the power SLOPE
+PARAMETER, SLOPE = (-0.7, 1.6), 1.35
+# z grows as exp(OBLIQUE Y^2) off the centre line
+OBLIQUE = 1.27
+# Coarse grids count where a wave has this many nodes, fine ones with fewer
+NODES = {257: 14.0, 513: 10.0}
+# The longest wave along the motion that is fitted [a]: longer ones feel the edge of the contact
+LONGEST = 3.0
+WEIGHT_OF_RIDGES = 3.0
+# Where the leak in the inlet itself, which the transport equation has not, matters most
+WEIGHT_OF_LEAKING = 0.3
+PENALTY = 0.1
+# Scales of the variables, so that one penalty suits all terms
+SCALES = (1.0, 1.0, 1.5, 1.5, 5.0, 1.0)
+
+
+def _terms() -> list[tuple[int, ...]]:
+    """Powers of s, c, ln(L/10), ln(M/1000)/2, U - 1 and M h^2."""
+
+    def upto(order: int, *others: int) -> list[tuple[int, ...]]:
+        return [
+            (i, j, *others) for i in range(order + 1) for j in range(order + 1) if i + j <= order
+        ]
+
+    found = upto(4, 0, 0, 0, 0)
+    for powers in ((1, 0), (0, 1)):
+        found += upto(3, *powers, 0, 0)
+    for powers in ((2, 0), (0, 2), (1, 1)):
+        found += upto(2, *powers, 0, 0)
+    for powers in ((3, 0), (0, 3), (2, 1), (1, 2)):
+        found += upto(1, *powers, 0, 0)
+    found += upto(2, 0, 0, 1, 0) + upto(1, 0, 0, 2, 0) + upto(0, 1, 0, 1, 0) + upto(0, 0, 1, 1, 0)
+    return found + upto(1, 0, 0, 0, 1)
+
+
+TERMS = _terms()
+ORIGIN = [
+    (i, j, a, b, e, 0)
+    for i, j, a, b, e in (
+        *((0, 0, 0, 0, 0), (1, 0, 0, 0, 0), (2, 0, 0, 0, 0), (0, 2, 0, 0, 0), (1, 2, 0, 0, 0)),
+        *((0, 0, 1, 0, 0), (1, 0, 1, 0, 0), (0, 0, 0, 1, 0), (1, 0, 0, 1, 0)),
+        *((0, 0, 0, 0, 1), (1, 0, 0, 0, 1)),
+    )
+]
+
+
+@dataclass(frozen=True, slots=True)
+class Data:
+    """Waves (m,) and what was measured of them at several X (m, 3)."""
+
+    m: Array
+    l: Array  # noqa: E741
+    ratio: Array
+    points: Array
+    kx: Array
+    ky: Array
+    t: NDArray[np.complex128]
+    driven: NDArray[np.complex128]
+    free: NDArray[np.complex128]
+
+    def chosen(self, mask: NDArray[np.bool_]) -> Data:
+        """Take some of the waves."""
+        return Data(*(getattr(self, name)[mask] for name in self.__slots__))
+
+    @property
+    def q(self) -> Array:
+        """|q| [1/a]."""
+        return np.hypot(self.kx, self.ky)
+
+    @property
+    def nodes(self) -> Array:
+        """Nodes per wavelength."""
+        return 2.0 * np.pi / self.q * (self.points - 1.0) / 4.0
+
+    @property
+    def variables(self) -> tuple[Array, ...]:
+        """The variables: s (clipped), c, ln(L/10), ln(M/1000)/2, U - 1, M h^2."""
+        s = 0.5 * np.log(2.0 * np.pi / self.q * np.sqrt(self.m / self.l))
+        return (
+            np.clip(s, *PARAMETER),
+            self.kx / self.q,
+            np.log(self.l / 10.0),
+            0.5 * np.log(self.m / 1000.0),
+            self.ratio - 1.0,
+            self.m * (4.0 / (self.points - 1.0)) ** 2,
+        )
+
+    @property
+    def beyond(self) -> Array:
+        """What ln|z| has from the part of s that is clipped."""
+        s = 0.5 * np.log(2.0 * np.pi / self.q * np.sqrt(self.m / self.l))
+        return 2.0 * SLOPE * (s - np.clip(s, *PARAMETER))
+
+    def powers(self, terms: list[tuple[int, ...]]) -> Array:
+        """Give the terms (m, number of terms), scaled."""
+        scaled = [v * f for v, f in zip(self.variables, SCALES, strict=True)]
+        return np.stack(
+            [np.prod([v**p for v, p in zip(scaled, term, strict=True)], axis=0) for term in terms],
+            axis=1,
+        )
+
+
+def read(folder: Path = HERE) -> Data:
+    """All waves, ridges last (with kx = 0, and the same value at all X)."""
+    with (folder / "waves.csv").open(newline="", encoding="utf-8") as stream:
+        table = np.array([[float(v) for v in row] for row in list(csv.reader(stream))[1:]])
+    with (folder / "ridges.csv").open(newline="", encoding="utf-8") as stream:
+        ridges = np.array([[float(v) for v in row] for row in list(csv.reader(stream))[1:]])
+    table = table.reshape(-1, 3, table.shape[1])
+    heads = [table[:, 0, i] for i in range(6)]
+    parts = [table[:, :, i] + 1j * table[:, :, i + 1] for i in (7, 9, 11)]
+    one, none = np.ones(len(ridges)), np.zeros(len(ridges))
+    more = [ridges[:, 0], ridges[:, 1], one, ridges[:, 2], none, ridges[:, 3]]
+    also = [np.repeat(ridges[:, i : i + 1], 3, axis=1) + 0j for i in (4, 5, 6)]
+    return Data(
+        *(np.concatenate(pair) for pair in zip(heads, more, strict=True)),
+        *(np.concatenate(pair) for pair in zip(parts, also, strict=True)),
+    )
+
+
+def select(data: Data) -> NDArray[np.bool_]:
+    """Waves that are fitted."""
+    enough = data.nodes >= np.array([NODES[int(n)] for n in data.points])
+    short = 2.0 * np.pi / np.maximum(data.kx, 1e-12) < LONGEST
+    ridge = (data.kx == 0.0) & (data.ky > 3.0)
+    return (enough & short) | ridge
+
+
+class Fit:
+    """Coefficients of ln|z|, arg z/c and X_0."""
+
+    def __init__(self, coefficients: Array) -> None:
+        self.coefficients = coefficients
+
+    def transfer(self, data: Data) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
+        """G and z of waves (m,), with the error of their grids."""
+        n, x = len(TERMS), self.coefficients
+        powers, (_, c, _, _, slip, _) = data.powers(TERMS), data.variables
+        z = np.exp(powers @ x[:n] + data.beyond + 1j * c * (powers @ x[n : 2 * n]))
+        shift = data.kx * slip * (data.powers(ORIGIN) @ x[2 * n :])
+        return np.exp(1j * shift) / (1.0 + z), z
+
+    def residual(self, data: Data) -> NDArray[np.complex128]:
+        """T of the fit less T (m, 3)."""
+        return data.driven + data.free * self.transfer(data)[0][:, np.newaxis] - data.t
+
+    def as_json(self) -> dict[str, Any]:
+        """Coefficients as :mod:`pyehl.theory.response` reads them."""
+        n = len(TERMS)
+
+        def listed(terms: list[tuple[int, ...]], values: Array) -> list[list[float]]:
+            found = []
+            for term, value in zip(terms, values, strict=True):
+                if not term[5]:
+                    scale = np.prod([f**p for f, p in zip(SCALES, term, strict=True)])
+                    found.append([float(f"{value * scale:.7g}"), *term[:5]])
+            return found
+
+        return {
+            "range": {"moes_m": [100, 3000], "moes_l": [3, 20], "velocity_ratio": [0.8, 1.2]},
+            "parameter": list(PARAMETER),
+            "slope": SLOPE,
+            "oblique": OBLIQUE,
+            "modulus": listed(TERMS, self.coefficients[:n]),
+            "angle": listed(TERMS, self.coefficients[n : 2 * n]),
+            "origin": listed(ORIGIN, self.coefficients[2 * n :]),
+        }
+
+
+def _start(data: Data) -> Fit:
+    """Linear fit to the z of every wave by itself."""
+    norm = np.maximum((np.abs(data.free) ** 2).sum(axis=1), 1e-30)
+    g = (np.conj(data.free) * (data.t - data.driven)).sum(axis=1) / norm
+    z = 1.0 / np.where(g == 0.0, 1e-6, g) - 1.0
+    angle = np.where(np.angle(z) > 2.0, np.angle(z) - 2.0 * np.pi, np.angle(z))
+    strength = np.minimum(np.abs(g), 2.0) ** 2 * np.minimum(np.abs(z), 1e3)
+    weight = np.minimum(strength * np.abs(data.free).mean(axis=1) + 1e-6, 1.0)[:, np.newaxis]
+    powers, c, n = data.powers(TERMS), data.variables[1][:, np.newaxis], len(TERMS)
+    size = np.log(np.abs(z)) - data.beyond
+
+    def solve(matrix: Array, values: Array) -> Array:
+        a = np.vstack([matrix * weight, 1e-2 * np.eye(n)])
+        b = np.concatenate([values * weight[:, 0], np.zeros(n)])
+        return np.asarray(np.linalg.lstsq(a, b, rcond=None)[0])
+
+    return Fit(
+        np.concatenate([solve(powers, size), solve(powers * c, angle), np.zeros(len(ORIGIN))])
+    )
+
+
+def fit(data: Data, iterations: int = 40) -> Fit:
+    """Gauss-Newton from the linear fit; waves whose residual is large get more weight."""
+    powers, origin = data.powers(TERMS), data.powers(ORIGIN)
+    _, c, _, _, slip, _ = data.variables
+    first = np.where(data.kx == 0.0, WEIGHT_OF_RIDGES, 1.0)
+    first = first * np.where(data.m * data.l < 500.0, WEIGHT_OF_LEAKING, 1.0)
+    found = _start(data)
+    for k in range(iterations):
+        g, z = found.transfer(data)
+        left = found.residual(data)
+        size = np.abs(left).max(axis=1) * first
+        weight = first * (0.003 + size)
+        weight /= np.sqrt(np.mean(weight**2))
+        log_z = (data.free * (-g * z / (1.0 + z))[:, np.newaxis] * weight[:, np.newaxis])[..., None]
+        shift = (data.free * (1j * g)[:, np.newaxis] * weight[:, np.newaxis])[..., None]
+        moved = origin * (data.kx * slip)[:, np.newaxis]
+        turned = powers * c[:, np.newaxis]
+        parts = [log_z * powers[:, None], 1j * log_z * turned[:, None], shift * moved[:, None]]
+        jacobian = np.concatenate(parts, axis=2).reshape(left.size, -1)
+        wanted = -(left * weight[:, np.newaxis]).ravel()
+        a = np.vstack([jacobian.real, jacobian.imag])
+        b = np.concatenate([wanted.real, wanted.imag])
+        normal = a.T @ a
+        penalty = PENALTY**2 * np.eye(normal.shape[0]) + 1e-9 * np.diag(np.diag(normal))
+        step = np.linalg.solve(normal + penalty, a.T @ b - PENALTY**2 * found.coefficients)
+        limit = min(1.0, 3.0 / np.abs(step).max()) if k < 5 else 0.7
+        found = Fit(found.coefficients + limit * step)
+    return found
+
+
+def table(found: Fit, data: Data) -> list[list[str]]:
+    """Largest and rms residual of T per operating point, at X = 0 and over all X."""
+    left = np.abs(found.residual(data))
+    groups: dict[tuple[float, float, float], list[int]] = defaultdict(list)
+    for i, key in enumerate(zip(data.m, data.l, data.ratio, strict=True)):
+        if data.kx[i] > 0.0:
+            groups[key].append(i)
+    lines = []
+    for key, waves in sorted(groups.items()):
+        r = left[waves]
+        values = (r[:, 1].max(), np.sqrt(np.mean(r[:, 1] ** 2)), r.max())
+        lines.append([*(f"{v:g}" for v in key), str(len(waves)), *(f"{v:.4f}" for v in values)])
+    return lines
+
+
+def main(target: Path) -> None:
+    """Fit, write the coefficients and the residuals, print them."""
+    everything = read()
+    data = everything.chosen(select(everything))
+    found = fit(data)
+    target.write_text(json.dumps(found.as_json(), indent=1) + "\n", encoding="utf-8")
+    lines = table(found, data)
+    with (HERE / "residuals.csv").open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        names = "moes_m moes_l velocity_ratio waves largest_at_centre rms_at_centre largest".split()
+        writer.writerows([names, *lines])
+    for line in lines:
+        print("  ".join(value.rjust(7) for value in line))
+    left = np.abs(found.residual(data))
+    ridge = data.kx == 0.0
+    print(
+        f"{np.count_nonzero(~ridge)} waves: at X = 0 largest {left[~ridge, 1].max():.4f}, rms "
+        f"{np.sqrt(np.mean(left[~ridge, 1] ** 2)):.4f}; over all X largest {left[~ridge].max():.4f}"
+    )
+    print(f"{np.count_nonzero(ridge)} ridges: largest {left[ridge].max():.4f}")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]) if len(sys.argv) > 1 else TARGET)

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Make ``waves.csv`` anew: the response of the contact to waves, measured with the solver.
+
+    python docs/evidence/response/make.py waves.csv [M L U]
+
+All runs of the plan, one after the other, take some hours on two cores; with M, L, U only those of
+one operating point. Each run is a tile of 4 a with up to 34 waves of small amplitude.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+import sys
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from pyehl.case import Case
+from pyehl.studies.superposition import Superposition, WaveSet, superpose
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.response import Zone, stiffness, transport
+
+HERE = Path(__file__).parent
+STATIONS = np.array([-0.5, 0.0, 0.5])
+COLUMNS = (
+    "moes_m moes_l velocity_ratio points kx ky x T_re T_im driven_re driven_im free_re free_im "
+    "pressure_ratio"
+).split()
+TILE = 4.0
+# Wavelengths per tile along the motion, as far as the grid has eight nodes for them
+ALONG = (*range(1, 17), 18, 19, 20, 22, 24, 26, 28, 30, 32, 35, 38, 41, 44, 48, 52, 56, 60, 64)
+# Angles [deg], one wave after the other; variants 0 and 1 begin at different ones
+ANGLES = (
+    *(85, 0, 45, 26, 0, 63, 45, 0, 30, 56, 0, 45, 70, 18, 0, 45, 60),
+    *(0, 35, 50, 0, 70, 22, 45, 0, 60, 0, 40, 0, 65, 45, 0, 30, 0),
+)
+# Those of variants 2 and 3
+STEEP = (
+    *(85, 80, 70, 76, 84, 66, 73, 87, 62, 79, 83, 68, 75, 86, 64, 81, 71),
+    *(77, 88, 60, 82, 74, 69, 85, 65, 78, 72, 84, 67, 80, 63, 76, 82, 70),
+)
+
+
+def waves_of(points: int, variant: int) -> WaveSet:
+    """Waves of a run on a grid of points x points nodes."""
+    last = (points - 1) // 8
+    along = [n for n in ALONG if n <= last]
+    across = []
+    for i, n in enumerate(along):
+        if variant < 2:
+            angle = ANGLES[(i + 2 * variant) % len(ANGLES)]
+        else:
+            angle = STEEP[(i + 5 * (variant - 2)) % len(STEEP)]
+        m = round(n * math.tan(math.radians(angle)))
+        if n == 1 and variant < 2:
+            m = (12, 0)[variant]
+        across.append(min(m, last))
+    phase = np.random.default_rng(5).uniform(0.0, 2.0 * np.pi, len(along))
+    return WaveSet(TILE, np.array(along), np.array(across), phase)
+
+
+def settings_of(moes_m: float, moes_l: float) -> dict[str, dict[str, Any]]:
+    """Resolve the case of an operating point."""
+    return Case.from_text(f"&contact moes_m = {moes_m!r} moes_l = {moes_l!r} /\n").resolve()
+
+
+def zone_of(found: Superposition, settings: Mapping[str, Mapping[str, Any]]) -> Zone:
+    """Centre line of the smooth contact as the run itself had it."""
+    operating, lubricant = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
+    p = np.maximum(found.pressure, 0.0) * operating.hertz_pressure
+    rho = lubricant.density_ratio(p)
+    slope = np.log(lubricant.density_ratio(p + 1e-3 * operating.hertz_pressure) / rho) / 1e-3
+    eta = lubricant.viscosity_ratio(p) * operating.speed_parameter
+    return Zone(found.x, found.film, rho, slope, rho * found.film**3 / eta)
+
+
+def rows(
+    waves: WaveSet, found: Superposition, moes_m: float, moes_l: float, ratio: float
+) -> Iterator[list[str]]:
+    """Lines of the table: T, and the parts of it that the transport equation gives."""
+    settings = settings_of(moes_m, moes_l)
+    kx, ky = waves.kx, waves.ky
+    zone = zone_of(found, settings)
+    parts = transport(zone, kx, ky, ratio, STATIONS, found.spacing)
+    points = round(TILE / found.spacing) + 1
+    for j in range(kx.size):
+        for x, (driven, free) in zip(STATIONS, parts, strict=True):
+            i = int(np.argmin(np.abs(found.x - x)))
+            t = found.response[j, i]
+            ratio_p = abs(found.stiffness[j, i] / (stiffness(waves.q[j]) * (1.0 - t)))
+            free_there = free[j] * np.exp(1j * kx[j] * (ratio - 1.0) * (x + 1.0))
+            values = [v for c in (t, driven[j], free_there) for v in (c.real, c.imag)]
+            yield [
+                *(f"{v:g}" for v in (moes_m, moes_l, ratio, points)),
+                *(f"{v:.6g}" for v in (kx[j], ky[j], x)),
+                *(f"{v:.5f}".replace("-0.00000", "0") for v in values),
+                f"{ratio_p:.4f}",
+            ]
+
+
+def main(arguments: list[str]) -> None:
+    """Make all rows of ``waves.csv``, or those of one operating point."""
+    with (HERE / "waves.csv").open(newline="", encoding="utf-8") as stream:
+        plan = sorted({tuple(row[c] for c in COLUMNS[:4]) for row in csv.DictReader(stream)})
+    chosen = [float(v) for v in arguments[1:]]
+    with Path(arguments[0]).open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(COLUMNS)
+        for m, ell, u, n in ((*map(float, p[:3]), int(p[3])) for p in plan):
+            if chosen and chosen != [m, ell, u]:
+                continue
+            for variant in range(4 if n == 257 else 2):
+                print(f"M {m:g} L {ell:g} U {u:g}: {n} x {n} nodes, waves {variant}", flush=True)
+                waves = waves_of(n, variant)
+                found = superpose(settings_of(m, ell), waves, points=n, velocity_ratio=u)
+                writer.writerows(rows(waves, found, m, ell, u))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
