@@ -33,7 +33,7 @@ Array = NDArray[np.float64]
 Progress = Callable[[str, int, int], None]
 
 # Angles of the crests to those across the motion, one wave after the other [deg]
-DIRECTIONS = (0, 45, 75, 26, 0, 63, 15, 80, 0, 56, 35, 70, 0, 45, 62, 20)
+DIRECTIONS = (0, 45, 80, 26, 0, 63, 15, 75, 0, 56, 35, 70, 0, 45, 62, 20)
 NODES = 8
 """Least number of nodes a wavelength."""
 
@@ -63,8 +63,8 @@ class Tier:
 
 TIERS = (
     Tier("long", 4.0, 257, 4.0, 0.125),
-    Tier("middle", 1.0, 513, 0.25, 0.0625),
-    Tier("short", 0.5, 1025, 0.0625, 0.03125),
+    Tier("middle", 1.0, 513, 0.5, 0.0625),
+    Tier("short", 0.5, 1025, 0.125, 0.03125),
 )
 """The tiers of the command; the first two are those of a quick measurement."""
 
@@ -84,8 +84,8 @@ def tier_waves(tier: Tier) -> WaveSet:
     along = np.unique(np.round(np.geomspace(first, last, 24)).astype(np.int64))
     angles = np.resize(np.array(DIRECTIONS, dtype=float), along.size)
     across = np.round(along * np.tan(np.radians(angles))).astype(np.int64)
-    # no wave is shorter than the shortest: the steepest that is left keeps its number along
-    limit = np.floor(np.sqrt(np.maximum(last**2 - along**2, 0))).astype(np.int64)
+    # no wave is shorter than the shortest
+    limit = np.floor(np.sqrt(last**2 - along**2)).astype(np.int64)
     phase = np.random.default_rng(5).uniform(0.0, 2.0 * np.pi, along.size)
     return WaveSet(tier.tile, along, np.minimum(across, limit), phase)
 
@@ -118,7 +118,7 @@ def run_tier(
         waves,
         points=tier.points,
         velocity_ratio=velocity_ratio,
-        threads=threads,
+        solver={"threads": threads},
         progress=lambda done, total: progress(tier.name, done, total),
     )
     partial = path.with_name(f"{path.name}.partial-{os.getpid()}")
@@ -144,9 +144,16 @@ def _child(
     path: Path,
     queue: Any,  # noqa: ANN401
 ) -> None:
-    """Run a tier in a process of its own; its progress and its end go into a queue."""
+    """Run a tier in a process of its own, as long as there is somebody to read the queue."""
+    parent = mp.parent_process()
+
+    def report(*now: Any) -> None:  # noqa: ANN401
+        if parent is not None and not parent.is_alive():
+            raise KeyboardInterrupt
+        queue.put(("step", now))
+
     try:
-        run_tier(text, velocity_ratio, tier, threads, path, lambda *now: queue.put(("step", now)))
+        run_tier(text, velocity_ratio, tier, threads, path, report)
         queue.put(("end", (tier.name, "")))
     except (EhlError, OSError, ValueError) as error:
         queue.put(("end", (tier.name, str(error))))

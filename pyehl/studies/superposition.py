@@ -45,6 +45,7 @@ SLOPE = 1.2e-3
 """Amplitude of a wave times its wavenumber [a/R]: small enough for the response to be linear."""
 REACH = 1.0
 """The response is found for |X| up to here [a]."""
+ACCURACY = 0.02
 # Pixels per shortest wave; the solver interpolates a map by its Fourier series
 PIXELS = 4
 # Way of the slowest wave [a] from the place where the run begins until the contact is in order
@@ -151,8 +152,7 @@ def transient_case(
     points: int,
     tile: float,
     velocity_ratio: float,
-    threads: int = 1,
-    accuracy: float = 0.02,
+    solver: Mapping[str, Any],
 ) -> Case:
     """Return the case of a run with a tile of a side [a] at the operating point of a case."""
     o = OperatingPoint.from_settings(settings)
@@ -172,7 +172,7 @@ def transient_case(
             "x_start": FRONT,
         },
         "grid": {"points": points},
-        "solver": {"accuracy": accuracy, "threads": threads},
+        "solver": {"accuracy": ACCURACY, **solver},
         "time": {"steps": 100000, "estimate_error": False},
     }
     return Case.from_text(str(f90nml.Namelist(groups)) + "\n", origin="response")
@@ -184,8 +184,7 @@ def superpose(
     *,
     points: int,
     velocity_ratio: float,
-    threads: int = 1,
-    accuracy: float = 0.02,
+    solver: Mapping[str, Any] | None = None,
     slope: float = SLOPE,
     progress: Callable[[int, int], None] = lambda done, total: None,
 ) -> Superposition:
@@ -201,8 +200,8 @@ def superpose(
         Nodes per side; the domain is 4 a by 4 a.
     velocity_ratio
         U, positive.
-    threads, accuracy
-        As `solver.threads` and `solver.accuracy`.
+    solver
+        Keys of the group ``solver`` of the run, `threads` for one; accuracy is ACCURACY.
     slope
         Amplitude times wavenumber [a/R].
     progress
@@ -218,29 +217,28 @@ def superpose(
         points=points,
         tile=waves.tile,
         velocity_ratio=velocity_ratio,
-        threads=threads,
-        accuracy=accuracy,
+        solver=solver or {},
     )
     operating = OperatingPoint.from_settings(case.resolve())
     heights, amplitude = linear_surface(waves, slope)
-    with Solver.open(case, heights * operating.film_scale) as solver:
-        while not solver.done and float(solver.summary().get("steps") or 0) < 1:
-            solver.advance()
-        central_film = float(solver.summary().get("H_c_smooth") or solver.summary()["H_c"])
-        x, y = solver.axes()
+    with Solver.open(case, heights * operating.film_scale) as run:
+        while not run.done and float(run.summary().get("steps") or 0) < 1:
+            run.advance()
+        central_film = float(run.summary().get("H_c_smooth") or run.summary()["H_c"])
+        x, y = run.axes()
         spacing = float(x[1] - x[0])
         near = np.abs(x) <= REACH + 0.5 * spacing
         middle = int(np.argmin(np.abs(y)))
         period, total = step_counts(points, waves.tile, velocity_ratio)
         times, films, pressures = [], [], []
         for step in range(1, total + 1):
-            solver.advance()
-            if solver.done:
-                raise EhlError(f"the run ended too early: {solver.summary()['status']}")
+            run.advance()
+            if run.done:
+                raise EhlError(f"the run ended too early: {run.summary()['status']}")
             if step > total - period:
-                times.append(float(solver.summary()["T"]))
-                films.append(solver.field("H")[near, middle])
-                pressures.append(solver.field("P")[near, middle])
+                times.append(float(run.summary()["T"]))
+                films.append(run.field("H")[near, middle])
+                pressures.append(run.field("P")[near, middle])
             progress(step, total)
     return _fit(
         waves,

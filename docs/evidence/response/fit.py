@@ -39,7 +39,7 @@ NODES = {257: 14.0, 513: 10.0}
 LONGEST = 3.0
 WEIGHT_OF_RIDGES = 3.0
 # Where the leak in the inlet itself, which the transport equation has not, matters most
-WEIGHT_OF_LEAKING = 0.3
+WEIGHT_OF_LEAKING = 0.2
 PENALTY = 0.1
 # Scales of the variables, so that one penalty suits all terms
 SCALES = (1.0, 1.0, 1.5, 1.5, 5.0, 1.0)
@@ -60,7 +60,10 @@ def _terms() -> list[tuple[int, ...]]:
         found += upto(2, *powers, 0, 0)
     for powers in ((3, 0), (0, 3), (2, 1), (1, 2)):
         found += upto(1, *powers, 0, 0)
-    found += upto(2, 0, 0, 1, 0) + upto(1, 0, 0, 2, 0) + upto(0, 1, 0, 1, 0) + upto(0, 0, 1, 1, 0)
+    found += upto(3, 0, 0, 1, 0) + upto(1, 0, 0, 2, 0)
+    found += upto(2, 1, 0, 1, 0) + upto(2, 0, 1, 1, 0)
+    for powers in ((2, 0, 1), (0, 2, 1), (1, 1, 1), (1, 0, 2), (0, 1, 2)):
+        found.append((0, 0, *powers, 0))
     return found + upto(1, 0, 0, 0, 1)
 
 
@@ -70,7 +73,7 @@ ORIGIN = [
     for i, j, a, b, e in (
         *((0, 0, 0, 0, 0), (1, 0, 0, 0, 0), (2, 0, 0, 0, 0), (0, 2, 0, 0, 0), (1, 2, 0, 0, 0)),
         *((0, 0, 1, 0, 0), (1, 0, 1, 0, 0), (0, 0, 0, 1, 0), (1, 0, 0, 1, 0)),
-        *((0, 0, 0, 0, 1), (1, 0, 0, 0, 1)),
+        *((0, 0, 0, 0, 1), (1, 0, 0, 0, 1), (0, 0, 1, 0, 1), (0, 0, 0, 1, 1)),
     )
 ]
 

@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`pyehl response`: measured waves against the shipped response and a second solver."""
+
+from __future__ import annotations
+
+import csv
+import json
+from itertools import islice
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from second_solver import START, VELOCITY, X_MATTERS, SecondSolver, Z
+
+from pyehl import cli
+from pyehl.case import Case
+from pyehl.studies import response
+from pyehl.studies.superposition import SLOPE, WaveSet, superpose
+
+# Long waves and short ones in a thick film, where a coarse grid does
+TINY = (
+    response.Tier("long", 2.0, 65, 2.0, 0.5),
+    response.Tier("middle", 1.0, 129, 0.5, 0.25),
+)
+CASE = "&contact moes_m = 200.0 moes_l = 10.0 /\n&surface velocity_ratio = 1.05 /\n"
+
+
+@pytest.fixture
+def tiny(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[str]:
+    """Words of a command that takes seconds."""
+    monkeypatch.setattr(response, "TIERS", TINY)
+    monkeypatch.setattr("pyehl.commands.response.TIERS", TINY)
+    (tmp_path / "case.nml").write_text(CASE)
+    return ["response", str(tmp_path / "case.nml"), "-o", str(tmp_path / "out")]
+
+
+def test_command(tiny: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    assert cli.main(tiny) == 0
+    folder = tmp_path / "out"
+    with (folder / "response.csv").open() as stream:
+        rows = list(csv.DictReader(stream))
+    with xr.open_dataset(folder / "response.nc", engine="scipy") as data:
+        assert data.sizes["wave"] == len(rows)
+        assert data["amplitude"].dims == ("wave", "X")
+        assert all(data[name].attrs["units"] for name in data.variables if name != "tier")
+    summary = json.loads((folder / "summary.json").read_text())
+    assert summary["velocity_ratio"] == 1.05
+    assert (folder / "response.png").stat().st_size > 10000
+    fine = [row for row in rows if row["tier"] == "middle"]
+    # at M = 200 the film of 129 x 129 nodes is 3 % thin, and with it T of the waves in the inlet
+    assert max(float(row["shipped_difference_centre"]) for row in fine) < 0.05
+    assert max(abs(float(row["pressure_ratio_centre"]) - 1.0) for row in fine) < 0.1
+    # a second time nothing is run, and the same comes out
+    kept = {path.name: path.stat().st_mtime_ns for path in folder.glob("tier_*.npz")}
+    before = (folder / "response.csv").read_text()
+    assert cli.main(tiny) == 0
+    assert {path.name: path.stat().st_mtime_ns for path in folder.glob("tier_*.npz")} == kept
+    assert (folder / "response.csv").read_text() == before
+    # one that is lost is run again, to the same numbers
+    (folder / "tier_long.npz").unlink()
+    assert cli.main(tiny) == 0
+    assert (folder / "response.csv").read_text() == before
+    # another case does not go on with it
+    capsys.readouterr()
+    assert cli.main([*tiny, "--set", "surface.velocity_ratio=1.1"]) == 2
+    assert "belongs to another case" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--set", "surface.velocity_ratio=0"], "at rest"),
+        (["--jobs", "0"], "expected: 1 or more"),
+    ],
+)
+def test_bad_input_writes_nothing(
+    tiny: list[str],
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    words: list[str],
+    message: str,
+):
+    assert cli.main([*tiny, *words]) == 2
+    assert message in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_foreign_folder_is_refused(
+    tiny: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "letter.txt").write_text("dear")
+    assert cli.main(tiny) == 2
+    assert "letter.txt" in capsys.readouterr().err
+
+
+def test_failed_run_is_named(tmp_path: Path):
+    """At this load the inlet is finer than the grid."""
+    case = Case.from_text("&contact moes_m = 20000.0 moes_l = 20.0 /\n")
+    tier = response.Tier("long", 4.0, 17, 4.0, 2.0)
+    with pytest.raises(response.EhlError, match="tier 'long'"):
+        response.measure(case, tmp_path / "out", tiers=[tier])
+    assert not list((tmp_path / "out").iterdir())
+
+
+@pytest.mark.parametrize("tier", response.TIERS, ids=lambda tier: tier.name)
+def test_waves_of_a_tier(tier: response.Tier):
+    waves = response.tier_waves(tier)
+    nodes = 2.0 * np.pi / waves.q * (tier.points - 1) / 4.0
+    assert nodes.min() >= response.NODES - 1e-9
+    assert np.unique(waves.along).size == waves.along.size
+    angle = np.degrees(np.arctan2(waves.ky, waves.kx))
+    assert np.count_nonzero(angle == 0.0) >= 3
+    assert np.count_nonzero((angle > 30.0) & (angle < 60.0)) >= 3
+    assert angle.max() > 50.0
+
+
+def test_too_coarse_a_grid_is_refused():
+    with pytest.raises(ValueError, match="4 nodes for the shortest wave"):
+        response.tier_waves(response.Tier("long", 4.0, 129, 4.0, 0.125))
+
+
+def test_waves_of_one_frequency_are_refused():
+    with pytest.raises(ValueError, match="different numbers"):
+        WaveSet(1.0, np.array([2, 2]), np.array([0, 1]), np.zeros(2))
+
+
+@pytest.mark.slow
+def test_small_waves_are_linear():
+    """Half the amplitude gives the same response."""
+    settings = Case.from_text("&contact moes_m = 1000.0 moes_l = 10.0 /\n").resolve()
+    waves = response.tier_waves(response.Tier("long", 4.0, 129, 4.0, 0.25))
+    found = [
+        superpose(settings, waves, points=129, velocity_ratio=1.01, slope=slope).response
+        for slope in (1.2e-3, 0.6e-3)
+    ]
+    within = slice(found[0].shape[1] // 4, -found[0].shape[1] // 4)
+    # of what accuracy = 0.02 leaves in the film, more at half the amplitude
+    assert np.abs(found[0] - found[1])[:, within].max() < 0.015
+
+
+def test_second_solver_has_the_same_response():
+    """One wave, by a solver that has nothing in common with this one but the equations."""
+    m, ell, points, wavelength = 500.0, 5.0, 65, 1.0
+    settings = Case.from_text(
+        f"&contact moes_m = {m} moes_l = {ell} /\n&lubricant roelands_z = {Z} /\n"
+    ).resolve()
+    waves = WaveSet(wavelength, np.array([1]), np.array([1]), np.zeros(1))
+    found = superpose(
+        settings,
+        waves,
+        points=points,
+        velocity_ratio=VELOCITY,
+        solver={"deflection": "fft", "accuracy": 1e-3},
+    )
+    second = SecondSolver(m, ell, points)
+    amplitude = SLOPE / waves.q[0]
+    node = int(np.argmin(np.hypot(second.x, second.y)))
+    # both fields end up with the front behind X = 1, and the last period counts
+    steps, period = 62, round(wavelength / VELOCITY / second.h)
+    march = islice(second.march(amplitude, wavelength), steps)
+    film = np.array([values[node] for _, values in march])[-period:]
+    first = int((X_MATTERS - 0.5 * wavelength - START) / VELOCITY / second.h) + 1
+    time = (first + np.arange(steps))[-period:] * second.h
+    turn = waves.kx[0] * (VELOCITY * time + START)
+    basis = np.stack([np.ones(period), np.cos(turn), np.sin(turn)], axis=1)
+    _, cosine, sine = np.linalg.lstsq(basis, film, rcond=None)[0]
+    t = -(cosine + 1j * sine) / amplitude
+    at = int(np.argmin(np.abs(found.x)))
+    assert 0.2 < abs(t) < 0.8
+    # what differs is the algebraic error of both
+    assert abs(found.response[0, at] - t) < 2e-3
