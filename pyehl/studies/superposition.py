@@ -139,11 +139,13 @@ def linear_surface(waves: WaveSet, slope: float = SLOPE) -> tuple[Array, Array]:
     return np.asarray(along @ np.cos(np.outer(y, waves.ky)).T), np.asarray(amplitude)
 
 
-def step_counts(points: int, tile: float, velocity_ratio: float) -> tuple[int, int]:
+def step_counts(
+    points: int, tile: float, velocity_ratio: float, filling: float = FILLING
+) -> tuple[int, int]:
     """Count the steps of a period of a tile [a], and of a run without its smooth contact."""
     per_radius = (points - 1) / 4.0
     period = math.ceil(tile / velocity_ratio * per_radius)
-    return period, math.ceil(FILLING / min(1.0, velocity_ratio) * per_radius) + period
+    return period, math.ceil(filling / min(1.0, velocity_ratio) * per_radius) + period
 
 
 def transient_case(
@@ -186,6 +188,7 @@ def superpose(
     velocity_ratio: float,
     solver: Mapping[str, Any] | None = None,
     slope: float = SLOPE,
+    filling: float = FILLING,
     progress: Callable[[int, int], None] = lambda done, total: None,
 ) -> Superposition:
     """Run a tile of waves through the contact of a resolved case.
@@ -204,6 +207,8 @@ def superpose(
         Keys of the group ``solver`` of the run, `threads` for one; accuracy is ACCURACY.
     slope
         Amplitude times wavenumber [a/R].
+    filling
+        Way of the slowest wave before the period that is fitted begins [a].
     progress
         Called with the steps done and the steps in all.
 
@@ -229,7 +234,7 @@ def superpose(
         spacing = float(x[1] - x[0])
         near = np.abs(x) <= REACH + 0.5 * spacing
         middle = int(np.argmin(np.abs(y)))
-        period, total = step_counts(points, waves.tile, velocity_ratio)
+        period, total = step_counts(points, waves.tile, velocity_ratio, filling)
         times, films, pressures = [], [], []
         for step in range(1, total + 1):
             run.advance()

@@ -21,7 +21,7 @@ from pyehl.studies.superposition import SLOPE, WaveSet, superpose
 # Long waves and short ones in a thick film, where a coarse grid does
 TINY = (
     response.Tier("long", 2.0, 65, 2.0, 0.5),
-    response.Tier("middle", 1.0, 129, 0.5, 0.25),
+    response.Tier("middle", 1.0, 257, 0.5, 0.25),
 )
 CASE = "&contact moes_m = 200.0 moes_l = 10.0 /\n&surface velocity_ratio = 1.05 /\n"
 
@@ -48,8 +48,8 @@ def test_command(tiny: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[
     assert summary["velocity_ratio"] == 1.05
     assert (folder / "response.png").stat().st_size > 10000
     fine = [row for row in rows if row["tier"] == "middle"]
-    # at M = 200 the film of 129 x 129 nodes is 3 % thin, and with it T of the waves in the inlet
-    assert max(float(row["shipped_difference_centre"]) for row in fine) < 0.05
+    # the residual of the fit at this point, 0.018, and the error of the grid (film 1 % thin)
+    assert max(float(row["shipped_difference_centre"]) for row in fine) < 0.03
     assert max(abs(float(row["pressure_ratio_centre"]) - 1.0) for row in fine) < 0.1
     # a second time nothing is run, and the same comes out
     kept = {path.name: path.stat().st_mtime_ns for path in folder.glob("tier_*.npz")}
@@ -152,13 +152,14 @@ def test_second_solver_has_the_same_response():
         waves,
         points=points,
         velocity_ratio=VELOCITY,
-        solver={"deflection": "fft", "accuracy": 1e-3},
+        filling=3.3,
+        solver={"deflection": "fft", "accuracy": 1e-5},
     )
     second = SecondSolver(m, ell, points)
     amplitude = SLOPE / waves.q[0]
     node = int(np.argmin(np.hypot(second.x, second.y)))
-    # both fields end up with the front behind X = 1, and the last period counts
-    steps, period = 62, round(wavelength / VELOCITY / second.h)
+    # the front has left the domain; the last period counts
+    steps, period = 94, round(wavelength / VELOCITY / second.h)
     march = islice(second.march(amplitude, wavelength), steps)
     film = np.array([values[node] for _, values in march])[-period:]
     first = int((X_MATTERS - 0.5 * wavelength - START) / VELOCITY / second.h) + 1
@@ -170,4 +171,4 @@ def test_second_solver_has_the_same_response():
     at = int(np.argmin(np.abs(found.x)))
     assert 0.2 < abs(t) < 0.8
     # what differs is the algebraic error of both
-    assert abs(found.response[0, at] - t) < 2e-3
+    assert abs(found.response[0, at] - t) < 5e-4
