@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sphinx: ``sphinx-build -W docs build/docs``, with pyehl installed."""
+
+import re
+from importlib.metadata import version as version_of
+
+from sphinx.application import Sphinx
+
+project = "pyehl"
+author = "the pyehl developers"
+project_copyright = "the pyehl developers"
+release = version_of("pyehl")
+version = release
+
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.mathjax",
+    "sphinx.ext.napoleon",
+    "sphinx.ext.viewcode",
+]
+source_suffix = {".md": "markdown"}
+exclude_patterns = ["_build"]
+# The list of measurements may be empty; blocks without a lexer of their own are plain text
+suppress_warnings = ["toc.empty_glob", "misc.highlighting_failure"]
+
+myst_enable_extensions = ["dollarmath", "deflist"]
+myst_heading_anchors = 4
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"
+napoleon_google_docstring = False
+napoleon_use_rtype = False
+
+html_theme = "furo"
+html_title = f"pyehl {release}"
+
+# Documents outside of this folder, and the pages that include them
+OUTSIDE = {
+    "cases/README.md": "/reference/keys.md",
+    "fortran/README.md": "/fortran.md",
+    "tests/README.md": "/tests.md",
+    "CHANGELOG.md": "/changelog.md",
+}
+
+
+def lead_to_pages(app: Sphinx, name: str, source: list[str]) -> None:
+    """Make links to documents outside of this folder lead to the pages that include them."""
+    for outside, page in OUTSIDE.items():
+        source[0] = re.sub(rf"\]\((?:\.\./)+{re.escape(outside)}", f"]({page}", source[0])
+
+
+def setup(app: Sphinx) -> None:
+    """Register what changes the sources."""
+    app.connect("source-read", lead_to_pages)
