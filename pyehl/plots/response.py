@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter
 from numpy.typing import NDArray
 
 from pyehl.plots.style import GREY, SEQUENTIAL, letter, new_figure
@@ -45,6 +46,9 @@ def response_figure(
             colour = dots.cmap(dots.norm(direction))
             ax.plot(nabla, values, color=colour, lw=1, label=rf"shipped, {direction:g}$\degree$")
         ax.set_xscale("log")
+        ax.xaxis.set_minor_formatter(NullFormatter())
+        ax.xaxis.set_major_formatter("{x:g}")
+        ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
         ax.set_xlabel(r"$\nabla_2 = (\lambda/a)\sqrt{M/L}$")
     nabla = np.geomspace(waves["nabla_2"].min(), waves["nabla_2"].max(), 100)
     paper = amplitude_ratio(wavelength_parameter(nabla, 1.0, 1.0))

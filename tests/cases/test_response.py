@@ -132,12 +132,14 @@ def test_small_waves_are_linear():
     settings = Case.from_text("&contact moes_m = 1000.0 moes_l = 10.0 /\n").resolve()
     waves = response.tier_waves(response.Tier("long", 4.0, 129, 4.0, 0.25))
     found = [
-        superpose(settings, waves, points=129, velocity_ratio=1.01, slope=slope).response
+        superpose(
+            settings, waves, points=129, velocity_ratio=1.01, slope=slope, solver={"accuracy": 1e-4}
+        ).response
         for slope in (1.2e-3, 0.6e-3)
     ]
     within = slice(found[0].shape[1] // 4, -found[0].shape[1] // 4)
-    # of what accuracy = 0.02 leaves in the film, more at half the amplitude
-    assert np.abs(found[0] - found[1])[:, within].max() < 0.015
+    # a term of second order in the amplitude would be halved, too
+    assert np.abs(found[0] - found[1])[:, within].max() < 2e-3
 
 
 def test_second_solver_has_the_same_response():

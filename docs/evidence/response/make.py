@@ -102,22 +102,35 @@ def rows(
             ]
 
 
+def runs() -> Iterator[tuple[float, float, float, int, int]]:
+    """M, L, U, points and variant of the runs that the table is from."""
+    with (HERE / "waves.csv").open(newline="", encoding="utf-8") as stream:
+        table = list(csv.DictReader(stream))
+    there: dict[tuple[str, ...], set[tuple[str, str]]] = {}
+    for row in table:
+        key = tuple(row[c] for c in COLUMNS[:4])
+        there.setdefault(key, set()).add((row["kx"], row["ky"]))
+    for key, known in there.items():
+        moes_m, moes_l, ratio, points = *map(float, key[:3]), int(key[3])
+        for variant in range(4):
+            waves = waves_of(points, variant)
+            pairs = zip(waves.kx, waves.ky, strict=True)
+            if {(f"{kx:.6g}", f"{ky:.6g}") for kx, ky in pairs} <= known:
+                yield moes_m, moes_l, ratio, points, variant
+
+
 def main(arguments: list[str]) -> None:
     """Make all rows of ``waves.csv``, or those of one operating point."""
-    with (HERE / "waves.csv").open(newline="", encoding="utf-8") as stream:
-        plan = sorted({tuple(row[c] for c in COLUMNS[:4]) for row in csv.DictReader(stream)})
-    chosen = [float(v) for v in arguments[1:]]
+    chosen = tuple(float(v) for v in arguments[1:])
+    plan = [run for run in runs() if chosen in ((), run[:3])]
     with Path(arguments[0]).open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(COLUMNS)
-        for m, ell, u, n in ((*map(float, p[:3]), int(p[3])) for p in plan):
-            if chosen and chosen != [m, ell, u]:
-                continue
-            for variant in range(4 if n == 257 else 2):
-                print(f"M {m:g} L {ell:g} U {u:g}: {n} x {n} nodes, waves {variant}", flush=True)
-                waves = waves_of(n, variant)
-                found = superpose(settings_of(m, ell), waves, points=n, velocity_ratio=u)
-                writer.writerows(rows(waves, found, m, ell, u))
+        for m, ell, u, n, variant in plan:
+            print(f"M {m:g} L {ell:g} U {u:g}: {n} x {n} nodes, waves {variant}", flush=True)
+            waves = waves_of(n, variant)
+            found = superpose(settings_of(m, ell), waves, points=n, velocity_ratio=u)
+            writer.writerows(rows(waves, found, m, ell, u))
 
 
 if __name__ == "__main__":
