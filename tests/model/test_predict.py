@@ -97,7 +97,7 @@ def test_folder_holds_the_data(folder, settings):
     assert data.deformed_m.shape == (256, 256)
     assert data.bands_rise.dims == ("bands",)
     times = [one.attrs.pop("wall_seconds") for one in (data, again)]
-    assert all(0.0 < time < 5.0 for time in times)
+    assert all(time > 0.0 for time in times)
     xr.testing.assert_identical(data, again)
 
 
