@@ -28,5 +28,6 @@ def values(resolved: str) -> dict[str, dict[str, Any]]:
 
 # The cases of a study differ in one group or two, and reading one takes half a millisecond
 @lru_cache(maxsize=128)
-def _group(text: str) -> f90nml.Namelist:
-    return f90nml.reads(text)
+def _group(text: str) -> dict[str, dict[str, Any]]:
+    # a Namelist looks every key up by a slow way
+    return {group: dict(keys) for group, keys in f90nml.reads(text).items()}

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from pyehl import library
-from pyehl.bench import deflection, smooth, step
+from pyehl.bench import deflection, smooth, step, sweep
 from pyehl.errors import InputError
 
 __all__ = ["add_arguments", "execute"]
@@ -57,14 +57,27 @@ def _numbers(text: str) -> list[int]:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of ``pyehl bench``."""
-    parser.add_argument("what", choices=("deflection", "smooth", "step"), help="what to measure")
+    parser.add_argument(
+        "what", choices=("deflection", "smooth", "step", "sweep"), help="what to measure"
+    )
     parser.add_argument(
         "--points",
         type=_numbers,
         metavar="N,N,...",
         help="default: 65 to 1025; of 'step' 129,257,513",
     )
-    parser.add_argument("--threads", type=_numbers, default=[1, 2], metavar="N,N,...")
+    parser.add_argument(
+        "--threads",
+        type=_numbers,
+        default=[1, 2],
+        metavar="N,N,...",
+        help="of 'sweep': worker processes",
+    )
+    parser.add_argument(
+        "--scenes",
+        default=",".join(scene.name for scene in sweep.SCENES),
+        help="of 'sweep' (default: %(default)s)",
+    )
     parser.add_argument("--engines", default="mlmi,fft", help="of 'smooth' (default: mlmi,fft)")
     parser.add_argument("--moes-m", type=float, default=1000.0, help="of 'smooth' (default 1000)")
     parser.add_argument("--moes-l", type=float, default=10.0, help="of 'smooth' (default 10)")
@@ -127,6 +140,22 @@ def _execute_step(args: argparse.Namespace, answer: dict[str, Any]) -> list[dict
     return rows
 
 
+def _execute_sweep(args: argparse.Namespace) -> list[dict[str, Any]]:
+    names = args.scenes.split(",")
+    known = [scene.name for scene in sweep.SCENES]
+    if not set(names) <= set(known):
+        raise InputError(f"pyehl bench sweep: scenes must be of {', '.join(known)}")
+    scenes = [scene for scene in sweep.SCENES if scene.name in names]
+    rows = sweep.sweep_rows(scenes, args.threads)
+    print(table(rows, sweep.COLUMNS))
+    print(
+        "wall seconds: from the start of the workers to the last row; estimate: of the plan; busy: "
+        "share of the workers' time that cases took;\noverhead: of a case, in the plan and in one "
+        "worker; efficiency: throughput over that of the first number of processes"
+    )
+    return rows
+
+
 def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl bench``."""
     if args.points is None:
@@ -142,6 +171,8 @@ def execute(args: argparse.Namespace) -> int:
             "relative to the largest deflection;\nshare: of the discretisation error of the sum; "
             "half: Y >= 0 of a symmetric pressure"
         )
+    elif args.what == "sweep":
+        rows = _execute_sweep(args)
     elif args.what == "step":
         rows = _execute_step(args, answer)
     else:

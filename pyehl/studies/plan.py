@@ -112,9 +112,10 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None) -> Plan:
     seen: dict[str, set[str]] = {"contact": set(), "surface": set(), "checked": set()}
     for point in study.points():
         case = study.resolved(point)
-        if one_thread:
-            case = Case.of(case, one_thread) if case.resolve()["solver"]["threads"] != 1 else case
         settings = case.resolve()
+        if one_thread and settings["solver"]["threads"] != 1:
+            case = case.with_options(*one_thread)
+            settings = case.resolve()
         _check(study, point, case, settings, seen["checked"])
         seen["contact"].add(json.dumps([settings["contact"], settings["lubricant"]], default=str))
         seen["surface"].add(json.dumps(settings["surface"], default=str))

@@ -363,3 +363,19 @@ def test_killed_at_random_it_has_every_finished_row(cases: Path, tmp_path: Path,
     assert len(before) >= 50
     finish(folder, cases / "quick.nml")
     check_whole(folder, unbroken)
+
+
+def test_benchmark(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    words = ["bench", "sweep", "--scenes", "film", "--threads", "1,2"]
+    assert main([*words, "-o", str(tmp_path / "b.json")]) == 0
+    told = capsys.readouterr().out
+    assert "cases per core hour" in told
+    one, two = json.loads((tmp_path / "b.json").read_text())["rows"]
+    assert (one["cases"], one["processes"], two["processes"]) == (400, 1, 2)
+    assert one["efficiency"] == 1.0
+    assert two["efficiency"] == pytest.approx(one["wall_seconds"] / two["wall_seconds"] / 2.0)
+    assert 0.0 < one["busy"] <= 1.0
+    assert one["overhead_ms"] > 0.0
+    assert two["overhead_ms"] is None
+    assert one["statuses"] == {"inside all ranges": 400}
+    assert main(["bench", "sweep", "--scenes", "flim"]) == 2

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``pyehl bench sweep``: cases per core-hour, overhead of a case, estimate of time.
+
+Each scene runs as a study, in one worker process and in several. The start of the workers (they
+import the package) is taken off: it ends with the first row.
+"""
+
+from __future__ import annotations
+
+import tempfile
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from pyehl.case import Case
+from pyehl.studies.gather import Watcher
+from pyehl.studies.plan import plan
+from pyehl.studies.study import make
+from pyehl.studies.sweep import perform
+from pyehl.studies.tasks import Task
+from pyehl.studies.vary import axis
+
+__all__ = ["COLUMNS", "SCENES", "Scene", "sweep_rows"]
+
+COLUMNS = (
+    ("scene", "s"),
+    ("cases", "d"),
+    ("processes", "d"),
+    ("wall_seconds", ".2f"),
+    ("estimate_seconds", ".2f"),
+    ("cases_per_core_hour", ".0f"),
+    ("busy", ".2f"),
+    ("overhead_ms", ".2f"),
+    ("efficiency", ".2f"),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """What a study is made of.
+
+    Attributes
+    ----------
+    name, run
+        Its name, and what is done with each case.
+    cases
+        Number of cases for each process.
+    options
+        Texts ``group.key=value``; the mean velocity is varied.
+    """
+
+    name: str
+    run: str
+    cases: int
+    options: tuple[str, ...]
+
+
+FRACTAL = ("surface.kind=fractal",)
+WAVE = ("surface.kind=harmonic", "surface.amplitude_over_film=0.3")
+SCENES = (
+    Scene("film", "film", 200, FRACTAL),
+    Scene("predict", "predict", 8, FRACTAL),
+    Scene("smooth 257", "solve", 8, ("grid.points=257",)),
+    Scene("transient 257", "solve", 2, (*WAVE, "grid.points=257")),
+    Scene("transient 513", "solve", 1, (*WAVE, "grid.points=513")),
+)
+"""Scenes by name: a prediction of a fractal surface, smooth contacts, passages of a waviness."""
+
+
+class _FirstRow(Watcher):
+    """Knows when the workers had started."""
+
+    def __init__(self) -> None:
+        self.began_at = self.started = 0.0
+
+    def began(self, tasks: Sequence[Task], done: Sequence[int], damaged: int) -> None:
+        self.began_at = time.monotonic()
+
+    def finished(self, rows: Sequence[tuple[int, Mapping[str, Any]]]) -> None:
+        if not self.started:
+            first = float(rows[0][1].get("seconds") or 0.0)
+            self.started = time.monotonic() - self.began_at - first
+
+
+def sweep_rows(scenes: Sequence[Scene], processes: Sequence[int]) -> list[dict[str, Any]]:
+    """Run scenes with each number of worker processes.
+
+    `overhead_ms` is what a case costs beside itself, in the plan and in one worker process; `busy`
+    the share of the time of the workers that cases took; `efficiency` the throughput over that of
+    the first number of processes times their ratio.
+    """
+    rows: list[dict[str, Any]] = []
+    for scene in scenes:
+        count = scene.cases * max(processes)
+        slowest: float | None = None
+        for jobs in processes:
+            row = _run(scene, count, jobs)
+            rate = count / row["wall_seconds"]
+            slowest = slowest or rate / jobs
+            row["efficiency"] = rate / (slowest * jobs)
+            rows.append(row)
+    return rows
+
+
+def _run(scene: Scene, count: int, jobs: int) -> dict[str, Any]:
+    began = time.monotonic()
+    velocities = axis("contact.mean_velocity", f"0.7:1.0:{count}")
+    study = make(Case.from_text(""), [velocities], options=scene.options, run=scene.run)
+    todo = plan(study)
+    planned = time.monotonic() - began
+    watcher = _FirstRow()
+    with tempfile.TemporaryDirectory(prefix="pyehl-") as folder:
+        outcome = perform(todo, folder, jobs=jobs, watcher=watcher)
+    wall = outcome.wall - watcher.started
+    spent = wall * jobs
+    return {
+        "scene": scene.name,
+        "cases": count,
+        "processes": jobs,
+        "wall_seconds": wall,
+        "estimate_seconds": sum(task.seconds for task in todo.tasks) / min(jobs, count),
+        "cases_per_core_hour": 3600.0 * count / spent,
+        "busy": outcome.busy / spent,
+        # with several processes the end, when one waits for the other, would be in it
+        "overhead_ms": 1e3 * (planned + wall - outcome.busy) / count if jobs == 1 else None,
+        "start_seconds": watcher.started,
+        "plan_seconds": planned,
+        "statuses": outcome.statuses(),
+    }
