@@ -71,21 +71,43 @@ class Outcome:
         return counts
 
 
+class _Stop:
+    """SIGINT and SIGTERM as KeyboardInterrupt, but not between a row and its journal."""
+
+    def __init__(self) -> None:
+        self._held = self._wanted = False
+
+    def note(self, number: int, frame: FrameType | None) -> None:
+        """Take a signal."""
+        if not self._held:
+            raise KeyboardInterrupt
+        self._wanted = True
+
+    @contextmanager
+    def held(self) -> Iterator[None]:
+        """Take signals at the end only."""
+        self._held = True
+        try:
+            yield
+        finally:
+            self._held = False
+        if self._wanted:
+            raise KeyboardInterrupt
+
+
 @contextmanager
-def _stopped_by_sigterm() -> Iterator[None]:
-    """SIGTERM is as Ctrl-C."""
-
-    def stop(number: int, frame: FrameType | None) -> None:
-        raise KeyboardInterrupt
-
+def _stopped_by_signals() -> Iterator[_Stop]:
+    """Signals belong to the main thread: in another one nothing asks for a stop."""
+    stop = _Stop()
     if threading.current_thread() is not threading.main_thread():
-        yield
+        yield stop
         return
-    before = signal.signal(signal.SIGTERM, stop)
+    before = {n: signal.signal(n, stop.note) for n in (signal.SIGINT, signal.SIGTERM)}
     try:
-        yield
+        yield stop
     finally:
-        signal.signal(signal.SIGTERM, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def gather(
@@ -136,16 +158,17 @@ def gather(
         left = [task for task in tasks if task.number not in journal.rows]
         began = written = time.monotonic()
         try:
-            with _stopped_by_sigterm(), closing(_source(left, jobs, scheduler)) as source:
+            with _stopped_by_signals() as stop, closing(_source(left, jobs, scheduler)) as source:
                 for rows in source:
-                    outcome.saved += sum(row.pop(SAVED, 0.0) for _, row in rows)
-                    journal.append(rows)
-                    outcome.ran += len(rows)
-                    outcome.busy += sum(row.get("seconds") or 0.0 for _, row in rows)
-                    watcher.finished(rows)
-                    if write is not None and time.monotonic() - written > TABLE_INTERVAL:
-                        write(journal.rows)
-                        written = time.monotonic()
+                    with stop.held():
+                        outcome.saved += sum(row.pop(SAVED, 0.0) for _, row in rows)
+                        journal.append(rows)
+                        outcome.ran += len(rows)
+                        outcome.busy += sum(row.get("seconds") or 0.0 for _, row in rows)
+                        watcher.finished(rows)
+                        if write is not None and time.monotonic() - written > TABLE_INTERVAL:
+                            write(journal.rows)
+                            written = time.monotonic()
         except KeyboardInterrupt:
             outcome.interrupted = True
         outcome.wall = time.monotonic() - began
