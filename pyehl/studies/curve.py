@@ -232,8 +232,8 @@ def full_film_ends(
     known = [k for k, row in enumerate(rows) if row["status"] in (FULL_FILM, OUTSIDE)]
     if not broken:
         lost = len(rows) - len(known)
-        rest = f"; {lost} points have no answer" if lost else ""
-        return f"full film at all points with an answer{rest}", broken
+        rest = f" with an answer; {lost} have none" if lost else ""
+        return f"full film at all points{rest}", broken
     if not known:
         return "no full film at any point", broken
     pairs = [

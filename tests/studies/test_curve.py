@@ -184,7 +184,7 @@ def statuses(*words: str) -> list[dict[str, str]]:
         (statuses(BREAKDOWN, "not solved", FULL_FILM), "between u = 1 and 3", (0,)),
         (statuses(FULL_FILM, BREAKDOWN, BREAKDOWN), "between u = 1 and 2", (1, 2)),
         (statuses(BREAKDOWN, BREAKDOWN, BREAKDOWN), "no full film", (0, 1, 2)),
-        (statuses("not solved", FULL_FILM, FULL_FILM), "1 points have no answer", ()),
+        (statuses("not solved", FULL_FILM, FULL_FILM), "1 have none", ()),
     ],
 )
 def test_where_full_film_ends(rows: list[dict[str, str]], says: str, broken: tuple[int, ...]):
