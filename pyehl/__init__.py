@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from pyehl.api import predict, solve
     from pyehl.case import Case
     from pyehl.errors import EhlError, FileError, InputError, NotConverged
-    from pyehl.prediction.of_case import Prediction
+    from pyehl.prediction.result import Prediction
     from pyehl.results import load
     from pyehl.solver import Solver
     from pyehl.studies.sweep import sweep
@@ -48,7 +48,7 @@ _HOMES = {
     "FileError": "errors",
     "InputError": "errors",
     "NotConverged": "errors",
-    "Prediction": "prediction.of_case",
+    "Prediction": "prediction.result",
     "Solver": "solver",
     "load": "results",
     "predict": "api",

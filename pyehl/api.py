@@ -12,7 +12,7 @@ from tqdm import tqdm
 from pyehl.case import Case, Option
 from pyehl.errors import FileError, InputError, NotConverged
 from pyehl.prediction import of_case
-from pyehl.prediction.of_case import Prediction
+from pyehl.prediction.result import Prediction
 from pyehl.results import load
 from pyehl.run import Observer, run
 from pyehl.solver import Solver

@@ -12,7 +12,8 @@ from pyehl.case import Case
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.prediction.folder import write
 from pyehl.prediction.friction import TRACKS
-from pyehl.prediction.of_case import Prediction, predict
+from pyehl.prediction.of_case import predict
+from pyehl.prediction.result import Prediction
 
 __all__ = ["add_arguments", "draw", "execute", "report"]
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from pyehl.prediction.of_case import Prediction
+from pyehl.prediction.result import Prediction
 
 __all__ = ["write"]
 

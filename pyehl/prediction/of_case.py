@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The prediction of a case, with all that went into it."""
+"""The prediction of a resolved case."""
 
 from __future__ import annotations
 
@@ -7,281 +7,37 @@ import math
 import os
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import f90nml
 import numpy as np
 from numpy.typing import NDArray
 
-from pyehl import display, surfaces
+from pyehl import surfaces
 from pyehl.prediction.bands import Band, contributions
-from pyehl.prediction.breakdown import Advice, BelowZero, advise, below_zero
+from pyehl.prediction.breakdown import advise, below_zero
 from pyehl.prediction.by_response import RoughPassage
-from pyehl.prediction.errors import cutoff_error, model_error, outside_range
 from pyehl.prediction.flattening import response
 from pyehl.prediction.friction import (
     TRACKS,
-    RoughFriction,
     broken,
     over_tracks,
     predict_friction,
 )
 from pyehl.prediction.options import Options
+from pyehl.prediction.result import Prediction
 from pyehl.prediction.smooth import SmoothContact, hertz_contact, read_contact, solve_contact
-from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.film import central_film
-from pyehl.theory.friction import absolute_friction
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
 if TYPE_CHECKING:
-    import xarray
-    from matplotlib.axes import Axes
+    pass
 
-__all__ = ["Prediction", "predict"]
+__all__ = ["predict"]
 
 Array = NDArray[np.float64]
-
-# Attributes of a band, and what they are called in results
-BAND_COLUMNS = {
-    "longest": "longest_m",
-    "shortest": "shortest_m",
-    "rms_height": "rms_height_m",
-    "rms_deformed": "rms_deformed_m",
-    "rms_pressure": "rms_pressure_Pa",
-    "rise": "rise",
-}
-
-NEWTONIAN_NOTE = (
-    "Newtonian: a ratio at this slip, no absolute coefficient; shear thinning brings it close to "
-    "1, see lubricant.shear_law"
-)
-STRESS_NOTE = "ratio of friction coefficients at the given slide-to-roll ratio"
-
-
-@dataclass(frozen=True, slots=True, repr=False)
-class Prediction:
-    """A prediction with all that went into it.
-
-    Attributes
-    ----------
-    settings
-        The resolved case.
-    operating, lubricant, options
-        The operating point, the lubricant with the viscosity law used, and how the model was read.
-    velocity_ratio
-        Velocity of the rough surface over the mean velocity [-].
-    film
-        Smooth central film h_c [m].
-    film_source
-        Where h_c is from, in words.
-    surface
-        The undeformed roughness.
-    friction
-        mu_r/mu_s over the passage, delta p and deformed roughness.
-    bands
-        What each octave of wavelengths adds.
-    tracks
-        Mean and standard deviation of the passage mean over the tracks of the tile, see
-        :func:`pyehl.prediction.over_tracks`.
-    seconds
-        Wall time of the whole prediction, tracks and bands included.
-    text
-        The resolved case as namelist text; '' where only its settings are known.
-    track_count
-        Number of these tracks.
-    below
-        Where the film is below zero, and on which share of the contact.
-    advice
-        With the status ``"film breakdown"``: where the film ends, and what would carry.
-
-    Examples
-    --------
-    >>> import pyehl
-    >>> p = pyehl.predict("cases/table1.nml", "surface.seed=3")
-    >>> p.mu_ratio > 1.0, p.summary["status"]
-    (True, 'predicted')
-    >>> p.data.surface_m.shape
-    (256, 256)
-    """
-
-    settings: Mapping[str, Mapping[str, Any]]
-    operating: OperatingPoint
-    lubricant: Lubricant
-    options: Options
-    velocity_ratio: float
-    film: float
-    film_source: str
-    surface: surfaces.Topography
-    friction: RoughFriction
-    bands: Sequence[Band]
-    tracks: tuple[float, float]
-    seconds: float
-    text: str = ""
-    track_count: int = TRACKS
-    below: BelowZero | None = None
-    advice: Advice | None = None
-
-    def __repr__(self) -> str:
-        """Give the ratio and the status in one line."""
-        return f"Prediction(mu_ratio={self.mu_ratio:.4g}, {self.friction.status!r})"
-
-    def _repr_html_(self) -> str:
-        """Draw the summary, for notebooks."""
-        rows = {k: v for k, v in self.summary.items() if v is not None and k != "bands"}
-        return display.table("Prediction", rows)
-
-    @property
-    def thins(self) -> bool:
-        """Whether the shear stress is another than the Newtonian one."""
-        return self.lubricant.shear.law != "newtonian" and self.operating.sliding_speed > 0.0
-
-    @property
-    def mu_ratio(self) -> float:
-        """Mean mu_r/mu_s over the passage [-]; NaN unless the status is ``"predicted"``."""
-        return self.friction.mu_ratio
-
-    @property
-    def outside_range(self) -> list[str]:
-        """What of the case lies outside the range in which the response was measured; mostly []."""
-        return outside_range(self.operating, self.velocity_ratio, self.options)
-
-    @property
-    def model_error(self) -> float:
-        """Error of `mu_ratio` by the model, estimated [-]; NaN where it is not known."""
-        known = self.options.reduction == "response" and self.options.smooth == "solved"
-        if not known or self.outside_range or self.thins:
-            return math.nan
-        return model_error(self.mu_ratio)
-
-    @property
-    def case_text(self) -> str:
-        """The resolved case as namelist text."""
-        if self.text:
-            return self.text
-        return f"{f90nml.Namelist({group: dict(keys) for group, keys in self.settings.items()})}\n"
-
-    @property
-    def arrays(self) -> dict[str, Array]:
-        """Arrays x (nx,), y (ny,), surface, deformed [m] and delta_p [Pa] (nx, ny)."""
-        s, field = self.surface, self.friction.response
-        return {
-            "x": np.arange(s.shape[0], dtype=float) * s.pixel[0],
-            "y": np.arange(s.shape[1], dtype=float) * s.pixel[1],
-            "surface": np.asfortranarray(s.heights),
-            "deformed": np.asfortranarray(field.deformed),
-            "delta_p": np.asfortranarray(field.pressure),
-        }
-
-    @property
-    def tables(self) -> dict[str, dict[str, Array]]:
-        """Columns of the tables ``passage``, ``spectrum`` and ``bands``."""
-        f, o = self.friction, self.operating
-        q, c_iso = surfaces.psd_isotropic(self.surface)
-        ratio = component_amplitude_ratio(
-            q,
-            0.0,
-            o.hertz_radius,
-            o.moes_m,
-            o.moes_l,
-            convention=self.options.wavelength_convention,
-        )
-        return {
-            "passage": {"shift_m": f.shift, "mu_ratio": f.passage},
-            "spectrum": {
-                "q_rad_per_m": q,
-                "c_iso_m4": c_iso,
-                "amplitude_ratio_along_x": ratio,
-            },
-            "bands": {
-                name: np.array([record[name] for record in self._bands()])
-                for name in BAND_COLUMNS.values()
-            },
-        }
-
-    @property
-    def data(self) -> xarray.Dataset:
-        """Fields, tables and scalars, the same as `pyehl.load` of the folder."""
-        # xarray takes longer to import than the prediction takes to compute
-        from pyehl.results import prediction_dataset  # noqa: PLC0415
-
-        return prediction_dataset(self.summary, self.case_text, self.arrays, self.tables)
-
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """Draw mu_r/mu_s over the passage on `ax`, or on a new figure; returns the axes."""
-        from pyehl.plots.surface import passage  # noqa: PLC0415 (matplotlib, as above)
-
-        return passage(self.friction.shift, self.friction.passage, self.surface.length_x, ax=ax)
-
-    def _bands(self) -> list[dict[str, float]]:
-        return [
-            {name: getattr(band, key) for key, name in BAND_COLUMNS.items()} for band in self.bands
-        ]
-
-    @property
-    def summary(self) -> dict[str, Any]:
-        """What ``summary.json`` holds; None for a number that does not exist."""
-        f, o, s = self.friction, self.operating, self.surface
-        values: dict[str, Any] = {
-            "kind": "prediction",
-            "status": f.status,
-            "message": f.message,
-            "mu_ratio": f.mu_ratio,
-            "mu_ratio_model_error": self.model_error,
-            "mu_ratio_cutoff_error": cutoff_error(self.bands),
-            "outside_range": self.outside_range,
-            "mu_ratio_min": f.mu_ratio_min,
-            "mu_ratio_max": f.mu_ratio_max,
-            "position_error": f.position_error,
-            "mu_ratio_tracks": self.tracks[0],
-            "mu_ratio_tracks_spread": self.tracks[1],
-            "tracks": self.track_count,
-            "film_below_zero_share": self.below.share if self.below else None,
-            "film_breakdown": self.advice.summary() if self.advice else None,
-            "positions": int(f.passage.size),
-            "note": STRESS_NOTE if self.thins else NEWTONIAN_NOTE,
-            "reduction": self.options.reduction,
-            "smooth": self.options.smooth,
-            "velocity_ratio": self.velocity_ratio,
-            "wavelength_convention": self.options.wavelength_convention,
-            "stiffness": self.options.stiffness,
-            "viscosity_law": self.lubricant.viscosity_law,
-            "roelands_z": self.lubricant.roelands_z or None,
-            "load_balance": self.options.load_balance,
-            "shear_law": self.lubricant.shear.law,
-            "slide_to_roll": o.slide_to_roll,
-            **absolute_friction(
-                o, self.lubricant, film=self.film, mu_smooth=f.mu_smooth, mu_ratio=f.mu_ratio
-            ),
-            "thermal_reduction": o.thermal_reduction,
-            "h_c_m": self.film,
-            "h_c_source": self.film_source,
-            "h_min_m": f.film_min,
-            "lambda_ratio": self.film / s.rms_height if s.rms_height > 0.0 else None,
-            "surface": s.origin,
-            "surface_preparation": s.preparation.summary() if s.preparation else None,
-            "seed": s.seed,
-            "pixels": list(s.shape),
-            "length_x_m": s.length_x,
-            "length_y_m": s.length_y,
-            "rms_height_m": s.rms_height,
-            "rms_deformed_m": float(np.std(f.response.deformed)),
-            "rms_pressure_Pa": float(np.std(f.response.pressure)),
-            "cavitated_share": f.cavitated_share,
-            "cavitated_friction": f.cavitated_friction,
-            "load_error": f.load_error,
-            "moes_m": o.moes_m,
-            "moes_l": o.moes_l,
-            "si": o.si,
-            "hertz_radius_m": o.hertz_radius,
-            "hertz_pressure_Pa": o.hertz_pressure,
-            "film_scale_m": o.film_scale,
-            "bands": self._bands(),
-            "wall_seconds": self.seconds,
-        }
-        return {key: _finite(value) for key, value in values.items()}
 
 
 def predict(
@@ -405,14 +161,3 @@ def _smooth_contact(
             source="psd.film_thickness",
         )
     return contact
-
-
-def _finite(value: object) -> object:
-    """Return the value with null for what JSON cannot say."""
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    if isinstance(value, list):
-        return [_finite(item) for item in value]
-    if isinstance(value, dict):
-        return {key: _finite(item) for key, item in value.items()}
-    return value
