@@ -6,6 +6,8 @@ from importlib.metadata import version as version_of
 
 from sphinx.application import Sphinx
 
+from pyehl import schema
+
 project = "pyehl"
 author = "the pyehl developers"
 project_copyright = "the pyehl developers"
@@ -50,6 +52,12 @@ def lead_to_pages(app: Sphinx, name: str, source: list[str]) -> None:
         source[0] = re.sub(rf"\]\((?:\.\./)+{re.escape(outside)}", f"]({page}", source[0])
 
 
+def fill_in(app: Sphinx, name: str, source: list[str]) -> None:
+    """Put the table of quantities where its place is."""
+    source[0] = source[0].replace("<!-- table of quantities -->", schema.markdown())
+
+
 def setup(app: Sphinx) -> None:
     """Register what changes the sources."""
     app.connect("source-read", lead_to_pages)
+    app.connect("source-read", fill_in)

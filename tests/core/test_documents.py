@@ -19,6 +19,7 @@ from pathlib import Path
 
 import pytest
 
+import pyehl
 from pyehl import Case, library
 
 ROOT = Path(__file__).parents[2]
@@ -203,6 +204,18 @@ def test_every_module_is_in_a_map(root: Path):
         if path.name != "__init__.py"
     }
     assert not {m for m in modules if f"`{m}`" not in design}
+
+
+def test_every_public_name_is_in_the_reference(root: Path):
+    text = (root / "docs" / "reference" / "api.md").read_text()
+    assert set(re.findall(r"^\.\. auto\w+:: pyehl\.(\w+)$", text, re.M)) == set(pyehl.__all__)
+
+
+def test_every_subcommand_is_in_the_reference(root: Path):
+    text = (root / "docs" / "reference" / "commands.md").read_text()
+    modules = {path.stem for path in (root / "pyehl" / "commands").glob("[a-z]*.py")}
+    listed = set(re.findall(r"^\| `pyehl (\w+)", text, re.M))
+    assert listed == modules - {"arguments", "watching"}
 
 
 def test_map_is_in_the_order_of_the_build(root: Path):
