@@ -180,6 +180,7 @@ def test_rms_height_is_that_before_the_cut(solve):
 
 def test_long_text_lines(solve, tmp_path: Path):
     """One row of more than a mebibyte, in any of the usual separators."""
+    size = {"surface.length_x": 8.29e-4, "surface.length_y": 8.29e-4}
     z = rough((4, 60000))
     texts = {"blank.txt": " ", "comma.csv": ",", "semicolon.csv": ";", "tab.txt": "\t"}
     fields = []
@@ -188,10 +189,10 @@ def test_long_text_lines(solve, tmp_path: Path):
         assert len(lines[0]) > 2**20
         (tmp_path / name).write_text("# heights in m\n" + "\n".join(lines))
         file = {"surface.file": f"'{tmp_path / name}'"}
-        fields.append(solve(None, 33, REST | file, fields=True).field("RR"))
+        fields.append(solve(None, 33, REST | size | file, fields=True).field("RR"))
     np.save(tmp_path / "z.npy", z)
     file = {"surface.file": f"'{tmp_path / 'z.npy'}'"}
-    expected = solve(None, 33, REST | file, fields=True).field("RR")
+    expected = solve(None, 33, REST | size | file, fields=True).field("RR")
     for field in fields:
         assert np.array_equal(field, expected)
 
@@ -200,7 +201,8 @@ def test_long_text_lines(solve, tmp_path: Path):
 def test_rows_that_are_not_numbers_are_refused(drive, tmp_path: Path, row: str):
     (tmp_path / "map.txt").write_text("1 2 3 4\n" * 3 + row + "\n")
     (tmp_path / "case.nml").write_text(
-        "&surface kind = 'map', file = 'map.txt' /\n&grid points = 33 /\n"
+        "&surface kind = 'map', file = 'map.txt', length_x = 1e-3, length_y = 1e-3 /\n"
+        "&grid points = 33 /\n"
     )
     done = drive("ehl", "case.nml", "-o", "out")
     assert done.returncode != 0
@@ -219,7 +221,8 @@ def test_map_larger_than_memory_is_refused(drive, tmp_path: Path):
         except OSError:
             pytest.skip("no files of this size here")
     (tmp_path / "case.nml").write_text(
-        "&surface kind = 'map', file = 'map.npy' /\n&grid points = 33 /\n"
+        "&surface kind = 'map', file = 'map.npy', length_x = 1e-3, length_y = 1e-3 /\n"
+        "&grid points = 33 /\n"
     )
     done = drive("ehl", "case.nml", "-o", "out")
     assert done.returncode == 1
