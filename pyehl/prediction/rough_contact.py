@@ -187,8 +187,12 @@ class RoughContact:
 
         def pick(tile: Array, part: slice) -> Array:
             if self.waves.bent:
-                flat = tile.reshape(-1, 2)
-                below, above = flat[low[part]], flat[high[part]]
+                # film and pressure of a place are picked as one number of twice the size
+                pairs = tile.view(np.complex64).ravel()
+                below, above = (
+                    np.take(pairs, index[part])[..., np.newaxis].view(np.float32)
+                    for index in (low, high)
+                )
             else:
                 below, above = tile[low[part, 0]], tile[high[part, 0]]
             return np.asarray(below + self.between[part] * (above - below))
