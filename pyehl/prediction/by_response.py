@@ -173,7 +173,7 @@ class RoughPassage:
             status, message = "overflow", "the viscosity at p_s + delta p is not a number"
         elif float(ratios.mean()) > LARGEST_RATIO:
             status = "beyond linear response"
-            message = self._beyond(float(ratios.mean()), spectrum, transfer)
+            message = self._beyond(float(ratios.mean()), spectrum, transfer, contact.edge)
         else:
             fine = interpolated(ratios, 8)
             mean, least, greatest = (float(v) for v in (ratios.mean(), fine.min(), fine.max()))
@@ -201,9 +201,8 @@ class RoughPassage:
             seconds=time.perf_counter() - start,
         )
 
-    def _beyond(self, ratio: float, spectrum: Spectrum, transfer: Transfer) -> str:
+    def _beyond(self, ratio: float, spectrum: Spectrum, transfer: Transfer, edge: Edge) -> str:
         """Say which cut-off would bring the ratio into the range of the model."""
-        edge = Edge.of(spectrum, 1.0 - transfer.at_centre(spectrum, self.velocity_ratio))
         told = f"pressures that raise mu_r/mu_s to {ratio:.3g} are beyond a linear response"
         low, high = min(spectrum.pixel), 2.0 * math.pi / float(spectrum.q[spectrum.q > 0].min())
         if not self._below(spectrum, transfer, edge, 2.0 * math.pi / high) <= KNOWN_RATIO:
