@@ -27,8 +27,10 @@ from pyehl.prediction.passage import (
     working_grid,
 )
 from pyehl.prediction.rough_contact import Edge, RoughContact
-from pyehl.prediction.smooth import SmoothContact, zone_of
-from pyehl.prediction.waves import Spectrum, Transfer, Waves
+from pyehl.prediction.smooth import SmoothContact, thickening, zone_of
+from pyehl.prediction.spectrum import Spectrum
+from pyehl.prediction.transfer import Transfer
+from pyehl.prediction.waves import Waves
 from pyehl.surfaces import Topography, track_offsets
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.lubricant import Lubricant
@@ -81,7 +83,10 @@ class RoughPassage:
         o = self.operating
         if self.options.reduction == "response":
             zone = zone_of(self.contact, o, self.lubricant)
-            return Transfer.of(spectrum, zone, (o.moes_m, o.moes_l), self.velocity_ratio)
+            moes = o.moes_m, o.moes_l
+            newtonian = self.lubricant.shear.law == "newtonian"
+            rise = thickening(self.contact, o, self.lubricant) if newtonian else None
+            return Transfer.of(spectrum, zone, moes, self.velocity_ratio, rise)
         ratio = component_amplitude_ratio(
             spectrum.qx[:, np.newaxis],
             spectrum.qy[np.newaxis, :],
@@ -232,9 +237,7 @@ class RoughPassage:
         """Return what each octave adds when it joins all the longer ones."""
         o = self.operating
         t = transfer.at_centre(spectrum, self.velocity_ratio)
-        power = np.square(np.abs(spectrum.values)) / np.prod(spectrum.shape, dtype=float) ** 2
-        # components with 0 < qx < Nyquist stand for two
-        power[1 : (spectrum.shape[0] + 1) // 2] *= 2.0
+        power = spectrum.power
         pressure = stiffness(spectrum.q) * np.abs(1.0 - t)
         found: list[Band] = []
         before = 1.0

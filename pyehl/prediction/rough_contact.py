@@ -15,7 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl.prediction.smooth import SmoothContact
-from pyehl.prediction.waves import OFF_CENTRE, REFINEMENT, STATIONS, Spectrum, Waves
+from pyehl.prediction.spectrum import Spectrum
+from pyehl.prediction.transfer import OFF_CENTRE, STATIONS
+from pyehl.prediction.waves import REFINEMENT, Waves
 from pyehl.theory.disc import LARGEST, disc_correction, monomials
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint

@@ -23,7 +23,14 @@ from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import Zone
 
-__all__ = ["SmoothContact", "hertz_contact", "read_contact", "solve_contact", "zone_of"]
+__all__ = [
+    "SmoothContact",
+    "hertz_contact",
+    "read_contact",
+    "solve_contact",
+    "thickening",
+    "zone_of",
+]
 
 Array = NDArray[np.float64]
 
@@ -166,3 +173,12 @@ def zone_of(contact: SmoothContact, operating: OperatingPoint, lubricant: Lubric
     slope = (np.log(lubricant.density_ratio(p + step)) - np.log(rho)) / 1e-3
     conductance = rho * film**3 / (lubricant.viscosity_ratio(p) * operating.speed_parameter)
     return Zone(contact.x, film, rho, np.asarray(slope), np.asarray(conductance))
+
+
+def thickening(contact: SmoothContact, operating: OperatingPoint, lubricant: Lubricant) -> Array:
+    """Give d ln eta/dP on the centre line of a smooth contact, on the places of its zone [-]."""
+    middle = int(np.argmin(np.abs(contact.y)))
+    p = np.maximum(contact.pressure[:, middle], 0.0) * operating.hertz_pressure
+    step = 1e-3 * operating.hertz_pressure
+    ratio = lubricant.viscosity_ratio(p + step) / lubricant.viscosity_ratio(p)
+    return np.asarray(np.log(ratio) / 1e-3)

@@ -13,12 +13,14 @@ from pyehl.prediction import of_case
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.options import Options
 from pyehl.prediction.resolution import resolution
-from pyehl.prediction.smooth import hertz_contact, solve_contact, zone_of
-from pyehl.prediction.waves import Spectrum, Transfer, Waves
+from pyehl.prediction.smooth import hertz_contact, solve_contact, thickening, zone_of
+from pyehl.prediction.spectrum import Spectrum
+from pyehl.prediction.transfer import Transfer, _at_amplitude
+from pyehl.prediction.waves import Waves
 from pyehl.surfaces import Topography
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.response import stiffness
+from pyehl.theory.response import Zone, stiffness
 
 POINT, OIL = OperatingPoint(), Lubricant()
 
@@ -103,7 +105,7 @@ def test_table_is_fine_enough(contact, table_1, monkeypatch):
     """Neither the table of responses, nor the stations, nor the points of friction matter."""
     tile = table_1(seed=5)
     usual = passage(contact, tile).run(tracks=1)[0].mu_ratio
-    monkeypatch.setattr("pyehl.prediction.waves.TABLE", (144, 49))
+    monkeypatch.setattr("pyehl.prediction.transfer.TABLE", (144, 49))
     assert passage(contact, tile).run(1)[0].mu_ratio == pytest.approx(usual, rel=5e-4)
     monkeypatch.setattr("pyehl.prediction.by_response.POINTS", 128)
     assert passage(contact, tile).run(1)[0].mu_ratio == pytest.approx(usual, rel=1e-3)
@@ -125,7 +127,7 @@ def test_transfer_is_interpolated_from_its_table(contact):
     zone = zone_of(contact, POINT, OIL)
     coarse = Transfer.of(spectrum, zone, (1000.0, 10.0), 1.02)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("pyehl.prediction.waves.TABLE", (400, 151))
+        patch.setattr("pyehl.prediction.transfer.TABLE", (400, 151))
         fine = Transfer.of(spectrum, zone, (1000.0, 10.0), 1.02)
     for a, b in zip(coarse.driven + coarse.free, fine.driven + fine.free, strict=True):
         assert np.abs(a - b)[spectrum.q > 0].max() < 2e-3
@@ -188,3 +190,44 @@ def test_beyond_the_linear_response(contact, table_1):
     assert np.isnan(friction.mu_ratio)
     cut = float(re.search(r"shortest_wavelength = (\S+)", friction.message)[1])
     assert 1.0 < passage(contact, rough, 1.03).below(cut / POINT.hertz_radius) < 3.0
+
+
+def test_leak_at_amplitude_for_gaussian_pressure():
+    """The mean of exp(b p) falls at the rate of small waves over its gain, by a random field."""
+    rng = np.random.default_rng(7)
+    n, b = 4096, 3.0
+    k = np.fft.rfftfreq(n, 1.0 / n)
+    strength = np.where((k > 20) & (k < 120), 1.0, 0.0)
+    rates = []
+    for _ in range(20):
+        p = np.fft.irfft(strength * np.exp(2j * np.pi * rng.random(k.size)), n)
+        p *= 0.3 / p.std()
+        weight = np.exp(b * p)
+
+        def curvature(values):
+            return np.fft.irfft(-(k**2) * np.fft.rfft(values), n)
+
+        leak, small = curvature(-np.exp(-b * p) / b), curvature(p)
+        rates.append((np.mean(weight * leak), np.mean(weight * small)))
+    measured, linear = np.mean(rates, axis=0)
+    places = np.array([0.0])
+    zone = Zone(places, places + 1, places + 1, places, places + 1)
+    leaking = _at_amplitude(zone, np.array([b]), 0.3**2)
+    assert measured / linear == pytest.approx(leaking.conductance[0], rel=0.03)
+
+
+def test_small_waves_leak_as_such():
+    """The leak depends on the amplitude by its square."""
+    case = pyehl.Case.from_text("&contact moes_m = 200.0 moes_l = 10.0 /").resolve()
+    point, oil = OperatingPoint.from_settings(case), Lubricant.from_settings(case)
+    smooth = solve_contact(case)
+    zone, rise = zone_of(smooth, point, oil), thickening(smooth, point, oil)
+    heights = np.random.default_rng(3).standard_normal((32, 32))
+    changes = []
+    for rms in (1e-5, 2e-5):
+        spectrum = Spectrum.of(rms * heights, 1.0, 1.0)
+        small = Transfer.of(spectrum, zone, (200.0, 10.0), 1.05)
+        found = Transfer.of(spectrum, zone, (200.0, 10.0), 1.05, rise)
+        changes.append(np.abs(found.free[1] - small.free[1]).max())
+    assert 0.0 < changes[0] < 1e-3
+    assert changes[1] == pytest.approx(4.0 * changes[0], rel=0.01)

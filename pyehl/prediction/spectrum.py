@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Fourier components of a rough tile.
+
+Units: lengths along the surface by a, heights by a^2/R.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, cast
+
+import numpy as np
+import scipy.fft
+from numpy.typing import NDArray
+
+__all__ = ["Spectrum"]
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+Indices = NDArray[np.int_]
+
+
+@dataclass(frozen=True, slots=True)
+class Spectrum:
+    """The Fourier components of a tile with qx >= 0.
+
+    Attributes
+    ----------
+    values
+        (nx//2 + 1, ny) [a^2/R], of the transform without factors, the mean left out.
+    qx, qy
+        (nx//2 + 1,) and (ny,) [1/a].
+    shape
+        (nx, ny).
+    """
+
+    values: Complex
+    qx: Array
+    qy: Array
+    shape: tuple[int, int]
+
+    @classmethod
+    def of(cls, heights: Array, length_x: float, length_y: float) -> Spectrum:
+        """Of heights (nx, ny) [a^2/R] on a tile of a size [a]."""
+        nx, ny = heights.shape
+        values = scipy.fft.fft(scipy.fft.rfft(heights, axis=0), axis=1)
+        values[0, 0] = 0.0
+        qx = 2.0 * np.pi * scipy.fft.rfftfreq(nx, length_x / nx)
+        qy = 2.0 * np.pi * scipy.fft.fftfreq(ny, length_y / ny)
+        return cls(values, qx, qy, (nx, ny))
+
+    @property
+    def q(self) -> Array:
+        """|q| (nx//2 + 1, ny) [1/a]."""
+        return cast(Array, np.hypot(self.qx[:, np.newaxis], self.qy[np.newaxis, :]))
+
+    @property
+    def pixel(self) -> tuple[float, float]:
+        """Size of a pixel along x and y [a]."""
+        nx, ny = self.shape
+        return 2.0 * np.pi / (self.qx[1] * nx), 2.0 * np.pi / (self.qy[1] * ny)
+
+    def kept(self, index: tuple[Indices, Indices], shape: tuple[int, int]) -> Spectrum:
+        """Return the components at rows and columns of `values` as a tile of fewer pixels."""
+        values = self.values[np.ix_(*index)] * (shape[0] * shape[1] / np.prod(self.shape))
+        return Spectrum(values, self.qx[index[0]], self.qy[index[1]], shape)
+
+    def tile(
+        self,
+        factor: Complex | Array,
+        refinement: int = 1,
+        stride: int = 1,
+        precision: type[np.complexfloating[Any, Any]] = np.complex128,
+    ) -> Array:
+        """Heights (refinement nx, ny/stride) of the tile with its components times a factor."""
+        nx, _ = self.shape
+        part = self.values * factor
+        if nx % 2 == 0:
+            # the shortest wave of an even number of pixels has no phase of its own
+            part[-1] = self.values[-1] * np.real(factor[-1])
+            part[-1] *= 0.5 if refinement > 1 else 1.0
+        lines = scipy.fft.ifft(part.astype(precision), axis=1)[:, ::stride]
+        return np.asarray(scipy.fft.irfft(lines, n=nx * refinement, axis=0) * refinement)
+
+    @property
+    def power(self) -> Array:
+        """Mean square of each component and its conjugate (nx//2 + 1, ny) [a^4/R^2]."""
+        power = np.square(np.abs(self.values)) / np.prod(self.shape, dtype=float) ** 2
+        # components with 0 < qx < Nyquist stand for two
+        power[1 : (self.shape[0] + 1) // 2] *= 2.0
+        return cast(Array, power)
