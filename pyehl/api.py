@@ -7,12 +7,12 @@ import os
 from collections.abc import Callable
 
 import xarray as xr
-from tqdm import tqdm
 
 from pyehl.case import Case, Option
 from pyehl.errors import FileError, InputError, NotConverged
 from pyehl.prediction import of_case
 from pyehl.prediction.result import Prediction
+from pyehl.progress import ProgressBar
 from pyehl.results import load
 from pyehl.run import Observer, run
 from pyehl.solver import Solver
@@ -27,15 +27,13 @@ class _Listener(Observer):
 
     def __init__(self, progress: Progress) -> None:
         self._call = progress if callable(progress) else None
-        self._bar = tqdm(bar_format="{desc} [{elapsed}]", disable=progress is not True)
+        self._bar = ProgressBar(disable=progress is not True)
 
     def advanced(self, solver: Solver) -> None:
         """Take the state after a cycle or a step."""
         if self._call is not None:
             self._call(solver)
-        if not self._bar.disable:
-            self._bar.set_description_str(solver.progress(), refresh=False)
-            self._bar.update()
+        self._bar.show(solver)
         if solver.done:
             self._bar.close()
 
@@ -61,8 +59,8 @@ def solve(
     check
         Raise `NotConverged` if there is no solution.
     progress
-        True: a line about the state on stderr; a function: called with the solver after each
-        cycle or step.
+        True: a line about the state on stderr, in a transient run with the time left; a function:
+        called with the solver after each cycle or step.
 
     Returns
     -------

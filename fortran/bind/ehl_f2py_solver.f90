@@ -18,7 +18,7 @@ module ehl_f2py_solver
    use ehl_status, only: ehl_bad_input, status_t
    implicit none (type, external)
    private
-   public :: open_case, close_case, advance, interrupt, describe, progress, skipped, summary
+   public :: open_case, close_case, advance, interrupt, describe, progress, work, skipped, summary
    public :: grid_shape, axes, field, write_output, resume, keep, save_state, end_keeping
 
 contains
@@ -116,6 +116,24 @@ contains
       if (.not. status%failed()) text = run%solver%progress()
       call reply(status, stat, message)
    end subroutine progress
+
+   !> How much of a transient run is done, and how much there is until its earliest and its latest end, in time
+   !> steps; both are 0 where it is not known
+   subroutine work(handle, done, earliest, latest, stat, message)
+      integer(c_int), intent(in) :: handle
+      real(c_double), intent(out) :: done, earliest, latest
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(run_t), pointer :: run
+      type(status_t) :: status
+
+      done = 0.0_c_double
+      earliest = 0.0_c_double
+      latest = 0.0_c_double
+      call run_of(handle, run, status)
+      if (.not. status%failed()) call run%solver%work(done, earliest, latest)
+      call reply(status, stat, message)
+   end subroutine work
 
    !> What a march that has ended did not have to do; empty for every other run
    subroutine skipped(handle, text, stat, message)

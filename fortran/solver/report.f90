@@ -3,10 +3,9 @@
 module ehl_report
    use ehl_grid, only: grid_t
    use ehl_harmonic, only: harmonic_t
-   use ehl_judge, only: most_periods
    use ehl_kinds, only: dp
    use ehl_measures, only: measures_t
-   use ehl_outcome, only: outcome_names, outcome_running
+   use ehl_outcome, only: outcome_names
    use ehl_plan, only: plan_t, relative_wedge_error
    use ehl_record, only: record_t
    use ehl_rest, only: rest_t
@@ -34,12 +33,9 @@ contains
    end function cycle_line
 
    !> Line about a time step
-   function march_line(plan, march, stand, seconds) result(text)
-      type(plan_t), intent(in) :: plan
+   function march_line(march, stand) result(text)
       type(transient_t), intent(in) :: march
       integer, intent(in) :: stand
-      !> Seconds spent on the steps so far
-      real(dp), intent(in) :: seconds
       character(len=:), allocatable :: text
 
       text = "step "//to_text(march%step)//"  T "//fixed(march%time, "f8.4")//"  mu_r/mu_s "// &
@@ -48,13 +44,6 @@ contains
       if (march%mean%has_change()) text = text//" +- "//fixed(march%mean%change(), "es8.1")
       text = text//"  H_min "//fixed(march%m%film_minimum, "f10.6")//"  cycles "//to_text(march%cycles)// &
              "  residual "//fixed(march%residual, "es8.1")//"  "//trim(outcome_names(stand))
-      if (stand /= outcome_running) return
-      if (plan%steps == 0 .and. march%mean%has_change()) then
-         text = text//", at most "
-      else
-         text = text//", about "
-      end if
-      text = text//to_text(nint(seconds_left(plan, march, seconds)))//" s left"
    end function march_line
 
    !> Line about a cycle of the contact with a rough surface at rest
@@ -70,20 +59,6 @@ contains
              "  "//trim(outcome_names(stand))
       if (rest%share < 1.0_dp .and. .not. rest%smooth) text = text//", share of the roughness "//fixed(rest%share, "f7.4")
    end function rest_line
-
-   !> Seconds until the mean can be judged for the first time, later until the march ends if it does not settle
-   pure real(dp) function seconds_left(plan, march, seconds)
-      type(plan_t), intent(in) :: plan
-      type(transient_t), intent(in) :: march
-      real(dp), intent(in) :: seconds
-      real(dp) :: steps
-
-      steps = max(march%mean%filled, 0) + 1.5_dp*march%mean%period/march%mean%time_step - march%step
-      if (march%mean%has_change()) steps = (most_periods(plan) - march%mean%periods())*march%mean%period/ &
-                                           march%mean%time_step
-      if (plan%steps > 0) steps = plan%steps - march%step
-      seconds_left = steps*seconds/max(march%step, 1)
-   end function seconds_left
 
    !> Operating point, grid and means
    subroutine report_scene(record, plan, grid)

@@ -20,6 +20,9 @@ module ehl_solver
    private
    public :: solver_t
 
+   !> Cost of a step on the next coarser grid, in steps: it has a quarter of the nodes
+   real(dp), parameter :: coarse_step = 0.25_dp
+
    type :: solver_t
       !> Finest grid reached so far
       type(grid_t) :: grid
@@ -53,6 +56,8 @@ module ehl_solver
       type(solver_t), pointer, private :: coarse => null()
       !> Its mean friction ratio; 0: it did not converge; less: it has not been made
       real(dp), private :: coarse_mean = -1.0_dp
+      !> What that run has cost, in time steps of this one and in seconds
+      real(dp), private :: coarse_work = 0.0_dp, coarse_seconds = 0.0_dp
    contains
       final :: close_solver
       procedure :: give_surface
@@ -69,6 +74,7 @@ module ehl_solver
       procedure :: converged
       procedure :: interrupt
       procedure :: progress
+      procedure :: work
       procedure :: summary
       procedure :: skipped
       procedure :: field
@@ -113,6 +119,22 @@ module ehl_solver
       end subroutine take_state
    end interface
 
+   ! in solver_progress.f90
+   interface
+      !> One line about the state, with the time left of a transient run
+      module function progress(self) result(text)
+         class(solver_t), intent(in) :: self
+         character(len=:), allocatable :: text
+      end function progress
+
+      !> How much of a transient run is done, in time steps of the finest grid, those on the coarser grid by their cost;
+      !> and how much there is until its earliest and its latest end. Both are 0 before the first step.
+      module subroutine work(self, done, earliest, latest)
+         class(solver_t), intent(in) :: self
+         real(dp), intent(out) :: done, earliest, latest
+      end subroutine work
+   end interface
+
    ! in solver_results.f90
    interface
       !> The plan in a few lines, for a person
@@ -120,12 +142,6 @@ module ehl_solver
          class(solver_t), intent(in) :: self
          character(len=:), allocatable :: text
       end function describe
-
-      !> One line about the state
-      recursive module function progress(self) result(text)
-         class(solver_t), intent(in) :: self
-         character(len=:), allocatable :: text
-      end function progress
 
       !> All results but fields, by name; dimensionless but for the SI values. Only a converged run has
       !> results: otherwise they are null, and the last iterate stands under names that begin with "last_".

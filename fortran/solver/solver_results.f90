@@ -1,9 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What a run says, and its results and fields
+!> The plan in words, results and fields of a run
 submodule (ehl_solver) ehl_solver_results
    use ehl_outcome, only: outcome_names, outcome_target_missed
    use ehl_plan_text, only: plan_text
-   use ehl_report, only: cycle_line, march_line, rest_line, report_march, report_rest, report_scene, report_smooth, report_waves
+   use ehl_report, only: report_march, report_rest, report_scene, report_smooth, report_waves
    use ehl_report_friction, only: report_friction
    use ehl_skips, only: find_skips, report_skips, skip_lines, skip_t
    use ehl_status, only: ehl_bad_input, ehl_no_memory
@@ -17,21 +17,6 @@ contains
       character(len=:), allocatable :: text
       text = plan_text(self%plan)
    end function describe
-
-   recursive module function progress(self) result(text)
-      class(solver_t), intent(in) :: self
-      character(len=:), allocatable :: text
-
-      if (associated(self%coarse)) then
-         text = "for the error, on the next coarser grid: "//self%coarse%progress()
-      else if (self%marching) then
-         text = march_line(self%plan, self%transient, self%stand(), self%step_seconds)
-      else if (self%resting) then
-         text = rest_line(self%grid, self%rest, self%stand())
-      else
-         text = cycle_line(self%grid, self%steady%results(self%level()), self%stand())
-      end if
-   end function progress
 
    module function summary(self) result(record)
       class(solver_t), intent(in) :: self

@@ -175,6 +175,8 @@ contains
       call self%coarse%advance(status)
       if (.not. self%coarse%done()) return
       self%coarse_mean = 0.0_dp
+      self%coarse_work = coarse_step*self%coarse%transient%step
+      self%coarse_seconds = self%coarse%step_seconds
       if (self%coarse%converged()) then
          if (self%coarse%resting) then
             self%coarse_mean = self%coarse%rest%mu_ratio()

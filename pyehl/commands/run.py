@@ -8,12 +8,11 @@ import math
 import sys
 import time
 
-from tqdm import tqdm
-
 from pyehl.case import Case
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.errors import EhlError, InputError
 from pyehl.prediction.resolution import resolution
+from pyehl.progress import ProgressBar
 from pyehl.run import Observer, Outcome, resume, run
 from pyehl.solver import Solver
 
@@ -28,7 +27,7 @@ class Terminal(Observer):
     """Prints; one line about the state in place on a terminal, now and then elsewhere."""
 
     def __init__(self) -> None:
-        self._bar = tqdm(bar_format="{desc} [{elapsed}]", disable=not sys.stderr.isatty())
+        self._bar = ProgressBar(disable=not sys.stderr.isatty())
         self._last = time.monotonic()
 
     def say(self, text: str) -> None:
@@ -46,13 +45,13 @@ class Terminal(Observer):
             self.say(solver.progress())
             return
         now = time.monotonic()
-        if now - self._last < (PROGRESS_INTERVAL if self._bar.disable else 0.1):
+        if now - self._last < (PROGRESS_INTERVAL if self._bar.disabled else 0.1):
             return
         self._last = now
-        if self._bar.disable:
+        if self._bar.disabled:
             self.say(solver.progress())
         else:
-            self._bar.set_description_str(solver.progress())
+            self._bar.show(solver)
 
 
 class Quiet(Observer):
@@ -76,8 +75,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--resume",
         metavar="DIR",
-        help="go on with the march that was to write into DIR, to the same numbers; CASE.nml and "
-        "-o may be left out",
+        help="resume the interrupted run in DIR; results are bitwise identical. CASE.nml and -o "
+        "may be left out",
     )
     parser.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
 

@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import doctest
+import itertools
 import json
+import re
 import shutil
 import subprocess
 import sys
@@ -105,6 +107,34 @@ def test_progress_is_told(smooth: Path, capsys):
     assert printed.out + printed.err == ""
     pyehl.solve(smooth, progress=True)
     assert "H_c" in capsys.readouterr().err
+
+
+def test_work_and_time_left(tmp_path: Path, capsys):
+    """The earliest end is known from the first step on, and the time left in every line."""
+    case = tmp_path / "wave.nml"
+    case.write_text(
+        "&contact load = 20.0 /\n&grid points = 65 /\n"
+        "&surface kind = 'harmonic' amplitude_over_film = 0.2 wavelength = 0.8 /\n"
+    )
+    seen = []
+    with pyehl.Solver(case) as solver:
+        for step in solver:
+            seen.append(step.work)
+            if 0 < step.work.done < step.work.earliest:
+                assert re.search(r", about \d+ s left$", step.text)
+            elif step.work.done and not solver.done:
+                assert re.search(r", at most \d+ s left$", step.text)
+        summary = solver.summary()
+    assert seen[0] == (0.0, 0.0, 0.0)
+    running = [work for work in seen if work.done > 0]
+    assert all(a.done < b.done for a, b in itertools.pairwise(running))
+    assert all(work.done <= work.earliest <= work.latest for work in running)
+    assert running[-1].done > summary["steps"]  # those on the coarser grid count
+    # the first step knows the earliest end; a mean that settles at once ends there
+    assert running[0].earliest == pytest.approx(running[-1].done, rel=0.03)
+    pyehl.solve(case, "time.steps=40", "time.estimate_error=.false.", check=False, progress=True)
+    shown = capsys.readouterr().err
+    assert re.search(r"\d+%\|.*\| \d\d:\d\d left \| step \d+", shown)
 
 
 def test_solve_in_a_thread_writes_too(smooth: Path, tmp_path: Path):

@@ -1,0 +1,101 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What a run says on its way: one line about the state, how much is done, the time left
+submodule (ehl_solver) ehl_solver_progress
+   use ehl_friction_mean, only: periods_compared
+   use ehl_judge, only: most_periods
+   use ehl_report, only: cycle_line, march_line, rest_line
+   use ehl_text, only: to_text
+   implicit none (type, external)
+
+contains
+
+   module function progress(self) result(text)
+      class(solver_t), intent(in) :: self
+      character(len=:), allocatable :: text
+
+      if (associated(self%coarse)) then
+         text = "for the error, on the next coarser grid: "//state_line(self%coarse)
+      else
+         text = state_line(self)
+      end if
+      if (self%marching .and. .not. self%done()) text = text//time_left(self)
+   end function progress
+
+   !> The state without the time left
+   function state_line(self) result(text)
+      class(solver_t), intent(in) :: self
+      character(len=:), allocatable :: text
+
+      if (self%marching) then
+         text = march_line(self%transient, self%stand())
+      else if (self%resting) then
+         text = rest_line(self%grid, self%rest, self%stand())
+      else
+         text = cycle_line(self%grid, self%steady%results(self%level()), self%stand())
+      end if
+   end function state_line
+
+   module subroutine work(self, done, earliest, latest)
+      class(solver_t), intent(in) :: self
+      real(dp), intent(out) :: done, earliest, latest
+      real(dp) :: coarse
+
+      done = 0.0_dp
+      earliest = 0.0_dp
+      latest = 0.0_dp
+      if (.not. self%marching) return
+      ! the run on the next coarser grid comes first: it has half as many steps
+      coarse = self%coarse_work
+      if (associated(self%coarse)) then
+         coarse = 0.5_dp*coarse_step*earliest_end(self)
+         if (self%coarse%marching) then
+            done = coarse_step*self%coarse%transient%step
+            coarse = coarse_step*earliest_end(self%coarse)
+         end if
+      else
+         done = coarse
+      end if
+      done = done + self%transient%step
+      earliest = earliest_end(self) + coarse
+      latest = latest_end(self) + coarse
+   end subroutine work
+
+   !> Step after which a transient run can end first
+   pure real(dp) function earliest_end(self)
+      class(solver_t), intent(in) :: self
+
+      earliest_end = self%plan%steps
+      associate (mean => self%transient%mean)
+         if (self%plan%steps == 0) earliest_end = max(mean%filled, 1) + periods_compared*mean%period/mean%time_step
+      end associate
+      earliest_end = max(earliest_end, real(self%transient%step, dp))
+   end function earliest_end
+
+   !> Step after which it ends even if its mean does not settle
+   pure real(dp) function latest_end(self)
+      class(solver_t), intent(in) :: self
+
+      latest_end = self%plan%steps
+      associate (mean => self%transient%mean)
+         if (self%plan%steps == 0) latest_end = max(mean%filled, 1) + most_periods(self%plan)*mean%period/mean%time_step
+      end associate
+   end function latest_end
+
+   !> The time left in words
+   function time_left(self) result(text)
+      class(solver_t), intent(in) :: self
+      character(len=:), allocatable :: text
+      real(dp) :: done, earliest, latest, seconds
+
+      text = ""
+      call self%work(done, earliest, latest)
+      seconds = self%step_seconds + self%coarse_seconds
+      if (associated(self%coarse)) seconds = seconds + self%coarse%step_seconds
+      if (.not. done > 0.0_dp) return
+      if (earliest > done) then
+         text = ", about "//to_text(nint((earliest - done)*seconds/done))//" s left"
+      else
+         text = ", at most "//to_text(nint((latest - done)*seconds/done))//" s left"
+      end if
+   end function time_left
+end submodule ehl_solver_progress

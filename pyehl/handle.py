@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A solver of the compiled library by its number: the calls, their locks and their errors."""
+
+from __future__ import annotations
+
+import os
+import threading
+from types import TracebackType
+from typing import NamedTuple, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pyehl.errors import check
+from pyehl.library import ehl, text_of
+
+__all__ = ["SolverHandle", "Work"]
+
+Array = NDArray[np.float64]
+
+
+class Work(NamedTuple):
+    """How much of a transient run is done, in time steps of the finest grid.
+
+    Steps on the next coarser grid, for the grid error, count by their cost. `earliest` and
+    `latest` are 0 before the first time step, and for a steady contact, whose number of cycles is
+    not known in advance.
+
+    Attributes
+    ----------
+    done
+        Steps done.
+    earliest
+        Steps until the run can end first: when a mean can be compared with earlier ones.
+    latest
+        Steps until it ends even if its mean has not settled.
+    """
+
+    done: float
+    earliest: float
+    latest: float
+
+
+class SolverHandle:
+    """A solver that was opened, and is closed at the end of a ``with`` block.
+
+    Attributes
+    ----------
+    done
+        Whether nothing is left to do.
+    converged
+        Whether the solution converged.
+    """
+
+    _handle = 0
+    _calls = 0
+    done = False
+    converged = False
+
+    def _open(self, text: str, heights: ArrayLike | None) -> None:
+        """Open a solver on the text of a case; heights [m] in place of a file."""
+        self._lock = threading.Lock()
+        given = np.zeros((1, 1)) if heights is None else heights
+        handle, status, message = ehl.open_case(
+            text.encode(),
+            b"resolved case",
+            int(heights is not None),
+            np.asfortranarray(given, dtype=np.float64),
+        )
+        check(status, message)
+        self._handle = handle
+
+    def close(self) -> None:
+        """Free the memory; the solver cannot be used afterwards."""
+        with self._lock:
+            ehl.close_case(self._handle)
+            self._handle = 0
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        # The constructor may have failed, and at exit the extension may be gone
+        if getattr(self, "_handle", 0) and ehl is not None:
+            ehl.close_case(self._handle)
+
+    def advance(self) -> bool:
+        """One cycle (steady) or step (moving surface); whether nothing is left to do."""
+        with self._lock:
+            done, converged, status, message = ehl.advance(self._handle)
+        check(status, message)
+        self._calls += 1
+        self.done, self.converged = bool(done), bool(converged)
+        return self.done
+
+    def run(self) -> bool:
+        """Advance to the end; whether the solution converged."""
+        while not self.advance():
+            pass
+        return self.converged
+
+    def interrupt(self) -> None:
+        """Stop here; the results so far stay readable, with the status 'interrupted'."""
+        with self._lock:
+            check(*ehl.interrupt(self._handle))
+        self.done = True
+
+    def resume(self, results: str | os.PathLike[str]) -> str:
+        """Resume the transient run that was to write into a folder; before the first `advance`.
+
+        Returns a note for the user; '' when there is no state yet, so that the run starts anew.
+
+        Raises
+        ------
+        InputError
+            If the state is damaged, or belongs to another case.
+        """
+        with self._lock:
+            note, status, message = ehl.resume(self._handle, os.fsencode(results))
+        check(status, message)
+        return text_of(note)
+
+    def keep(self, results: str | os.PathLike[str], resumed: str | os.PathLike[str] = "") -> str:
+        """Save states of a transient run in ``RESULTS.checkpoint`` at the interval of the case.
+
+        Parameters
+        ----------
+        results
+            The folder that the results are for.
+        resumed
+            The folder of the run that `resume` goes on with.
+
+        Returns
+        -------
+        str
+            Where the states of an earlier run are now; mostly ''.
+
+        Raises
+        ------
+        FileError
+            If the folder cannot be made.
+        """
+        with self._lock:
+            note, status, message = ehl.keep(
+                self._handle, os.fsencode(results), os.fsencode(resumed)
+            )
+        check(status, message)
+        return text_of(note)
+
+    def save_state(self, *, at_once: bool = False) -> bool:
+        """Save the state if its time has come, or at once; whether there is one then.
+
+        Raises
+        ------
+        FileError
+            If it cannot be written.
+        """
+        with self._lock:
+            has_state, status, message = ehl.save_state(self._handle, int(at_once))
+        check(status, message)
+        return bool(has_state)
+
+    def end_keeping(self) -> None:
+        """Remove the states: the run has ended."""
+        with self._lock:
+            check(*ehl.end_keeping(self._handle))
+
+    def progress(self) -> str:
+        """Tell the state in one line."""
+        text, status, message = ehl.progress(self._handle)
+        check(status, message)
+        return text_of(text)
+
+    def work(self) -> Work:
+        """Tell how much of a transient run is done, and how much there is."""
+        done, earliest, latest, status, message = ehl.work(self._handle)
+        check(status, message)
+        return Work(done, earliest, latest)
+
+    def skipped(self) -> str:
+        """Tell what a transient run that has ended did not have to do; '' for every other run."""
+        text, status, message = ehl.skipped(self._handle)
+        check(status, message)
+        return text_of(text)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Nodes of the finest grid in X and Y."""
+        nx, ny, status, message = ehl.grid_shape(self._handle)
+        check(status, message)
+        return nx, ny
+
+    def axes(self) -> tuple[Array, Array]:
+        """Coordinates X (nx,) and Y (ny,) of the nodes in Hertz radii a."""
+        nx, ny = self.shape
+        x, y = np.empty(nx), np.empty(ny)
+        check(*ehl.axes(self._handle, x, y))
+        return x, y
+
+    def field(self, name: str) -> Array:
+        """Pressure 'P' or film 'H', shape (nx, ny), Fortran order.
+
+        Raises
+        ------
+        InputError
+            If there is no such field.
+        """
+        values = np.empty(self.shape, order="F")
+        check(*ehl.field(self._handle, name.encode(), values))
+        return values
+
+    def _describe(self) -> str:
+        text, status, message = ehl.describe(self._handle)
+        check(status, message)
+        return text_of(text)
+
+    def _summary(self) -> str:
+        text, status, message = ehl.summary(self._handle)
+        check(status, message)
+        return text_of(text)
+
+    def _write(self, folder: str | os.PathLike[str]) -> str:
+        with self._lock:
+            note, status, message = ehl.write_output(self._handle, os.fsencode(folder))
+        check(status, message)
+        return text_of(note)
