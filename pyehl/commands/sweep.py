@@ -50,6 +50,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="replace a value in all cases; may be repeated",
     )
     parser.add_argument("--run", choices=RUNS, help="what to do with each case (default: solve)")
+    parser.add_argument(
+        "--outputs",
+        type=lambda text: text.split(","),
+        metavar="NAME,...",
+        help="columns of the table, by their names in summary.json (default: all numbers but those "
+        "over the tracks of a prediction)",
+    )
     parser.add_argument("--zip", action="store_true", help="all varied keys move together")
     parser.add_argument("--keep", action="store_true", help="a result folder for each case")
     parser.add_argument("--retry", action="store_true", help="run cases again that failed")
@@ -64,6 +71,8 @@ def _arguments(args: argparse.Namespace) -> dict[str, Any]:
     given: dict[str, Any] = {"case": args.case, "axes": [], "options": [], "zipped": False}
     if args.case.endswith(".toml"):
         given = read_study(args.case)
+    if args.outputs is not None:
+        given |= {"outputs": args.outputs, "origin": "--"}
     axes = [parse_axis(text) for text in args.vary]
     return given | {
         "axes": [*given["axes"], *axes],

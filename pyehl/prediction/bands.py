@@ -22,6 +22,9 @@ __all__ = ["Band", "contributions", "octaves"]
 
 Array = NDArray[np.float64]
 
+# A wave at the end of an octave begins the next one, whatever its last digits
+ROUNDING = 1e-9
+
 
 @dataclass(frozen=True, slots=True)
 class Band:
@@ -51,7 +54,7 @@ class Band:
 
 
 def octaves(
-    q: Array, power: Array, *, share: float = 1e-20
+    q: Array, power: Array, *, share: float = 1e-20, only: int = 0
 ) -> Iterator[tuple[float, NDArray[np.bool_], bool]]:
     """Octaves of wavelengths that hold roughness, longest first.
 
@@ -62,6 +65,8 @@ def octaves(
     power
         What each adds to the mean square height; at most `share` of the largest counts for none
         (a harmonic pattern has rounding errors in all octaves but its own).
+    only
+        The last so many alone; 0: all.
 
     Yields
     ------
@@ -71,10 +76,10 @@ def octaves(
     """
     lowest = float(q[q > 0.0].min())
     octave = np.full(q.shape, -1)
-    octave[q > 0.0] = np.floor(np.log2(q[q > 0.0] / lowest) + 1e-9).astype(int)
+    octave[q > 0.0] = np.floor(np.log2(q[q > 0.0] / lowest) + ROUNDING).astype(int)
     present = power > share * power.max()
     filled = [k for k in range(int(octave.max()) + 1) if (present & (octave == k)).any()]
-    for k in filled:
+    for k in filled[-only:]:
         yield 2.0 * math.pi / (lowest * 2.0**k), octave == k, k == filled[-1]
 
 
@@ -84,10 +89,12 @@ def contributions(
     lubricant: Lubricant,
     film: float,
     options: Options | None = None,
+    *,
+    brief: bool = False,
 ) -> list[Band]:
     """Which wavelengths the friction comes from, octave by octave from the longest.
 
-    Parameters as :func:`predict_friction`.
+    Parameters as :func:`predict_friction`; `brief`: the shortest octave alone.
 
     Returns
     -------
@@ -106,9 +113,9 @@ def contributions(
     heights = scipy.fft.rfft2(topography.heights - topography.heights.mean())
     bands: list[Band] = []
     before = 1.0
-    so_far = np.zeros(q.shape, dtype=bool)
-    for longest, in_band, _ in octaves(q, np.square(np.abs(heights))):
-        so_far = so_far | in_band
+    for longest, in_band, _ in octaves(q, np.square(np.abs(heights)), only=2 if brief else 0):
+        # octaves without roughness may be in or not
+        so_far = q < 4.0 * math.pi / longest * (1.0 - ROUNDING)
         part = _filtered(topography, heights, in_band)
         field = response(part, operating, options)
         total = predict_friction(
@@ -125,7 +132,7 @@ def contributions(
             )
         )
         before = total.mu_ratio
-    return bands
+    return bands[-1:] if brief else bands
 
 
 def _filtered(

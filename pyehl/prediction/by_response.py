@@ -118,8 +118,14 @@ class RoughPassage:
         t = self._transfer(spectrum).at_centre(spectrum, self.velocity_ratio)
         return np.asarray(spectrum.tile(t) * self.operating.film_scale)
 
-    def run(self, tracks: int = 8) -> tuple[RoughFriction, tuple[float, float], list[Band]]:
-        """Friction over the passage, mean and spread over the tracks, and what each band adds."""
+    def run(
+        self, tracks: int = 8, *, brief: bool = False
+    ) -> tuple[RoughFriction, tuple[float, float], list[Band]]:
+        """Friction over the passage, mean and spread over the tracks, and what each band adds.
+
+        `brief`: of the bands the shortest alone, and without a search for what would help where
+        the linear response ends. No tracks: NaN for mean and spread.
+        """
         start = time.perf_counter()
         grid = working_grid(self.topography, self.operating, self.options.positions)
         spectrum = self._spectrum(grid)
@@ -128,7 +134,7 @@ class RoughPassage:
         contact = self._contact(spectrum, transfer, edge)
         with np.errstate(over="ignore", invalid="ignore"):
             passage = friction_along(contact, grid.shape[0], self.options.positions, LARGEST_RATIO)
-            found = self._result(contact, grid, spectrum, transfer, passage, start)
+            found = self._result(contact, grid, spectrum, transfer, passage, start, brief)
             if found.status != "predicted":
                 return found, (math.nan, math.nan), []
             ratios = np.array(
@@ -137,12 +143,13 @@ class RoughPassage:
                     for offset, track in self._tracks(grid, contact.waves.stride, tracks)
                 ]
             )
-            bands = self._bands(spectrum, transfer, edge, found.mu_ratio)
-        return found, (float(ratios.mean()), float(ratios.std())), bands
+            bands = self._bands(spectrum, transfer, edge, found.mu_ratio, brief)
+        over = (float(ratios.mean()), float(ratios.std())) if tracks else (math.nan, math.nan)
+        return found, over, bands
 
     def _tracks(self, grid: Topography, stride: int, tracks: int) -> list[tuple[float, int]]:
         """Offsets of the tracks [m], and in pixels that are multiples of the stride."""
-        offsets = track_offsets(self.topography, tracks)
+        offsets = track_offsets(self.topography, tracks) if tracks else []
         return [(d, round(d / (stride * grid.pixel[1])) * stride) for d in offsets]
 
     def below(self, shortest: float) -> float:
@@ -162,6 +169,7 @@ class RoughPassage:
         transfer: Transfer,
         passage: tuple[NDArray[np.int_], Array, float],
         start: float,
+        brief: bool,
     ) -> RoughFriction:
         steps, ratios, error = passage
         o = self.operating
@@ -178,7 +186,9 @@ class RoughPassage:
             status, message = "overflow", "the viscosity at p_s + delta p is not a number"
         elif float(ratios.mean()) > LARGEST_RATIO:
             status = "beyond linear response"
-            message = self._beyond(float(ratios.mean()), spectrum, transfer, contact.edge)
+            message = _beyond(float(ratios.mean()))
+            if not brief:
+                message += self._carried(spectrum, transfer, contact.edge)
         else:
             fine = interpolated(ratios, 8)
             mean, least, greatest = (float(v) for v in (ratios.mean(), fine.min(), fine.max()))
@@ -206,18 +216,17 @@ class RoughPassage:
             seconds=time.perf_counter() - start,
         )
 
-    def _beyond(self, ratio: float, spectrum: Spectrum, transfer: Transfer, edge: Edge) -> str:
-        """Say which cut-off would bring the ratio into the range of the model."""
-        told = f"pressures that raise mu_r/mu_s to {ratio:.3g} are beyond a linear response"
+    def _carried(self, spectrum: Spectrum, transfer: Transfer, edge: Edge) -> str:
+        """Say which cut-off would bring the ratio into the range of the model; '' for none."""
         low, high = min(spectrum.pixel), 2.0 * math.pi / float(spectrum.q[spectrum.q > 0].min())
         if not self._below(spectrum, transfer, edge, 2.0 * math.pi / high) <= KNOWN_RATIO:
-            return told
+            return ""
         while high > 1.1 * low:
             middle = math.sqrt(low * high)
             known = self._below(spectrum, transfer, edge, 2.0 * math.pi / middle) <= KNOWN_RATIO
             low, high = (low, middle) if known else (middle, high)
         cut = high * self.operating.hertz_radius
-        return f"{told}; surface.shortest_wavelength = {cut:.2g} would leave {KNOWN_RATIO} or less"
+        return f"; surface.shortest_wavelength = {cut:.2g} would leave {KNOWN_RATIO} or less"
 
     def _tiles(self, spectrum: Spectrum, transfer: Transfer, same: bool) -> Response:
         """Pressure and deformed roughness at the centre of the contact, on the pixels given."""
@@ -232,17 +241,20 @@ class RoughPassage:
         )
 
     def _bands(
-        self, spectrum: Spectrum, transfer: Transfer, edge: Edge, total: float
+        self, spectrum: Spectrum, transfer: Transfer, edge: Edge, total: float, brief: bool
     ) -> list[Band]:
-        """Return what each octave adds when it joins all the longer ones."""
+        """Return what each octave, or the last one alone, adds when it joins all longer ones."""
         o = self.operating
         t = transfer.at_centre(spectrum, self.velocity_ratio)
         power = spectrum.power
         pressure = stiffness(spectrum.q) * np.abs(1.0 - t)
         found: list[Band] = []
         before = 1.0
-        for longest, inside, last in octaves(spectrum.q, power):
+        for longest, inside, last in octaves(spectrum.q, power, only=2 if brief else 0):
             ratio = total if last else self._below(spectrum, transfer, edge, 4.0 * np.pi / longest)
+            if brief and not last:
+                before = ratio
+                continue
             rms = (
                 math.sqrt(float((power * np.square(factor))[inside].sum()))
                 for factor in (np.ones_like(pressure), np.abs(t), pressure)
@@ -274,6 +286,10 @@ class RoughPassage:
         part.values[part.q >= limit] = 0.0
         contact = self._contact(part, transfer.kept((rows, columns)), edge.below(limit))
         return _mean(contact, nx)
+
+
+def _beyond(ratio: float) -> str:
+    return f"pressures that raise mu_r/mu_s to {ratio:.3g} are beyond a linear response"
 
 
 def _fewer(pixels: int, length: float, limit: float) -> int:

@@ -46,6 +46,7 @@ def predict(
     *,
     tracks: int = TRACKS,
     smooth: str | os.PathLike[str] | None = None,
+    brief: bool = False,
 ) -> Prediction:
     """Predict the relative friction of a resolved case.
 
@@ -59,6 +60,9 @@ def predict(
         Number of tracks across the surface, for mean and spread.
     smooth
         Result folder with the smooth contact, in place of a solution on the spot.
+    brief
+        mu_r/mu_s and its errors, bit for bit the same, but no tracks, of the bands the shortest
+        alone, and no search for what would carry where there is no ratio.
 
     Raises
     ------
@@ -86,10 +90,11 @@ def predict(
     passage = RoughPassage(surface, contact, operating, lubricant, options, velocity_ratio)
     if options.as_in_paper:
         friction = predict_friction(surface, operating, lubricant, film, options)
-        bands: Sequence[Band] = contributions(surface, operating, lubricant, film, options)
-        over = over_tracks(surface, operating, lubricant, film, options, tracks=tracks)
+        of_surface = surface, operating, lubricant, film, options
+        bands: Sequence[Band] = contributions(*of_surface, brief=brief)
+        over = (math.nan, math.nan) if brief else over_tracks(*of_surface, tracks=tracks)
     else:
-        friction, over, bands = passage.run(tracks)
+        friction, over, bands = passage.run(0 if brief else tracks, brief=brief)
 
     def deformed_of(tile: surfaces.Topography) -> Array:
         """Deformed roughness of another tile [m]."""
@@ -109,7 +114,7 @@ def predict(
         # the positions of the passage have missed it
         friction = broken(friction, below.deepest)
         over, bands = (math.nan, math.nan), []
-    if friction.status == "film breakdown":
+    if friction.status == "film breakdown" and not brief:
         kind = str(settings["surface"].get("filter", "sharp"))
         advice = advise(
             surface,
@@ -133,7 +138,7 @@ def predict(
         tracks=over,
         seconds=time.perf_counter() - start,
         text=text,
-        track_count=tracks,
+        track_count=0 if brief else tracks,
         below=below,
         advice=advice,
     )

@@ -27,6 +27,7 @@ __all__ = [
     "SmoothContact",
     "hertz_contact",
     "read_contact",
+    "smooth_case",
     "solve_contact",
     "thickening",
     "zone_of",
@@ -80,22 +81,45 @@ class SmoothContact:
 
 _KEPT: Kept[SmoothContact] = Kept(4)
 
+# Keys that pressure and film of a smooth contact do not know; those of the first line they do where
+# the inlet is heated by shear
+OF_SLIP = ("slide_to_roll", "rough_surface", "thermal_conductivity", "thermal_diffusivity")
+OF_SHEAR = (
+    "shear_law",
+    "eyring_stress",
+    "limiting_stress",
+    "limiting_coefficient",
+    "carreau_stress",
+    "carreau_exponent",
+)
+
+
+def smooth_case(settings: Mapping[str, Mapping[str, Any]]) -> str:
+    """Text of the case whose solution is the smooth contact under a resolved case.
+
+    Cases that differ in their surface, their slip or their shear law alone have the same.
+    """
+    contact, lubricant = dict(settings["contact"]), dict(settings["lubricant"])
+    for key in OF_SHEAR:
+        lubricant.pop(key, None)
+    if not lubricant["thermal_reduction"]:
+        for key in OF_SLIP:
+            contact.pop(key, None)
+    groups = {"contact": contact, "lubricant": lubricant, "grid": {"points": POINTS}}
+    return str(f90nml.Namelist(groups)) + "\n"
+
 
 def solve_contact(settings: Mapping[str, Mapping[str, Any]]) -> SmoothContact:
     """Solve the smooth contact of a resolved case on POINTS x POINTS nodes.
 
-    The last few are kept: cases that differ in their surface alone share one.
+    The last few are kept, see `smooth_case`.
 
     Raises
     ------
     EhlError
         If it does not converge.
     """
-    groups: dict[str, dict[str, Any]] = {
-        group: dict(settings[group]) for group in ("contact", "lubricant")
-    }
-    groups["grid"] = {"points": POINTS}
-    text = str(f90nml.Namelist(groups)) + "\n"
+    text = smooth_case(settings)
     return _KEPT.get(text, lambda: _solved(text))
 
 

@@ -8,12 +8,12 @@ first, and that the time of a study is known before it runs.
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Mapping
 from typing import Any
 
 from pyehl.case import Case
+from pyehl.prediction.smooth import smooth_case
 from pyehl.solver import Solver
 from pyehl.theory.operating import OperatingPoint
 
@@ -85,4 +85,4 @@ def shares_of(settings: Settings, run: str) -> str:
     """Name the smooth contact that cases have in common; '' where there is none to share."""
     if run != "predict":
         return ""
-    return json.dumps([settings[group] for group in ("contact", "lubricant")], default=str)
+    return smooth_case(settings)

@@ -117,13 +117,15 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None) -> Plan:
             case = case.with_options(*one_thread)
             settings = case.resolve()
         _check(study, point, case, settings, seen["checked"])
-        seen["contact"].add(json.dumps([settings["contact"], settings["lubricant"]], default=str))
         seen["surface"].add(json.dumps(settings["surface"], default=str))
         folder = "" if keep is None else str(Path(keep) / f"{point.number + 1:0{digits}d}")
         seconds = factor * seconds_of(settings, study.run)
         shares = shares_of(settings, study.run)
+        seen["contact"].add(shares)
         points.append(point)
-        tasks.append(Task(point.number, case.text, study.run, folder, seconds, shares))
+        tasks.append(
+            Task(point.number, case.text, study.run, folder, seconds, shares, study.tracks)
+        )
     return Plan(study, tuple(points), tuple(tasks), len(seen["contact"]), len(seen["surface"]))
 
 

@@ -14,6 +14,7 @@ from typing import Any
 
 from pyehl.case import Case
 from pyehl.errors import InputError
+from pyehl.studies.outputs import TRACKS, checked
 from pyehl.studies.vary import Axis, Value, axis, option
 
 __all__ = ["RUNS", "Point", "Study", "make", "read_study"]
@@ -86,6 +87,11 @@ class Study:
         return size
 
     @property
+    def tracks(self) -> bool:
+        """Whether predictions go over the tracks of a surface, which takes twice the time."""
+        return self.run == "predict" and not set(TRACKS).isdisjoint(self.outputs)
+
+    @property
     def keys(self) -> list[str]:
         """All keys that are varied."""
         return [a.key for axes in self.dimensions for a in axes]
@@ -119,13 +125,14 @@ class Study:
     def identity(self) -> dict[str, Any]:
         """Give what makes this study another one than others, as values of JSON."""
         base = self.case.text if isinstance(self.case, Case) else _text(self.case)
-        return {
+        found = {
             "run": self.run,
             "case": base,
             "set": list(self.options),
             "vary": {a.key: list(a.values) for axes in self.dimensions for a in axes},
             "zip": [[a.key for a in axes] for axes in self.dimensions if len(axes) > 1],
         }
+        return found | ({"tracks": True} if self.tracks else {})
 
 
 def _text(path: str) -> str:
@@ -142,7 +149,8 @@ def make(
     options: Iterable[str] = (),
     zipped: bool | Sequence[Sequence[str]] = False,
     run: str = "solve",
-    outputs: Iterable[str] = (),
+    outputs: Sequence[str] = (),
+    origin: str = "",
 ) -> Study:
     """Put a study together.
 
@@ -160,11 +168,14 @@ def make(
         One of `RUNS`.
     outputs
         Names of results wanted in the table; none: all numbers.
+    origin
+        Where the study stands, for messages.
 
     Raises
     ------
     InputError
-        If a key is varied twice, or keys that move together have not as many values.
+        If a key is varied twice, keys that move together have not as many values, or there is no
+        such output.
     """
     if run not in RUNS:
         raise InputError(f"run = '{run}': expected one of {', '.join(RUNS)}{_near(run, RUNS)}")
@@ -182,7 +193,7 @@ def make(
         if key in names:
             raise InputError(f"{key} is varied and set")
     base = case if isinstance(case, Case) else os.fspath(case)
-    study = Study(base, texts, dimensions, run, tuple(outputs))
+    study = Study(base, texts, dimensions, run, checked(outputs, run, origin))
     if study.size > MAX_CASES:
         raise InputError(f"{study.size} cases; a study can have {MAX_CASES}")
     return study
@@ -268,6 +279,7 @@ def read_study(path: str | os.PathLike[str]) -> dict[str, Any]:
         "zipped": values.get("zip", False),
         "run": values.get("run", "solve"),
         "outputs": [str(word) for word in values.get("outputs", [])],
+        "origin": f"{name}: error: ",
     }
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -78,7 +78,7 @@ def sweep(
     *options: Option,
     zip: bool | Sequence[Sequence[str]] = False,
     run: str = "solve",
-    outputs: Iterable[str] = (),
+    outputs: Sequence[str] = (),
     output: str | os.PathLike[str] | None = None,
     jobs: int = 0,
     scheduler: str = "",
@@ -99,7 +99,8 @@ def sweep(
     run
         'solve', 'predict' or 'film'.
     outputs
-        Names of results wanted; none: all numbers.
+        Names of results wanted; none: all numbers. Mean and spread over the tracks of a
+        prediction, which take twice the time, are made only where they are named.
     output
         Folder for the journal and the table, in which an interrupted study goes on; None: nothing
         is kept on disk.

@@ -16,6 +16,7 @@ import xarray as xr
 from pyehl import library
 from pyehl.errors import FileError
 from pyehl.results import unit_of
+from pyehl.studies.outputs import LAST
 from pyehl.studies.study import Point, Study
 
 __all__ = ["cell", "columns", "dataset", "replace", "write_csv", "write_netcdf"]
@@ -24,7 +25,6 @@ Row = Mapping[str, Any]
 
 # Words that are always in the table; other words only where they are asked for
 WORDS = ("flags", "outside_range")
-LAST = ("status", "seconds", "message")
 
 
 def columns(study: Study, rows: Mapping[int, Row]) -> list[str]:

@@ -19,6 +19,7 @@ from pyehl.kept import saved_seconds
 from pyehl.prediction import film_sheet, folder, of_case
 from pyehl.run import run
 from pyehl.solver import Solver
+from pyehl.studies.outputs import NOT_IN_A_TABLE, TRACKS, film_columns
 
 __all__ = ["FAILED", "SAVED", "Task", "execute"]
 
@@ -48,6 +49,8 @@ class Task:
         How long it may take, by estimate.
     shares
         What it has in common with others; those go to one worker where possible.
+    full
+        A prediction with its tracks, bands and what would carry; else mu_r/mu_s and its errors.
     """
 
     number: int
@@ -56,6 +59,7 @@ class Task:
     folder: str = ""
     seconds: float = 0.0
     shares: str = ""
+    full: bool = False
 
     def message(self) -> dict[str, Any]:
         """Give the task as values of JSON."""
@@ -90,10 +94,12 @@ def _solve(task: Task) -> Row:
 
 def _predict(task: Task) -> Row:
     case = Case(task.text)
-    prediction = of_case.predict(case.resolve(), case.text)
+    full = task.full or bool(task.folder)
+    prediction = of_case.predict(case.resolve(), case.text, brief=not full)
     if task.folder:
         folder.write(prediction, task.folder)
-    return _scalars(prediction.summary)
+    row = _scalars(prediction.summary)
+    return row if full else {name: row[name] for name in row if name not in TRACKS}
 
 
 def _film(task: Task) -> Row:
@@ -101,10 +107,10 @@ def _film(task: Task) -> Row:
     row = _scalars(values)
     row["h_c_m"] = values["formulas"][0]["h_c_m"]
     for formula in values["formulas"]:
-        name = "".join(c if c.isalnum() else "_" for c in formula["name"].lower()).strip("_")
-        row[f"h_c_m_{name}"] = formula["h_c_m"]
+        central, least = film_columns(formula["name"])
+        row[central] = formula["h_c_m"]
         if formula["h_min_m"] is not None:
-            row[f"h_min_m_{name}"] = formula["h_min_m"]
+            row[least] = formula["h_min_m"]
     outside = [f["name"] for f in values["formulas"] if f["outside"]]
     row["status"] = "outside the range of a formula" if outside else "inside all ranges"
     row["message"] = ", ".join(outside)
@@ -118,11 +124,12 @@ def _scalars(summary: Mapping[str, Any]) -> Row:
     """Numbers, truth values and words of a summary; None for a number that does not exist."""
     row: Row = {}
     for name, value in summary.items():
+        if name in NOT_IN_A_TABLE:
+            continue
         if isinstance(value, float) and not math.isfinite(value):
             row[name] = None
         elif isinstance(value, list) and all(isinstance(word, str) for word in value):
             row[name] = "; ".join(value)
         elif value is None or isinstance(value, bool | int | float | str):
             row[name] = value
-    row.pop("wall_seconds", None)
     return row

@@ -129,6 +129,9 @@ def test_another_study_in_the_same_folder_is_refused(done: tuple[Path, str], cas
         (["--vary", "grid.points=65,66"], "case 2 of 2 (grid.points=66)"),
         (["--vary", "solver.max_cycles=5", "--run", "predict"], "needs a rough surface"),
         (["--vary", "contact.moes_m=1:2", "--jobs", "-1"], "--jobs -1"),
+        (["--vary", "contact.moes_m=1:2", "--outputs", "H_c,h_cm"], "--outputs: unknown result"),
+        (["--vary", "contact.moes_m=1:2", "--outputs", "h_cm"], "did you mean 'h_c_m'"),
+        (["--vary", "contact.moes_m=1:2", "--outputs", "mu_ratio_tracks"], "run = 'solve'"),
     ],
 )
 def test_one_bad_case_and_nothing_runs(cases: Path, tmp_path: Path, words: list[str], says: str):
@@ -228,6 +231,11 @@ def test_study_file_and_result_folders(cases: Path, tmp_path: Path):
         "seconds",
         "message",
     ]
+    wrong = (tmp_path / "study.toml").read_text().replace('["H_c"]', '["H_cc"]')
+    (tmp_path / "wrong.toml").write_text(wrong)
+    _, refused = sweep(tmp_path / "no", str(tmp_path / "wrong.toml"), expect=2)
+    assert "wrong.toml: error: outputs: unknown result 'H_cc'" in refused
+    assert "did you mean 'H_c'" in refused
     kept = pyehl.load(tmp_path / "out" / "cases" / "2")
     assert kept.attrs["moes_m"] == 60.0
     assert kept.attrs["H_c"] == float(table(tmp_path / "out")[1]["H_c"])

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Many predictions: the numbers of single ones, and what they share."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+import pyehl
+from pyehl.prediction import of_case, smooth
+from pyehl.studies.outputs import TRACKS
+from pyehl.studies.tasks import Task, execute
+
+# What a prediction costs, not what it says
+OWN = {"seconds", "saved_seconds", "wall_seconds"}
+SMALL = ("surface.pixels=64",)
+# A ratio, no film, pressures beyond a linear response, the model of the paper, a single wave
+CASES = {
+    "fractal": SMALL,
+    "breakdown": (*SMALL, "surface.rms_height=4e-7"),
+    "beyond": ("surface.pixels=128", "surface.rms_height=8e-8", "surface.hurst=0.3"),
+    "paper": (*SMALL, "psd.reduction=amplitude", "psd.smooth=hertz"),
+    "wave": ("surface.kind=harmonic", "lubricant.shear_law=eyring"),
+}
+STATUSES = {"breakdown": "film breakdown", "beyond": "beyond linear response"}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_row_is_the_summary_of_a_prediction(cases: Path, name: str):
+    """To the last bit, but for what is over the tracks, and for advice in the message."""
+    case = pyehl.Case.read(cases / "table1.nml", *CASES[name])
+    summary = pyehl.predict(case).summary
+    row = execute(Task(0, case.text, "predict"))
+    assert row["status"] == summary["status"] == STATUSES.get(name, "predicted")
+    for key, value in row.items():
+        if key not in OWN | {"message", "outside_range"}:
+            assert value == summary[key], key
+    numbers = {k for k, v in summary.items() if v is None or isinstance(v, bool | int | float)}
+    dropped = numbers - set(row)
+    assert dropped <= {*TRACKS, *OWN, "film_breakdown", "surface_preparation"}, dropped
+    assert set(TRACKS) <= dropped
+    assert summary["message"].startswith(row["message"])
+
+
+def test_tracks_are_there_where_they_are_asked_for(cases: Path):
+    vary = {"surface.seed": [1, 2]}
+    asked = ("mu_ratio", "mu_ratio_tracks", "mu_ratio_tracks_spread")
+    found = pyehl.sweep(cases / "table1.nml", vary, *SMALL, run="predict", outputs=asked, jobs=1)
+    alone = pyehl.predict(cases / "table1.nml", *SMALL, "surface.seed=2").summary
+    for name in asked:
+        assert float(found[name][1]) == alone[name]
+    brief = pyehl.sweep(cases / "table1.nml", vary, *SMALL, run="predict", jobs=1)
+    assert "mu_ratio_tracks" not in brief
+    assert float(brief.mu_ratio[1]) == alone["mu_ratio"]
+    assert float(brief.mu_ratio_cutoff_error[1]) == alone["mu_ratio_cutoff_error"]
+
+
+def test_shared_parts_are_made_once(cases: Path):
+    """Surface, slip and shear law change nothing of the smooth contact, heat by slip does."""
+    base = pyehl.Case.read(cases / "table1.nml", *SMALL)
+    execute(Task(0, base.text, "predict"))
+
+    def saved(option: str) -> bool:
+        """Whether the smooth contact was there already; what was saved is told with the row."""
+        before = smooth._KEPT.saved
+        row = execute(Task(0, base.with_options(option).text, "predict"))
+        assert row["saved_seconds"] >= round(smooth._KEPT.saved - before, 6)
+        return smooth._KEPT.saved > before
+
+    for option in ("surface.seed=7", "lubricant.shear_law=eyring", "contact.slide_to_roll=0.1"):
+        assert saved(option), option
+    assert not saved("contact.load=601")
+    heated = ["lubricant.thermal_reduction=.true.", "lubricant.temperature_viscosity=0.03"]
+    texts = [
+        smooth.smooth_case(base.with_options(*heated, f"contact.slide_to_roll={s}").resolve())
+        for s in (0.1, 0.2)
+    ]
+    assert texts[0] != texts[1]
+
+
+def test_brief_predictions_have_no_advice(cases: Path):
+    case = pyehl.Case.read(cases / "table1.nml", *CASES["breakdown"])
+    brief = of_case.predict(case.resolve(), case.text, brief=True)
+    assert brief.advice is None
+    assert math.isnan(brief.tracks[0])
+    assert brief.below == pyehl.predict(case).below
