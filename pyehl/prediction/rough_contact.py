@@ -128,7 +128,9 @@ class RoughContact:
         self.between = (place - self.free_rows).astype(np.float32)[..., np.newaxis]
         held = np.minimum(1.0, EDGE_RADIUS / np.maximum(radius, 1e-12))
         grid = np.meshgrid(self.x, self.y, indexing="ij")
-        self.monomials = monomials(*(held * values for values in grid))
+        x, y = (held * values for values in grid)
+        # (28, m n): what is summed over them is read in order
+        self.monomials = monomials(x, y, axis=0).reshape(-1, held.size)
         self.area = stride**2 * pixel[0] * pixel[1] * operating.hertz_radius**2
         self.smooth = float(self._stress(self.pressure, self.film)[self.inside].sum())
         self.thinnest = float(self.film[self.inside].min())
@@ -176,7 +178,8 @@ class RoughContact:
             total[part] += weight[part, np.newaxis, np.newaxis] * driven[rows[part]]
         if self.free:
             self._add_free(total, shift)
-        total[..., 1] += self.monomials @ self.edge.at(shift * self.pixel[0], track * self.pixel[1])
+        edge = self.edge.at(shift * self.pixel[0], track * self.pixel[1])
+        total[..., 1] += (edge @ self.monomials).reshape(self.film.shape)
         return np.asarray(total)
 
     def _add_free(self, total: Array, shift: int) -> None:

@@ -102,7 +102,7 @@ def smooth_case(settings: Mapping[str, Mapping[str, Any]]) -> str:
     contact, lubricant = dict(settings["contact"]), dict(settings["lubricant"])
     for key in OF_SHEAR:
         lubricant.pop(key, None)
-    if not lubricant["thermal_reduction"]:
+    if not lubricant.get("thermal_reduction", False):
         for key in OF_SLIP:
             contact.pop(key, None)
     groups = {"contact": contact, "lubricant": lubricant, "grid": {"points": POINTS}}

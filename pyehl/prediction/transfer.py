@@ -6,11 +6,12 @@ Units: lengths along the surface by a, heights by a^2/R, pressures by p_h.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import map_coordinates
+from scipy import sparse
 
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.theory.response import Zone, inlet_transfer, stiffness, transport
@@ -25,6 +26,7 @@ STATIONS = np.array([-0.5, 0.0, 0.5])
 """Where the waves are made, along the motion [a]; between them they are interpolated."""
 MIDDLE = 1
 """The one of them at X = 0."""
+CENTRE = STATIONS[: MIDDLE + 1]
 OFF_CENTRE = 0.5
 """The second distance from the centre line at which the free wave is made [a]."""
 
@@ -34,6 +36,8 @@ BENDING = 0.2
 
 # Wavenumbers and directions of the table of responses: the interpolated T is right to 1e-3
 TABLE = (72, 25)
+# Components that are interpolated at a time
+BLOCK = 1 << 18
 # Repetitions of pressure from leak and leak from pressure; each leaves a tenth of the change
 REPETITIONS = 3
 
@@ -64,6 +68,78 @@ def _at_amplitude(zone: Zone, thickening: Array, variance: float) -> Zone:
     with np.errstate(over="ignore"):
         gain = np.exp(0.5 * variance * np.square(thickening))
     return replace(zone, conductance=zone.conductance / gain)
+
+
+class _Table:
+    """Wavenumbers and directions at which a response is taken, and the way from there to a tile.
+
+    Attributes
+    ----------
+    kx, ky
+        Wavenumbers of the table (m,) [1/a].
+    """
+
+    def __init__(self, spectrum: Spectrum) -> None:
+        rows, ny = spectrum.qx.size, spectrum.qy.size
+        # qy and -qy have the same response
+        half = ny // 2 + 1
+        qx, qy = spectrum.qx[:, np.newaxis], np.abs(spectrum.qy[np.newaxis, :half])
+        q = np.hypot(qx, qy)
+        low, high = np.log(q[q > 0.0].min()), np.log(q.max())
+        wavenumber = np.exp(np.linspace(low, high, TABLE[0]))[:, np.newaxis]
+        direction = np.linspace(0.0, 0.5 * np.pi, TABLE[1])
+        kx, ky = wavenumber * np.cos(direction), wavenumber * np.sin(direction)
+        kx[:, -1] = 0.0
+        self.kx, self.ky = kx.ravel(), ky.ravel()
+        with np.errstate(divide="ignore"):
+            row = (np.log(q) - low) * ((TABLE[0] - 1) / max(high - low, 1e-12))
+        row = np.maximum(row, 0.0).ravel()
+        column = np.arctan2(qy, qx).ravel() * ((TABLE[1] - 1) / (0.5 * np.pi))
+        self._nearest = np.rint(row).astype(int) * TABLE[1] + np.rint(column).astype(int)
+        self._rows, self._columns = row, column
+        self._shape = rows, half
+        self._mirror = np.minimum(np.arange(ny), ny - np.arange(ny))
+
+    def gathered(self, power: Array) -> Array:
+        """Sum what the components of a tile have at the nearest place of the table, (m,)."""
+        half = self._shape[1]
+        folded = power[:, :half].copy()
+        folded[:, 1 : power.shape[1] - half + 1] += power[:, half:][:, ::-1]
+        weights = folded.ravel()
+        return np.asarray(np.bincount(self._nearest, weights, self.kx.size), dtype=np.float64)
+
+    def spread(self, tables: Sequence[Complex]) -> list[Complex]:
+        """Interpolate tables (m,) to all components, linear in log |q| and direction."""
+        values = np.stack(tables, axis=-1).view(np.float64)
+        found = [np.empty((self._shape[0], self._mirror.size), dtype=complex) for _ in tables]
+        width = self._shape[1]
+        step = max(1, BLOCK // width)
+        for first in range(0, self._shape[0], step):
+            part = slice(first * width, (first + step) * width)
+            spread = (_weights(self._rows[part], self._columns[part]) @ values).view(np.complex128)
+            for k, out in enumerate(found):
+                out[first : first + step] = spread[:, k].reshape(-1, width)[:, self._mirror]
+        for out in found:
+            # a component that does not move has no phase but its own
+            out[0] = out[0].real
+        return found
+
+
+def _weights(row: Array, column: Array) -> sparse.csr_array:
+    """Matrix of the bilinear interpolation in a table, (n, m)."""
+    i, j = (
+        np.minimum(place.astype(np.int32), size - 2)
+        for place, size in zip((row, column), TABLE, strict=True)
+    )
+    # what rounding puts beyond the last column is on it
+    u, v = row - i, np.minimum(column - j, 1.0)
+    at = i * np.int32(TABLE[1]) + j
+    index = np.stack([at, at + 1, at + TABLE[1], at + TABLE[1] + 1], axis=-1)
+    weight = np.stack([(1.0 - u) * (1.0 - v), (1.0 - u) * v, u * (1.0 - v), u * v], axis=-1)
+    ends = np.arange(0, 4 * at.size + 1, 4, dtype=np.int32)
+    return sparse.csr_array(
+        (weight.ravel(), index.ravel(), ends), shape=(at.size, TABLE[0] * TABLE[1])
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,51 +191,30 @@ class Transfer:
             the tile (:func:`_at_amplitude`); None: of small waves.
         """
         bent = _bends(spectrum, velocity_ratio)
-        q = spectrum.q
-        present = q > 0.0
-        low, high = np.log(q[present].min()), np.log(q.max())
-        log_q = np.linspace(low, high, TABLE[0])
-        direction = np.linspace(0.0, 0.5 * np.pi, TABLE[1])
-        kx = (np.exp(log_q)[:, np.newaxis] * np.cos(direction)).ravel()
-        ky = (np.exp(log_q)[:, np.newaxis] * np.sin(direction)).ravel()
-        kx[TABLE[1] - 1 :: TABLE[1]] = 0.0
+        table = _Table(spectrum)
+        kx, ky = table.kx, table.ky
         # the inlet of a strip off the centre line lies further along the motion
         slip = velocity_ratio - 1.0
         behind = 1.0 if bent else np.exp(1j * kx * slip * (np.sqrt(1.0 - OFF_CENTRE**2) - 1.0))
-        inlet = (
-            inlet_transfer(kx, ky, *moes, velocity_ratio),
-            inlet_transfer(kx, ky, *moes, velocity_ratio, OFF_CENTRE) * behind,
-        )
-        angle = np.arctan2(np.abs(spectrum.qy)[np.newaxis, :], spectrum.qx[:, np.newaxis])
-        with np.errstate(divide="ignore"):
-            row = (np.log(q) - low) * ((TABLE[0] - 1) / max(high - low, 1e-12))
-        place = np.stack([np.maximum(row, 0.0), angle * ((TABLE[1] - 1) / (0.5 * np.pi))])
-
-        def spread(table: Complex) -> Complex:
-            part = table.reshape(TABLE)
-            out = np.empty(q.shape, dtype=complex)
-            out.real = map_coordinates(part.real, place, order=1, mode="nearest")
-            out.imag = map_coordinates(part.imag, place, order=1, mode="nearest")
-            # a component that does not move has no phase but its own
-            out[0] = out[0].real
-            return out
-
-        stations = transport(zone, kx, ky, velocity_ratio, STATIONS)
+        lines = np.array([[0.0], [OFF_CENTRE]])
+        inlet = inlet_transfer(kx, ky, *moes, velocity_ratio, lines)
+        inlet[1] *= behind
+        leaking = zone
         if thickening is not None:
-            nearest = np.ravel_multi_index(tuple(np.rint(place).astype(int)), TABLE)
-            power = np.bincount(nearest.ravel(), spectrum.power.ravel(), kx.size)
+            power = table.gathered(spectrum.power)
             carried = inlet[0] * np.exp(1j * kx * slip)
             for _ in range(REPETITIONS):
-                driven, free = stations[MIDDLE]
+                driven, free = transport(leaking, kx, ky, velocity_ratio, CENTRE)[MIDDLE]
                 pressure = stiffness(np.hypot(kx, ky)) * np.abs(1.0 - driven - free * carried)
                 leaking = _at_amplitude(zone, thickening, float(power @ np.square(pressure)))
-                stations = transport(leaking, kx, ky, velocity_ratio, STATIONS)
-        return cls(
-            [spread(driven) for driven, _ in stations],
-            [spread(free * inlet[0]) for _, free in stations],
-            spread(stations[MIDDLE][1] * (inlet[1] - inlet[0])),
-            bent,
+        stations = transport(leaking, kx, ky, velocity_ratio, STATIONS)
+        found = table.spread(
+            [driven for driven, _ in stations]
+            + [free * inlet[0] for _, free in stations]
+            + [stations[MIDDLE][1] * (inlet[1] - inlet[0])]
         )
+        count = STATIONS.size
+        return cls(found[:count], found[count:-1], found[-1], bent)
 
     @classmethod
     def carried(cls, ratio: Array) -> Transfer:

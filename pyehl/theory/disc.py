@@ -38,14 +38,14 @@ RADIUS = 0.8
 of a disc with a fixed edge is singular and that of a contact is not."""
 
 
-def monomials(x: Array, y: Array) -> Array:
-    """x^i y^j for all i + j <= DEGREE, shape (n, 28), for x, y of shape (n,) or any other."""
+def monomials(x: Array, y: Array, axis: int = -1) -> Array:
+    """x^i y^j for all i + j <= DEGREE, 28 along an axis, for x, y of any shape."""
     powers = [[np.ones_like(values)] for values in (x, y)]
     for values, found in zip((x, y), powers, strict=True):
         for _ in range(DEGREE):
             found.append(found[-1] * values)
     terms = [powers[0][i] * powers[1][j] for i in range(DEGREE + 1) for j in range(DEGREE + 1 - i)]
-    return np.stack(terms, axis=-1)
+    return np.stack(terms, axis=axis)
 
 
 def disc_pressure(qx: Array, qy: Array, x: Array, y: Array) -> Complex:

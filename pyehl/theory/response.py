@@ -132,7 +132,7 @@ def inlet_transfer(
     moes_m: float,
     moes_l: float,
     velocity_ratio: float,
-    y: float = 0.0,
+    y: ArrayLike = 0.0,
 ) -> Complex:
     """G = mu/rho at X = -0.9, turned back to X = -1 [-].
 
@@ -145,7 +145,7 @@ def inlet_transfer(
     velocity_ratio
         U.
     y
-        Distance from the centre line [a].
+        Distance from the centre line [a]; broadcast with the wavenumbers.
     """
     fit = _fit()
     kx, ky = np.asarray(qx, dtype=float), np.abs(np.asarray(qy, dtype=float))
@@ -158,13 +158,13 @@ def inlet_transfer(
     log_z = _polynomial(fit["modulus"], variables) + 2.0 * fit["slope"] * (parameter - s)
     angle = c * _polynomial(fit["angle"], variables)
     shift = kx * (velocity_ratio - 1.0) * _polynomial(fit["origin"], variables)
-    oblique = fit["oblique"] * y * y
+    oblique = fit["oblique"] * np.square(y)
     return np.asarray(np.exp(1j * shift) / (1.0 + np.exp(log_z + oblique + 1j * angle)))
 
 
 def _polynomial(terms: list[list[float]], variables: tuple[Array | float, ...]) -> Array:
     """Sum of coefficient times powers of the variables; a term is [coefficient, power, ...]."""
-    first, second = ([np.asarray(v, dtype=float) ** n for n in range(6)] for v in variables[:2])
+    first, second = (_powers(np.asarray(v, dtype=float)) for v in variables[:2])
     total = np.zeros_like(first[0])
     for coefficient, i, j, *others in terms:
         factor = np.float64(coefficient)
@@ -172,6 +172,14 @@ def _polynomial(terms: list[list[float]], variables: tuple[Array | float, ...]) 
             factor = factor * np.float64(value) ** power
         total += factor * first[int(i)] * second[int(j)]
     return total
+
+
+def _powers(variable: Array) -> list[Array]:
+    """Powers 0 to 5."""
+    powers = [np.ones_like(variable)]
+    for _ in range(5):
+        powers.append(powers[-1] * variable)
+    return powers
 
 
 def transport(
@@ -216,19 +224,27 @@ def transport(
         ]
     )
     nodes, middle = zone.at(x), zone.at(0.5 * (x[1:] + x[:-1]))
-    slip = qx * (velocity_ratio - 1.0)
+    slip = 1j * qx * (velocity_ratio - 1.0)
+    cubed = q * q * k
     made = np.zeros(q.shape, dtype=complex)
     decay = np.zeros(q.shape)
     found = []
-    for i, h in enumerate(np.diff(x)):
-        c = k * middle.film[i] * middle.compressibility[i]
-        leak = middle.conductance[i] * q * q * k / ((1.0 + c) * middle.density[i])
-        decay += leak * h
+    lengths = np.repeat(np.diff([INLET, *stations]) / steps, steps)
+    for i, h in enumerate(lengths):
+        if i == 0 or h != lengths[i - 1]:
+            turn = slip * h
+            phase, still = np.exp(turn), np.abs(turn) < 1e-6
+        stiff = 1.0 + k * (middle.film[i] * middle.compressibility[i])
+        leak = cubed * (middle.conductance[i] / middle.density[i] * h) / stiff
+        decay += leak
         # exact for coefficients that are constant over the step
-        rate = 1j * slip - leak
-        grown = np.exp(rate * h)
-        share = np.where(np.abs(rate) * h > 1e-6, (grown - 1.0) / np.where(rate == 0, 1, rate), h)
-        made = made * grown + leak * middle.density[i] * share
+        grown = np.exp(-leak) * phase
+        rate = turn - leak
+        small = still & (leak < 1e-6)
+        rate[small] = 1.0
+        share = (grown - 1.0) / rate
+        share[small] = 1.0
+        made = made * grown + (leak * middle.density[i]) * share
         if i + 1 in ends:
             rho = nodes.density[i + 1]
             c = k * nodes.film[i + 1] * nodes.compressibility[i + 1]
