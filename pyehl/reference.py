@@ -7,7 +7,9 @@ a test against it can fail.
 
 from __future__ import annotations
 
+import csv
 from dataclasses import dataclass
+from importlib import resources
 from typing import cast
 
 import numpy as np
@@ -106,22 +108,28 @@ class SmoothRow:
     limit_min: float
 
 
-# Computed before this package existed by two independent programs, a multigrid solver and a Newton
-# solver with FFT deflection, which agree within 0.2 %: second-order upstream wedge, constant
-# pressure per cell, Roelands with p0 = 1.96e8 Pa, alpha = 2.2e-8 1/Pa, Dowson-Higginson density,
-# X up to 1.5. Unless said, the domain is -2.5 <= X <= 1.5, |Y| <= 2.
-SMOOTH = (
-    SmoothRow(1000.0, 10.0, 0.6684, -2.5, 2.0, (129, 257, 513),
-              (0.02058, 0.02355, 0.024335), (0.00577, 0.00793, 0.00833), 0.02459, 0.00847),
-    SmoothRow(1000.0, 10.0, 0.68, -2.5, 2.0, (257, 513, 1025),
-              (0.023583, 0.024367, 0.024567), (0.007921, 0.008320, 0.008448), 0.024633, 0.00849),
-    SmoothRow(200.0, 10.0, 0.68, -2.5, 2.0, (129, 257, 513),
-              (0.07902, 0.08103, 0.08155), (0.03725, 0.03847, 0.03874), 0.08172, 0.03883),
-    SmoothRow(500.0, 15.0, 0.68, -2.5, 2.0, (129, 257, 513),
-              (0.04891, 0.05163, 0.05232), (0.01975, 0.02164, 0.02212), 0.05255, 0.02228),
-    SmoothRow(20.0, 10.0, 0.6684, -4.5, 3.0, (129, 257, 513),
-              (0.42872, 0.43115, 0.43177), (0.29094, 0.29218, 0.29237), 0.43197, 0.29243),
-)  # fmt: skip
+def _table(name: str) -> list[dict[str, str]]:
+    """Rows of a table in reproduce/data, which says where its values are from."""
+    text = resources.files("pyehl").joinpath("reproduce", "data", name).read_text("utf-8")
+    return list(csv.DictReader(x for x in text.splitlines() if not x.startswith("#")))
+
+
+def _smooth() -> tuple[SmoothRow, ...]:
+    keys = ("contact.moes_m", "contact.moes_l", "lubricant.roelands_z", "grid.x_inlet")
+    contacts: dict[tuple[str, ...], list[dict[str, str]]] = {}
+    for row in _table("smooth.csv"):
+        contacts.setdefault(tuple(row[key] for key in (*keys, "grid.y_extent")), []).append(row)
+    found = []
+    for contact, rows in contacts.items():
+        m, ell, z, inlet, side = (float(value) for value in contact)
+        points = tuple(int(row["grid.points"]) for row in rows)
+        h_c, h_min = (tuple(float(row[name]) for row in rows) for name in ("H_c", "H_min"))
+        limits = (float(rows[-1][f"{name}_extrapolated"]) for name in ("H_c", "H_min"))
+        found.append(SmoothRow(m, ell, z, inlet, side, points, h_c, h_min, *limits))
+    return tuple(found)
+
+
+SMOOTH = _smooth()
 """Smooth steady contacts."""
 
 
@@ -142,18 +150,15 @@ class WavinessRow:
     mu_ratio_max: float
 
 
-# Computed before this package existed by a Newton solver with FFT deflection, residual 1e-5 or
-# below, velocity ratio 1.01, time step = mesh size, mean over whole periods; amplitude in a^2/R,
-# wavelength in a, F_smooth of the same grid and z.
-WAVINESS = (
-    WavinessRow(513, 0.6684, "paper", 9.734e-3, 0.5, 1.4607, 1.4541, 1.4670),
-    WavinessRow(513, 0.6684, "narrow", 9.734e-3, 0.5, 1.4631, 1.4565, 1.4694),
-    WavinessRow(257, 0.6684, "paper", 9.734e-3, 0.5, 1.4513, 1.4450, 1.4574),
-    WavinessRow(257, 0.68, "paper", 9.4330927e-3, 0.5, 1.4435, 1.4373, 1.4495),
-    WavinessRow(257, 0.68, "narrow", 9.4330927e-3, 0.5, 1.4464, 1.4402, 1.4524),
-    WavinessRow(129, 0.68, "paper", 8.2362474e-3, 0.5, 1.3457, 1.3409, 1.3503),
-    WavinessRow(129, 0.68, "narrow", 8.2362474e-3, 0.5, 1.3128, 1.3087, 1.3168),
-    WavinessRow(257, 0.68, "paper", 4.7165463e-3, 0.5, 1.0987, 1.0964, 1.1010),
-    WavinessRow(257, 0.68, "paper", 9.4330927e-3, 0.25, 3.4719, 3.4673, 3.4762),
+WAVINESS = tuple(
+    WavinessRow(
+        int(row["grid.points"]),
+        float(row["lubricant.roelands_z"]),
+        row["time.scheme"],
+        float(row["surface.amplitude"]),
+        float(row["surface.wavelength"]),
+        *(float(row[name]) for name in ("mu_ratio", "mu_ratio_min", "mu_ratio_max")),
+    )
+    for row in _table("waviness.csv")
 )
 """Moving waviness. The last row is damped by its scheme: right arithmetic, wrong physics."""

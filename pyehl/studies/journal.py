@@ -19,7 +19,7 @@ from typing import Any, Self
 
 from pyehl.errors import FileError, InputError
 
-__all__ = ["NAME", "Journal", "difference"]
+__all__ = ["NAME", "Journal", "difference", "read_header"]
 
 NAME = "journal.jsonl"
 VERSION = 1
@@ -44,6 +44,15 @@ def _read(line: bytes) -> Row | None:
     except ValueError:
         return None
     return value if isinstance(value, dict) else None
+
+
+def read_header(folder: str | os.PathLike[str]) -> Row | None:
+    """Give what the study in a folder is; None where there is no journal that can be read."""
+    try:
+        with (Path(folder) / NAME).open("rb") as stream:
+            return _read(stream.readline().rstrip(b"\n"))
+    except OSError:
+        return None
 
 
 def difference(old: Mapping[str, Any], new: Mapping[str, Any]) -> list[str]:

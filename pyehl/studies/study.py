@@ -174,8 +174,13 @@ def make(
     Raises
     ------
     InputError
+<<<<<<< HEAD
         If a key is varied twice, keys that move together have not as many values, or there is no
         such output.
+=======
+        If a key is varied twice, keys that move together have not as many values, or a value (of
+        keys that move together: all their values) is there twice.
+>>>>>>> eafec8d (pyehl compare: results and studies against tables of reference values; those of smooth and wavy contacts come with the package)
     """
     if run not in RUNS:
         raise InputError(f"run = '{run}': expected one of {', '.join(RUNS)}{_near(run, RUNS)}")
@@ -187,6 +192,8 @@ def make(
             raise InputError(f"{name} is varied twice")
     groups = [names] if zipped is True else [[k.strip().lower() for k in g] for g in zipped or ()]
     dimensions = _dimensions(axes, groups)
+    for together in dimensions:
+        _refuse_twice(together)
     texts = tuple(str(text) for text in options)
     for text in texts:
         key = text.partition("=")[0].strip().lower()
@@ -197,6 +204,17 @@ def make(
     if study.size > MAX_CASES:
         raise InputError(f"{study.size} cases; a study can have {MAX_CASES}")
     return study
+
+
+def _refuse_twice(together: Sequence[Axis]) -> None:
+    """Refuse a dimension of a study in which a case is there twice."""
+    seen = set()
+    for values in zip(*(a.values for a in together), strict=True):
+        if values in seen:
+            names = ", ".join(a.key for a in together)
+            told = repr(values[0]) if len(values) == 1 else ", ".join(map(repr, values))
+            raise InputError(f"{names}: the value {told} is there twice")
+        seen.add(values)
 
 
 def _dimensions(

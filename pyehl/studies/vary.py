@@ -97,9 +97,6 @@ def axis(key: str, values: str | Iterable[Any] | Value) -> Axis:
         if not all(isinstance(v, int | float) and not isinstance(v, bool) for v in found):
             raise InputError(f"{key}: numbers and words together: {found}")
         found = [float(value) for value in found]
-    if len(set(found)) < len(found):
-        twice = next(value for value in found if found.count(value) > 1)
-        raise InputError(f"{key}: the value {twice!r} is there twice")
     return Axis(key, tuple(found))
 
 

@@ -23,7 +23,7 @@ LAYERS = [
     ["prediction", "run", "export"],
     ["api"],
     ["studies"],
-    ["bench"],
+    ["bench", "reproduce"],
     ["commands"],
     ["cli"],
     ["__init__", "__main__"],

@@ -53,7 +53,6 @@ def test_texts(text: str, values: tuple[object, ...]):
         ("a.b=1:2:many", "expected start:stop:count"),
         ("a.b=1:inf:3", "not finite"),
         ("a.b=1,,2", "a value is missing"),
-        ("a.b=1,2,1", "twice"),
         ("a.b=1,red", "numbers and words"),
     ],
 )
@@ -100,6 +99,8 @@ def test_keys_that_move_together():
     together = study("a.x=1:2", "a.y=3:4", zipped=True)
     assert together.shape == (2,)
     assert [p.values for p in together.points()] == [{"a.x": 1, "a.y": 3}, {"a.x": 2, "a.y": 4}]
+    again = study("a.x=1,1,2", "a.y=3,4,3", zipped=True)
+    assert [tuple(p.values.values()) for p in again.points()] == [(1, 3), (1, 4), (2, 3)]
     partly = study("a.x=1:2", "a.z=1:3", "a.y=3:4", zipped=[["a.x", "a.y"]])
     assert partly.shape == (2, 3)
     assert partly.keys == ["a.x", "a.y", "a.z"]
@@ -110,6 +111,8 @@ def test_keys_that_move_together():
     [
         (study, "nothing is varied"),
         (lambda: study("a.x=1:2", "a.x=3"), "varied twice"),
+        (lambda: study("a.x=1,2,1"), "a.x: the value 1 is there twice"),
+        (lambda: study("a.x=1,2,1", "a.y=3,4,3", zipped=True), "a.x, a.y: the value 1, 3 is"),
         (lambda: study("a.x=1:2", "a.y=1:3", zipped=True), "a.x 2, a.y 3"),
         (lambda: study("a.x=1:2", zipped=[["a.xx"]]), "did you mean 'a.x'"),
         (lambda: make("c", [axis("a.x", [1])], run="predct"), "did you mean 'predict'"),

@@ -1,0 +1,288 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Results against a table of references: deviations, pass or fail."""
+
+from __future__ import annotations
+
+import csv
+import difflib
+import io
+import json
+import math
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from pyehl import namelist
+from pyehl.case import Case
+from pyehl.errors import InputError
+from pyehl.studies.journal import read_header
+from pyehl.studies.reference_table import Expected, Key, ReferenceRow, ReferenceTable
+from pyehl.studies.table import cell, replace
+from pyehl.studies.vary import Value, option
+
+__all__ = ["Comparison", "Deviation", "Results", "compare", "read_results", "write_deviations"]
+
+Row = Mapping[str, Any]
+
+TABLES = ("results.csv", "stribeck.csv")
+# Numbers of keys are the same when they are written with so many digits
+SAME = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Deviation:
+    """A result beside a reference value.
+
+    Attributes
+    ----------
+    line
+        Of the table of references.
+    case
+        Keys of the row, in words.
+    name
+        Of the result.
+    expected
+        Reference value and tolerance.
+    found
+        The result; None where there is none.
+    why
+        Why there is none; '' where there is one.
+    """
+
+    line: int
+    case: str
+    name: str
+    expected: Expected
+    found: float | None
+    why: str = ""
+
+    @property
+    def difference(self) -> float:
+        """Result less reference [as the result]; NaN without a result."""
+        return math.nan if self.found is None else self.found - self.expected.value
+
+    @property
+    def passed(self) -> bool:
+        """Whether it is within the tolerance."""
+        return self.found is not None and abs(self.difference) <= self.expected.tolerance
+
+    def __str__(self) -> str:
+        """Give name, both values, deviation and verdict in one line."""
+        value, tolerance = self.expected.value, self.expected.tolerance
+        if self.found is None:
+            return f"{self.name} no result ({self.why}), reference {value:.6g}: FAIL"
+        relative = f" ({100.0 * self.difference / value:+.2g} %)" if value else ""
+        verdict = "pass" if self.passed else "FAIL"
+        return (
+            f"{self.name} {self.found:.6g}, reference {value:.6g}: deviation "
+            f"{self.difference:+.2g}{relative}, tolerance {tolerance:.2g}: {verdict}"
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """All deviations, and rows of the table that no result belongs to."""
+
+    deviations: tuple[Deviation, ...]
+    missing: tuple[ReferenceRow, ...]
+
+    @property
+    def passed(self) -> bool:
+        """Whether every value that was compared is within its tolerance."""
+        return all(d.passed for d in self.deviations)
+
+
+@dataclass(frozen=True, slots=True)
+class Results:
+    """Results to compare: one folder, or the rows of a table.
+
+    Attributes
+    ----------
+    name
+        Folder or file.
+    rows
+        Results by name; keys of the case that were varied are among them.
+    study
+        Case, options and what is varied of a study, as its journal says; None: not known.
+    many
+        Whether it is a table.
+    case
+        Resolved text of the case of one result; '' for a table.
+    """
+
+    name: str
+    rows: tuple[Row, ...]
+    study: Mapping[str, Any] | None
+    many: bool
+    case: str = ""
+
+    def key(self, number: int, name: str) -> object:
+        """Give the value of a key for a row; None where the case does not have it.
+
+        Raises
+        ------
+        InputError
+            If nothing is known of the key.
+        """
+        row = self.rows[number]
+        if name in row:
+            return row[name]
+        if "." not in name:
+            raise InputError(f"{self.name}: there is no '{name}'{_near(name, row)}")
+        if self.case:
+            settings = namelist.values(self.case)
+        elif self.study is not None:
+            study = self.study
+            values = tuple((key, row[key]) for key in study["vary"])
+            settings = _settings(study["case"], tuple(study["set"]), values)
+        else:
+            raise InputError(
+                f"{self.name}: there is no column '{name}', and no journal beside it that says "
+                "what the case was"
+            )
+        group, _, key = name.partition(".")
+        return settings[group].get(key)
+
+
+@cache
+def _settings(
+    text: str, options: tuple[str, ...], values: tuple[tuple[str, Value], ...]
+) -> dict[str, dict[str, Any]]:
+    texts = [*options, *(option(key, value) for key, value in values)]
+    return Case.from_text(text, texts, "case of the study").resolve()
+
+
+def read_results(path: str | os.PathLike[str]) -> Results:
+    """Open results: a folder of one run, of a study (``pyehl sweep``, ``stribeck``), or a CSV file.
+
+    Raises
+    ------
+    InputError
+        If it is none of these.
+    """
+    folder = Path(path)
+    if folder.is_dir() and (folder / "summary.json").is_file():
+        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+        case = (folder / "case.nml").read_text(encoding="utf-8")
+        return Results(str(folder), (summary,), None, many=False, case=case)
+    tables = [folder / name for name in TABLES] if folder.is_dir() else [folder]
+    for table in tables:
+        if table.is_file():
+            return Results(str(table), _rows(table), read_header(table.parent), many=True)
+    raise InputError(
+        f"{folder}: no results\nexpected: a result folder (summary.json), a folder of "
+        f"pyehl sweep or stribeck ({', '.join(TABLES)}), or a CSV file"
+    )
+
+
+def _rows(path: Path) -> tuple[Row, ...]:
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: cannot read: {error}") from error
+    lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
+    rows = [{k: _value(v) for k, v in row.items()} for row in csv.DictReader(lines)]
+    if not rows:
+        raise InputError(f"{path}: there are no rows")
+    return tuple(rows)
+
+
+def _value(text: str | None) -> Value | None:
+    if text in (None, ""):
+        return None
+    if text in ("true", "false"):
+        return text == "true"
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            continue
+    return text
+
+
+def _near(word: str, known: Mapping[str, Any]) -> str:
+    near = difflib.get_close_matches(word, list(known), n=1)
+    return f"; did you mean '{near[0]}'?" if near else ""
+
+
+def _same(wanted: Key, found: object) -> bool:
+    if isinstance(wanted, bool) or isinstance(found, bool):
+        return wanted is found
+    if isinstance(wanted, float):
+        return isinstance(found, int | float) and math.isclose(wanted, found, rel_tol=SAME)
+    return isinstance(found, str) and found.strip("'\"").lower() == wanted.lower()
+
+
+def compare(results: Results, table: ReferenceTable) -> Comparison:
+    """Compare results with the rows of a table whose keys they have.
+
+    Raises
+    ------
+    InputError
+        If no row of the table belongs to a result, or no result has a column of the table.
+    """
+    for name in table.values:
+        if not any(name in row for row in results.rows):
+            raise InputError(
+                f"{table.name}: no result has '{name}'{_near(name, results.rows[0])}\n"
+                "expected: names of results, as in summary.json"
+            )
+    deviations, missing = [], []
+    for reference in table.rows:
+        matched = [
+            n
+            for n in range(len(results.rows))
+            if all(_same(value, results.key(n, key)) for key, value in reference.keys.items())
+        ]
+        if not matched:
+            missing.append(reference)
+        for n in matched:
+            deviations += _deviations(reference, results.rows[n])
+    if not deviations:
+        raise InputError(
+            f"{table.name}: none of its {len(table.rows)} rows belongs to a result of "
+            f"{results.name}; its keys are {', '.join(table.keys) or 'none'}"
+        )
+    return Comparison(tuple(deviations), tuple(missing))
+
+
+def _deviations(reference: ReferenceRow, row: Row) -> list[Deviation]:
+    case = ", ".join(f"{key}={_told(value)}" for key, value in reference.keys.items())
+    found = []
+    for name, expected in reference.expected.items():
+        value, why = row.get(name), ""
+        if (
+            isinstance(value, bool)
+            or not isinstance(value, int | float)
+            or not math.isfinite(value)
+        ):
+            value, why = None, f"status '{row.get('status', 'unknown')}'"
+        found.append(Deviation(reference.line, case, name, expected, value, why))
+    return found
+
+
+def _told(value: Key) -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def write_deviations(path: str | os.PathLike[str], deviations: Sequence[Deviation]) -> None:
+    """Write deviations as CSV, whole or not at all.
+
+    Raises
+    ------
+    FileError
+        If it cannot be written.
+    """
+    text = io.StringIO(newline="")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(
+        ["line", "case", "name", "reference", "tolerance", "result", "deviation", "verdict"]
+    )
+    for d in deviations:
+        difference = None if d.found is None else d.difference
+        cells = (d.line, d.case, d.name, d.expected.value, d.expected.tolerance, d.found)
+        writer.writerow([cell(v) for v in (*cells, difference, "pass" if d.passed else "fail")])
+    replace(Path(path), text.getvalue().encode())
