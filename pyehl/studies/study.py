@@ -174,13 +174,8 @@ def make(
     Raises
     ------
     InputError
-<<<<<<< HEAD
-        If a key is varied twice, keys that move together have not as many values, or there is no
-        such output.
-=======
-        If a key is varied twice, keys that move together have not as many values, or a value (of
-        keys that move together: all their values) is there twice.
->>>>>>> eafec8d (pyehl compare: results and studies against tables of reference values; those of smooth and wavy contacts come with the package)
+        If a key is varied twice, keys that move together have not as many values, a value (of keys
+        that move together: all their values) is there twice, or there is no such output.
     """
     if run not in RUNS:
         raise InputError(f"run = '{run}': expected one of {', '.join(RUNS)}{_near(run, RUNS)}")
