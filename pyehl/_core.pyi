@@ -9,6 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 _Array = NDArray[np.float64]
+_Single = NDArray[np.float32]
+_Pairs = NDArray[np.complex64]
+_Indices = NDArray[np.int32]
 
 class _Solver:
     def open_case(
@@ -96,6 +99,29 @@ class _Surfaces:
         gaussian: int,
     ) -> tuple[int, bytes]: ...
 
+class _Waves:
+    def driven_waves(
+        self,
+        tile: _Pairs,
+        rows: _Indices,
+        columns: _Indices,
+        weight: _Single,
+        shift: int,
+        total: _Pairs,
+    ) -> None: ...
+    def free_waves(
+        self,
+        tile: _Pairs,
+        low: _Indices,
+        columns: _Indices,
+        between: _Single,
+        weight: _Single,
+        part: _Single,
+        shift: int,
+        total: _Pairs,
+    ) -> None: ...
+
 ehl_f2py_solver: _Solver
 ehl_f2py_functions: _Functions
 ehl_f2py_surfaces: _Surfaces
+ehl_f2py_waves: _Waves

@@ -23,6 +23,7 @@ try:
     from pyehl._core import ehl_f2py_functions as functions
     from pyehl._core import ehl_f2py_solver as ehl
     from pyehl._core import ehl_f2py_surfaces as surface_functions
+    from pyehl._core import ehl_f2py_waves as waves
 except ImportError as error:  # pragma: no cover
     raise ImportError(
         "the compiled part of pyehl is not here. Install the package (pip install .) and run "
@@ -46,6 +47,7 @@ __all__ = [
     "surface_functions",
     "text_of",
     "version",
+    "waves",
 ]
 
 Array = NDArray[np.float64]

@@ -14,6 +14,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl import library
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import OFF_CENTRE, STATIONS
@@ -110,22 +111,23 @@ class RoughContact:
         self.operating, self.lubricant = operating, lubricant
         self.thins = lubricant.shear.law != "newtonian" and operating.sliding_speed > 0.0
         half = [int(REACH / (stride * p)) for p in pixel]
-        self.rows, self.columns = (np.arange(-n, n + 1) * stride for n in half)
+        self.rows, self.columns = (np.arange(-n, n + 1, dtype=np.int32) * stride for n in half)
         self.x = np.asarray(self.rows * pixel[0], dtype=float)
         self.y = np.asarray(self.columns * pixel[1], dtype=float)
         self.pressure, self.film = contact.at(self.x, self.y)
         radius = np.hypot(self.x[:, np.newaxis], self.y[np.newaxis, :])
         self.inside = (radius < REACH) & (self.pressure > 0.0)
         self.weights = np.stack(
-            [np.interp(self.x, STATIONS, unit) for unit in np.eye(STATIONS.size)]
+            [np.interp(self.x, STATIONS, unit) for unit in np.eye(STATIONS.size)], axis=-1
         ).astype(np.float32)
-        self.off = np.minimum(np.abs(self.y), FARTHEST) ** 2 / OFF_CENTRE**2
+        off = np.minimum(np.abs(self.y), FARTHEST) ** 2 / OFF_CENTRE**2
+        self.off = off.astype(np.float32)
         # the free wave is that of the roughness where it was when the inlet made it
         inlet = np.sqrt(np.maximum(0.0, 1.0 - self.y * self.y)) if waves.bent else np.ones(1)
         slipped = (velocity_ratio - 1.0) * (self.x[:, np.newaxis] + inlet)
         place = (self.x[:, np.newaxis] + slipped) / pixel[0] * REFINEMENT
-        self.free_rows = np.floor(place).astype(int)
-        self.between = (place - self.free_rows).astype(np.float32)[..., np.newaxis]
+        self.free_rows = np.floor(place).astype(np.int32)
+        self.between = (place - self.free_rows).astype(np.float32)
         held = np.minimum(1.0, EDGE_RADIUS / np.maximum(radius, 1e-12))
         grid = np.meshgrid(self.x, self.y, indexing="ij")
         x, y = (held * values for values in grid)
@@ -137,19 +139,6 @@ class RoughContact:
         self.cavitated = 0
         self.count = 0
         self.imbalance = 0.0
-        self.track = 0
-        self._cut(0)
-
-    def _cut(self, track: int) -> None:
-        """Take the columns of the tile that pass through the contact."""
-        stride = self.waves.stride
-        columns = (self.columns - track) // stride % self.waves.driven[0].shape[1]
-        self.driven = [np.take(tile, columns, axis=1) for tile in self.waves.driven]
-        self.free = [np.take(tile, columns, axis=1) for tile in self.waves.free]
-        if self.waves.off_centre is not None:
-            self.off_centre = np.take(self.waves.off_centre, columns, axis=1)
-            self.off_centre *= self.off[:, np.newaxis].astype(np.float32)
-        self.track = track
 
     def _stress(self, pressure: Array, film: Array) -> Array:
         """Shear stress at P [p_h] in H [a^2/R]: [Pa], or of a Newtonian oil over eta0 and speed."""
@@ -169,43 +158,31 @@ class RoughContact:
             Pixels that the tile has moved along and across the motion; `track` is a multiple of
             the stride of the waves.
         """
-        if track != self.track:
-            self._cut(track)
-        rows = (self.rows - shift) % self.driven[0].shape[0]
+        waves = self.waves
+        columns = (self.columns - track) // waves.stride % waves.driven.shape[2]
+        columns = columns.astype(np.int32)
         total = np.zeros((*self.film.shape, 2), dtype=np.float32)
-        for weight, driven in zip(self.weights, self.driven, strict=True):
-            part = _support(weight)
-            total[part] += weight[part, np.newaxis, np.newaxis] * driven[rows[part]]
-        if self.free:
-            self._add_free(total, shift)
+        library.waves.driven_waves(
+            _pairs(waves.driven), self.rows, columns, self.weights.T, shift, _pairs(total)
+        )
+        for tile, weights, part in (
+            (waves.free, self.weights, np.ones_like(self.off)),
+            (waves.off_centre, np.ones_like(self.weights[:, :1]), self.off),
+        ):
+            if tile is not None:
+                library.waves.free_waves(
+                    _pairs(tile),
+                    self.free_rows.T,
+                    columns,
+                    self.between.T,
+                    weights.T,
+                    part,
+                    shift * REFINEMENT,
+                    _pairs(total),
+                )
         edge = self.edge.at(shift * self.pixel[0], track * self.pixel[1])
         total[..., 1] += (edge @ self.monomials).reshape(self.film.shape)
         return np.asarray(total)
-
-    def _add_free(self, total: Array, shift: int) -> None:
-        """Add the free waves, linear between the points of their table."""
-        points, lines = self.free[0].shape[:2]
-        low = (self.free_rows - shift * REFINEMENT) % points
-        high = (low + 1) % points
-        if self.waves.bent:
-            low, high = low * lines + np.arange(lines), high * lines + np.arange(lines)
-
-        def pick(tile: Array, part: slice) -> Array:
-            if self.waves.bent:
-                # film and pressure of a place are picked as one number of twice the size
-                pairs = tile.view(np.complex64).ravel()
-                below, above = (
-                    np.take(pairs, index[part])[..., np.newaxis].view(np.float32)
-                    for index in (low, high)
-                )
-            else:
-                below, above = tile[low[part, 0]], tile[high[part, 0]]
-            return np.asarray(below + self.between[part] * (above - below))
-
-        total += pick(self.off_centre, slice(None))
-        for weight, free in zip(self.weights, self.free, strict=True):
-            part = _support(weight)
-            total[part] += weight[part, np.newaxis, np.newaxis] * pick(free, part)
 
     def cavitated_bound(self, least: float) -> float:
         """Bound of the share of friction where P = 0, `least` the least ratio of all positions."""
@@ -217,23 +194,22 @@ class RoughContact:
     def friction(self, shift: int, track: int = 0) -> float:
         """Friction over that of the smooth contact; NaN where the film is not positive."""
         change = self.change(shift, track)
-        film = (self.film - change[..., 0])[self.inside]
-        pressure = (self.pressure + change[..., 1])[self.inside]
+        film = self.film - change[..., 0]
+        pressure = self.pressure + change[..., 1]
         self.count += 1
-        carried = 1.5 * float(change[..., 1][self.inside].mean())
+        carried = 1.5 * float(change[..., 1].mean(where=self.inside))
         self.imbalance = max(self.imbalance, abs(carried))
-        self.thinnest = min(self.thinnest, float(film.min()))
+        self.thinnest = min(self.thinnest, float(film.min(where=self.inside, initial=math.inf)))
         if self.thinnest <= 0.0:
             return math.nan
-        lost = pressure <= 0.0
-        if lost.any():
-            self.cavitated += int(np.count_nonzero(lost))
-            pressure[lost] = 0.0
+        self.cavitated += int(np.count_nonzero((pressure <= 0.0) & self.inside))
+        # outside nothing is counted: any film and pressure will do
+        film[~self.inside] = 1.0
+        np.maximum(pressure, 0.0, out=pressure)
         with np.errstate(over="ignore"):
-            return float(self._stress(pressure, film).sum()) / self.smooth
+            return float(self._stress(pressure, film).sum(where=self.inside)) / self.smooth
 
 
-def _support(weight: Array) -> slice:
-    """Rows with a weight."""
-    used = np.nonzero(weight)[0]
-    return slice(int(used[0]), int(used[-1]) + 1)
+def _pairs(values: NDArray[np.float32]) -> NDArray[np.complex64]:
+    """Film and pressure of the last dimension as one number, the dimensions reversed."""
+    return values.view(np.complex64)[..., 0].T

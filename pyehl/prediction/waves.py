@@ -21,8 +21,8 @@ from pyehl.theory.response import edge_gain, stiffness
 
 __all__ = ["REFINEMENT", "Waves"]
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+Single = NDArray[np.float32]
 
 REFINEMENT = 4
 """Points per pixel along the motion at which the free wave is tabulated."""
@@ -30,25 +30,25 @@ REFINEMENT = 4
 
 @dataclass(frozen=True, slots=True)
 class Waves:
-    """Film (less by) and pressure (more by) of driven and free waves as tiles.
+    """Film (less by) and pressure (more by) of driven and free waves as tiles, single precision.
 
     Attributes
     ----------
     driven
-        Per station (nx, ny/stride, 2): film, pressure.
+        Over station (n, nx, ny/stride, 2): film, pressure.
     free
-        Per station (REFINEMENT nx, ny/stride, 2).
+        The same (n, REFINEMENT nx, ny/stride, 2); None without free waves.
     off_centre
-        What OFF_CENTRE adds to the free waves (REFINEMENT nx, ny/stride, 2).
+        What OFF_CENTRE adds to the free waves (1, REFINEMENT nx, ny/stride, 2).
     stride
-        Every so many-th column of the tile is there. Single precision is enough for waves.
+        Every so many-th column of the tile is there.
     bent
         As in :class:`Transfer`.
     """
 
-    driven: list[Array]
-    free: list[Array]
-    off_centre: Array | None
+    driven: Single
+    free: Single | None
+    off_centre: Single | None
     stride: int
     bent: bool
 
@@ -68,19 +68,22 @@ class Waves:
         step = spectrum.qx * (np.pi / REFINEMENT / spectrum.qx[-1])
         bright = (1.0 / (1.0 - np.square(step) / 12.0))[:, np.newaxis]
 
-        def tiles(t: Complex, pressure: Complex, refinement: int) -> Array:
-            kept = (
-                spectrum.tile(factor, refinement, stride, np.complex64) for factor in (t, pressure)
-            )
-            return np.stack(list(kept), axis=-1)
+        def tiles(waves: list[tuple[Complex, Complex]], refinement: int) -> Single:
+            shape = spectrum.shape[0] * refinement, spectrum.shape[1] // stride, 2
+            found = np.empty((len(waves), *shape), dtype=np.float32)
+            for place, pair in zip(found, waves, strict=True):
+                for i, factor in enumerate(pair):
+                    place[..., i] = spectrum.tile(factor, refinement, stride, np.complex64)
+            return found
 
-        def free(t: Complex) -> Array:
-            return tiles(t * bright, -k * (t * bright), REFINEMENT)
+        def free(waves: list[Complex]) -> Single:
+            lit = (t * bright for t in waves)
+            return tiles([(t, -k * t) for t in lit], REFINEMENT)
 
         return cls(
-            [tiles(t, k * (1.0 - t), 1) for t in transfer.driven],
-            [free(t) for t in transfer.free],
-            None if transfer.off_centre is None else free(transfer.off_centre),
+            tiles([(t, k * (1.0 - t)) for t in transfer.driven], 1),
+            free(transfer.free) if transfer.free else None,
+            None if transfer.off_centre is None else free([transfer.off_centre]),
             stride,
             transfer.bent,
         )
