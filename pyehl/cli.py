@@ -64,15 +64,15 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(f"pyehl {metadata.version('pyehl')}")
         return 0
     chosen = words[0] if words else ""
-    parser = _parser(chosen)
-    if chosen not in SUBCOMMANDS and not chosen.startswith("-"):
-        near = difflib.get_close_matches(chosen, SUBCOMMANDS, n=1)
-        hint = f"; did you mean '{near[0]}'?" if near else ""
-        if words:
-            print(f"pyehl: error: unknown subcommand '{chosen}'{hint}", file=sys.stderr)
-        parser.print_help(sys.stderr if words else sys.stdout)
-        return EXIT_USAGE
     try:
+        parser = _parser(chosen)
+        if chosen not in SUBCOMMANDS and not chosen.startswith("-"):
+            near = difflib.get_close_matches(chosen, SUBCOMMANDS, n=1)
+            hint = f"; did you mean '{near[0]}'?" if near else ""
+            if words:
+                print(f"pyehl: error: unknown subcommand '{chosen}'{hint}", file=sys.stderr)
+            parser.print_help(sys.stderr if words else sys.stdout)
+            return EXIT_USAGE
         args = parser.parse_args(words)
         return int(args.execute(args))
     except InputError as error:

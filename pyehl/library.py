@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The compiled library: the only module that imports the extension.
+"""The compiled library.
 
 Solvers have a module of their own, `pyehl.solver`.
 
@@ -18,17 +18,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import InputError, check
-
-try:
-    from pyehl._core import ehl_f2py_functions as functions
-    from pyehl._core import ehl_f2py_solver as ehl
-    from pyehl._core import ehl_f2py_surfaces as surface_functions
-    from pyehl._core import ehl_f2py_waves as waves
-except ImportError as error:  # pragma: no cover
-    raise ImportError(
-        "the compiled part of pyehl is not here. Install the package (pip install .) and run "
-        "outside of the source folder, or use 'python -P'."
-    ) from error
+from pyehl.extension import functions, surface_functions, waves
+from pyehl.extension import solvers as ehl
 
 __all__ = [
     "Deflection",

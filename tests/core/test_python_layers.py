@@ -13,7 +13,9 @@ import pytest
 # and those for typing alone count too.
 LAYERS = [
     ["errors", "display", "kept", "schema", "reference"],
-    ["library", "namelist"],
+    ["processor", "namelist"],
+    ["extension"],
+    ["library", "program"],
     ["theory"],
     ["surfaces"],
     ["case"],
@@ -107,7 +109,7 @@ def test_nobody_imports_a_command(graph: dict[str, set[str]]):
 @pytest.mark.parametrize(
     ("what", "where"),
     [
-        ("pyehl._core", {"library"}),
+        ("pyehl._core", {"extension"}),
         ("argparse", {"commands", "cli"}),
         # the prediction names a type of it
         ("matplotlib", {"plots", "prediction"}),
@@ -121,7 +123,7 @@ def test_who_imports_what(root: Path, what: str, where: set[str]):
             if isinstance(node, ast.Import):
                 names = [alias.name for alias in node.names]
             elif isinstance(node, ast.ImportFrom):
-                names = [str(node.module)]
+                names = [str(node.module), *(f"{node.module}.{a.name}" for a in node.names)]
             if any(other == what or other.startswith(f"{what}.") for other in names):
                 users.add(top(name))
     assert users

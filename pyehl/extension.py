@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The compiled extension, in the build for this processor; the only module that imports it."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, cast
+
+from pyehl.processor import suffix
+
+if TYPE_CHECKING:
+    from pyehl import _core
+
+__all__ = ["functions", "solvers", "surface_functions", "waves"]
+
+try:
+    _extension = import_module(f"pyehl._core{suffix()}")
+except ImportError as error:  # pragma: no cover
+    raise ImportError(
+        "the compiled part of pyehl is not here. Install the package (pip install .) and run "
+        "outside of the source folder, or use 'python -P'."
+    ) from error
+
+solvers = cast("_core._Solver", _extension.ehl_f2py_solver)
+functions = cast("_core._Functions", _extension.ehl_f2py_functions)
+surface_functions = cast("_core._Surfaces", _extension.ehl_f2py_surfaces)
+waves = cast("_core._Waves", _extension.ehl_f2py_waves)

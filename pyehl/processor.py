@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Which build of the compiled parts this processor runs.
+
+An installation from source has one build, for the machine that compiled it. A wheel has two:
+one for every x86-64 processor, and one (suffix ``_v3``) for those with the instructions x86-64-v3
+(AVX2 and FMA, from 2013 on), which is 1.2 to 1.5 times faster. The results of the two agree to
+rounding, not to the last bit: v3 fuses multiplications and additions. The environment variable
+``PYEHL_CPU`` set to ``baseline`` or ``x86-64-v3`` forces one of them.
+"""
+
+from __future__ import annotations
+
+import os
+from importlib.util import find_spec
+from pathlib import Path
+
+from pyehl.errors import InputError
+
+__all__ = ["VARIABLE", "suffix"]
+
+VARIABLE = "PYEHL_CPU"
+BASELINE, V3 = "baseline", "x86-64-v3"
+# What x86-64-v3 adds, by the names of Linux (the psABI of x86-64, microarchitecture levels)
+V3_FLAGS = {"avx", "avx2", "bmi1", "bmi2", "f16c", "fma", "abm", "movbe", "xsave"}
+
+
+def processor_flags(path: Path = Path("/proc/cpuinfo")) -> set[str]:
+    """Features of the processor by the names of Linux; none where they are not told."""
+    try:
+        text = path.read_text(encoding="ascii", errors="replace")
+    except OSError:
+        return set()
+    for line in text.splitlines():
+        name, _, value = line.partition(":")
+        if name.strip() == "flags":
+            return set(value.split())
+    return set()
+
+
+def choose(wanted: str, has_v3: bool, flags: set[str]) -> str:
+    """Choose a build.
+
+    Parameters
+    ----------
+    wanted
+        The value of ``PYEHL_CPU``; '' leaves the choice to the processor.
+    has_v3
+        Whether there is a build for x86-64-v3 besides the other one.
+    flags
+        Features of the processor.
+
+    Returns
+    -------
+    str
+        The suffix of its extension and of its program: '' or '_v3'.
+
+    Raises
+    ------
+    InputError
+        If the wanted build does not exist, or the processor cannot run it.
+    """
+    if wanted not in ("", BASELINE, V3):
+        raise InputError(f"{VARIABLE}={wanted}: '{BASELINE}' or '{V3}' was expected")
+    if wanted and not has_v3:
+        raise InputError(
+            f"{VARIABLE}={wanted}: this installation has one build only\n"
+            "expected: a wheel, or no such variable"
+        )
+    able = flags >= V3_FLAGS
+    if wanted == V3 and not able:
+        lacking = ", ".join(sorted(V3_FLAGS - flags))
+        raise InputError(f"{VARIABLE}={V3}: this processor lacks {lacking}")
+    return "_v3" if has_v3 and able and wanted != BASELINE else ""
+
+
+def suffix() -> str:
+    """Suffix of the build that this process uses."""
+    has_v3 = find_spec("pyehl._core_v3") is not None
+    return choose(os.environ.get(VARIABLE, ""), has_v3, processor_flags() if has_v3 else set())
