@@ -53,6 +53,11 @@ class Kept(Generic[T]):
                 self._items.popitem(last=False)
         return item
 
+    def clear(self) -> None:
+        """Keep nothing of what was made so far."""
+        with self._lock:
+            self._items.clear()
+
 
 def saved_seconds() -> float:
     """Seconds that all that is kept in this process has saved so far."""

@@ -25,6 +25,7 @@ from pyehl.theory.response import Zone
 
 __all__ = [
     "SmoothContact",
+    "forget",
     "hertz_contact",
     "read_contact",
     "smooth_case",
@@ -121,6 +122,11 @@ def solve_contact(settings: Mapping[str, Mapping[str, Any]]) -> SmoothContact:
     """
     text = smooth_case(settings)
     return _KEPT.get(text, lambda: _solved(text))
+
+
+def forget() -> None:
+    """Solve anew what was kept, as `pyehl bench skips` does to see what keeping saves."""
+    _KEPT.clear()
 
 
 def _solved(text: str) -> SmoothContact:

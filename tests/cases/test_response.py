@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from second_solver import START, VELOCITY, X_MATTERS, SecondSolver, Z
 
 from pyehl import cli
+from pyehl.bench.second_solver import START, VELOCITY, X_MATTERS, SecondSolver, Wave, Z
 from pyehl.case import Case
 from pyehl.studies import response
 from pyehl.studies.superposition import SLOPE, WaveSet, superpose
@@ -162,7 +162,7 @@ def test_second_solver_has_the_same_response():
     node = int(np.argmin(np.hypot(second.x, second.y)))
     # the front has left the domain; the last period counts
     steps, period = 94, round(wavelength / VELOCITY / second.h)
-    march = islice(second.march(amplitude, wavelength), steps)
+    march = islice(second.march(Wave(amplitude, wavelength, wavelength)), steps)
     film = np.array([values[node] for _, values in march])[-period:]
     first = int((X_MATTERS - 0.5 * wavelength - START) / VELOCITY / second.h) + 1
     time = (first + np.arange(steps))[-period:] * second.h

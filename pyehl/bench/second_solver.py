@@ -9,6 +9,7 @@ the linear systems by GMRES, with the LU factors of an earlier, full matrix as p
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -17,11 +18,14 @@ from numpy.typing import NDArray
 from scipy import linalg, sparse
 from scipy.sparse.linalg import LinearOperator, gmres
 
+__all__ = ["START", "VELOCITY", "X_MATTERS", "NotSolvedError", "SecondSolver", "Wave", "Z"]
+
 Array = NDArray[np.float64]
 
 ALPHA, P_0, Z = 2.2e-8, 1.96e8, 0.6684
 X_INLET, X_OUTLET = -2.5, 1.5
-VELOCITY, START = 1.01, -2.5
+START = -2.5
+VELOCITY = 1.01
 # The roughness changes nothing before its front, with half its length, is here
 X_MATTERS = -1.25
 # Residual (rms) and error of the load of a solution
@@ -40,6 +44,20 @@ def cell(dx: Array, dy: Array, h: float) -> Array:
     return 2.0 / np.pi**2 * (corner(e, n) - corner(w, n) - corner(e, s) + corner(w, s))
 
 
+class NotSolvedError(Exception):
+    """Newton's method has come to no end."""
+
+
+@dataclass(frozen=True, slots=True)
+class Wave:
+    """A waviness: amplitude [a^2/R], wavelengths [a], velocity over the mean one."""
+
+    amplitude: float
+    length_x: float
+    length_y: float
+    velocity: float = VELOCITY
+
+
 class SecondSolver:
     """A contact on the half Y >= 0 of the grid, all nodes in one vector, X first."""
 
@@ -54,7 +72,7 @@ class SecondSolver:
         self.speed = (128.0 * np.pi**3 / (3.0 * moes_m**4)) ** (1.0 / 3.0)
         self.weight = np.where(self.y == 0.0, 1.0, 2.0) * self.h**2
         # deflection by the pressure of one cell, at (i, j) nodes from it
-        far = self.h * np.arange(points)
+        far: Array = self.h * np.arange(points, dtype=np.float64)
         self.cells = cell(far[:, None], far[None, :], self.h)
         wrapped = np.zeros((2 * points, 2 * points))
         wrapped[:points, :points] = self.cells
@@ -101,12 +119,13 @@ class SecondSolver:
         answer: Array = w[: self.points, self.rows - 1 : self.points].T.ravel()
         return answer
 
-    def wave(self, amplitude: float, wavelength: float, time: float) -> Array:
-        """Eq. 15."""
-        along = (self.x - START - VELOCITY * time) / wavelength
+    def wave(self, wave: Wave, time: float) -> Array:
+        """Heights of eq. 15."""
+        along = (self.x - START - wave.velocity * time) / wave.length_x
         fade = 10.0 ** (-10.0 * np.maximum(0.0, along) ** 2)
-        across = np.cos(2.0 * np.pi * self.y / wavelength)
-        return amplitude * fade * np.cos(2.0 * np.pi * along) * across
+        across = np.cos(2.0 * np.pi * self.y / wave.length_y)
+        answer: Array = wave.amplitude * fade * np.cos(2.0 * np.pi * along) * across
+        return answer
 
     def viscosity(self, p: Array) -> tuple[Array, Array]:
         """Roelands: eta, d ln eta/dP."""
@@ -119,10 +138,11 @@ class SecondSolver:
         return (5.9e8 + 1.34 * q) / (5.9e8 + q), 0.34 * 5.9e8 * self.p_hertz / (5.9e8 + q) ** 2
 
     def friction(self, p: Array, film: Array) -> float:
+        """Integral of eta/H."""
         return float((self.weight * self.viscosity(p)[0] / film).sum())
 
     def solve(
-        self, p: Array, h00: float, separation: Array, transport: Any, known: Array
+        self, p: Array, h00: float, separation: Array, transport: sparse.sparray, known: Array
     ) -> tuple[Array, float, Array]:
         """P, H00 and H with -div(eps grad P) + transport (rho H) + known = 0 or P = 0."""
         n = p.size
@@ -151,12 +171,17 @@ class SecondSolver:
             change = self.newton_step(by_film, by_p, fixed, rest, diagonal)
             damp = min(1.0, 0.3 / np.abs(change[:n]).max())
             p, h00 = np.maximum(0.0, p + damp * change[:n]), h00 + damp * change[n]
-        raise AssertionError(f"Newton's method does not converge: residual {error}")
+        raise NotSolvedError(f"Newton's method does not converge: residual {error}")
 
     def newton_step(
-        self, by_film: Any, by_p: Any, fixed: NDArray[np.bool_], rest: Array, diagonal: Array
+        self,
+        by_film: sparse.sparray,
+        by_p: sparse.sparray,
+        fixed: NDArray[np.bool_],
+        rest: Array,
+        diagonal: Array,
     ) -> Array:
-        """Changes of pressure and of H00; the pressure of fixed nodes becomes 0."""
+        """Give the changes of P and of H00; the pressure of fixed nodes becomes 0."""
         n = fixed.size
         # all equations in units of their own pressure
         free = sparse.diags_array(np.where(fixed, 0.0, 1.0 / diagonal))
@@ -187,8 +212,10 @@ class SecondSolver:
         answer: Array = change
         return answer
 
-    def factor(self, by_film: Any, by_p: Any, nodes: NDArray[np.intp]) -> None:
-        """The full matrix of some nodes and the load, and its LU factors."""
+    def factor(
+        self, by_film: sparse.sparray, by_p: sparse.sparray, nodes: NDArray[np.intp]
+    ) -> None:
+        """Keep the LU factors of the full matrix of some nodes and the load."""
         rows = by_film[nodes]
         touched = np.unique(rows.indices)
         m = nodes.size
@@ -201,8 +228,8 @@ class SecondSolver:
         self.factors = linalg.lu_factor(matrix, overwrite_a=True, check_finite=False)
         self.set = nodes
 
-    def upstream(self) -> Any:
-        """Second-order upstream difference along X, of first order in the first column."""
+    def upstream(self) -> sparse.sparray:
+        """Give the second-order upstream difference along X, of first order in the first column."""
         order = np.where(self.first, 0.0, 1.0)
         answer = (
             sparse.diags_array(1.0 + 0.5 * order)
@@ -212,21 +239,18 @@ class SecondSolver:
         return answer / self.h
 
     def smooth(self) -> tuple[Array, float, Array]:
-        """The steady contact."""
+        """Solve the steady contact."""
         p = np.sqrt(np.maximum(0.0, 1.0 - self.x**2 - self.y**2))
         shape = 0.5 * (self.x**2 + self.y**2)
         return self.solve(p, -0.9, shape, self.upstream(), np.zeros_like(p))
 
-    def march(self, amplitude: float, wavelength: float) -> Iterator[tuple[float, Array]]:
+    def march(self, wave: Wave) -> Iterator[tuple[float, Array]]:
         """mu_r/mu_s and the film of one step after the other, the step being the mesh size."""
         shape = 0.5 * (self.x**2 + self.y**2)
         p, h00, film = self.smooth()
         smooth = self.friction(p, film)
-        step = int((X_MATTERS - 0.5 * wavelength - START) / VELOCITY / self.h)
-        mass = [
-            self.density(p)[0] * (film - self.wave(amplitude, wavelength, (step - k) * self.h))
-            for k in (0, 1)
-        ]
+        step = max(0, int((X_MATTERS - 0.5 * wave.length_x - START) / wave.velocity / self.h))
+        mass = [self.density(p)[0] * (film - self.wave(wave, (step - k) * self.h)) for k in (0, 1)]
         order = np.where(self.first, 0.0, 1.0)
         if self.narrow:
             transport = sparse.diags_array((1.0 + 0.5 * order) / self.h)
@@ -234,7 +258,7 @@ class SecondSolver:
             transport = self.upstream() + 1.5 / self.h * sparse.eye_array(p.size)
         while True:
             step += 1
-            separation = shape - self.wave(amplitude, wavelength, step * self.h)
+            separation = shape - self.wave(wave, step * self.h)
             if self.narrow:
                 known = -(1.0 + order) * (self.at(-1, 0) @ mass[0])
                 known = (known + 0.5 * order * (self.at(-2, 0) @ mass[1])) / self.h

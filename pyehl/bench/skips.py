@@ -1,0 +1,417 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``pyehl bench skips``: what a scene does not need, the seconds saved, and that nothing changes.
+
+Each row is a scene solved as usual and once more with that work done. Both are made in turn, on one
+thread; seconds are those of the processor, the least of the repeats.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from pyehl import library
+from pyehl.bench.unit import hertz
+from pyehl.case import Case
+from pyehl.errors import InputError
+from pyehl.prediction import smooth as smooth_contact
+from pyehl.prediction.of_case import predict
+from pyehl.solver import Solver
+
+__all__ = ["COLUMNS", "SCENES", "skip_rows"]
+
+COLUMNS = (
+    ("scene", "s"),
+    ("skipped", "s"),
+    ("seconds", ".3f"),
+    ("without", ".3f"),
+    ("saved", ".0%"),
+    ("quantity", "s"),
+    ("difference", ".1e"),
+    ("allowed", ".1e"),
+)
+
+Row = dict[str, Any]
+Values = Mapping[str, Any]
+
+FRACTAL = ("surface.kind=fractal",)
+WAVE = (
+    "contact.moes_m=1000.0",
+    "contact.moes_l=10.0",
+    "surface.kind=harmonic",
+    "surface.amplitude=9.734e-3",
+    "surface.velocity_ratio=1.01",
+)
+# Bits cannot be equal where sums are taken in another order; the cycles may make it more
+ROUNDING = 1e-10
+# Relative algebraic error at which the first grid of the nested iteration is left
+START_TOLERANCE = 1e-3
+# The grid coarser than this has no solution at Table 1, so that the error is not known
+LEAST = 257
+# Periods after which a run of fixed length is over: until the start has died out, and one more
+FIXED_PERIODS = 3
+
+
+@dataclass(slots=True)
+class _Timed:
+    """The least processor seconds of something, and what it gave."""
+
+    call: Callable[[], Values]
+    seconds: float = math.inf
+    values: Values = None  # type: ignore[assignment]
+
+    def run(self) -> None:
+        began = time.process_time()
+        self.values = self.call()
+        self.seconds = min(self.seconds, time.process_time() - began)
+
+
+def _solve(*options: str) -> dict[str, Any]:
+    with Solver(Case.from_text("", options), "solver.threads=1") as solver:
+        solver.run()
+        return solver.summary()
+
+
+def _compare(
+    scene: str,
+    skipped: str,
+    quantity: str,
+    usual: Callable[[], Values],
+    other: Callable[[], Values],
+    allowed: Callable[[Values], float],
+    repeats: int,
+    *,
+    besides: bool = False,
+) -> Row:
+    """Make both in turn; differences are relative, the greatest one where `quantity` is an array.
+
+    `besides`: the other is work on top of the usual one.
+    """
+    pair = _Timed(usual), _Timed(other)
+    for _ in range(repeats):
+        for timed in pair:
+            timed.run()
+    one, two = (np.asarray(timed.values[quantity], dtype=float) for timed in pair)
+    difference = float(np.max(np.abs(one - two)) / np.max(np.abs(one)))
+    limit = allowed(pair[0].values)
+    without = pair[1].seconds + (pair[0].seconds if besides else 0.0)
+    return {
+        "scene": scene,
+        "skipped": skipped,
+        "seconds": pair[0].seconds,
+        "without": without,
+        "saved": 1.0 - pair[0].seconds / without,
+        "quantity": quantity,
+        "difference": difference,
+        "allowed": limit,
+        "same": difference <= limit,
+    }
+
+
+def _nothing(values: Values) -> float:
+    return 0.0
+
+
+def _rounding(values: Values) -> float:
+    """Allow what another order of sums makes."""
+    return ROUNDING
+
+
+def _step_tolerance(values: Values) -> float:
+    """Algebraic error that a time step allows itself in mu_r/mu_s, of two runs."""
+    return 2.0 * 0.1 * float(values["mu_ratio_error_grid"]) / float(values["mu_ratio"])
+
+
+def _mean_tolerance(values: Values) -> float:
+    """Change of the mean at which a run ends, and the algebraic error of its steps."""
+    stop = float(values["mu_ratio_error_stop"]) / float(values["mu_ratio"])
+    return max(1e-3, stop) + _step_tolerance(values)
+
+
+def smooth_scene(points: int, repeats: int) -> list[Row]:
+    """Smooth contact of Table 1 in SI units."""
+    points = max(points, LEAST)
+    scene, grid = "smooth contact, SI units", f"grid.points={points}"
+
+    def usual() -> Values:
+        values = _solve(grid)
+        return values | {"mu_ratio": 1.0}
+
+    def march() -> Values:
+        # one period, as a rough surface would need
+        return _solve(
+            grid, "surface.kind=harmonic", "surface.amplitude=0.0", "time.estimate_error=.false."
+        )
+
+    def estimated() -> Values:
+        values = _solve(grid)
+        error = values["H_c_error"] - values["H_c_algebraic_error"]
+        return values | {"coarser H_c": values["H_c"] - 3.0 * error}
+
+    def coarser() -> Values:
+        return {"coarser H_c": _solve(f"grid.points={(points + 1) // 2}")["H_c"]}
+
+    return [
+        _compare(
+            scene,
+            "half of the domain: symmetric in Y",
+            "H_c",
+            usual,
+            lambda: _solve(grid, "solver.symmetry=full"),
+            _rounding,
+            repeats,
+        ),
+        _compare(
+            scene,
+            "roughness, time levels and time steps",
+            "mu_ratio",
+            usual,
+            march,
+            lambda values: 1e-4,
+            1,
+        ),
+        _compare(
+            scene,
+            "a solve on the next coarser grid for the error",
+            "coarser H_c",
+            estimated,
+            coarser,
+            lambda values: START_TOLERANCE,
+            repeats,
+            besides=True,
+        ),
+        _deflection_row(scene, points, repeats),
+    ]
+
+
+def _deflection_row(scene: str, points: int, repeats: int) -> Row:
+    """Corrections of the deflection where P = 0, in so many deflections of a Hertz pressure."""
+    pressure, h, _, _ = hertz(points)
+    # as little as keeps a pressure from being zero
+    everywhere = np.maximum(pressure, np.finfo(float).tiny / np.finfo(float).eps)
+    count = 20
+
+    def call(p: Any) -> Callable[[], Values]:  # noqa: ANN401
+        def deflect() -> Values:
+            done = library.deflection(p, h, h, "mlmi", accuracy=1e-5, threads=1, repeats=count)
+            return {"deflection": done.values}
+
+        return deflect
+
+    what = f"corrections where P = 0, {count} deflections"
+    return _compare(
+        scene,
+        what,
+        "deflection",
+        call(pressure),
+        call(everywhere),
+        _rounding,
+        repeats,
+    )
+
+
+def _march_rows(scene: str, options: Sequence[str], repeats: int, *, symmetric: bool) -> list[Row]:
+    """Measure what a transient run leaves out."""
+
+    def usual() -> Values:
+        return _solve(*options)
+
+    first = usual()
+
+    def at_the_end() -> Values:
+        """Run to the end of a fixed number of periods."""
+        # from where the front, half a contact radius long, comes near to where it fills the contact
+        filled = 1.05 + 1.25 + 0.25
+        step = float(first["x_mesh"])
+        steps = math.ceil(filled / 1.01 / step + FIXED_PERIODS * float(first["T_period"]) / step)
+        return _solve(*options, f"time.steps={steps}")
+
+    rows = []
+    if symmetric:
+        rows.append(
+            _compare(
+                scene,
+                "half of the domain: symmetric in Y",
+                "mu_ratio",
+                usual,
+                lambda: _solve(*options, "solver.symmetry=full"),
+                _rounding,
+                repeats,
+            )
+        )
+    rows += [
+        _compare(
+            scene,
+            f"{first['steps_skipped']} steps before the roughness is near",
+            "mu_ratio",
+            usual,
+            lambda: _solve(*options, "time.skip_start=.false."),
+            _mean_tolerance,
+            repeats,
+        ),
+        _compare(
+            scene,
+            f"steps up to the end of period {FIXED_PERIODS}: settled before",
+            "mu_ratio",
+            lambda: _solve(*options, "time.estimate_error=.false."),
+            at_the_end,
+            lambda values: _mean_tolerance(first),
+            repeats,
+        ),
+        _compare(
+            scene,
+            "a solve of the smooth contact for mu_s",
+            "F",
+            usual,
+            lambda: _smooth_of(options),
+            _nothing,
+            repeats,
+            besides=True,
+        ),
+    ]
+    return rows
+
+
+def _smooth_of(options: Sequence[str]) -> dict[str, Any]:
+    kept = [text for text in options if not text.startswith("surface.")]
+    return _solve(*kept)
+
+
+def wave_scene(points: int, repeats: int) -> list[Row]:
+    """Wave of Fig. 2 of Zhang et al. 2019: symmetric in Y."""
+    options = [*WAVE, f"grid.points={max(points, LEAST)}"]
+    return _march_rows("symmetric wave", options, repeats, symmetric=True)
+
+
+def fractal_scene(points: int, repeats: int) -> list[Row]:
+    """Fractal surface of Table 1."""
+    options = [*FRACTAL, f"grid.points={max(points, LEAST)}"]
+    return _march_rows("fractal surface", options, repeats, symmetric=False)
+
+
+def _predict(*options: str, keep: bool = True) -> Values:
+    if not keep:
+        smooth_contact.forget()
+    return predict(Case.from_text("", [*FRACTAL, *options]).resolve()).summary
+
+
+def prediction_scene(points: int, repeats: int) -> list[Row]:
+    """Prediction of a fractal surface, nothing simulated."""
+    _predict()
+    return [
+        _compare(
+            "prediction only",
+            "the smooth contact of another surface",
+            "mu_ratio",
+            lambda: _predict("surface.seed=2"),
+            lambda: _predict("surface.seed=2", keep=False),
+            _nothing,
+            repeats,
+        )
+    ]
+
+
+def sweep_scene(points: int, repeats: int, cases: int = 20) -> list[Row]:
+    """Sweep of predictions over surfaces."""
+    seeds = [f"surface.seed={k + 1}" for k in range(cases)]
+
+    def together() -> Values:
+        smooth_contact.forget()
+        return {"mu_ratio": [_predict(seed)["mu_ratio"] for seed in seeds]}
+
+    def alone() -> Values:
+        return {"mu_ratio": [_predict(seed, keep=False)["mu_ratio"] for seed in seeds]}
+
+    return [
+        _compare(
+            f"sweep of {cases}",
+            f"{cases - 1} smooth contacts",
+            "mu_ratio",
+            together,
+            alone,
+            _nothing,
+            repeats,
+        ),
+        _starts_row(seeds, together),
+    ]
+
+
+def _starts_row(seeds: Sequence[str], together: Callable[[], Values]) -> Row:
+    """One process for all cases, or one for each; wall seconds, since children are not ours."""
+
+    def apart() -> Values:
+        found = []
+        with tempfile.TemporaryDirectory(prefix="pyehl-") as place:
+            case = Path(place) / "case.nml"
+            case.write_text("&surface kind = 'fractal' /\n", encoding="utf-8")
+            for k, seed in enumerate(seeds):
+                folder = Path(place) / str(k)
+                words = ["predict", str(case), "--set", seed, "-o", str(folder), "--no-plots"]
+                subprocess.run(
+                    [sys.executable, "-P", "-m", "pyehl", *words], check=True, capture_output=True
+                )
+                text = (folder / "summary.json").read_text(encoding="utf-8")
+                found.append(json.loads(text)["mu_ratio"])
+        return {"mu_ratio": found}
+
+    took = []
+    values = []
+    for call in (together, apart):
+        began = time.perf_counter()
+        values.append(np.asarray(call()["mu_ratio"]))
+        took.append(time.perf_counter() - began)
+    difference = float(np.max(np.abs(values[0] - values[1])) / np.max(np.abs(values[0])))
+    return {
+        "scene": f"sweep of {len(seeds)}",
+        "skipped": f"{len(seeds) - 1} starts of Python, and the above",
+        "seconds": took[0],
+        "without": took[1],
+        "saved": 1.0 - took[0] / took[1],
+        "quantity": "mu_ratio",
+        "difference": difference,
+        "allowed": 0.0,
+        "same": difference == 0.0,
+    }
+
+
+SCENES: dict[str, Callable[[int, int], list[Row]]] = {
+    "smooth": smooth_scene,
+    "wave": wave_scene,
+    "fractal": fractal_scene,
+    "predict": prediction_scene,
+    "sweep": sweep_scene,
+}
+"""Scenes by name; each takes the nodes per side and the number of repeats."""
+
+
+def skip_rows(scenes: Sequence[str], points: int, repeats: int = 3) -> list[Row]:
+    """Seconds with and without what is skipped, and the difference in the result.
+
+    Parameters
+    ----------
+    scenes
+        Names of `SCENES`.
+    points
+        Nodes per side of what is solved.
+    repeats
+        How often each is made.
+
+    Raises
+    ------
+    InputError
+        If there is no such scene.
+    """
+    for name in scenes:
+        if name not in SCENES:
+            raise InputError(f"scene '{name}': expected some of {', '.join(SCENES)}")
+    return [row for name in scenes for row in SCENES[name](points, repeats)]

@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The cases of ``pyehl bench stress``: drawn from a seed, over all that can be asked for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from pyehl.case import Case
+from pyehl.studies.study import Study, make
+from pyehl.studies.vary import Axis, Value
+
+__all__ = ["BOUNDS", "FAMILIES", "GRIDS", "StressCase", "draw", "study_of"]
+
+GRIDS = (65, 129, 257)
+BOUNDS = {65: 400, 129: 300, 257: 200}
+"""Most steps of a case by its grid; one that needs more is ended there."""
+FAMILIES = {"smooth": 0.15, "wave": 0.5, "rest": 0.1, "fractal": 0.12, "feature": 0.13}
+"""Kinds of scenes, and the share of each."""
+# Where the roughness begins to matter, and where it fills the contact [a]
+MATTERS, FILLED = -1.25, 1.05
+# Lengths of waves along X and along Y [a]; the last is none at all
+LONGEST_X, LONGEST_Y = 100.0, 1e6
+WAVELENGTHS = tuple(0.125 * 2.0 ** (k / 2.0) for k in range(11))
+VELOCITIES = (0.1, 0.25, 0.5, 0.75, 0.9, 1.0, 1.01, 1.1, 1.25, 1.5, 2.0)
+# A contact in SI units that has the wanted M and L
+RADIUS, MODULUS, ALPHA, VISCOSITY = 0.018, 2.26e11, 2.2e-8, 0.04
+
+
+@dataclass(frozen=True, slots=True)
+class StressCase:
+    """One case.
+
+    Attributes
+    ----------
+    family
+        One of `FAMILIES`.
+    moes_m, moes_l, points
+        Operating point and grid.
+    values
+        All keys of its case file that are given.
+    """
+
+    family: str
+    moes_m: float
+    moes_l: float
+    points: int
+    values: Mapping[str, Value] = field(default_factory=dict)
+
+    @property
+    def mesh(self) -> float:
+        """Mesh size [a] of the usual domain."""
+        return 4.0 / (self.points - 1)
+
+
+def draw(cases: int, seed: int, grids: Sequence[int] = GRIDS) -> list[StressCase]:
+    """Draw cases; the same for the same seed. Half of them on the first grid, and so on."""
+    generator = np.random.default_rng(seed)
+    names = list(FAMILIES)
+    shares = np.cumsum(list(FAMILIES.values()))
+    return [
+        _one(names[int(np.searchsorted(shares, (k + 0.5) / cases * shares[-1]))], generator, grids)
+        for k in range(cases)
+    ]
+
+
+def _one(family: str, generator: np.random.Generator, grids: Sequence[int]) -> StressCase:
+    weights = np.array([0.5**k for k in range(len(grids))])
+    points = int(generator.choice(grids, p=weights / weights.sum()))
+    moes_m = float(f"{math.exp(generator.uniform(math.log(5.0), math.log(5000.0))):.4g}")
+    moes_l = float(f"{generator.uniform(0.0, 25.0):.3g}")
+    if family in ("fractal", "feature"):
+        moes_l = max(moes_l, 1.0)  # heights in metres need a contact in SI units
+    case = StressCase(family, moes_m, moes_l, points)
+    values: dict[str, Value] = {"grid.points": points}
+    if family == "smooth":
+        # M below 50 in a domain that does not starve it, or not
+        values |= {"grid.x_inlet": float(generator.choice((-2.5, -4.5)))}
+        values |= {"contact.moes_m": moes_m, "contact.moes_l": moes_l}
+    elif family in ("wave", "rest"):
+        values |= {"contact.moes_m": moes_m, "contact.moes_l": moes_l}
+        values |= _wave(case, generator, at_rest=family == "rest")
+    elif family == "fractal":
+        values |= _si(moes_m, moes_l) | _fractal(case, generator)
+    else:
+        values |= _si(moes_m, moes_l) | _feature(case, generator)
+    return StressCase(family, moes_m, moes_l, points, values)
+
+
+def _wave(case: StressCase, generator: np.random.Generator, *, at_rest: bool) -> dict[str, Value]:
+    velocity = 0.0 if at_rest else float(generator.choice(VELOCITIES))
+    # the grid carries waves of more than two nodes, in time too
+    along = [w for w in WAVELENGTHS if w > 2.2 * case.mesh * max(1.0, velocity)]
+    across = [w for w in WAVELENGTHS if w > 2.2 * case.mesh]
+    wave_x = float(generator.choice([*along, LONGEST_X]))
+    wave_y = float(generator.choice([*across, LONGEST_Y]))
+    return {
+        "surface.amplitude_over_film": float(f"{generator.uniform(0.0, 1.2):.3g}"),
+        "surface.wavelength_x": wave_x,
+        "surface.wavelength_y": wave_y,
+        "surface.velocity_ratio": velocity,
+        "time.scheme": str(generator.choice(("narrow", "narrow", "paper"))),
+        "time.steps": 0 if at_rest else _steps(case, wave_x, wave_x, velocity),
+        "solver.coarsening": str(generator.choice(("auto", "auto", "classical", "alcouffe"))),
+    }
+
+
+def _fractal(case: StressCase, generator: np.random.Generator) -> dict[str, Value]:
+    velocity = float(generator.choice(VELOCITIES[2:]))
+    film = _film(case)
+    return {
+        "surface.rms_height": float(f"{generator.uniform(0.02, 0.4) * film * _scale(case):.4g}"),
+        "surface.hurst": float(f"{generator.uniform(0.4, 1.0):.3g}"),
+        "surface.length_x": float(f"{2.0 * _radius(case):.5g}"),
+        "surface.length_y": float(f"{2.0 * _radius(case):.5g}"),
+        "surface.seed": int(generator.integers(1, 1000)),
+        "surface.velocity_ratio": velocity,
+        "time.scheme": str(generator.choice(("narrow", "narrow", "paper"))),
+        "time.steps": _steps(case, 2.0, 0.5, velocity),
+    }
+
+
+def _feature(case: StressCase, generator: np.random.Generator) -> dict[str, Value]:
+    return _fractal(case, generator)
+
+
+def _steps(case: StressCase, period: float, front: float, velocity: float) -> int:
+    """Give the steps to end at; 0 where the run may end by itself."""
+    start = max(-2.5, MATTERS - 0.5 * front)
+    needed = (FILLED - start + 1.5 * period) / (velocity * case.mesh)
+    return 0 if needed <= BOUNDS[case.points] else BOUNDS[case.points]
+
+
+def _film(case: StressCase) -> float:
+    """Rough central film [a^2/R] by 1.7 M^-1/9 L^3/4 (3M/2)^-2/3, for the size of roughness."""
+    piezo = 1.3 * case.moes_m ** (-1.0 / 12.0) * max(case.moes_l, 2.0) ** 0.75
+    return float(piezo * (1.5 * case.moes_m) ** (-2.0 / 3.0))
+
+
+def _si(moes_m: float, moes_l: float) -> dict[str, Value]:
+    speed = 0.5 * (moes_l / (ALPHA * MODULUS)) ** 4
+    return {
+        "contact.mean_velocity": speed * MODULUS * RADIUS / VISCOSITY,
+        "contact.load": _load(moes_m, moes_l),
+        "contact.radius": RADIUS,
+        "contact.reduced_modulus": MODULUS,
+    }
+
+
+def _load(moes_m: float, moes_l: float) -> float:
+    speed = 0.5 * (moes_l / (ALPHA * MODULUS)) ** 4
+    return moes_m * (2.0 * speed) ** 0.75 * MODULUS * RADIUS**2
+
+
+def _radius(case: StressCase) -> float:
+    """Hertz radius [m]."""
+    load = _load(case.moes_m, case.moes_l)
+    return float((1.5 * load * RADIUS / MODULUS) ** (1.0 / 3.0))
+
+
+def _scale(case: StressCase) -> float:
+    """Give the unit of films, a^2/R [m]."""
+    return _radius(case) ** 2 / RADIUS
+
+
+def study_of(
+    family: str, cases: Sequence[StressCase], values: Sequence[Mapping[str, Any]] = ()
+) -> Study:
+    """Give the study of cases of one family, for the machinery of ``pyehl sweep``.
+
+    Parameters
+    ----------
+    family
+        One of `FAMILIES`.
+    cases
+        Cases of that family, at least one.
+    values
+        Keys of each case in place of its own.
+    """
+    kinds = {"wave": "harmonic", "rest": "harmonic", "feature": "fractal"}
+    chosen = [
+        {**case.values, **more}
+        for case, more in zip(cases, values or [{}] * len(cases), strict=True)
+    ]
+    axes = [Axis(key, tuple(row[key] for row in chosen)) for key in chosen[0]]
+    options = (f"surface.kind={kinds.get(family, family)}", "output.fields=.false.")
+    return make(Case.from_text(""), axes, options=options, zipped=True)
