@@ -86,8 +86,24 @@ s | total_cycles | - | cycles on all grids
 s | residual | - | residual (rms) at the end
 s | restarts | - | how often the solution began again
 s | H_c_rough | a^2/R | central film of a rough surface at rest
-s | H_min_rough | a^2/R | minimum film of a rough surface at rest
-s | P_max_rough | p_h | largest pressure of a rough surface at rest
+s | H_min_rough | a^2/R | minimum film of a rough surface at rest, or while a feature passes
+s | H_min_rough_T | a/u | when
+s | H_min_rough_X | a | where
+s | H_min_rough_Y | a | where
+s | h_min_rough_m | m | minimum film while a feature passes
+s | P_max_rough | p_h | largest pressure of a rough surface at rest, or while a feature passes
+s | P_max_rough_T | a/u | when
+s | P_max_rough_X | a | where
+s | P_max_rough_Y | a | where
+s | p_max_rough_Pa | Pa | largest pressure while a feature passes
+s | P_rise_max | p_h | largest rise of the pressure over the smooth contact at the same place
+s | P_rise_max_T | a/u | when
+s | P_rise_max_X | a | where
+s | P_rise_max_Y | a | where
+s | H_ratio_min | - | least film over that of the smooth contact there
+s | H_ratio_min_T | a/u | when
+s | H_ratio_min_X | a | where
+s | H_ratio_min_Y | a | where
 s | rough_cycles | - | cycles of a rough surface at rest
 s | rough_parts | - | parts in which its roughness was raised
 s | rough_residual | - | its residual at the end
@@ -116,7 +132,7 @@ sp | slide_to_roll | - | (u1 - u2)/u
 s | inlet_viscosity_Pa_s | Pa s | viscosity of the inlet
 s | thermal_loading | - | loading parameter of shear heating
 spf | thermal_reduction | - | film over the isothermal one
-s | amplitude | a^2/R | amplitude A_i of a waviness
+s | amplitude | a^2/R | amplitude A_i of a waviness, height or depth of a feature
 s | amplitude_ratio | - | A_d/A_i at the centre
 s | surface_rms_m | m | rms height of the surface that is solved
 s | variance_cut | - | share of the height's variance that was cut on purpose
@@ -124,7 +140,7 @@ s | variance_left_out | - | share of it in waves that the grid does not carry
 s | variance_unresolved | - | share of it in waves that the grid does not resolve
 s | scheme | | time scheme
 s | T | a/u | time at the end
-s | T_period | a/u | period of the roughness
+s | T_period | a/u | period of the roughness; time of the passage of a feature
 s | T_mean | a/u | time that mu_ratio is the mean over
 s | steps | - | time steps
 s | steps_skipped | - | steps that were not needed at the start

@@ -4,7 +4,7 @@ module ehl_case
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: case_t, surface_case_t, word_length, path_length
+   public :: case_t, surface_case_t, is_feature, word_length, path_length
 
    !> Longest option word
    integer, parameter :: word_length = 32
@@ -95,14 +95,25 @@ module ehl_case
 
    !> &surface: the moving roughness
    type :: surface_case_t
-      !> 'smooth' (default), 'harmonic', 'map' or 'fractal'
+      !> 'smooth' (default), 'harmonic', 'map', 'fractal'; 'dent', 'bump', 'ridge' or 'groove', which pass once
       character(len=word_length) :: kind = "smooth"
       !> Whether `amplitude` holds and not `amplitude_over_film`. Not a key; set by the reader.
       logical :: amplitude_given = .false.
-      !> [a^2/R] harmonic amplitude A_i; no default
+      !> [a^2/R] harmonic amplitude A_i, height or depth of a single feature; no default
       real(dp) :: amplitude = 0.0_dp
-      !> [-] harmonic amplitude as a share of the smooth central film, A_i/H_c, default 0.4
+      !> [-] the same as a share of the smooth central film, A_i/H_c, default 0.4
       real(dp) :: amplitude_over_film = 0.4_dp
+      !> [m] height or depth of a single feature; 0 (default): amplitude or amplitude_over_film
+      real(dp) :: height_m = 0.0_dp
+      !> [a] size of a single feature across its line and along it; length 0 (default): dent and bump as long as
+      !> wide, ridge and groove without ends
+      real(dp) :: width = 0.5_dp, length = 0.0_dp
+      !> [m] the same; 0 (default): width, length
+      real(dp) :: width_m = 0.0_dp, length_m = 0.0_dp
+      !> [deg] a single feature is turned counter-clockwise, default 0: across the motion
+      real(dp) :: angle = 0.0_dp
+      !> [a] position of a single feature across the motion, default 0
+      real(dp) :: y_start = 0.0_dp
       !> [a] wavelength, default 0.5
       real(dp) :: wavelength = 0.5_dp
       !> [a] wavelengths along X and Y, default `wavelength`; set by the reader
@@ -110,7 +121,7 @@ module ehl_case
       !> [-] velocity of the rough surface over the mean velocity, default 1 + SRR/2 (surface 1) or 1 - SRR/2; set
       !> by the reader
       real(dp) :: velocity_ratio = 1.01_dp
-      !> [a] where the roughness begins at time 0, default grid x_inlet; set by the reader
+      !> [a] where the roughness begins at time 0, at rest its origin, default grid x_inlet; set by the reader
       real(dp) :: x_start = -2.5_dp
       !> Height map of kind 'map', heights in m, peaks positive; made absolute by the reader (a relative
       !> name starts at the folder of the case file). .npy and text are read here, the rest by pyehl
@@ -234,4 +245,13 @@ module ehl_case
       !> Which keys were given, in the order of the table of keys; not allocated: nobody knows
       logical, allocatable :: given(:)
    end type case_t
+
+contains
+
+   !> Whether a kind of surface is a single feature
+   pure logical function is_feature(kind)
+      character(len=*), intent(in) :: kind
+      character(len=*), parameter :: kinds(4) = [character(len=6) :: "dent", "bump", "ridge", "groove"]
+      is_feature = any(kinds == kind)
+   end function is_feature
 end module ehl_case

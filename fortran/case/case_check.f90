@@ -2,8 +2,9 @@
 !> What one key alone cannot tell: keys that exclude each other, defaults that depend on other
 !> keys, and operating points that cannot be meant
 module ehl_case_check
-   use ehl_case, only: case_t, path_length, surface_case_t
+   use ehl_case, only: case_t, is_feature, path_length, surface_case_t
    use ehl_case_contact, only: check_contact_kind, check_operating_point, complete_kinematics
+   use ehl_case_feature, only: check_feature
    use ehl_case_lubricant, only: check_shear_law, complete_lubricant
    use ehl_case_temperature, only: check_heat, complete_viscosity
    use ehl_files, only: absolute_path, file_exists, folder_of
@@ -122,6 +123,7 @@ contains
             call contradict(schema, sources, "surface.amplitude", "surface.amplitude_over_film", "one of the two", status)
             return
          end if
+         call check_feature(schema, input, sources, status)
          if (.not. status%failed()) call check_filter(schema, input, sources, status)
          if (status%failed()) return
          if (s%kind == "map" .and. s%file == "") then
@@ -135,7 +137,7 @@ contains
       if (input%surface%file /= "") call find_map(schema, input, sources, status)
    end subroutine complete_surface
 
-   !> A single wave has no spectrum to cut, and something must be left of others
+   !> A single wave or feature has no spectrum to cut, and something must be left of others
    subroutine check_filter(schema, input, sources, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(in) :: input
@@ -147,7 +149,14 @@ contains
 
       limits = [input%surface%shortest_wavelength, input%surface%longest_wavelength]
       do k = 1, 2
-         if (.not. limits(k) > 0.0_dp .or. input%surface%kind /= "harmonic") cycle
+         if (.not. limits(k) > 0.0_dp) cycle
+         if (is_feature(input%surface%kind)) then
+            call refuse(schema, sources, "surface", trim(names(k)), "surface."//trim(names(k))//": a "// &
+                        trim(input%surface%kind)//" has a closed form, there is no spectrum to cut", &
+                        "0, or surface.kind = 'map' or 'fractal'", status)
+            return
+         end if
+         if (input%surface%kind /= "harmonic") cycle
          call refuse(schema, sources, "surface", trim(names(k)), "surface."//trim(names(k))// &
                      ": a harmonic surface is a single wave, there is no spectrum to cut", &
                      "0, or surface.kind = 'map' or 'fractal'", status)

@@ -20,7 +20,7 @@ module ehl_case_key
       integer :: kind = 0
       character(len=8) :: unit = ""
       !> Numbers: an interval such as '(0, 10]', '0 or [1, 5]'; words: 'this|that'
-      character(len=48) :: allowed = ""
+      character(len=96) :: allowed = ""
       character(len=96) :: meaning = ""
       !> The value inside the case, one of these
       real(dp), pointer :: real_value => null()

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The resolved case as namelist text, and the list of all options
 module ehl_case_writer
-   use ehl_case, only: case_t
+   use ehl_case, only: case_t, is_feature
    use ehl_case_key, only: key_t
    use ehl_derived, only: mark_default, mark_derived
    use ehl_kinds, only: dp
@@ -51,7 +51,12 @@ contains
       case ("surface.amplitude")
          holds = input%surface%amplitude_given
       case ("surface.amplitude_over_film")
-         holds = input%surface%kind == "harmonic" .and. .not. input%surface%amplitude_given
+         holds = (input%surface%kind == "harmonic" .or. is_feature(input%surface%kind)) &
+                 .and. .not. input%surface%amplitude_given .and. .not. input%surface%height_m > 0.0_dp
+      case ("surface.width")
+         holds = .not. input%surface%width_m > 0.0_dp
+      case ("surface.length")
+         holds = .not. input%surface%length_m > 0.0_dp
       case ("lubricant.temperature", "lubricant.density_15", "lubricant.thermal_expansion")
          holds = input%lubricant%kinematic_viscosity_40 > 0.0_dp
       case ("lubricant.limiting_coefficient")

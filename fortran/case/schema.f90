@@ -24,6 +24,7 @@ module ehl_schema
       procedure, private :: add_grid_keys
       procedure, private :: add_surface_keys
       procedure, private :: add_map_keys
+      procedure, private :: add_feature_keys
       procedure, private :: add_march_keys
       procedure, private :: add_psd_keys
       procedure, private :: reals
@@ -51,6 +52,12 @@ module ehl_schema
          class(schema_t), intent(inout) :: self
          type(surface_case_t), intent(inout), target :: s
       end subroutine add_map_keys
+
+      !> A single feature: its size and place
+      module subroutine add_feature_keys(self, s)
+         class(schema_t), intent(inout) :: self
+         type(surface_case_t), intent(inout), target :: s
+      end subroutine add_feature_keys
    end interface
 
 contains
@@ -98,12 +105,12 @@ contains
       type(case_t), intent(inout), target :: input
 
       associate (s => input%surface)
-         call self%words("surface", "kind", s%kind, "smooth|harmonic|map|fractal", &
-                         "the moving roughness")
+         call self%words("surface", "kind", s%kind, "smooth|harmonic|map|fractal|dent|bump|ridge|groove", &
+                         "the moving roughness; the last four pass once")
          call self%reals("surface", "amplitude", s%amplitude, "a^2/R", "[0, 1]", &
-                         "harmonic amplitude A_i; no default")
+                         "amplitude A_i of a wave, height or depth of a feature; no default")
          call self%reals("surface", "amplitude_over_film", s%amplitude_over_film, "-", "[0, 10]", &
-                         "harmonic amplitude as a share of the smooth central film, A_i/H_c")
+                         "the same as a share of the smooth central film, A_i/H_c")
          call self%reals("surface", "wavelength", s%wavelength, "a", "[0.01, 100]", &
                          "harmonic wavelength")
          call self%reals("surface", "wavelength_x", s%wavelength_x, "a", "[0.01, 100]", &
@@ -114,6 +121,7 @@ contains
                          "velocity of the rough surface over the mean one; default 1 + SRR/2, surface 2: 1 - SRR/2")
          call self%reals("surface", "x_start", s%x_start, "a", "[-100, 20]", &
                          "where the roughness begins at time 0, at rest its origin; default x_inlet")
+         call self%add_feature_keys(s)
          call self%paths("surface", "file", s%file, "height map of kind 'map': .npy, text, instrument file")
          call self%add_map_keys(s)
          call self%reals("surface", "shortest_wavelength", s%shortest_wavelength, "m", "[0, 1]", &

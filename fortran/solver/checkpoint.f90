@@ -16,7 +16,7 @@ module ehl_checkpoint
    public :: state_t, checkpoint_names, write_checkpoint, read_checkpoint
 
    !> Both have the same length; the version counts the layouts of the file
-   character(len=*), parameter :: magic = "ehl checkpoint v5", family = magic(:len(magic) - 1)
+   character(len=*), parameter :: magic = "ehl checkpoint v6", family = magic(:len(magic) - 1)
    !> The two files of a run; behind a prefix those of the run on the coarser grid
    character(len=*), parameter :: checkpoint_names(2) = ["checkpoint.a", "checkpoint.b"]
    !> What a file can be; otherwise the step of its state
@@ -69,7 +69,8 @@ contains
             march%h00_before, march%friction_smooth, &
             numbers, march%mass_content, march%p_before, march%forecast%carried, &
             march%mean%n, march%mean%values(:march%mean%n), march%mean%film(:march%mean%n), &
-            march%mean%roughness(:march%mean%n), shape(rows), rows, shape(frames%p), frames%times, frames%p, frames%h
+            march%mean%roughness(:march%mean%n), march%extremes%found, shape(rows), rows, shape(frames%p), &
+            frames%times, frames%p, frames%h
          if (stat == 0) then
             close (lun, iostat=stat, iomsg=reason)
          else
@@ -167,7 +168,8 @@ contains
          if (stat == 0) then
             march%mean%n = n
             allocate (march%mean%values(n), march%mean%film(n), march%mean%roughness(n))
-            read (lun, iostat=stat, iomsg=reason) march%mean%values, march%mean%film, march%mean%roughness, shape_rows
+            read (lun, iostat=stat, iomsg=reason) march%mean%values, march%mean%film, march%mean%roughness, &
+               march%extremes%found, shape_rows
          end if
       end associate
       if (stat == 0) then

@@ -1,12 +1,14 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> When a march in time ends
 module ehl_judge
+   use ehl_friction_mean, only: periods_compared
+   use ehl_kinds, only: dp
    use ehl_outcome, only: outcome_converged, outcome_running, outcome_unsettled
    use ehl_plan, only: plan_t
    use ehl_transient, only: transient_t
    implicit none (type, external)
    private
-   public :: judge_march, most_periods
+   public :: judge_march, least_periods, most_periods
 
    !> Periods after which a mean that has not settled is given up. The slowest that was found, at (500, 15) with waves as
    !> high as the film, 0.25 a long, settled after 21.
@@ -25,7 +27,9 @@ contains
             if (march%step >= plan%steps) outcome = merge(outcome_converged, outcome_unsettled, mean%has_mean())
             return
          end if
-         if (mean%settled(plan%time_tolerance)) then
+         if (plan%surface%passes_once) then
+            if (mean%has_mean()) outcome = outcome_converged
+         else if (mean%settled(plan%time_tolerance)) then
             outcome = outcome_converged
          else if (mean%periods() >= most_periods(plan)) then
             outcome = outcome_unsettled
@@ -33,9 +37,16 @@ contains
       end associate
    end function judge_march
 
+   !> Periods after which a march can end first
+   pure real(dp) function least_periods(plan)
+      type(plan_t), intent(in) :: plan
+      least_periods = merge(1.0_dp, periods_compared, plan%surface%passes_once)
+   end function least_periods
+
    !> Periods after which a march ends at the latest
    pure integer function most_periods(plan)
       type(plan_t), intent(in) :: plan
       most_periods = merge(plan%max_periods, automatic_periods, plan%max_periods > 0)
+      if (plan%surface%passes_once) most_periods = 1
    end function most_periods
 end module ehl_judge

@@ -2,8 +2,9 @@
 !> The rough surface that a case asks for
 module ehl_plan_surface
    use, intrinsic :: iso_fortran_env, only: int32
-   use ehl_case, only: case_t, surface_case_t
+   use ehl_case, only: case_t, is_feature, surface_case_t
    use ehl_contact, only: contact_t
+   use ehl_feature, only: feature_t, new_feature
    use ehl_fractal, only: fractal_t, make_fractal
    use ehl_grid, only: grid_t
    use ehl_harmonic, only: harmonic_t, new_harmonic
@@ -38,6 +39,10 @@ contains
 
       amplitude_over_film = 0.0_dp
       if (status%failed()) return
+      if (is_feature(input%surface%kind)) then
+         call make_feature(input%surface, contact, surface, amplitude_over_film, status)
+         return
+      end if
       associate (s => input%surface)
          select case (s%kind)
          case ("harmonic")
@@ -67,6 +72,33 @@ contains
          end select
       end associate
    end subroutine make_surface
+
+   !> A single feature
+   subroutine make_feature(s, contact, surface, amplitude_over_film, status)
+      type(surface_case_t), intent(in) :: s
+      class(contact_t), intent(in) :: contact
+      class(surface_t), allocatable, intent(out) :: surface
+      real(dp), intent(out) :: amplitude_over_film
+      type(status_t), intent(inout) :: status
+      type(feature_t) :: feature
+      real(dp) :: amplitude, size(2)
+
+      amplitude = s%amplitude
+      size = [s%width, s%length]
+      if (s%width_m > 0.0_dp) size(1) = s%width_m/contact%radius
+      if (s%length_m > 0.0_dp) size(2) = s%length_m/contact%radius
+      if (s%height_m > 0.0_dp) amplitude = s%height_m/contact%film_scale
+      amplitude_over_film = merge(0.0_dp, s%amplitude_over_film, s%amplitude_given .or. s%height_m > 0.0_dp)
+      feature = new_feature(s%kind == "bump" .or. s%kind == "ridge", s%kind == "ridge" .or. s%kind == "groove", amplitude, &
+                            size(1), size(2), s%angle, s%y_start, s%velocity_ratio, s%x_start)
+      if (.not. feature%at_rest() .and. .not. feature%reach < huge(1.0_dp)) then
+         call status%fail(ehl_bad_input, "surface.kind = '"//trim(s%kind)//"' without ends along the motion never leaves "// &
+                          "the contact"//new_line("a")//"expected: surface.length, another surface.angle, or "// &
+                          "surface.velocity_ratio = 0")
+         return
+      end if
+      allocate (surface, source=feature)
+   end subroutine make_feature
 
    !> Refuse a map that has to be prepared, or has no size
    subroutine check_map(s, status)

@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The plan of a run in words
 module ehl_plan_text
+   use ehl_feature, only: feature_t
    use ehl_cycle, only: coarsening_alcouffe, cycle_options_t
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
@@ -33,9 +34,7 @@ contains
       if (plan%rests()) then
          text = text//rest_lines(plan)
       else if (plan%moves()) then
-         write (line, "(a,f6.3,a,f7.4,a)") "scene      roughness on the move, period ", plan%surface%period, &
-            " a, velocity ratio ", plan%surface%velocity_ratio, "; the smooth contact is solved once, before"
-         text = text//trim(line)//new_line("a")
+         text = text//scene_lines(plan)
          write (line, "(a,f9.6)") "time       "//trim(merge("narrow upstream", "as in the paper", plan%scheme == wedge_narrow))// &
             ", step = mesh size = ", plan%finest%hx
          text = text//trim(line)//new_line("a")
@@ -43,6 +42,10 @@ contains
                                      new_line("a")
          if (plan%steps > 0) then
             text = text//"end        after "//to_text(plan%steps)//" steps"//new_line("a")
+         else if (plan%surface%passes_once) then
+            write (line, "(a,f8.4)") "end        when it has left the contact, with the film that it made in the inlet: T = ", &
+               plan%surface%end_of_passage()
+            text = text//trim(line)//new_line("a")
          else
             write (line, "(a,es8.1)") "end        when the mean of mu_r/mu_s over whole periods changes by less than ", &
                plan%time_tolerance
@@ -92,6 +95,55 @@ contains
       end function use_of
    end function plan_text
 
+   !> What moves: roughness without end, or a feature that passes once
+   function scene_lines(plan) result(text)
+      type(plan_t), intent(in) :: plan
+      character(len=:), allocatable :: text
+      character(len=128) :: line
+
+      select type (surface => plan%surface)
+      type is (feature_t)
+         write (line, "(a,f7.4,a,f7.4,a)") "scene      "//feature_words(surface)//" passes once, velocity ratio ", &
+            surface%velocity_ratio, ", its centre at X = 0 at T = ", (surface%reach - surface%x_start)/surface%velocity_ratio
+         text = trim(line)//new_line("a")//"           "//size_words(surface)//new_line("a")// &
+                "           the smooth contact is solved once, before"//new_line("a")
+      class default
+         write (line, "(a,f6.3,a,f7.4,a)") "scene      roughness on the move, period ", surface%period, &
+            " a, velocity ratio ", surface%velocity_ratio, "; the smooth contact is solved once, before"
+         text = trim(line)//new_line("a")
+      end select
+   end function scene_lines
+
+   !> What a feature is
+   pure function feature_words(feature) result(text)
+      type(feature_t), intent(in) :: feature
+      character(len=:), allocatable :: text
+
+      text = "a "
+      if (feature%is_line) then
+         text = text//trim(merge("ridge ", "groove", feature%sign > 0.0_dp))
+      else
+         text = text//merge("bump", "dent", feature%sign > 0.0_dp)
+      end if
+   end function feature_words
+
+   !> Size and place of a feature
+   function size_words(feature) result(text)
+      type(feature_t), intent(in) :: feature
+      character(len=:), allocatable :: text
+      character(len=128) :: line
+
+      write (line, "(f9.4,a)") feature%width, " a wide, without ends"
+      if (feature%length > 0.0_dp) write (line, "(f9.4,a,f9.4,a)") feature%width, " a wide and", feature%length, " a long"
+      text = trim(adjustl(line))
+      if (feature%amplitude > 0.0_dp) then
+         write (line, "(es10.3,a)") feature%amplitude, " a^2/R "//merge("high", "deep", feature%sign > 0.0_dp)
+         text = text//", "//trim(adjustl(line))
+      end if
+      write (line, "(f9.4)") feature%y_start
+      text = text//", at Y = "//trim(adjustl(line))
+   end function size_words
+
    !> How much of the surface the finest grid carries
    function wave_lines(plan) result(text)
       type(plan_t), intent(in) :: plan
@@ -99,6 +151,12 @@ contains
       character(len=128) :: line
 
       text = ""
+      if (plan%surface%passes_once) then
+         write (line, "(a,es8.1,a)") "waves      with fewer than 8 nodes a period hold ", plan%unresolved, &
+            " of the variance of its profile"
+         text = trim(line)//new_line("a")
+         return
+      end if
       if (plan%surface%variance > 0.0_dp .and. plan%contact%film_scale > 0.0_dp) then
          write (line, "(a,es9.2,a)") "surface    rms height ", sqrt(plan%surface%variance)*plan%contact%film_scale, " m"
          text = trim(line)
@@ -122,9 +180,17 @@ contains
       character(len=:), allocatable :: text
       character(len=128) :: line
 
-      write (line, "(a,f6.3,a,f8.4)") "scene      roughness at rest, steady; period ", plan%surface%period, &
-         " a, it is everywhere, its origin at X = x_start = ", plan%surface%x_start
-      text = trim(line)//new_line("a")//"           the smooth contact is solved before"//new_line("a")
+      select type (surface => plan%surface)
+      type is (feature_t)
+         write (line, "(a,f8.4)") "scene      "//feature_words(surface)//" at rest, steady; its centre at X = x_start = ", &
+            surface%x_start
+         text = trim(line)//new_line("a")//"           "//size_words(surface)
+      class default
+         write (line, "(a,f6.3,a,f8.4)") "scene      roughness at rest, steady; period ", surface%period, &
+            " a, it is everywhere, its origin at X = x_start = ", surface%x_start
+         text = trim(line)
+      end select
+      text = text//new_line("a")//"           the smooth contact is solved before"//new_line("a")
       if (plan%coarse_run) text = text//"error      of the friction ratio: solved on the next coarser grid too"//new_line("a")
    end function rest_lines
 

@@ -2,6 +2,7 @@
 !> What a run says: lines of progress, and its results by name
 module ehl_report
    use ehl_grid, only: grid_t
+   use ehl_feature, only: feature_t
    use ehl_harmonic, only: harmonic_t
    use ehl_kinds, only: dp
    use ehl_measures, only: measures_t
@@ -162,6 +163,11 @@ contains
          range = march%mean%extremes()
          ratio = march%mean%amplitude_ratio()
          if (march%mean%has_change()) change = march%mean%change()
+         if (plan%surface%passes_once) then
+            ! a passage has an end, and no wave to compare amplitudes of
+            change = 0.0_dp
+            ratio = ieee_value(ratio, ieee_quiet_nan)
+         end if
          if (coarse_mean > 0.0_dp) grid = abs(mean - coarse_mean)/3.0_dp
       else
          if (march%mean%has_mean()) call record%set("last_mu_ratio_mean", march%mean%mean(0.0_dp))
@@ -177,6 +183,8 @@ contains
       call record%set("amplitude_ratio", ratio)
       select type (surface => plan%surface)
       type is (harmonic_t)
+         call record%set("amplitude", surface%amplitude)
+      type is (feature_t)
          call record%set("amplitude", surface%amplitude)
       end select
       call record%set("scheme", trim(merge("narrow", "paper ", plan%scheme == wedge_narrow)))
@@ -232,6 +240,8 @@ contains
       call record%set("x_start", plan%surface%x_start)
       select type (surface => plan%surface)
       type is (harmonic_t)
+         call record%set("amplitude", surface%amplitude)
+      type is (feature_t)
          call record%set("amplitude", surface%amplitude)
       end select
       call record%set("rough_cycles", rest%total_cycles)

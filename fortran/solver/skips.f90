@@ -52,7 +52,7 @@ contains
       end if
       periods = merge(plan%max_periods, fixed_periods, plan%max_periods > 0)
       left = ceiling(max(march%mean%filled, 0) + periods*march%mean%period/march%time_step) - march%step
-      if (good .and. plan%steps == 0 .and. left > 0) then
+      if (good .and. plan%steps == 0 .and. left > 0 .and. .not. plan%surface%passes_once) then
          skips = [skips, skip_t(to_text(left)//" steps up to the end of period "//to_text(periods)// &
                                 ": the mean of mu_r/mu_s had settled", left*step)]
       end if

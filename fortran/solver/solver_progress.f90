@@ -1,8 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What a run says on its way: one line about the state, how much is done, the time left
 submodule (ehl_solver) ehl_solver_progress
-   use ehl_friction_mean, only: periods_compared
-   use ehl_judge, only: most_periods
+   use ehl_judge, only: least_periods, most_periods
    use ehl_report, only: cycle_line, march_line, rest_line
    use ehl_text, only: to_text
    implicit none (type, external)
@@ -66,7 +65,8 @@ contains
 
       earliest_end = self%plan%steps
       associate (mean => self%transient%mean)
-         if (self%plan%steps == 0) earliest_end = max(mean%filled, 1) + periods_compared*mean%period/mean%time_step
+         if (self%plan%steps == 0) earliest_end = max(mean%filled, 1) + least_periods(self%plan) &
+                                                *mean%period/mean%time_step
       end associate
       earliest_end = max(earliest_end, real(self%transient%step, dp))
    end function earliest_end

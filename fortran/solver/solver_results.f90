@@ -5,6 +5,7 @@ submodule (ehl_solver) ehl_solver_results
    use ehl_plan_text, only: plan_text
    use ehl_report, only: report_march, report_rest, report_scene, report_smooth, report_waves
    use ehl_report_friction, only: report_friction
+   use ehl_report_passage, only: report_passage
    use ehl_skips, only: find_skips, report_skips, skip_lines, skip_t
    use ehl_status, only: ehl_bad_input, ehl_no_memory
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
@@ -33,6 +34,10 @@ contains
       call report_smooth(record, self%plan, self%steady, self%level(), good)
       if (self%marching) call report_march(record, self%plan, self%transient, self%converged(), &
                                               self%step_seconds, self%coarse_mean)
+      if (self%marching) then
+         if (self%plan%surface%passes_once) call report_passage(record, self%plan%contact, self%transient%extremes, &
+                                                                self%converged())
+      end if
       if (self%marching .or. self%resting) call report_waves(record, self%plan)
       if (self%resting) call report_rest(record, self%plan, self%rest, self%converged(), self%coarse_mean)
       call summarise_friction(self, record, good)

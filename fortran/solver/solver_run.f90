@@ -2,6 +2,7 @@
 !> How a case runs: cycles of the smooth contact, time steps, and the same on the next coarser grid
 submodule (ehl_solver) ehl_solver_run
    use ehl_clock, only: clock_t, start_clock
+   use ehl_feature, only: feature_t
    use ehl_harmonic, only: harmonic_t
    use ehl_judge, only: judge_march
    use ehl_plan_surface, only: check_carried
@@ -90,6 +91,8 @@ contains
          select type (waviness => self%plan%surface)
          type is (harmonic_t)
             waviness%amplitude = self%plan%amplitude_over_film*self%steady%results(n)%m%film_central
+         type is (feature_t)
+            waviness%amplitude = self%plan%amplitude_over_film*self%steady%results(n)%m%film_central
          end select
       end associate
    end subroutine keep_smooth
@@ -136,6 +139,8 @@ contains
             call self%history%append([real(dp) :: march%step, march%time, m%friction/march%friction_smooth, &
                                       m%film_central, m%film_minimum, m%pressure_maximum, m%load_error, march%cycles, &
                                       march%residual])
+            if (self%plan%surface%passes_once) call march%extremes%see(self%hierarchy%levels(self%steady%n), self%p_smooth, &
+                                                                      self%h_smooth, march%time)
             self%outcome = judge_march(self%plan, self%transient)
             call self%frames%keep(self%hierarchy%levels(self%steady%n), march%time, march%time_step, &
                                   self%input%output%frame_interval)

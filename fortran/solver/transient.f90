@@ -3,6 +3,7 @@
 module ehl_transient
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, refresh
+   use ehl_extremes, only: extremes_t
    use ehl_film, only: pressure_sum, update_residual
    use ehl_forecast, only: forecast_t
    use ehl_friction_mean, only: friction_mean_t, periods_compared
@@ -12,18 +13,12 @@ module ehl_transient
    use ehl_measures, only: central_value, load_tolerance, measure, measures_t
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_step_policy, only: attempt_predicted, step_begins_again, step_ends, step_policy_t
-   use ehl_surface, only: surface_t
+   use ehl_surface, only: surface_t, x_filled, x_matters
    use ehl_time_levels, only: keep, set_geometry, set_history
    use ehl_wedge, only: old_times
    implicit none (type, external)
    private
    public :: transient_t, steps_needed
-
-   !> Where the film is thick the roughness rides on it and changes nothing: solving begins
-   !> when the front, with half its length, reaches this X
-   real(dp), parameter :: x_matters = -1.25_dp
-   !> The roughness fills the contact when its front has passed this X
-   real(dp), parameter :: x_filled = 1.05_dp
 
    type :: transient_t
       class(contact_t), allocatable, private :: contact
@@ -39,6 +34,8 @@ module ehl_transient
       real(dp) :: residual = 0.0_dp
       integer :: cycles = 0, total_cycles = 0, total_sweeps = 0
       type(friction_mean_t) :: mean
+      !> Of what passes once
+      type(extremes_t) :: extremes
       !> rho H of the last two steps, pressure and H00 of the last three, the roughness now
       real(dp), allocatable :: mass_content(:, :, :), p_before(:, :, :), rr(:, :)
       real(dp) :: h00_before(3) = 0.0_dp
@@ -54,20 +51,28 @@ module ehl_transient
 
 contains
 
-   !> Time steps until the mean friction over a period can be compared with an earlier one
+   !> Time steps until the mean friction over a period can be compared with an earlier one, or the passage ends
    real(dp) function steps_needed(surface, time_step, skip)
       class(surface_t), intent(in) :: surface
       real(dp), intent(in) :: time_step
       !> Whether the steps before the roughness comes near the contact are not made
       logical, intent(in) :: skip
-      real(dp) :: from
+      real(dp) :: from, way
 
       from = surface%x_start
       if (skip) from = max(from, x_matters - 0.5_dp*surface%front_length)
-      steps_needed = (max(0.0_dp, x_filled - from) + periods_compared*surface%period)/(surface%velocity_ratio*time_step)
+      way = max(0.0_dp, x_counts(surface) - from) + merge(1.0_dp, periods_compared, surface%passes_once)*surface%period
+      steps_needed = way/(surface%velocity_ratio*time_step)
    end function steps_needed
 
-   !> Begin from the smooth solution of a level, the roughness riding on its film
+   !> Position of the front from which on the friction belongs to a mean
+   pure real(dp) function x_counts(surface)
+      class(surface_t), intent(in) :: surface
+      x_counts = merge(x_matters, x_filled, surface%passes_once)
+   end function x_counts
+
+   !> Begin from the smooth solution of a level, the roughness riding on its film. Where the film is thick it changes
+   !> nothing: solving begins when the front, with half its length, reaches x_matters.
    subroutine start(self, level, contact, surface, skip, friction_smooth, status)
       class(transient_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
@@ -108,7 +113,8 @@ contains
       self%h00_before = level%h00
       self%m = measure(level)
       call self%mean%start(surface%time_period(), self%time_step, &
-                           (x_filled - surface%front_position(self%time))/surface%velocity_ratio)
+                           (x_counts(surface) - surface%front_position(self%time))/surface%velocity_ratio)
+      self%extremes = extremes_t()
    end subroutine start
 
    !> One time step, cycle by cycle to convergence
@@ -219,6 +225,7 @@ contains
       self%mass_content = state%mass_content
       self%p_before = state%p_before
       self%forecast%carried = state%forecast%carried
+      self%extremes = state%extremes
       do k = 1, state%mean%n
          call self%mean%append(state%mean%values(k), state%mean%film(k), state%mean%roughness(k))
       end do

@@ -6,11 +6,15 @@ module ehl_surface
    use ehl_status, only: status_t
    implicit none (type, external)
    private
-   public :: surface_t, aliased_below, resolved_from
+   public :: surface_t, aliased_below, resolved_from, x_matters, x_filled
 
    !> A wave with so many nodes a period or fewer is another wave on the grid: it must be left out. One with at least
    !> so many is resolved.
    real(dp), parameter :: aliased_below = 2.0_dp, resolved_from = 8.0_dp
+   !> Where the film is thick the roughness rides on it and changes nothing: it matters from this X on
+   real(dp), parameter :: x_matters = -1.25_dp
+   !> The roughness fills the contact when its front has passed this X
+   real(dp), parameter :: x_filled = 1.05_dp
 
    !> Roughness RR(X, Y, T), scaled by a^2/R, peaks positive, that moves along X with
    !> velocity_ratio times the mean velocity and enters behind a front at
@@ -24,6 +28,8 @@ module ehl_surface
       real(dp) :: period = 0.0_dp
       !> Length over which the front fades [a]
       real(dp) :: front_length = 0.0_dp
+      !> Whether it passes the contact once, and `period` is its way from where it matters until it has left
+      logical :: passes_once = .false.
       !> Whether RR(X, -Y) = RR(X, Y), to the bit: half the domain is enough
       logical :: even_in_y = .true.
       !> Variance of the heights [(a^2/R)^2], and before their spectrum was cut; 0: not known
@@ -44,6 +50,7 @@ module ehl_surface
       !> Time in which the pattern repeats
       procedure :: time_period
       procedure :: at_rest
+      procedure :: end_of_passage
       procedure :: share
    end type surface_t
 
@@ -113,7 +120,7 @@ contains
       front_position = self%x_start + self%velocity_ratio*time
    end function front_position
 
-   !> period/velocity_ratio
+   !> period/velocity_ratio; of what passes once the time of the passage
    elemental real(dp) function time_period(self)
       class(surface_t), intent(in) :: self
       time_period = self%period/self%velocity_ratio
@@ -124,6 +131,12 @@ contains
       class(surface_t), intent(in) :: self
       at_rest = .not. abs(self%velocity_ratio) > 0.0_dp
    end function at_rest
+
+   !> Time at which what passes once has left the contact
+   pure real(dp) function end_of_passage(self)
+      class(surface_t), intent(in) :: self
+      end_of_passage = (x_matters - self%x_start + self%period)/self%velocity_ratio
+   end function end_of_passage
 
    !> Share of the roughness at a distance ahead of the front; at rest there is no front
    elemental real(dp) function share(self, distance)

@@ -12,7 +12,7 @@ from pathlib import Path
 from pyehl.case import Case
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.errors import FileError, InputError
-from pyehl.surfaces import Topography, from_settings
+from pyehl.surfaces import FEATURES, Topography, from_settings
 from pyehl.surfaces.areal import AREAL_NAMES, areal_numbers
 from pyehl.surfaces.writing import SUFFIXES, write_map
 from pyehl.theory.film import central_film
@@ -76,7 +76,8 @@ def execute(args: argparse.Namespace) -> int:
     if settings["surface"]["kind"] == "smooth":
         raise InputError(
             f"{args.case}: the case has no rough surface\n"
-            "expected: surface.kind = 'harmonic', 'map' or 'fractal'"
+            "expected: surface.kind = 'harmonic', 'map', 'fractal', "
+            + ", ".join(repr(name) for name in FEATURES)
         )
     if args.output is not None and args.output.suffix not in SUFFIXES:
         raise InputError(
@@ -110,8 +111,9 @@ def _lines(surface: Topography) -> list[str]:
     else:
         lines = surface.preparation.report()
     nx, ny = surface.shape
+    tile = "window" if surface.origin.startswith("single ") else "tile  "
     lines.append(
-        f"tile       {nx} x {ny} pixels, {surface.length_x * 1e3:.5g} x "
+        f"{tile}     {nx} x {ny} pixels, {surface.length_x * 1e3:.5g} x "
         f"{surface.length_y * 1e3:.5g} mm"
     )
     return lines

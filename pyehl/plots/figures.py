@@ -88,6 +88,8 @@ def solution_figures(data: xr.Dataset, units: str = "auto") -> dict[str, Figure]
         figures["rough_and_smooth"] = _rough_and_smooth(data, scales, title)
     if "history_T" in data and data.sizes["history"] > 1:
         figures["friction"] = _friction(data, scales, title)
+        if "P_rise_max" in data.attrs:
+            figures["extremes"] = _extremes(data, scales, title)
     return figures
 
 
@@ -158,6 +160,15 @@ def _friction(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
         formula=transient.eq_16(data.attrs, settings),
         seconds=OperatingPoint.from_settings(settings).time_scale if scales else 0.0,
         ax=figure.axes[0],
+    )
+    return figure
+
+
+def _extremes(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
+    figure = _row(1, (6.4, 3.8), title)
+    films = {"least film": data.history_H_min.values, "film at the centre": data.history_H_c.values}
+    transient.extremes_history(
+        data.history_T.values, data.history_P_max.values, films, scales, ax=figure.axes[0]
     )
     return figure
 

@@ -26,12 +26,21 @@ from pyehl.plots.style import (
     axis_unit,
     colour_bar,
     extent_of,
+    film_unit,
     height_unit,
     hertz_ticks,
+    pressure_unit,
 )
 from pyehl.theory import stribeck
 
-__all__ = ["eq_16", "friction_history", "profiles", "roughness", "roughness_top"]
+__all__ = [
+    "eq_16",
+    "extremes_history",
+    "friction_history",
+    "profiles",
+    "roughness",
+    "roughness_top",
+]
 
 Array = NDArray[np.float64]
 
@@ -118,6 +127,50 @@ def friction_history(
         top = ax.secondary_xaxis("top", functions=(milliseconds, back))
         top.set_xlabel("$t$ [ms]")
     ax.legend(loc="best", fontsize="small")
+    return ax
+
+
+def extremes_history(
+    time: Array,
+    pressure: Array,
+    films: Mapping[str, Array],
+    scales: Scales | None = None,
+    *,
+    ax: Axes | None = None,
+) -> Axes:
+    """Largest pressure and films over time, while a single feature passes.
+
+    Parameters
+    ----------
+    time
+        (n,) T [a/u].
+    pressure
+        (n,) largest pressure in Hertz units.
+    films
+        (n,) films in Hertz units by their labels.
+    scales
+        For SI units of pressure and film; None for Hertz units.
+    ax
+        Where to draw; None: a new figure.
+    """
+    ax = axes_or_new(ax, 5.4, 3.4)
+    factor, label = pressure_unit(scales)
+    ax.plot(time, pressure * factor, color=BLUE, lw=1.4, label="largest pressure")
+    ax.set_xlabel("$T = t\\,u/a$")
+    ax.set_ylabel(label, color=BLUE)
+    ax.tick_params(axis="y", colors=BLUE)
+    ax.set_xlim(float(time[0]), float(time[-1]))
+    twin = ax.twinx()
+    factor, label = film_unit(scales)
+    for (name, values), style in zip(films.items(), ("-", "--", ":"), strict=False):
+        twin.plot(time, values * factor, style, color=VERMILLION, lw=1.4, label=name)
+    twin.set_ylim(0.0, 1.1 * max(float(v.max()) for v in films.values()) * factor)
+    twin.set_ylabel(label, color=VERMILLION)
+    twin.tick_params(axis="y", colors=VERMILLION)
+    ax.legend(
+        handles=[*ax.get_lines(), *twin.get_lines()], loc="lower center", ncols=3,
+        bbox_to_anchor=(0.5, 1.0), fontsize="small", frameon=False,
+    )  # fmt: skip
     return ax
 
 

@@ -71,7 +71,7 @@ def sheet(settings: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
     surface = settings["surface"]
     kind = str(surface["kind"])
     result["surface"] = kind
-    if kind != "smooth":
+    if kind != "smooth" and kind not in surfaces.FEATURES:
         rough = surfaces.from_settings(settings, operating, h_c)
         result["rms_height_m"] = rough.rms_height
         result["lambda_ratio"] = h_c / rough.rms_height if rough.rms_height > 0.0 else None

@@ -25,7 +25,7 @@ from pyehl.prediction.friction import (
     over_tracks,
     predict_friction,
 )
-from pyehl.prediction.options import Options
+from pyehl.prediction.options import Options, unpredictable
 from pyehl.prediction.result import Prediction
 from pyehl.prediction.smooth import SmoothContact, hertz_contact, read_contact, solve_contact
 from pyehl.theory.film import central_film
@@ -67,11 +67,15 @@ def predict(
     Raises
     ------
     ValueError
-        If the surface is smooth, a map is not usable, or the conditions are outside the model.
+        If the surface is smooth or a single feature, a map is not usable, or the conditions are
+        outside the model.
     OSError
         If a map cannot be opened.
     """
     start = time.perf_counter()
+    why = unpredictable(str(settings["surface"]["kind"]))
+    if why:
+        raise ValueError(why)
     operating = OperatingPoint.from_settings(settings)
     lubricant = Lubricant.from_settings(settings, str(settings["psd"]["viscosity_law"]))
     options = Options.from_settings(settings)

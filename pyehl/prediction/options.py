@@ -7,15 +7,29 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from pyehl.surfaces.features import FEATURES
 from pyehl.theory import amplitude
 
-__all__ = ["MAX_POSITIONS", "STIFFNESSES", "Options"]
+__all__ = ["MAX_POSITIONS", "STIFFNESSES", "Options", "unpredictable"]
 
 REDUCTIONS = ("response", "amplitude")
 SMOOTH = ("solved", "hertz")
 STIFFNESSES = ("exact", "paper")
 
 MAX_POSITIONS = 4096
+
+
+def unpredictable(kind: str) -> str:
+    """Tell why nothing is predicted of a kind of surface; '' where something is."""
+    if kind == "smooth":
+        return "surface.kind = 'smooth': a prediction needs a rough surface"
+    if kind in FEATURES:
+        return (
+            f"surface.kind = {kind!r}: a single feature passes once. A prediction is the mean "
+            "friction of roughness that fills the contact\nexpected: 'pyehl run', or "
+            "surface.kind = 'harmonic', 'map' or 'fractal'"
+        )
+    return ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,6 +15,7 @@ from typing import Any
 from pyehl.case import Case
 from pyehl.prediction.smooth import smooth_case
 from pyehl.solver import Solver
+from pyehl.surfaces import FEATURES
 from pyehl.theory.operating import OperatingPoint
 
 __all__ = ["seconds_of", "shares_of", "speed"]
@@ -69,8 +70,14 @@ def seconds_of(settings: Settings, run: str) -> float:
 
 
 def _time_to_settle(settings: Settings) -> float:
-    """Time in a/u until the friction is known: the way into the contact and three periods."""
+    """Time in a/u until the friction is known: the way into the contact and three periods.
+
+    Of a single feature its way through it.
+    """
     surface = settings["surface"]
+    if surface["kind"] in FEATURES:
+        # from where it matters until it has left
+        return (2.3 + 1.2 * float(surface.get("width", 0.5))) / float(surface["velocity_ratio"])
     if surface["kind"] == "harmonic":
         period = float(surface["wavelength_x"])
     elif settings["contact"].get("moes_l") == 0.0:

@@ -13,7 +13,7 @@ from typing import Any
 from pyehl import surfaces
 from pyehl.case import Case
 from pyehl.errors import EhlError, InputError
-from pyehl.prediction.options import Options
+from pyehl.prediction.options import Options, unpredictable
 from pyehl.solver import Solver
 from pyehl.studies.estimate import seconds_of, shares_of, speed
 from pyehl.studies.study import Point, Study
@@ -143,11 +143,11 @@ def _check(study: Study, point: Point, case: Case, settings: Settings, checked: 
         operating = OperatingPoint.from_settings(settings)
         lubricant = Lubricant.from_settings(settings)
         film = central_film(operating, lubricant)
-        rough = settings["surface"]["kind"] != "smooth"
+        why = unpredictable(str(settings["surface"]["kind"]))
         if study.run == "predict":
             Options.from_settings(settings)
-            if not rough:
-                raise InputError("surface.kind = 'smooth': a prediction needs a rough surface")
+            if why:
+                raise InputError(why)
         if settings["surface"]["kind"] == "map" and not known:
             surfaces.from_settings(settings, operating, film)
     except (EhlError, ValueError, OSError) as error:

@@ -17,7 +17,7 @@ from typing import Any
 from pyehl import surfaces
 from pyehl.case import Case
 from pyehl.errors import EhlError, InputError
-from pyehl.prediction.options import Options
+from pyehl.prediction.options import Options, unpredictable
 from pyehl.studies.estimate import seconds_of, shares_of, speed
 from pyehl.studies.plan import duration
 from pyehl.studies.study import Point, Study, make
@@ -180,6 +180,8 @@ def _check(study: Study, point: Point, settings: Settings, seeds: int) -> None:
     try:
         if kind == "smooth":
             raise InputError("surface.kind = 'smooth': a Stribeck curve needs a rough surface")
+        if kind in surfaces.FEATURES:
+            raise InputError(unpredictable(str(kind)))
         if seeds > 1 and kind != "fractal":
             raise InputError(f"--surfaces {seeds}: surface.kind = '{kind}' has no seed")
         if "load" not in settings["contact"]:

@@ -6,6 +6,7 @@ direction); peaks are positive and thin the film. Pixel [i, j] lies at x = i len
 y = j length_y/ny. Spectra are those of Jacobs, Junge & Pastewka 2017, in m^4.
 """
 
+from pyehl.surfaces.features import FEATURES, feature
 from pyehl.surfaces.filters import filtered
 from pyehl.surfaces.generators import fractal, harmonic
 from pyehl.surfaces.interpolation import resampled, shifted
@@ -31,12 +32,14 @@ from pyehl.surfaces.spectra import (
 from pyehl.surfaces.tile import MAX_PIXELS, Topography
 
 __all__ = [
+    "FEATURES",
     "MAX_PIXELS",
     "Options",
     "Preparation",
     "Scan",
     "SolverSurface",
     "Topography",
+    "feature",
     "filtered",
     "for_solver",
     "fractal",

@@ -1,0 +1,244 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Single features that pass the contact once: closed forms, limits, symmetry, extremes, the end."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import pyehl
+from pyehl import Case, cli
+from pyehl.surfaces import FEATURES, feature
+
+POINT = (200.0, 10.0)
+DENT: dict[str, object] = {
+    "surface.kind": "dent",
+    "surface.width": 0.8,
+    "surface.amplitude": 0.05,
+    "surface.velocity_ratio": 1.0,
+    "time.estimate_error": False,
+}
+TIGHT = {"solver.accuracy": 0.001}
+
+
+def form(kind: str, x: Any, y: Any, width: float, length: float, angle: float) -> Any:
+    """The closed form, height 1, once more."""
+    turn = np.radians(angle)
+    across = (x * np.cos(turn) + y * np.sin(turn)) / width
+    along = y * np.cos(turn) - x * np.sin(turn)
+    sign = 1.0 if kind in ("bump", "ridge") else -1.0
+    if kind in ("dent", "bump"):
+        square = across**2 + (along / (length or width)) ** 2
+        return sign * 10.0 ** (-10.0 * square) * np.cos(2.0 * np.pi * np.sqrt(square))
+    profile = sign * 10.0 ** (-10.0 * across**2) * np.cos(2.0 * np.pi * across)
+    if length:
+        profile = profile * 10.0 ** (
+            -10.0 * (np.maximum(0.0, abs(along) - length / 2) / width) ** 2
+        )
+    return profile
+
+
+@pytest.mark.parametrize("kind", FEATURES)
+@pytest.mark.parametrize(("length", "angle"), [(0.0, 0.0), (1.4, 30.0), (1.4, 90.0)])
+def test_closed_forms(kind: str, length: float, angle: float, solve: Any):
+    """What the solver puts under the film at rest, and the window of `pyehl surface`."""
+    shape = {"kind": kind, "width": 0.6, "length": length, "angle": angle, "y_start": 0.25}
+    rest = {"velocity_ratio": 0.0, "x_start": 0.1, "amplitude": 0.004}
+    keys = {f"surface.{key}": value for key, value in (shape | rest).items()}
+    keys["time.estimate_error"] = False
+    done = solve(POINT, 33, keys, fields=True)
+    assert not done["half_domain"]
+    x, y = np.meshgrid(done.field("X") - 0.1, done.field("Y") - 0.25, indexing="ij")
+    expected = 0.004 * form(kind, x, y, 0.6, length, angle)
+    # the tail below the rounding of the height is left out
+    np.testing.assert_allclose(done.field("RR"), expected, rtol=0.0, atol=1e-15)
+
+    made = feature(kind, 2e-7, 6e-5, length * 1e-4, angle)
+    nx, ny = made.shape
+    x, y = np.meshgrid(
+        (np.arange(nx) - nx / 2) * made.pixel[0],
+        (np.arange(ny) - ny / 2) * made.pixel[1],
+        indexing="ij",
+    )
+    expected = 2e-7 * form(kind, x, y, 6e-5, length * 1e-4, angle)
+    np.testing.assert_allclose(made.heights, expected, rtol=0.0, atol=1e-21)
+    # nothing of a dent or bump is cut off by the window
+    if kind in ("dent", "bump"):
+        edge = np.concatenate([made.heights[0], made.heights[-1], made.heights[:, 0]])
+        assert np.abs(edge).max() < 5e-4 * 2e-7
+
+
+def test_sizes_in_metres():
+    """width_m, length_m and height_m are the sizes in a and a^2/R times these."""
+    case = Case.from_text("&contact load = 120.0 slide_to_roll = 0.0 / &grid points = 33 /")
+    point = pyehl.theory.operating.OperatingPoint.from_settings(case.resolve())
+    radius, scale = point.hertz_radius, point.film_scale
+    stop = ("surface.kind=bump", "time.steps=3", "time.estimate_error=.false.")
+    metric = case.with_options(
+        *stop, f"surface.width_m={0.8 * radius}", f"surface.height_m={0.03 * scale}"
+    )
+    plain = case.with_options(*stop, "surface.width=0.8", "surface.amplitude=0.03")
+    share = case.with_options(*stop, "surface.width=0.8", "surface.amplitude_over_film=0.4")
+    with pyehl.Solver(metric) as one, pyehl.Solver(plain) as other, pyehl.Solver(share) as third:
+        for solver in (one, other, third):
+            solver.run()
+        np.testing.assert_allclose(one.field("RR"), other.field("RR"), rtol=1e-12, atol=1e-17)
+        summary = third.summary()
+        assert summary["amplitude"] == pytest.approx(0.4 * summary["H_c"], rel=1e-12)
+    # and a written case reads back
+    again = Case.from_text(metric.text)
+    assert again.resolve()["surface"]["width_m"] == pytest.approx(0.8 * radius)
+    assert "width" not in again.resolve()["surface"]
+
+
+def test_half_domain(solve: Any):
+    """A feature symmetric in Y is solved on the half: the same as on the whole."""
+    half = solve(POINT, 65, DENT | TIGHT)
+    whole = solve(POINT, 65, DENT | TIGHT | {"solver.symmetry": "full"})
+    assert half["half_domain"]
+    assert not whole["half_domain"]
+    # algebraic errors
+    for name in ("mu_ratio", "P_max_rough", "H_min_rough", "H_ratio_min"):
+        assert half[name] == pytest.approx(whole[name], rel=1e-4), name
+    assert half["P_rise_max"] == pytest.approx(whole["P_rise_max"], rel=1e-3)
+    aside = solve(POINT, 33, DENT | {"surface.y_start": 0.25, "time.steps": 1})
+    turned = {"surface.kind": "groove", "surface.angle": 30.0, "time.steps": 1}
+    assert not aside["half_domain"]
+    assert not solve(POINT, 33, DENT | turned)["half_domain"]
+    assert solve(POINT, 33, DENT | {"surface.length": 0.4, "time.steps": 1})["half_domain"]
+
+
+def test_small_features_are_linear(solve: Any):
+    """Twice the depth is twice the change, a bump the opposite of a dent, none is smooth."""
+    # half way through the contact
+    stop = {"time.steps": 28, "grid.points": 65}
+
+    def change(kind: str, amplitude: float) -> tuple[Any, Any]:
+        keys = DENT | TIGHT | stop | {"surface.kind": kind, "surface.amplitude": amplitude}
+        done = solve(POINT, 65, keys, fields=True)
+        assert done["steps"] == 28
+        return (
+            done.field("P") - done.field("P_smooth"),
+            done.field("H") - done.field("H_smooth"),
+        )
+
+    small, twice, bump = change("dent", 1e-3), change("dent", 2e-3), change("bump", 1e-3)
+    for one, two, other in zip(small, twice, bump, strict=True):
+        most = np.abs(one).max()
+        # the second order in 1e-3/H_c
+        assert np.abs(two - 2.0 * one).max() < 0.05 * most
+        assert np.abs(other + one).max() < 0.05 * most
+    keys = DENT | TIGHT | {"surface.amplitude": 1e-7}
+    none = solve(POINT, 65, keys)
+    assert none.converged
+    assert none["mu_ratio"] == pytest.approx(1.0, abs=1e-5)
+    assert none["P_rise_max"] < 1e-4
+    assert none["H_ratio_min"] == pytest.approx(1.0, abs=1e-4)
+
+
+def test_extremes_and_the_end(solve: Any):
+    """The extremes are those of all steps; the run ends behind the feature."""
+    done = solve(POINT, 65, DENT, fields=True)
+    assert done.converged
+    history = done.history
+    at = int(np.argmax(history["P_max"]))
+    assert done["P_max_rough"] == pytest.approx(history["P_max"][at], rel=1e-12)
+    assert done["P_max_rough_T"] == pytest.approx(history["T"][at], rel=1e-12)
+    at = int(np.argmin(history["H_min"]))
+    assert done["H_min_rough"] == pytest.approx(history["H_min"][at], rel=1e-12)
+    assert done["H_min_rough_T"] == pytest.approx(history["T"][at], rel=1e-12)
+    for name in ("P_max_rough", "H_min_rough", "P_rise_max", "H_ratio_min"):
+        assert done[f"{name}_X"] ** 2 + done[f"{name}_Y"] ** 2 < 1.1
+    assert done["mu_ratio_min"] <= done["mu_ratio"] <= done["mu_ratio_max"]
+    assert np.trapezoid(history["mu_ratio"], history["T"]) == pytest.approx(
+        done["mu_ratio"] * (history["T"][-1] - history["T"][0]), rel=1e-3
+    )
+    # its end, 1.2 widths behind its front, at X = 1.05; steps are as long as the mesh
+    assert 0.0 <= done["T"] - (2.5 + 1.05 + 1.2 * 0.8) <= 2.5 * done["x_mesh"]
+    # and the contact is the smooth one again
+    left = np.abs(done.field("P") - done.field("P_smooth")).max()
+    assert left < 0.02 * done["P_rise_max"]
+    early = solve(POINT, 65, DENT | {"time.skip_start": False})
+    assert early["steps_skipped"] == 0
+    assert early["T"] == pytest.approx(done["T"], abs=done["x_mesh"])
+    assert early["mu_ratio"] == pytest.approx(done["mu_ratio"], rel=1e-4)
+    assert early["P_rise_max"] == pytest.approx(done["P_rise_max"], rel=1e-2)
+
+
+@pytest.mark.parametrize("ratio", [0.6, 1.0, 1.6])
+def test_film_moves_with_the_mean_velocity(ratio: float, solve: Any):
+    """In the contact nothing flows by pressure: what is made of the film in the inlet is carried.
+
+    So whatever the velocity of a small dent, what it leaves in the film moves with the mean one.
+    """
+    keys = DENT | {
+        "surface.velocity_ratio": ratio,
+        "surface.amplitude": 5e-3,
+        "output.frame_interval": 0.0625,
+        "solver.accuracy": 0.01,
+    }
+    done = solve(POINT, 129, keys, fields=True)
+    x, row = done.field("X"), 64
+    times, frames = done.field("frame_T"), done.field("frame_H")
+    change = frames[:, row, :] - done.field("H_smooth")[:, row, None]
+    inside = np.abs(x) < 0.75
+    # where the film is thickened most, while that is well inside the contact
+    most, place = change[inside].max(axis=0), x[inside][change[inside].argmax(axis=0)]
+    here = (most > 0.8 * most.max()) & (np.abs(place) < 0.7)
+    assert here.sum() >= 15
+    speed = np.polyfit(times[here], place[here], 1)[0]
+    # a mesh size over the way of 1.4 a
+    assert speed == pytest.approx(1.0, abs=0.022)
+
+
+def test_bump_through_the_film(solve: Any):
+    """A bump higher than the film ends in a negative film, without results."""
+    done = solve(POINT, 65, DENT | {"surface.kind": "bump", "surface.amplitude": 0.3})
+    assert done.code == 1
+    assert done["status"] == "negative film"
+    assert done["P_max_rough"] is None
+    assert done["mu_ratio"] is None
+
+
+def test_resume(ehl: str, tmp_path: Path):
+    """What was seen before a stop is not forgotten."""
+    case = tmp_path / "case.nml"
+    case.write_text(
+        "&contact moes_m = 200.0 moes_l = 10.0 slide_to_roll = 0.0 /\n&grid points = 33 /\n"
+        "&surface kind = 'groove' width = 0.8 amplitude = 0.05 /\n"
+    )
+
+    def run(*words: str) -> int:
+        return subprocess.run([ehl, *words, "--quiet"], cwd=tmp_path, check=False).returncode
+
+    assert run("case.nml", "-o", "whole") == 0
+    assert run("case.nml", "-o", "parts", "--set", "time.steps=20") == 1
+    assert run("--resume", "parts", "--set", "time.steps=0") == 0
+    whole, parts = (pyehl.load(tmp_path / name).attrs for name in ("whole", "parts"))
+    names = [name for name in whole if name.startswith(("P_", "H_", "mu_", "T"))]
+    assert len(names) > 20
+    assert {name: whole[name] for name in names} == {name: parts[name] for name in names}
+
+
+def test_commands(tmp_path: Path, cases: Path, capsys: pytest.CaptureFixture[str]):
+    """The plan, the surface in numbers, no prediction, the picture and the movie."""
+    dent = str(cases / "dent.nml")
+    assert cli.main(["check", dent]) == 0
+    plan = capsys.readouterr().out
+    assert "a dent passes once" in plan
+    assert "left the contact" in plan
+    assert cli.main(["surface", dent, "-o", str(tmp_path / "dent.npy"), "--no-plots"]) == 0
+    assert "Sq" in capsys.readouterr().out
+    assert np.load(tmp_path / "dent.npy").min() == pytest.approx(-0.5e-6)
+    assert cli.main(["predict", dent, "-o", str(tmp_path / "psd")]) == 2
+    assert "passes once" in capsys.readouterr().err
+    assert not (tmp_path / "psd").exists()
+    words = ["--set", "grid.points=33", "--set", "output.frame_interval=1"]
+    assert cli.main(["run", dent, "-q", "-o", str(tmp_path / "out"), *words]) == 0
+    assert cli.main(["plot", str(tmp_path / "out"), "--dpi", "60"]) == 0
+    assert cli.main(["plot", str(tmp_path / "out"), "--movie"]) == 0
+    assert {"extremes.png", "movie.gif"} <= {path.name for path in (tmp_path / "out").iterdir()}
