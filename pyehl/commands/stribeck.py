@@ -39,9 +39,9 @@ CSV, NETCDF, PICTURE = "stribeck.csv", "stribeck.nc", "stribeck.png"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of ``pyehl stribeck``."""
     parser.description = (
-        "Friction of a rough contact over speed, viscosity, load or temperature: the smooth "
-        "contact solved, the friction of the roughness predicted, the full simulation at some "
-        "points. VALUES as of pyehl sweep: start:stop:count, start:stop:countlog or a,b,c."
+        "Friction of a contact over speed, viscosity, load, temperature or slide-to-roll ratio: "
+        "the smooth contact solved, the friction of the roughness predicted, the full simulation "
+        "at some points. VALUES as of pyehl sweep: start:stop:count, start:stop:countlog or a,b,c."
     )
     add_case_arguments(parser)
     for name, key in KEYS.items():
@@ -64,7 +64,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _plan(args: argparse.Namespace) -> CurvePlan:
-    given = {key: getattr(args, name) for name, key in KEYS.items()}
+    given = {key: getattr(args, name.replace("-", "_")) for name, key in KEYS.items()}
     axes = [axis(key, values) for key, values in given.items() if values is not None]
     if not axes:
         options = ", ".join(f"--{name}" for name in KEYS)

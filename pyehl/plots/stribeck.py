@@ -93,9 +93,15 @@ def draw_stribeck(
     eq_16
         Draw the curve of Zhang et al. 2019 over theta_2.
     """
-    figure = new_figure(11.5, 4.4)
-    axes = figure.subplots(1, len(ABSCISSAE), sharey=True)
-    for ax, (name, label) in zip(axes, ABSCISSAE.items(), strict=True):
+    # smooth surfaces have neither Lambda nor theta_2
+    shown = {
+        name: label
+        for name, label in ABSCISSAE.items()
+        if any(np.isfinite(curve.places[name]).any() for curve in curves)
+    }
+    figure = new_figure(11.5 if len(shown) > 1 else 7.0, 4.4)
+    axes = figure.subplots(1, len(shown), sharey=True, squeeze=False)[0]
+    for ax, (name, label) in zip(axes, shown.items(), strict=True):
         for curve, colour in zip(curves, COLOURS * 9, strict=False):
             _draw_curve(ax, curve, name, colour)
         _shade(ax, curves, name)

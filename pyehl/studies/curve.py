@@ -68,6 +68,9 @@ class Pattern:
     wavelength: float
 
 
+SMOOTH = Pattern(0.0, math.inf)
+
+
 def pattern(settings: Settings, operating: OperatingPoint, film: float) -> Pattern:
     """Give the pattern that theta_2 is taken for.
 
@@ -122,7 +125,7 @@ def _at(point: CurvePoint, rows: Mapping[int, Row], kept: dict[str, Pattern]) ->
         "moes_l": operating.moes_l,
         "surfaces": len(found),
     }
-    likeness = _pattern(point.settings, operating, film, kept)
+    likeness = _pattern(point.settings, operating, film, kept) if found else SMOOTH
     if h_c is not None and likeness.rms_height > 0.0:
         wavelength = likeness.wavelength / operating.hertz_radius
         ratio = h_c / (2.0 * likeness.rms_height)
@@ -131,7 +134,7 @@ def _at(point: CurvePoint, rows: Mapping[int, Row], kept: dict[str, Pattern]) ->
         values["lambda_ratio_central"] = h_c / likeness.rms_height
         values["theta_2"] = float(stribeck.theta_2(*place)) if operating.moes_l > 0.0 else None
         values["theta_2_wavelength_m"] = likeness.wavelength
-    values |= _friction(found)
+    values |= _friction(found, smooth) if found else _smooth_friction(smooth)
     if point.full is not None:
         full = rows.get(point.full, nothing)
         if full["status"] == "converged":
@@ -172,8 +175,26 @@ def _film(smooth: Row, operating: OperatingPoint) -> dict[str, Any]:
     return values
 
 
-def _friction(found: Sequence[Row]) -> dict[str, Any]:
-    """Mean and spread over the surfaces; no mean where one of them has no ratio."""
+def _smooth_friction(smooth: Row) -> dict[str, Any]:
+    """Friction of smooth surfaces: their ratio is 1 by definition."""
+    if smooth["status"] != "converged":
+        return {"status": UNSOLVED, "message": ""}
+    coefficient = smooth.get("mu_smooth")
+    return {
+        "mu_smooth": coefficient,
+        "mu": coefficient,
+        "mu_ratio": 1.0,
+        "mu_ratio_model_error": 0.0,
+        "status": FULL_FILM,
+        "message": "",
+    }
+
+
+def _friction(found: Sequence[Row], smooth: Row) -> dict[str, Any]:
+    """Mean and spread over the surfaces; no mean where one of them has no ratio.
+
+    The coefficient of the smooth contact is that of its solution, which has the inlet too.
+    """
     lost = [row for row in found if row["status"] != "predicted"]
     if lost:
         broken = sum(row["status"] == BREAKDOWN for row in lost)
@@ -182,10 +203,15 @@ def _friction(found: Sequence[Row]) -> dict[str, Any]:
         row = next(row for row in lost if not broken or row["status"] == BREAKDOWN)
         return {"status": status, "message": f"{share}{_why(row)}"}
     outside = sorted({row["outside_range"] for row in found if row.get("outside_range")})
+    coefficient = smooth.get("mu_smooth")
+    absolute: list[Row] = [
+        {"mu": None if None in (row.get("mu"), coefficient) else row["mu_ratio"] * coefficient}
+        for row in found
+    ]
     return {
         **_mean(found, "mu_ratio"),
-        **_mean(found, "mu"),
-        "mu_smooth": found[0].get("mu_smooth"),
+        **_mean(absolute, "mu"),
+        "mu_smooth": coefficient,
         "mu_ratio_model_error": _largest(found, "mu_ratio_model_error"),
         "status": OUTSIDE if outside else FULL_FILM,
         "message": f"outside the range of the prediction: {'; '.join(outside)}" if outside else "",

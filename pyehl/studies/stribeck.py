@@ -36,6 +36,7 @@ KEYS = {
     "viscosity": "lubricant.viscosity",
     "load": "contact.load",
     "temperature": "lubricant.temperature",
+    "slide-to-roll": "contact.slide_to_roll",
 }
 """What a curve may go over, by the option of the command."""
 SEED = "surface.seed"
@@ -54,7 +55,7 @@ class CurvePoint:
     smooth
         Number of the task that solves the smooth contact.
     predictions
-        Numbers of the tasks that predict, one for each surface.
+        Numbers of the tasks that predict, one for each surface; none for a smooth one.
     full
         Number of the task that solves the passage of the surface; None for none.
     """
@@ -98,9 +99,11 @@ class CurvePlan:
         left = [t.seconds for t in self.tasks if t.number not in finished]
         full = sum(p.full is not None for p in self.points)
         each = "surface" if self.surfaces == 1 else f"{self.surfaces} surfaces"
+        rough = any(p.predictions for p in self.points)
         lines = [
             f"curve      {len(self.points)} points over {', '.join(self.study.keys)}: at each the "
-            f"smooth contact and a prediction for the {each}"
+            "smooth contact"
+            + (f" and a prediction for the {each}" if rough else "")
             + (f"; the full simulation at {full}" if full else "")
         ]
         if finished:
@@ -124,7 +127,7 @@ def plan_curve(
     Parameters
     ----------
     case
-        A case with a rough surface, or the path of a case file.
+        A case, or the path of a case file. Smooth surfaces have mu_r/mu_s = 1.
     axes
         What the curve goes over, keys of `KEYS`; every value of one meets those of the others.
     options
@@ -159,9 +162,11 @@ def plan_curve(
     for point in study.points():
         rough = study.resolved(point)
         settings = rough.resolve()
-        _check(study, point, settings, seeds)
+        _check(study, point, settings, seeds, ehl)
         first = int(settings["surface"]["seed"])
         varied = [rough, *(rough.with_options(f"{SEED}={first + k}") for k in range(1, seeds))]
+        if settings["surface"]["kind"] == "smooth":
+            varied = []
         points.append(
             CurvePoint(
                 point,
@@ -174,14 +179,14 @@ def plan_curve(
     return CurvePlan(replace(study, run="predict"), tuple(points), tuple(tasks), seeds)
 
 
-def _check(study: Study, point: Point, settings: Settings, seeds: int) -> None:
+def _check(study: Study, point: Point, settings: Settings, seeds: int, ehl: int) -> None:
     """Refuse what no curve can be made of."""
     kind = settings["surface"]["kind"]
     try:
-        if kind == "smooth":
-            raise InputError("surface.kind = 'smooth': a Stribeck curve needs a rough surface")
         if kind in surfaces.FEATURES:
             raise InputError(unpredictable(str(kind)))
+        if kind == "smooth" and ehl:
+            raise InputError(f"--ehl {ehl}: surface.kind = 'smooth' has no passage to solve")
         if seeds > 1 and kind != "fractal":
             raise InputError(f"--surfaces {seeds}: surface.kind = '{kind}' has no seed")
         if "load" not in settings["contact"]:

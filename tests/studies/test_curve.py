@@ -110,6 +110,27 @@ def test_full_simulation_at_some_points(wave: tuple[Path, str]):
     assert float(rows[1]["mu_ratio_ehl"]) == pytest.approx(float(rows[1]["mu_ratio"]), abs=0.01)
 
 
+def test_smooth_surfaces_have_the_ratio_one(cases: Path, tmp_path: Path):
+    """Beside rough ones: the same film and the same coefficient of the smooth contact."""
+    case = str(cases / "table1.nml")
+    words = ("--set", "lubricant.shear_law=eyring", "--set", "grid.points=129")
+    words += ("--speed", "0.5,2", "--slide-to-roll", "0.02,0.2")
+    told, _ = run(case, *words, "--set", "surface.kind=smooth", "-o", str(tmp_path / "s"))
+    assert "and a prediction" not in told
+    run(case, *words, "--set", "surface.pixels=64", "-o", str(tmp_path / "r"))
+    smooth, rough = table(tmp_path / "s"), table(tmp_path / "r")
+    assert len(smooth) == len(rough) == 4
+    for a, b in zip(smooth, rough, strict=True):
+        assert (a["mu_ratio"], a["mu_ratio_model_error"], a["status"]) == ("1.0", "0.0", FULL_FILM)
+        assert (a["lambda_ratio"], a["theta_2"]) == ("", "")
+        assert a["mu"] == a["mu_smooth"] == b["mu_smooth"]
+        assert (a["h_c_m"], a["h_min_m"]) == (b["h_c_m"], b["h_min_m"])
+        assert float(b["mu"]) == pytest.approx(float(b["mu_ratio"]) * float(a["mu"]), rel=1e-12)
+    # more slip, more shear stress
+    assert [float(r["mu"]) for r in smooth[1::2]] > [float(r["mu"]) for r in smooth[::2]]
+    assert (tmp_path / "s" / "stribeck.png").stat().st_size > 10_000
+
+
 def test_files_and_words(wave: tuple[Path, str]):
     folder, told = wave
     assert "3 points over contact.mean_velocity" in told
@@ -230,7 +251,7 @@ def test_measured_data_that_are_refused(tmp_path: Path, text: str, says: str):
     ("words", "says"),
     [
         ([], "expected at least one of --speed"),
-        (["--speed", "0.5", "--set", "surface.kind=smooth"], "needs a rough surface"),
+        (["--speed", "0.5", "--set", "surface.kind=smooth", "--ehl", "1"], "no passage to solve"),
         (["--speed", "0.5", "--ehl", "2"], "--ehl 2: expected 0 to 1"),
         (["--speed", "0.5", "--surfaces", "0"], "--surfaces 0"),
         (["--speed", "0.5,-1"], "case 2 of 2"),
