@@ -20,6 +20,7 @@ import numpy as np
 from pyehl import library
 from pyehl.case import Case
 from pyehl.errors import FileError
+from pyehl.prediction.resolution import add_resolution
 from pyehl.solver import Solver
 from pyehl.surfaces import for_solver
 
@@ -177,6 +178,7 @@ def _drive(
     """Solve a case, from its beginning or from the state of a run with the results `resumed`."""
     library.check_output(folder)
     with stop_on_signals() as request, _open(case, resumed) as solver:
+        add_resolution(solver, case)
         observer.say(solver.describe())
         if os.fspath(resumed):
             begins = "there is no state yet: the run begins at its beginning"

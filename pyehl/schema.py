@@ -114,6 +114,8 @@ sp | mu_ratio_max | - | its largest value
 s | mu_ratio_error | - | estimate of the error of mu_ratio
 s | mu_ratio_error_grid | - | part of it from the grid
 s | mu_ratio_error_stop | - | part of it from the end of the run
+s | mu_ratio_left_out | - | part of it from waves that the grid does not carry, as predicted
+s | mu_ratio_unresolved | - | predicted part of mu_ratio in waves that the grid does not resolve
 p | mu_ratio_model_error | - | error of the model
 p | mu_ratio_cutoff_error | - | error from waves that are left out
 p | mu_ratio_tracks | - | mean over all tracks of the tile

@@ -13,7 +13,7 @@ import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Protocol, Self
 
 from numpy.typing import ArrayLike
 
@@ -26,7 +26,7 @@ from pyehl.surfaces import Preparation, for_solver
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["Solver", "Step"]
+__all__ = ["Addition", "Solver", "Step"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +60,18 @@ class Step:
     def work(self) -> Work:
         """How much of a transient run is done, as `Solver.work`."""
         return self.solver.work()
+
+
+class Addition(Protocol):
+    """What is known of a run beside what the library tells."""
+
+    def report(self) -> list[str]:
+        """Lines of the plan."""
+        ...
+
+    def amend(self, values: dict[str, Any]) -> None:
+        """Add to the scalars of a summary."""
+        ...
 
 
 class Solver(SolverHandle):
@@ -122,6 +134,7 @@ class Solver(SolverHandle):
     def _start(self, case: Case, heights: ArrayLike | None) -> None:
         self._case = case
         self.preparation: Preparation | None = None
+        self.resolution: Addition | None = None
         options: tuple[str, ...] = ()
         if heights is None:
             try:
@@ -150,18 +163,24 @@ class Solver(SolverHandle):
 
     def describe(self) -> str:
         """Tell the plan: what will be solved and how, with a table of the levels."""
-        return "\n".join([self._describe(), *self._map_lines()])
+        return "\n".join([self._describe(), *self._lines()])
 
-    def _map_lines(self) -> list[str]:
-        """Tell how a map was prepared."""
-        return self.preparation.report() if self.preparation else []
+    def _lines(self) -> list[str]:
+        """Tell how a map was prepared, and what the grid does not resolve."""
+        lines = self.preparation.report() if self.preparation else []
+        return lines + (self.resolution.report() if self.resolution else [])
+
+    def _amended(self, values: dict[str, Any]) -> dict[str, Any]:
+        """Add to the scalars what the library does not know."""
+        if self.preparation:
+            values["surface_preparation"] = self.preparation.summary()
+        if self.resolution:
+            self.resolution.amend(values)
+        return values
 
     def summary(self) -> dict[str, Any]:
         """Give the scalar results as in ``summary.json``; None for a number that does not exist."""
-        values: dict[str, Any] = json.loads(self._summary())
-        if self.preparation:
-            values["surface_preparation"] = self.preparation.summary()
-        return values
+        return self._amended(json.loads(self._summary()))
 
     def dataset(self) -> xarray.Dataset:
         """Give the results so far, the same as `pyehl.load` of the folder that `write` makes."""
@@ -181,21 +200,19 @@ class Solver(SolverHandle):
             If it cannot be written.
         """
         note = self._write(folder)
-        if self.preparation:
-            self._add_preparation(Path(folder))
+        if self.preparation or self.resolution:
+            self._amend(Path(folder))
         return note
 
-    def _add_preparation(self, folder: Path) -> None:
-        """Add to plan and summary how a map was prepared; the library does not know."""
+    def _amend(self, folder: Path) -> None:
+        """Add to plan and summary what the library does not know."""
         try:
             for name in ("summary.json", "plan.txt"):
                 text = (folder / name).read_text(encoding="utf-8")
                 if name == "plan.txt":
-                    text = "\n".join([text.rstrip("\n"), *self._map_lines(), ""])
+                    text = "\n".join([text.rstrip("\n"), *self._lines(), ""])
                 else:
-                    values = json.loads(text)
-                    assert self.preparation is not None
-                    values["surface_preparation"] = self.preparation.summary()
+                    values = self._amended(json.loads(text))
                     text = json.dumps(values, indent=2, allow_nan=False) + "\n"
                 fresh = folder / f"{name}.new"
                 fresh.write_text(text, encoding="utf-8")

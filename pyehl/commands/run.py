@@ -4,14 +4,12 @@
 from __future__ import annotations
 
 import argparse
-import math
 import sys
 import time
 
 from pyehl.case import Case
 from pyehl.commands.arguments import add_case_arguments
-from pyehl.errors import EhlError, InputError
-from pyehl.prediction.resolution import resolution
+from pyehl.errors import InputError
 from pyehl.progress import ProgressBar
 from pyehl.run import Observer, Outcome, resume, run
 from pyehl.solver import Solver
@@ -96,22 +94,4 @@ def execute(args: argparse.Namespace) -> int:
             "expected: pyehl run CASE.nml -o DIR, or pyehl run --resume DIR"
         )
     case = Case.read(args.case, args.overrides)
-    _say_resolution(case, observer)
     return _status(run(case, args.output, observer))
-
-
-def _say_resolution(case: Case, observer: Observer) -> None:
-    """Say how much of the answer hangs on waves that the grid does not resolve."""
-    try:
-        found = resolution(case)
-    except (ValueError, OSError, EhlError):
-        # the run itself says what is wrong with the case
-        return
-    if found is None or not math.isfinite(found.mu_ratio):
-        return
-    observer.say(str(found))
-    if found.matters:
-        observer.warn(
-            "warning: more than 1 % of mu_r/mu_s hangs on waves with fewer than 8 nodes; a finer "
-            "grid (grid.points) or surface.shortest_wavelength resolves what is left"
-        )

@@ -3,22 +3,29 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from typing import Any
 
 from pyehl import surfaces
 from pyehl.case import Case
+from pyehl.errors import EhlError
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.options import Options
 from pyehl.prediction.smooth import solve_contact
+from pyehl.solver import Solver
+from pyehl.surfaces import Topography
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["Resolution", "resolution"]
+__all__ = ["Resolution", "add_resolution", "resolution"]
 
 NODES = 8
 """Nodes that a wave needs to be resolved."""
+CARRIED = 2
+"""Nodes that a wave needs to be on the grid at all."""
 TOLERANCE = 0.01
-"""Share of mu_r/mu_s that may hang on waves with fewer, without a warning."""
+"""Share of mu_r/mu_s that may hang on waves that are not resolved, without a warning."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,15 +35,16 @@ class Resolution:
     Attributes
     ----------
     mu_ratio
-        Predicted with all waves [-]; NaN where there is no prediction.
-    resolved
-        The same without the waves that have fewer than NODES nodes [-].
+        Predicted with all waves [-].
+    resolved, carried
+        The same without the waves that have fewer than NODES, or CARRIED nodes [-].
     shortest
-        Wavelength that has so many nodes [m].
+        Wavelength that has NODES nodes [m].
     """
 
     mu_ratio: float
     resolved: float
+    carried: float
     shortest: float
 
     @property
@@ -52,9 +60,54 @@ class Resolution:
             f"from waves shorter than {self.shortest * 1e6:.3g} um, {NODES} nodes of this grid"
         )
 
+    def report(self) -> list[str]:
+        """Lines of the plan."""
+        lines = [str(self)]
+        if self.matters:
+            lines.append(
+                f"warning: more than {TOLERANCE:.0%} of mu_r/mu_s hangs on waves with fewer than "
+                f"{NODES} nodes; a finer grid (grid.points) or surface.shortest_wavelength "
+                "resolves what is left"
+            )
+        return lines
 
-def resolution(case: Case) -> Resolution | None:
-    """Predict what the grid of a case resolves; None for surfaces that are no tile of heights.
+    def amend(self, values: dict[str, Any]) -> None:
+        """Add to a summary what hangs on the waves, and to the error what the grid leaves out.
+
+        The error from two grids knows nothing of waves that neither of them carries.
+        """
+        values["mu_ratio_unresolved"] = self.mu_ratio - self.resolved
+        # waves that the grid carries in both directions are not left out, short as they may be
+        out = self.mu_ratio - self.carried if values.get("variance_left_out") else 0.0
+        values["mu_ratio_left_out"] = out
+        if values.get("mu_ratio_error") is not None:
+            values["mu_ratio_error"] += abs(out)
+
+
+def add_resolution(solver: Solver, case: Case) -> None:
+    """Predict what the grid of a solver does not resolve, for its plan and its summary.
+
+    Nothing is added to a case without such waves, or without a prediction.
+    """
+    try:
+        solver.resolution = resolution(case)
+    except (ValueError, OSError, EhlError):
+        # the run itself says what is wrong with the case
+        solver.resolution = None
+
+
+def resolution(case: Case, tile: Topography | None = None) -> Resolution | None:
+    """Predict what the grid of a case resolves.
+
+    None for surfaces that are no tile of heights on the move, for those without waves that the grid
+    does not resolve, and where the prediction gives no ratio.
+
+    Parameters
+    ----------
+    case
+        Its grid is that of the run.
+    tile
+        Its surface; None: made as the case says.
 
     Raises
     ------
@@ -62,7 +115,8 @@ def resolution(case: Case) -> Resolution | None:
         If the surface is not usable.
     """
     settings = case.resolve()
-    if settings["surface"]["kind"] not in ("map", "fractal"):
+    ratio = float(settings["surface"]["velocity_ratio"])
+    if settings["surface"]["kind"] not in ("map", "fractal") or ratio == 0.0:
         return None
     operating = OperatingPoint.from_settings(settings)
     lubricant = Lubricant.from_settings(settings)
@@ -71,9 +125,14 @@ def resolution(case: Case) -> Resolution | None:
         int(grid["points"]) - 1
     )
     contact = solve_contact(settings)
-    tile = surfaces.from_settings(settings, operating, contact.central_film * operating.film_scale)
-    ratio = float(settings["surface"]["velocity_ratio"])
+    if tile is None:
+        film = contact.central_film * operating.film_scale
+        tile = surfaces.from_settings(settings, operating, film)
     passage = RoughPassage(tile, contact, operating, lubricant, Options(), ratio)
-    found, _, _ = passage.run(tracks=1)
-    shortest = NODES * mesh
-    return Resolution(found.mu_ratio, passage.below(shortest), shortest * operating.hertz_radius)
+    if not passage.variance_below(NODES * mesh) > 0.0:
+        return None
+    found, _, _ = passage.run(0, brief=True)
+    if not math.isfinite(found.mu_ratio):
+        return None
+    resolved, carried = (passage.below(nodes * mesh) for nodes in (NODES, CARRIED))
+    return Resolution(found.mu_ratio, resolved, carried, NODES * mesh * operating.hertz_radius)

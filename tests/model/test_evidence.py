@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from pyehl.prediction.errors import model_error
+from pyehl.prediction.resolution import resolution
 
 
 @pytest.fixture(scope="module")
@@ -46,8 +47,27 @@ def test_table_is_what_is_predicted(evidence, table, name):
     assert abs(ours - row["mu_ratio"]) <= model_error(ours)
 
 
+def test_waves_that_a_coarse_grid_leaves_out_are_in_its_error(evidence):
+    """257 x 257 nodes against 513 x 513: the error from two grids does not know these waves."""
+    compare, folder = evidence
+    cases = sys.modules["cases"]
+    lines = (folder / "coarse.csv").read_text().splitlines()
+    fine = {row["name"]: row["mu_ratio"] for row in compare.rows()}
+    missed = 0
+    for coarse in csv.DictReader(x for x in lines if not x.startswith("#")):
+        (row,) = (row for row in compare.rows() if row["name"] == coarse["name"])
+        row["points"] = float(coarse["points"])
+        found = resolution(cases.case(row), cases.surface(row))
+        difference = abs(fine[row["name"]] - float(coarse["mu_ratio"]))
+        missed += difference > float(coarse["grid_error"])
+        values = {"variance_left_out": 1e-4, "mu_ratio_error": float(coarse["grid_error"])}
+        found.amend(values)
+        assert difference <= values["mu_ratio_error"], row["name"]
+    assert missed == 6
+
+
 def test_deviations(table):
-    """Within 1 % without short waves and small ratios, 2 % and the grid error up to 1.5."""
+    """1 % without short waves and up to 1.3, 2 % and the grid error up to 1.5, 6 % up to 2.5."""
     assert len(table) >= 24
     for name, row in table.items():
         deviation = abs(row["prediction"] / row["mu_ratio"] - 1.0)
@@ -55,6 +75,8 @@ def test_deviations(table):
             assert deviation <= 0.01, name
         if row["mu_ratio"] <= 1.5:
             assert deviation <= 0.02 + row["mu_ratio_error"] / row["mu_ratio"], name
+        if row["mu_ratio"] <= 2.5:
+            assert deviation <= 0.06, name
 
 
 def test_stated_error_covers_nine_of_ten(table):

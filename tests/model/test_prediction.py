@@ -182,6 +182,19 @@ def test_what_a_grid_does_not_resolve():
     assert resolution(pyehl.Case.read("cases/quick.nml")) is None
 
 
+def test_waves_left_out_are_in_the_error():
+    """A coarse transient run: its error is that of the grids and what it leaves out."""
+    # M = 200, L = 10
+    options = "contact.load=119.0", "surface.rms_height=5e-9", "surface.length_x=4e-4"
+    options = *options, "surface.length_y=4e-4", "contact.mean_velocity=0.832", "grid.points=65"
+    summary = pyehl.solve("cases/table1.nml", *options).attrs
+    assert summary["variance_left_out"] > 0.0
+    assert abs(summary["mu_ratio_unresolved"]) > abs(summary["mu_ratio_left_out"]) > 0.0
+    parts = summary["mu_ratio_error_grid"] + summary["mu_ratio_error_stop"]
+    expected = parts + abs(summary["mu_ratio_left_out"])
+    assert summary["mu_ratio_error"] == pytest.approx(expected, rel=1e-12)
+
+
 def test_beyond_the_linear_response(contact, table_1):
     """Short waves as high as the film: no number, and a cut-off that would bring one."""
     rough = table_1(seed=21, rms_height=8e-8, hurst=0.4)

@@ -1,35 +1,41 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Simulate rows of cases.csv anew, two to five minutes each on one core.
 
-python docs/evidence/prediction/make.py NAME ...
+python docs/evidence/prediction/make.py NAME ... [--points N]
 """
 
 from __future__ import annotations
 
-import sys
+import argparse
 
 from cases import case, rows, surface
 from pyehl.solver import Solver
 
 
-def main(names: list[str]) -> None:
+def main() -> None:
     """Simulate and print beside what stands in the table."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("names", nargs="+")
+    parser.add_argument("--points", type=int, help="nodes per side in place of those of the table")
+    arguments = parser.parse_args()
     for row in rows():
-        if row["name"] in names:
-            with Solver.open(case(row), surface(row).heights) as solver:
-                solver.run()
-                summary = solver.summary()
-            print(
-                row["name"],
-                summary["status"],
-                summary["mu_ratio"],
-                summary["mu_ratio_error"],
-                "table:",
-                row["mu_ratio"],
-                row["mu_ratio_error"],
-                flush=True,
-            )
+        if row["name"] not in arguments.names:
+            continue
+        row["points"] = arguments.points or row["points"]
+        with Solver.open(case(row), surface(row).heights) as solver:
+            solver.run()
+            summary = solver.summary()
+        print(
+            row["name"],
+            summary["status"],
+            summary["mu_ratio"],
+            summary["mu_ratio_error"],
+            "table, 513 x 513 nodes:",
+            row["mu_ratio"],
+            row["mu_ratio_error"],
+            flush=True,
+        )
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()
