@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Make curves.csv and stribeck.png anew: python docs/evidence/stribeck/make.py FOLDER.
+
+About two minutes on one core. The folder gets a study for each surface and shear law; started again
+it goes on.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+import pyehl
+from pyehl.cli import main as command
+from pyehl.plots.style import BLUE, GREEN, VERMILLION, letter, new_figure, save
+from pyehl.surfaces import filtered
+
+HERE = Path(__file__).resolve().parent
+CASE = HERE.parents[2] / "cases" / "table1.nml"
+CURVES = HERE / "curves.csv"
+
+SHORT = 52e-6
+"""Waves shorter than this are the short ones [m]: an eighth of the Hertz radius."""
+FACTOR = 10.0
+SPEEDS = "0.25:8:10log"
+SLIPS = (0.02, 0.1, 0.3)
+SURFACES = ("smooth", "table 1", "short waves x 10")
+LAWS = ("eyring", "newtonian")
+COLUMNS = (
+    "h_c_m h_min_m lambda_ratio theta_2 hersey mu_smooth mu mu_ratio mu_ratio_model_error status"
+).split()
+KEYS = ("contact.mean_velocity", "contact.slide_to_roll")
+
+
+def options_of(surface: str, folder: Path) -> list[str]:
+    """Options of a surface; makes the map of that with its short waves times FACTOR."""
+    if surface == "smooth":
+        return ["surface.kind=smooth"]
+    if surface == "table 1":
+        return []
+    tile = pyehl.predict(CASE).surface
+    long = filtered(tile, SHORT).heights
+    path = folder / "short_waves.npy"
+    np.save(path, long + FACTOR * (tile.heights - long))
+    lengths = [f"surface.length_{axis}={tile.length_x!r}" for axis in "xy"]
+    return ["surface.kind=map", f"surface.file={path}", *lengths]
+
+
+def curve(
+    surface: str, law: str, folder: Path, speeds: str = SPEEDS, slips: tuple[float, ...] = SLIPS
+) -> list[dict[str, str]]:
+    """Run ``pyehl stribeck`` for a surface and a shear law; the rows of its table."""
+    place = folder / f"{surface} {law}".replace(" ", "_")
+    settings = [*options_of(surface, folder), f"lubricant.shear_law={law}", "grid.points=257"]
+    words = [word for text in settings for word in ("--set", text)]
+    words += ["--speed", speeds, "--slide-to-roll", ",".join(str(s) for s in slips)]
+    command(["stribeck", str(CASE), *words, "-o", str(place), "-q"])
+    with (place / "stribeck.csv").open(newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def stored() -> list[dict[str, str]]:
+    """Rows of curves.csv."""
+    with CURVES.open(newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def rows(
+    found: list[dict[str, str]], surface: str, law: str, slip: float
+) -> Iterator[dict[str, str]]:
+    """Rows of one curve, in the order of speed."""
+    for row in found:
+        if (row["surface"], row["law"]) == (surface, law) and float(row[KEYS[1]]) == slip:
+            yield row
+
+
+def draw(found: list[dict[str, str]], path: Path) -> None:
+    """Draw coefficient (Eyring) and ratio (Newtonian) over Hersey number, Lambda and theta_2."""
+    figure = new_figure(11.0, 6.6)
+    axes = figure.subplots(2, 3, sharey="row")
+    places = {"hersey": "Hersey number", "lambda_ratio": r"$\Lambda$", "theta_2": r"$\theta_2$"}
+    styles = dict(zip(SURFACES, (":", "-", "--"), strict=True))
+    for line, law, ordinate in zip(axes, LAWS, ("mu", "mu_ratio"), strict=True):
+        for ax, (name, label) in zip(line, places.items(), strict=True):
+            for surface in SURFACES:
+                for slip, colour in zip(SLIPS, (BLUE, VERMILLION, GREEN), strict=True):
+                    points = [
+                        (float(row[name]), float(row[ordinate]))
+                        for row in rows(found, surface, law, slip)
+                        if row[name] and row[ordinate]
+                    ]
+                    if points:
+                        ax.plot(
+                            *zip(*points, strict=True),
+                            styles[surface],
+                            marker="o",
+                            ms=2.5,
+                            lw=1.1,
+                            color=colour,
+                            label=f"{surface}, slide-to-roll ratio {slip}",
+                        )
+            ax.set_xscale("log")
+            ax.set_xlabel(label)
+            ax.grid(visible=True, color="0.92", lw=0.6)
+    axes[0, 0].set_ylabel(r"$\mu$ (Eyring, 5 MPa)")
+    axes[1, 0].set_ylabel(r"$\mu_r/\mu_s$ (Newtonian)")
+    letter(list(axes.ravel()))
+    handles, labels = axes[0, 0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=3, fontsize="small")
+    save(figure, path, 110)
+
+
+def main(folder: Path) -> None:
+    """Run all curves, write the table and the picture."""
+    folder.mkdir(parents=True, exist_ok=True)
+    text = io.StringIO(newline="")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["surface", "law", *KEYS, *COLUMNS])
+    for law in LAWS:
+        for surface in SURFACES:
+            for row in curve(surface, law, folder):
+                writer.writerow([surface, law, *(row[name] for name in (*KEYS, *COLUMNS))])
+    CURVES.write_text(text.getvalue())
+    draw(stored(), HERE / "stribeck.png")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]).resolve())
