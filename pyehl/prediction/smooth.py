@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import f90nml
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import map_coordinates
 
+from pyehl import namelist
 from pyehl.case import Case
 from pyehl.errors import EhlError
 from pyehl.kept import Kept
@@ -107,7 +107,7 @@ def smooth_case(settings: Mapping[str, Mapping[str, Any]]) -> str:
         for key in OF_SLIP:
             contact.pop(key, None)
     groups = {"contact": contact, "lubricant": lubricant, "grid": {"points": POINTS}}
-    return str(f90nml.Namelist(groups)) + "\n"
+    return namelist.text_of(groups)
 
 
 def solve_contact(settings: Mapping[str, Mapping[str, Any]]) -> SmoothContact:

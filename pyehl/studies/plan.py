@@ -111,11 +111,8 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None) -> Plan:
     points, tasks = [], []
     seen: dict[str, set[str]] = {"contact": set(), "surface": set(), "checked": set()}
     for point in study.points():
-        case = study.resolved(point)
+        case = study.resolved(point, *one_thread)
         settings = case.resolve()
-        if one_thread and settings["solver"]["threads"] != 1:
-            case = case.with_options(*one_thread)
-            settings = case.resolve()
         _check(study, point, case, settings, seen["checked"])
         seen["surface"].add(json.dumps(settings["surface"], default=str))
         folder = "" if keep is None else str(Path(keep) / f"{point.number + 1:0{digits}d}")

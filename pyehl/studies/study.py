@@ -106,8 +106,8 @@ class Study:
             }
             yield Point(number, index, values)
 
-    def resolved(self, point: Point) -> Case:
-        """Give the case of a point, checked and complete.
+    def resolved(self, point: Point, *more: str) -> Case:
+        """Give the case of a point, checked and complete, with `more` options.
 
         Raises
         ------
@@ -115,6 +115,7 @@ class Study:
             If it is not acceptable; the message names the case.
         """
         texts = [*self.options, *(option(key, value) for key, value in point.values.items())]
+        texts += more
         try:
             return Case.of(self.case, texts)
         except InputError as error:

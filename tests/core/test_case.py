@@ -8,11 +8,12 @@ import re
 import sys
 from pathlib import Path
 
+import f90nml
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from pyehl import Case, cli, library
+from pyehl import Case, cli, library, namelist
 from pyehl.errors import InputError
 
 CASE_FILES = sorted((Path(__file__).resolve().parents[2] / "cases").glob("*.nml"))
@@ -35,6 +36,29 @@ def test_resolved_case_reads_back(path: Path):
         if key.name in names:
             group, _, name = key.name.partition(".")
             assert isinstance(groups[group][name], bool | int | float | str)
+
+
+@pytest.mark.parametrize("path", CASE_FILES, ids=[path.name for path in CASE_FILES])
+def test_the_short_way_to_read_is_that_of_f90nml(path: Path):
+    """Every line of a resolved case takes it."""
+    text = Case.read(path).text
+    slow = {group: dict(keys) for group, keys in f90nml.reads(text).items()}
+    fast = namelist.values(text)
+    assert fast == slow
+    for group, keys in slow.items():
+        assert {k: type(v) for k, v in keys.items()} == {k: type(v) for k, v in fast[group].items()}
+    assert None not in [namelist._line(line) for line in text.splitlines() if " = " in line]
+
+
+def test_values_survive_being_written():
+    """Words with quotes and exclamation marks, numbers to the last digit, signs, truth values."""
+    groups = {
+        "surface": {"file": "a 'b' ! c.npy", "x_start": -2.5e-300, "sign": -1, "rms": 0.1 + 0.2},
+        "time": {"skip_start": False, "steps": 0, "big": 1e22},
+    }
+    text = namelist.text_of(groups)
+    assert namelist.values(text) == groups
+    assert {g: dict(k) for g, k in f90nml.reads(text).items()} == groups
 
 
 def test_cases_are_there():
