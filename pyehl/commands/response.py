@@ -16,14 +16,14 @@ from tqdm import tqdm
 from pyehl.case import Case
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.errors import FileError
-from pyehl.studies.response import TIERS, Tier, measure
-from pyehl.studies.superposition import step_counts
+from pyehl.studies.response import measure
+from pyehl.studies.tiers import TIERS, Tier
 
 __all__ = ["add_arguments", "execute"]
 
 FILES = ("response.csv", "response.nc", "response.png", "summary.json", "case.nml")
 # Directions of the lines of the shipped response [deg]
-LINES = (0.0, 45.0, 80.0)
+LINES = (0.0, 45.0, 80.0, 90.0)
 # Seconds between progress lines where the output is not a terminal
 PROGRESS_INTERVAL = 10.0
 
@@ -33,7 +33,7 @@ class Bar:
 
     def __init__(self, tiers: tuple[Tier, ...], velocity_ratio: float) -> None:
         self._cost = {tier.name: tier.points**2 / 1e6 for tier in tiers}
-        counts = {t.name: step_counts(t.points, t.tile, velocity_ratio)[1] for t in tiers}
+        counts = {tier.name: tier.steps(velocity_ratio) for tier in tiers}
         total = sum(self._cost[name] * count for name, count in counts.items())
         self._terminal = sys.stderr.isatty()
         form = "{desc} {percentage:3.0f}% |{bar}| {elapsed}<{remaining}"
@@ -76,7 +76,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl response``."""
     case = Case.read(args.case, args.overrides)
-    tiers = TIERS[:2] if args.quick else TIERS
+    tiers = TIERS[:-1] if args.quick else TIERS
     ratio = float(case.resolve()["surface"]["velocity_ratio"])
     began = time.perf_counter()
     bar = Bar(tiers, max(ratio, 1e-3))

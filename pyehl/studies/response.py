@@ -14,7 +14,7 @@ import multiprocessing as mp
 import os
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 from queue import Empty
 from typing import Any
@@ -24,70 +24,15 @@ from numpy.typing import NDArray
 
 from pyehl.case import Case
 from pyehl.errors import EhlError, FileError, InputError
-from pyehl.studies.superposition import WaveSet, superpose
+from pyehl.studies.ridges import ridges
+from pyehl.studies.superposition import superpose
+from pyehl.studies.tiers import TIERS, Tier, ridge_wavelengths, tier_waves
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["DIRECTIONS", "TIERS", "Tier", "measure", "tier_waves"]
+__all__ = ["measure"]
 
 Array = NDArray[np.float64]
 Progress = Callable[[str, int, int], None]
-
-# Angles of the crests to those across the motion, one wave after the other [deg]
-DIRECTIONS = (0, 45, 80, 26, 0, 63, 15, 75, 0, 56, 35, 70, 0, 45, 62, 20)
-NODES = 8
-"""Least number of nodes a wavelength."""
-
-
-@dataclass(frozen=True, slots=True)
-class Tier:
-    """One run.
-
-    Attributes
-    ----------
-    name
-        Of the tier and of its file.
-    tile
-        Side of the tile [a].
-    points
-        Nodes per side of the domain, 4 a by 4 a.
-    longest, shortest
-        Wavelengths along the motion, and shortest of all [a].
-    """
-
-    name: str
-    tile: float
-    points: int
-    longest: float
-    shortest: float
-
-
-TIERS = (
-    Tier("long", 4.0, 257, 4.0, 0.125),
-    Tier("middle", 1.0, 513, 0.5, 0.0625),
-    Tier("short", 0.5, 1025, 0.125, 0.03125),
-)
-"""The tiers of the command; the first two are those of a quick measurement."""
-
-
-def tier_waves(tier: Tier) -> WaveSet:
-    """Waves of a tier: all wavelengths it can tell apart, up to 24, in scattered directions.
-
-    Raises
-    ------
-    ValueError
-        If the grid has fewer than NODES nodes for the shortest wave.
-    """
-    nodes = tier.shortest * (tier.points - 1) / 4.0
-    if nodes < NODES - 1e-9:
-        raise ValueError(f"tier '{tier.name}': {nodes:g} nodes for the shortest wave, not {NODES}")
-    first, last = round(tier.tile / tier.longest), round(tier.tile / tier.shortest)
-    along = np.unique(np.round(np.geomspace(first, last, 24)).astype(np.int64))
-    angles = np.resize(np.array(DIRECTIONS, dtype=float), along.size)
-    across = np.round(along * np.tan(np.radians(angles))).astype(np.int64)
-    # no wave is shorter than the shortest
-    limit = np.floor(np.sqrt(last**2 - along**2)).astype(np.int64)
-    phase = np.random.default_rng(5).uniform(0.0, 2.0 * np.pi, along.size)
-    return WaveSet(tier.tile, along, np.minimum(across, limit), phase)
 
 
 def _identity(settings: Mapping[str, Mapping[str, Any]], velocity_ratio: float, tier: Tier) -> str:
@@ -111,27 +56,39 @@ def run_tier(
 ) -> None:
     """Run a tier of a resolved case and write its file, whole or not at all."""
     settings = Case.from_text(text).resolve()
-    waves = tier_waves(tier)
     began = time.perf_counter()
-    found = superpose(
-        settings,
-        waves,
-        points=tier.points,
-        velocity_ratio=velocity_ratio,
-        solver={"threads": threads},
-        progress=lambda done, total: progress(tier.name, done, total),
-    )
+
+    def report(done: int, total: int) -> None:
+        progress(tier.name, done, total)
+
+    if tier.ridges:
+        found: dict[str, Any] = ridges(
+            settings,
+            ridge_wavelengths(tier),
+            points=tier.points,
+            solver={"threads": threads},
+            progress=report,
+        )
+    else:
+        waves = tier_waves(tier)
+        found = {name: getattr(waves, name) for name in ("tile", "along", "across", "phase")}
+        found |= asdict(
+            superpose(
+                settings,
+                waves,
+                points=tier.points,
+                velocity_ratio=velocity_ratio,
+                solver={"threads": threads},
+                progress=report,
+            )
+        )
     partial = path.with_name(f"{path.name}.partial-{os.getpid()}")
     with partial.open("wb") as stream:
         np.savez(
             stream,
             identity=_identity(settings, velocity_ratio, tier),
-            tile=waves.tile,
-            along=waves.along,
-            across=waves.across,
-            phase=waves.phase,
             seconds=time.perf_counter() - began,
-            **asdict(found),
+            **found,
         )
     partial.replace(path)
 
