@@ -2,11 +2,15 @@
 """Sphinx: ``sphinx-build -W docs build/docs``, with pyehl installed."""
 
 import re
+import sys
 from importlib.metadata import version as version_of
+from pathlib import Path
 
 from sphinx.application import Sphinx
 
 from pyehl import schema
+
+sys.path.insert(0, str(Path(__file__).parent / "_ext"))
 
 project = "pyehl"
 author = "the pyehl developers"
@@ -16,13 +20,15 @@ version = release
 
 extensions = [
     "myst_parser",
+    "numpydoc",
     "sphinx.ext.autodoc",
     "sphinx.ext.mathjax",
-    "sphinx.ext.napoleon",
     "sphinx.ext.viewcode",
+    "sphinx_gallery.gen_gallery",
 ]
-source_suffix = {".md": "markdown"}
-exclude_patterns = ["_build"]
+source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
+# FORD makes pages of ford.md, see below
+exclude_patterns = ["_build", "_ext", "examples", "ford.md"]
 # The list of measurements may be empty; blocks without a lexer of their own are plain text
 suppress_warnings = ["toc.empty_glob", "misc.highlighting_failure"]
 
@@ -31,8 +37,23 @@ myst_heading_anchors = 4
 
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
-napoleon_google_docstring = False
-napoleon_use_rtype = False
+numpydoc_show_class_members = False
+
+# Every script in examples/ is run; an error in one fails the build
+sphinx_gallery_conf = {
+    "examples_dirs": "examples",
+    "gallery_dirs": "gallery",
+    "filename_pattern": "/plot_",
+    "image_scrapers": ("matplotlib", "figure_scraper.scrape"),
+    "within_subsection_order": "FileNameSortKey",
+    "abort_on_example_error": True,
+    "download_all_examples": False,
+    "remove_config_comments": True,
+    "capture_repr": ("_repr_html_", "__repr__"),
+    "show_memory": False,
+    "plot_gallery": True,
+    "min_reported_time": 1,
+}
 
 html_theme = "furo"
 html_title = f"pyehl {release}"

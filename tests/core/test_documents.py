@@ -42,6 +42,7 @@ EXEMPT = {
     "dask": "studies/test_cluster.py",
     "meson": ".ci/run",
     "sphinx-build": ".ci/run",
+    "ford": ".ci/run",
 }
 # Options of meson itself, that are not in meson.options
 MESON_OPTIONS = {"buildtype"}

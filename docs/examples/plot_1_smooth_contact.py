@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""
+Film and pressure of a smooth contact
+=====================================
+
+A ball rolls on a flat at M = 200, L = 10. Film and pressure on the line through the centre, and the
+film as an interferometer would show it: the oil enters from the left, the horseshoe with the
+smallest film is on the right.
+"""
+
+import matplotlib.pyplot as plt
+
+import pyehl
+from pyehl.plots import contact
+from pyehl.plots.figures import headline
+
+ds = pyehl.solve("../../cases/quick.nml")
+ds.attrs["status"], ds.attrs["H_c"], ds.attrs["H_min"]
+
+# %%
+# The result is an :class:`xarray.Dataset`: its variables have coordinates, units and names.
+
+figure, ax = plt.subplots(figsize=(6.0, 3.6), layout="constrained")
+ds.P.plot(ax=ax, x="X")
+ax.set_aspect("equal")
+plt.show()
+
+# %%
+# The functions of ``pyehl.plots`` draw on axes that you give, and return them.
+
+figure, (left, right) = plt.subplots(1, 2, figsize=(9.5, 4.0), layout="constrained")
+x, y = ds.X.values, ds.Y.values
+contact.pressure_and_film(x, ds.P.sel(Y=0.0).values, ds.H.sel(Y=0.0).values, ax=left)
+contact.interferogram(x, y, ds.H.values, ax=right)
+figure.suptitle(headline(ds.attrs))
+plt.show()

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""
+A wave passes through the contact
+=================================
+
+A rough surface that moves through the contact is a transient run. Frames of pressure and film are
+kept at intervals (``output.frame_interval``); ``pyehl plot DIR --movie`` makes an animation of them.
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import pyehl
+from pyehl.plots import contact, transient
+from pyehl.plots.figures import headline, solution_figures
+
+ds = pyehl.solve(
+    "../../cases/quick.nml",
+    "surface.kind=harmonic",
+    "surface.amplitude_over_film=0.3",
+    "surface.wavelength=0.8",
+    "surface.velocity_ratio=1.2",
+    "time.estimate_error=.false.",
+    "output.frame_interval=0.2",
+)
+
+# %%
+# The film at four instants while a wave goes from the inlet to the outlet, all in the same light.
+
+x, y = ds.X.values, ds.Y.values
+light = contact.fringe_spacings(float(ds.H_smooth.sel(X=0.0, Y=0.0)), None)
+figure, panels = plt.subplots(1, 4, figsize=(11.0, 3.9), sharey=True, layout="constrained")
+for ax, k in zip(panels, np.arange(-4, 0), strict=True):
+    contact.interferogram(x, y, ds.frame_H.isel(T=k).values, fringes=light, ax=ax)
+    ax.set_title(f"$T$ = {float(ds['T'][k]):.2f}")
+    ax.label_outer()
+figure.suptitle(headline(ds.attrs))
+plt.show()
+
+# %%
+# Friction over time. The mean is taken over the last period, which is shaded.
+
+figure, ax = plt.subplots(figsize=(6.4, 3.6), layout="constrained")
+transient.friction_history(
+    ds.history_T.values,
+    ds.history_mu_ratio.values,
+    period=ds.attrs["T_mean"],
+    mean=ds.attrs["mu_ratio"],
+    ax=ax,
+)
+plt.show()
+
+# %%
+# ``pyehl plot DIR`` draws these and other figures. Here that of rough and smooth profiles.
+
+figures = solution_figures(ds)
+figures["rough_and_smooth"]

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""
+Friction depends on the slip
+============================
+
+In pure rolling (velocity ratio 1) the surface and the film wave that it made in the inlet travel
+together. With slip they part, and short waves, which the contact does not flatten, cost more
+friction. So the friction that roughness adds depends on the velocity ratio of the rough surface.
+"""
+
+import matplotlib.pyplot as plt
+
+import pyehl
+
+ratios = [0.8, 0.9, 0.95, 0.97, 0.985, 1.0, 1.015, 1.03, 1.05, 1.1, 1.2]
+table = pyehl.sweep(
+    "../../cases/table1.nml",
+    {"surface.velocity_ratio": ratios, "surface.seed": [1, 2]},
+    "grid.points=129",
+    run="predict",
+    jobs=1,
+)
+table.mu_ratio.dims
+
+# %%
+
+figure, ax = plt.subplots(figsize=(6.2, 3.8), layout="constrained")
+for seed in table["surface.seed"].values:
+    one = table.sel({"surface.seed": seed})
+    ax.errorbar(
+        one["surface.velocity_ratio"],
+        one.mu_ratio,
+        yerr=one.mu_ratio_model_error,
+        fmt="o-",
+        capsize=3,
+        label=f"seed {seed}",
+    )
+ax.set_xlabel("velocity of the rough surface / mean velocity")
+ax.set_ylabel(r"$\mu_r/\mu_s$, predicted")
+ax.set_title("Contact of Table 1")
+ax.legend()
+plt.show()

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""
+Friction over film thickness
+============================
+
+The lower the speed, the thinner the film against the roughness, and the more friction the roughness
+adds: the right branch of a Stribeck curve. The command ``pyehl stribeck`` draws such curves with
+error bands, full simulations and measured data, see :doc:`/howto/stribeck`.
+"""
+
+import matplotlib.pyplot as plt
+
+import pyehl
+
+SPEEDS = "0.4:4:6log"
+tables = {
+    law: pyehl.sweep(
+        "../../cases/table1.nml",
+        {"contact.mean_velocity": SPEEDS},
+        f"lubricant.shear_law={law}",
+        "grid.points=129",
+        run="predict",
+        jobs=1,
+    )
+    for law in ("newtonian", "eyring")
+}
+print(tables["newtonian"].status.values)
+
+# %%
+# Where the deformed roughness reached through the film the status would say so, and there would be
+# no ratio. An Eyring shear stress levels the peaks of the viscosity, so that the ratio stays close to 1.
+
+figure, ax = plt.subplots(figsize=(6.2, 3.8), layout="constrained")
+for law, table in tables.items():
+    ax.semilogx(table.lambda_ratio, table.mu_ratio, "o-", label=f"{law.title()} shear stress")
+ax.set_xticks([3, 4, 6, 8, 10, 14], ["3", "4", "6", "8", "10", "14"])
+ax.minorticks_off()
+ax.axhline(1.0, color="grey", ls=":", lw=0.8)
+ax.set_xlabel(r"$\Lambda$ = central film / rms height")
+ax.set_ylabel(r"$\mu_r/\mu_s$, predicted")
+ax.set_title("Contact of Table 1, slide-to-roll ratio 0.02")
+ax.legend()
+plt.show()

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""
+A measured surface, prepared step by step
+=========================================
+
+A scan as an instrument delivers it has holes, spikes, tilt and curvature, and its edges do not meet.
+:doc:`/howto/measured-surface` explains the keys of each step. This needs the extra ``surfaces``.
+"""
+
+import pyehl
+from pyehl import surfaces
+from pyehl.plots.preparation import before_and_after
+
+scan = surfaces.read_scan("../../cases/scan.x3p")
+scan
+
+# %%
+# The steps, and what each changes. Without `outliers` the three spikes of this scan would stay.
+
+made = surfaces.prepare(scan, surfaces.Options(outliers=100.0))
+print("\n".join(made.report()))
+
+# %%
+# In a case file the keys of ``&surface`` say the same; solver and prediction prepare the scan alike.
+
+p = pyehl.predict("../../cases/scan.nml", "surface.outliers=100")
+print(p)
+before_and_after(p.surface)
