@@ -132,7 +132,7 @@ class RoughContact:
         grid = np.meshgrid(self.x, self.y, indexing="ij")
         x, y = (held * values for values in grid)
         # (28, m n): what is summed over them is read in order
-        self.monomials = monomials(x, y, axis=0).reshape(-1, held.size)
+        self.monomials = monomials(x, y, axis=0).reshape(-1, held.size).astype(np.float32)
         self.area = stride**2 * pixel[0] * pixel[1] * operating.hertz_radius**2
         self.smooth = float(self._stress(self.pressure, self.film)[self.inside].sum())
         self.thinnest = float(self.film[self.inside].min())
@@ -181,7 +181,9 @@ class RoughContact:
                     _pairs(total),
                 )
         edge = self.edge.at(shift * self.pixel[0], track * self.pixel[1])
-        total[..., 1] += (edge @ self.monomials).reshape(self.film.shape)
+        # threads of a product of matrices cost more than they bring
+        wide = np.einsum("k,kn->n", edge.astype(np.float32), self.monomials)
+        total[..., 1] += wide.reshape(self.film.shape)
         return np.asarray(total)
 
     def cavitated_bound(self, least: float) -> float:

@@ -6,7 +6,7 @@ Units: lengths along the surface by a, heights by a^2/R.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Any, cast
 
 import numpy as np
@@ -32,12 +32,15 @@ class Spectrum:
         (nx//2 + 1,) and (ny,) [1/a].
     shape
         (nx, ny).
+    q
+        |q| (nx//2 + 1, ny) [1/a].
     """
 
     values: Complex
     qx: Array
     qy: Array
     shape: tuple[int, int]
+    q: Array = field(init=False, repr=False)
 
     @classmethod
     def of(cls, heights: Array, length_x: float, length_y: float) -> Spectrum:
@@ -49,10 +52,14 @@ class Spectrum:
         qy = 2.0 * np.pi * scipy.fft.fftfreq(ny, length_y / ny)
         return cls(values, qx, qy, (nx, ny))
 
-    @property
-    def q(self) -> Array:
-        """|q| (nx//2 + 1, ny) [1/a]."""
-        return cast(Array, np.hypot(self.qx[:, np.newaxis], self.qy[np.newaxis, :]))
+    def __post_init__(self) -> None:
+        """Keep |q|, which all that follows asks for."""
+        q = np.hypot(self.qx[:, np.newaxis], self.qy[np.newaxis, :])
+        object.__setattr__(self, "q", q)
+
+    def single(self) -> Spectrum:
+        """Return the same in single precision."""
+        return replace(self, values=self.values.astype(np.complex64))
 
     @property
     def pixel(self) -> tuple[float, float]:
@@ -67,20 +74,26 @@ class Spectrum:
 
     def tile(
         self,
-        factor: Complex | Array,
+        factor: NDArray[np.complexfloating[Any, Any]] | Array,
         refinement: int = 1,
         stride: int = 1,
-        precision: type[np.complexfloating[Any, Any]] = np.complex128,
     ) -> Array:
-        """Heights (refinement nx, ny/stride) of the tile with its components times a factor."""
+        """Heights (refinement nx, ny/stride) of the tile with its components times a factor.
+
+        In the precision of both.
+        """
         nx, _ = self.shape
         part = self.values * factor
         if nx % 2 == 0:
             # the shortest wave of an even number of pixels has no phase of its own
             part[-1] = self.values[-1] * np.real(factor[-1])
             part[-1] *= 0.5 if refinement > 1 else 1.0
-        lines = scipy.fft.ifft(part.astype(precision), axis=1)[:, ::stride]
-        return np.asarray(scipy.fft.irfft(lines, n=nx * refinement, axis=0) * refinement)
+        if stride > 1:
+            # on every so many-th column waves that differ by its wavenumber are one
+            part = part.reshape(part.shape[0], stride, -1).sum(axis=1)
+        lines = scipy.fft.ifft(part, axis=1, overwrite_x=True)
+        tile = scipy.fft.irfft(lines, n=nx * refinement, axis=0, overwrite_x=True)
+        return np.asarray(tile * (refinement / stride))
 
     @property
     def power(self) -> Array:

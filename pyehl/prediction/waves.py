@@ -11,6 +11,7 @@ line. Units: lengths along the surface by a, heights by a^2/R, pressures by p_h.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,7 @@ from pyehl.theory.response import edge_gain, stiffness
 __all__ = ["REFINEMENT", "Waves"]
 
 Complex = NDArray[np.complex128]
+Narrow = NDArray[np.complexfloating[Any, Any]]
 Single = NDArray[np.float32]
 
 REFINEMENT = 4
@@ -61,27 +63,28 @@ class Waves:
         stride: int = 1,
     ) -> Waves:
         """Make the tiles of all waves in a contact with a film H_c [a^2/R]."""
-        k = stiffness(spectrum.q) * edge_gain(
-            spectrum.qx[:, np.newaxis], spectrum.qy[np.newaxis, :], central_film
-        )
+        gain = edge_gain(spectrum.qx[:, np.newaxis], spectrum.qy[np.newaxis, :], central_film)
+        k = (stiffness(spectrum.q) * gain).astype(np.float32)
+        narrow = spectrum.single()
         # a linear interpolation between the points dims a wave by this on average
         step = spectrum.qx * (np.pi / REFINEMENT / spectrum.qx[-1])
-        bright = (1.0 / (1.0 - np.square(step) / 12.0))[:, np.newaxis]
+        bright = (1.0 / (1.0 - np.square(step) / 12.0)).astype(np.float32)[:, np.newaxis]
 
-        def tiles(waves: list[tuple[Complex, Complex]], refinement: int) -> Single:
+        def tiles(waves: list[tuple[Narrow, Narrow]], refinement: int) -> Single:
             shape = spectrum.shape[0] * refinement, spectrum.shape[1] // stride, 2
             found = np.empty((len(waves), *shape), dtype=np.float32)
             for place, pair in zip(found, waves, strict=True):
                 for i, factor in enumerate(pair):
-                    place[..., i] = spectrum.tile(factor, refinement, stride, np.complex64)
+                    place[..., i] = narrow.tile(factor, refinement, stride)
             return found
 
         def free(waves: list[Complex]) -> Single:
-            lit = (t * bright for t in waves)
+            lit = (t.astype(np.complex64) * bright for t in waves)
             return tiles([(t, -k * t) for t in lit], REFINEMENT)
 
+        driven = (t.astype(np.complex64) for t in transfer.driven)
         return cls(
-            tiles([(t, k * (1.0 - t)) for t in transfer.driven], 1),
+            tiles([(t, k * (1 - t)) for t in driven], 1),
             free(transfer.free) if transfer.free else None,
             None if transfer.off_centre is None else free([transfer.off_centre]),
             stride,
