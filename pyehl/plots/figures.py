@@ -6,6 +6,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+import scipy.fft
 import xarray as xr
 from matplotlib.figure import Figure
 
@@ -21,8 +23,9 @@ from pyehl.plots.style import (
     new_figure,
     pressure_unit,
 )
-from pyehl.surfaces import Topography
+from pyehl.surfaces import Topography, wavenumbers
 from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.response import stiffness
 
 __all__ = ["headline", "prediction_figures", "scales_of", "solution_figures", "surface_figures"]
 
@@ -174,15 +177,34 @@ def _extremes(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
 
 
 def surface_figures(
-    tile: Topography, hertz_radius: float, moes_m: float, moes_l: float, convention: str, title: str
+    tile: Topography,
+    hertz_radius: float,
+    moes_m: float,
+    moes_l: float,
+    convention: str,
+    title: str,
+    waves: tuple[np.ndarray, np.ndarray] | None = None,
 ) -> dict[str, Figure]:
-    """Figure of a tile, its two-dimensional and its radially averaged spectrum with A_d/A_i."""
+    """Figure of a tile, its two-dimensional and its radially averaged spectrum with A_d/A_i.
+
+    `waves`: deformed roughness and what is flattened of it, where they were predicted.
+    """
     figure = _row(3, (10.6, 3.2), title)
     first, second, third = figure.axes
     third.set_box_aspect(1.0)
     surface.heights(tile, ax=first)
     surface.spectrum_map(tile, ax=second)
-    surface.spectrum_line(tile, hertz_radius, moes_m, moes_l, convention, ax=third)
+    deformed, flattening = waves or (None, None)
+    surface.spectrum_line(
+        tile,
+        hertz_radius,
+        moes_m,
+        moes_l,
+        convention,
+        deformed=deformed,
+        flattening=flattening,
+        ax=third,
+    )
     figure.axes[-1].set_box_aspect(1.0)
     return {"surface_spectrum": figure}
 
@@ -202,7 +224,10 @@ def prediction_figures(data: xr.Dataset) -> dict[str, Figure]:
     )
     names = ("hertz_radius_m", "moes_m", "moes_l", "wavelength_convention")
     radius, m, ell, convention = (about[name] for name in names)
-    figures = surface_figures(tile, radius, m, ell, convention, title)
+    waves = None
+    if about["reduction"] == "response":
+        waves = data.deformed_m.values, _flattened(data)
+    figures = surface_figures(tile, radius, m, ell, convention, title, waves)
     figure = _row(2, (8.0, 3.4), title, sharey=True)
     for ax, values, name in zip(
         list(figure.axes),
@@ -215,6 +240,18 @@ def prediction_figures(data: xr.Dataset) -> dict[str, Figure]:
     if about["status"] == "predicted":
         figures["passage"] = _passage(data, title)
     return figures
+
+
+def _flattened(data: xr.Dataset) -> np.ndarray:
+    """Return what pressure flattens of a tile [m]: delta p over E'|q|/4 of the half-space."""
+    about = data.attrs
+    tile = Topography(data.delta_p_Pa.values, about["length_x_m"], about["length_y_m"])
+    stiff = stiffness(np.hypot(*wavenumbers(tile)) * about["hertz_radius_m"])
+    # the mean is not flattened
+    stiff[0, 0] = np.inf
+    unit = about["film_scale_m"] / about["hertz_pressure_Pa"]
+    part = scipy.fft.rfft2(tile.heights) * unit / stiff
+    return np.asarray(scipy.fft.irfft2(part, s=tile.shape))
 
 
 def _passage(data: xr.Dataset, title: str) -> Figure:

@@ -95,9 +95,14 @@ def spectrum_line(
     moes_l: float,
     convention: str = "components",
     *,
+    deformed: Array | None = None,
+    flattening: Array | None = None,
     ax: Axes | None = None,
 ) -> Axes:
     """Radially averaged spectrum C_iso [m^4] of a tile, with A_d/A_i on a second axis.
+
+    A_d/A_i is the real ratio of the paper, or with the tiles of a prediction what its response
+    makes of them: |T|, and |1 - T| that takes the pressure.
 
     Parameters
     ----------
@@ -110,6 +115,8 @@ def spectrum_line(
         along y (crests along the motion).
     convention
         Wavelength convention of A_d/A_i, see :mod:`pyehl.theory.amplitude`.
+    deformed, flattening
+        Deformed roughness and what is flattened of it [m], as the tile.
     ax
         Where to draw; None: a new figure.
     """
@@ -121,17 +128,30 @@ def spectrum_line(
     ax.set_ylabel(r"$C^{iso}$ [m$^4$]", color=BLUE)
     ax.tick_params(axis="y", colors=BLUE)
     twin = ax.twinx()
-    line = np.geomspace(q[0], q[-1], 200) if q.size > 1 else q
-    for along, style, label in (((1.0, 0.0), "-", "along $x$"), ((0.0, 1.0), "--", "along $y$")):
-        ratio = amplitude.component_amplitude_ratio(
-            along[0] * line, along[1] * line, hertz_radius, moes_m, moes_l, convention=convention
-        )
-        twin.plot(line, ratio, style, color=VERMILLION, lw=1.4, label=f"wave {label}")
-    twin.set_ylim(0.0, 1.02)
-    twin.set_ylabel(r"$A_d/A_i$", color=VERMILLION)
+    if deformed is not None and flattening is not None:
+        for values, style, label in ((deformed, "-", "$|T|$"), (flattening, "--", "$|1 - T|$")):
+            part = Topography(values, topography.length_x, topography.length_y)
+            share = np.sqrt(psd_isotropic(part)[1][shown] / c_iso[shown])
+            twin.plot(q[shown], share, style, color=VERMILLION, lw=1.4, label=label)
+        twin.set_ylabel("response at the centre (rms)", color=VERMILLION)
+    else:
+        _paper_ratio(twin, q, (hertz_radius, moes_m, moes_l, convention))
+        twin.set_ylim(0.0, 1.02)
+        twin.set_ylabel(r"$A_d/A_i$", color=VERMILLION)
     twin.tick_params(axis="y", colors=VERMILLION)
     twin.legend(loc="lower left", fontsize="small")
     return ax
+
+
+def _paper_ratio(ax: Axes, q: Array, condition: tuple[float, float, float, str]) -> None:
+    """Draw A_d/A_i of the paper for waves across and along the motion."""
+    radius, moes_m, moes_l, convention = condition
+    line = np.geomspace(q[0], q[-1], 200) if q.size > 1 else q
+    for along, style, label in (((1.0, 0.0), "-", "along $x$"), ((0.0, 1.0), "--", "along $y$")):
+        ratio = amplitude.component_amplitude_ratio(
+            along[0] * line, along[1] * line, radius, moes_m, moes_l, convention=convention
+        )
+        ax.plot(line, ratio, style, color=VERMILLION, lw=1.4, label=f"wave {label}")
 
 
 def roughness(
@@ -215,7 +235,7 @@ def passage(shift: Array, ratio: Array, length: float, *, ax: Axes | None = None
 
 
 def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = None) -> Axes:
-    """Draw what each octave of wavelengths adds to mu_r/mu_s.
+    """Draw what each octave of wavelengths adds to mu_r/mu_s, and the rise over the cut-off.
 
     Parameters
     ----------
@@ -231,8 +251,12 @@ def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = No
                 [shortest * 1e6, longest * 1e6], 0.0, [rise, rise], color=GREEN, alpha=0.75,
                 lw=0.8, ec="white",
             )  # fmt: skip
+    known = sorted((band for band in bands if math.isfinite(band[2])), reverse=True)
+    cut, total = [band[1] * 1e6 for band in known], np.cumsum([band[2] for band in known])
+    ax.plot(cut, total, "o-", ms=3, lw=1.2, color=BLUE, label="with all longer ones")
     ax.axhline(0.0, color=GREY, lw=0.8)
     ax.set_xscale("log")
     ax.set_xlabel(r"wavelength of the component [$\mu$m]")
     ax.set_ylabel(r"contribution to $\mu_r/\mu_s - 1$")
+    ax.legend(fontsize="small", frameon=False)
     return ax
