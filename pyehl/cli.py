@@ -24,6 +24,7 @@ SUBCOMMANDS = {
     "predict": "predict the relative friction of a rough surface from its PSD",
     "stribeck": "friction against speed, film ratio and theta_2",
     "sweep": "many cases with one table of results",
+    "reproduce": "the figures and tables of a paper, redone and compared",
     "compare": "results against a table of references",
     "response": "measure what the contact makes of small waves of roughness",
     "surface": "write the surface of a case as a height map",

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Redo pieces of the paper, and write the report.
+
+A piece is run before the numbers of the paper are read for it: nothing that computes sees them.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import cast
+
+from pyehl.errors import FileError, InputError
+from pyehl.reproduce import (
+    figure1,
+    figure2,
+    figure3,
+    figure4,
+    figure5,
+    figure6,
+    figure7,
+    table1,
+    table2,
+)
+from pyehl.reproduce.level import Level
+from pyehl.reproduce.piece import Piece, Result
+from pyehl.reproduce.references import References, read_references
+from pyehl.reproduce.report import write_report
+from pyehl.reproduce.runs import Runs
+from pyehl.studies.gather import Watcher
+from pyehl.studies.plan import Plan
+
+__all__ = ["PIECES", "reproduce"]
+
+# In the order of the report; the order of the work is the same
+MODULES = (table1, figure1, figure2, figure3, figure4, figure5, figure6, table2, figure7)
+PIECES: dict[str, Piece] = {module.NAME: cast(Piece, module) for module in MODULES}
+"""Figures and tables by name."""
+
+
+def reproduce(
+    names: Sequence[str],
+    level: Level,
+    folder: Path,
+    *,
+    jobs: int = 0,
+    machine: Sequence[str] = (),
+    watch: Callable[[str, Plan], Watcher] | None = None,
+    done: Callable[[Result], None] | None = None,
+    references: References | None = None,
+) -> list[Result]:
+    """Redo pieces of the paper.
+
+    Parameters
+    ----------
+    names
+        Of pieces, see `PIECES`; they are done in the order there.
+    level
+        How much is computed.
+    folder
+        Gets ``report.html``, ``report.md``, a folder for each piece and ``studies``; what is
+        there of the same level is not computed again.
+    jobs
+        Worker processes; 0: as many as processors.
+    machine
+        Lines of the report that name versions, machine and settings.
+    watch
+        Gives the watcher of a study.
+    done
+        Told each piece.
+    references
+        Numbers to compare with; None: those of the paper.
+
+    Raises
+    ------
+    InputError
+        If there is no such piece, or the folder holds something else.
+    FileError
+        If something cannot be written.
+    KeyboardInterrupt
+        If somebody stopped it; what was finished is kept.
+    """
+    for name in names:
+        if name not in PIECES:
+            raise InputError(f"'{name}' is no piece of the paper; expected {', '.join(PIECES)}")
+    runs = Runs(folder / "studies", jobs, watch)
+    results = []
+    for name, piece in PIECES.items():
+        if name not in names:
+            continue
+        place = folder / name.replace(" ", "")
+        try:
+            place.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise FileError(f"{place}: cannot be made: {error.strerror}") from error
+        began = time.perf_counter()
+        data = piece.run(runs, level)
+        numbers = read_references() if references is None else references
+        result = piece.show(data, numbers, place, level)
+        result = replace(result, wall=time.perf_counter() - began)
+        results.append(result)
+        if done is not None:
+            done(result)
+    write_report(folder, results, level, machine)
+    return results

@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figure 4: mu_r/mu_s of moving waves over theta_2 with eq. 16, our own fit, a better parameter."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pyehl.plots import paper
+from pyehl.plots.style import save
+from pyehl.reproduce.figure3 import series, without_result
+from pyehl.reproduce.fit import Fit, evaluate, fit, scatter
+from pyehl.reproduce.level import Level
+from pyehl.reproduce.parameter import SMALL_WAVES, response_parameter
+from pyehl.reproduce.piece import Check, Finding, Result, write_table
+from pyehl.reproduce.references import References
+from pyehl.reproduce.runs import Runs
+from pyehl.reproduce.waves import SCHEMES, VELOCITY_RATIO, WaveSet, waves
+from pyehl.theory.stribeck import theta_2
+
+__all__ = ["NAME", "TITLE", "Collapsed", "run", "show"]
+
+Array = NDArray[np.float64]
+
+NAME = "figure 4"
+TITLE = "Relative friction of moving waves over theta_2, eq. 16, and over a better parameter"
+# The wave that shows the damping: M, L, wavelength, H_c/A_i
+DAMPED = (1000.0, 10.0, 0.25, 2.5)
+
+
+@dataclass(frozen=True, slots=True)
+class Collapsed:
+    """Waves under one scheme, over both parameters (n,), with fits of the form of eq. 16."""
+
+    found: WaveSet
+    theta_2: Array
+    theta_r: Array
+    fit_2: Fit
+    fit_r: Fit
+
+    def scatter(self, theta: Array, second: float, fourth: float) -> float:
+        """Rms of ln(mu_r/mu_s over a curve) [-]."""
+        known = self.found.known
+        return scatter(self.found.friction[known], evaluate(theta[known], second, fourth))
+
+
+def run(runs: Runs, level: Level) -> list[Collapsed]:
+    """Run the waves under both schemes, and fit."""
+    out = []
+    for scheme in SCHEMES:
+        found = waves(runs, level, scheme)
+        point = found.moes_m, found.moes_l, found.wavelength
+        by_paper = theta_2(*point, found.ratio)
+        by_response = response_parameter(*point, found.amplitude, VELOCITY_RATIO)
+        _, curve = np.unique(np.stack(point), axis=1, return_inverse=True)
+        known, curve = found.known, np.asarray(curve).ravel()
+        fits = [
+            fit(theta[known], found.friction[known], curve[known])
+            for theta in (by_paper, by_response)
+        ]
+        out.append(Collapsed(found, by_paper, by_response, *fits))
+    return out
+
+
+def show(data: list[Collapsed], references: References, folder: Path, level: Level) -> Result:
+    """Draw the collapse over both parameters under both schemes, and compare with eq. 16."""
+    second, fourth = references["eq16.second"], references["eq16.fourth"]
+    eq_16 = second.value, fourth.value
+    panels, checks, notes, rows = [], [], [], []
+    for c in data:
+        scheme = c.found.scheme
+        s_16 = c.scatter(c.theta_2, *eq_16)
+        s_2 = c.scatter(c.theta_2, c.fit_2.second, c.fit_2.fourth)
+        s_r = c.scatter(c.theta_r, c.fit_r.second, c.fit_r.fourth)
+        panels += [
+            _panel(
+                f"scheme '{scheme}': scatter {100 * s_16:.0f} % about eq. 16, "
+                f"{100 * s_2:.0f} % about the fit",
+                r"$\theta_2$", c, c.theta_2,
+                [("eq. 16", ":", eq_16), ("our fit", "-", (c.fit_2.second, c.fit_2.fourth))],
+            ),
+            _panel(
+                f"scheme '{scheme}': scatter {100 * s_r:.1f} % about the fit",
+                r"$\theta_r$, from the response", c, c.theta_r,
+                [("our fit", "-", (c.fit_r.second, c.fit_r.fourth)),
+                 (r"small waves, $1 + \theta_r^{-2}/4$", "--", (SMALL_WAVES, 0.0))],
+            ),
+        ]  # fmt: skip
+        checks += _checks(c, eq_16)
+        notes += [
+            f"Scheme '{scheme}', theta_2: our fit is {c.fit_2}. Rms scatter of mu_r/mu_s "
+            f"{100 * s_2:.1f} % about it, {100 * s_16:.1f} % about eq. 16.",
+            f"Scheme '{scheme}', theta_r: our fit is {c.fit_r}; the theory for small waves is "
+            f"{SMALL_WAVES:g} theta^-2. Rms scatter {100 * s_r:.1f} %, that is "
+            f"{s_2 / s_r:.1f} times less than over theta_2.",
+            without_result(c.found),
+        ]
+        rows += [
+            (scheme, c.found.moes_m[k], c.found.moes_l[k], c.found.wavelength[k],
+             c.found.ratio[k], c.theta_2[k], c.theta_r[k], c.found.friction[k],
+             float(evaluate(c.theta_2[k], *eq_16)), c.found.status[k])
+            for k in range(c.theta_2.size)
+        ]  # fmt: skip
+    picture = save(paper.collapses(panels), folder / "figure4.png", paper.DPI)
+    table = write_table(
+        folder / "figure4.csv",
+        ("scheme", "moes_m", "moes_l", "wavelength", "film_over_amplitude", "theta_2", "theta_r",
+         "mu_ratio", "mu_ratio_eq_16", "status"),
+        rows,
+    )  # fmt: skip
+    caption = (
+        "Left over theta_2 with eq. 16 (dotted) and our fit of its form; right over the parameter "
+        "from the response. Above the scheme of the paper, below the narrow one."
+    )
+    return Result(
+        NAME,
+        TITLE,
+        checks,
+        [(picture, caption)],
+        table,
+        notes,
+        findings=_damping(data, eq_16, level),
+        studies=[c.found.made.name for c in data],
+        seconds=sum(c.found.made.seconds for c in data),
+    )
+
+
+def _panel(
+    title: str,
+    abscissa: str,
+    data: Collapsed,
+    theta: Array,
+    curves: list[tuple[str, str, tuple[float, float]]],
+) -> paper.Collapse:
+    known = data.found.known
+    line = np.geomspace(theta[known].min() * 0.9, theta[known].max() * 1.1, 200)
+    drawn = [(label, style, line, evaluate(line, *ab)) for label, style, ab in curves]
+    return paper.Collapse(title, abscissa, series(data.found, theta), drawn)
+
+
+def _checks(c: Collapsed, eq_16: tuple[float, float]) -> list[Check]:
+    """Compare the coefficients of eq. 16 with the confidence intervals of our fit."""
+    found = []
+    intervals = (
+        ("theta_2^-2", c.fit_2.second, c.fit_2.second_interval, eq_16[0]),
+        ("theta_2^-4", c.fit_2.fourth, c.fit_2.fourth_interval, eq_16[1]),
+    )
+    judged = c.found.scheme == "paper"
+    for name, ours, (low, high), theirs in intervals:
+        room = high - ours if theirs > ours else ours - low
+        found.append(
+            Check(
+                f"coefficient of {name}, scheme '{c.found.scheme}'",
+                ours,
+                theirs,
+                room if judged else None,
+                f"95 % interval of our fit {low:.3g} ... {high:.3g}",
+                "p. 5, eq. 16 (text)",
+            )
+        )
+    return found
+
+
+def _damping(data: list[Collapsed], eq_16: tuple[float, float], level: Level) -> list[Finding]:
+    """Show the damping of the paper's scheme, where the waves for it have results."""
+    m, ell, lam, ratio = DAMPED
+    ratios = []
+    for c in data:
+        f = c.found
+        point = (f.moes_m == m) & (f.moes_l == ell) & (f.wavelength == lam) & (f.ratio == ratio)
+        ratios += [(float(f.friction[k]), float(c.theta_2[k])) for k in np.flatnonzero(point)]
+    if len(ratios) != len(data):
+        return []
+    (damped, theta), (carried, _) = ratios
+    if not (math.isfinite(damped) and math.isfinite(carried)):
+        return []
+    mesh = 4.0 / (level.collapse_grid - 1)
+    left = math.exp(-0.5 * mesh**3 * (2.0 * math.pi / lam) ** 4)
+    text = (
+        f"At M = {m:g}, L = {ell:g}, wavelength {lam:g} a, H_c/A_i = {ratio:g} on "
+        f"{level.collapse_grid} x {level.collapse_grid} nodes mu_r/mu_s is {damped:.3f} under the "
+        f"scheme of the paper and {carried:.3f} under the narrow scheme; eq. 16 gives "
+        f"{float(evaluate(np.array(theta), *eq_16)):.3f}. The paper discretises wedge and squeeze "
+        "separately, which damps a wave on its way: of its amplitude "
+        f"exp(-h^3 k^4 (X + 1)/2) = {left:.2f} is left at the centre. A damped wave is fully "
+        "flattened roughness: too much pressure, too much friction. The narrow scheme carries a "
+        "wave at the mean velocity without damping."
+    )
+    return [Finding("Damping of the paper's scheme on its grid", text)]

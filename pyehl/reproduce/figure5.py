@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figure 5: a fractal surface, its spectrum, and the radial mean of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from pyehl.plots import paper_surfaces
+from pyehl.plots.style import save
+from pyehl.reproduce.level import Level
+from pyehl.reproduce.piece import Check, Result, write_table
+from pyehl.reproduce.references import References
+from pyehl.reproduce.runs import Runs
+from pyehl.reproduce.surface_runs import SEED, tile
+from pyehl.surfaces import Topography, psd_2d, psd_isotropic, rms_from_psd
+
+__all__ = ["NAME", "TITLE", "Spectrum", "run", "show"]
+
+NAME = "figure 5"
+TITLE = "An artificial fractal surface and its spectrum"
+
+
+@dataclass(frozen=True, slots=True)
+class Spectrum:
+    """Surface, its radial mean spectrum (q [rad/m], C_iso [m^4]), what follows from it."""
+
+    surface: Topography
+    q: paper_surfaces.Array
+    c_iso: paper_surfaces.Array
+    rms: float
+    hurst: float
+
+
+def run(runs: Runs, level: Level) -> Spectrum:
+    """Make the surface and its spectrum; the Hurst exponent is that of the slope of C_iso."""
+    surface, _ = tile()
+    _, _, c2d = psd_2d(surface)
+    q, c_iso = psd_isotropic(surface)
+    # the first annuli are wide against their wavenumber
+    straight = (q > 4.0 * q[0]) & (c_iso > 0.0)
+    slope = np.polyfit(np.log(q[straight]), np.log(c_iso[straight]), 1)[0]
+    rms = rms_from_psd(c2d, surface.length_x, surface.length_y)
+    return Spectrum(surface, q, c_iso, rms, float(-0.5 * slope - 1.0))
+
+
+def show(data: Spectrum, references: References, folder: Path, level: Level) -> Result:
+    """Draw as the paper does, and compare with the inputs of Table 1."""
+    rms, hurst = references["table1.rms_height"], references["table1.hurst"]
+    checks = [
+        Check(
+            "rms height from the spectrum, in m (Parseval)", data.rms, rms.value, 1e-3 * rms.value,
+            "rounding", f"p. {rms.page}, {rms.where}",
+        ),
+        Check(
+            "Hurst exponent from the slope of C_iso", data.hurst, hurst.value, 0.01,
+            "annuli have a width", f"p. {hurst.page}, {hurst.where}",
+        ),
+    ]  # fmt: skip
+    picture = save(
+        paper_surfaces.spectrum(data.surface), folder / "figure5.png", paper_surfaces.DPI
+    )
+    table = write_table(
+        folder / "figure5.csv", ("q_rad_per_m", "c_iso_m4"), zip(data.q, data.c_iso, strict=True)
+    )
+    notes = [
+        f"Seed {SEED}. The paper's own surface is not published: the same inputs give another one."
+    ]
+    caption = "Surface, its two-dimensional spectrum, its radial mean with the slope -2 - 2H."
+    return Result(NAME, TITLE, checks, [(picture, caption)], table, notes)

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How much is computed: ``--quick`` or ``--full``."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+__all__ = ["FULL", "LEVELS", "QUICK", "Level"]
+
+
+@dataclass(frozen=True, slots=True)
+class Level:
+    """How much of the paper is computed.
+
+    Attributes
+    ----------
+    name
+        Of the level.
+    wave_grids
+        Nodes per side of Fig. 2, the coarsest first; the last is compared with the paper.
+    collapse_grid
+        Nodes per side of the waves of Figs 3 and 4.
+    film_grid
+        Nodes per side of the smooth contacts whose film amplitudes are a share of.
+    surface_grid
+        Nodes per side of the surfaces of Figs 6 and 7.
+    meshes
+        Nodes per side of Table 2.
+    surfaces
+        Number of surfaces of Fig. 7.
+    leaves_out
+        What the level leaves out, in words.
+    """
+
+    name: str
+    wave_grids: tuple[int, ...]
+    collapse_grid: int
+    film_grid: int
+    surface_grid: int
+    meshes: tuple[int, ...]
+    surfaces: int
+    leaves_out: str
+
+
+QUICK = Level(
+    "quick",
+    wave_grids=(257, 513),
+    collapse_grid=257,
+    film_grid=513,
+    surface_grid=257,
+    meshes=(129, 257),
+    surfaces=4,
+    leaves_out=(
+        "the waves of Figs 3 and 4 are on 257 x 257 nodes in place of 513 x 513; Fig. 6 and Fig. 7 "
+        "are on 257 x 257, Fig. 7 has 4 surfaces of 20; Table 2 ends at 257 x 257"
+    ),
+)
+FULL = Level(
+    "full",
+    wave_grids=(257, 513),
+    collapse_grid=513,
+    film_grid=513,
+    surface_grid=513,
+    meshes=(257, 513, 1025),
+    surfaces=20,
+    leaves_out=(
+        "nothing of the paper; what it does not give is left out: Fig. 7 beyond 513 x 513 nodes, "
+        "and error estimates by runs on coarser grids, but for Fig. 2 and Table 2"
+    ),
+)
+LEVELS = {level.name: level for level in (QUICK, FULL)}

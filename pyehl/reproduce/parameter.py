@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A parameter of moving waves from the response of the contact, to put beside theta_2.
+
+To first order a wave of amplitude A changes the logarithm of the shear stress by A S cos cos with
+
+    S = b K (1 - T) + T/H_c,    b = d ln eta/dP at the pressure of the centre,
+
+the pressure that flattens the wave and the film that it leaves; K (1 - T) and T are those of
+:mod:`pyehl.theory.response` at X = Y = 0, so that slip, direction and nabla_2 are in them. The time
+mean of exp of that is 1 + (A|S|)^2/4 times the mean of cos^2 across the contact. Friction comes
+from a Gaussian of variance 1/b around the centre, where that mean is (1 + exp(-2 k^2/b))/2. So
+
+    theta_r = 1/(A |S| sqrt((1 + exp(-2 k^2/b))/2))
+
+gives mu_r/mu_s = 1 + theta_r^-2/4 for small waves, with nothing fitted to friction.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pyehl.case import Case
+from pyehl.prediction.smooth import solve_contact, zone_of
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.response import edge_gain, inlet_transfer, stiffness, transport
+
+__all__ = ["SMALL_WAVES", "response_parameter"]
+
+Array = NDArray[np.float64]
+
+SMALL_WAVES = 0.25
+"""Coefficient of theta_r^-2 for small waves."""
+
+
+def response_parameter(
+    moes_m: Array, moes_l: Array, wavelength: Array, amplitude: Array, velocity_ratio: float
+) -> Array:
+    """theta_r [-] of waves cos cos with equal wavelengths along X and Y.
+
+    Parameters
+    ----------
+    moes_m, moes_l, wavelength, amplitude
+        M, L, wavelength [a] and A_i [a^2/R] (n,).
+    velocity_ratio
+        U.
+
+    Raises
+    ------
+    EhlError
+        If a smooth contact does not converge.
+    """
+    found = np.empty(amplitude.shape)
+    for m, ell in sorted(set(zip(moes_m.tolist(), moes_l.tolist(), strict=True))):
+        here = (moes_m == m) & (moes_l == ell)
+        found[here] = _of_contact(m, ell, wavelength[here], velocity_ratio) / amplitude[here]
+    return found
+
+
+def _of_contact(moes_m: float, moes_l: float, wavelength: Array, velocity_ratio: float) -> Array:
+    """theta_r times the amplitude, (n,) [a^2/R]."""
+    text = f"&contact moes_m = {moes_m!r} moes_l = {moes_l!r} /\n"
+    settings = Case.from_text(text, origin="response").resolve()
+    point, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
+    contact = solve_contact(settings)
+    pressure = float(contact.at(np.zeros(1), np.zeros(1))[0][0, 0]) * point.hertz_pressure
+    step = 1e-3
+    ends = (pressure - step * point.hertz_pressure, pressure + step * point.hertz_pressure)
+    low, high = (float(oil.log_viscosity_ratio(p)) for p in ends)
+    thickening = (high - low) / (2.0 * step)
+    k = 2.0 * np.pi / wavelength
+    ((driven, free),) = transport(
+        zone_of(contact, point, oil), k, k, velocity_ratio, np.array([0.0])
+    )
+    slip = np.exp(1j * k * (velocity_ratio - 1.0))
+    t = driven + free * inlet_transfer(k, k, moes_m, moes_l, velocity_ratio) * slip
+    film = contact.central_film
+    pressure_wave = stiffness(np.hypot(k, k)) * edge_gain(k, k, film) * (1.0 - t)
+    across = np.sqrt(0.5 * (1.0 + np.exp(-2.0 * k * k / thickening)))
+    return np.asarray(1.0 / (np.abs(thickening * pressure_wave + t / film) * across))

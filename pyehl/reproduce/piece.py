@@ -1,0 +1,198 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a piece of the paper is, and what becomes of it."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Protocol
+
+from pyehl.reproduce.level import Level
+from pyehl.reproduce.references import Reference, References
+from pyehl.reproduce.runs import Runs
+
+__all__ = ["Check", "Finding", "Piece", "Result", "write_table"]
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """A number of ours beside one of the paper, or of another program.
+
+    Attributes
+    ----------
+    name
+        What it is, in words.
+    found
+        Ours; NaN where there is none.
+    expected
+        Theirs.
+    tolerance
+        Allowed deviation; None: told, not judged.
+    why
+        What the tolerance is, or why there is none.
+    source
+        Where theirs is from.
+    finding
+        Title of the `Finding` that shows why the paper is not reproduced, should it not be.
+    """
+
+    name: str
+    found: float
+    expected: float
+    tolerance: float | None
+    why: str
+    source: str
+    finding: str = ""
+
+    @classmethod
+    def of(cls, name: str, found: float, reference: Reference, *, finding: str = "") -> Check:
+        """Compare with a number of the paper."""
+        r = reference
+        unit = "" if r.unit == "-" else f" [{r.unit}]"
+        source = f"p. {r.page}, {r.where} ({r.how})"
+        return cls(f"{name}{unit}", found, r.value, r.tolerance, r.why, source, finding)
+
+    @property
+    def deviation(self) -> float:
+        """Ours less theirs."""
+        return self.found - self.expected
+
+    @property
+    def judged(self) -> bool:
+        """Whether there is a tolerance."""
+        return self.tolerance is not None
+
+    @property
+    def passed(self) -> bool:
+        """Whether it is within its tolerance, or not judged."""
+        if self.tolerance is None:
+            return True
+        # inputs are compared to rounding
+        return abs(self.deviation) <= self.tolerance + 1e-12 * abs(self.expected)
+
+    @property
+    def explained(self) -> bool:
+        """Whether it is beyond its tolerance, and a finding of the report shows why."""
+        return not self.passed and bool(self.finding)
+
+    @property
+    def verdict(self) -> str:
+        """'pass', 'FAIL', 'not judged', or why the paper is not reproduced."""
+        if self.explained:
+            return f"FAIL, not reproduced: {self.finding}"
+        return ("pass" if self.passed else "FAIL") if self.judged else "not judged"
+
+    def __str__(self) -> str:
+        """Give both numbers, deviation and verdict in one line."""
+        if not math.isfinite(self.found):
+            return f"{self.name}: no result; {self.expected:.6g} {self.source}: {self.verdict}"
+        relative = f" ({100.0 * self.deviation / self.expected:+.2f} %)" if self.expected else ""
+        allowed = "" if self.tolerance is None else f", tolerance {self.tolerance:.2g}"
+        return (
+            f"{self.name}: {self.found:.6g}, theirs {self.expected:.6g} [{self.source}]: "
+            f"deviation {self.deviation:+.3g}{relative}{allowed} ({self.why}): {self.verdict}"
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """Where and why the paper is not reproduced; `text` states numbers of the runs above it."""
+
+    title: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """A piece of the paper, redone.
+
+    Attributes
+    ----------
+    name, title
+        'figure 2', and what it shows.
+    checks
+        Deviations.
+    pictures
+        File and caption.
+    table
+        File with the numbers of the picture.
+    notes
+        What else is to be said, a sentence or two each.
+    findings
+        Where the paper is not reproduced.
+    studies
+        Names of the studies that it rests on.
+    seconds
+        Processor time of these [s].
+    paper_seconds
+        The time that the paper states, in words; '' for none.
+    """
+
+    name: str
+    title: str
+    checks: Sequence[Check]
+    pictures: Sequence[tuple[Path, str]]
+    table: Path
+    notes: Sequence[str] = ()
+    findings: Sequence[Finding] = ()
+    studies: Sequence[str] = ()
+    seconds: float = 0.0
+    paper_seconds: str = ""
+    wall: float = field(default=0.0)
+
+    @property
+    def passed(self) -> bool:
+        """Whether each deviation beyond its tolerance is explained by a finding."""
+        return all(check.passed or check.explained for check in self.checks)
+
+    def line(self) -> str:
+        """Give the line of deviations."""
+        judged = [check for check in self.checks if check.judged]
+        failed = [check for check in judged if not check.passed]
+        explained = sum(check.explained for check in failed)
+        line = f"{len(judged) - len(failed)} of {len(judged)} numbers within their tolerance"
+        others = len(self.checks) - len(judged)
+        line += f", {explained} not reproduced, explained below" if explained else ""
+        line += f", {others} not judged" if others else ""
+        if not failed:
+            return f"pass: {line}"
+        return f"{'not reproduced' if explained == len(failed) else 'FAIL'}: {line}"
+
+
+class Piece(Protocol):
+    """A figure or table of the paper.
+
+    `run` computes, and does not see the paper; `show` draws and compares what `run` gave.
+    """
+
+    NAME: str
+    TITLE: str
+
+    def run(self, runs: Runs, level: Level) -> Any:  # noqa: ANN401 (each its own)
+        """Make the studies and what follows from them."""
+
+    def show(
+        self,
+        data: Any,  # noqa: ANN401
+        references: References,
+        folder: Path,
+        level: Level,
+    ) -> Result:
+        """Write picture and table into a folder, and compare."""
+
+
+def write_table(path: Path, names: Sequence[str], rows: Iterable[Sequence[Any]]) -> Path:
+    """Write a CSV table; numbers with all digits, None as an empty cell."""
+    with path.open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(names)
+        for row in rows:
+            writer.writerow(["" if _absent(value) else value for value in row])
+    return path
+
+
+def _absent(value: object) -> bool:
+    return value is None or (isinstance(value, float) and math.isnan(value))

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Numbers of the paper, with where they are from.
+
+Read by the driver alone, and handed to the pieces when their cases have run.
+"""
+
+from __future__ import annotations
+
+import csv
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib import resources
+from pathlib import Path
+
+from pyehl.errors import InputError
+
+__all__ = ["Reference", "References", "read_references"]
+
+FILE = "zhang2019.csv"
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """One number of the paper.
+
+    Attributes
+    ----------
+    name
+        Of the number.
+    value, unit
+        As printed.
+    page, where, how
+        Where it stands, and how it was read: 'text', 'table', 'derived', 'digitised'.
+    reading
+        Uncertainty of the reading, in its unit.
+    tolerance
+        Allowed deviation, in its unit; None: not compared, and `why` says why.
+    why
+        What the tolerance is.
+    """
+
+    name: str
+    value: float
+    unit: str
+    page: str
+    where: str
+    how: str
+    reading: float
+    tolerance: float | None
+    why: str
+
+
+References = Mapping[str, Reference]
+
+
+def read_references(path: str | os.PathLike[str] | None = None) -> dict[str, Reference]:
+    """Read the numbers of the paper.
+
+    Parameters
+    ----------
+    path
+        Another file in place of that of the package.
+
+    Raises
+    ------
+    InputError
+        If it is not such a table.
+    """
+    file = resources.files("pyehl").joinpath("reproduce", "data", FILE)
+    text = (file if path is None else Path(path)).read_text(encoding="utf-8")
+    found = {}
+    for row in csv.DictReader(x for x in text.splitlines() if not x.startswith("#")):
+        try:
+            tolerance = float(row["tolerance"]) if row["tolerance"] else None
+            found[row["name"]] = Reference(
+                row["name"],
+                float(row["value"]),
+                row["unit"],
+                row["page"],
+                row["where"],
+                row["how"],
+                float(row["reading"]),
+                tolerance,
+                row["why"],
+            )
+        except (KeyError, TypeError, ValueError) as error:
+            raise InputError(f"{path or FILE}: a row is not complete: {row} ({error})") from error
+    return found

@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One page of all pieces: ``report.md``, and ``report.html`` with the pictures in it."""
+
+from __future__ import annotations
+
+import base64
+import html
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+from pyehl.reproduce.level import Level
+from pyehl.reproduce.piece import Result
+from pyehl.studies.table import replace
+
+__all__ = ["write_report"]
+
+STYLE = (
+    "body{font-family:sans-serif;max-width:62em;margin:2em auto;padding:0 1em;line-height:1.45}"
+    "img{max-width:100%}table{border-collapse:collapse;font-size:.85em}"
+    "td,th{border:1px solid #ccc;padding:.2em .5em;text-align:left}"
+    ".fail{color:#b00020;font-weight:bold}.pass{color:#006e4e}pre{background:#f5f5f5;padding:.6em}"
+)
+HEAD = ("number", "ours", "theirs", "where theirs is from", "deviation", "tolerance", "verdict")
+PAPER = (
+    "Zhang, Biboulet, Venner & Lubrecht 2019, Prediction of the Stribeck curve under full-film "
+    "elastohydrodynamic lubrication, doi 10.1016/j.triboint.2019.01.028"
+)
+
+
+def _rows(result: Result) -> list[tuple[str, ...]]:
+    rows: list[tuple[str, ...]] = []
+    for c in result.checks:
+        share = f" ({100.0 * c.deviation / c.expected:+.2f} %)" if c.expected else ""
+        allowed = "-" if c.tolerance is None else f"{c.tolerance:.2g}"
+        rows.append(
+            (
+                c.name,
+                f"{c.found:.6g}",
+                f"{c.expected:.6g}",
+                c.source,
+                f"{c.deviation:+.3g}{share}",
+                f"{allowed}: {c.why}",
+                c.verdict,
+            )
+        )
+    return rows
+
+
+def _seconds(result: Result) -> str:
+    theirs = f"; the paper: {result.paper_seconds}" if result.paper_seconds else ""
+    return (
+        f"{result.seconds:.0f} s of processor time in its runs (shared runs count for each piece), "
+        f"{result.wall:.0f} s now{theirs}"
+    )
+
+
+def _head(results: Sequence[Result], level: Level, machine: Sequence[str]) -> list[str]:
+    passed = sum(all(c.passed for c in r.checks) for r in results)
+    explained = sum(r.passed for r in results) - passed
+    more = f" {explained} are not reproduced, which is explained below." if explained else ""
+    return [
+        f"{passed} of {len(results)} pieces are within all their tolerances.{more} "
+        f"Level: {level.name}; it leaves out: {level.leaves_out}.",
+        "Every number of ours comes from runs in the folder `studies`, a table and a journal for "
+        "each. Ratios mu_r/mu_s are those of a Newtonian lubricant; shear thinning at real sliding "
+        "speeds brings them close to 1.",
+        *machine,
+    ]
+
+
+def _markdown(folder: Path, results: Sequence[Result], level: Level, machine: Sequence[str]) -> str:
+    first, second, *rest = _head(results, level, machine)
+    lines = ["# The paper redone", "", PAPER, "", first, "", second, "", "```text", *rest, "```"]
+    findings = [f for r in results for f in r.findings]
+    lines += ["", "| piece | | verdict |", "|---|---|---|"]
+    lines += [f"| {r.name} | {r.title} | {r.line()} |" for r in results]
+    if findings:
+        lines += ["", "## Where the paper is not reproduced, and why", ""]
+        lines += [f"- **{f.title}.** {f.text}" for f in findings]
+    for r in results:
+        lines += ["", f"## {r.name.capitalize()}: {r.title}", "", r.line(), ""]
+        lines += [
+            f"![{caption}]({_relative(p, folder)})\n\n{caption}\n" for p, caption in r.pictures
+        ]
+        if r.checks:
+            lines += ["| " + " | ".join(HEAD) + " |", "|" + "---|" * len(HEAD)]
+            lines += ["| " + " | ".join(row) + " |" for row in _rows(r)]
+            lines.append("")
+        lines += [f"- {note}" for note in r.notes]
+        lines += [
+            "",
+            f"Numbers: [{r.table.name}]({_relative(r.table, folder)}). Runs: "
+            f"{', '.join(f'studies/{s}' for s in r.studies) or 'none'}. {_seconds(r)}.",
+        ]
+    return "\n".join(lines) + "\n"
+
+
+def _html(folder: Path, results: Sequence[Result], level: Level, machine: Sequence[str]) -> str:
+    text = html.escape
+    first, second, *rest = _head(results, level, machine)
+    out = [
+        f"<!doctype html><html lang='en'><head><meta charset='utf-8'><title>The paper redone"
+        f"</title><style>{STYLE}</style></head><body><h1>The paper redone</h1>",
+        f"<p>{text(PAPER)}</p><p>{text(first)}</p><p>{text(second)}</p>",
+        f"<pre>{text(chr(10).join(rest))}</pre><table>",
+    ]
+    out += [
+        f"<tr><td><a href='#{_anchor(r)}'>{text(r.name)}</a></td><td>{text(r.title)}</td>"
+        f"<td class='{'pass' if r.passed else 'fail'}'>{text(r.line())}</td></tr>"
+        for r in results
+    ]
+    out.append("</table>")
+    findings = [f for r in results for f in r.findings]
+    if findings:
+        out.append("<h2>Where the paper is not reproduced, and why</h2><ul>")
+        out += [f"<li><b>{text(f.title)}.</b> {text(f.text)}</li>" for f in findings]
+        out.append("</ul>")
+    for r in results:
+        out.append(
+            f"<h2 id='{_anchor(r)}'>{text(r.name.capitalize())}: {text(r.title)}</h2>"
+            f"<p class='{'pass' if r.passed else 'fail'}'>{text(r.line())}</p>"
+        )
+        for path, caption in r.pictures:
+            data = base64.b64encode(path.read_bytes()).decode()
+            out.append(
+                f"<p><img alt='{text(caption, quote=True)}' src='data:image/png;base64,{data}'>"
+                f"<br>{text(caption)}</p>"
+            )
+        if r.checks:
+            out.append("<table><tr>" + "".join(f"<th>{h}</th>" for h in HEAD) + "</tr>")
+            for row in _rows(r):
+                kind = "fail" if row[-1].startswith("FAIL") else ""
+                cells = "".join(f"<td class='{kind}'>{text(cell)}</td>" for cell in row)
+                out.append(f"<tr>{cells}</tr>")
+            out.append("</table>")
+        if r.notes:
+            out.append("<ul>" + "".join(f"<li>{text(note)}</li>" for note in r.notes) + "</ul>")
+        studies = ", ".join(f"studies/{s}" for s in r.studies) or "none"
+        out.append(
+            f"<p>Numbers: <a href='{_relative(r.table, folder)}'>{r.table.name}</a>. Runs: "
+            f"{text(studies)}. {text(_seconds(r))}.</p>"
+        )
+    return "\n".join([*out, "</body></html>"]) + "\n"
+
+
+def _anchor(result: Result) -> str:
+    return result.name.replace(" ", "-")
+
+
+def _relative(path: Path, folder: Path) -> str:
+    return os.path.relpath(path, folder)
+
+
+def write_report(
+    folder: Path, results: Sequence[Result], level: Level, machine: Sequence[str]
+) -> tuple[Path, Path]:
+    """Write both pages, each whole or not at all; returns their paths.
+
+    Parameters
+    ----------
+    folder
+        Where they go, above the pictures and tables.
+    results
+        The pieces in their order.
+    level
+        What was computed.
+    machine
+        Lines that name versions, machine and settings.
+
+    Raises
+    ------
+    FileError
+        If they cannot be written.
+    """
+    pages = folder / "report.md", folder / "report.html"
+    for path, text in zip(pages, (_markdown, _html), strict=True):
+        replace(path, text(folder, results, level, machine).encode())
+    return pages

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Studies under the figures: made by the machinery of ``pyehl sweep``, hence resumed, never redone.
+
+Each study is a folder with its journal and its table; their rows are where the figures come from.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pyehl.case import Case
+from pyehl.studies.gather import Watcher
+from pyehl.studies.plan import Plan, plan
+from pyehl.studies.study import make
+from pyehl.studies.sweep import CASES, perform
+from pyehl.studies.vary import axis
+
+__all__ = ["Made", "Runs", "friction_of"]
+
+Row = dict[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Made:
+    """A finished study.
+
+    Attributes
+    ----------
+    name, folder
+        Of the study.
+    rows
+        Results by their names in ``summary.json`` with what was varied, in the order asked for.
+    kept
+        Result folders of the cases; empty where none were kept.
+    """
+
+    name: str
+    folder: Path
+    rows: tuple[Row, ...]
+    kept: tuple[Path, ...] = ()
+
+    @property
+    def seconds(self) -> float:
+        """Processor time of its cases [s], each on one thread."""
+        return float(sum(row.get("seconds") or 0.0 for row in self.rows))
+
+
+@dataclass(slots=True)
+class Runs:
+    """Makes studies in a folder.
+
+    Attributes
+    ----------
+    folder
+        Where they go.
+    jobs
+        Worker processes; 0: as many as processors.
+    watch
+        Gives the watcher of a study, from its name and plan; None: nobody looks.
+    made
+        The studies that were asked for, by name.
+    """
+
+    folder: Path
+    jobs: int = 0
+    watch: Callable[[str, Plan], Watcher] | None = None
+    made: dict[str, Made] = field(default_factory=dict)
+
+    def study(
+        self,
+        name: str,
+        case: str,
+        vary: Mapping[str, Sequence[Any]],
+        *,
+        run: str = "solve",
+        keep: bool = False,
+    ) -> Made:
+        """Run what is missing of a study, and give its rows.
+
+        Parameters
+        ----------
+        name
+            Of the study, and of its folder.
+        case
+            Namelist text of what all cases share.
+        vary
+            Values by key; all keys move together.
+        run
+            'solve' or 'predict'.
+        keep
+            Whether each case keeps its result folder.
+
+        Raises
+        ------
+        InputError
+            If the folder holds another study of that name, or a case is not acceptable.
+        KeyboardInterrupt
+            If somebody stopped it; what was finished is kept.
+        """
+        if name in self.made:
+            return self.made[name]
+        axes = [axis(key, list(values)) for key, values in vary.items()]
+        study = make(Case.from_text(case, origin=name), axes, zipped=True, run=run)
+        folder = self.folder / name
+        todo = plan(study, folder.absolute() / CASES if keep else None)
+        watcher = self.watch(name, todo) if self.watch is not None else None
+        outcome = perform(todo, folder, jobs=self.jobs, watcher=watcher)
+        if outcome.interrupted:
+            raise KeyboardInterrupt
+        rows = tuple(point.values | outcome.rows[point.number] for point in todo.points)
+        kept = tuple(Path(task.folder) for task in todo.tasks) if keep else ()
+        self.made[name] = Made(name, folder, rows, kept)
+        return self.made[name]
+
+
+def friction_of(rows: Sequence[Row]) -> NDArray[np.float64]:
+    """mu_r/mu_s of rows (n,); NaN where a run has none."""
+    return np.array([np.nan if r.get("mu_ratio") is None else r["mu_ratio"] for r in rows])

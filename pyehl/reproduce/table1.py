@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Table 1: the operating conditions, and what follows from them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from pyehl import surfaces
+from pyehl.case import Case
+from pyehl.reproduce.level import Level
+from pyehl.reproduce.piece import Check, Result, write_table
+from pyehl.reproduce.references import References
+from pyehl.reproduce.runs import Runs
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+
+__all__ = ["CASE", "NAME", "TITLE", "run", "show"]
+
+NAME = "table 1"
+TITLE = "Operating conditions and what follows from them"
+CASE = """&contact
+   load = 600.0  mean_velocity = 0.84  radius = 0.018  reduced_modulus = 2.26e11
+/
+&lubricant
+   viscosity = 0.04  pressure_viscosity = 2.2e-8
+/
+&surface
+   kind = 'fractal'  rms_height = 5e-8  length_x = 8.29e-4  length_y = 8.29e-4
+   pixels = 256  hurst = 0.8  rolloff_wavenumber = 0.0  velocity_ratio = 1.01
+/
+"""
+"""The case of Table 1, as all pieces with its surface take it."""
+
+
+def run(runs: Runs, level: Level) -> dict[str, float]:
+    """Resolve the case, and make its surface."""
+    settings = Case.from_text(CASE, origin="table 1").resolve()
+    point = OperatingPoint.from_settings(settings)
+    tile = surfaces.from_settings(settings, point, 1e-7)
+    a = point.hertz_radius
+    return {
+        "load": point.load,
+        "mean_velocity": point.mean_velocity,
+        "radius": point.radius,
+        "reduced_modulus": point.reduced_modulus,
+        "pressure_viscosity": point.pressure_viscosity,
+        "viscosity": point.viscosity,
+        "rms_height": tile.rms_height,
+        "length": tile.length_x,
+        "pixels": float(tile.shape[0]),
+        "hurst": float(settings["surface"]["hurst"]),
+        "moes_m": point.moes_m,
+        "moes_l": point.moes_l,
+        "hertz_pressure": point.hertz_pressure,
+        "hertz_radius": a,
+        "speed_parameter": point.speed_parameter,
+        "roelands_z": Lubricant.from_settings(settings).roelands_z or 0.0,
+        "length_over_radius": tile.length_x / a,
+    }
+
+
+def show(data: dict[str, float], references: References, folder: Path, level: Level) -> Result:
+    """Compare with what is printed, and with what follows from it by hand."""
+    checks = [Check.of(name, value, references[f"table1.{name}"]) for name, value in data.items()]
+    table = write_table(
+        folder / "table1.csv",
+        ("name", "ours", "paper", "unit", "deviation"),
+        [
+            (name, value, references[f"table1.{name}"].value, references[f"table1.{name}"].unit,
+             value - references[f"table1.{name}"].value)
+            for name, value in data.items()
+        ],
+    )  # fmt: skip
+    notes = [
+        "The rms height is measured on the surface that the generator makes. The tile is as wide "
+        "as the contact and is repeated; its pixels are those of the grid of 513 x 513 nodes to "
+        "0.2 %.",
+    ]
+    return Result(NAME, TITLE, checks, (), table, notes)

@@ -1,0 +1,235 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``pyehl reproduce``: the paper beside our runs, and a wrong number of it fails."""
+
+from __future__ import annotations
+
+import ast
+import re
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from pyehl.cli import main
+from pyehl.reproduce import waves as wave_module
+from pyehl.reproduce.driver import PIECES, reproduce
+from pyehl.reproduce.fit import evaluate, fit, scatter
+from pyehl.reproduce.level import FULL, QUICK, Level
+from pyehl.reproduce.parameter import SMALL_WAVES, response_parameter
+from pyehl.reproduce.piece import Check, Result
+from pyehl.reproduce.references import read_references
+from pyehl.studies.journal import NAME
+
+SMALL = Level("small", (257,), 97, 129, 129, (97, 129), 2, "most of it")
+
+
+def one(name: str, folder: Path, **more: Any) -> Result:
+    (result,) = reproduce([name], SMALL, folder, jobs=2, **more)
+    return result
+
+
+def check_of(result: Result, words: str) -> Check:
+    (found,) = [check for check in result.checks if words in check.name]
+    return found
+
+
+def wrong(name: str, factor: float) -> dict[str, Any]:
+    numbers = read_references()
+    return numbers | {name: replace(numbers[name], value=factor * numbers[name].value)}
+
+
+def test_table_1(tmp_path: Path):
+    result = one("table 1", tmp_path)
+    assert result.passed
+    assert len(result.checks) == 17
+    # the numbers that follow from the inputs, to the digits that are printed or worked out by hand
+    for name, least in (("hertz_pressure", 2e-4), ("hertz_radius", 1e-5), ("moes_m", 2e-5)):
+        check = check_of(result, name)
+        assert abs(check.deviation / check.expected) < least
+    assert check_of(result, "moes_l").deviation == pytest.approx(0.0237, abs=1e-3)
+    assert "pass: 17 of 17" in (tmp_path / "report.md").read_text()
+
+
+@pytest.mark.parametrize("name", ["hertz_pressure", "roelands_z", "rms_height", "load"])
+def test_a_wrong_number_of_table_1_fails(tmp_path: Path, name: str):
+    result = one("table 1", tmp_path, references=wrong(f"table1.{name}", 1.01))
+    assert not result.passed
+    assert [c.name.split()[0] for c in result.checks if not c.passed] == [name]
+    assert "FAIL: 16 of 17" in result.line()
+    assert "FAIL" in (tmp_path / "report.html").read_text()
+
+
+@pytest.fixture(scope="module")
+def figure_2(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Result]:
+    folder = tmp_path_factory.mktemp("figure2")
+    return folder, one("figure 2", folder)
+
+
+def test_figure_2_on_a_coarser_grid(figure_2: tuple[Path, Result]):
+    """257 x 257: what another program has there, and 0.6 % below what the paper prints."""
+    _, result = figure_2
+    independent = check_of(result, "257 x 257 nodes, scheme 'paper'")
+    assert independent.passed
+    assert independent.deviation == pytest.approx(0.0, abs=2e-3)
+    printed = check_of(result, "scheme of the paper")
+    assert printed.expected == 1.461
+    assert printed.deviation == pytest.approx(-0.009, abs=2e-3)
+    assert not printed.passed
+    film = check_of(result, "H_c")
+    assert film.deviation / film.expected == pytest.approx(-0.032, abs=2e-3)
+
+
+def test_the_paper_does_not_change_what_is_computed(figure_2: tuple[Path, Result]):
+    """With another number of the paper the curves are the same, and the deviation is not."""
+    folder, before = figure_2
+    table = before.table.read_bytes()
+    (journal,) = folder.glob(f"studies/*/{NAME}")
+    rows = journal.read_bytes()
+    result = one("figure 2", folder, references=wrong("fig2.mu_ratio", 0.994))
+    assert result.table.read_bytes() == table
+    # and nothing ran again
+    assert journal.read_bytes() == rows
+    assert check_of(result, "scheme of the paper").passed
+    assert not check_of(before, "scheme of the paper").passed
+
+
+@pytest.mark.slow
+def test_figure_2_on_the_grid_of_the_paper(tmp_path: Path):
+    level = replace(SMALL, wave_grids=(513,))
+    (result,) = reproduce(["figure 2"], level, tmp_path)
+    assert result.passed
+    assert len(result.checks) == 4
+    assert not [c for c in result.checks if not c.judged]
+
+
+def test_nothing_that_computes_reads_the_numbers_of_the_paper(root: Path):
+    """`driver` alone reads them, `show` alone gets them; nobody else imports this package."""
+    for path in (root / "pyehl").rglob("*.py"):
+        tree = ast.parse(path.read_text())
+        names = {
+            f"{node.module}.{alias.name}"
+            for node in ast.walk(tree)
+            if isinstance(node, ast.ImportFrom)
+            for alias in node.names
+        }
+        home = path.relative_to(root / "pyehl").as_posix()
+        if any(name.startswith("pyehl.reproduce") for name in names):
+            assert home.startswith("reproduce/") or home == "commands/reproduce.py", home
+        if "pyehl.reproduce.references.read_references" in names:
+            assert home == "reproduce/driver.py"
+        if "zhang2019.csv" in path.read_text():
+            assert home == "reproduce/references.py"
+        if home.startswith("reproduce/"):
+            for node in ast.walk(tree):
+                if isinstance(node, ast.FunctionDef) and node.name == "run":
+                    assert "eferences" not in ast.unparse(node), home
+
+
+def test_references_say_where_they_are_from(root: Path):
+    numbers = read_references()
+    for r in numbers.values():
+        assert int(r.page) in range(1, 9)
+        assert r.where
+        assert r.how.split(":")[0] in ("text", "table", "derived", "digitised")
+        assert r.reading >= 0.0
+        assert r.why
+    # no table of the package is left out of the installation
+    listed = (root / "pyehl" / "meson.build").read_text()
+    for path in (root / "pyehl" / "reproduce" / "data").iterdir():
+        assert f"'reproduce/data/{path.name}'" in listed
+
+
+def test_figures_1_and_5_and_the_report(tmp_path: Path):
+    results = reproduce(["figure 5", "figure 1"], SMALL, tmp_path, machine=["machine  this one"])
+    assert [r.name for r in results] == ["figure 1", "figure 5"]
+    assert all(r.passed for r in results)
+    page = (tmp_path / "report.html").read_text()
+    assert page.count("src='data:image/png;base64,") == 2
+    assert "machine  this one" in page
+    text = (tmp_path / "report.md").read_text()
+    for target in re.findall(r"\]\(([^)]+)\)", text):
+        assert (tmp_path / target).is_file()
+    assert "most of it" in text
+
+
+def test_fit_finds_what_is_there():
+    theta = np.geomspace(0.5, 5.0, 40)
+    curve = np.repeat(np.arange(8), 5)
+    exact = evaluate(theta, 0.5, 0.2)
+    found = fit(theta, exact, curve)
+    assert (found.second, found.fourth) == pytest.approx((0.5, 0.2), rel=1e-9)
+    assert scatter(exact, found.at(theta)) < 1e-12
+    # each curve off by some per cent of its own: the interval is wider than that of single points
+    random = np.random.default_rng(0)
+    off = exact * np.exp(0.05 * random.standard_normal(8))[curve]
+    found = fit(theta, off, curve)
+    assert found.second_interval[0] < found.second < found.second_interval[1]
+    assert found.fourth_interval[0] < 0.2 < found.fourth_interval[1]
+    with pytest.raises(ValueError, match="three curves"):
+        fit(theta[:5], exact[:5], curve[:5])
+
+
+def test_parameter_from_the_response():
+    """It goes with 1/A, and small waves of a full simulation lie on its theory."""
+    point = (np.array([1000.0, 1000.0]), np.array([10.0, 10.0]), np.array([0.5, 0.5]))
+    theta = response_parameter(*point, np.array([1e-3, 2e-3]), 1.01)
+    assert theta[0] == pytest.approx(2.0 * theta[1], rel=1e-12)
+    # 513 x 513 nodes, narrow scheme: wavelength 0.5, A = 0.0024, and wavelength 1, A = 0.0097
+    simulated = np.array([0.0243, 0.148])
+    point = (point[0], point[1], np.array([0.5, 1.0]))
+    theta = response_parameter(*point, np.array([0.0024, 0.0097]), 1.01)
+    assert SMALL_WAVES * theta**-2 == pytest.approx(simulated, rel=0.12)
+
+
+@pytest.mark.slow
+def test_waves_and_surfaces_on_coarse_grids(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """All other pieces, small: what they find, not how well the paper is met on such grids."""
+    curves = ((1000.0, 10.0, 1.0), (1000.0, 10.0, 0.5), (500.0, 5.0, 1.0), (500.0, 10.0, 0.5))
+    monkeypatch.setattr(wave_module, "CURVES", curves)
+    monkeypatch.setattr(wave_module, "RATIOS", (1.6, 2.5, 5.0))
+    names = [n for n in PIECES if n not in ("table 1", "figure 1", "figure 2", "figure 5")]
+    found = {r.name: r for r in reproduce(names, SMALL, tmp_path)}
+    assert set(found) == set(names)
+    # the response brings the waves together better than theta_2, under the narrow scheme
+    narrow = next(n for n in found["figure 4"].notes if "'narrow', theta_r" in n)
+    assert float(re.search(r"that is ([\d.]+) times less", narrow)[1]) > 1.3
+    assert check_of(found["figure 6"], "correlation").found > 0.95
+    assert check_of(found["figure 7"], "our prediction").found < 0.02
+    assert all(r.findings for r in (found["figure 6"], found["figure 7"], found["table 2"]))
+    assert all(r.seconds > 0.0 for r in found.values())
+
+
+def test_a_failure_that_a_run_explains(tmp_path: Path):
+    check = Check("x", 2.0, 1.0, 0.5, "why", "there", finding="Damping")
+    told = Result("figure 9", "t", [check], (), tmp_path / "t.csv")
+    assert "not reproduced: Damping" in check.verdict
+    assert told.passed
+    assert told.line().startswith("not reproduced")
+    bare = replace(told, checks=[replace(check, finding="")])
+    assert not bare.passed
+    assert bare.line().startswith("FAIL")
+
+
+def test_command(tmp_path: Path, capsys: Any):
+    folder = tmp_path / "out"
+    assert main(["reproduce", "zhang2019", "--table", "1", "-o", str(folder)]) == 0
+    told = capsys.readouterr().out
+    assert "table 1    pass: 17 of 17" in told
+    assert "report.html" in told
+    page = (folder / "report.md").read_text()
+    assert QUICK.leaves_out in page
+    assert "numpy" in page
+    assert main(["reproduce", "zhang2019", "--figure", "8", "-o", str(tmp_path / "no")]) == 2
+    assert "1, 2, 3, 4, 5, 6, 7" in capsys.readouterr().err
+    assert not (tmp_path / "no").exists()
+    with pytest.raises(SystemExit):
+        main(["reproduce", "zhang2019", "--quick", "--full", "-o", str(folder)])
+
+
+def test_levels_differ_as_they_say():
+    assert len(wave_module.CURVES) * len(wave_module.RATIOS) >= 60
+    assert FULL.surfaces == 20
+    assert FULL.meshes == (257, 513, 1025)
+    assert QUICK.collapse_grid < FULL.collapse_grid == 513
