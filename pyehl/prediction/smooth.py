@@ -39,6 +39,9 @@ Array = NDArray[np.float64]
 POINTS = 257
 """Nodes per side of the solution. Its film is scaled to the extrapolated central film, so that the
 inlet error of the grid (4 % at M = 1000) is not in it."""
+FINEST = 1025
+"""Grids up to this one are tried where there is no solution, or none to extrapolate from: the inlet
+of a contact under a high load is steep (M above 2000 or so)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +62,8 @@ class SmoothContact:
         Its estimated error [a^2/R]; NaN for none.
     source
         Where it is from, in words.
+    extrapolated
+        Whether `central_film` is.
     """
 
     x: Array
@@ -68,6 +73,7 @@ class SmoothContact:
     central_film: float
     central_film_error: float
     source: str
+    extrapolated: bool = False
 
     def at(self, x: Array, y: Array) -> tuple[Array, Array]:
         """P and H on the grid of places x (m,) and y (n,), both (m, n); outside P is zero."""
@@ -106,19 +112,18 @@ def smooth_case(settings: Mapping[str, Mapping[str, Any]]) -> str:
     if not lubricant.get("thermal_reduction", False):
         for key in OF_SLIP:
             contact.pop(key, None)
-    groups = {"contact": contact, "lubricant": lubricant, "grid": {"points": POINTS}}
-    return namelist.text_of(groups)
+    return namelist.text_of({"contact": contact, "lubricant": lubricant})
 
 
 def solve_contact(settings: Mapping[str, Mapping[str, Any]]) -> SmoothContact:
-    """Solve the smooth contact of a resolved case on POINTS x POINTS nodes.
+    """Solve the smooth contact of a resolved case on POINTS x POINTS nodes, or on a finer grid.
 
     The last few are kept, see `smooth_case`.
 
     Raises
     ------
     EhlError
-        If it does not converge.
+        If it does not converge on any grid up to FINEST.
     """
     text = smooth_case(settings)
     return _KEPT.get(text, lambda: _solved(text))
@@ -130,12 +135,29 @@ def forget() -> None:
 
 
 def _solved(text: str) -> SmoothContact:
-    case = Case.from_text(text, origin="smooth contact")
+    points, best = POINTS, None
+    while points <= FINEST:
+        found, status = _on_grid(text, points)
+        best = found or best
+        if found is not None and found.extrapolated:
+            return found
+        points = 2 * points - 1
+    if best is None:
+        raise EhlError(
+            f"the smooth contact under the prediction did not converge on {FINEST} x {FINEST} "
+            f"nodes: {status}"
+        )
+    return best
+
+
+def _on_grid(text: str, points: int) -> tuple[SmoothContact | None, str]:
+    """Solve on a grid; None if there is no solution, and its status."""
+    case = Case.from_text(text, [f"grid.points={points}"], "smooth contact")
     with Solver.open(case) as solver:
-        if not solver.run():
-            status = solver.summary()["status"]
-            raise EhlError(f"the smooth contact under the prediction did not converge: {status}")
+        solver.run()
         summary = solver.summary()
+        if summary["status"] != "converged":
+            return None, str(summary["status"])
         (x, y), pressure, film = solver.axes(), solver.field("P"), solver.field("H")
     # without a solution on the next coarser grid there is nothing to extrapolate from
     limit = summary["H_c_extrapolated"]
@@ -144,15 +166,10 @@ def _solved(text: str) -> SmoothContact:
     scale = central / summary["H_c"]
     for values in (x, y, pressure, film):
         values.flags.writeable = False
-    return SmoothContact(
-        x,
-        y,
-        pressure,
-        film * scale,
-        central,
-        summary["H_c_error"],
-        f"solved on {POINTS} x {POINTS} nodes, {how}",
-    )
+    source = f"solved on {points} x {points} nodes, {how}"
+    error = summary["H_c_error"]
+    contact = SmoothContact(x, y, pressure, film * scale, central, error, source, limit is not None)
+    return contact, "converged"
 
 
 def read_contact(folder: str | Path, operating: OperatingPoint) -> SmoothContact:

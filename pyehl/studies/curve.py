@@ -142,8 +142,12 @@ def _at(point: CurvePoint, rows: Mapping[int, Row], kept: dict[str, Pattern]) ->
             values["mu_ratio_ehl_error"] = full["mu_ratio_error"]
         else:
             values["message"] = _joined(values, f"full simulation: {full['status']}")
+    n = int(point.settings["grid"]["points"])
+    finer = f"grid.points = {2 * n - 1} may do better"
+    if smooth["status"] == "converged" and smooth["H_c_extrapolated"] is None:
+        values["message"] = _joined(values, f"film of {n} x {n} nodes, not extrapolated: {finer}")
     if smooth["status"] != "converged":
-        values["message"] = _joined(values, f"smooth contact: {_why(smooth)}")
+        values["message"] = _joined(values, f"smooth contact: {_why(smooth)}; {finer}")
         if values["status"] == FULL_FILM:
             values["status"] = UNSOLVED
     return values

@@ -12,6 +12,9 @@ import pyehl
 from pyehl.prediction import of_case, smooth
 from pyehl.studies.outputs import TRACKS
 from pyehl.studies.tasks import Task, execute
+from pyehl.theory.film import central_film
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
 
 # What a prediction costs, not what it says
 OWN = {"seconds", "saved_seconds", "wall_seconds"}
@@ -86,3 +89,24 @@ def test_brief_predictions_have_no_advice(cases: Path):
     assert brief.advice is None
     assert math.isnan(brief.tracks[0])
     assert brief.below == pyehl.predict(case).below
+
+
+def test_high_loads_take_a_finer_grid():
+    """Above M = 2000 the usual grid has nothing to extrapolate from, above 4000 no solution."""
+
+    def solved(moes_m: float) -> smooth.SmoothContact:
+        case = pyehl.Case.from_text("", [f"contact.moes_m={moes_m}"])
+        return smooth.solve_contact(case.resolve())
+
+    usual, high = solved(2000.0), solved(2500.0)
+    assert "257 x 257 nodes, extrapolated" in usual.source
+    assert "513 x 513 nodes, extrapolated" in high.source
+    for contact, moes_m in ((usual, 2000.0), (high, 2500.0)):
+        settings = pyehl.Case.from_text("", [f"contact.moes_m={moes_m}"]).resolve()
+        point = OperatingPoint.from_settings(settings)
+        formula = central_film(point, Lubricant.from_settings(settings)) / point.film_scale
+        # the formula is good to a per cent; without extrapolation the film is 10 % low
+        assert contact.central_film == pytest.approx(formula, rel=0.015)
+    assert high.central_film_error < 0.05 * high.central_film
+    with pytest.raises(pyehl.EhlError, match="did not converge on 1025 x 1025 nodes"):
+        solved(60000.0)
