@@ -172,22 +172,28 @@ contains
 
    !> Add the coarse change where the fine pressure is positive, interpolated bilinearly or as the transfer
    !> has it. This ends the coarse problem: the coarse level may be a finest one next, and p_start holds the change then.
-   subroutine correct(fine, coarse, p_start, transfer, coarsening)
+   subroutine correct(fine, coarse, p_start, transfer, coarsening, part)
       type(level_t), intent(inout) :: fine, coarse
       !> Pressure that the coarse problem began from
       real(dp), intent(inout) :: p_start(:, :)
       type(transfer_t), intent(in) :: transfer
       integer, intent(in) :: coarsening
+      !> Share of the change that is taken over
+      real(dp), intent(in) :: part
       real(dp) :: middle(coarse%grid%nx), row(fine%grid%nx), after
       integer :: i, j, l
 
-      !$omp parallel do default(none) shared(coarse, p_start) &
+      !$omp parallel do default(none) shared(coarse, p_start, part) &
       !$omp num_threads(coarse%threads) if(coarse%parallel) schedule(static)
       do j = 1, coarse%grid%ny
-         p_start(:, j) = coarse%p(:, j) - p_start(:, j)
+         p_start(:, j) = part*(coarse%p(:, j) - p_start(:, j))
       end do
       !$omp end parallel do
-      fine%h00 = coarse%h00
+      if (part < 1.0_dp) then
+         fine%h00 = fine%h00 + part*(coarse%h00 - fine%h00)
+      else
+         fine%h00 = coarse%h00
+      end if
       coarse%poiseuille%frozen = .false.
       !$omp parallel do default(none) shared(fine, coarse, p_start, transfer, coarsening) private(i, l, middle, row, after) &
       !$omp num_threads(fine%threads) if(fine%parallel) schedule(static)

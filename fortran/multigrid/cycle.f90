@@ -29,6 +29,8 @@ module ehl_cycle
       real(dp) :: enough = 0.0_dp
       !> Largest change of the logarithm of a node's conductance in a sweep, for time steps
       real(dp) :: trust = full_trust
+      !> Shares of the changes of a sweep and of a coarse grid that are made
+      real(dp) :: sweep_share = 1.0_dp, correction_share = 1.0_dp
       !> Kind of transfers and coarse operators
       integer :: coarsening = coarsening_classical
    end type cycle_options_t
@@ -65,7 +67,7 @@ contains
       else
          call visit_coarser(levels, spaces, coarsenings, n, coarsest, options)
          do k = options%pre + 1, options%pre + options%post
-            call sweep(levels(n), spaces(n), 1, options%trust)
+            call sweep(levels(n), spaces(n), 1, options%trust, options%sweep_share)
             call update_residual(levels(n), residual)
             if (k == options%pre + options%post .or. residual <= options%enough) exit
          end do
@@ -87,19 +89,19 @@ contains
          return
       end if
       call visit_coarser(levels, spaces, coarsenings, n, coarsest, options)
-      call sweep(levels(n), spaces(n), options%post, options%trust)
+      call sweep(levels(n), spaces(n), options%post, options%trust, options%sweep_share)
    end subroutine fas_cycle
 
    !> Relax so many times
-   subroutine sweep(level, space, times, trust)
+   subroutine sweep(level, space, times, trust, share)
       type(level_t), intent(inout) :: level
       type(workspace_t), intent(inout) :: space
       integer, intent(in) :: times
-      real(dp), intent(in) :: trust
+      real(dp), intent(in) :: trust, share
       integer :: k
 
       do k = 1, times
-         call relax(level, space, trust)
+         call relax(level, space, trust, share)
          call refresh(level)
       end do
    end subroutine sweep
@@ -116,7 +118,7 @@ contains
       real(dp) :: rms
       integer :: k
 
-      call sweep(levels(n), spaces(n), options%pre, options%trust)
+      call sweep(levels(n), spaces(n), options%pre, options%trust, options%sweep_share)
       call update_residual(levels(n), rms)
       call restrict_problem(levels(n), levels(n - 1), spaces(n - 1)%p_start, coarsenings(n), options%coarsening)
       do k = 1, options%gamma
@@ -128,7 +130,8 @@ contains
          v%full = .false.
          call fas_cycle(levels, spaces, coarsenings, n - 1, coarsest, v)
       end if
-      call correct(levels(n), levels(n - 1), spaces(n - 1)%p_start, coarsenings(n)%transfer, options%coarsening)
+      call correct(levels(n), levels(n - 1), spaces(n - 1)%p_start, coarsenings(n)%transfer, options%coarsening, &
+                   options%correction_share)
       call refresh(levels(n))
    end subroutine visit_coarser
 

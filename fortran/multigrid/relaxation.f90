@@ -45,11 +45,13 @@ module ehl_relaxation
 contains
 
    !> One sweep. Needs film and coefficients of the present pressure; leaves them out of date.
-   subroutine relax(level, space, trust)
+   subroutine relax(level, space, trust, part)
       type(level_t), intent(inout) :: level
       type(workspace_t), intent(inout) :: space
       !> Largest change of the logarithm of a node's conductance, for time steps
       real(dp), intent(in) :: trust
+      !> Share of the changes that is made
+      real(dp), intent(in) :: part
       integer :: colour, block, blocks, first, last, start, me
 
       first = level%grid%first_inner()
@@ -62,12 +64,12 @@ contains
          if (.not. level%grid%mirror .and. mod((level%grid%ny + 1)/2, 2) == 1) start = first + 1 - colour
          if (start > last) cycle
          blocks = ((last - start)/2 + line_width)/line_width
-         !$omp parallel do default(none) shared(level, space, trust, last, start, blocks) private(me) &
+         !$omp parallel do default(none) shared(level, space, trust, part, last, start, blocks) private(me) &
          !$omp num_threads(level%threads) if(level%parallel) schedule(static, 1)
          do block = 1, blocks
             me = 1
             !$ me = omp_get_thread_num() + 1
-            call relax_lines(level, space, start + 2*line_width*(block - 1), last, trust, me)
+            call relax_lines(level, space, start + 2*line_width*(block - 1), last, trust, part, me)
          end do
          !$omp end parallel do
       end do
@@ -129,11 +131,11 @@ contains
 
    !> Solve the lines j0, j0+2, ... (at most `line_width`, up to row `last`): Gauss-Seidel changes are
    !> applied at once, distributive ones are kept for the end of the sweep
-   subroutine relax_lines(level, space, j0, last, trust, thread)
+   subroutine relax_lines(level, space, j0, last, trust, part, thread)
       type(level_t), intent(inout) :: level
       type(workspace_t), intent(inout) :: space
       integer, intent(in) :: j0, last, thread
-      real(dp), intent(in) :: trust
+      real(dp), intent(in) :: trust, part
       real(dp) :: scale, t, omega, omega_far, before, after, change
       logical :: time_step, limited
       integer :: rows(line_width), lines, furthest, i, j, l
@@ -159,7 +161,7 @@ contains
             do i = 2, furthest
                t = level%eps(i, j)*scale
                before = level%p(i, j)
-               change = work%change(l, i)
+               change = part*work%change(l, i)
                if (limited) change = change/max(1.0_dp, abs(level%dlneps_dp(i, j)*change)/trust)
                space%change(i, j) = omega_far*space%dipole(i, j)*change
                after = level%p(i, j) + (1.0_dp - space%dipole(i, j))*(omega + t)/(1.0_dp + t)*change

@@ -7,16 +7,21 @@ module ehl_step_policy
    implicit none (type, external)
    private
    public :: step_policy_t, step_tolerance
-   public :: attempt_predicted, attempt_last, attempt_careful
+   public :: attempt_predicted, attempt_last, attempt_careful, attempt_damped
    public :: step_ends, step_goes_on, step_begins_again
 
    !> Attempts at a step, in this order: from the predicted pressure; from the pressure of the last step, its sweeps
-   !> trusted less; the same with care. The next one is made when the residual does not fall.
-   integer, parameter :: attempt_predicted = 1, attempt_last = 2, attempt_careful = 3
+   !> trusted less; the same with care; the same, changes of sweeps and of coarse grids damped. The next one is made
+   !> when the residual does not fall.
+   integer, parameter :: attempt_predicted = 1, attempt_last = 2, attempt_careful = 3, attempt_damped = 4
    !> Largest change of the logarithm of a node's conductance in a sweep, by attempt
-   real(dp), parameter :: trust(3) = full_trust/[1.0_dp, 3.0_dp, 9.0_dp]
-   !> Cycles in which the residual must halve, by attempt; the last attempt is not given up
-   integer, parameter :: patience(2) = [4, 8]
+   real(dp), parameter :: trust(4) = full_trust/[1.0_dp, 3.0_dp, 9.0_dp, 9.0_dp]
+   !> Shares of the changes of a sweep and of a coarse grid that the damped attempt makes. Sweeps that throw a peak
+   !> from node to node, and coarse grids that overshoot it, make cycles that return to where they were.
+   real(dp), parameter :: damped_sweep = 0.3_dp, damped_correction = 0.5_dp
+   !> Cycles in which the residual must halve, by attempt; the last one is not given up before so many times the
+   !> usual number of cycles, at which it begins at the latest
+   integer, parameter :: patience(3) = [4, 8, 8], damped_cycles = 3
    !> A cycle that leaves more than this share of the residual is slow, unless another such cycle will do
    real(dp), parameter :: slow = 0.25_dp
    !> What comes after a cycle
@@ -89,10 +94,10 @@ contains
 
       self%cycles = self%cycles + 1
       next = step_ends
-      if (met .or. self%cycles >= self%max_cycles) return
+      if (met .or. self%cycles >= damped_cycles*self%max_cycles) return
       self%past = [residual, self%past(:ubound(self%past, 1) - 1)]
       if (stuck(self)) then
-         self%attempt = self%attempt + 1
+         self%attempt = merge(attempt_damped, self%attempt + 1, self%cycles >= self%max_cycles)
          self%past = huge(1.0_dp)
          call self%set_options()
          next = step_begins_again
@@ -111,14 +116,14 @@ contains
       end if
    end subroutine after_cycle
 
-   !> Whether the residual has not halved in the cycles that the attempt has for it
+   !> Whether the residual has not halved in the cycles that the attempt has for it, or the cycles are used up
    pure logical function stuck(self)
       type(step_policy_t), intent(in) :: self
 
       stuck = .false.
-      if (self%attempt == attempt_careful) return
+      if (self%attempt == attempt_damped) return
       ! a NaN has not halved
-      stuck = .not. self%past(0) <= 0.5_dp*self%past(patience(self%attempt))
+      stuck = self%cycles >= self%max_cycles .or. .not. self%past(0) <= 0.5_dp*self%past(patience(self%attempt))
    end function stuck
 
    !> Options of the first cycle of an attempt
@@ -129,5 +134,8 @@ contains
       self%options%coarsening = self%coarsening
       self%options%enough = self%tolerance
       self%options%trust = trust(self%attempt)
+      if (self%attempt < attempt_damped) return
+      self%options%sweep_share = damped_sweep
+      self%options%correction_share = damped_correction
    end subroutine set_options
 end module ehl_step_policy

@@ -136,7 +136,7 @@ contains
          call refresh(level)
          call update_residual(level, first)
          do k = 1, 15
-            call relax(level, space, full_trust)
+            call relax(level, space, full_trust, 1.0_dp)
             call refresh(level)
          end do
          call update_residual(level, last)
@@ -163,7 +163,7 @@ contains
          call refresh(level)
          p = level%p
          gain = level%dlneps_dp
-         call relax(level, space, full_trust)
+         call relax(level, space, full_trust, 1.0_dp)
          largest = 0.0_dp
          do j = 2, level%grid%ny - 1
             do i = 2, level%grid%nx - 1
@@ -194,7 +194,7 @@ contains
       call begin(heavy, plan, hierarchy, march, n, status)
       call march%advance(hierarchy, n, plan%surface, status)
       associate (level => hierarchy%levels(n), space => hierarchy%spaces(n))
-         call relax(level, space, full_trust)
+         call relax(level, space, full_trust, 1.0_dp)
          difference = 0.0_dp
          largest = 0.0_dp
          do j = 1, level%grid%ny - 1

@@ -233,7 +233,7 @@ contains
          level%rhs = 0.0_dp
          level%rhs(15, 15) = ieee_value(1.0_dp, ieee_quiet_nan)
          call update_coefficients(level)
-         call relax(level, space, full_trust)
+         call relax(level, space, full_trust, 1.0_dp)
          call is_true(ieee_is_nan(level%p(15, 15)), "not a number stays so")
       end do
       call ieee_set_halting_mode(ieee_invalid, halting)

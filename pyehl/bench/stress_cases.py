@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from pyehl.bench.second_solver import Z
 from pyehl.case import Case
 from pyehl.studies.study import Study, make
 from pyehl.studies.vary import Axis, Value
@@ -73,7 +74,7 @@ def _one(family: str, generator: np.random.Generator, grids: Sequence[int]) -> S
     points = int(generator.choice(grids, p=weights / weights.sum()))
     moes_m = float(f"{math.exp(generator.uniform(math.log(5.0), math.log(5000.0))):.4g}")
     moes_l = float(f"{generator.uniform(0.0, 25.0):.3g}")
-    if family in ("fractal", "feature"):
+    if family == "fractal":
         moes_l = max(moes_l, 1.0)  # heights in metres need a contact in SI units
     case = StressCase(family, moes_m, moes_l, points)
     values: dict[str, Value] = {"grid.points": points}
@@ -87,7 +88,8 @@ def _one(family: str, generator: np.random.Generator, grids: Sequence[int]) -> S
     elif family == "fractal":
         values |= _si(moes_m, moes_l) | _fractal(case, generator)
     else:
-        values |= _si(moes_m, moes_l) | _feature(case, generator)
+        values |= {"contact.moes_m": moes_m, "contact.moes_l": moes_l}
+        values |= _feature(case, generator)
     return StressCase(family, moes_m, moes_l, points, values)
 
 
@@ -125,7 +127,18 @@ def _fractal(case: StressCase, generator: np.random.Generator) -> dict[str, Valu
 
 
 def _feature(case: StressCase, generator: np.random.Generator) -> dict[str, Value]:
-    return _fractal(case, generator)
+    velocity = float(generator.choice(VELOCITIES))
+    wide = [w for w in WAVELENGTHS if 4.0 * case.mesh <= w <= 2.0]
+    return {
+        "surface.kind": str(generator.choice(("dent", "bump", "ridge", "groove"))),
+        "surface.amplitude_over_film": float(f"{generator.uniform(0.0, 1.2):.3g}"),
+        "surface.width": float(generator.choice(wide)),
+        "surface.angle": float(generator.integers(0, 90)),
+        "surface.y_start": float(f"{generator.uniform(-0.5, 0.5):.3g}"),
+        "surface.velocity_ratio": velocity,
+        "time.scheme": str(generator.choice(("narrow", "narrow", "paper"))),
+        "time.steps": BOUNDS[case.points],
+    }
 
 
 def _steps(case: StressCase, period: float, front: float, velocity: float) -> int:
@@ -179,13 +192,19 @@ def study_of(
     cases
         Cases of that family, at least one.
     values
-        Keys of each case in place of its own.
+        Keys of each case in place of its own; None takes a key away.
     """
-    kinds = {"wave": "harmonic", "rest": "harmonic", "feature": "fractal"}
-    chosen = [
-        {**case.values, **more}
-        for case, more in zip(cases, values or [{}] * len(cases), strict=True)
+    kinds = {"wave": "harmonic", "rest": "harmonic"}
+    more = values or [{}] * len(cases)
+    chosen = [{**case.values, **others} for case, others in zip(cases, more, strict=True)]
+    axes = [
+        Axis(key, tuple(row[key] for row in chosen))
+        for key in chosen[0]
+        if chosen[0][key] is not None
     ]
-    axes = [Axis(key, tuple(row[key] for row in chosen)) for key in chosen[0]]
-    options = (f"surface.kind={kinds.get(family, family)}", "output.fields=.false.")
+    options = ["output.fields=.false."]
+    if family != "feature":
+        options.append(f"surface.kind={kinds.get(family, family)}")
+    if family in ("wave", "rest"):
+        options.append(f"lubricant.roelands_z={Z}")  # that of the second solver
     return make(Case.from_text(""), axes, options=options, zipped=True)

@@ -9,13 +9,15 @@ from __future__ import annotations
 import argparse
 import json
 import platform
+import sys
 from pathlib import Path
 from typing import Any
 
 from pyehl import library
-from pyehl.bench import deflection, skips, smooth, step, sweep
+from pyehl.bench import deflection, skips, smooth, step, stress, stress_cases, sweep
 from pyehl.bench.text import table
 from pyehl.errors import InputError
+from pyehl.plots import bench as figures
 
 __all__ = ["add_arguments", "execute"]
 
@@ -43,13 +45,15 @@ def _numbers(text: str) -> list[int]:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of ``pyehl bench``."""
     parser.add_argument(
-        "what", choices=("deflection", "smooth", "step", "sweep", "skips"), help="what to measure"
+        "what",
+        choices=("deflection", "smooth", "step", "sweep", "skips", "stress"),
+        help="what to measure",
     )
     parser.add_argument(
         "--points",
         type=_numbers,
         metavar="N,N,...",
-        help="default: 65 to 1025; of 'step' 129,257,513; of 'skips' 257",
+        help="default: 65 to 1025; of 'step' 129,257,513; of 'skips' 257; of 'stress' 65,129,257",
     )
     parser.add_argument(
         "--threads",
@@ -71,7 +75,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--moes-m", type=float, default=1000.0, help="of 'smooth' (default 1000)")
     parser.add_argument("--moes-l", type=float, default=10.0, help="of 'smooth' (default 10)")
     parser.add_argument(
-        "--cases", default="wave,fractal", help="of 'step': wave of Fig. 2, fractal of Table 1"
+        "--cases",
+        help="of 'step': wave of Fig. 2, fractal of Table 1 (default: wave,fractal); of 'stress': "
+        "how many (default 500)",
     )
     parser.add_argument("--scheme", choices=("narrow", "paper"), default="narrow", help="of 'step'")
     parser.add_argument(
@@ -93,11 +99,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="of 'step': whole marches too, for the error of mu_r/mu_s against the finest grid",
     )
-    parser.add_argument("-o", "--output", type=Path, metavar="FILE.json", help="write JSON too")
+    parser.add_argument("--seed", type=int, default=1, help="of 'stress' (default 1)")
+    parser.add_argument("--jobs", type=int, default=2, help="of 'stress': processes (default 2)")
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE.json",
+        help="write JSON too; of 'stress' a folder, in which an interrupted campaign goes on",
+    )
 
 
 def _execute_step(args: argparse.Namespace, answer: dict[str, Any]) -> list[dict[str, Any]]:
-    names = args.cases.split(",")
+    names = (args.cases or "wave,fractal").split(",")
     known = {scene.name for scene in step.CASES}
     if not set(names) <= known or args.steps < 1:
         raise InputError(f"pyehl bench step: cases must be of {sorted(known)}, steps 1 or more")
@@ -145,6 +159,31 @@ def _execute_sweep(args: argparse.Namespace) -> list[dict[str, Any]]:
     return rows
 
 
+def _execute_stress(args: argparse.Namespace, answer: dict[str, Any]) -> int:
+    count = args.cases or "500"
+    if args.output is None or not count.isdigit() or int(count) < 1:
+        raise InputError("pyehl bench stress: -o DIR is needed, and 1 or more cases")
+    args.output.mkdir(parents=True, exist_ok=True)
+    rows = stress.campaign(
+        int(count),
+        args.seed,
+        args.output,
+        jobs=args.jobs,
+        grids=args.points,
+        tell=lambda text: print(text, file=sys.stderr),
+    )
+    answer |= {"cases": int(count), "seed": args.seed, "points": args.points}
+    stress.write(rows, args.output, answer)
+    figures.stress(rows, args.output / "stress.png")
+    print(table(stress.summary(rows), stress.COLUMNS))
+    print(
+        "ended: all steps asked for converged; no solution: of the equations, by the second "
+        "solver; checked: solved once more to a twentieth\nof the algebraic error; wrong: differs "
+        "by more than the error it states; cycles: of a step, or in all"
+    )
+    return 1 if any(row["wrong"] for row in rows) else 0
+
+
 def _execute_skips(args: argparse.Namespace) -> list[dict[str, Any]]:
     names = args.scenes.split(",") if args.scenes else list(skips.SCENES)
     rows = skips.skip_rows(names, max(args.points))
@@ -164,9 +203,13 @@ def execute(args: argparse.Namespace) -> int:
         args.points = [n for n in GRIDS if args.what != "step" or 129 <= n <= 513]
         if args.what == "skips":
             args.points = [skips.LEAST]
+        if args.what == "stress":
+            args.points = list(stress_cases.GRIDS)
     if min(args.points) < 3 or min(args.threads) < 1:
         raise InputError("pyehl bench: points must be 3 or more, threads 1 or more")
     answer: dict[str, Any] = {"what": args.what, "machine": _machine()}
+    if args.what == "stress":
+        return _execute_stress(args, answer)
     if args.what == "deflection":
         rows = deflection.deflection_rows(args.points, args.threads)
         print(table(rows, deflection.COLUMNS))

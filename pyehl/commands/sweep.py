@@ -15,6 +15,7 @@ from pyehl.commands.watching import (
     add_worker_arguments,
     jobs_of,
 )
+from pyehl.errors import InputError
 from pyehl.studies.gather import Outcome
 from pyehl.studies.plan import duration, plan
 from pyehl.studies.study import RUNS, make, read_study
@@ -101,7 +102,14 @@ def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl sweep``."""
     jobs = jobs_of(args)
     folder = Path(args.output)
-    todo = plan(make(**_arguments(args)), folder.absolute() / CASES if args.keep else None)
+    try:
+        study = make(**_arguments(args))
+    except InputError as error:
+        # what a study file says is told with its place
+        if args.case.endswith(".toml") and args.case not in str(error):
+            raise InputError(f"{args.case}: error: {error}") from error
+        raise
+    todo = plan(study, folder.absolute() / CASES if args.keep else None)
     if args.plan:
         print(todo.text(jobs))
         return EXIT_OK

@@ -18,7 +18,7 @@ from pyehl.surfaces.generators import fractal, harmonic
 from pyehl.surfaces.interpolation import shifted
 from pyehl.surfaces.maps import tile_of
 from pyehl.surfaces.prepare import NEUTRAL, Options, Preparation
-from pyehl.surfaces.reading import Scan, read_scan
+from pyehl.surfaces.reading import Scan, plain_array, read_scan
 from pyehl.surfaces.tile import Topography
 from pyehl.theory.operating import OperatingPoint
 
@@ -255,6 +255,7 @@ def for_solver(settings: Mapping[str, Mapping[str, Any]]) -> SolverSurface:
     tile = tile_of(scan, options)
     given = surface.get("length_x") and surface.get("length_y")
     changed = surface.get("track") or not scan.is_array or not given
+    changed = changed or not plain_array(str(surface["file"]))
     if not changed and options == NEUTRAL and np.isfinite(scan.heights).all():
         return SolverSurface()
     return SolverSurface(

@@ -308,12 +308,22 @@ def _fill(work: _Work, options: Options, valid: NDArray[np.bool_]) -> None:
     work.do("fill", options.fill, full, why, changed=missing)
 
 
+LARGEST = 1e6
+"""Largest height [m] that is not taken for damage."""
+
+
 class _Work:
     """A map on its way, with the record of the steps so far."""
 
     def __init__(self, scan: Scan) -> None:
-        self.z = scan.heights
+        # an infinite height is none
+        self.z = np.where(np.isinf(scan.heights), np.nan, scan.heights)
         self.origin = scan.origin
+        largest = np.nanmax(np.abs(self.z), initial=0.0)
+        if largest > LARGEST:
+            raise ValueError(
+                f"{scan.origin}: a height of {largest:.3g} m: expected heights in metres"
+            )
         nx, ny = scan.heights.shape
         self.pixel = (scan.length_x / nx, scan.length_y / ny)
         self.steps: list[Step] = []

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from pyehl.surfaces.instruments import read_instrument
 from pyehl.surfaces.memory import check_pixels
 
-__all__ = ["Scan", "is_array_file", "read_scan"]
+__all__ = ["Scan", "is_array_file", "plain_array", "read_scan"]
 
 Array = NDArray[np.float64]
 
@@ -177,11 +177,21 @@ def _check_shape(scan: Scan) -> None:
             )
 
 
+def plain_array(path: str) -> bool:
+    """Whether a file is one that the solver reads itself: text, or little-endian float64."""
+    if not path.endswith(".npy"):
+        return True
+    return bool(np.load(path, mmap_mode="r", allow_pickle=False).dtype.str == "<f8")
+
+
 def _read_npy(path: Path) -> Array:
     try:
         # mapped, so that the header is checked before the data are read
         raw = np.load(path, mmap_mode="r", allow_pickle=False)
-    except (ValueError, EOFError) as error:
+    except (OSError, MemoryError):
+        raise
+    except Exception as error:
+        # a damaged header makes numpy raise whatever the parser of Python does
         raise ValueError(f"{path}: not a readable .npy file of numbers: {error}") from None
     if raw.ndim != 2:
         raise ValueError(f"{path}: heights must be a matrix (nx, ny), not of shape {raw.shape}")

@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``pyehl bench stress``: where the solver converges and where not, and that it is never wrong.
+
+Cases drawn from a seed run through the machinery of ``pyehl sweep``. All that end with a result are
+solved once more to a twentieth of the algebraic error, and a sample by the second solver.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from pyehl.bench import stress_second
+from pyehl.bench.stress_cases import FAMILIES, StressCase, draw, study_of
+from pyehl.studies.plan import plan
+from pyehl.studies.sweep import perform
+
+__all__ = ["COLUMNS", "ENDED", "campaign", "judge", "summary"]
+
+Row = dict[str, Any]
+
+STRICT = {"solver.accuracy": 0.005, "solver.max_cycles": 200}
+"""Settings of the stricter run."""
+ENDED = "ended at its number of steps"
+"""Status of a run that was to end after so many steps, all of which converged."""
+UNKNOWN_ERROR = 0.03
+"""Difference allowed where a result comes without an estimate of its error."""
+# What a result is, by the kind of scene, and the estimate of its error
+RESULTS = {"smooth": ("H_c", "H_c_error")}
+KEPT = (
+    *("status", "points", "restarts", "steps", "cycles_per_step", "cycles", "rough_cycles"),
+    *("amplitude", "H_c", "H_c_error", "H_min", "mu_ratio", "mu_ratio_error", "last_mu_ratio"),
+    *("mu_ratio_min", "mu_ratio_max", "T_mean", "coarsening_changed_at", "seconds", "message"),
+    *("points_suggested",),
+)
+
+COLUMNS = (
+    ("family", "s"),
+    ("cases", "d"),
+    ("converged", "d"),
+    ("ended", "d"),
+    ("no_solution", "d"),
+    ("failed", "d"),
+    ("checked", "d"),
+    ("wrong", "d"),
+    ("second", "d"),
+    ("cycles", ".1f"),
+    ("most_cycles", ".1f"),
+)
+
+
+def campaign(
+    cases: int,
+    seed: int,
+    folder: Path,
+    *,
+    jobs: int = 1,
+    grids: Sequence[int] = (65, 129, 257),
+    sample: int = 20,
+    tell: Callable[[str], None] = lambda text: None,
+) -> list[Row]:
+    """Run the cases of a seed and check what they say.
+
+    Parameters
+    ----------
+    cases, seed
+        How many, and from what they are drawn.
+    folder
+        Gets the journals of the runs, so that a campaign goes on where it was stopped.
+    jobs
+        Worker processes.
+    grids
+        Nodes per side; each has half as many cases as the one before.
+    sample
+        Cases that the second solver solves too, and as many that have failed.
+    tell
+        Takes a line about what is done.
+
+    Returns
+    -------
+    list of dict
+        A row for each case: what it is, what its run said, `outcome`, `difference` and `allowed`.
+    """
+    rows: list[Row] = []
+    drawn = draw(cases, seed, grids)
+    for family in FAMILIES:
+        mine = [case for case in drawn if case.family == family]
+        if not mine:
+            continue
+        tell(f"{family}: {len(mine)} cases")
+        found = _run(family, mine, folder / family, jobs)
+        chosen = [row for row in found if row["outcome"] in ("converged", ENDED)]
+        if chosen:
+            tell(f"{family}: {len(chosen)} once more, to a stricter end")
+            _check(family, chosen, folder / f"{family}-strict", jobs)
+        rows += found
+    tell("a sample by the second solver")
+    stress_second.check(rows, sample, tell)
+    return rows
+
+
+def _run(family: str, cases: Sequence[StressCase], folder: Path, jobs: int) -> list[Row]:
+    outcome = perform(plan(study_of(family, cases)), folder, jobs=jobs)
+    rows = []
+    for number, case in enumerate(cases):
+        told = outcome.rows[number]
+        row: Row = {"family": family, "moes_m": case.moes_m, "moes_l": case.moes_l}
+        row |= {"values": dict(case.values)} | {name: told.get(name) for name in KEPT}
+        row["outcome"] = _outcome(row)
+        row |= {"difference": None, "allowed": None, "strict_status": None, "wrong": False}
+        rows.append(row)
+    return rows
+
+
+def _outcome(row: Mapping[str, Any]) -> str:
+    asked = row["values"].get("time.steps") or 0
+    if row["status"] == "not settled" and asked and row["steps"] == asked:
+        return ENDED
+    return str(row["status"])
+
+
+def _check(family: str, rows: Sequence[Row], folder: Path, jobs: int) -> None:
+    """Solve again what has a result, to a stricter end."""
+    cases = [StressCase(family, r["moes_m"], r["moes_l"], r["points"], r["values"]) for r in rows]
+    strict: list[dict[str, Any]] = []
+    for row in rows:
+        more: dict[str, Any] = dict(STRICT)
+        if row["amplitude"] is not None:
+            # a share of the film would be another height
+            more |= {"surface.amplitude_over_film": None, "surface.amplitude": row["amplitude"]}
+        if row["steps"] is not None:
+            more["time.steps"] = row["steps"]
+        strict.append(more)
+    outcome = perform(plan(study_of(family, cases, strict)), folder, jobs=jobs)
+    for number, row in enumerate(rows):
+        judge(row, outcome.rows[number])
+
+
+def judge(row: Row, strict: Mapping[str, Any]) -> None:
+    """Compare a result with that of the stricter run; wrong if they differ by more than its error.
+
+    Where the mean has no estimate of its error, or there is no mean yet, the allowed difference is
+    `UNKNOWN_ERROR`.
+    """
+    name, error = RESULTS.get(row["family"], ("mu_ratio", "mu_ratio_error"))
+    value, other = row[name], strict.get(name)
+    if row["outcome"] == ENDED:
+        value, other = row["last_mu_ratio"], strict.get("last_mu_ratio")
+    row["strict_status"] = strict.get("status")
+    if value is None:
+        return
+    estimate = row[error]
+    row["allowed"] = UNKNOWN_ERROR if not estimate else max(estimate / abs(value), 1e-3)
+    if other is None:
+        return
+    row["difference"] = abs(value / other - 1.0) if other else math.inf
+    row["wrong"] = row["difference"] > row["allowed"]
+
+
+def summary(rows: Sequence[Row]) -> list[Row]:
+    """Count outcomes by family."""
+    table = []
+    for family in [*FAMILIES, "all"]:
+        mine = [row for row in rows if family in ("all", row["family"])]
+        if not mine:
+            continue
+        counts = Counter(row["outcome"] for row in mine)
+        good = counts["converged"] + counts[ENDED]
+        unsolvable = sum(row.get("second") == "no solution" for row in mine)
+        cycles = [row["cycles_per_step"] or row["cycles"] or 0.0 for row in mine]
+        table.append(
+            {
+                "family": family,
+                "cases": len(mine),
+                "converged": counts["converged"],
+                "ended": counts[ENDED],
+                "no_solution": unsolvable,
+                "failed": len(mine) - good - unsolvable,
+                "checked": sum(row["difference"] is not None for row in mine),
+                "wrong": sum(bool(row["wrong"]) for row in mine),
+                "second": sum(row.get("second") is not None for row in mine),
+                "cycles": sum(cycles) / len(cycles),
+                "most_cycles": max(cycles),
+            }
+        )
+    return table
+
+
+def write(rows: Sequence[Row], folder: Path, answer: Mapping[str, Any]) -> None:
+    """Write ``stress.json`` into a folder."""
+    text = json.dumps({**answer, "summary": summary(rows), "rows": rows}, indent=1) + "\n"
+    (folder / "stress.json").write_text(text, encoding="utf-8")

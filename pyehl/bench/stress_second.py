@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the second solver says of cases of ``pyehl bench stress``: waves on the coarsest grid."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import islice
+from typing import Any
+
+import numpy as np
+
+from pyehl.bench.second_solver import NotSolvedError, SecondSolver, Wave
+
+__all__ = ["check", "solve_again"]
+
+Row = dict[str, Any]
+
+POINTS = 65
+"""Nodes per side that the second solver can do in seconds."""
+MOST_STEPS = 120
+"""Longest runs that it is asked for."""
+FAILED = ("cycle limit", "negative film", "diverged")
+NO_SOLUTION, SAME, DIFFERS, UNSOLVED, SOLVABLE = (
+    "no solution",
+    "same",
+    "differs",
+    "not solved either",
+    "has a solution",
+)
+AGREE = 1e-2
+"""Relative difference of the largest mu_r/mu_s of a period: algebraic error of default settings."""
+
+
+def check(rows: Sequence[Row], sample: int, tell: Callable[[str], None]) -> None:
+    """Set `second` of up to `sample` rows that have converged, and of as many that have failed."""
+    for wanted in (("converged",), FAILED):
+        chosen = [row for row in rows if row["outcome"] in wanted and _can(row)][:sample]
+        for number, row in enumerate(chosen, 1):
+            tell(f"second solver: {number} of {len(chosen)} ({' or '.join(wanted)})")
+            row["second"] = solve_again(row)
+
+
+def _can(row: Row) -> bool:
+    """Whether the second solver has what the case has."""
+    if row["values"].get("grid.points") != POINTS or row["family"] not in ("smooth", "wave"):
+        return False
+    if row["values"].get("grid.x_inlet", -2.5) != -2.5 or row["moes_l"] == 0.0:
+        return False
+    return (row["steps"] or 0) <= MOST_STEPS
+
+
+def solve_again(row: Row) -> str:
+    """Solve a case by Newton's method.
+
+    Returns
+    -------
+    str
+        Of a case that converged: 'same' or 'differs'. Of one that failed: 'no solution' where the
+        solution of the equations has a negative film, 'has a solution', or 'not solved either'.
+    """
+    values = row["values"]
+    narrow = values.get("time.scheme", "narrow") == "narrow"
+    solver = SecondSolver(row["moes_m"], row["moes_l"], POINTS, narrow=narrow)
+    steps = row["steps"]
+    good = row["outcome"] == "converged"
+    try:
+        if steps is None:
+            return _smooth(solver, row, good=good)
+        wave = Wave(
+            row["amplitude"],
+            values["surface.wavelength_x"],
+            values["surface.wavelength_y"],
+            values["surface.velocity_ratio"],
+        )
+        found = list(islice(solver.march(wave), steps if good else steps + 1))
+    except (NotSolvedError, np.linalg.LinAlgError, ValueError):
+        return UNSOLVED
+    if not good:
+        return NO_SOLUTION if found[-1][1].min() <= 0.0 else SOLVABLE
+    last = [ratio for ratio, _ in found][max(0, steps - int(row["T_mean"] / solver.h) - 1) :]
+    return SAME if abs(max(last) / row["mu_ratio_max"] - 1.0) < AGREE else DIFFERS
+
+
+def _smooth(solver: SecondSolver, row: Row, *, good: bool) -> str:
+    _, _, film = solver.smooth()
+    if not good:
+        return NO_SOLUTION if film.min() <= 0.0 else SOLVABLE
+    centre = int(np.argmin(np.hypot(solver.x, solver.y)))
+    return SAME if abs(film[centre] / row["H_c"] - 1.0) < AGREE else DIFFERS

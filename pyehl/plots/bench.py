@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pictures of benchmarks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pyehl.plots import style
+
+__all__ = ["stress"]
+
+Row = Mapping[str, Any]
+
+# On a screen, as in the documents
+DPI = 110
+
+# Outcome: marker and what is written in the key
+OUTCOMES = {
+    "converged": ("o", style.GREEN, "converged"),
+    "ended": (".", "olive", "all steps asked for converged"),
+    "no solution": ("v", style.GREY, "the equations have no solution"),
+    "negative film": ("s", style.BLUE, "negative film"),
+    "cycle limit": ("x", style.VERMILLION, "cycle limit"),
+    "diverged": ("P", "purple", "diverged"),
+    "other": ("*", "orange", "other"),
+}
+
+
+def _kind(row: Row) -> str:
+    if row.get("second") == "no solution":
+        return "no solution"
+    outcome = str(row["outcome"])
+    if outcome.startswith("ended"):
+        return "ended"
+    return outcome if outcome in OUTCOMES else "other"
+
+
+def stress(rows: Sequence[Row], path: Path) -> None:
+    """Draw outcomes over M and L, a panel for smooth contacts and one for each grid of rough ones.
+
+    Parameters
+    ----------
+    rows
+        Those of `pyehl.bench.stress.campaign`.
+    path
+        File that is written.
+    """
+    grids = sorted({row["values"]["grid.points"] for row in rows})
+    panels: list[tuple[str, list[Row]]] = [
+        ("smooth, all grids", [row for row in rows if row["family"] == "smooth"])
+    ]
+    panels += [
+        (
+            f"rough, {n} x {n} nodes",
+            [r for r in rows if r["family"] != "smooth" and r["values"]["grid.points"] == n],
+        )
+        for n in grids
+    ]
+    figure = style.new_figure(3.0 * len(panels), 3.4)
+    axes = figure.subplots(1, len(panels), sharey=True, squeeze=False)[0]
+    for ax, (title, mine) in zip(axes, panels, strict=True):
+        for name, (marker, colour, text) in OUTCOMES.items():
+            places = [(r["moes_m"], r["moes_l"]) for r in mine if _kind(r) == name]
+            at: NDArray[np.float64] = np.array(places, dtype=float).reshape(-1, 2)
+            ax.semilogx(
+                at[:, 0], at[:, 1], marker, color=colour, ms=4, label=text, linestyle="none"
+            )
+        ax.set(title=title, xlabel="M")
+    axes[0].set_ylabel("L")
+    handles, labels = axes[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=4)
+    figure.savefig(path, dpi=DPI)
