@@ -44,8 +44,11 @@ def monomials(x: Array, y: Array, axis: int = -1) -> Array:
     for values, found in zip((x, y), powers, strict=True):
         for _ in range(DEGREE):
             found.append(found[-1] * values)
-    terms = [powers[0][i] * powers[1][j] for i in range(DEGREE + 1) for j in range(DEGREE + 1 - i)]
-    return np.stack(terms, axis=axis)
+    pairs = [(i, j) for i in range(DEGREE + 1) for j in range(DEGREE + 1 - i)]
+    terms = np.empty((len(pairs), *np.shape(x)))
+    for out, (i, j) in zip(terms, pairs, strict=True):
+        np.multiply(powers[0][i], powers[1][j], out=out)
+    return np.moveaxis(terms, 0, axis)
 
 
 def disc_pressure(qx: Array, qy: Array, x: Array, y: Array) -> Complex:

@@ -1,0 +1,199 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Workers and studies that are stopped or killed: no finished case is ever lost."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+import pyehl
+from pyehl.studies import pool
+from pyehl.studies.journal import NAME
+from pyehl.studies.tasks import FAILED, Task, execute
+
+SWEEP = [sys.executable, "-P", "-m", "pyehl", "sweep"]
+FAST = ("--set", "grid.points=17", "--vary", "contact.moes_m=20:60:10")
+
+
+def table(folder: Path) -> list[dict[str, str]]:
+    with (folder / "results.csv").open(newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def cases_in_journal(folder: Path) -> list[int]:
+    lines = (folder / NAME).read_text().splitlines()[1:]
+    return [json.loads(line.partition(" ")[2])["case"] for line in lines]
+
+
+def test_a_failing_case_does_not_stop_the_rest():
+    good = pyehl.Case.from_text("", ["grid.points=17"]).text
+    bad = good.replace("points = 17", "points = 18")
+    row = execute(Task(0, bad, "solve"))
+    assert row["status"] == FAILED
+    assert "points" in row["message"]
+    tasks = [Task(n, good if n % 2 else bad, "solve") for n in range(4)]
+    rows = dict(row for some in pool.rows(tasks, 2) for row in some)
+    assert [rows[n]["status"] == FAILED for n in range(4)] == [True, False, True, False]
+
+
+def test_a_task_that_ends_its_worker_is_a_row(monkeypatch: pytest.MonkeyPatch):
+    """The worker dies on it, on another one again, and all other tasks are done."""
+    code = (
+        "import os, sys, json; import pyehl.studies.worker as w; real = w.execute\n"
+        "w.execute = lambda t: os.abort() if t.number == 1 else real(t)\n"
+        "w.main()"
+    )
+    real = subprocess.Popen
+
+    def popen(words: Sequence[str], **more):
+        return real([sys.executable, "-P", "-c", code], stderr=subprocess.DEVNULL, **more)
+
+    monkeypatch.setattr(pool.subprocess, "Popen", popen)
+    text = pyehl.Case.from_text("").text
+    tasks = [Task(n, text, "film") for n in range(5)]
+    rows = dict(row for some in pool.rows(tasks, 2) for row in some)
+    assert sorted(rows) == [0, 1, 2, 3, 4]
+    assert rows[1]["status"] == FAILED
+    assert "died 2 times, at last by SIGABRT" in rows[1]["message"]
+    assert all(rows[n]["h_c_m"] > 0.0 for n in (0, 2, 3, 4))
+
+
+def test_long_tasks_first_and_sharing_tasks_together():
+    tasks = [Task(n, "", "solve", seconds=float(n % 3), shares=f"s{n % 3}") for n in range(9)]
+    waiting = pool.Queue(tasks)
+    one, other = waiting.take(""), waiting.take("")
+    assert one is not None
+    assert other is not None
+    assert (one.seconds, other.seconds) == (2.0, 1.0)
+    same = waiting.take(one.shares)
+    assert same is not None
+    assert same.shares == one.shares
+    waiting.put_back(one)
+    left = []
+    while (task := waiting.take("")) is not None:
+        left.append(task.number)
+    assert sorted(left) == sorted({*range(9)} - {other.number, same.number})
+
+
+def begin(folder: Path, case: Path) -> subprocess.Popen[str]:
+    return subprocess.Popen(
+        [*SWEEP, str(case), *FAST, "--vary", "contact.moes_l=0:9:20", "-o", str(folder)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def finish(folder: Path, case: Path) -> None:
+    process = begin(folder, case)
+    told, complaint = process.communicate(timeout=300)
+    assert process.returncode == 0, told + complaint
+
+
+def children(process: subprocess.Popen[str]) -> list[int]:
+    path = Path(f"/proc/{process.pid}/task/{process.pid}/children")
+    return [int(word) for word in path.read_text().split()] if path.is_file() else []
+
+
+def wait_for_rows(folder: Path, count: int) -> None:
+    end = time.monotonic() + 60.0
+    while time.monotonic() < end:
+        path = folder / NAME
+        if path.is_file() and path.read_bytes().count(b"\n") > count:
+            return
+        time.sleep(0.01)
+    raise AssertionError(f"there are no {count} rows")
+
+
+def check_whole(folder: Path, unbroken: Path) -> None:
+    """Every case once, with the numbers of a study that nobody stopped."""
+    assert sorted(cases_in_journal(folder)) == list(range(200))
+    for a, b in zip(table(folder), table(unbroken), strict=True):
+        assert {k: v for k, v in a.items() if k != "seconds"} == {
+            k: v for k, v in b.items() if k != "seconds"
+        }
+
+
+@pytest.fixture(scope="module")
+def unbroken(cases: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("unbroken") / "out"
+    finish(folder, cases / "quick.nml")
+    return folder
+
+
+def test_ctrl_c_keeps_everything(cases: Path, tmp_path: Path, unbroken: Path):
+    folder = tmp_path / "out"
+    process = begin(folder, cases / "quick.nml")
+    wait_for_rows(folder, 3)
+    process.send_signal(signal.SIGINT)
+    told, complaint = process.communicate(timeout=60)
+    assert process.returncode == 130, told + complaint
+    assert "goes on" in complaint
+    finished = cases_in_journal(folder)
+    assert 3 <= len(finished) < 200
+    assert len(table(folder)) == len(finished)
+    finish(folder, cases / "quick.nml")
+    check_whole(folder, unbroken)
+
+
+def test_a_kill_leaves_no_workers_behind(cases: Path, tmp_path: Path):
+    process = begin(tmp_path / "out", cases / "quick.nml")
+    wait_for_rows(tmp_path / "out", 2)
+    workers = children(process)
+    assert workers
+    process.kill()
+    process.communicate()
+    end = time.monotonic() + 20.0
+    while any(alive(worker) for worker in workers) and time.monotonic() < end:
+        time.sleep(0.05)
+    assert not [worker for worker in workers if alive(worker)]
+
+
+def alive(number: int) -> bool:
+    try:
+        os.kill(number, 0)
+        state = Path(f"/proc/{number}/stat").read_text().rpartition(")")[2].split()[0]
+    except (ProcessLookupError, FileNotFoundError):
+        return False
+    return state != "Z"
+
+
+@pytest.mark.slow
+def test_killed_at_random_it_has_every_finished_row(cases: Path, tmp_path: Path, unbroken: Path):
+    """At least twenty kills by SIGKILL, from before the first row to near the last."""
+    folder = tmp_path / "out"
+    draw = random.Random(5)
+    kills = 0
+    before: list[int] = []
+    while kills < 24:
+        process = begin(folder, cases / "quick.nml")
+        # most kills while rows are written; the others wherever the time falls
+        if kills % 4:
+            wait_for_rows(folder, min(len(before) + draw.randint(0, 8), 199))
+        time.sleep(draw.uniform(0.0, 0.05 if kills % 4 else 2.0))
+        process.kill()
+        process.communicate()
+        if process.returncode != -signal.SIGKILL:
+            break
+        kills += 1
+        text = (folder / NAME).read_text() if (folder / NAME).is_file() else "\n"
+        now = [
+            json.loads(line.partition(" ")[2])["case"]
+            for line in text.rpartition("\n")[0].splitlines()[1:]
+        ]
+        assert now[: len(before)] == before
+        before = now
+    assert kills >= 20
+    assert len(before) >= 50
+    finish(folder, cases / "quick.nml")
+    check_whole(folder, unbroken)
