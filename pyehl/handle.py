@@ -136,7 +136,7 @@ class SolverHandle:
         results
             The folder that the results are for.
         resumed
-            The folder of the run that `resume` goes on with.
+            The folder of the run that `resume` resumes.
 
         Returns
         -------

@@ -102,14 +102,14 @@ def check_output(folder: str | os.PathLike[str]) -> None:
 
 
 def checkpoint_case(results: str | os.PathLike[str]) -> Path:
-    """Case file of the march that was to write into a folder, to go on with it.
+    """Case file of the transient run that was to write into a folder, to resume it.
 
-    Beside it lies ``surface.npy`` when the surface of the march came from Python.
+    Beside it lies ``surface.npy`` when the surface of the run came from Python.
 
     Raises
     ------
     InputError
-        If nothing was kept to go on with.
+        If no state was kept.
     """
     path, status, message = functions.checkpoint_case(os.fsencode(results))
     check(status, message)

@@ -2,7 +2,7 @@
 """Drive a solver to the end and write the result folder.
 
 The same calls in the same order as the program ``ehl``, hence the same bits and the same files.
-A transient run keeps its state in ``DIR.checkpoint`` as it goes: `resume` goes on with it.
+A transient run keeps its state in ``DIR.checkpoint`` as it goes: `resume` resumes it.
 """
 
 from __future__ import annotations
@@ -111,7 +111,7 @@ def resume(
     *,
     options: Iterable[str] = (),
 ) -> Outcome:
-    """Go on with a transient run that was stopped, to the same numbers as one that was not.
+    """Resume a transient run that was stopped; the results are those of an unbroken run.
 
     Parameters
     ----------
@@ -142,7 +142,7 @@ def resume(
 
 
 def _open(case: Case, resumed: str | os.PathLike[str]) -> Solver:
-    """Open a solver on a case, with the surface that was kept if it is gone on with."""
+    """Open a solver on a case, with the surface that was kept if the run is resumed."""
     place = library.checkpoint_case(resumed) if os.fspath(resumed) else None
     if place is None or not place.with_name("surface.npy").is_file():
         return Solver.open(case)

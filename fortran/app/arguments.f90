@@ -11,7 +11,7 @@ module ehl_arguments
    type :: arguments_t
       !> Case file and result folder
       character(len=:), allocatable :: case_file, folder
-      !> Result folder of the run to go on with; empty: none
+      !> Result folder of the run to resume; empty: none
       character(len=:), allocatable :: resume
       !> Texts group.key=value of the --set options, one a line
       character(len=:), allocatable :: options
@@ -136,7 +136,7 @@ contains
              // "  CASE.nml   namelist file; every key has a default" // newline &
              // "  -o DIR     folder for the results: new, empty, or of an earlier run" // newline &
              // "  --set      replace a value of the case, as often as wanted" // newline &
-             // "  --resume   go on with the march that was to write into DIR, to the same numbers" // newline &
+             // "  --resume   resume the interrupted run in DIR; results are bitwise identical" // newline &
              // "  --quiet    print nothing but errors" // newline &
              // "  --options  list all keys: unit, default, allowed values, meaning" // newline &
              // "  --version  print the version and how it was built" // newline // newline &

@@ -62,7 +62,7 @@ program ehl
    call keeper%open(arguments%folder, input, solver, arguments%resume, note, status)
    call end_if_failed()
    if (note /= "") call say("note: " // note)
-   call march()
+   call advance_to_the_end()
    if (.not. solver%converged()) call keep_state(at_once=.true.)
    call write_results(arguments%folder, input, solver, clock%seconds(), note, status)
    call end_if_failed()
@@ -80,7 +80,7 @@ program ehl
 contains
 
    !> Cycle by cycle or step by step to the end
-   subroutine march()
+   subroutine advance_to_the_end()
       type(clock_t) :: since_line
 
       since_line = start_clock()
@@ -99,7 +99,7 @@ contains
       end do
       call say(solver%progress())
       if (solver%skipped() /= "") call say(solver%skipped())
-   end subroutine march
+   end subroutine advance_to_the_end
 
    !> Save the state, now or if its time has come. A run does not end because that fails.
    subroutine keep_state(at_once)

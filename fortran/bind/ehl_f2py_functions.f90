@@ -54,7 +54,7 @@ contains
       call reply(status, stat, message)
    end subroutine check_output
 
-   !> Case file of the run with these results, to go on with; its folder holds surface.npy as well when
+   !> Case file of the run with these results, to resume it; its folder holds surface.npy as well when
    !> the surface came from Python
    subroutine checkpoint_case(results, path, stat, message)
       character(len=*), intent(in) :: results

@@ -135,7 +135,7 @@ contains
       call reply(status, stat, message)
    end subroutine work
 
-   !> What a march that has ended did not have to do; empty for every other run
+   !> What a transient run that has ended did not have to do; empty for every other run
    subroutine skipped(handle, text, stat, message)
       integer(c_int), intent(in) :: handle
       character(len=4096), intent(out) :: text
@@ -248,7 +248,7 @@ contains
       call reply(status, stat, message)
    end subroutine write_output
 
-   !> Go on with the newest state of the run with these results; before the first advance
+   !> Resume from the newest state of the run with these results; before the first advance
    subroutine resume(handle, results, note, stat, message)
       integer(c_int), intent(in) :: handle
       character(len=*), intent(in) :: results
@@ -269,7 +269,7 @@ contains
    end subroutine resume
 
    !> Keep states of the run beside its results, at the interval of the case; `resumed` names the
-   !> results of the run that is gone on with
+   !> results of the run that is resumed
    subroutine keep(handle, results, resumed, note, stat, message)
       integer(c_int), intent(in) :: handle
       character(len=*), intent(in) :: results, resumed

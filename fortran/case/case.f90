@@ -167,7 +167,7 @@ module ehl_case
       character(len=word_length) :: modulus = "deterministic"
    end type surface_case_t
 
-   !> &time: the march of a moving surface
+   !> &time: the transient run of a moving surface
    type :: time_case_t
       !> 'narrow' (default) or 'paper': how wedge and squeeze terms are discretised
       character(len=word_length) :: scheme = "narrow"
@@ -177,7 +177,7 @@ module ehl_case
       integer :: max_periods = 0
       !> whether nothing is solved before the roughness comes near the contact, default .true.
       logical :: skip_start = .true.
-      !> whether the march is made on the next coarser grid too, for the grid error of the friction
+      !> whether the run is made on the next coarser grid too, for the grid error of the friction
       !> ratio (an eighth more work), default .true.
       logical :: estimate_error = .true.
       !> [-] exactly that many steps; 0 (default): until the friction is periodic
@@ -226,9 +226,9 @@ module ehl_case
    type :: output_case_t
       !> whether the fields X, Y, P, H are written, default .true.
       logical :: fields = .true.
-      !> [a/u] time between frames of P and H that a march keeps, 0 (default): none
+      !> [a/u] time between frames of P and H that a transient run keeps, 0 (default): none
       real(dp) :: frame_interval = 0.0_dp
-      !> [s] wall time between states of a march kept on disk, default 30; 0: none
+      !> [s] wall time between states of a transient run kept on disk, default 30; 0: none
       real(dp) :: checkpoint_interval = 30.0_dp
    end type output_case_t
 

@@ -77,9 +77,9 @@ contains
       call self%add_psd_keys(input)
       call self%logicals("output", "fields", input%output%fields, "write the fields X, Y, P, H")
       call self%reals("output", "frame_interval", input%output%frame_interval, "a/u", "[0, 1000]", &
-                      "time between frames of P and H that a march keeps; 0: none")
+                      "time between frames of P and H that a transient run keeps; 0: none")
       call self%reals("output", "checkpoint_interval", input%output%checkpoint_interval, "s", "[0, 1e6]", &
-                      "wall time between states of a march kept on disk; 0: none")
+                      "wall time between states of a transient run kept on disk; 0: none")
    end subroutine bind_case
 
    subroutine add_grid_keys(self, input)
@@ -156,7 +156,7 @@ contains
          call self%logicals("time", "skip_start", t%skip_start, &
                             "solve nothing before the roughness comes near the contact")
          call self%logicals("time", "estimate_error", t%estimate_error, &
-                            "march on the next coarser grid too, for the grid error of mu_ratio")
+                            "run on the next coarser grid too, for the grid error of mu_ratio")
          call self%integers("time", "steps", t%steps, "[0, 10000000]", &
                             "exactly so many steps; 0: until the friction is known")
          call self%words("solver", "deflection", s%deflection, "mlmi|fft|direct", &

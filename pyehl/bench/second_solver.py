@@ -244,7 +244,7 @@ class SecondSolver:
         shape = 0.5 * (self.x**2 + self.y**2)
         return self.solve(p, -0.9, shape, self.upstream(), np.zeros_like(p))
 
-    def march(self, wave: Wave) -> Iterator[tuple[float, Array]]:
+    def steps(self, wave: Wave) -> Iterator[tuple[float, Array]]:
         """mu_r/mu_s and the film of one step after the other, the step being the mesh size."""
         shape = 0.5 * (self.x**2 + self.y**2)
         p, h00, film = self.smooth()

@@ -147,7 +147,7 @@ def smooth_scene(points: int, repeats: int) -> list[Row]:
         values = _solve(grid)
         return values | {"mu_ratio": 1.0}
 
-    def march() -> Values:
+    def transient_run() -> Values:
         # one period, as a rough surface would need
         return _solve(
             grid, "surface.kind=harmonic", "surface.amplitude=0.0", "time.estimate_error=.false."
@@ -176,7 +176,7 @@ def smooth_scene(points: int, repeats: int) -> list[Row]:
             "roughness, time levels and time steps",
             "mu_ratio",
             usual,
-            march,
+            transient_run,
             lambda values: 1e-4,
             1,
         ),
@@ -220,7 +220,9 @@ def _deflection_row(scene: str, points: int, repeats: int) -> Row:
     )
 
 
-def _march_rows(scene: str, options: Sequence[str], repeats: int, *, symmetric: bool) -> list[Row]:
+def _run_rows(
+    scene: str, options: Sequence[str], repeats: int, *, symmetric: bool
+) -> list[Row]:
     """Measure what a transient run leaves out."""
 
     def usual() -> Values:
@@ -290,13 +292,13 @@ def _smooth_of(options: Sequence[str]) -> dict[str, Any]:
 def wave_scene(points: int, repeats: int) -> list[Row]:
     """Wave of Fig. 2 of Zhang et al. 2019: symmetric in Y."""
     options = [*WAVE, f"grid.points={max(points, LEAST)}"]
-    return _march_rows("symmetric wave", options, repeats, symmetric=True)
+    return _run_rows("symmetric wave", options, repeats, symmetric=True)
 
 
 def fractal_scene(points: int, repeats: int) -> list[Row]:
     """Fractal surface of Table 1."""
     options = [*FRACTAL, f"grid.points={max(points, LEAST)}"]
-    return _march_rows("fractal surface", options, repeats, symmetric=False)
+    return _run_rows("fractal surface", options, repeats, symmetric=False)
 
 
 def _predict(*options: str, keep: bool = True) -> Values:

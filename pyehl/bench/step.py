@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``pyehl bench step``: the time of a step of a march, and the error of its friction ratio.
+"""``pyehl bench step``: the time of a step of a transient run, and the error of its friction ratio.
 
-Every march is made once with the largest number of threads until the roughness has passed most of
-the contact; its state is then gone on with by each number of threads, for the same few steps, one
+Every run is made once with the largest number of threads until the roughness has passed most of
+the contact; its state is then resumed with each number of threads, for the same few steps, one
 step of each in turn. The unit of time is one scipy.fft deflection on the same grid, made after each
 of these turns.
 """
@@ -23,19 +23,19 @@ from pyehl.case import Case
 from pyehl.errors import EhlError
 from pyehl.solver import Solver
 
-__all__ = ["CASES", "COLUMNS", "FILLED", "MARCH_COLUMNS", "STEPS", "error_rows", "step_rows"]
+__all__ = ["CASES", "COLUMNS", "FILLED", "RUN_COLUMNS", "STEPS", "error_rows", "step_rows"]
 
 # X of the front when the contact is full
 FILLED = 1.05
 # Steps measured; their cycles vary over a period of the wave, which has points/8 steps
 STEPS = 64
-# Relative change of the mean at which the marches for the error end
+# Relative change of the mean at which the runs for the error end
 TOLERANCE = 5e-4
 
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """A march to be measured: what it is called, its case, whole or half domain."""
+    """A run to be measured: what it is called, its case, whole or half domain."""
 
     name: str
     domain: str
@@ -65,7 +65,7 @@ COLUMNS = (
 )
 
 
-MARCH_COLUMNS = (
+RUN_COLUMNS = (
     ("points", "d"),
     ("case", "s"),
     ("threads", "d"),
@@ -112,7 +112,7 @@ def _case(scene: Scene, points: int, scheme: str, *options: str) -> Case:
 
 
 def _fill(solver: Solver, case: Case, front: float, show: Callable[[str], None]) -> None:
-    """March until the front of the roughness is at X = front."""
+    """Advance until the front of the roughness is at X = front."""
     settings = case.resolve()["surface"]
     wanted = (front - float(settings["x_start"])) / float(settings["velocity_ratio"])
     while not solver.done:
@@ -121,7 +121,7 @@ def _fill(solver: Solver, case: Case, front: float, show: Callable[[str], None])
         if at >= wanted:
             return
         show("smooth contact" if at < 0.0 else f"on the way, T = {at:.2f} of {wanted:.2f}")
-    raise EhlError(f"the march ended before it could be timed: {solver.progress()}")
+    raise EhlError(f"the run ended before it could be timed: {solver.progress()}")
 
 
 def step_rows(
@@ -144,7 +144,7 @@ def step_rows(
     threads
         Numbers of threads.
     scenes
-        What is marched.
+        What is run.
     scheme
         'narrow' or 'paper'.
     front
@@ -195,7 +195,7 @@ def _scene_rows(
         place = f"{folder}/state"
         with Solver(case) as solver:
             solver.keep(place)
-            line.show(f"{name}: march to the steps that are timed", now=True)
+            line.show(f"{name}: steps before those that are timed", now=True)
             _fill(solver, case, front, lambda text: line.show(f"{name}: {text}"))
             solver.save_state(at_once=True)
         with contextlib.ExitStack() as stack:
@@ -246,7 +246,7 @@ def _scene_rows(
 def error_rows(
     grids: Sequence[int], threads: int, *, scheme: str = "narrow", scenes: Sequence[Scene] = CASES
 ) -> list[dict[str, Any]]:
-    """Mean of mu_r/mu_s by whole marches, and its relative change to that on the finest grid.
+    """Mean of mu_r/mu_s by whole runs, and its relative change to that on the finest grid.
 
     The half domain serves for the whole one where the scene is symmetric.
     """
@@ -257,7 +257,7 @@ def error_rows(
     for scene in chosen.values():
         means: dict[int, float] = {}
         for points in sorted(grids):
-            name = f"{points} {scene.name}, whole march"
+            name = f"{points} {scene.name}, whole run"
             options = f"solver.threads={threads}", f"time.tolerance={TOLERANCE}"
             case = _case(scene, points, scheme, *options)
             began = time.perf_counter()

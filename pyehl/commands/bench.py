@@ -97,7 +97,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--error",
         action="store_true",
-        help="of 'step': whole marches too, for the error of mu_r/mu_s against the finest grid",
+        help="of 'step': whole runs too, for the error of mu_r/mu_s against the finest grid",
     )
     parser.add_argument("--seed", type=int, default=1, help="of 'stress' (default 1)")
     parser.add_argument("--jobs", type=int, default=2, help="of 'stress': processes (default 2)")
@@ -127,11 +127,11 @@ def _execute_step(args: argparse.Namespace, answer: dict[str, Any]) -> list[dict
     answer |= {"scheme": args.scheme, "front": args.front, "steps": args.steps}
     if args.error:
         whole = step.error_rows(args.points, max(args.threads), scheme=args.scheme, scenes=scenes)
-        answer["marches"] = whole
+        answer["runs"] = whole
         errors = {(row["points"], row["case"]): row["error"] for row in whole}
         for row in rows:
             row["error"] = errors.get((row["points"], row["case"]))
-        print(table(whole, step.MARCH_COLUMNS))
+        print(table(whole, step.RUN_COLUMNS))
         print()
     print(table(rows, step.COLUMNS))
     print(

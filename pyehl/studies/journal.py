@@ -151,7 +151,7 @@ class Journal:
         found = _read(lines[0]) if lines else None
         if found is None:
             self.close()
-            raise InputError(f"{self.path}: its first line is damaged; it cannot be gone on with")
+            raise InputError(f"{self.path}: its first line is damaged; it cannot be resumed")
         wrong = difference(found, header)
         if wrong:
             self.close()

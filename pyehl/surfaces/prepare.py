@@ -340,7 +340,7 @@ class _Work:
         pixel: tuple[float, float] | None = None,
         note: str = "",
     ) -> None:
-        """Record a step and go on with its result."""
+        """Record a step; its result is what the next one works on."""
         before = self._last or areal.extent(self.z, self.pixel)
         self.z = heights
         self.pixel = pixel or self.pixel

@@ -136,6 +136,6 @@ def estimates(operating: OperatingPoint, lubricant: Lubricant) -> list[FilmEstim
             ch[0] * radius,
             ch[1] * radius,
             hd_outside,
-            "range judged as that of Hamrock-Dowson; h_min as far off",
+            "range taken as that of Hamrock-Dowson; h_min as far off",
         ),
     ]

@@ -53,8 +53,8 @@ def test_same_friction(
     done = solve(point, points, wave | {"solver.deflection": "fft", "solver.accuracy": 0.0005})
     assert done.converged
     second = SecondSolver(*point, points, narrow=scheme == "narrow")
-    march = islice(second.march(Wave(amplitude, wavelength, wavelength)), done["steps"])
-    ratios = np.array([ratio for ratio, _ in march])
+    steps = islice(second.steps(Wave(amplitude, wavelength, wavelength)), done["steps"])
+    ratios = np.array([ratio for ratio, _ in steps])
     assert ratios.max() > 1.05
     # Both are the solution of the same equations: what differs is the algebraic error
     assert done.history["mu_ratio"] == pytest.approx(ratios, rel=1e-4)
@@ -71,8 +71,8 @@ def test_same_friction_by_default_settings(
     done = solve(point, 129, options(wavelength, scheme, amplitude_over_film=over_film))
     assert done.converged
     second = SecondSolver(*point, 129, narrow=scheme == "narrow")
-    march = islice(second.march(Wave(done["amplitude"], wavelength, wavelength)), done["steps"])
-    ratios = np.array([ratio for ratio, _ in march])
+    steps = islice(second.steps(Wave(done["amplitude"], wavelength, wavelength)), done["steps"])
+    ratios = np.array([ratio for ratio, _ in steps])
     assert ratios.max() > 1.5
     # What differs is the algebraic error; a tenth of the discretisation error, 1.9e-2 for the wave
     # of Fig. 2 on this grid
@@ -85,9 +85,9 @@ def test_same_friction_by_default_settings(
 def test_negative_film_is_that_of_the_equations(
     solve, point: tuple[float, float], over_film: float, wavelength: float
 ):
-    """Where a march ends with 'negative film', the exact solution of the next step has one."""
+    """Where a run ends with 'negative film', the exact solution of the next step has one."""
     done = solve(point, 65, options(wavelength, amplitude_over_film=over_film))
     assert done["status"] == "negative film"
-    second = SecondSolver(*point, 65).march(Wave(done["amplitude"], wavelength, wavelength))
+    second = SecondSolver(*point, 65).steps(Wave(done["amplitude"], wavelength, wavelength))
     films = [film.min() for _, film in islice(second, done["steps"] + 1)]
     assert min(films[:-1]) > 0.0 > films[-1]

@@ -68,7 +68,7 @@ def test_command(tiny: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[
     (folder / "tier_long.npz").unlink()
     assert cli.main(tiny) == 0
     assert (folder / "response.csv").read_text() == before
-    # another case does not go on with it
+    # another case does not resume it
     capsys.readouterr()
     assert cli.main([*tiny, "--set", "surface.velocity_ratio=1.1"]) == 2
     assert "belongs to another case" in capsys.readouterr().err
@@ -169,8 +169,8 @@ def test_second_solver_has_the_same_response():
     node = int(np.argmin(np.hypot(second.x, second.y)))
     # the front has left the domain; the last period counts
     steps, period = 94, round(wavelength / VELOCITY / second.h)
-    march = islice(second.march(Wave(amplitude, wavelength, wavelength)), steps)
-    film = np.array([values[node] for _, values in march])[-period:]
+    first = islice(second.steps(Wave(amplitude, wavelength, wavelength)), steps)
+    film = np.array([values[node] for _, values in first])[-period:]
     first = int((X_MATTERS - 0.5 * wavelength - START) / VELOCITY / second.h) + 1
     time = (first + np.arange(steps))[-period:] * second.h
     turn = waves.kx[0] * (VELOCITY * time + START)

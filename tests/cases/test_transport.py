@@ -2,7 +2,7 @@
 """Why the narrow scheme is the default: transport alone, du/dX + du/dT = 0.
 
 In the contact the viscosity leaves nothing of the Reynolds equation but this. A wave that enters at
-X = -1 is marched through by the differences of both time schemes, with a time step of h.
+X = -1 is stepped through by the differences of both time schemes, with a time step of h.
 """
 
 from __future__ import annotations

@@ -30,7 +30,7 @@ def settings(row: WavinessRow) -> dict[str, object]:
         "surface.amplitude": row.amplitude,
         "surface.wavelength": row.wavelength,
         "time.scheme": row.scheme,
-        # The march on the coarser grid is for the error estimate alone
+        # The run on the coarser grid is for the error estimate alone
         "time.estimate_error": False,
     }
 
@@ -157,7 +157,7 @@ HARDEST = {
     "time.estimate_error": False,
 }
 # Mean of mu_r/mu_s [-] over 602 steps (19 periods, to a fiftieth of a step), wherever in the last
-# 1600 of 1938 steps of our own march with time.max_periods = 60; such means scatter by 0.5 %
+# 1600 of 1938 steps of our own run with time.max_periods = 60; such means scatter by 0.5 %
 HARDEST_MEAN = 3.757e8
 
 

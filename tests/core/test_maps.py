@@ -132,7 +132,7 @@ def test_neutral_arrays_have_the_same_bits(tmp_path: Path, drive):
     assert drive("ehl", case, "-o", "ehl").returncode == run(case, tmp_path / "pyehl") == 1
     for name in ("P.npy", "H.npy"):
         assert (tmp_path / "ehl" / name).read_bytes() == (tmp_path / "pyehl" / name).read_bytes()
-    # `sign` twice is nothing: a prepared map marches as the same heights from a file do
+    # `sign` twice is nothing: a prepared map runs as the same heights from a file do
     np.save(tmp_path / "map.npy", -heights())
     other = write_case(tmp_path / "other.nml", "map.npy", f"{size} sign = -1")
     assert run(other, tmp_path / "other") == 1

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A march that is stopped, killed or damaged goes on to the same bits as one left alone."""
+"""A transient run that is stopped, killed or damaged is resumed to the same bits."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def same(one: Path, other: Path) -> None:
 
 
 def stop_after_steps(drive, tmp_path: Path, driver: str, steps: int, *words: str) -> None:
-    """Make a march end early, with its state kept."""
+    """Make a run end early, with its state kept."""
     done = drive(driver, "case.nml", "-o", "out", "--set", f"time.steps={steps}", *OFTEN, *words)
     assert done.returncode == 1, done.stderr
     assert json.loads((tmp_path / "out" / "summary.json").read_text())["status"] == "not settled"
@@ -63,7 +63,7 @@ def stop_after_steps(drive, tmp_path: Path, driver: str, steps: int, *words: str
 
 @pytest.fixture(scope="module")
 def unbroken(drivers, tmp_path_factory) -> dict[str, Path]:
-    """Results of marches that nobody disturbed, by case text."""
+    """Results of runs that nobody disturbed, by case text."""
     made = {}
     for name, text, driver in (
         ("wave", WAVE.format(points=65, extra=""), "ehl"),
@@ -73,7 +73,7 @@ def unbroken(drivers, tmp_path_factory) -> dict[str, Path]:
         folder = tmp_path_factory.mktemp(name)
         (folder / "case.nml").write_text(text)
         subprocess.run([*drivers[driver], "case.nml", "-o", "out", "-q"], cwd=folder, check=True)
-        # Nothing is left to go on with after a good end
+        # No state is left after a good end
         assert {path.name for path in folder.iterdir()} == {"case.nml", "out"}
         made[name] = folder
     return made
@@ -295,7 +295,7 @@ def start(command: list[str], folder: Path) -> subprocess.Popen[str]:
 def test_signal_leaves_results_and_a_state(
     drive, drivers, tmp_path: Path, driver: str, number: int
 ):
-    # a march of half a minute or more, and no state but the one that the signal asks for
+    # a run of half a minute or more, and no state but the one that the signal asks for
     (tmp_path / "case.nml").write_text(WAVE.format(points=129, extra="x_start = -40.0"))
     words = ["--set", "output.checkpoint_interval=1e6", "--set", "time.skip_start=.false."]
     with start([*drivers[driver], "case.nml", "-o", "out", *words], tmp_path) as process:

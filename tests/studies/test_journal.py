@@ -42,7 +42,7 @@ def test_cut_anywhere_it_has_all_rows_before_the_cut(tmp_path: Path):
         (cut / NAME).write_bytes(data[:length])
         complete = data[:length].count(b"\n") - 1
         assert rows_of(cut) == {n: {"x": float(n)} for n in range(complete)}
-        # and it can be gone on with
+        # and it can be resumed
         with Journal(cut, STUDY) as journal:
             journal.append([(9, {"x": 9.0})])
         assert list(rows_of(cut)) == [*range(complete), 9]

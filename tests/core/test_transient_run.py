@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A march seen from Python: fields, frames, what was not done, pictures, the step benchmark."""
+"""Transient runs from Python: fields, frames, what was not done, pictures, the step benchmark."""
 
 from __future__ import annotations
 
@@ -32,16 +32,16 @@ RADIUS = (1.5 * 20.0 * 0.018 / 2.26e11) ** (1.0 / 3.0)
 
 
 @pytest.fixture(scope="module")
-def march(tmp_path_factory) -> Path:
-    """Results of a short march in SI units."""
-    folder = tmp_path_factory.mktemp("march")
+def run_folder(tmp_path_factory) -> Path:
+    """Results of a short run in SI units."""
+    folder = tmp_path_factory.mktemp("run")
     (folder / "case.nml").write_text(WAVE)
     assert cli.main(["run", str(folder / "case.nml"), "-o", str(folder / "out"), "-q"]) == 0
     return folder / "out"
 
 
-def test_fields_and_frames_with_units(march: Path):
-    data = pyehl.load(march)
+def test_fields_and_frames_with_units(run_folder: Path):
+    data = pyehl.load(run_folder)
     assert isinstance(data, xr.Dataset)
     frames = data.sizes["T"]
     assert frames >= 3
@@ -68,7 +68,7 @@ def test_fields_and_frames_with_units(march: Path):
     assert np.diff(np.floor(data["T"].values / 0.5)) == pytest.approx(1.0)
     assert float(np.abs(data["RR"]).max()) <= data.attrs["amplitude"]
 
-    with xr.open_dataset(export(march), engine="scipy") as again:
+    with xr.open_dataset(export(run_folder), engine="scipy") as again:
         assert again["frame_p_Pa"].dims == ("T", "Y", "X")
         assert np.array_equal(again["frame_p_Pa"].values.T, data["frame_p_Pa"].values)
         assert again["a_d_m"].units == "m"
@@ -121,9 +121,9 @@ def test_what_was_not_done_is_listed(drive, tmp_path: Path, driver: str):
     text, seconds = find("symmetric")
     assert text.startswith("2080 of 4225 nodes")
     # 32 rows more than the 33 that were solved
-    marched = summary["steps"] * summary["seconds_per_step"]
-    assert seconds == pytest.approx(32 / 33 * (marched + find("second solve")[1]), rel=1e-9)
-    assert 0 <= find("where P = 0")[1] < marched
+    stepped = summary["steps"] * summary["seconds_per_step"]
+    assert seconds == pytest.approx(32 / 33 * (stepped + find("second solve")[1]), rel=1e-9)
+    assert 0 <= find("where P = 0")[1] < stepped
     text, seconds = find("before the roughness")
     assert int(text.split()[0]) == summary["steps_skipped"] == 13
     assert seconds == pytest.approx(13 * summary["seconds_per_step"], rel=1e-9)
@@ -146,22 +146,22 @@ def test_what_was_not_done_is_listed(drive, tmp_path: Path, driver: str):
     assert "skips" not in json.loads((tmp_path / "smooth" / "summary.json").read_text())
 
 
-def test_plot_on_a_march(march: Path, tmp_path: Path, capsys):
-    assert cli.main(["plot", str(march), "-o", str(tmp_path), "--dpi", "40"]) == 0
+def test_plot_of_a_transient_run(run_folder: Path, tmp_path: Path, capsys):
+    assert cli.main(["plot", str(run_folder), "-o", str(tmp_path), "--dpi", "40"]) == 0
     written = {Path(line).name for line in capsys.readouterr().out.splitlines()}
     assert {"friction.png", "deformed_roughness.png", "rough_and_smooth.png"} < written
     assert {path.name for path in tmp_path.iterdir()} == written
 
 
-def test_movie_has_all_frames(march: Path, tmp_path: Path):
-    assert cli.main(["plot", str(march), "-o", str(tmp_path), "--movie"]) == 0
+def test_movie_has_all_frames(run_folder: Path, tmp_path: Path):
+    assert cli.main(["plot", str(run_folder), "-o", str(tmp_path), "--movie"]) == 0
     with Image.open(tmp_path / "movie.gif") as picture:
-        assert picture.n_frames == pyehl.load(march).sizes["T"]
+        assert picture.n_frames == pyehl.load(run_folder).sizes["T"]
     assert {path.name for path in tmp_path.iterdir()} == {"movie.gif"}
 
 
-def test_friction_history_shows_the_averaging_window(march: Path):
-    data = pyehl.load(march)
+def test_friction_history_shows_the_averaging_window(run_folder: Path):
+    data = pyehl.load(run_folder)
     mean, period = data.attrs["mu_ratio"], data.attrs["T_mean"]
     run = {name: data[name].values for name in ("history_T", "history_mu_ratio")}
     ax = transient.friction_history(
@@ -184,8 +184,8 @@ def test_friction_history_shows_the_averaging_window(march: Path):
     assert lines["eq. 16: 2.000"][0, 1] == 2.0
 
 
-def test_deformed_roughness_ends_at_the_circle_and_shares_a_scale(march: Path):
-    data = pyehl.load(march)
+def test_deformed_roughness_ends_at_the_circle_and_shares_a_scale(run_folder: Path):
+    data = pyehl.load(run_folder)
     run = {name: data[name].values for name in ("X", "Y", "RR", "A_d")}
     figure = solution_figures(data, "hertz")["deformed_roughness"]
     images = [ax.images[0] for ax in figure.axes[:2]]
@@ -200,8 +200,8 @@ def test_deformed_roughness_ends_at_the_circle_and_shares_a_scale(march: Path):
         assert shown[inside] == pytest.approx(1e3 * field[inside])
 
 
-def test_eq_16_only_where_it_holds(march: Path):
-    data = pyehl.load(march)
+def test_eq_16_only_where_it_holds(run_folder: Path):
+    data = pyehl.load(run_folder)
     # M = 31, outside of the range of the fit
     assert transient.eq_16(data.attrs, results.settings_of(data)) is None
     inside = {"moes_m": 1000.0, "moes_l": 10.0, "H_c": 0.0243, "amplitude": 9.72e-3}
@@ -237,8 +237,8 @@ def test_bench_step(tmp_path: Path, capsys, monkeypatch):
     assert rows[1]["speedup"] == sorted(one / two for one, two in zip(*first, strict=True))[1]
     # the same steps whatever the number of threads
     assert rows[0]["cycles"] == rows[1]["cycles"]
-    marches = {row["points"]: row for row in answer["marches"]}
-    assert marches[65]["error"] is None
-    expected = abs(marches[33]["mu_ratio"] / marches[65]["mu_ratio"] - 1.0)
-    assert rows[0]["error"] == marches[33]["error"] == pytest.approx(expected, rel=1e-12)
+    runs = {row["points"]: row for row in answer["runs"]}
+    assert runs[65]["error"] is None
+    expected = abs(runs[33]["mu_ratio"] / runs[65]["mu_ratio"] - 1.0)
+    assert rows[0]["error"] == runs[33]["error"] == pytest.approx(expected, rel=1e-12)
     assert cli.main(["bench", "step", "--cases", "nothing"]) == 2
