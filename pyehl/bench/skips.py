@@ -220,9 +220,7 @@ def _deflection_row(scene: str, points: int, repeats: int) -> Row:
     )
 
 
-def _run_rows(
-    scene: str, options: Sequence[str], repeats: int, *, symmetric: bool
-) -> list[Row]:
+def _run_rows(scene: str, options: Sequence[str], repeats: int, *, symmetric: bool) -> list[Row]:
     """Measure what a transient run leaves out."""
 
     def usual() -> Values:
