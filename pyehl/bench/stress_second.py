@@ -72,7 +72,7 @@ def solve_again(row: Row) -> str:
             values["surface.wavelength_y"],
             values["surface.velocity_ratio"],
         )
-        found = list(islice(solver.march(wave), steps if good else steps + 1))
+        found = list(islice(solver.steps(wave), steps if good else steps + 1))
     except (NotSolvedError, np.linalg.LinAlgError, ValueError):
         return UNSOLVED
     if not good:
