@@ -13,22 +13,24 @@ from collections.abc import Mapping
 from typing import Any
 
 from pyehl.case import Case
-from pyehl.prediction.smooth import smooth_case
+from pyehl.prediction.smooth import POINTS, smooth_case
 from pyehl.solver import Solver
 from pyehl.surfaces import FEATURES
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["seconds_of", "shares_of", "speed"]
+__all__ = ["seconds_of", "shares_of", "smooth_seconds", "speed"]
 
 Settings = Mapping[str, Mapping[str, Any]]
 
 CALIBRATION = 0.030
 """Seconds of the smooth contact on 65 x 65 nodes where the others were measured."""
-PREDICTION = 0.5
-"""Seconds of a prediction of a tile of 256 x 256 pixels."""
+PREDICTION, PREDICTION_PIXEL = 0.1, 1.4e-6
+"""Seconds of a prediction, and per pixel of its tile, without the smooth contact under it."""
+FULL = 2.8
+"""How many times as long one with tracks and bands takes."""
 FILM = 2e-3
-SMOOTH_NODE = 4.0e-6
-"""Seconds of a smooth contact per node of its finest grid."""
+SMOOTH_LINE, SMOOTH_NODE = 5e-4, 5e-7
+"""Seconds of a smooth contact per line and per node of its finest grid."""
 STEP_NODE = 7.0e-7
 """Seconds of a time step per node; rough surfaces of many wavelengths take twice that."""
 
@@ -48,17 +50,27 @@ def _once(case: Case) -> float:
     return time.perf_counter() - began
 
 
-def seconds_of(settings: Settings, run: str) -> float:
-    """Seconds of a resolved case on one thread of the machine that was measured on."""
+def smooth_seconds(points: int) -> float:
+    """Seconds of a smooth contact on points x points nodes."""
+    return SMOOTH_LINE * points + SMOOTH_NODE * points**2
+
+
+def seconds_of(settings: Settings, run: str, *, shared: bool = False, full: bool = False) -> float:
+    """Seconds of a resolved case on one thread of the machine that was measured on.
+
+    `shared`: the smooth contact under a prediction is there already; `full`: with tracks and bands.
+    """
     if run == "film":
         return FILM
     surface = settings["surface"]
     if run == "predict":
         pixels = int(surface["pixels"]) if surface["kind"] == "fractal" else 256
-        return PREDICTION * max(0.2, pixels / 256) ** 2
+        alone = (PREDICTION + PREDICTION_PIXEL * pixels**2) * (FULL if full else 1.0)
+        solved = settings["psd"]["smooth"] == "solved" and not shared
+        return alone + (smooth_seconds(POINTS) if solved else 0.0)
     grid = settings["grid"]
     points = int(grid["points"])
-    smooth = SMOOTH_NODE * points**2
+    smooth = smooth_seconds(points)
     velocity = float(surface["velocity_ratio"])
     if surface["kind"] == "smooth" or velocity == 0.0:
         return smooth

@@ -116,8 +116,10 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None) -> Plan:
         _check(study, point, case, settings, seen["checked"])
         seen["surface"].add(json.dumps(settings["surface"], default=str))
         folder = "" if keep is None else str(Path(keep) / f"{point.number + 1:0{digits}d}")
-        seconds = factor * seconds_of(settings, study.run)
         shares = shares_of(settings, study.run)
+        full = study.tracks or bool(folder)
+        shared = shares in seen["contact"]
+        seconds = factor * seconds_of(settings, study.run, shared=shared, full=full)
         seen["contact"].add(shares)
         points.append(point)
         tasks.append(

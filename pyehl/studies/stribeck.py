@@ -152,11 +152,14 @@ def plan_curve(
     factor = speed()
     points: list[CurvePoint] = []
     tasks: list[Task] = []
+    seen: set[str] = set()
 
     def add(made: Case, run: str) -> int:
         settings = made.resolve()
-        seconds = factor * seconds_of(settings, run)
-        tasks.append(Task(len(tasks), made.text, run, "", seconds, shares_of(settings, run)))
+        shares = shares_of(settings, run)
+        seconds = factor * seconds_of(settings, run, shared=shares in seen)
+        seen.add(shares)
+        tasks.append(Task(len(tasks), made.text, run, "", seconds, shares))
         return tasks[-1].number
 
     for point in study.points():
