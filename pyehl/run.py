@@ -204,5 +204,5 @@ def _drive(
         if solver.converged:
             solver.end_keeping()
         elif has_state:
-            observer.say(f"state: {name}.checkpoint\nto go on: pyehl run --resume {name}")
+            observer.say(f"state: {name}.checkpoint\nto resume: pyehl run --resume {name}")
         return Outcome(solver.converged, request.wanted and not solver.converged)

@@ -73,7 +73,7 @@ program ehl
       stop exit_ok, quiet=.true.
    end if
    if (keeper%has_state()) call say("state: " // checkpoint_folder(arguments%folder) // newline &
-                                    // "to go on: ehl --resume " // arguments%folder)
+                                    // "to resume: ehl --resume " // arguments%folder)
    if (stop_wanted()) stop exit_interrupted, quiet=.true.
    stop exit_failed, quiet=.true.
 

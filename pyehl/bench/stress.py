@@ -70,7 +70,7 @@ def campaign(
     cases, seed
         How many, and from what they are drawn.
     folder
-        Gets the journals of the runs, so that a campaign goes on where it was stopped.
+        Gets the journals of the runs, so that a campaign that was stopped is resumed.
     jobs
         Worker processes.
     grids

@@ -106,7 +106,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--output",
         type=Path,
         metavar="FILE.json",
-        help="write JSON too; of 'stress' a folder, in which an interrupted campaign goes on",
+        help="write JSON too; of 'stress' a folder, in which an interrupted campaign is resumed",
     )
 
 

@@ -126,7 +126,7 @@ def execute(args: argparse.Namespace) -> int:
             done=done,
         )
     except KeyboardInterrupt:
-        print(f"interrupted; the same command goes on in {folder}", file=sys.stderr)
+        print(f"interrupted; the same command resumes it in {folder}", file=sys.stderr)
         return EXIT_INTERRUPTED
     finally:
         for watcher in watchers:

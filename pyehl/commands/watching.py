@@ -87,8 +87,8 @@ class Terminal(Watcher):
             self._bar.close()
 
     def goes_on(self, folder: Path) -> None:
-        """Say how an interrupted study goes on."""
-        print(f"interrupted; the same command goes on in {folder}", file=sys.stderr)
+        """Say how an interrupted study is resumed."""
+        print(f"interrupted; the same command resumes it in {folder}", file=sys.stderr)
 
 
 def add_worker_arguments(parser: argparse.ArgumentParser) -> None:

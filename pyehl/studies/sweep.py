@@ -102,8 +102,8 @@ def sweep(
         Names of results wanted; none: all numbers. Mean and spread over the tracks of a
         prediction, which take twice the time, are made only where they are named.
     output
-        Folder for the journal and the table, in which an interrupted study goes on; None: nothing
-        is kept on disk.
+        Folder for the journal and the table, from which an interrupted study is resumed; None:
+        nothing is kept on disk.
     jobs
         Worker processes; 0: as many as processors.
     scheduler
