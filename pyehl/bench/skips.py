@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl bench skips``: what a scene does not need, the seconds saved, and that nothing changes.
 
-Each row is a scene solved as usual and once more with that work done. Both are made in turn, on one
-thread; seconds are those of the processor, the least of the repeats.
+Each row is a scene solved as usual and once more with that work done, in turn, on one thread.
+Seconds are those of the processor, the least of the repeats.
 """
 
 from __future__ import annotations
@@ -394,7 +394,7 @@ SCENES: dict[str, Callable[[int, int], list[Row]]] = {
 """Scenes by name; each takes the nodes per side and the number of repeats."""
 
 
-def skip_rows(scenes: Sequence[str], points: int, repeats: int = 3) -> list[Row]:
+def skip_rows(scenes: Sequence[str], points: int, repeats: int = 1) -> list[Row]:
     """Seconds with and without what is skipped, and the difference in the result.
 
     Parameters

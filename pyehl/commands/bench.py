@@ -14,7 +14,17 @@ from pathlib import Path
 from typing import Any
 
 from pyehl import library
-from pyehl.bench import deflection, skips, smooth, step, stress, stress_cases, sweep
+from pyehl.bench import (
+    deflection,
+    faults,
+    skips,
+    smooth,
+    step,
+    stress,
+    stress_cases,
+    sweep,
+    workprec,
+)
 from pyehl.bench.text import table
 from pyehl.errors import InputError
 from pyehl.plots import bench as figures
@@ -22,6 +32,12 @@ from pyehl.plots import bench as figures
 __all__ = ["add_arguments", "execute"]
 
 GRIDS = (65, 129, 257, 513, 1025)
+DEFAULT_GRIDS = {
+    "step": (129, 257, 513),
+    "skips": (skips.LEAST,),
+    "stress": stress_cases.GRIDS,
+    "workprec": (),
+}
 
 
 def _machine() -> dict[str, str]:
@@ -46,7 +62,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of ``pyehl bench``."""
     parser.add_argument(
         "what",
-        choices=("deflection", "smooth", "step", "sweep", "skips", "stress"),
+        choices=("deflection", "smooth", "step", "sweep", "skips", "stress", "faults", "workprec"),
         help="what to measure",
     )
     parser.add_argument(
@@ -99,7 +115,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="of 'step': whole runs too, for the error of mu_r/mu_s against the finest grid",
     )
-    parser.add_argument("--seed", type=int, default=1, help="of 'stress' (default 1)")
+    parser.add_argument("--seed", type=int, default=1, help="of 'stress', 'faults' (default 1)")
+    parser.add_argument("--full", action="store_true", help="of 'workprec': the finest grids too")
+    parser.add_argument("--kills", type=int, default=200, help="of 'faults' (default 200)")
+    parser.add_argument(
+        "--inputs", type=int, default=2000, help="mutated ones, of 'faults' (default 2000)"
+    )
     parser.add_argument("--jobs", type=int, default=2, help="of 'stress': processes (default 2)")
     parser.add_argument(
         "-o",
@@ -184,12 +205,65 @@ def _execute_stress(args: argparse.Namespace, answer: dict[str, Any]) -> int:
     return 1 if any(row["wrong"] for row in rows) else 0
 
 
+def _execute_faults(args: argparse.Namespace, answer: dict[str, Any]) -> int:
+    if args.output is None or (args.output.exists() and any(args.output.iterdir())):
+        raise InputError("pyehl bench faults: -o DIR is needed, a folder that is empty")
+    args.output.mkdir(parents=True, exist_ok=True)
+    rows = faults.campaign(
+        args.output.resolve(),
+        seed=args.seed,
+        kills=args.kills,
+        inputs=args.inputs,
+        tell=lambda text: print(text, file=sys.stderr),
+    )
+    print(table(rows, faults.COLUMNS))
+    answer |= {"seed": args.seed, "rows": rows}
+    text = json.dumps(answer, indent=1) + "\n"
+    (args.output / "faults.json").write_text(text, encoding="utf-8")
+    for row in rows:
+        for what in row["bad"]:
+            print(f"{row['campaign']}: {what}", file=sys.stderr)
+    return 1 if any(row["wrong"] for row in rows) else 0
+
+
+def _execute_workprec(args: argparse.Namespace, answer: dict[str, Any]) -> int:
+    names = [scene.name for scene in workprec.SCENES]
+    rows = workprec.work_rows(
+        args.scenes.split(",") if args.scenes else names,
+        grids=args.points,
+        threads=args.threads,
+        full=args.full,
+        tell=lambda text: print(text, file=sys.stderr),
+    )
+    print(table(rows, workprec.COLUMNS))
+    best = workprec.cheapest(rows)
+    for row in best:
+        found = row["best"]
+        how = "none of these"
+        if found is not None:
+            how = f"{found['setting']}, {found['points']} x {found['points']}, threads "
+            how += f"{found['threads']}: {found['seconds']:.3g} s, error {found['error']:.1e}"
+        print(f"{row['scene']}, {row['quantity']} to {row['level']:.1%}: {how}")
+    answer |= {"rows": rows, "cheapest": best}
+    if args.scenes is None or "wave" in args.scenes:
+        share = workprec.share_of_deflection()
+        answer["share_of_deflection"] = share
+        print(
+            f"multi-integration, short wave that slides, {share['points']} x {share['points']}: "
+            f"{share['difference']:.2%} of mu_r/mu_s, {share['share']:.1%} of the grid error"
+        )
+    if args.output is not None:
+        args.output.write_text(json.dumps(answer, indent=1) + "\n", encoding="utf-8")
+        figures.work(rows, args.output.with_suffix(".png"))
+    return 0
+
+
 def _execute_skips(args: argparse.Namespace) -> list[dict[str, Any]]:
     names = args.scenes.split(",") if args.scenes else list(skips.SCENES)
     rows = skips.skip_rows(names, max(args.points))
     print(table(rows, skips.COLUMNS))
     print(
-        "seconds: of the processor, one thread, least of three; without: the same with that work "
+        "seconds: of the processor, one thread; without: the same with that work "
         "done; difference: in the quantity, relative;\nallowed: 0 where the bits are equal, "
         f"{skips.ROUNDING:.0e} where sums are taken in another order, else the tolerance of the "
         "solver or of the mean"
@@ -200,16 +274,16 @@ def _execute_skips(args: argparse.Namespace) -> list[dict[str, Any]]:
 def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl bench``; 1 if skipped work would have changed a result."""
     if args.points is None:
-        args.points = [n for n in GRIDS if args.what != "step" or 129 <= n <= 513]
-        if args.what == "skips":
-            args.points = [skips.LEAST]
-        if args.what == "stress":
-            args.points = list(stress_cases.GRIDS)
-    if min(args.points) < 3 or min(args.threads) < 1:
+        args.points = list(DEFAULT_GRIDS.get(args.what, GRIDS))
+    if min(args.points, default=3) < 3 or min(args.threads) < 1:
         raise InputError("pyehl bench: points must be 3 or more, threads 1 or more")
     answer: dict[str, Any] = {"what": args.what, "machine": _machine()}
     if args.what == "stress":
         return _execute_stress(args, answer)
+    if args.what == "faults":
+        return _execute_faults(args, answer)
+    if args.what == "workprec":
+        return _execute_workprec(args, answer)
     if args.what == "deflection":
         rows = deflection.deflection_rows(args.points, args.threads)
         print(table(rows, deflection.COLUMNS))

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from pyehl.plots import style
 
-__all__ = ["stress"]
+__all__ = ["stress", "work"]
 
 Row = Mapping[str, Any]
 
@@ -73,5 +73,40 @@ def stress(rows: Sequence[Row], path: Path) -> None:
         ax.set(title=title, xlabel="M")
     axes[0].set_ylabel("L")
     handles, labels = axes[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=4)
+    figure.savefig(path, dpi=DPI)
+
+
+def work(rows: Sequence[Row], path: Path) -> None:
+    """Draw error over processor seconds, a panel for each scene and quantity.
+
+    Parameters
+    ----------
+    rows
+        Those of `pyehl.bench.workprec.work_rows`.
+    path
+        File that is written.
+    """
+    scenes = list(dict.fromkeys((row["scene"], row["quantity"]) for row in rows))
+    settings = list(dict.fromkeys(row["setting"] for row in rows))
+    figure = style.new_figure(3.0 * len(scenes), 3.6)
+    axes = figure.subplots(1, len(scenes), squeeze=False)[0]
+    for ax, (scene, quantity) in zip(axes, scenes, strict=True):
+        mine = [row for row in rows if (row["scene"], row["quantity"]) == (scene, quantity)]
+        for number, setting in enumerate(settings):
+            line = [
+                (row["seconds"], max(row["error"], 1e-7))
+                for row in mine
+                if row["setting"] == setting and row["error"] is not None and row["threads"] == 1
+            ]
+            at: NDArray[np.float64] = np.array(line, dtype=float).reshape(-1, 2)
+            marker = "*" if setting == "prediction" else "os^vD<>pP"[number % 9]
+            ax.loglog(at[:, 0], at[:, 1], marker=marker, ms=4, lw=0.8, label=setting)
+        bars = [row["bar"] for row in mine if row["bar"]]
+        if bars:
+            ax.axhspan(1e-7, max(bars[0], 1e-7), color="0.9", zorder=0)
+        ax.set(title=f"{scene}: {quantity}", xlabel="processor seconds")
+    axes[0].set_ylabel("relative error")
+    handles, labels = axes[-1].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=4)
     figure.savefig(path, dpi=DPI)

@@ -4,11 +4,15 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from pyehl.bench import skips
+from pyehl.bench import faults_inputs, skips, stress, stress_cases, workprec
+from pyehl.bench.faults import CASE, run, same
+from pyehl.bench.faults_resources import damage
 from pyehl.cli import main
 
 
@@ -44,3 +48,96 @@ def test_skips_of_other_scenes(scene: str):
     rows = skips.skip_rows([scene], 257, repeats=1)
     assert len(rows) >= 2
     assert all(row["same"] for row in rows)
+
+
+@pytest.mark.slow
+def test_stress_campaign(tmp_path: Path, capsys):
+    """A tiny campaign: it ends, nothing is wrong, the same seed draws the same cases."""
+    words = ["bench", "stress", "--cases", "8", "--seed", "3", "--points", "65", "--jobs", "1"]
+    assert main([*words, "-o", str(tmp_path / "s")]) == 0
+    assert "no solution" in capsys.readouterr().out
+    answer = json.loads((tmp_path / "s" / "stress.json").read_text())
+    assert [row["family"] for row in answer["rows"]].count("wave") == 4
+    assert (tmp_path / "s" / "stress.png").stat().st_size > 0
+    total = answer["summary"][-1]
+    assert total["cases"] == 8
+    assert total["wrong"] == 0
+    assert total["checked"] >= 1
+    assert stress_cases.draw(8, 3, (65,)) == stress_cases.draw(8, 3, (65,))
+    assert main(["bench", "stress", "--cases", "many", "-o", str(tmp_path / "t")]) == 2
+
+
+def test_wrong_results_are_seen():
+    row = {"family": "wave", "outcome": "converged", "mu_ratio": 1.5, "mu_ratio_error": 0.03}
+    near, far = dict(row), dict(row)
+    stress.judge(near, {"status": "converged", "mu_ratio": 1.51})
+    stress.judge(far, {"status": "converged", "mu_ratio": 1.56})
+    assert not near["wrong"]
+    assert far["wrong"]
+    assert far["difference"] == pytest.approx(1.0 - 1.5 / 1.56)
+
+
+def test_cases_of_a_campaign_cover_what_can_be_asked_for():
+    cases = stress_cases.draw(500, 1)
+    assert {case.family for case in cases} == set(stress_cases.FAMILIES)
+    assert min(case.moes_m for case in cases) < 8.0
+    assert max(case.moes_m for case in cases) > 3000.0
+    assert max(case.moes_l for case in cases) > 24.0
+    moving = [case for case in cases if case.values.get("surface.velocity_ratio")]
+    assert {case.values["time.scheme"] for case in moving} == {"narrow", "paper"}
+    # every run has a bound: steps asked for, or few enough until the mean can settle
+    for case in moving:
+        assert case.values["time.steps"] in (0, stress_cases.BOUNDS[case.points])
+
+
+def test_mutated_inputs(tmp_path: Path):
+    found = faults_inputs.run_chunk(5, 40, tmp_path, main)
+    assert found["bad"] == []
+    assert sum(found["counts"].values()) == 40
+
+
+@pytest.mark.slow
+def test_damaged_states(tmp_path: Path, monkeypatch):
+    monkeypatch.setattr("pyehl.bench.faults_resources.REGIONS", 2)
+    (tmp_path / "case.nml").write_text(CASE)
+    trials, counts, bad = damage(tmp_path, np.random.default_rng(1), run, same)
+    assert (trials, bad) == (4, [])
+    assert counts["same bits"] + counts.get("told", 0) >= 4
+
+
+@pytest.mark.slow
+def test_faults_campaign(tmp_path: Path, capsys):
+    words = ["bench", "faults", "--kills", "4", "--inputs", "20"]
+    assert main([*words, "-o", str(tmp_path / "f")]) == 0
+    rows = json.loads((tmp_path / "f" / "faults.json").read_text())["rows"]
+    assert [row["wrong"] for row in rows] == [0] * 6
+    assert main([*words, "-o", str(tmp_path / "f")]) == 2
+
+
+def test_work_and_precision(tmp_path: Path, capsys):
+    words = ["bench", "workprec", "--scenes", "smooth", "--points", "65,129,257", "--threads", "1"]
+    assert main([*words, "-o", str(tmp_path / "w.json")]) == 0
+    assert "smooth, H_c to 1.0%" in capsys.readouterr().out
+    rows = json.loads((tmp_path / "w.json").read_text())["rows"]
+    assert (tmp_path / "w.png").stat().st_size > 0
+    film = {
+        row["points"]: row["error"]
+        for row in rows
+        if (row["quantity"], row["setting"]) == ("H_c", "default") and row["error"] is not None
+    }
+    assert film[129] > film[257] > 0.0
+    # second order
+    assert film[129] / film[257] == pytest.approx(4.0, rel=0.3)
+
+
+def test_cheapest_setting():
+    def row(setting: str, seconds: float, error: float) -> dict[str, object]:
+        names = {"scene": "s", "quantity": "q", "bar": 1e-4}
+        return {"setting": setting, "seconds": seconds, "error": error} | names
+
+    rows = [row("dear", 9.0, 1e-5), row("cheap", 1.0, 0.02), row("mean", 2.0, 0.008)]
+    found = {r["level"]: r["best"] for r in workprec.cheapest(rows)}
+    assert found[0.03]["setting"] == "cheap"
+    assert found[0.01]["setting"] == "mean"
+    assert found[0.001]["setting"] == "dear"
+    assert math.isclose(sum(found), sum(workprec.LEVELS))

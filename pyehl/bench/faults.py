@@ -1,0 +1,278 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``pyehl bench faults``: kills, full disks, damaged states and hostile input, from a seed.
+
+Nothing may be lost, no run may leave half a folder, no input may end in a traceback or a hang, and
+a run that was killed and resumed gives the bits of an unbroken one.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from pyehl.bench.faults_resources import damage, resources
+
+__all__ = ["COLUMNS", "campaign"]
+
+Row = dict[str, Any]
+
+COLUMNS = (("campaign", "s"), ("trials", "d"), ("wrong", "d"), ("outcomes", "s"))
+CASE = """&contact moes_m = 100.0 moes_l = 6.0 /
+&grid points = 65 /
+&surface kind = 'harmonic' amplitude_over_film = 0.2 wavelength = 1.0 /
+&output checkpoint_interval = 0.01 frame_interval = 0.5 /
+"""
+# Times do not repeat
+TIMES = ("wall_seconds", "seconds_per_step", "skips_seconds", "seconds", "bytes")
+CHUNK = 250
+"""Inputs tried by a child process, which may not take longer than HANG seconds."""
+HANG = 900.0
+CHILD = (
+    "import json, sys; from pathlib import Path; from pyehl import cli; "
+    "from pyehl.bench import faults_inputs; out = sys.stdout; "
+    "found = faults_inputs.run_chunk(int(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3]), "
+    "cli.main); out.write(json.dumps(found))"
+)
+
+
+def campaign(
+    folder: Path,
+    *,
+    seed: int = 1,
+    kills: int = 200,
+    inputs: int = 2000,
+    tell: Callable[[str], None] = lambda text: None,
+) -> list[Row]:
+    """Do all of it.
+
+    Parameters
+    ----------
+    folder
+        An empty folder to work in.
+    seed
+        Of the instants, the bytes and the inputs.
+    kills
+        Processes killed: six in ten solve, three make a sweep, one exports.
+    inputs
+        Mutated case files, study files and height maps.
+    tell
+        Takes a line about what is done.
+
+    Returns
+    -------
+    list of dict
+        `COLUMNS`, and `bad`, a list of what must not be.
+    """
+    generator = np.random.default_rng(seed)
+    (folder / "case.nml").write_text(CASE, encoding="utf-8")
+    rows = []
+    for name, share, work in (
+        ("killed runs, resumed", 0.6, _kill_runs),
+        ("killed sweeps, started again", 0.3, _kill_sweeps),
+        ("killed exports", 0.1, _kill_exports),
+    ):
+        tell(f"{name}: {round(share * kills)}")
+        rows.append(_row(name, *work(folder, generator, max(1, round(share * kills)))))
+    tell("bytes of a state flipped, region by region")
+    rows.append(_row("damaged states", *damage(folder, generator, run, same)))
+    tell("disk full, folder gone or read-only, no memory, two runs into one folder")
+    rows.append(_row("resources", *resources(folder, run)))
+    tell(f"mutated inputs: {inputs}")
+    rows.append(_row("mutated inputs", *_inputs(folder, seed, inputs)))
+    return rows
+
+
+def _row(name: str, trials: int, counts: dict[str, int], bad: list[str]) -> Row:
+    told = ", ".join(f"{count} {what}" for what, count in sorted(counts.items()))
+    return {"campaign": name, "trials": trials, "wrong": len(bad), "outcomes": told, "bad": bad}
+
+
+def command(*words: str) -> list[str]:
+    """Give the command line of ``pyehl``."""
+    return [sys.executable, "-P", "-m", "pyehl", *words]
+
+
+def run(
+    folder: Path,
+    *words: str,
+    **how: Any,  # noqa: ANN401
+) -> subprocess.CompletedProcess[str]:
+    """Run ``pyehl`` to its end in a folder."""
+    return subprocess.run(
+        command(*words),
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        timeout=HANG,
+        check=False,
+        **how,
+    )
+
+
+def _killed(folder: Path, words: Sequence[str], after: float) -> bool:
+    """Start a command and kill it after so many seconds; whether it was still running."""
+    process = subprocess.Popen(
+        command(*words), cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    )
+    try:
+        process.wait(after)
+    except subprocess.TimeoutExpired:
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        return True
+    return False
+
+
+def _values(path: Path) -> dict[str, Any]:
+    values = json.loads(path.read_text(encoding="utf-8"))
+    return {name: value for name, value in values.items() if name not in TIMES}
+
+
+def same(one: Path, two: Path) -> str:
+    """Compare two result folders; '' where all bits are the same, else what differs."""
+    names = sorted(p.name for p in one.iterdir())
+    if names != sorted(p.name for p in two.iterdir()):
+        return f"files {names} and {sorted(p.name for p in two.iterdir())}"
+    for name in names:
+        if name == "summary.json":
+            if _values(one / name) != _values(two / name):
+                return name
+        elif name.endswith(".npy") and (one / name).read_bytes() != (two / name).read_bytes():
+            return name
+    return ""
+
+
+def _kill_runs(
+    folder: Path, generator: np.random.Generator, kills: int
+) -> tuple[int, dict[str, int], list[str]]:
+    whole, out, bad = folder / "whole", folder / "out", []
+    began = time.monotonic()
+    run(folder, "run", "case.nml", "-o", "whole")
+    takes = time.monotonic() - began
+    done = finished = 0
+    while done < kills:
+        words = ["run", "case.nml", "-o", "out"]
+        if out.with_name("out.checkpoint").exists():
+            words = ["run", "--resume", "out"]
+        if _killed(folder, words, float(generator.uniform(0.0, 1.1 * takes))):
+            done += 1
+            if out.exists() and not (out / "summary.json").is_file():
+                bad.append(f"kill {done}: half a folder {sorted(p.name for p in out.iterdir())}")
+        else:
+            finished += 1
+            _compare(out, whole, f"after kill {done}", bad)
+            shutil.rmtree(out, ignore_errors=True)
+    words = ["run", "case.nml", "-o", "out"]
+    if out.with_name("out.checkpoint").exists():
+        words = ["run", "--resume", "out"]
+    last = run(folder, *words)
+    if last.returncode:
+        bad.append(f"the last run: {last.stderr}")
+    _compare(out, whole, "in the end", bad)
+    return done, {"killed": done, "ended first, or in the end": finished + 1}, bad
+
+
+def _compare(out: Path, whole: Path, when: str, bad: list[str]) -> None:
+    difference = same(whole, out) if out.exists() else "no folder"
+    if difference:
+        bad.append(f"{when}: {difference}")
+
+
+def _kill_sweeps(
+    folder: Path, generator: np.random.Generator, kills: int
+) -> tuple[int, dict[str, int], list[str]]:
+    bad: list[str] = []
+    words = ["sweep", "case.nml", "--vary", "contact.moes_m=60:140:9", "--set"]
+    words += ["time.estimate_error=.false.", "--jobs", "2", "--quiet", "-o"]
+    began = time.monotonic()
+    run(folder, *words, "whole-sweep")
+    takes = time.monotonic() - began
+    wanted = _table(folder / "whole-sweep")
+    out = folder / "sweep"
+    done = finished = 0
+    while done < kills:
+        if _killed(folder, [*words, "sweep"], float(generator.uniform(0.3, 1.0)) * takes):
+            done += 1
+            continue
+        finished += 1
+        if _table(out) != wanted:
+            bad.append(f"after kill {done}: another table")
+        shutil.rmtree(out)
+    last = run(folder, *words, "sweep")
+    if last.returncode or _table(out) != wanted:
+        bad.append(f"in the end: another table, exit status {last.returncode}: {last.stderr}")
+    return done, {"killed": done, "ended first, or in the end": finished + 1}, bad
+
+
+def _table(folder: Path) -> list[dict[str, str]]:
+    with (folder / "results.csv").open(encoding="utf-8", newline="") as file:
+        return [
+            {name: cell for name, cell in row.items() if name not in TIMES}
+            for row in csv.DictReader(file)
+        ]
+
+
+def _kill_exports(
+    folder: Path, generator: np.random.Generator, kills: int
+) -> tuple[int, dict[str, int], list[str]]:
+    bad: list[str] = []
+    began = time.monotonic()
+    first = run(folder, "export", "whole", "-o", "whole.nc")
+    takes = time.monotonic() - began
+    wanted = (folder / "whole.nc").read_bytes() if first.returncode == 0 else b""
+    if not wanted:
+        bad.append(f"cannot export: {first.stderr}")
+    out = folder / "killed.nc"
+    done = 0
+    while done < kills:
+        done += _killed(
+            folder, ["export", "whole", "-o", out.name], float(generator.uniform(0.5, 1.1)) * takes
+        )
+        if out.exists():
+            if out.read_bytes() != wanted:
+                bad.append(f"kill {done}: half a file")
+            out.unlink()
+    return done, {"killed": done}, bad
+
+
+def _inputs(folder: Path, seed: int, inputs: int) -> tuple[int, dict[str, int], list[str]]:
+    """Try mutated inputs in child processes, so that a crash or a hang is seen."""
+    counts: dict[str, int] = {}
+    bad: list[str] = []
+    for chunk, first in enumerate(range(0, inputs, CHUNK)):
+        number = 1000 * seed + chunk
+        place = folder / f"inputs-{chunk}"
+        place.mkdir()
+        words = [str(number), str(min(CHUNK, inputs - first)), str(place)]
+        try:
+            done = subprocess.run(
+                [sys.executable, "-P", "-c", CHILD, *words],
+                capture_output=True,
+                text=True,
+                timeout=HANG,
+                check=False,
+                env=os.environ | {"OMP_NUM_THREADS": "1"},
+            )
+        except subprocess.TimeoutExpired:
+            bad.append(f"seed {number}: a hang")
+            continue
+        if done.returncode:
+            bad.append(f"seed {number}: exit status {done.returncode}: {done.stderr[-2000:]}")
+            continue
+        found = json.loads(done.stdout)
+        bad += found["bad"]
+        for what, count in found["counts"].items():
+            counts[what] = counts.get(what, 0) + count
+        shutil.rmtree(place)
+    return inputs, counts, bad

@@ -1,0 +1,344 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``pyehl bench workprec``: error against seconds and against units, and the cheapest settings.
+
+Every setting is one run. The reference of a scene is extrapolated from its two finest grids by the
+narrow scheme; its error bar is what one grid more has changed it by. Seconds are those of the
+processor; the unit, one scipy.fft deflection at the same grid, is measured before each run.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+import resource
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from pyehl.bench.unit import ScipyDeflection, hertz, median_seconds
+from pyehl.case import Case
+from pyehl.errors import InputError
+from pyehl.prediction.of_case import predict
+from pyehl.solver import Solver
+
+__all__ = ["COLUMNS", "LEVELS", "SCENES", "Scene", "cheapest", "share_of_deflection", "work_rows"]
+
+Row = dict[str, Any]
+
+LEVELS = (0.03, 0.01, 0.003, 0.001)
+"""Errors that the cheapest setting is looked for."""
+COLUMNS = (
+    ("scene", "s"),
+    ("quantity", "s"),
+    ("setting", "s"),
+    ("points", "d"),
+    ("threads", "d"),
+    ("seconds", ".3f"),
+    ("units", ".1f"),
+    ("value", ".6g"),
+    ("error", ".1e"),
+    ("bar", ".0e"),
+    ("estimate", ".1e"),
+)
+ORDER = 2
+POINT = ("contact.moes_m=1000.0", "contact.moes_l=10.0")
+WAVE = (
+    *POINT,
+    "surface.kind=harmonic",
+    "surface.amplitude=9.734e-3",
+    "surface.velocity_ratio=1.01",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """What is solved.
+
+    Attributes
+    ----------
+    name
+        What it is called.
+    options
+        Its case, as texts ``group.key=value``.
+    quantities
+        What the error is of.
+    grids
+        Nodes per side; the last one with ``--full`` alone.
+    rough
+        Whether schemes, coarsenings and the prediction belong to it.
+    """
+
+    name: str
+    options: tuple[str, ...]
+    quantities: tuple[str, ...]
+    grids: tuple[int, ...]
+    rough: bool = True
+
+
+RATIO = ("mu_ratio",)
+SCENES = (
+    Scene("smooth", POINT, ("H_c", "H_min", "F"), (65, 129, 257, 513, 1025, 2049), rough=False),
+    Scene("wave", WAVE, RATIO, (129, 257, 513, 1025)),
+    Scene(
+        "resolved fractal",
+        ("surface.kind=fractal", "surface.shortest_wavelength=5.2e-5"),
+        RATIO,
+        (129, 257, 513, 1025),
+    ),
+    Scene("fractal", ("surface.kind=fractal",), RATIO, (129, 257, 513, 1025)),
+)
+
+
+def _settings(scene: Scene) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Give what is varied, one at a time from the default."""
+    yield "default", ()
+    yield "fft", ("solver.deflection=fft",)
+    if not scene.rough:
+        return
+    yield "paper", ("time.scheme=paper",)
+    yield "alcouffe", ("solver.coarsening=alcouffe",)
+    yield "classical", ("solver.coarsening=classical",)
+
+
+def work_rows(
+    scenes: Sequence[str],
+    *,
+    grids: Sequence[int] = (),
+    threads: Sequence[int] = (1, 2),
+    full: bool = False,
+    tell: Callable[[str], None] = lambda text: None,
+) -> list[Row]:
+    """Run all settings of scenes.
+
+    Parameters
+    ----------
+    scenes
+        Names of `SCENES`.
+    grids
+        Nodes per side, where not those of the scene.
+    threads
+        Numbers of threads; those after the first with the default setting alone.
+    full
+        With the finest grid of each scene.
+    tell
+        Takes a line about what is done.
+
+    Returns
+    -------
+    list of dict
+        `COLUMNS` and `unit_seconds`; `error` is relative to the reference, `bar` the error of that,
+        `estimate` what the run says of its own error.
+
+    Raises
+    ------
+    InputError
+        If there is no such scene.
+    """
+    known = {scene.name: scene for scene in SCENES}
+    rows: list[Row] = []
+    for name in scenes:
+        if name not in known:
+            raise InputError(f"scene '{name}': expected some of {', '.join(known)}")
+        scene = known[name]
+        used = grids or (scene.grids if full else scene.grids[:-1])
+        mine: list[Row] = []
+        for points in used:
+            unit = _unit(points)
+            for setting, options in _settings(scene):
+                for workers in threads if setting == "default" else threads[:1]:
+                    tell(f"{name}: {points} x {points}, {setting}, threads {workers}")
+                    mine += _run(scene, setting, options, points, workers, unit)
+        if scene.rough:
+            mine += _predicted(scene, _unit(max(used)))
+        mine += _extrapolated(mine)
+        _add_errors(mine, scene)
+        rows += mine
+    return rows
+
+
+def _unit(points: int) -> float:
+    """Seconds of one deflection by scipy.fft."""
+    pressure, h, _, _ = hertz(points)
+    yardstick = ScipyDeflection(points, points, h, h)
+    return median_seconds(lambda: yardstick.apply(pressure))
+
+
+def _processor() -> float:
+    return resource.getrusage(resource.RUSAGE_SELF).ru_utime
+
+
+def _run(
+    scene: Scene,
+    setting: str,
+    options: Sequence[str],
+    points: int,
+    threads: int,
+    unit: float,
+) -> list[Row]:
+    texts = [*scene.options, *options, f"grid.points={points}", f"solver.threads={threads}"]
+    if scene.rough:
+        # the coarser run is a row of its own
+        texts.append("time.estimate_error=.false.")
+    began = _processor()
+    with Solver(Case.from_text("", texts)) as solver:
+        solver.run()
+        seconds = _processor() - began
+        summary = solver.summary()
+    rows = []
+    for quantity in scene.quantities:
+        value, estimate = summary.get(quantity), summary.get(f"{quantity}_error")
+        rows.append(
+            {
+                "scene": scene.name,
+                "quantity": quantity,
+                "setting": setting,
+                "points": points,
+                "threads": threads,
+                "seconds": seconds,
+                "units": seconds / unit,
+                "unit_seconds": unit,
+                "value": value,
+                "status": summary["status"],
+                "estimate": abs(estimate / value) if estimate and value else None,
+            }
+        )
+    return rows
+
+
+def _predicted(scene: Scene, unit: float) -> list[Row]:
+    """Give the prediction as one more setting."""
+    case = Case.from_text("", scene.options)
+    if scene.name == "wave":
+        # the prediction takes heights in metres: no such surface there
+        return []
+    began = _processor()
+    told = predict(case.resolve()).summary
+    seconds = _processor() - began
+    model = told.get("mu_ratio_model_error")
+    return [
+        {
+            "scene": scene.name,
+            "quantity": "mu_ratio",
+            "setting": "prediction",
+            "points": 257,
+            "threads": 1,
+            "seconds": seconds,
+            "units": seconds / unit,
+            "unit_seconds": unit,
+            "value": told["mu_ratio"],
+            "status": told["status"],
+            "estimate": model / told["mu_ratio"] if model else None,
+        }
+    ]
+
+
+def _extrapolated(rows: Sequence[Row]) -> list[Row]:
+    """Richardson: the value of a grid and of the next coarser one, at the cost of both."""
+    found = {(r["quantity"], r["setting"], r["threads"], r["points"]): r for r in rows}
+    more = []
+    for (quantity, setting, threads, points), fine in found.items():
+        coarse = found.get((quantity, setting, threads, (points + 1) // 2))
+        if coarse is None or fine["value"] is None or coarse["value"] is None:
+            continue
+        # nested iteration has solved the coarser grid of a smooth contact anyway
+        extra = 0.0 if fine["scene"] == "smooth" else coarse["seconds"]
+        seconds = fine["seconds"] + extra
+        value = fine["value"] + (fine["value"] - coarse["value"]) / (2**ORDER - 1)
+        more.append(
+            fine
+            | {
+                "setting": f"{setting}, extrapolated",
+                "seconds": seconds,
+                "units": seconds / fine["unit_seconds"],
+                "value": value,
+                "estimate": None,
+            }
+        )
+    return more
+
+
+def _reference(values: Mapping[int, float]) -> tuple[float, float]:
+    """Limit of the two finest grids, and its relative error."""
+    grids = sorted(values)[-3:]
+    if len(grids) < 2:
+        return math.nan, math.nan
+    limits = [
+        values[b] + (values[b] - values[a]) / (2**ORDER - 1) for a, b in itertools.pairwise(grids)
+    ]
+    last = limits[-1]
+    bar = abs(last - limits[0]) if len(limits) > 1 else abs(last - values[grids[-1]])
+    return last, bar / abs(last)
+
+
+def _add_errors(rows: Sequence[Row], scene: Scene) -> None:
+    """Add errors against the reference of the scene."""
+    for quantity in scene.quantities:
+        mine = [row for row in rows if row["quantity"] == quantity]
+        values = {
+            row["points"]: row["value"]
+            for row in mine
+            if row["setting"] == "default" and row["value"] is not None
+        }
+        limit, bar = _reference(values)
+        for row in mine:
+            known = row["value"] is not None and math.isfinite(limit)
+            row["error"] = abs(row["value"] / limit - 1.0) if known else None
+            row["bar"] = bar if known else None
+
+
+def cheapest(rows: Sequence[Row]) -> list[Row]:
+    """Give the setting of least seconds for each of `LEVELS`, by scene and quantity.
+
+    An error below the bar of the reference counts as the bar.
+    """
+    found = []
+    for scene, quantity in dict.fromkeys((row["scene"], row["quantity"]) for row in rows):
+        mine = [
+            row
+            for row in rows
+            if (row["scene"], row["quantity"]) == (scene, quantity) and row["error"] is not None
+        ]
+        for level in LEVELS:
+            good = [row for row in mine if max(row["error"], row["bar"]) <= level]
+            best = min(good, key=lambda row: row["seconds"], default=None)
+            found.append({"scene": scene, "quantity": quantity, "level": level, "best": best})
+    return found
+
+
+def share_of_deflection(points: int = 129) -> Row:
+    """Measure what multi-integration adds to the error of a short wave that slides.
+
+    Returns
+    -------
+    dict
+        `difference`, relative, of mu_r/mu_s by multi-integration and by FFT; `grid_error` of it, by
+        the next finer grid; `share`, their ratio.
+    """
+    options = [
+        *POINT,
+        "surface.kind=harmonic",
+        "surface.wavelength=0.25",
+        "surface.amplitude=0.003",
+        "surface.velocity_ratio=1.1",
+        "time.estimate_error=.false.",
+    ]
+
+    def ratio(n: int, engine: str) -> float:
+        texts = [*options, f"grid.points={n}", f"solver.deflection={engine}"]
+        with Solver(Case.from_text("", texts)) as solver:
+            solver.run()
+            return float(solver.summary()["mu_ratio"])
+
+    fast, exact, finer = (
+        ratio(points, "mlmi"),
+        ratio(points, "fft"),
+        ratio(2 * points - 1, "fft"),
+    )
+    difference = abs(fast / exact - 1.0)
+    grid = abs(4.0 / 3.0 * (exact / finer - 1.0))
+    return {
+        "points": points,
+        "difference": difference,
+        "grid_error": grid,
+        "share": difference / grid,
+    }
