@@ -15,7 +15,7 @@ from typing import Any
 
 from pyehl.case import Case
 from pyehl.studies.gather import Watcher
-from pyehl.studies.plan import plan
+from pyehl.studies.plan import Plan, plan
 from pyehl.studies.study import make
 from pyehl.studies.sweep import perform
 from pyehl.studies.tasks import Task
@@ -47,7 +47,7 @@ class Scene:
     cases
         Number of cases for each process.
     options
-        Texts ``group.key=value``; the mean velocity is varied.
+        Texts ``group.key=value``. The mean velocity is varied, or a key that stands alone.
     """
 
     name: str
@@ -58,9 +58,11 @@ class Scene:
 
 FRACTAL = ("surface.kind=fractal",)
 WAVE = ("surface.kind=harmonic", "surface.amplitude_over_film=0.3")
+SEEDS = "surface.seed"
 SCENES = (
     Scene("film", "film", 200, FRACTAL),
-    Scene("predict", "predict", 8, FRACTAL),
+    Scene("predict", "predict", 40, FRACTAL),
+    Scene("predict shared", "predict", 40, (*FRACTAL, SEEDS)),
     Scene("smooth 257", "solve", 8, ("grid.points=257",)),
     Scene("transient 257", "solve", 2, (*WAVE, "grid.points=257")),
     Scene("transient 513", "solve", 1, (*WAVE, "grid.points=513")),
@@ -86,9 +88,9 @@ class _FirstRow(Watcher):
 def sweep_rows(scenes: Sequence[Scene], processes: Sequence[int]) -> list[dict[str, Any]]:
     """Run scenes with each number of worker processes.
 
-    `overhead_ms` is what a case costs beside itself, in the plan and in one worker process; `busy`
-    the share of the time of the workers that cases took; `efficiency` the throughput over that of
-    the first number of processes times their ratio.
+    `overhead_ms` is what a case costs beside itself, in the plan (without what every plan costs)
+    and in one worker process; `busy` the share of the time of the workers that cases took;
+    `efficiency` the throughput over that of the first number of processes times their ratio.
     """
     rows: list[dict[str, Any]] = []
     for scene in scenes:
@@ -103,12 +105,20 @@ def sweep_rows(scenes: Sequence[Scene], processes: Sequence[int]) -> list[dict[s
     return rows
 
 
-def _run(scene: Scene, count: int, jobs: int) -> dict[str, Any]:
+def _planned(scene: Scene, count: int) -> tuple[float, Plan]:
+    """Plan so many cases of a scene: seconds, and the plan."""
     began = time.monotonic()
-    velocities = axis("contact.mean_velocity", f"0.7:1.0:{count}")
-    study = make(Case.from_text(""), [velocities], options=scene.options, run=scene.run)
-    todo = plan(study)
-    planned = time.monotonic() - began
+    varied = axis("contact.mean_velocity", f"0.7:1.0:{count}")
+    if SEEDS in scene.options:
+        varied = axis(SEEDS, f"1:{count}")
+    options = [text for text in scene.options if "=" in text]
+    todo = plan(make(Case.from_text(""), [varied], options=options, run=scene.run))
+    return time.monotonic() - began, todo
+
+
+def _run(scene: Scene, count: int, jobs: int) -> dict[str, Any]:
+    single, _ = _planned(scene, 1)
+    planned, todo = _planned(scene, count)
     watcher = _FirstRow()
     with tempfile.TemporaryDirectory(prefix="pyehl-") as folder:
         outcome = perform(todo, folder, jobs=jobs, watcher=watcher)
@@ -123,7 +133,9 @@ def _run(scene: Scene, count: int, jobs: int) -> dict[str, Any]:
         "cases_per_core_hour": 3600.0 * count / spent,
         "busy": outcome.busy / spent,
         # with several processes the end, when one waits for the other, would be in it
-        "overhead_ms": 1e3 * (planned + wall - outcome.busy) / count if jobs == 1 else None,
+        "overhead_ms": 1e3 * (planned - single + wall - outcome.busy) / count
+        if jobs == 1
+        else None,
         "start_seconds": watcher.started,
         "plan_seconds": planned,
         "statuses": outcome.statuses(),
