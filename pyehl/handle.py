@@ -18,6 +18,8 @@ __all__ = ["SolverHandle", "Work"]
 
 Array = NDArray[np.float64]
 
+NO_HEIGHTS = np.zeros((1, 1), order="F")
+
 
 class Work(NamedTuple):
     """How much of a transient run is done, in time steps of the finest grid.
@@ -54,18 +56,20 @@ class SolverHandle:
 
     _handle = 0
     _calls = 0
+    # a surface in place of a file, until it is kept beside the results
+    _given: NDArray[np.float64] | None = None
     done = False
     converged = False
 
     def _open(self, text: str, heights: ArrayLike | None) -> None:
         """Open a solver on the text of a case; heights [m] in place of a file."""
         self._lock = threading.Lock()
-        given = np.zeros((1, 1)) if heights is None else heights
+        self._given = None if heights is None else np.asfortranarray(heights, dtype=np.float64)
         handle, status, message = ehl.open_case(
             text.encode(),
             b"resolved case",
             int(heights is not None),
-            np.asfortranarray(given, dtype=np.float64),
+            NO_HEIGHTS if self._given is None else self._given,
         )
         check(status, message)
         self._handle = handle
@@ -75,6 +79,7 @@ class SolverHandle:
         with self._lock:
             ehl.close_case(self._handle)
             self._handle = 0
+            self._given = None
 
     def __enter__(self) -> Self:
         return self
@@ -150,8 +155,13 @@ class SolverHandle:
         """
         with self._lock:
             note, status, message = ehl.keep(
-                self._handle, os.fsencode(results), os.fsencode(resumed)
+                self._handle,
+                os.fsencode(results),
+                os.fsencode(resumed),
+                int(self._given is not None),
+                NO_HEIGHTS if self._given is None else self._given,
             )
+            self._given = None
         check(status, message)
         return text_of(note)
 

@@ -21,7 +21,7 @@ from pyehl import display
 from pyehl.case import Case, Option
 from pyehl.errors import FileError, InputError
 from pyehl.handle import SolverHandle, Work
-from pyehl.surfaces import Preparation, for_solver
+from pyehl.surfaces import Record, for_solver
 
 if TYPE_CHECKING:
     import xarray
@@ -133,7 +133,7 @@ class Solver(SolverHandle):
 
     def _start(self, case: Case, heights: ArrayLike | None) -> None:
         self._case = case
-        self.preparation: Preparation | None = None
+        self.preparation: Record | None = None
         self.resolution: Addition | None = None
         options: tuple[str, ...] = ()
         if heights is None:

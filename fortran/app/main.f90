@@ -43,14 +43,14 @@ program ehl
       call find_checkpoint(arguments%resume, case_file, heights, status)
       call end_if_failed()
       if (arguments%case_file == "") arguments%case_file = case_file
-      if (size(heights) > 0) call solver%give_surface(heights)
    end if
    call read_case_file(arguments%case_file, arguments%options, input, status)
    call end_if_failed()
    call check_folder(arguments%folder, status)
    call end_if_failed()
    call watch_signals()
-   call solver%start(input, status)
+   if (.not. allocated(heights)) allocate (heights(0, 0))
+   call solver%start(input, status, heights)
    call end_if_failed()
    call say(solver%describe())
    if (arguments%resume /= "") then
@@ -59,8 +59,9 @@ program ehl
       if (note == "") note = "there is no state yet: the run begins at its beginning"
       call say("resume: " // note)
    end if
-   call keeper%open(arguments%folder, input, solver, arguments%resume, note, status)
+   call keeper%open(arguments%folder, input, solver, arguments%resume, heights, note, status)
    call end_if_failed()
+   deallocate (heights)
    if (note /= "") call say("note: " // note)
    call advance_to_the_end()
    if (.not. solver%converged()) call keep_state(at_once=.true.)

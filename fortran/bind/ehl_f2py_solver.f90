@@ -40,8 +40,11 @@ contains
       if (.not. status%failed()) call new_handle(handle, run, status)
       if (.not. status%failed()) then
          run%input = input
-         if (has_heights /= 0) call run%solver%give_surface(heights)
-         call run%solver%start(input, status)
+         if (has_heights /= 0) then
+            call run%solver%start(input, status, heights)
+         else
+            call run%solver%start(input, status)
+         end if
          if (status%failed()) call drop_handle(handle)
       end if
       call reply(status, stat, message)
@@ -269,10 +272,12 @@ contains
    end subroutine resume
 
    !> Keep states of the run beside its results, at the interval of the case; `resumed` names the
-   !> results of the run that is resumed
-   subroutine keep(handle, results, resumed, note, stat, message)
+   !> results of the run that is resumed; with has_heights on the surface of open_case too
+   subroutine keep(handle, results, resumed, has_heights, nx, ny, heights, note, stat, message)
       integer(c_int), intent(in) :: handle
       character(len=*), intent(in) :: results, resumed
+      integer(c_int), intent(in) :: has_heights, nx, ny
+      real(c_double), intent(inout) :: heights(nx, ny)
       character(len=4096), intent(out) :: note
       integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message
@@ -283,7 +288,9 @@ contains
       note = ""
       call run_of(handle, run, status)
       if (.not. status%failed()) then
-         call run%keeper%open(results, run%input, run%solver, resumed, text, status)
+         associate (n => merge(nx, 0, has_heights /= 0))
+            call run%keeper%open(results, run%input, run%solver, resumed, heights(:n, :), text, status)
+         end associate
          if (.not. status%failed()) note = text
       end if
       call reply(status, stat, message)

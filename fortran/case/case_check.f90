@@ -204,7 +204,8 @@ contains
          call refuse(schema, sources, "surface", "file", "surface.file: the full name is longer " &
             // "than " // to_text(path_length) // " characters", "a shorter path", status)
       else if (input%surface%kind == "map") then
-         if (.not. file_exists(path)) then
+         ! the heights of a tile that pyehl has made come from it, or are kept beside the results
+         if (.not. file_exists(path) .and. .not. input%surface%tile_x > 0.0_dp) then
             call refuse(schema, sources, "surface", "file", "surface.file: there is no file " // path, &
                "a height map: .npy, text or a file of an instrument", status)
          end if

@@ -70,16 +70,17 @@ contains
 
    !> Make the folder of a run that is a march, unless the case wants none. States of an earlier run give way
    !> to those of this one, unless it goes on with them: they are kept under the name that the note tells.
-   subroutine open_folder(self, results, input, solver, resumed, note, status)
+   subroutine open_folder(self, results, input, solver, resumed, heights, note, status)
       class(keeper_t), intent(inout) :: self
       character(len=*), intent(in) :: results
       type(case_t), intent(in) :: input
       type(solver_t), intent(in) :: solver
       !> Results of the run whose states are gone on with; empty: none
       character(len=*), intent(in) :: resumed
+      !> Heights of a map [m] that did not come from its file; of size 0: none
+      real(dp), intent(in) :: heights(:, :)
       character(len=:), allocatable, intent(out) :: note
       type(status_t), intent(inout) :: status
-      real(dp), allocatable :: heights(:, :)
       logical :: same
 
       note = ""
@@ -98,7 +99,6 @@ contains
          call status%fail(ehl_file, self%folder//": error: cannot make this folder")
          return
       end if
-      heights = solver%given_surface()
       if (size(heights) > 0) then
          call write_npy(self%folder//surface_file//".new", heights, status)
          if (status%failed()) return

@@ -43,8 +43,6 @@ module ehl_solver
       real(dp), private :: zeros_seconds = 0.0_dp
       !> A surface that was made already
       class(surface_t), allocatable, private :: surface
-      !> Heights of a map [m] that was given and not read
-      real(dp), allocatable, private :: heights(:, :)
       type(case_t), private :: input
       !> Pressure and film of the smooth contact, kept where there is a rough one
       real(dp), allocatable, private :: p_smooth(:, :), h_smooth(:, :)
@@ -60,10 +58,8 @@ module ehl_solver
       real(dp), private :: coarse_work = 0.0_dp, coarse_seconds = 0.0_dp
    contains
       final :: close_solver
-      procedure :: give_surface
       procedure :: save_state
       procedure :: resume
-      procedure :: given_surface
       procedure :: moves
       procedure :: steps_made
       procedure :: start
@@ -176,22 +172,21 @@ module ehl_solver
 
 contains
 
-   !> Heights of a map [m], X first, in place of a file; to be called before start
-   subroutine give_surface(self, heights)
-      class(solver_t), intent(inout) :: self
-      real(dp), intent(in) :: heights(:, :)
-      self%heights = heights
-   end subroutine give_surface
-
    !> Plan the case and prepare the coarse grids
-   recursive subroutine start(self, input, status)
+   recursive subroutine start(self, input, status, heights)
       class(solver_t), intent(inout) :: self
       type(case_t), intent(in) :: input
       type(status_t), intent(inout) :: status
+      !> Heights of a map [m], X first, in place of a file; of size 0: none. They are no longer needed afterwards.
+      real(dp), intent(in), optional :: heights(:, :)
+      real(dp) :: none(0, 0)
 
       self%input = input
-      if (.not. allocated(self%heights)) allocate (self%heights(0, 0))
-      call make_plan(input, self%heights, self%surface, self%plan, status)
+      if (present(heights)) then
+         call make_plan(input, heights, self%surface, self%plan, status)
+      else
+         call make_plan(input, none, self%surface, self%plan, status)
+      end if
       if (status%failed()) return
       associate (plan => self%plan)
          call self%hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, &
@@ -212,13 +207,6 @@ contains
                                  "load_error", "residual", "H_c_algebraic"])
       end if
    end subroutine start
-
-   !> Heights [m] that were given in place of a file; of size 0 when there are none
-   function given_surface(self) result(heights)
-      class(solver_t), intent(in) :: self
-      real(dp), allocatable :: heights(:, :)
-      heights = self%heights
-   end function given_surface
 
    !> Time steps made so far
    pure integer function steps_made(self)

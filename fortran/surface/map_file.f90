@@ -94,8 +94,8 @@ contains
             allocate (rows(columns, 64))
          end if
          if (count_words(line(:last)) /= columns) then
-            call status%fail(ehl_file, path//":"//to_text(number)//": "//to_text(count_words(line(:last)))// &
-                             " numbers where "//to_text(columns)//" were expected")
+            call status%fail(ehl_file, path//":"//to_text(number)//":"//to_text(column_of(line(:last), columns + 1))//": "// &
+                             to_text(count_words(line(:last)))//" numbers where "//to_text(columns)//" were expected")
             exit
          end if
          if (n == size(rows, 2)) then
@@ -108,7 +108,10 @@ contains
          stat = verify(line(:last), number_characters)
          if (stat == 0) read (line(:last), *, iostat=stat) rows(:, n)
          if (stat /= 0) then
-            call status%fail(ehl_file, path//":"//to_text(number)//": this row is not numbers alone")
+            associate (bad => first_bad(line(:last)))
+               call status%fail(ehl_file, path//":"//to_text(number)//":"//to_text(column_of(line(:last), bad))//": '"// &
+                                word_of(line(:last), bad)//"' is no number; expected: heights in m")
+            end associate
             exit
          end if
       end do
@@ -185,4 +188,39 @@ contains
          inside = .not. blank
       end do
    end function count_words
+
+   !> Column of the first letter of a word; behind the last word where there are fewer
+   pure integer function column_of(line, number)
+      character(len=*), intent(in) :: line
+      integer, intent(in) :: number
+
+      do column_of = 1, len_trim(line)
+         if (count_words(line(:column_of)) == number) return
+      end do
+   end function column_of
+
+   !> A word by its number
+   pure function word_of(line, number) result(word)
+      character(len=*), intent(in) :: line
+      integer, intent(in) :: number
+      character(len=:), allocatable :: word
+
+      word = line(column_of(line, number):)
+      word = word(:scan(word//" ", " ,"//achar(9)) - 1)
+   end function word_of
+
+   !> Number of the first word that is no number
+   integer function first_bad(line)
+      character(len=*), intent(in) :: line
+      character(len=:), allocatable :: word
+      real(dp) :: value
+      integer :: stat
+
+      do first_bad = 1, count_words(line)
+         stat = verify(word_of(line, first_bad), number_characters)
+         word = word_of(line, first_bad)
+         if (stat == 0) read (word, *, iostat=stat) value
+         if (stat /= 0) return
+      end do
+   end function first_bad
 end module ehl_map_file

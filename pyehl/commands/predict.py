@@ -21,7 +21,7 @@ __all__ = ["add_arguments", "draw", "execute", "report"]
 def report(prediction: Prediction) -> str:
     """Return the lines that ``pyehl predict`` prints."""
     f, s = prediction.friction, prediction.surface
-    lines = [*s.preparation.report()] if s.preparation else []
+    lines = [*s.preparation.record.report()] if s.preparation else []
     lines += [
         f"surface     {s.origin}: rms {s.rms_height * 1e6:.4g} um, "
         f"{s.shape[0]} x {s.shape[1]} pixels, "

@@ -109,7 +109,7 @@ def _lines(surface: Topography) -> list[str]:
     if surface.preparation is None:
         lines = [f"surface    {surface.origin}"]
     else:
-        lines = surface.preparation.report()
+        lines = surface.preparation.record.report()
     nx, ny = surface.shape
     tile = "window" if surface.origin.startswith("single ") else "tile  "
     lines.append(

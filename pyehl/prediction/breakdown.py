@@ -8,13 +8,13 @@ with the prediction itself, given as a function, so that nothing here depends on
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.prediction.carrying import Carries, carrying_outliers, carrying_wavelength
 from pyehl.surfaces.cutting import cropped
 from pyehl.surfaces.prepare import Preparation
 from pyehl.surfaces.spikes import prominence
@@ -25,14 +25,9 @@ __all__ = [
     "BelowZero",
     "advise",
     "below_zero",
-    "carrying_outliers",
-    "carrying_wavelength",
 ]
 
 Array = NDArray[np.float64]
-
-Carries = Callable[[Topography], bool]
-"""Whether the film of a tile is full."""
 
 DeformedOf = Callable[[Topography], Array]
 """Deformed roughness of a tile on its pixels [m], (nx, ny)."""
@@ -42,12 +37,6 @@ SmoothFilm = Callable[[Array, Array], Array]
 
 STATIONS = 64
 """Places along a row at which the smooth film is taken."""
-
-FEW = 0.01
-"""Largest share of a map that counts as a few spikes."""
-
-LEAST_THRESHOLD = 5.0
-"""Below it, points of a normal distribution would be taken for spikes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,102 +114,6 @@ def below_zero(
     )
 
 
-def carrying_wavelength(
-    tile: Topography,
-    without_shorter: Callable[[Topography, float], Topography],
-    carries: Carries,
-    *,
-    tolerance: float = 0.05,
-) -> float | None:
-    """Find the cut-off at which the film of a tile is full: waves shorter than it are taken off.
-
-    Bisection in the logarithm of the wavelength, between two pixels and the length of the tile;
-    the film need not be full for every longer cut-off, but it is for the one returned.
-
-    Parameters
-    ----------
-    tile
-        The tile, whose film is not full.
-    without_shorter
-        Takes a tile and a wavelength [m] and returns the tile without shorter waves.
-    carries
-        Whether the film of a tile is full.
-    tolerance
-        Relative, of the wavelength.
-
-    Returns
-    -------
-    float or None
-        [m]; None if even the longest waves break the film.
-    """
-    low = math.log(2.0 * min(tile.pixel))
-    high = math.log(max(tile.length_x, tile.length_y))
-    if not carries(without_shorter(tile, math.exp(high))):
-        return None
-    while high - low > tolerance:
-        middle = 0.5 * (low + high)
-        if carries(without_shorter(tile, math.exp(middle))):
-            high = middle
-        else:
-            low = middle
-    return _rounded_up(math.exp(high), lambda v: carries(without_shorter(tile, v)))
-
-
-def carrying_outliers(
-    prominence: Array,
-    without_spikes: Callable[[float], Topography],
-    carries: Carries,
-    *,
-    few: float = FEW,
-    tolerance: float = 0.1,
-) -> tuple[float, int] | None:
-    """Find the threshold of spikes at which the film is full, if a few points are what breaks it.
-
-    Parameters
-    ----------
-    prominence
-        (nx, ny) distance of each point from the median around it over its spread, see
-        :func:`pyehl.surfaces.spikes.prominence`.
-    without_spikes
-        Takes a threshold and returns the tile without the points beyond it.
-    carries
-        Whether the film of a tile is full.
-    few
-        Largest share of the points that may be removed.
-    tolerance
-        Relative, of the threshold.
-
-    Returns
-    -------
-    (float, int) or None
-        Threshold and number of points beyond it; None if the film needs more than a few removed.
-    """
-    allowed = float(np.quantile(prominence, 1.0 - few))
-    low = max(LEAST_THRESHOLD, allowed)
-    high = float(prominence.max())
-    if low >= high or not carries(without_spikes(low)):
-        return None
-    least, most = math.log(low), math.log(high)
-    while most - least > tolerance:
-        middle = 0.5 * (least + most)
-        if carries(without_spikes(math.exp(middle))):
-            least = middle
-        else:
-            most = middle
-    # a threshold that a person would write, on the safe side
-    rounded = float(f"{math.exp(least):.2g}")
-    if rounded > math.exp(least) or rounded < low or not carries(without_spikes(rounded)):
-        rounded = math.exp(least)
-    return rounded, int(np.count_nonzero(prominence > rounded))
-
-
-def _rounded_up(value: float, good: Callable[[float], bool]) -> float:
-    """Two digits of a wavelength, rounded up, if that is good, too."""
-    scale = 10.0 ** (math.floor(math.log10(value)) - 1)
-    rounded = float(f"{math.ceil(value / scale - 1e-9) * scale:.2g}")
-    return rounded if good(rounded) else value
-
-
 @dataclass(frozen=True, slots=True)
 class Advice:
     """Where the film of a surface ends, and what would carry.
@@ -233,9 +126,10 @@ class Advice:
         Place of the deepest point on the surface [m]; of a prepared map from the corner of what
         was left of it after cropping and turning.
     wavelength
-        `surface.shortest_wavelength` [m] with which the film is full; None: there is none.
+        `surface.shortest_wavelength` [m] with which the film is full, and the error of the
+        predicted friction known; None: there is none.
     outliers, outlier_points
-        `surface.outliers` with which it is full, and how many points that removes; None: the
+        `surface.outliers` with which both hold, and how many points that removes; None: the
         surface is no map, or more than a few points would have to go.
     """
 
@@ -288,6 +182,7 @@ def advise(
     smooth_film: SmoothFilm,
     without_shorter: Callable[[Topography, float], Topography],
     without_spikes: Callable[[float], Topography] | None = None,
+    known: Carries | None = None,
 ) -> Advice:
     """Say where the film of a tile ends, and find what would carry.
 
@@ -306,13 +201,16 @@ def advise(
     without_spikes
         Takes a threshold of `surface.outliers` and returns the tile without them; None: the
         surface is no map.
+    known
+        Whether the error of the predicted friction of a tile with a full film is known: what would
+        carry must be worth a prediction, too. None: that is not asked.
     """
 
     def film(other: Topography) -> BelowZero:
         return below_zero(deformed_of(other), other.pixel, hertz_radius, smooth_film)
 
     def carries(other: Topography) -> bool:
-        return film(other).deepest > 0.0
+        return film(other).deepest > 0.0 and (known is None or known(other))
 
     below = film(tile)
     made = tile.preparation

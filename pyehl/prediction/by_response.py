@@ -118,6 +118,21 @@ class RoughPassage:
         t = self._transfer(spectrum).at_centre(spectrum, self.velocity_ratio)
         return np.asarray(spectrum.tile(t) * self.operating.film_scale)
 
+    def _parts(self) -> tuple[Topography, Spectrum, Transfer, Edge]:
+        """Tile on the grid that is worked on, its components, and what becomes of them."""
+        grid = working_grid(self.topography, self.operating, self.options.positions)
+        spectrum = self._spectrum(grid)
+        transfer = self._transfer(spectrum)
+        edge = Edge.of(spectrum, 1.0 - transfer.at_centre(spectrum, self.velocity_ratio))
+        return grid, spectrum, transfer, edge
+
+    def mean(self) -> float:
+        """mu_r/mu_s over a few positions of the passage [-]; NaN where the film ends."""
+        grid, spectrum, transfer, edge = self._parts()
+        contact = self._contact(spectrum, transfer, edge)
+        with np.errstate(over="ignore", invalid="ignore"):
+            return _mean(contact, grid.shape[0])
+
     def run(
         self, tracks: int = 8, *, brief: bool = False
     ) -> tuple[RoughFriction, tuple[float, float], list[Band]]:
@@ -127,10 +142,7 @@ class RoughPassage:
         the linear response ends. No tracks: NaN for mean and spread.
         """
         start = time.perf_counter()
-        grid = working_grid(self.topography, self.operating, self.options.positions)
-        spectrum = self._spectrum(grid)
-        transfer = self._transfer(spectrum)
-        edge = Edge.of(spectrum, 1.0 - transfer.at_centre(spectrum, self.velocity_ratio))
+        grid, spectrum, transfer, edge = self._parts()
         contact = self._contact(spectrum, transfer, edge)
         with np.errstate(over="ignore", invalid="ignore"):
             passage = friction_along(contact, grid.shape[0], self.options.positions, LARGEST_RATIO)
@@ -161,10 +173,7 @@ class RoughPassage:
 
     def below(self, shortest: float) -> float:
         """mu_r/mu_s without the waves shorter than a length [a], over a few positions [-]."""
-        grid = working_grid(self.topography, self.operating, self.options.positions)
-        spectrum = self._spectrum(grid)
-        transfer = self._transfer(spectrum)
-        edge = Edge.of(spectrum, 1.0 - transfer.at_centre(spectrum, self.velocity_ratio))
+        _, spectrum, transfer, edge = self._parts()
         with np.errstate(over="ignore", invalid="ignore"):
             return self._below(spectrum, transfer, edge, 2.0 * math.pi / shortest)
 

@@ -18,6 +18,7 @@ from pyehl import surfaces
 from pyehl.prediction.bands import Band, contributions
 from pyehl.prediction.breakdown import advise, below_zero
 from pyehl.prediction.by_response import RoughPassage
+from pyehl.prediction.errors import model_error
 from pyehl.prediction.flattening import response
 from pyehl.prediction.friction import (
     TRACKS,
@@ -106,6 +107,12 @@ def predict(
             return response(tile, operating, options).deformed
         return replace(passage, topography=tile).deformed()
 
+    def known(tile: surfaces.Topography) -> bool:
+        """Whether the error of the ratio of another tile is known; that of the paper never is."""
+        if options.as_in_paper:
+            return True
+        return math.isfinite(model_error(replace(passage, topography=tile).mean()))
+
     def smooth_film(x: Array, y: Array) -> Array:
         """Smooth film [m] at places [m]."""
         a = operating.hertz_radius
@@ -127,6 +134,7 @@ def predict(
             smooth_film,
             lambda tile, shortest: surfaces.filtered(tile, shortest, kind=kind),
             lambda threshold: surfaces.without_spikes(surface, threshold, settings["surface"]),
+            known,
         )
     return Prediction(
         settings=settings,

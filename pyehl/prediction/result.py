@@ -248,7 +248,7 @@ class Prediction:
             "h_min_m": f.film_min,
             "lambda_ratio": self.film / s.rms_height if s.rms_height > 0.0 else None,
             "surface": s.origin,
-            "surface_preparation": s.preparation.summary() if s.preparation else None,
+            "surface_preparation": s.preparation.record.summary() if s.preparation else None,
             "seed": s.seed,
             "pixels": list(s.shape),
             "length_x_m": s.length_x,

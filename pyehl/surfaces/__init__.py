@@ -20,8 +20,10 @@ from pyehl.surfaces.of_case import (
     track_offsets,
     without_spikes,
 )
-from pyehl.surfaces.prepare import Options, Preparation, prepare
+from pyehl.surfaces.options import Options
+from pyehl.surfaces.prepare import Preparation, prepare
 from pyehl.surfaces.reading import Scan, read_scan
+from pyehl.surfaces.record import Record
 from pyehl.surfaces.spectra import (
     psd_2d,
     psd_isotropic,
@@ -36,6 +38,7 @@ __all__ = [
     "MAX_PIXELS",
     "Options",
     "Preparation",
+    "Record",
     "Scan",
     "SolverSurface",
     "Topography",

@@ -31,6 +31,9 @@ DECAY = 0.2
 
 ANGLES = 180
 
+BLOCK = 2**16
+"""Points of a map that are looked at together."""
+
 
 @dataclass(frozen=True, slots=True)
 class Extent:
@@ -61,13 +64,34 @@ def extent(heights: Array, pixel: tuple[float, float]) -> Extent:
     pixel
         Pixel size along x and y [m].
     """
-    mean = float(np.nanmean(heights))
-    rms = math.sqrt(float(np.nanmean((heights - mean) ** 2)))
-    peak = max(float(np.nanmax(heights)) - mean, mean - float(np.nanmin(heights)))
-    # at the points that have a neighbour along x and along y
-    square = (np.diff(heights, axis=0)[:, :-1] / pixel[0]) ** 2
-    square += (np.diff(heights, axis=1)[:-1] / pixel[1]) ** 2
-    return Extent(rms, peak, math.sqrt(float(np.nanmean(square))))
+    mean = float(np.nanmean(heights)) if np.isnan(heights.sum()) else float(heights.mean())
+    count, square, slopes, slope = 0, 0.0, 0, 0.0
+    least, most = math.inf, -math.inf
+    lines = max(1, BLOCK // heights.shape[1])
+    # a few lines at a time: a map may be large
+    for first in range(0, heights.shape[0], lines):
+        z = heights[first : first + lines + 1] - mean
+        inner = z[:lines]
+        good = inner[~np.isnan(inner)] if np.isnan(inner.sum()) else inner.ravel()
+        if good.size:
+            count += good.size
+            square += float(np.einsum("i,i->", good, good))
+            least, most = min(least, float(good.min())), max(most, float(good.max()))
+        # at the points that have a neighbour along x and along y
+        dx = np.diff(z, axis=0)[:, :-1]
+        dy = np.diff(z, axis=1)[:-1]
+        dx *= dx
+        dx *= (pixel[1] / pixel[0]) ** 2
+        dy *= dy
+        dx += dy
+        part = float(dx.sum())
+        slopes += dx.size
+        if math.isnan(part):
+            slopes -= int(np.isnan(dx).sum())
+            part = float(np.nansum(dx))
+        slope += part
+    gradient = math.sqrt(slope / slopes) / pixel[1] if slopes else math.nan
+    return Extent(math.sqrt(square / count), max(most, -least), gradient)
 
 
 def areal_numbers(heights: Array, pixel: tuple[float, float]) -> dict[str, float]:

@@ -13,9 +13,12 @@ from numpy.typing import NDArray
 from pyehl.surfaces.spectra import wavenumbers
 from pyehl.surfaces.tile import Topography
 
-__all__ = ["resampled", "shifted"]
+__all__ = ["resampled", "shift_across", "shifted"]
 
 Array = NDArray[np.float64]
+
+LINES = 64
+"""Lines of a tile that are moved together."""
 
 
 def _shift_factor(q: Array, distance: float, nyquist: int | None) -> NDArray[np.complex128]:
@@ -40,6 +43,26 @@ def shifted(topography: Topography, distance_x: float, distance_y: float = 0.0) 
     z = scipy.fft.rfft2(topography.heights) * fx[:, np.newaxis] * fy[np.newaxis, :]
     heights = scipy.fft.irfft2(z, s=(nx, ny))
     return replace(topography, heights=np.ascontiguousarray(heights))
+
+
+def shift_across(heights: Array, length_y: float, distance: float) -> None:
+    """Move a tile (nx, ny) along y in place, as :func:`shifted` does, a few lines at a time.
+
+    Parameters
+    ----------
+    heights
+        (nx, ny) [m].
+    length_y, distance
+        Size of the tile along y, and how far [m].
+    """
+    ny = heights.shape[1]
+    q = 2.0 * np.pi * scipy.fft.rfftfreq(ny, length_y / ny)
+    factor = _shift_factor(q, distance, None if ny % 2 else ny // 2)
+    for first in range(0, heights.shape[0], LINES):
+        part = slice(first, first + LINES)
+        heights[part] = scipy.fft.irfft(
+            scipy.fft.rfft(heights[part], axis=1) * factor, n=ny, axis=1
+        )
 
 
 def resampled(topography: Topography, pixels: tuple[int, int]) -> Topography:

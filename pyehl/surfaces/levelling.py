@@ -6,12 +6,15 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["DEGREES", "fit", "levelled"]
+__all__ = ["DEGREES", "fit", "level", "levelled"]
 
 Array = NDArray[np.float64]
 
 DEGREES = {"centre": 0, "tilt": 1, "curvature": 2}
 """Total degree of the polynomial in x and y that each word takes off."""
+
+LINES = 64
+"""Lines of a map that are levelled together."""
 
 
 def fit(heights: Array, degree: int, valid: NDArray[np.bool_] | None = None) -> Array:
@@ -36,25 +39,42 @@ def fit(heights: Array, degree: int, valid: NDArray[np.bool_] | None = None) -> 
     ValueError
         If too few points are left to tell the polynomial.
     """
+    x, coefficient, y = _factors(heights, degree, valid)
+    return np.asarray(x @ coefficient @ y.T)
+
+
+def _factors(
+    heights: Array, degree: int, valid: NDArray[np.bool_] | None
+) -> tuple[Array, Array, Array]:
+    """Give the polynomial of `fit` as a product: powers of x, coefficients, powers of y."""
     nx, ny = heights.shape
-    good = np.isfinite(heights) if valid is None else valid & np.isfinite(heights)
+    good = valid
+    if valid is None and np.isfinite(heights.sum()):
+        count = heights.size
+    else:
+        good = np.isfinite(heights) if valid is None else valid & np.isfinite(heights)
+        count = int(np.count_nonzero(good))
     powers = [(a, b) for a in range(degree + 1) for b in range(degree + 1 - a)]
     # Sums over the map are products of matrices: the basis is a product of one in x and one in y
     x = np.vander(np.linspace(-1.0, 1.0, nx), 2 * degree + 1, increasing=True)
     y = np.vander(np.linspace(-1.0, 1.0, ny), 2 * degree + 1, increasing=True)
-    moments = x.T @ good.astype(float) @ y
-    right = x.T @ np.where(good, heights, 0.0) @ y
+    if good is None:
+        moments = np.outer(x.sum(axis=0), y.sum(axis=0))
+        right = x.T @ heights @ y
+    else:
+        moments = x.T @ good.astype(float) @ y
+        right = x.T @ np.where(good, heights, 0.0) @ y
     matrix = np.array([[moments[a + c, b + d] for c, d in powers] for a, b in powers])
-    if np.count_nonzero(good) < len(powers) or np.linalg.cond(matrix) > 1e12:
+    if count < len(powers) or np.linalg.cond(matrix) > 1e12:
         raise ValueError(
-            f"surface.detrend: {np.count_nonzero(good)} heights lie so that a polynomial of degree "
+            f"surface.detrend: {count} heights lie so that a polynomial of degree "
             f"{degree} cannot be told from them"
         )
     values = np.linalg.solve(matrix, [right[a, b] for a, b in powers])
     coefficient = np.zeros((degree + 1, degree + 1))
     for (a, b), value in zip(powers, values, strict=True):
         coefficient[a, b] = value
-    return np.asarray(x[:, : degree + 1] @ coefficient @ y[:, : degree + 1].T)
+    return x[:, : degree + 1], coefficient, y[:, : degree + 1]
 
 
 def levelled(heights: Array, what: str, valid: NDArray[np.bool_] | None = None) -> Array:
@@ -64,6 +84,18 @@ def levelled(heights: Array, what: str, valid: NDArray[np.bool_] | None = None) 
     """
     if what == "none":
         return heights
+    work = heights.copy()
+    level(work, what, valid)
+    return work
+
+
+def level(heights: Array, what: str, valid: NDArray[np.bool_] | None = None) -> None:
+    """Do what :func:`levelled` does in place, a few lines at a time."""
     # the large parts go first, so that rounding is that of what remains
-    centred = heights - fit(heights, 0, valid)
-    return centred if what == "centre" else centred - fit(centred, DEGREES[what], valid)
+    for degree in sorted({0, DEGREES[what]}):
+        x, coefficient, y = _factors(heights, degree, valid)
+        lines = coefficient @ y.T
+        for first in range(0, heights.shape[0], LINES):
+            part = slice(first, first + LINES)
+            for power, line in zip(x[part].T, lines, strict=True):
+                heights[part] -= power[:, np.newaxis] * line

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from pyehl.surfaces.prepare import NEUTRAL, Options, prepare
+from pyehl.surfaces.options import NEUTRAL, Options
+from pyehl.surfaces.prepare import prepare
 from pyehl.surfaces.reading import Scan, read_scan
 from pyehl.surfaces.tile import Topography
 

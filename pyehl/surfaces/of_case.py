@@ -15,10 +15,12 @@ from pyehl.kept import Kept
 from pyehl.surfaces.features import FEATURES, feature
 from pyehl.surfaces.filters import filtered
 from pyehl.surfaces.generators import fractal, harmonic
-from pyehl.surfaces.interpolation import shifted
+from pyehl.surfaces.interpolation import shift_across
 from pyehl.surfaces.maps import tile_of
-from pyehl.surfaces.prepare import NEUTRAL, Options, Preparation
+from pyehl.surfaces.options import NEUTRAL, Options
+from pyehl.surfaces.prepare import consume
 from pyehl.surfaces.reading import Scan, plain_array, read_scan
+from pyehl.surfaces.record import Record
 from pyehl.surfaces.tile import Topography
 from pyehl.theory.operating import OperatingPoint
 
@@ -165,7 +167,11 @@ def _scan(surface: Mapping[str, Any]) -> Scan:
 def _moved(tile: Topography, surface: Mapping[str, Any]) -> Topography:
     """Tile on its track: the line at y = track passes the centre of the contact."""
     track = float(surface.get("track", 0.0))
-    return shifted(tile, 0.0, -track) if track else tile
+    if not track:
+        return tile
+    heights = tile.heights.copy()
+    shift_across(heights, tile.length_y, -track)
+    return replace(tile, heights=heights)
 
 
 def _finished(tile: Topography, surface: Mapping[str, Any]) -> Topography:
@@ -222,12 +228,12 @@ class SolverSurface:
     options
         Texts ``group.key=value`` to set in its case: the size of a prepared tile.
     preparation
-        How a map became a tile, else None.
+        How a map became a tile, or that it was taken as it is; else None.
     """
 
     heights: NDArray[np.float64] | None = None
     options: tuple[str, ...] = ()
-    preparation: Preparation | None = None
+    preparation: Record | None = None
 
 
 def for_solver(settings: Mapping[str, Mapping[str, Any]]) -> SolverSurface:
@@ -252,16 +258,19 @@ def for_solver(settings: Mapping[str, Mapping[str, Any]]) -> SolverSurface:
     if surface["kind"] != "map":
         return SolverSurface()
     scan, options = _scan(surface), Options.from_settings(surface)
-    tile = tile_of(scan, options)
     given = surface.get("length_x") and surface.get("length_y")
     changed = surface.get("track") or not scan.is_array or not given
     changed = changed or not plain_array(str(surface["file"]))
-    if not changed and options == NEUTRAL and np.isfinite(scan.heights).all():
-        return SolverSurface()
+    # a large map is in memory once
+    heights, record = consume(scan, options)
+    if not changed and options == NEUTRAL and not record.missing:
+        return SolverSurface(preparation=record)
+    x, y = record.tile_size
+    del scan
+    if surface.get("track"):
+        shift_across(heights, y, -float(surface["track"]))
     return SolverSurface(
-        np.asfortranarray(_moved(tile, surface).heights),
-        (f"surface.tile_x={tile.length_x!r}", f"surface.tile_y={tile.length_y!r}"),
-        tile.preparation,
+        np.asfortranarray(heights), (f"surface.tile_x={x!r}", f"surface.tile_y={y!r}"), record
     )
 
 

@@ -31,6 +31,8 @@ TEXT_SUFFIXES = (".txt", ".csv", ".dat", ".asc", "")
 EXPORT = re.compile(
     r"(width|x-length|x-pixels|pixel size|file format|scale x)\s*[:=]|^Wyko ASCII", re.IGNORECASE
 )
+# What stands between separators
+WORD = re.compile(r"[^\s,;]+")
 OWN_SIZE = re.compile(r"^#\s*(length_[xy])\s*=\s*(\S+)\s*m\s*$")
 OWN_PERIODIC = re.compile(r"^#\s*periodic\s*$")
 HEADER_LINES = 100
@@ -216,7 +218,8 @@ def _read_text(path: Path) -> tuple[Array, tuple[float | None, float | None], bo
                 continue
             if rows and row.size != rows[0].size:
                 raise ValueError(
-                    f"{path}:{number}: {row.size} heights, but {rows[0].size} in the lines above"
+                    f"{path}:{number}:{_column(line, rows[0].size)}: {row.size} heights, but "
+                    f"{rows[0].size} in the lines above"
                 )
             rows.append(row)
             if len(rows) % 1024 == 0:
@@ -236,8 +239,8 @@ def _row(path: Path, number: int, line: str) -> Array | None:
         words = text.split()
         if commas not in (len(words) - 1, len(words)):
             raise ValueError(
-                f"{path}:{number}: commas and blanks both separate the numbers; if the comma "
-                "is a decimal comma, write a point"
+                f"{path}:{number}:{line.index(',') + 1}: commas and blanks both separate the "
+                "numbers; if the comma is a decimal comma, write a point"
             )
     else:
         words = text.split()
@@ -245,5 +248,23 @@ def _row(path: Path, number: int, line: str) -> Array | None:
         return None
     try:
         return np.array(words, dtype=float)
-    except ValueError as error:
-        raise ValueError(f"{path}:{number}: {error}") from None
+    except ValueError:
+        bad = next(n for n, word in enumerate(words) if not _is_number(word))
+        raise ValueError(
+            f"{path}:{number}:{_column(line, bad)}: {words[bad]!r} is no number; expected: heights "
+            "in m"
+        ) from None
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
+
+
+def _column(line: str, index: int) -> int:
+    """Column of a word of a line, from 1; behind its last one where it has fewer."""
+    words = list(WORD.finditer(line.partition("#")[0]))
+    return words[index].start() + 1 if index < len(words) else words[-1].end() + 1

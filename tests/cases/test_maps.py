@@ -197,16 +197,28 @@ def test_long_text_lines(solve, tmp_path: Path):
         assert np.array_equal(field, expected)
 
 
-@pytest.mark.parametrize("row", ["1 2 / 4", "1 2*3.0 4", "1 2 three 4"])
-def test_rows_that_are_not_numbers_are_refused(drive, tmp_path: Path, row: str):
+@pytest.mark.parametrize("driver", ["ehl", "pyehl"])
+@pytest.mark.parametrize(
+    ("row", "place"),
+    [
+        ("1 2 / 4", ":4:5: '/'"),
+        ("1 2*3.0 4 5", ":4:3: '2*3.0'"),
+        ("1 2\tthree 4", ":4:5: 'three'"),
+        ("1,2 ,3,4 5", ":4:10:"),
+        ("1 2 3", ":4:6:"),
+    ],
+)
+def test_rows_that_are_not_numbers_are_refused(
+    drive, tmp_path: Path, row: str, place: str, driver: str
+):
     (tmp_path / "map.txt").write_text("1 2 3 4\n" * 3 + row + "\n")
     (tmp_path / "case.nml").write_text(
         "&surface kind = 'map', file = 'map.txt', length_x = 1e-3, length_y = 1e-3 /\n"
         "&grid points = 33 /\n"
     )
-    done = drive("ehl", "case.nml", "-o", "out")
+    done = drive(driver, "case.nml", "-o", "out")
     assert done.returncode != 0
-    assert "map.txt:4" in done.stderr
+    assert f"map.txt{place}" in done.stderr or "map.txt:4:2: commas and blanks" in done.stderr
 
 
 def test_map_larger_than_memory_is_refused(drive, tmp_path: Path):
@@ -253,6 +265,32 @@ def measured(ehl: str, folder: Path, pixels: int) -> tuple[float, float]:
     code, kilobytes, seconds = json.loads(done.stdout)
     assert code == 1  # no mean over a period
     return 1024.0 * kilobytes, seconds
+
+
+PREPARED = """
+import resource, sys
+from pyehl import Case, Solver
+import scipy.fft, scipy.ndimage
+z = 1024.0 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+with Solver(Case.read(sys.argv[1])) as solver:
+    print(1024.0 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - z)
+"""
+
+
+@pytest.mark.parametrize("keys", ["", "detrend = 'tilt'", "track = 1e-3"])
+def test_memory_of_prepared_maps(tmp_path: Path, keys: str):
+    """From Python, too, at most three times the size of the map."""
+    pixels = 2048
+    np.save(tmp_path / "map.npy", 1e3 * rough((pixels, pixels)))
+    (tmp_path / "case.nml").write_text(
+        f"&surface kind = 'map', file = 'map.npy', length_x = 0.03, length_y = 0.03, {keys} /\n"
+        "&contact load = 20.0 /\n&grid points = 33 /\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-P", "-c", PREPARED, str(tmp_path / "case.nml")],
+        capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    assert float(done.stdout) <= 3.0 * 8.0 * pixels**2
 
 
 def test_memory_and_work_of_large_maps(ehl: str, tmp_path: Path):

@@ -132,6 +132,10 @@ def test_neutral_arrays_have_the_same_bits(tmp_path: Path, drive):
     assert drive("ehl", case, "-o", "ehl").returncode == run(case, tmp_path / "pyehl") == 1
     for name in ("P.npy", "H.npy"):
         assert (tmp_path / "ehl" / name).read_bytes() == (tmp_path / "pyehl" / name).read_bytes()
+    # that nothing was done to it is said, too
+    summary = json.loads((tmp_path / "pyehl" / "summary.json").read_text())
+    assert summary["surface_preparation"]["steps"] == []
+    assert "taken as it is" in (tmp_path / "pyehl" / "plan.txt").read_text()
     # `sign` twice is nothing: a prepared map runs as the same heights from a file do
     np.save(tmp_path / "map.npy", -heights())
     other = write_case(tmp_path / "other.nml", "map.npy", f"{size} sign = -1")
@@ -148,10 +152,13 @@ def test_prepared_march_is_resumed_to_the_same_bits(scan: Path, tmp_path: Path):
     assert run(case, tmp_path / "part") == 1
     scan.rename(tmp_path / "moved.x3p")
     part = str(tmp_path / "part")
-    assert cli.main(["run", "--resume", part, *longer, "-q"]) == 2
+    whole = (tmp_path / "whole" / "P.npy").read_bytes()
+    without = str(tmp_path / "without")
+    assert cli.main(["run", "--resume", part, *longer, "-q", "-o", without]) == 1
+    assert (tmp_path / "without" / "P.npy").read_bytes() == whole
     scan.with_name("moved.x3p").rename(scan)
     assert cli.main(["run", "--resume", part, *longer, "-q"]) == 1
-    assert (tmp_path / "part" / "P.npy").read_bytes() == (tmp_path / "whole" / "P.npy").read_bytes()
+    assert (tmp_path / "part" / "P.npy").read_bytes() == whole
     summary = json.loads((tmp_path / "part" / "summary.json").read_text())
     assert summary["surface_preparation"]["missing"] == 1
 

@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 from pyehl import surfaces
-from pyehl.prediction.breakdown import below_zero, carrying_outliers, carrying_wavelength
+from pyehl.prediction.breakdown import advise, below_zero
+from pyehl.prediction.carrying import carrying_outliers, carrying_wavelength
 from pyehl.prediction.of_case import predict
 from pyehl.surfaces import Topography, filtered
 
@@ -132,8 +133,34 @@ def test_film_breakdown_says_where_and_what_would_carry(scan):
     assert good.summary["film_breakdown"] is None
     steps = good.summary["surface_preparation"]["steps"]
     assert steps[0]["points_changed"] == 2
+    assert good.mu_ratio < 2.5
     scan["surface"] |= {"outliers": 0.0, "shortest_wavelength": advice.wavelength}
-    assert predict(scan).friction.status == "predicted"
+    cut = predict(scan)
+    assert cut.friction.status == "predicted"
+    assert cut.mu_ratio < 2.5
+
+
+def test_what_would_carry_has_a_known_error():
+    """A film that is full is not enough, where the friction over it is beyond the model."""
+    z = np.zeros((8, 8))
+    tile = Topography(z, LENGTH, LENGTH)
+    asked = []
+
+    def advice(limit):
+        return advise(
+            tile,
+            lambda other: other.heights - other.length_x,
+            1e-4,
+            flat(1e-7),
+            lambda other, shortest: Topography(other.heights, shortest, LENGTH),
+            known=lambda other: asked.append(other.length_x) or other.length_x > limit,
+        )
+
+    # full at every cut-off, known from a limit on
+    assert advice(0.0).wavelength < 3e-4
+    assert advice(5e-4).wavelength == pytest.approx(5e-4, rel=0.1)
+    assert asked
+    assert advice(1.0).wavelength is None
 
 
 def test_rough_surfaces_are_not_told_to_remove_spikes(settings):

@@ -254,7 +254,7 @@ def test_record_is_json_and_lines():
     z = rough() + 1e-6 * axes((64, 48))[0]
     z[3, 4] = np.nan
     made = prepare(instrument(z))
-    summary = json.loads(json.dumps(made.summary(), allow_nan=False))
+    summary = json.loads(json.dumps(made.record.summary(), allow_nan=False))
     assert [s["key"] for s in summary["steps"]] == [
         "surface.fill", "surface.detrend", "surface.edges",
     ]  # fmt: skip
@@ -263,7 +263,7 @@ def test_record_is_json_and_lines():
     assert level["rms_before_m"] == pytest.approx(np.nanstd(z), rel=1e-3)
     assert level["rms_after_m"] == pytest.approx(made.prepared.std(), rel=1e-12)
     assert level["peak_after_m"] < level["peak_before_m"]
-    assert "the tilt of a scan is that of the stage" in "\n".join(made.report())
+    assert "the tilt of a scan is that of the stage" in "\n".join(made.record.report())
 
 
 def test_units_that_cannot_be_meant():

@@ -262,8 +262,8 @@ def test_truncated_npy(tmp_path):
     ("text", "message"),
     [
         ("", "no heights"),
-        ("1e-8 2e-8\n3e-8\n", ":2: 1 heights, but 2"),
-        ("1e-8 x\n", ":1: could not convert"),
+        ("1e-8 2e-8\n3e-8\n", ":2:5: 1 heights, but 2"),
+        ("1e-8 x\n", ":1:6: 'x' is no number"),
         ("1,5 2,5\n3,5 4,5\n", "decimal comma"),
         ("1e-8 nan\n" * 8, "at least 4 x 4"),
         ("1e-8 nan 0 0\n" * 8, "8 of 32 heights are missing"),

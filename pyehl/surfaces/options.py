@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What to do with a map, and what 'auto' means."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from pyehl.surfaces.reading import Scan
+
+__all__ = ["NEUTRAL", "Options", "defaults"]
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """What to do with a map; each attribute is a key of ``&surface``.
+
+    Attributes
+    ----------
+    detrend
+        ``"none"``, ``"centre"``, ``"tilt"``, ``"curvature"`` or ``"auto"``.
+    fill
+        ``"harmonic"`` or ``"none"``, which refuses maps with missing points.
+    outliers
+        Threshold, see :func:`pyehl.surfaces.spikes.prominence`; 0: none are removed.
+    edges
+        ``"mirror"``, ``"window"``, ``"periodic"`` or ``"auto"``.
+    crop
+        (x_min, x_max, y_min, y_max) [m], a maximum of 0 being the far edge.
+    rotate
+        Counter-clockwise [degrees].
+    sign
+        1, or -1 for a map whose valleys are positive.
+    """
+
+    detrend: str = "auto"
+    fill: str = "harmonic"
+    outliers: float = 0.0
+    edges: str = "auto"
+    crop: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+    rotate: float = 0.0
+    sign: int = 1
+
+    @classmethod
+    def from_settings(cls, surface: Mapping[str, Any]) -> Options:
+        """Options of the group ``surface`` of a resolved case; absent keys have their defaults."""
+        bounds = ("crop_x_min", "crop_x_max", "crop_y_min", "crop_y_max")
+        return cls(
+            detrend=str(surface.get("detrend", "auto")),
+            fill=str(surface.get("fill", "harmonic")),
+            outliers=float(surface.get("outliers", 0.0)),
+            edges=str(surface.get("edges", "auto")),
+            crop=tuple(float(surface.get(key, 0.0)) for key in bounds),  # type: ignore[arg-type]
+            rotate=float(surface.get("rotate", 0.0)),
+            sign=int(surface.get("sign", 1)),
+        )
+
+
+NEUTRAL = Options()
+"""With these an array passes through as it is, its mean removed."""
+
+
+def defaults(options: Options, scan: Scan) -> tuple[Options, dict[str, str]]:
+    """Options without 'auto', and the reason for each word.
+
+    A file of an instrument is a map of a part: it lies at an angle that is the stage's and not
+    the surface's, and its edges do not meet. An array is taken at its word, as is a file that
+    says that it is periodic: nothing is taken off, and it is repeated. A part of an array, or an
+    array that was turned, is no longer periodic.
+    """
+    why = {"detrend": "given", "edges": "given"}
+    tile = scan.is_array or scan.is_periodic
+    what = "an array is taken at its word" if scan.is_array else "the file says it is periodic"
+    if options.detrend == "auto":
+        options = replace(options, detrend="none" if tile else "tilt")
+        why["detrend"] = what if tile else "the tilt of a scan is that of the stage"
+    if options.edges == "auto":
+        quarter = abs(options.rotate / 90.0 - round(options.rotate / 90.0)) < 1e-9
+        whole = not any(options.crop) and quarter
+        options = replace(options, edges="periodic" if tile and whole else "mirror")
+        why["edges"] = what if tile and whole else "opposite edges of a scan do not meet"
+        if tile and not whole:
+            why["edges"] = "a part of a tile is not periodic"
+    return options, why
