@@ -9,7 +9,7 @@ module ehl_files
    implicit none (type, external)
    private
    public :: read_text, write_text, flush_file, file_exists, make_folder, remove_folder, remove_file
-   public :: rename_path, absolute_path, real_path, folder_of, process_mark
+   public :: check_written, rename_path, absolute_path, real_path, folder_of, process_mark
 
    interface
       integer(c_int) function posix_mkdir(path, mode) bind(c, name="mkdir")
@@ -150,8 +150,26 @@ contains
             if (closing /= 0) stat = closing
          end if
       end if
-      if (stat /= 0) call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
+      if (stat /= 0) then
+         call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
+      else
+         call check_written(path, len(text, kind=int64), status)
+      end if
    end subroutine write_text
+
+   !> Whether a file that was written and closed without an error is whole: a write to a full disk that takes a part is
+   !> none for the library of gfortran
+   subroutine check_written(path, length, status)
+      character(len=*), intent(in) :: path
+      integer(int64), intent(in) :: length
+      type(status_t), intent(inout) :: status
+      integer(int64) :: there
+      integer :: stat
+
+      inquire (file=path, size=there, iostat=stat)
+      if (stat == 0 .and. there == length) return
+      call status%fail(ehl_file, path // ": cannot write: the disk is full, or a limit of the size of files is reached")
+   end subroutine check_written
 
    !> Have the bytes of a file on the disk itself, lest they are lost with the power; false when that fails
    logical function flush_file(path)

@@ -2,6 +2,7 @@
 !> Arrays of real(dp) as .npy files (NumPy format 1.0), the file that both drivers share
 module ehl_npy
    use, intrinsic :: iso_fortran_env, only: int32, int64, int8
+   use ehl_files, only: check_written
    use ehl_kinds, only: dp
    use ehl_status, only: ehl_file, ehl_no_memory, status_t
    use ehl_text, only: newline, to_text
@@ -86,7 +87,11 @@ contains
             if (closing /= 0) stat = closing
          end if
       end if
-      if (stat /= 0) call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
+      if (stat /= 0) then
+         call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
+      else
+         call check_written(path, len(head) + 8_int64*size(values, kind=int64), status)
+      end if
    end subroutine write_values
 
    !> Shape of the matrix in a file, as read_npy would return it

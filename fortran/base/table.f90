@@ -2,6 +2,8 @@
 !> A table of numbers that grows row by row and is written as CSV
 module ehl_table
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use, intrinsic :: iso_fortran_env, only: int64
+   use ehl_files, only: check_written
    use ehl_kinds, only: dp
    use ehl_status, only: ehl_file, ehl_internal, status_t
    use ehl_text, only: to_text
@@ -108,6 +110,7 @@ contains
       logical, allocatable :: whole(:)
       character(len=:), allocatable :: line
       character(len=256) :: reason
+      integer(int64) :: length
       integer :: lun, stat, closing, i, k
 
       if (.not. allocated(self%names)) then
@@ -128,6 +131,7 @@ contains
          line = line // trim(self%names(k))
       end do
       write (lun, "(a)", iostat=stat, iomsg=reason) line
+      length = len(line) + 1
       do i = 1, self%rows
          if (stat /= 0) exit
          line = ""
@@ -136,6 +140,7 @@ contains
             line = line // cell(self%values(k, i), whole(k))
          end do
          write (lun, "(a)", iostat=stat, iomsg=reason) line
+         length = length + len(line) + 1
       end do
       if (stat == 0) then
          close (lun, iostat=stat, iomsg=reason)
@@ -144,7 +149,11 @@ contains
          close (lun, iostat=closing)
          if (closing /= 0) stat = closing
       end if
-      if (stat /= 0) call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
+      if (stat /= 0) then
+         call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
+      else
+         call check_written(path, length, status)
+      end if
    end subroutine write_csv
 
    !> Whether a number has no fraction (and fits an integer)

@@ -4,7 +4,7 @@
 module ehl_checkpoint
    use, intrinsic :: iso_fortran_env, only: int32, int64, int8
    use ehl_checksum, only: crc32
-   use ehl_files, only: file_exists, flush_file, remove_file, rename_path
+   use ehl_files, only: check_written, file_exists, flush_file, remove_file, rename_path
    use ehl_frames, only: frames_t
    use ehl_kinds, only: dp
    use ehl_status, only: ehl_bad_input, ehl_file, status_t
@@ -53,6 +53,7 @@ contains
       real(dp), allocatable :: rows(:, :)
       integer :: lun, stat, found(2)
       logical :: gone
+      type(status_t) :: written
 
       found = [what_is(prefix//checkpoint_names(1)), what_is(prefix//checkpoint_names(2))]
       ! a state that is there already must not take the place of the one before it
@@ -85,6 +86,11 @@ contains
                            position="append", form="unformatted", iostat=stat, iomsg=reason)
       if (stat == 0) write (lun, iostat=stat, iomsg=reason) crc32(bytes)
       if (stat == 0) close (lun, iostat=stat, iomsg=reason)
+      if (stat == 0) then
+         call check_written(path//".new", size(bytes, kind=int64) + 4, written)
+         if (written%failed()) stat = 1
+         reason = "the disk is full"
+      end if
       if (stat == 0) then
          reason = "it does not get onto the disk"
          if (flush_file(path//".new")) then

@@ -193,8 +193,17 @@ class Journal:
             self.rows.pop(number, None)
 
     def close(self) -> None:
-        """Close the file, which gives the lock back."""
-        self._file.close()
+        """Close the file, which gives the lock back.
+
+        Raises
+        ------
+        FileError
+            If what was added last cannot be written.
+        """
+        try:
+            self._file.close()
+        except OSError as error:
+            raise FileError(f"{self.path}: cannot write: {error.strerror}") from error
 
     def __enter__(self) -> Self:
         return self

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import math
+import resource
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,7 @@ import pytest
 
 from pyehl.bench import faults_inputs, skips, stress, stress_cases, workprec
 from pyehl.bench.faults import CASE, run, same
-from pyehl.bench.faults_resources import damage
+from pyehl.bench.faults_resources import damage, limited
 from pyehl.cli import main
 
 
@@ -94,6 +95,17 @@ def test_mutated_inputs(tmp_path: Path):
     found = faults_inputs.run_chunk(5, 40, tmp_path, main)
     assert found["bad"] == []
     assert sum(found["counts"].values()) == 40
+
+
+@pytest.mark.parametrize("size", [1_000, 20_000])
+def test_full_disk_is_told_and_leaves_no_folder(tmp_path: Path, size: int):
+    """A write that takes a part is no error for gfortran: the length of every file is checked."""
+    (tmp_path / "case.nml").write_text(CASE)
+    words = ["run", "case.nml", "-o", "out", "--set", "time.steps=4"]
+    done = limited(tmp_path, resource.RLIMIT_FSIZE, size, *words)
+    assert done.returncode == 1
+    assert "cannot write: the disk is full" in done.stderr
+    assert not (tmp_path / "out").exists()
 
 
 @pytest.mark.slow
