@@ -102,7 +102,7 @@ def spectrum_line(
     """Radially averaged spectrum C_iso [m^4] of a tile, with A_d/A_i on a second axis.
 
     A_d/A_i is the real ratio of the paper, or with the tiles of a prediction what its response
-    makes of them: |T|, and |1 - T| that takes the pressure.
+    makes of them: abs(T), and abs(1 - T) that takes the pressure.
 
     Parameters
     ----------
