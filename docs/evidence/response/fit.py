@@ -34,7 +34,7 @@ PARAMETER, SLOPE = (-0.7, 1.6), 1.35
 # z grows as exp(OBLIQUE Y^2) off the centre line
 OBLIQUE = 1.27
 # Coarse grids count where a wave has this many nodes, fine ones with fewer
-NODES = {257: 14.0, 513: 10.0}
+NODES = {257: 14.0, 513: 10.0, 1025: 8.0}
 # The longest wave along the motion that is fitted [a]: longer ones feel the edge of the contact
 LONGEST = 3.0
 WEIGHT_OF_RIDGES = 3.0
@@ -142,6 +142,8 @@ def read(folder: Path = HERE) -> Data:
         ridges = np.array([[float(v) for v in row] for row in list(csv.reader(stream))[1:]])
     table = table.reshape(-1, 3, table.shape[1])
     heads = [table[:, 0, i] for i in range(6)]
+    # where a run was too short there is no T: nothing of it counts
+    table[:, :, 7:13][np.isnan(table[:, :, 7])] = 0.0
     parts = [table[:, :, i] + 1j * table[:, :, i + 1] for i in (7, 9, 11)]
     one, none = np.ones(len(ridges)), np.zeros(len(ridges))
     more = [ridges[:, 0], ridges[:, 1], one, ridges[:, 2], none, ridges[:, 3]]

@@ -4,7 +4,8 @@
     python docs/evidence/response/make.py waves.csv [M L U]
 
 All runs of the plan, one after the other, take some hours on two cores; with M, L, U only those of
-one operating point. Each run is a tile of 4 a with up to 34 waves of small amplitude.
+one operating point. Each run is a tile of 4 a with up to 34 waves of small amplitude; on 1025 x 1025
+nodes one of a/2 with the shortest.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ import numpy as np
 
 from pyehl.case import Case
 from pyehl.studies.superposition import Superposition, WaveSet, superpose
+from pyehl.studies.tiers import TIERS, tier_waves
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import Zone, stiffness, transport
@@ -46,7 +48,9 @@ STEEP = (
 
 
 def waves_of(points: int, variant: int) -> WaveSet:
-    """Waves of a run on a grid of points x points nodes."""
+    """Waves of a run on a grid of points x points nodes; on the finest those of the last tier."""
+    if points == TIERS[-1].points:
+        return tier_waves(TIERS[-1])
     last = (points - 1) // 8
     along = [n for n in ALONG if n <= last]
     across = []
@@ -112,7 +116,7 @@ def runs() -> Iterator[tuple[float, float, float, int, int]]:
         there.setdefault(key, set()).add((row["kx"], row["ky"]))
     for key, known in there.items():
         moes_m, moes_l, ratio, points = *map(float, key[:3]), int(key[3])
-        for variant in range(4):
+        for variant in range(1 if points == TIERS[-1].points else 4):
             waves = waves_of(points, variant)
             pairs = zip(waves.kx, waves.ky, strict=True)
             if {(f"{kx:.6g}", f"{ky:.6g}") for kx, ky in pairs} <= known:
