@@ -4,8 +4,8 @@
     python docs/evidence/response/make.py waves.csv [M L U]
 
 All runs of the plan, one after the other, take some hours on two cores; with M, L, U only those of
-one operating point. Each run is a tile of 4 a with up to 34 waves of small amplitude; on 1025 x 1025
-nodes one of a/2 with the shortest.
+one operating point. Each run is a tile of 4 a with up to 34 waves of small amplitude; on 1025 x
+1025 nodes one of a/2 with the shortest.
 """
 
 from __future__ import annotations
