@@ -5,7 +5,7 @@ module ehl_film
    use ehl_level, only: level_t
    implicit none (type, external)
    private
-   public :: update_film, update_coefficients, reynolds_operator, update_residual, pressure_sum
+   public :: balance_load, update_film, update_coefficients, reynolds_operator, update_residual, pressure_sum
 
 contains
 
@@ -21,6 +21,27 @@ contains
       end do
       !$omp end parallel do
    end subroutine update_film
+
+   !> Take a small relative error of the force balance away by scaling the pressure; H00 keeps the mean film under it.
+   !> Film and coefficients are up to date before and after.
+   subroutine balance_load(level, load_error)
+      type(level_t), intent(inout) :: level
+      real(dp), intent(in) :: load_error
+      real(dp) :: factor, deflection(level%grid%ny)
+      integer :: j
+
+      factor = 1.0_dp/(1.0_dp + load_error)
+      !$omp parallel do default(none) shared(level, factor, deflection) &
+      !$omp num_threads(level%threads) if(level%parallel) schedule(static)
+      do j = 1, level%grid%ny
+         deflection(j) = sum(level%p(:, j)*level%w(:, j))*level%grid%weight(j)
+         level%p(:, j) = factor*level%p(:, j)
+      end do
+      !$omp end parallel do
+      level%h00 = level%h00 + (factor - factor**2)*sum(deflection)/level%load
+      call update_film(level)
+      call update_coefficients(level)
+   end subroutine balance_load
 
    !> Density and conductance eps = rho H^3/(eta lambda_bar) for the present pressure and film; a level whose
    !> Poiseuille term is frozen keeps its conductance. Behind the last node of a row with pressure the lubricant is that at

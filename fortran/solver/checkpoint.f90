@@ -16,7 +16,7 @@ module ehl_checkpoint
    public :: state_t, checkpoint_names, write_checkpoint, read_checkpoint
 
    !> Both have the same length; the version counts the layouts of the file
-   character(len=*), parameter :: magic = "ehl checkpoint v6", family = magic(:len(magic) - 1)
+   character(len=*), parameter :: magic = "ehl checkpoint v7", family = magic(:len(magic) - 1)
    !> The two files of a run; behind a prefix those of the run on the coarser grid
    character(len=*), parameter :: checkpoint_names(2) = ["checkpoint.a", "checkpoint.b"]
    !> What a file can be; otherwise the step of its state
@@ -68,10 +68,10 @@ contains
             shape(march%mass_content), march%skipped, march%time, march%time_step, march%residual, march%cycles, &
             march%total_cycles, march%total_sweeps, march%policy%coarsening, march%policy%changed_at, &
             march%h00_before, march%friction_smooth, &
-            numbers, march%mass_content, march%p_before, march%forecast%carried, &
-            march%mean%n, march%mean%values(:march%mean%n), march%mean%film(:march%mean%n), &
-            march%mean%roughness(:march%mean%n), march%extremes%found, shape(rows), rows, shape(frames%p), &
-            frames%times, frames%p, frames%h
+            numbers, march%mass_content, march%p_before, march%predictor%weights, &
+            march%accuracy%rise, march%accuracy%sensitivity, march%accuracy%largest, march%film_mark, march%mean%n, &
+            march%mean%values(:march%mean%n), march%mean%film(:march%mean%n), march%mean%roughness(:march%mean%n), &
+            march%extremes%found, shape(rows), rows, shape(frames%p), frames%times, frames%p, frames%h
          if (stat == 0) then
             close (lun, iostat=stat, iomsg=reason)
          else
@@ -164,12 +164,12 @@ contains
             return
          end if
          if (stat == 0) then
-            allocate (march%mass_content(dims(1), dims(2), dims(3)), march%p_before(dims(1), dims(2), dims(3) + 1), &
-                      march%forecast%carried(dims(1), dims(2)))
+            allocate (march%mass_content(dims(1), dims(2), dims(3)), march%p_before(dims(1), dims(2), dims(3) + 1))
+            call march%predictor%allocate_weights(dims(1), dims(2), stat)
             read (lun, iostat=stat, iomsg=reason) march%skipped, march%time, march%time_step, march%residual, march%cycles, &
                march%total_cycles, march%total_sweeps, march%policy%coarsening, march%policy%changed_at, &
                march%h00_before, march%friction_smooth, state%numbers, march%mass_content, march%p_before, &
-               march%forecast%carried, n
+               march%predictor%weights, march%accuracy%rise, march%accuracy%sensitivity, march%accuracy%largest, march%film_mark, n
          end if
          if (stat == 0) then
             march%mean%n = n

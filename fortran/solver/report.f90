@@ -196,7 +196,7 @@ contains
       call record%set("cycles_per_step", real(march%total_cycles, dp)/max(march%step, 1))
       call record%set("coarsening_changed_at", march%policy%changed_at)
       call record%set("seconds_per_step", seconds/max(march%step, 1))
-      call record%set("step_residual_allowed", march%policy%tolerance)
+      call record%set("step_residual_allowed", march%accuracy%largest)
    end subroutine report_march
 
    !> What of the surface the grid carries

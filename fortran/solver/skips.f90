@@ -58,7 +58,7 @@ contains
       end if
       skips = [skips, skip_t("a second solve of the smooth contact: one gave the start of the march and mu_s", &
                              seconds_smooth)]
-      ! one after the forecast, after every sweep, and after the coarse grids
+      ! one after the prediction, after every sweep, and after the coarse grids
       deflections = march%step + march%total_cycles + march%total_sweeps
       skips = [skips, skip_t("corrections of the deflection where P = 0", deflections*seconds_zeros)]
    end subroutine find_skips

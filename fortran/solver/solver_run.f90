@@ -8,7 +8,6 @@ submodule (ehl_solver) ehl_solver_run
    use ehl_plan_surface, only: check_carried
    use ehl_outcome, only: outcome_cycle_limit, outcome_diverged, outcome_negative_film
    use ehl_skips, only: seconds_saved_by_zeros
-   use ehl_step_policy, only: step_tolerance
    implicit none (type, external)
 
 contains
@@ -61,8 +60,11 @@ contains
 
       n = self%steady%n
       call keep_smooth(self, status)
+      ! where a feature passes once, the largest pressure and the least film are asked for, not the mean friction alone
+      call self%transient%accuracy%set(self%grid%hx, self%plan%accuracy, merge(0.0_dp, self%steady%friction_error(n), &
+                                                                               self%plan%surface%passes_once))
       call self%transient%policy%set(self%plan%step_cycle, self%plan%coarsening_may_change, &
-                                     step_tolerance(self%grid%hx, self%plan%accuracy), self%plan%max_cycles)
+                                     self%transient%accuracy%strict, self%plan%max_cycles)
       call self%transient%start(self%hierarchy%levels(n), self%plan%contact, self%plan%surface, self%plan%skip_start, &
                                 self%steady%results(n)%m%friction, status)
       if (status%failed()) return

@@ -51,6 +51,7 @@ module ehl_steady
       procedure :: start
       procedure :: advance
       procedure :: discretisation_error
+      procedure :: friction_error
       procedure :: extrapolated
       procedure, private :: enter_level
       procedure, private :: judge
@@ -222,6 +223,18 @@ contains
                       fine%m%film_minimum - coarse%m%film_minimum])/3.0_dp
       end associate
    end function discretisation_error
+
+   !> Relative discretisation error of the friction integral on level n, as that of H_c; 0: there is no coarser one
+   pure real(dp) function friction_error(self, n)
+      class(steady_t), intent(in) :: self
+      integer, intent(in) :: n
+
+      friction_error = 0.0_dp
+      if (n == 1) return
+      associate (fine => self%results(n), coarse => self%results(n - 1))
+         if (coarse%solved) friction_error = abs(fine%m%friction - coarse%m%friction)/(3.0_dp*fine%m%friction)
+      end associate
+   end function friction_error
 
    !> H_c and H_min extrapolated from levels n and n-1, order 2
    pure function extrapolated(self, n) result(values)

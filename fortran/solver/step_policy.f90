@@ -6,7 +6,7 @@ module ehl_step_policy
    use ehl_relaxation, only: full_trust
    implicit none (type, external)
    private
-   public :: step_policy_t, step_tolerance
+   public :: step_policy_t
    public :: attempt_predicted, attempt_last, attempt_careful, attempt_damped
    public :: step_ends, step_goes_on, step_begins_again
 
@@ -28,15 +28,17 @@ module ehl_step_policy
    integer, parameter :: step_ends = 1, step_goes_on = 2, step_begins_again = 3
 
    type :: step_policy_t
-      !> Largest residual (rms) of a step, most cycles a step
-      real(dp) :: tolerance = 8.0e-5_dp
+      !> Residual (rms) that needs no second sweep after the coarse grids
+      real(dp) :: enough = 8.0e-5_dp
+      !> Most cycles a step
       integer :: max_cycles = 30
       !> Cycles of a step to begin with
       type(cycle_options_t) :: cycle
       !> Kind of coarsening; whether it changes for good when a cycle is slow, and the step in which it did (0: none)
       integer :: coarsening = coarsening_classical, changed_at = 0
       logical :: may_change = .false.
-      !> The step under way: the attempt, the cycles made and how the next one is made
+      !> The step under way: its largest residual (rms), the attempt, the cycles made and how the next one is made
+      real(dp) :: tolerance = 8.0e-5_dp
       integer :: attempt = attempt_predicted, cycles = 0
       type(cycle_options_t) :: options
       !> Residuals after the last cycles of the attempt, the latest first
@@ -50,32 +52,27 @@ module ehl_step_policy
 
 contains
 
-   !> Residual (rms) that leaves the algebraic error of mu_r/mu_s below a tenth of the discretisation error: 8e-5 on
-   !> h = 1/128 and in proportion to h elsewhere; see docs/design.md
-   pure real(dp) function step_tolerance(mesh, accuracy)
-      real(dp), intent(in) :: mesh, accuracy
-      step_tolerance = 8.0e-4_dp*accuracy*(128.0_dp*mesh)
-   end function step_tolerance
-
    !> For a run
-   pure subroutine set(self, cycle_options, may_change, tolerance, max_cycles)
+   pure subroutine set(self, cycle_options, may_change, enough, max_cycles)
       class(step_policy_t), intent(inout) :: self
       type(cycle_options_t), intent(in) :: cycle_options
       logical, intent(in) :: may_change
-      real(dp), intent(in) :: tolerance
+      real(dp), intent(in) :: enough
       integer, intent(in) :: max_cycles
 
       self%cycle = cycle_options
       self%coarsening = cycle_options%coarsening
       self%may_change = may_change
-      self%tolerance = tolerance
+      self%enough = enough
       self%max_cycles = max_cycles
    end subroutine set
 
    !> A new step
-   pure subroutine begin(self)
+   pure subroutine begin(self, tolerance)
       class(step_policy_t), intent(inout) :: self
+      real(dp), intent(in) :: tolerance
 
+      self%tolerance = tolerance
       self%attempt = attempt_predicted
       self%cycles = 0
       self%past = huge(1.0_dp)
@@ -132,7 +129,7 @@ contains
 
       self%options = self%cycle
       self%options%coarsening = self%coarsening
-      self%options%enough = self%tolerance
+      self%options%enough = min(self%enough, self%tolerance)
       self%options%trust = trust(self%attempt)
       if (self%attempt < attempt_damped) return
       self%options%sweep_share = damped_sweep

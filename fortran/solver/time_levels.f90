@@ -31,7 +31,7 @@ contains
    !> The part of earlier times in the right-hand side
    subroutine set_history(level, mass_content)
       type(level_t), intent(inout) :: level
-      !> rho H at the earlier times, the latest first, (nx, ny, old_times)
+      !> Mass content at the earlier times, the latest first, (nx, ny, old_times); see keep
       real(dp), intent(in) :: mass_content(:, :, :)
       integer :: j
 
@@ -43,19 +43,23 @@ contains
       !$omp end parallel do
    end subroutine set_history
 
-   !> The present fields become the last ones
+   !> The present fields become the last ones. The mass content kept is not rho H but the one that what flowed in and out
+   !> leaves: the two differ by the residual of the step, which the next step makes up for, so that what steps leave
+   !> unsolved does not add up as it is carried through the contact.
    subroutine keep(level, mass_content, p_before)
       type(level_t), intent(in) :: level
-      !> rho H of the last two steps and pressure of the last three, the latest first
+      !> Mass content of the last two steps and pressure of the last three, the latest first
       real(dp), intent(inout) :: mass_content(:, :, :), p_before(:, :, :)
+      real(dp) :: time
       integer :: i, j
 
-      !$omp parallel do default(none) shared(level, mass_content, p_before) private(i) &
+      time = 1.0_dp/level%wedge%squeeze
+      !$omp parallel do default(none) shared(level, mass_content, p_before, time) private(i) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
          do i = 1, level%grid%nx
             mass_content(i, j, 2) = mass_content(i, j, 1)
-            mass_content(i, j, 1) = level%rho(i, j)*level%h(i, j)
+            mass_content(i, j, 1) = level%rho(i, j)*level%h(i, j) - time*level%residual(i, j)
             p_before(i, j, 3) = p_before(i, j, 2)
             p_before(i, j, 2) = p_before(i, j, 1)
             p_before(i, j, 1) = level%p(i, j)

@@ -4,14 +4,15 @@ module ehl_transient
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, refresh
    use ehl_extremes, only: extremes_t
-   use ehl_film, only: pressure_sum, update_residual
-   use ehl_forecast, only: forecast_t
+   use ehl_film, only: balance_load, pressure_sum, update_residual
    use ehl_friction_mean, only: friction_mean_t, periods_compared
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_measures, only: central_value, load_tolerance, measure, measures_t
+   use ehl_predictor, only: predictor_t
    use ehl_status, only: ehl_no_memory, status_t
+   use ehl_step_accuracy, only: step_accuracy_t
    use ehl_step_policy, only: attempt_predicted, step_begins_again, step_ends, step_policy_t
    use ehl_surface, only: surface_t, x_filled, x_matters
    use ehl_time_levels, only: keep, set_geometry, set_history
@@ -20,13 +21,17 @@ module ehl_transient
    private
    public :: transient_t, steps_needed
 
+   !> Relative errors of the force balance that a step may have taken away by scaling its pressure
+   real(dp), parameter :: small_load_error = 1.0e-5_dp
+
    type :: transient_t
       class(contact_t), allocatable, private :: contact
       !> Steps made, steps not needed at the start, the present time, the time step
       integer :: step = 0, skipped = 0
       real(dp) :: time = 0.0_dp, time_step = 0.0_dp
-      !> How the cycles of a step are made
+      !> How the cycles of a step are made, and how exactly it is solved
       type(step_policy_t) :: policy
+      type(step_accuracy_t) :: accuracy
       !> Friction of the smooth contact on the same grid
       real(dp) :: friction_smooth = 1.0_dp
       !> State after the last step
@@ -36,10 +41,12 @@ module ehl_transient
       type(friction_mean_t) :: mean
       !> Of what passes once
       type(extremes_t) :: extremes
-      !> rho H of the last two steps, pressure and H00 of the last three, the roughness now
+      !> Mass content of the last two steps, see ehl_time_levels, pressure and H00 of the last three, the roughness now
       real(dp), allocatable :: mass_content(:, :, :), p_before(:, :, :), rr(:, :)
       real(dp) :: h00_before(3) = 0.0_dp
-      type(forecast_t) :: forecast
+      !> Sum of 1/H after the last step, to know the film by
+      real(dp) :: film_mark = 0.0_dp
+      type(predictor_t) :: predictor
    contains
       procedure :: start
       procedure :: advance
@@ -103,7 +110,7 @@ contains
          call status%fail(ehl_no_memory, "no memory for the time levels")
          return
       end if
-      call self%forecast%setup(level%grid%nx, level%grid%ny, surface%velocity_ratio*self%time_step/level%grid%hx, status)
+      call self%predictor%setup(level%grid%nx, level%grid%ny, surface%velocity_ratio*self%time_step/level%grid%hx, status)
       if (status%failed()) return
       do k = old_times, 1, -1
          call surface%height(level%grid, self%time - (k - 1)*self%time_step, self%rr)
@@ -124,7 +131,8 @@ contains
       integer, intent(in) :: n
       class(surface_t), intent(inout) :: surface
       type(status_t), intent(inout) :: status
-      real(dp) :: load_error, before
+      type(measures_t) :: first
+      real(dp) :: load_error, before, residual_first
       integer :: sweeps, made, next
       logical :: met
 
@@ -133,7 +141,7 @@ contains
       call set_geometry(hierarchy%levels(n), self%contact, self%rr)
       call set_history(hierarchy%levels(n), self%mass_content)
       made = 0
-      call self%policy%begin()
+      call self%policy%begin(self%accuracy%tolerance(self%step + 1, self%mean%n >= self%mean%filled))
       next = step_begins_again
       do
          if (next == step_begins_again) call self%begin_attempt(hierarchy, n, status)
@@ -144,10 +152,20 @@ contains
          made = made + sweeps
          associate (level => hierarchy%levels(n))
             load_error = pressure_sum(level, level%p)/level%load - 1.0_dp
+            if (self%residual <= self%policy%tolerance .and. abs(load_error) > load_tolerance .and. &
+                abs(load_error) <= small_load_error) then
+               call balance_load(level, load_error)
+               call update_residual(level, self%residual)
+               load_error = pressure_sum(level, level%p)/level%load - 1.0_dp
+            end if
          end associate
          met = self%residual <= self%policy%tolerance .and. abs(load_error) <= load_tolerance
          call self%policy%after_cycle(self%step + 1, met, before, self%residual, next)
          if (next == step_ends) exit
+         if (self%policy%cycles == 1) then
+            first = measure(hierarchy%levels(n))
+            residual_first = self%residual
+         end if
       end do
       self%cycles = self%policy%cycles
       associate (level => hierarchy%levels(n))
@@ -156,6 +174,11 @@ contains
             call self%step_back(level, surface)
             return
          end if
+         associate (ratio => self%m%friction/self%friction_smooth)
+            if (self%cycles > 1) call self%accuracy%learn(first%friction/self%friction_smooth, residual_first, &
+                                                          ratio, self%residual)
+            call self%accuracy%follow(ratio)
+         end associate
          self%total_cycles = self%total_cycles + self%cycles
          self%total_sweeps = self%total_sweeps + made
          self%step = self%step + 1
@@ -163,8 +186,9 @@ contains
          call self%mean%append(self%m%friction/self%friction_smooth, self%m%film_central, &
                                central_value(level%grid, self%rr))
          self%h00_before = [level%h00, self%h00_before(1:2)]
-         call self%forecast%learn(self%p_before, level)
+         call self%predictor%learn(self%p_before, level)
          call keep(level, self%mass_content, self%p_before)
+         self%film_mark = sum(1.0_dp/level%h)
       end associate
    end subroutine advance
 
@@ -177,7 +201,7 @@ contains
 
       associate (level => hierarchy%levels(n))
          if (self%policy%attempt == attempt_predicted) then
-            call self%forecast%predict(self%p_before, level)
+            call self%predictor%predict(self%p_before, level)
             level%h00 = sum([3.0_dp, -3.0_dp, 1.0_dp]*self%h00_before)
          else
             level%p = self%p_before(:, :, 1)
@@ -224,14 +248,18 @@ contains
       self%h00_before = state%h00_before
       self%mass_content = state%mass_content
       self%p_before = state%p_before
-      self%forecast%carried = state%forecast%carried
+      self%predictor%weights = state%predictor%weights
+      self%accuracy%rise = state%accuracy%rise
+      self%accuracy%sensitivity = state%accuracy%sensitivity
+      self%accuracy%largest = state%accuracy%largest
       self%extremes = state%extremes
       do k = 1, state%mean%n
          call self%mean%append(state%mean%values(k), state%mean%film(k), state%mean%roughness(k))
       end do
       call self%step_back(level, surface)
       self%m = measure(level)
-      same = maxval(abs(level%rho*level%h - self%mass_content(:, :, 1))) <= rounding*maxval(abs(self%mass_content(:, :, 1)))
+      self%film_mark = state%film_mark
+      same = abs(sum(1.0_dp/level%h) - self%film_mark) <= rounding*self%film_mark
    end subroutine restore
 
    !> The last good state again

@@ -1,12 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Parts of the march in time: a step that fails, one that begins again, sweeps, the forecast, and what is allocated for it
+!> Parts of the march in time: a step that fails, one that begins again, sweeps, the predictor, and what is allocated for it
 module test_march
    use check, only: is_close, is_equal, is_true
    use ehl_case, only: case_t
    use ehl_case_reader, only: read_case
    use ehl_cycle, only: refresh
    use ehl_film, only: update_residual
-   use ehl_forecast, only: forecast_t
+   use ehl_predictor, only: predictor_t
    use ehl_grid, only: new_grid
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
@@ -16,7 +16,6 @@ module test_march
    use ehl_relaxation, only: full_trust, relax
    use ehl_status, only: status_t
    use ehl_steady, only: steady_t
-   use ehl_step_policy, only: step_tolerance
    use ehl_surface, only: surface_t
    use ehl_transient, only: transient_t
    implicit none (type, external)
@@ -38,7 +37,7 @@ contains
       call sweeps_alone_do_not_diverge()
       call changes_are_limited()
       call smooth_part_is_a_whole_mean()
-      call forecast_of_what_stands_and_what_moves()
+      call predictor_of_what_stands_and_what_moves()
       call transfers_when_asked_for()
    end subroutine run_march
 
@@ -62,9 +61,9 @@ contains
          p = level%p
          h = level%h
          h00 = level%h00
-         allowed = march%policy%tolerance
+         allowed = march%accuracy%strict
          march%policy%max_cycles = 1
-         march%policy%tolerance = 1.0e-3_dp*allowed
+         march%accuracy%strict = 1.0e-3_dp*allowed
          call march%advance(hierarchy, n, plan%surface, status)
          call is_true(.not. march%step_converged(), "one cycle is too few")
          call is_equal(march%step, 3, "the failed step does not count")
@@ -72,7 +71,7 @@ contains
          call is_close(maxval(abs(level%h - h)), 0.0_dp, 0.0_dp, "film of the last good step")
          call is_close(level%h00, h00, 0.0_dp, "H00 of the last good step")
          march%policy%max_cycles = plan%max_cycles
-         march%policy%tolerance = allowed
+         march%accuracy%strict = allowed
          call march%advance(hierarchy, n, plan%surface, status)
          call is_true(march%step_converged() .and. march%step == 4, "more cycles are enough")
          p_next = level%p
@@ -86,7 +85,7 @@ contains
       call is_true(.not. status%failed(), "march")
    end subroutine failed_step_leaves_the_last_state
 
-   !> A forecast that leads nowhere is dropped: the step begins again from the last one and comes to the same end
+   !> A prediction that leads nowhere is dropped: the step begins again from the last one and comes to the same end
    subroutine step_begins_again()
       type(plan_t) :: plan
       type(hierarchy_t) :: hierarchy
@@ -96,7 +95,8 @@ contains
       integer :: n, k, j, cycles
 
       call begin(heavy, plan, hierarchy, march, n, status)
-      march%policy%tolerance = 0.01_dp*march%policy%tolerance
+      march%accuracy%strict = 0.003_dp*march%accuracy%strict
+      march%accuracy%allowed = 0.0_dp
       do k = 1, 4
          call march%advance(hierarchy, n, plan%surface, status)
       end do
@@ -104,16 +104,17 @@ contains
       cycles = march%cycles
 
       call begin(heavy, plan, hierarchy, march, n, status)
-      march%policy%tolerance = 0.01_dp*march%policy%tolerance
+      march%accuracy%strict = 0.003_dp*march%accuracy%strict
+      march%accuracy%allowed = 0.0_dp
       do k = 1, 3
          call march%advance(hierarchy, n, plan%surface, status)
       end do
-      ! only the forecast uses the pressure of three steps ago: peaks and valleys side by side
+      ! only the predictor uses the pressure of three steps ago: peaks and valleys side by side
       do j = 1, 33
          march%p_before(:, j, 3) = march%p_before(:, j, 3)*[(merge(3.5_dp, 1.0_dp, mod(k, 2) == 0), k=1, 65)]
       end do
       call march%advance(hierarchy, n, plan%surface, status)
-      call is_true(march%step_converged() .and. march%step == 4, "a step with a wrong forecast converges")
+      call is_true(march%step_converged() .and. march%step == 4, "a step with a wrong prediction converges")
       call is_true(march%cycles > cycles, "after more cycles")
       call is_close(maxval(abs(hierarchy%levels(n)%p - p)), 0.0_dp, 2.0e-5_dp, "to the same pressure")
       call is_true(.not. status%failed(), "march")
@@ -210,8 +211,8 @@ contains
    end subroutine smooth_part_is_a_whole_mean
 
    !> Where nothing flows, a pattern that moves is carried along and one that stands goes on as it does, to second order
-   subroutine forecast_of_what_stands_and_what_moves()
-      type(forecast_t) :: forecast
+   subroutine predictor_of_what_stands_and_what_moves()
+      type(predictor_t) :: predictor
       type(level_t) :: level
       type(status_t) :: status
       real(dp), parameter :: ripple = 0.005_dp
@@ -231,10 +232,10 @@ contains
                p(i, :, :) = spread(1.0_dp + 0.1_dp*sin(0.7_dp*i)*real([1, 0, 1, 4, 9], dp), 1, 33)
             end if
          end do
-         call forecast%setup(33, 33, 1.0_dp, status)
+         call predictor%setup(33, 33, 1.0_dp, status)
          level%p = p(:, :, 2)
-         call forecast%learn(p(:, :, 1:-1:-1), level)
-         call forecast%predict(p(:, :, 2:0:-1), level)
+         call predictor%learn(p(:, :, 1:-1:-1), level)
+         call predictor%predict(p(:, :, 2:0:-1), level)
          call is_close(maxval(abs(level%p(6:31, :) - p(6:31, :, 3))), 0.0_dp, 1.0e-12_dp, &
                        merge("pattern that moves ", "pattern that stands", moves))
       end do
@@ -245,13 +246,13 @@ contains
          p(i, :, -1) = 1.0_dp
          level%p(i, :) = p(i, :, 1) + 2.0_dp*(-0.02_dp*(i - 1) - 0.25_dp*ripple*(-1)**i) + ripple*(-1)**i
       end do
-      call forecast%learn(p(:, :, 1:-1:-1), level)
-      call is_true(minval(forecast%carried(6:29, :)) > 0.95_dp, "the motion was right")
+      call predictor%learn(p(:, :, 1:-1:-1), level)
+      call is_true(minval(predictor%weights(6:29, :, 1)) > 0.95_dp, "the motion was right")
       level%eps = 1.0_dp
-      call forecast%learn(p(:, :, 1:-1:-1), level)
-      call is_true(maxval(forecast%carried(6:29, :)) < 0.05_dp, "a ripple in a flow is wrong")
-      call is_true(.not. status%failed(), "forecast")
-   end subroutine forecast_of_what_stands_and_what_moves
+      call predictor%learn(p(:, :, 1:-1:-1), level)
+      call is_true(maxval(predictor%weights(6:29, :, 1)) < 0.05_dp, "a ripple in a flow is wrong")
+      call is_true(.not. status%failed(), "predictor")
+   end subroutine predictor_of_what_stands_and_what_moves
 
    !> Operator-dependent transfers cost no memory before they are used
    subroutine transfers_when_asked_for()
@@ -297,7 +298,8 @@ contains
       end do
       call is_true(steady%outcome == outcome_converged, "the smooth contact converges")
       n = steady%n
-      call march%policy%set(plan%step_cycle, .false., step_tolerance(hierarchy%levels(n)%grid%hx, plan%accuracy), plan%max_cycles)
+      call march%accuracy%set(hierarchy%levels(n)%grid%hx, plan%accuracy, steady%friction_error(n))
+      call march%policy%set(plan%step_cycle, .false., march%accuracy%strict, plan%max_cycles)
       call plan%surface%prepare(hierarchy%levels(n)%grid, status)
       call march%start(hierarchy%levels(n), plan%contact, plan%surface, plan%skip_start, steady%results(n)%m%friction, status)
       call hierarchy%prepare_steps(n, plan%scheme, march%time_step, status)

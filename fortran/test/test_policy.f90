@@ -24,7 +24,7 @@ contains
       integer :: attempts(90), next, k
 
       call policy%set(options, .false., 1.0e-4_dp, 30)
-      call policy%begin()
+      call policy%begin(1.0e-4_dp)
       do k = 1, 90
          attempts(k) = policy%attempt
          call policy%after_cycle(1, .false., 1.0e-4_dp, 1.0e-4_dp, next)
@@ -34,14 +34,14 @@ contains
       call is_equal(next, step_ends, "no more cycles")
       call is_true(all(attempts(:5) == attempt_predicted) .and. all(attempts(6:14) == attempt_last) .and. &
                    all(attempts(15:23) == attempt_careful) .and. all(attempts(24:) == attempt_damped), "attempts in their order")
-      call policy%begin()
+      call policy%begin(1.0e-4_dp)
       call is_equal(policy%attempt, attempt_predicted, "the next step begins from the predicted pressure")
       call policy%after_cycle(2, .true., 1.0e-3_dp, 1.0e-5_dp, next)
       call is_equal(next, step_ends, "tolerances are met")
       call is_equal(policy%changed_at, 0, "no change of the coarsening")
 
       call policy%set(options, .true., 1.0e-4_dp, 30)
-      call policy%begin()
+      call policy%begin(1.0e-4_dp)
       call policy%after_cycle(3, .false., 1.0_dp, 0.5_dp, next)
       call is_equal(next, step_begins_again, "a slow cycle")
       call is_equal(policy%changed_at, 3, "changes the coarsening")
