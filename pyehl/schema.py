@@ -148,7 +148,7 @@ s | steps | - | time steps
 s | steps_skipped | - | steps that were not needed at the start
 s | cycles_per_step | - | cycles of a step
 s | seconds_per_step | s | time of a step
-s | step_residual_allowed | - | residual at which a step ends
+s | step_residual_allowed | - | largest residual at which a step was allowed to end
 s | coarsening_changed_at | - | step in which the coarsening changed; 0: none
 s | skips | | what was not done
 s | skips_seconds | s | time that this saved, for each
