@@ -165,7 +165,11 @@ contains
          end if
          if (stat == 0) then
             allocate (march%mass_content(dims(1), dims(2), dims(3)), march%p_before(dims(1), dims(2), dims(3) + 1))
-            call march%predictor%allocate_weights(dims(1), dims(2), stat)
+            call march%predictor%allocate_weights(dims(1), dims(2), status)
+            if (status%failed()) then
+               close (lun)
+               return
+            end if
             read (lun, iostat=stat, iomsg=reason) march%skipped, march%time, march%time_step, march%residual, march%cycles, &
                march%total_cycles, march%total_sweeps, march%policy%coarsening, march%policy%changed_at, &
                march%h00_before, march%friction_smooth, state%numbers, march%mass_content, march%p_before, &

@@ -48,19 +48,22 @@ contains
       if (status%failed()) return
       self%shift = shift
       if (allocated(self%error)) deallocate (self%error)
-      call self%allocate_weights(nx, ny, stat)
-      if (stat == 0) allocate (self%error(nx, ny, candidates), source=0.0_dp, stat=stat)
+      call self%allocate_weights(nx, ny, status)
+      if (status%failed()) return
+      allocate (self%error(nx, ny, candidates), source=0.0_dp, stat=stat)
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the predictor of a time step")
    end subroutine setup
 
    !> Weights, all zero: the first candidate alone
-   subroutine allocate_weights(self, nx, ny, stat)
+   subroutine allocate_weights(self, nx, ny, status)
       class(predictor_t), intent(inout) :: self
       integer, intent(in) :: nx, ny
-      integer, intent(out) :: stat
+      type(status_t), intent(inout) :: status
+      integer :: stat
 
       if (allocated(self%weights)) deallocate (self%weights)
       allocate (self%weights(nx, ny, candidates - 1), source=0.0_dp, stat=stat)
+      if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the predictor of a time step")
    end subroutine allocate_weights
 
    !> Pressure expected from that of the last three steps; nodes that were cavitated stay so
