@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The state of a march in time on disk: two files in turn, each whole or not there, with a version
+!> The state of a transient run on disk: two files in turn, each whole or not there, with a version
 !> and a checksum, so that a run killed at any instant can go on from the last good one
 module ehl_checkpoint
    use, intrinsic :: iso_fortran_env, only: int32, int64, int8

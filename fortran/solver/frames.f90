@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Frames of a march: pressure and film at intervals of time
+!> Frames of a transient run: pressure and film at intervals of time
 module ehl_frames
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp

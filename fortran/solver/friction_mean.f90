@@ -12,7 +12,7 @@ module ehl_friction_mean
    !> nodes that a step does not resolve it, and a period, which is no whole number of steps, meets other phases
    !> than the next: from then on the mean is that of all periods but those in which what is left of the start dies
    !> out. At (500, 15) with a wave as high as the film, 0.25 a long, 513 x 513, phases 1/20 of a step apart have been
-   !> met then: ten parts of a march of 51 periods settle within 0.8 % of its mean, with 12 in place of 20 within 4 %.
+   !> met then: ten parts of a transient run of 51 periods settle within 0.8 % of its mean, with 12 in place of 20 within 4 %.
    real(dp), parameter :: several = 20.0_dp
    integer, parameter :: start_up = 2
    !> Periods until a mean can be compared with earlier ones

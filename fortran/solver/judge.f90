@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> When a march in time ends
+!> When a transient run ends
 module ehl_judge
    use ehl_friction_mean, only: periods_compared
    use ehl_kinds, only: dp
@@ -16,7 +16,7 @@ module ehl_judge
 
 contains
 
-   !> How a march stands after a step that converged
+   !> How a transient run stands after a step that converged
    integer function judge_march(plan, march) result(outcome)
       type(plan_t), intent(in) :: plan
       type(transient_t), intent(in) :: march
@@ -37,13 +37,13 @@ contains
       end associate
    end function judge_march
 
-   !> Periods after which a march can end first
+   !> Periods after which a transient run can end first
    pure real(dp) function least_periods(plan)
       type(plan_t), intent(in) :: plan
       least_periods = merge(1.0_dp, periods_compared, plan%surface%passes_once)
    end function least_periods
 
-   !> Periods after which a march ends at the latest
+   !> Periods after which a transient run ends at the latest
    pure integer function most_periods(plan)
       type(plan_t), intent(in) :: plan
       most_periods = merge(plan%max_periods, automatic_periods, plan%max_periods > 0)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The folder DIR.checkpoint beside the results DIR: what it takes to go on with a march that was stopped.
+!> The folder DIR.checkpoint beside the results DIR: what it takes to go on with a transient run that was stopped.
 !> It holds the case, the surface if it came from Python, and the last two states.
 module ehl_keeper
    use ehl_case, only: case_t
@@ -62,13 +62,13 @@ contains
          hint = ""
          if (index(results, suffix) > 1) hint = ", without '"//suffix//"'"
          call status%fail(ehl_bad_input, "--resume "//results//": error: there is no "//path//newline// &
-                          "expected: the result folder of a march that was stopped before its end"//hint)
+                          "expected: the result folder of a transient run that was stopped before its end"//hint)
          return
       end if
       if (file_exists(folder//surface_file)) call read_npy(folder//surface_file, heights, status)
    end subroutine find_checkpoint
 
-   !> Make the folder of a run that is a march, unless the case wants none. States of an earlier run give way
+   !> Make the folder of a transient run, unless the case wants none. States of an earlier run give way
    !> to those of this one, unless it goes on with them: they are kept under the name that the note tells.
    subroutine open_folder(self, results, input, solver, resumed, heights, note, status)
       class(keeper_t), intent(inout) :: self

@@ -62,7 +62,7 @@ module ehl_plan
       real(dp) :: left_out = 0.0_dp, unresolved = 0.0_dp
       !> Scheme of the wedge and squeeze terms in time steps
       integer :: scheme = wedge_narrow
-      !> Begin the march when the roughness comes near the contact
+      !> Begin the transient run when the roughness comes near the contact
       logical :: skip_start = .true.
       !> March on the next coarser grid too, for the grid error of the friction ratio
       logical :: coarse_run = .false.

@@ -38,8 +38,9 @@ contains
          write (line, "(a,f9.6)") "time       "//trim(merge("narrow upstream", "as in the paper", plan%scheme == wedge_narrow))// &
             ", step = mesh size = ", plan%finest%hx
          text = text//trim(line)//new_line("a")
-         if (plan%coarse_run) text = text//"error      of the friction ratio: the march is made on the next coarser grid too"// &
-                                     new_line("a")
+         if (plan%coarse_run) text = text// &
+            "error      of the friction ratio: the transient run is made on the next coarser grid too"// &
+            new_line("a")
          if (plan%steps > 0) then
             text = text//"end        after "//to_text(plan%steps)//" steps"//new_line("a")
          else if (plan%surface%passes_once) then

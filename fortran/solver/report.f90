@@ -142,7 +142,7 @@ contains
       call record%set("restarts", steady%restarts)
    end subroutine report_smooth
 
-   !> The march in time: results null unless it came to a good end
+   !> The transient run: results null unless it came to a good end
    subroutine report_march(record, plan, march, good, seconds, coarse_mean)
       type(record_t), intent(inout) :: record
       type(plan_t), intent(in) :: plan

@@ -13,7 +13,7 @@ module ehl_skips
    private
    public :: skip_t, find_skips, skip_lines, report_skips, seconds_saved_by_zeros
 
-   !> Periods that a march of a fixed length needs: until the start has died out, and one to take the mean of
+   !> Periods that a transient run of a fixed length needs: until the start has died out, and one to take the mean of
    integer, parameter :: fixed_periods = start_up + 1
 
    !> Something not done, and the seconds that saved
@@ -24,12 +24,12 @@ module ehl_skips
 
 contains
 
-   !> What a march that has ended did not have to do. The seconds of steps are those of the mean step made,
+   !> What a transient run that has ended did not have to do. The seconds of steps are those of the mean step made,
    !> those of nodes in proportion to their number, those of zeros for every deflection on the finest grid.
    subroutine find_skips(plan, march, good, seconds_steps, seconds_smooth, seconds_zeros, skips)
       type(plan_t), intent(in) :: plan
       type(transient_t), intent(in) :: march
-      !> Whether the march ended because the mean has settled
+      !> Whether the transient run ended because the mean has settled
       logical, intent(in) :: good
       !> Seconds spent on the steps, and on the smooth contact
       real(dp), intent(in) :: seconds_steps, seconds_smooth
@@ -56,7 +56,7 @@ contains
          skips = [skips, skip_t(to_text(left)//" steps up to the end of period "//to_text(periods)// &
                                 ": the mean of mu_r/mu_s had settled", left*step)]
       end if
-      skips = [skips, skip_t("a second solve of the smooth contact: one gave the start of the march and mu_s", &
+      skips = [skips, skip_t("a second solve of the smooth contact: one gave the start of the transient run and mu_s", &
                              seconds_smooth)]
       ! one after the prediction, after every sweep, and after the coarse grids
       deflections = march%step + march%total_cycles + march%total_sweeps

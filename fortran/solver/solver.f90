@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> A case on its way: plan, grids, march and results. Both drivers call nothing else.
+!> A case on its way: plan, grids, transient run and results. Both drivers call nothing else.
 module ehl_solver
    use ehl_case, only: case_t
    use ehl_checkpoint, only: state_t
@@ -33,9 +33,9 @@ module ehl_solver
       type(steady_t), private :: steady
       type(transient_t), private :: transient
       type(rest_t), private :: rest
-      !> Whether the march in time has begun; the contact with a rough surface at rest
+      !> Whether the transient run has begun; the contact with a rough surface at rest
       logical, private :: marching = .false., resting = .false.
-      !> How the march in time stands
+      !> How the transient run stands
       integer, private :: outcome = outcome_running
       !> Seconds spent on time steps, and on the smooth contact
       real(dp), private :: step_seconds = 0.0_dp, smooth_seconds = 0.0_dp
@@ -46,7 +46,7 @@ module ehl_solver
       type(case_t), private :: input
       !> Pressure and film of the smooth contact, kept where there is a rough one
       real(dp), allocatable, private :: p_smooth(:, :), h_smooth(:, :)
-      !> Frames of the march; not allocated before it
+      !> Frames of the transient run; not allocated before it
       type(frames_t) :: frames
       !> States to go on from when the smooth contact is solved: of this run, of the coarser one
       type(state_t), allocatable, private :: state, coarse_state
@@ -108,7 +108,7 @@ module ehl_solver
          type(status_t), intent(inout) :: status
       end subroutine resume
 
-      !> The state that was read takes the place of the start of the march
+      !> The state that was read takes the place of the start of the transient run
       module subroutine take_state(self, status)
          type(solver_t), intent(inout) :: self
          type(status_t), intent(inout) :: status
@@ -146,14 +146,14 @@ module ehl_solver
          type(record_t) :: record
       end function summary
 
-      !> What a march that has ended did not have to do, one line each, with the seconds that saved; empty for
+      !> What a transient run that has ended did not have to do, one line each, with the seconds that saved; empty for
       !> every other run
       module function skipped(self) result(text)
          class(solver_t), intent(in) :: self
          character(len=:), allocatable :: text
       end function skipped
 
-      !> Names of the fields there are: P and H; in a march also those of the smooth contact, the roughness
+      !> Names of the fields there are: P and H; in a transient run also those of the smooth contact, the roughness
       !> RR and the deformed roughness A_d = H_smooth - H
       module subroutine field_names(self, names)
          class(solver_t), intent(in) :: self
@@ -214,7 +214,7 @@ contains
       steps_made = merge(self%transient%step, 0, self%marching)
    end function steps_made
 
-   !> Whether the case is a march in time
+   !> Whether the case is a transient run
    pure logical function moves(self)
       class(solver_t), intent(in) :: self
       moves = self%plan%moves()

@@ -27,7 +27,7 @@ contains
 
       call record%set("status", trim(outcome_names(self%stand())))
       call record%set("converged", self%converged())
-      ! the smooth results are good as soon as the march has begun
+      ! the smooth results are good as soon as the transient run has begun
       good = self%marching .or. self%resting .or. self%steady%outcome == outcome_converged .or. &
              self%steady%outcome == outcome_target_missed
       call report_scene(record, self%plan, self%grid)
@@ -78,7 +78,7 @@ contains
       if (self%marching .and. self%done()) text = skip_lines(skips_of(self))
    end function skipped
 
-   !> What the march did not have to do
+   !> What the transient run did not have to do
    function skips_of(self) result(skips)
       class(solver_t), intent(in) :: self
       type(skip_t), allocatable :: skips(:)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> How a march is kept on disk and taken up again
+!> How a transient run is kept on disk and taken up again
 submodule (ehl_solver) ehl_solver_state
    use ehl_case_writer, only: case_text
    use ehl_checkpoint, only: read_checkpoint, write_checkpoint

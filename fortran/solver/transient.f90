@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The march of a rough surface through the contact, one time step at a time
+!> The transient run of a rough surface through the contact, one time step at a time
 module ehl_transient
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, refresh
