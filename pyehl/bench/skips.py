@@ -14,20 +14,27 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from pyehl import library
+from pyehl.bench.comparison import (
+    Row,
+    Values,
+    compare,
+    mean_tolerance,
+    nothing,
+    rounding,
+    solve,
+)
 from pyehl.bench.unit import hertz
 from pyehl.case import Case
 from pyehl.errors import InputError
 from pyehl.prediction import smooth as smooth_contact
 from pyehl.prediction.of_case import predict
-from pyehl.solver import Solver
 
 __all__ = ["COLUMNS", "SCENES", "skip_rows"]
 
@@ -42,9 +49,6 @@ COLUMNS = (
     ("allowed", ".1e"),
 )
 
-Row = dict[str, Any]
-Values = Mapping[str, Any]
-
 FRACTAL = ("surface.kind=fractal",)
 WAVE = (
     "contact.moes_m=1000.0",
@@ -53,8 +57,6 @@ WAVE = (
     "surface.amplitude=9.734e-3",
     "surface.velocity_ratio=1.01",
 )
-# Bits cannot be equal where sums are taken in another order; the cycles may make it more
-ROUNDING = 1e-10
 # Relative algebraic error at which the first grid of the nested iteration is left
 START_TOLERANCE = 1e-3
 # The grid coarser than this has no solution at Table 1, so that the error is not known
@@ -63,116 +65,40 @@ LEAST = 257
 FIXED_PERIODS = 3
 
 
-@dataclass(slots=True)
-class _Timed:
-    """The least processor seconds of something, and what it gave."""
-
-    call: Callable[[], Values]
-    seconds: float = math.inf
-    values: Values = None  # type: ignore[assignment]
-
-    def run(self) -> None:
-        began = time.process_time()
-        self.values = self.call()
-        self.seconds = min(self.seconds, time.process_time() - began)
-
-
-def _solve(*options: str) -> dict[str, Any]:
-    with Solver(Case.from_text("", options), "solver.threads=1") as solver:
-        solver.run()
-        return solver.summary()
-
-
-def _compare(
-    scene: str,
-    skipped: str,
-    quantity: str,
-    usual: Callable[[], Values],
-    other: Callable[[], Values],
-    allowed: Callable[[Values], float],
-    repeats: int,
-    *,
-    besides: bool = False,
-) -> Row:
-    """Make both in turn; differences are relative, the greatest one where `quantity` is an array.
-
-    `besides`: the other is work on top of the usual one.
-    """
-    pair = _Timed(usual), _Timed(other)
-    for _ in range(repeats):
-        for timed in pair:
-            timed.run()
-    one, two = (np.asarray(timed.values[quantity], dtype=float) for timed in pair)
-    difference = float(np.max(np.abs(one - two)) / np.max(np.abs(one)))
-    limit = allowed(pair[0].values)
-    without = pair[1].seconds + (pair[0].seconds if besides else 0.0)
-    return {
-        "scene": scene,
-        "skipped": skipped,
-        "seconds": pair[0].seconds,
-        "without": without,
-        "saved": 1.0 - pair[0].seconds / without,
-        "quantity": quantity,
-        "difference": difference,
-        "allowed": limit,
-        "same": difference <= limit,
-    }
-
-
-def _nothing(values: Values) -> float:
-    return 0.0
-
-
-def _rounding(values: Values) -> float:
-    """Allow what another order of sums makes."""
-    return ROUNDING
-
-
-def _step_tolerance(values: Values) -> float:
-    """Algebraic error that a time step allows itself in mu_r/mu_s, of two runs."""
-    return 2.0 * 0.1 * float(values["mu_ratio_error_grid"]) / float(values["mu_ratio"])
-
-
-def _mean_tolerance(values: Values) -> float:
-    """Change of the mean at which a run ends, and the algebraic error of its steps."""
-    stop = float(values["mu_ratio_error_stop"]) / float(values["mu_ratio"])
-    return max(1e-3, stop) + _step_tolerance(values)
-
-
 def smooth_scene(points: int, repeats: int) -> list[Row]:
     """Smooth contact of Table 1 in SI units."""
     points = max(points, LEAST)
     scene, grid = "smooth contact, SI units", f"grid.points={points}"
 
     def usual() -> Values:
-        values = _solve(grid)
+        values = solve(grid)
         return values | {"mu_ratio": 1.0}
 
     def transient_run() -> Values:
         # one period, as a rough surface would need
-        return _solve(
+        return solve(
             grid, "surface.kind=harmonic", "surface.amplitude=0.0", "time.estimate_error=.false."
         )
 
     def estimated() -> Values:
-        values = _solve(grid)
+        values = solve(grid)
         error = values["H_c_error"] - values["H_c_algebraic_error"]
         return values | {"coarser H_c": values["H_c"] - 3.0 * error}
 
     def coarser() -> Values:
-        return {"coarser H_c": _solve(f"grid.points={(points + 1) // 2}")["H_c"]}
+        return {"coarser H_c": solve(f"grid.points={(points + 1) // 2}")["H_c"]}
 
     return [
-        _compare(
+        compare(
             scene,
             "half of the domain: symmetric in Y",
             "H_c",
             usual,
-            lambda: _solve(grid, "solver.symmetry=full"),
-            _rounding,
+            lambda: solve(grid, "solver.symmetry=full"),
+            rounding,
             repeats,
         ),
-        _compare(
+        compare(
             scene,
             "roughness, time levels and time steps",
             "mu_ratio",
@@ -181,7 +107,7 @@ def smooth_scene(points: int, repeats: int) -> list[Row]:
             lambda values: 1e-4,
             1,
         ),
-        _compare(
+        compare(
             scene,
             "a solve on the next coarser grid for the error",
             "coarser H_c",
@@ -210,13 +136,13 @@ def _deflection_row(scene: str, points: int, repeats: int) -> Row:
         return deflect
 
     what = f"corrections where P = 0, {count} deflections"
-    return _compare(
+    return compare(
         scene,
         what,
         "deflection",
         call(pressure),
         call(everywhere),
-        _rounding,
+        rounding,
         repeats,
     )
 
@@ -225,7 +151,7 @@ def _run_rows(scene: str, options: Sequence[str], repeats: int, *, symmetric: bo
     """Measure what a transient run leaves out."""
 
     def usual() -> Values:
-        return _solve(*options)
+        return solve(*options)
 
     first = usual()
 
@@ -235,47 +161,47 @@ def _run_rows(scene: str, options: Sequence[str], repeats: int, *, symmetric: bo
         filled = 1.05 + 1.25 + 0.25
         step = float(first["x_mesh"])
         steps = math.ceil(filled / 1.01 / step + FIXED_PERIODS * float(first["T_period"]) / step)
-        return _solve(*options, f"time.steps={steps}")
+        return solve(*options, f"time.steps={steps}")
 
     rows = []
     if symmetric:
         rows.append(
-            _compare(
+            compare(
                 scene,
                 "half of the domain: symmetric in Y",
                 "mu_ratio",
                 usual,
-                lambda: _solve(*options, "solver.symmetry=full"),
-                _rounding,
+                lambda: solve(*options, "solver.symmetry=full"),
+                rounding,
                 repeats,
             )
         )
     rows += [
-        _compare(
+        compare(
             scene,
             f"{first['steps_skipped']} steps before the roughness is near",
             "mu_ratio",
             usual,
-            lambda: _solve(*options, "time.skip_start=.false."),
-            _mean_tolerance,
+            lambda: solve(*options, "time.skip_start=.false."),
+            mean_tolerance,
             repeats,
         ),
-        _compare(
+        compare(
             scene,
             f"steps up to the end of period {FIXED_PERIODS}: settled before",
             "mu_ratio",
-            lambda: _solve(*options, "time.estimate_error=.false."),
+            lambda: solve(*options, "time.estimate_error=.false."),
             at_the_end,
-            lambda values: _mean_tolerance(first),
+            lambda values: mean_tolerance(first),
             repeats,
         ),
-        _compare(
+        compare(
             scene,
             "a solve of the smooth contact for mu_s",
             "F",
             usual,
             lambda: _smooth_of(options),
-            _nothing,
+            nothing,
             repeats,
             besides=True,
         ),
@@ -285,7 +211,7 @@ def _run_rows(scene: str, options: Sequence[str], repeats: int, *, symmetric: bo
 
 def _smooth_of(options: Sequence[str]) -> dict[str, Any]:
     kept = [text for text in options if not text.startswith("surface.")]
-    return _solve(*kept)
+    return solve(*kept)
 
 
 def wave_scene(points: int, repeats: int) -> list[Row]:
@@ -310,13 +236,13 @@ def prediction_scene(points: int, repeats: int) -> list[Row]:
     """Prediction of a fractal surface, nothing simulated."""
     _predict()
     return [
-        _compare(
+        compare(
             "prediction only",
             "the smooth contact of another surface",
             "mu_ratio",
             lambda: _predict("surface.seed=2"),
             lambda: _predict("surface.seed=2", keep=False),
-            _nothing,
+            nothing,
             repeats,
         )
     ]
@@ -334,13 +260,13 @@ def sweep_scene(points: int, repeats: int, cases: int = 20) -> list[Row]:
         return {"mu_ratio": [_predict(seed, keep=False)["mu_ratio"] for seed in seeds]}
 
     return [
-        _compare(
+        compare(
             f"sweep of {cases}",
             f"{cases - 1} smooth contacts",
             "mu_ratio",
             together,
             alone,
-            _nothing,
+            nothing,
             repeats,
         ),
         _starts_row(seeds, together),

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A scene as it is solved and with skipped work done: seconds, and the difference in a result."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from pyehl.case import Case
+from pyehl.solver import Solver
+
+__all__ = [
+    "ROUNDING",
+    "Row",
+    "Timed",
+    "Values",
+    "compare",
+    "mean_tolerance",
+    "nothing",
+    "rounding",
+    "solve",
+    "step_tolerance",
+]
+
+Row = dict[str, Any]
+Values = Mapping[str, Any]
+
+# Bits cannot be equal where sums are taken in another order; the cycles may make it more
+ROUNDING = 1e-10
+
+
+@dataclass(slots=True)
+class Timed:
+    """The least processor seconds of something, and what it gave."""
+
+    call: Callable[[], Values]
+    seconds: float = math.inf
+    values: Values = None  # type: ignore[assignment]
+
+    def run(self) -> None:
+        """Do it once more."""
+        began = time.process_time()
+        self.values = self.call()
+        self.seconds = min(self.seconds, time.process_time() - began)
+
+
+def solve(*options: str) -> dict[str, Any]:
+    """Solve the case of all defaults with options, on one thread; returns its summary."""
+    with Solver(Case.from_text("", options), "solver.threads=1") as solver:
+        solver.run()
+        return solver.summary()
+
+
+def compare(
+    scene: str,
+    skipped: str,
+    quantity: str,
+    usual: Callable[[], Values],
+    other: Callable[[], Values],
+    allowed: Callable[[Values], float],
+    repeats: int,
+    *,
+    besides: bool = False,
+) -> Row:
+    """Make both in turn; differences are relative, the greatest one where `quantity` is an array.
+
+    `besides`: the other is work on top of the usual one.
+    """
+    pair = Timed(usual), Timed(other)
+    for _ in range(repeats):
+        for timed in pair:
+            timed.run()
+    one, two = (np.asarray(timed.values[quantity], dtype=float) for timed in pair)
+    difference = float(np.max(np.abs(one - two)) / np.max(np.abs(one)))
+    limit = allowed(pair[0].values)
+    without = pair[1].seconds + (pair[0].seconds if besides else 0.0)
+    return {
+        "scene": scene,
+        "skipped": skipped,
+        "seconds": pair[0].seconds,
+        "without": without,
+        "saved": 1.0 - pair[0].seconds / without,
+        "quantity": quantity,
+        "difference": difference,
+        "allowed": limit,
+        "same": difference <= limit,
+    }
+
+
+def nothing(values: Values) -> float:
+    """Allow no difference."""
+    return 0.0
+
+
+def rounding(values: Values) -> float:
+    """Allow what another order of sums makes."""
+    return ROUNDING
+
+
+def step_tolerance(values: Values) -> float:
+    """Algebraic error that a time step allows itself in mu_r/mu_s, of two runs."""
+    return 2.0 * 0.1 * float(values["mu_ratio_error_grid"]) / float(values["mu_ratio"])
+
+
+def mean_tolerance(values: Values) -> float:
+    """Change of the mean at which a run ends, and the algebraic error of its steps."""
+    stop = float(values["mu_ratio_error_stop"]) / float(values["mu_ratio"])
+    return max(1e-3, stop) + step_tolerance(values)
