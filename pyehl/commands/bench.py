@@ -266,8 +266,8 @@ def _execute_skips(args: argparse.Namespace) -> list[dict[str, Any]]:
     print(
         "seconds: of the processor, one thread; without: the same with that work "
         "done; difference: in the quantity, relative;\nallowed: 0 where the bits are equal, "
-        f"{comparison.ROUNDING:.0e} where sums are taken in another order, else the tolerance of the "
-        "solver or of the mean"
+        f"{comparison.ROUNDING:.0e} where sums are taken in another order, else the tolerance of "
+        "the solver or of the mean"
     )
     return rows
 
