@@ -11,12 +11,13 @@ from __future__ import annotations
 
 import math
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pyehl.prediction.bands import Band, octaves
+from pyehl.prediction.carrying import confirmed
 from pyehl.prediction.flattening import Response
 from pyehl.prediction.friction import RoughFriction
 from pyehl.prediction.options import Options
@@ -31,7 +32,7 @@ from pyehl.prediction.smooth import SmoothContact, thickening, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.prediction.waves import Waves
-from pyehl.surfaces import Topography, track_offsets
+from pyehl.surfaces import Topography, filtered, track_offsets
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -241,8 +242,17 @@ class RoughPassage:
             middle = math.sqrt(low * high)
             known = self._below(spectrum, transfer, edge, 2.0 * math.pi / middle) <= KNOWN_RATIO
             low, high = (low, middle) if known else (middle, high)
-        cut = high * self.operating.hertz_radius
-        return f"; surface.shortest_wavelength = {cut:.2g} would leave {KNOWN_RATIO} or less"
+        longest = max(self.topography.length_x, self.topography.length_y)
+        cut = confirmed(high * self.operating.hertz_radius, longest, self._known)
+        if cut is None:
+            return ""
+        return f"; surface.shortest_wavelength = {cut:g} would leave {KNOWN_RATIO} or less"
+
+    def _known(self, shortest: float) -> bool:
+        """Whether the tile without waves shorter than a length [m] has a ratio that is known."""
+        part = replace(self, topography=filtered(self.topography, shortest_wavelength=shortest))
+        found, _, _ = part.run(0, brief=True)
+        return found.status == "predicted" and found.mu_ratio <= KNOWN_RATIO
 
     def _tiles(self, spectrum: Spectrum, transfer: Transfer, same: bool) -> Response:
         """Pressure and deformed roughness at the centre of the contact, on the pixels given."""

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from pyehl.surfaces.tile import Topography
 
-__all__ = ["Carries", "carrying_outliers", "carrying_wavelength"]
+__all__ = ["Carries", "carrying_outliers", "carrying_wavelength", "confirmed"]
 
 Array = NDArray[np.float64]
 
@@ -112,6 +112,21 @@ def carrying_outliers(
     if rounded > math.exp(least) or rounded < low or not carries(without_spikes(rounded)):
         rounded = math.exp(least)
     return rounded, int(np.count_nonzero(prominence > rounded))
+
+
+def confirmed(start: float, longest: float, good: Callable[[float], bool]) -> float | None:
+    """First wavelength of two digits, from `start` [m] on in steps of a tenth, that is good.
+
+    None if there is none up to `longest` [m].
+    """
+    value = start
+    while value <= longest:
+        scale = 10.0 ** (math.floor(math.log10(value)) - 1)
+        rounded = float(f"{math.ceil(value / scale - 1e-9) * scale:.2g}")
+        if good(rounded):
+            return rounded
+        value = 1.1 * rounded
+    return None
 
 
 def _rounded_up(value: float, good: Callable[[float], bool]) -> float:
