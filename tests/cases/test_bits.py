@@ -87,7 +87,13 @@ def test_drivers(drivers, tmp_path: Path, scene: dict[str, object]):
         )
         # The 12 steps of the waviness make a period and a mean, the others do not
         assert (done.returncode, done.stderr) == (int("surface.file" in settings), "")
-    assert results(tmp_path / "ehl") == results(tmp_path / "pyehl")
+    one, two = results(tmp_path / "ehl"), results(tmp_path / "pyehl")
+    # Python adds how it took a map, and what it predicts of waves that the grid does not resolve
+    for name in ("surface_preparation", "mu_ratio_unresolved", "mu_ratio_left_out"):
+        two.pop(name, None)
+    plan = one.pop("plan.txt")
+    assert two.pop("plan.txt")[: len(plan)] == plan
+    assert one == two
 
 
 @pytest.mark.parametrize("point", [(200.0, 10.0), (1000.0, 10.0)])
