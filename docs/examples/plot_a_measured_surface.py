@@ -18,7 +18,7 @@ scan
 # The steps, and what each changes. Without `outliers` the three spikes of this scan would stay.
 
 made = surfaces.prepare(scan, surfaces.Options(outliers=100.0))
-print("\n".join(made.report()))
+print("\n".join(made.record.report()))
 
 # %%
 # In a case file the keys of ``&surface`` say the same; solver and prediction prepare the scan alike.
