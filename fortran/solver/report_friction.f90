@@ -8,7 +8,7 @@ module ehl_report_friction
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
    use ehl_text, only: to_text
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    implicit none (type, external)
    private
    public :: report_friction
@@ -38,7 +38,7 @@ contains
             note = "a ratio alone: moes_m and moes_l give no sliding speed in m/s"
          else if (.not. speed > 0.0_dp) then
             note = "a ratio alone, that of vanishing sliding: there is no sliding, and rolling friction is not computed"
-         else if (.not. abs(friction) < huge(1.0_dp)) then
+         else if (.not. ieee_is_finite(friction)) then
             note = "the smooth contact is not converged"
          else
             rate = speed/plan%contact%film_scale*mean_inverse(plan%contact, grid, h)
@@ -52,7 +52,7 @@ contains
             end if
          end if
          mu = ratio*mu_smooth
-         if (mu < huge(1.0_dp)) rise = flash_temperature(mu*s%load*speed/(pi*plan%contact%radius**2), &
+         if (ieee_is_finite(mu)) rise = flash_temperature(mu*s%load*speed/(pi*plan%contact%radius**2), &
             plan%contact%radius, s%mean_velocity*(1.0_dp + [0.5_dp, -0.5_dp]*s%slide_to_roll), s%conductivity, &
             s%diffusivity)
          call record%set("shear_law", trim(s%law))
