@@ -67,7 +67,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="DIR",
         help="result folder; runs that are there already are not made again",
     )
-    parser.add_argument("--jobs", type=int, default=2, metavar="N", help="runs side by side (2)")
+    parser.add_argument(
+        "--jobs",
+        type=int,
+        default=1,
+        metavar="N",
+        help="runs side by side, each with its threads (1)",
+    )
     parser.add_argument(
         "--quick", action="store_true", help="waves down to a/16 only, in a third of the time"
     )
