@@ -8,12 +8,19 @@ module ehl_map_needs
    private
    public :: map_needs
 
+   !> First characters of numbers, nan and inf among them, and separators
+   character(len=*), parameter :: number_begins = "0123456789+-.nNiI,;"
    !> Lines of a text that may be its header
    integer, parameter :: header_lines = 100
-   !> Labels of the size in the header of a text that a program of an instrument has written; its lines
-   !> run along x, those of a text map along y
-   character(len=*), parameter :: labels(*) = [character(len=12) :: "width", "x-length", "x-pixels", "pixel size", &
-                                               "file format"]
+   !> Labels of sizes and units in the header of a text that a program of an instrument has written, in each
+   !> language of Gwyddion; its lines run along x, those of a text map along y
+   character(len=*), parameter :: labels(*) = [character(len=40) :: &
+      "width", "šířka", "Šířka", "breite", "anchura", "largeur", "larghezza", "幅", "폭", "largura", "Ширина", &
+      "value units", "jednotky hodnot", "einheiten", "unités", "unità valore", "値の単位", "값 단위", &
+      "unidades de valor", "Единицы измерения", "lateral units", "x-unit", "y-unit", "z-unit", "x-length", &
+      "x-pixels", "pixel size", "file format", "unit x", "scale x"]
+   !> The colon of Japanese exports
+   character(len=*), parameter :: wide_colon = "："
 
 contains
 
@@ -67,19 +74,27 @@ contains
       end select
    end function is_array
 
-   !> Whether a file is text without the header of a program of an instrument. A file that cannot be
-   !> opened counts as text: reading it tells why.
+   !> Whether a file is text that begins with numbers, without the header of a program of an instrument. A
+   !> file that cannot be opened counts as text: reading it tells why.
    logical function is_plain_text(path)
       character(len=*), intent(in) :: path
       character(len=256) :: line
+      character(len=:), allocatable :: data
       integer :: lun, stat, k
+      logical :: begun
 
       is_plain_text = .true.
+      begun = .false.
       open (newunit=lun, file=path, status="old", action="read", iostat=stat)
       if (stat /= 0) return
       do k = 1, header_lines
          read (lun, "(a)", iostat=stat) line
          if (stat /= 0) exit
+         data = trim(adjustl(line(:scan(line//"#", "#") - 1)))
+         if (.not. begun .and. len(data) > 0) then
+            begun = .true.
+            is_plain_text = scan(data(1:1), number_begins//achar(9)//achar(13)) > 0
+         end if
          if (scan(line, achar(0)//achar(1)//achar(2)//achar(3)) > 0 .or. names_size(lower(line))) then
             is_plain_text = .false.
             exit
@@ -88,19 +103,19 @@ contains
       close (lun)
    end function is_plain_text
 
-   !> Whether a line is a comment with one of the labels before ':' or '='
+   !> Whether a line has one of the labels before ':' or '='
    pure logical function names_size(line)
       character(len=*), intent(in) :: line
       character(len=:), allocatable :: behind
       integer :: k, at
 
-      names_size = .false.
-      if (line(1:1) /= "#") return
+      names_size = index(line, "wyko ascii") == 1
       do k = 1, size(labels)
          at = index(line, trim(labels(k)))
          if (at == 0) cycle
          behind = trim(adjustl(line(at + len_trim(labels(k)):)))
-         if (len(behind) > 0) names_size = names_size .or. scan(behind(1:1), ":=") > 0
+         if (len(behind) == 0) cycle
+         names_size = names_size .or. scan(behind(1:1), ":=") > 0 .or. index(behind, wide_colon) == 1
       end do
    end function names_size
 

@@ -16,9 +16,12 @@ __all__ = ["read_instrument"]
 INSTALL = "pip install 'pyehl[surfaces]', or pip install SurfaceTopography"
 
 
+Sizes = tuple[float | None, float | None]
+
+
 def read_instrument(
-    path: Path, channel: str = "", *, with_size: bool = False
-) -> tuple[NDArray[np.float64], tuple[float | None, float | None], bool, str]:
+    path: Path, channel: str = "", lengths: Sizes = (None, None)
+) -> tuple[NDArray[np.float64], Sizes, bool, str, str]:
     """Heights of one channel of an instrument file.
 
     Parameters
@@ -27,8 +30,8 @@ def read_instrument(
         Of the file; its format is known by its content.
     channel
         Name, or number from 1; empty: the file's first height channel.
-    with_size
-        Whether the caller knows the size, so that a file without one is good enough.
+    lengths
+        What the caller knows of the size along x and y [m], which a file without one needs.
 
     Returns
     -------
@@ -40,12 +43,15 @@ def read_instrument(
         Whether the file says so.
     name
         Of the channel.
+    note
+        That its heights were taken in m, for a file that names neither a size nor a unit; else
+        empty.
 
     Raises
     ------
     ValueError
-        If the package is missing, the file is of no kind that it knows, has no such channel, or
-        names no unit.
+        If the package is missing, the file is of no kind that it knows, has no such channel, is a
+        profile along a line, has no size and the caller knows none, or has a size without a unit.
     """
     try:
         from SurfaceTopography.IO import open_topography  # noqa: PLC0415 (heavy, and optional)
@@ -61,10 +67,12 @@ def read_instrument(
             check_pixels(str(path), tuple(picked.nb_grid_pts))
             name = str(picked.name)
             sized = picked.physical_sizes is not None
-            options: dict[str, Any] = {}
-            if not sized and with_size:
-                options["physical_sizes"] = (1.0, 1.0)
-            scan = picked.topography(**options)
+            if not sized and not all(lengths):
+                raise _UnusableError(
+                    f"{path}: the size of the map is not known: the file has none; "
+                    "give surface.length_x and surface.length_y [m]"
+                )
+            scan = picked.topography(**({} if sized else {"physical_sizes": (1.0, 1.0)}))
     except OSError:
         raise
     except _UnusableError as error:
@@ -77,18 +85,22 @@ def read_instrument(
             f"{path}: cannot be read as a height map: {reason}; save the heights in m as .npy "
             "or text, and give surface.length_x and surface.length_y"
         ) from None
-    if scan.unit is None:
+    note = ""
+    if scan.unit is not None:
+        scan = scan.to_unit("m")
+    elif sized:
         raise ValueError(
-            f"{path}: the file names no unit; save its heights in m as .npy or text, and give "
-            "surface.length_x and surface.length_y"
+            f"{path}: the file names no unit of its size and heights; save its heights in m as "
+            ".npy or text, and give surface.length_x and surface.length_y"
         )
-    scan = scan.to_unit("m")
+    else:
+        note = "the file names no unit: its heights are taken in m"
     masked: Any = np.ma.asarray(scan.heights(), dtype=float)
     heights = np.ascontiguousarray(masked.filled(np.nan), dtype=np.float64)
-    size: tuple[float | None, float | None] = (None, None)
+    size: Sizes = (None, None)
     if sized:
         size = (float(scan.physical_sizes[0]), float(scan.physical_sizes[1]))
-    return heights, size, bool(scan.is_periodic), name
+    return heights, size, bool(scan.is_periodic), name, note
 
 
 class _UnusableError(Exception):
@@ -99,7 +111,9 @@ def _pick(path: Path, channels: list[Any], default: Any, wanted: str) -> Any:  #
     """Return the channel of a name or number."""
     listing = ", ".join(f"{n} '{c.name}'" for n, c in enumerate(channels, 1))
     if not wanted:
-        picked = default
+        # the library's default is mostly, not always, the first that can serve
+        serving = [c for c in channels if c.dim == 2 and c.is_height_channel]
+        picked = default if default in serving or not serving else serving[0]
     else:
         named = [c for c in channels if str(c.name) == wanted]
         if not named and wanted.isdigit() and 1 <= int(wanted) <= len(channels):
@@ -110,6 +124,11 @@ def _pick(path: Path, channels: list[Any], default: Any, wanted: str) -> Any:  #
                 f"expected: one of the channels {listing}, by name or number"
             )
         picked = named[0]
+    if picked.dim == 1:
+        raise _UnusableError(
+            f"{path}: channel '{picked.name}' is a profile along a line; a contact needs the map "
+            f"of an area; the channels are {listing}"
+        )
     if picked.dim != 2 or not picked.is_height_channel:
         raise _UnusableError(
             f"{path}: channel '{picked.name}' is not a height map; the channels are {listing}"

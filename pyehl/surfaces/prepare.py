@@ -272,6 +272,7 @@ class _Work:
             size=(scan.length_x, scan.length_y),
             size_from=scan.size_from,
             missing=self.missing,
+            note=scan.note,
             detrend=options.detrend,
             edges=options.edges,
             tile_pixels=(nx, ny),

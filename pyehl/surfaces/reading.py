@@ -26,16 +26,23 @@ PIXEL_BAND = (1e-10, 1e-3)
 """Pixels outside of it [m] are mistakes of units."""
 
 TEXT_SUFFIXES = (".txt", ".csv", ".dat", ".asc", "")
-# Headers of text exports that name the size: Gwyddion, SPIP and the like, and Wyko; for the program
-# ehl fortran/case/map_needs.f90 tells the same
+# Headers of text exports that name sizes or units: Gwyddion, in each of its languages, SPIP and the
+# like, and Wyko; for the program ehl fortran/case/map_needs.f90 tells the same
 EXPORT = re.compile(
-    r"(width|x-length|x-pixels|pixel size|file format|scale x)\s*[:=]|^Wyko ASCII", re.IGNORECASE
+    r"(width|šířka|breite|anchura|largeur|larghezza|幅|폭|largura|ширина|value units|jednotky hodnot|"
+    r"einheiten|unités|unità valore|値の単位|값 단위|unidades de valor|единицы измерения|"
+    r"lateral units|[xyz]-unit|x-length|x-pixels|pixel size|file format|unit x|scale x)\s*[:：=]"
+    r"|^Wyko ASCII",
+    re.IGNORECASE,
 )
+# First characters of numbers, nan and inf among them
+NUMBER_BEGINS = "0123456789+-.nNiI,;"
 # What stands between separators
 WORD = re.compile(r"[^\s,;]+")
 OWN_SIZE = re.compile(r"^#\s*(length_[xy])\s*=\s*(\S+)\s*m\s*$")
 OWN_PERIODIC = re.compile(r"^#\s*periodic\s*$")
 HEADER_LINES = 100
+LEAST_PIXELS = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +67,8 @@ class Scan:
         Name of the channel or data set; empty for arrays.
     size_from
         Where the size is from: 'the file' or 'surface.length_x, surface.length_y'.
+    note
+        What a person should know besides; mostly empty.
     """
 
     heights: Array
@@ -70,13 +79,14 @@ class Scan:
     is_periodic: bool = False
     channel: str = ""
     size_from: str = "surface.length_x, surface.length_y"
+    note: str = ""
 
 
 def is_array_file(path: str | Path) -> bool:
     """Whether a file is a `.npy` array or plain text, which need no other package.
 
-    Text counts as an array unless its header is that of an instrument's program and names the
-    size of the map; such exports have their lines along x, as images have.
+    Text counts as an array unless it begins with words, or its header is that of an instrument's
+    program and names a size or a unit; such exports have their lines along x, as images have.
 
     Raises
     ------
@@ -95,7 +105,9 @@ def is_array_file(path: str | Path) -> bool:
         return False
     with path.open(encoding="utf-8", errors="replace") as lines:
         first = [line for _, line in zip(range(HEADER_LINES), lines, strict=False)]
-    return not any(EXPORT.search(line) for line in first)
+    data = next((text for line in first if (text := line.partition("#")[0].strip())), "")
+    words = bool(data) and data[0] not in NUMBER_BEGINS
+    return not words and not any(EXPORT.search(line) for line in first)
 
 
 def read_scan(
@@ -111,7 +123,8 @@ def read_scan(
     path
         ``.npy`` (never pickled) or text (``.txt``, ``.csv``, ``.dat``, ``.asc``: one x per line, y
         along the line, separated by blanks, commas or semicolons), heights in m, NaN where they
-        are missing; any other file must be one that SurfaceTopography reads.
+        are missing; any other file must be one that SurfaceTopography reads. Where such a file
+        names neither size nor unit (MATLAB, HDF5), its heights are taken in m, too.
     length_x, length_y
         Size [m]. Needed where the file has none; replaces that of the file.
     channel
@@ -129,8 +142,10 @@ def read_scan(
     path = Path(path)
     if not path.is_file():
         raise FileNotFoundError(f"{path}: no such height map")
+    if path.stat().st_size == 0:
+        raise ValueError(f"{path}: the file is empty")
     own: tuple[float | None, float | None] = (None, None)
-    periodic, name = False, ""
+    periodic, name, note = False, "", ""
     array = is_array_file(path)
     if array:
         if channel:
@@ -142,7 +157,8 @@ def read_scan(
         else:
             heights, own, periodic = _read_text(path)
     else:
-        heights, own, periodic, name = read_instrument(path, channel, with_size=bool(length_x))
+        found = read_instrument(path, channel, (length_x, length_y))
+        heights, own, periodic, name, note = found
     sizes = []
     for key, given, found in zip(("length_x", "length_y"), (length_x, length_y), own, strict=True):
         size = given or found
@@ -158,16 +174,20 @@ def read_scan(
         size_from += " and the file"
     if given_names and own != (None, None):
         size_from += f" (in place of {own[0]:.6g} x {own[1]:.6g} m of the file)"
-    scan = Scan(heights, sizes[0], sizes[1], str(path), array, periodic, name, size_from)
+    scan = Scan(heights, sizes[0], sizes[1], str(path), array, periodic, name, size_from, note)
     _check_shape(scan)
     return scan
 
 
 def _check_shape(scan: Scan) -> None:
     """Refuse what is no map, and pixels that can only be a mistake of units."""
-    if scan.heights.ndim != 2 or min(scan.heights.shape) < 4:
+    shape = scan.heights.shape
+    if min(shape) < LEAST_PIXELS:
+        lines = ("a profile along one line", "a profile of x and z", "a list of x, y and z")
+        what = f"; is it {lines[shape[1] - 1]}?" if shape[1] <= len(lines) < shape[0] else ""
         raise ValueError(
-            f"{scan.origin}: the map must have at least 4 x 4 pixels, not {scan.heights.shape}"
+            f"{scan.origin}: the map must have at least {LEAST_PIXELS} x {LEAST_PIXELS} pixels, "
+            f"not {shape[0]} x {shape[1]}{what}"
         )
     sides = zip(("x", "y"), (scan.length_x, scan.length_y), scan.heights.shape, strict=True)
     for axis, length, pixels in sides:

@@ -66,6 +66,8 @@ class Record:
         Of the map as read, along x and y, [m], and where the size is from.
     missing
         Points without a height.
+    note
+        What a person should know of the file besides; mostly empty.
     detrend, edges
         What these keys were, 'auto' resolved.
     tile_pixels, tile_size
@@ -81,6 +83,7 @@ class Record:
     size: tuple[float, float]
     size_from: str
     missing: int
+    note: str
     detrend: str
     edges: str
     tile_pixels: tuple[int, int]
@@ -97,6 +100,7 @@ class Record:
             "size_m": list(self.size),
             "size_from": self.size_from,
             "missing": self.missing,
+            "note": self.note or None,
             "detrend": self.detrend,
             "edges": self.edges,
             "tile_pixels": list(self.tile_pixels),
@@ -112,6 +116,8 @@ class Record:
             f"           {self.pixels[0]} x {self.pixels[1]} pixels, "
             f"{self.size[0] * 1e3:.5g} x {self.size[1] * 1e3:.5g} mm by {self.size_from}",
         ]
+        if self.note:
+            lines.append(f"           {self.note}")
         if not self.steps:
             lines.append("           taken as it is, and repeated")
         for step in self.steps:

@@ -6,11 +6,13 @@ import sys
 
 import numpy as np
 import pytest
+import scipy.io
 
-from pyehl.surfaces import memory, read_scan, reading
+from pyehl.surfaces import Options, memory, prepare, read_scan, reading
 
 pytest.importorskip("SurfaceTopography")
-from SurfaceTopography import Topography
+import h5py
+from SurfaceTopography import Topography, UniformLineScan
 
 SIZE = (3e-5, 2e-5)
 
@@ -166,7 +168,7 @@ def test_file_without_a_unit_is_refused(tmp_path):
 
 
 def test_missing_package_says_how_to_install_it(tmp_path, monkeypatch):
-    (tmp_path / "scan.x3p").write_bytes(b"")
+    (tmp_path / "scan.x3p").write_bytes(b"PK")
     monkeypatch.setitem(sys.modules, "SurfaceTopography.IO", None)
     with pytest.raises(ValueError, match=r"pip install 'pyehl\[surfaces\]'"):
         read_scan(tmp_path / "scan.x3p")
@@ -201,3 +203,75 @@ def test_lengths_in_other_units_are_noticed(tmp_path):
 def test_what_counts_as_an_array(tmp_path, name, text, array):
     (tmp_path / name).write_text(text, encoding="utf-8")
     assert reading.is_array_file(tmp_path / name) is array
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "array"),
+    [
+        ("german.txt", "# Kanal: Höhe\n# Breite: 10 µm\n1 2\n", False),
+        ("japanese.txt", "# 幅： 10 µm\n1 2\n", False),
+        ("units.txt", "# Channel: A\n# Value units: mm\n1 2\n", False),
+        ("stylus.csv", "Data Type,Scan\nStylus,Radius: 2 um\n", False),
+        ("nan.txt", "\n  nan 1\n", True),
+        ("signs.csv", "# one x per line\n-1,2\n", True),
+    ],
+)
+def test_exports_are_no_arrays(tmp_path, name, text, array):
+    """In the languages of Gwyddion, with a unit and no size, and whatever begins with words."""
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    assert reading.is_array_file(tmp_path / name) is array
+
+
+def test_text_export_in_another_language(tmp_path):
+    z = slope_map()
+    header = "# Kanal: Höhe\n# Breite: 30 µm\n# Höhe: 20 µm\n# Einheiten: mm\n"
+    lines = "\n".join("\t".join(f"{1e3 * v:.9g}" for v in line) for line in z.T)
+    (tmp_path / "scan.txt").write_text(header + lines + "\n", encoding="utf-8")
+    scan = read_scan(tmp_path / "scan.txt")
+    assert scan.heights == pytest.approx(z, abs=1e-16)
+    assert (scan.length_x, scan.length_y) == pytest.approx(SIZE)
+
+
+@pytest.mark.parametrize("suffix", ["mat", "h5"])
+def test_files_without_size_and_unit(tmp_path, suffix):
+    """Both lengths are needed; the heights are then taken in m, which the record says."""
+    z = slope_map()
+    path = tmp_path / f"scan.{suffix}"
+    if suffix == "mat":
+        scipy.io.savemat(path, {"height": z})
+    else:
+        with h5py.File(path, "w") as file:
+            file["height"] = z
+    for lengths in ((None, None), (SIZE[0], None)):
+        with pytest.raises(ValueError, match=r"size of the map is not known.*surface\.length_x"):
+            read_scan(path, *lengths)
+    scan = read_scan(path, *SIZE)
+    assert scan.heights == pytest.approx(z, abs=1e-24)
+    assert (scan.length_x, scan.length_y) == SIZE
+    record = prepare(scan, Options(detrend="centre")).record
+    assert "taken in m" in record.summary()["note"]
+    assert any("taken in m" in line for line in record.report())
+
+
+def test_profiles_are_refused(tmp_path):
+    """Lines are no areas, whatever they are in."""
+    z = slope_map()[:, 0]
+    UniformLineScan(1e6 * z, 30.0, unit="µm").to_netcdf(str(tmp_path / "line.nc"))
+    with pytest.raises(ValueError, match="a profile along a line; a contact needs the map"):
+        read_scan(tmp_path / "line.nc", *SIZE)
+    (tmp_path / "line.txt").write_text(
+        "X;Y;valid\n[mm];[mm];[1/0]\n" + "".join(f"{n};{v};1\n" for n, v in enumerate(1e3 * z))
+    )
+    with pytest.raises(ValueError, match="a profile along a line; a contact needs the map"):
+        read_scan(tmp_path / "line.txt", *SIZE)
+    lists = {1: "a profile along one line", 2: "a profile of x and z", 3: "a list of x, y and z"}
+    for columns, what in lists.items():
+        np.savetxt(tmp_path / "list.txt", np.repeat(z[:, None], columns, axis=1))
+        with pytest.raises(ValueError, match=f"not 30 x {columns}; is it {what}"):
+            read_scan(tmp_path / "list.txt", *SIZE)
+
+
+def test_empty_file(tmp_path):
+    (tmp_path / "scan.x3p").write_bytes(b"")
+    with pytest.raises(ValueError, match=r"scan\.x3p: the file is empty"):
+        read_scan(tmp_path / "scan.x3p")

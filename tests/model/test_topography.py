@@ -261,11 +261,12 @@ def test_truncated_npy(tmp_path):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", "no heights"),
+        ("", "the file is empty"),
+        ("# nothing\n", "no heights"),
         ("1e-8 2e-8\n3e-8\n", ":2:5: 1 heights, but 2"),
         ("1e-8 x\n", ":1:6: 'x' is no number"),
         ("1,5 2,5\n3,5 4,5\n", "decimal comma"),
-        ("1e-8 nan\n" * 8, "at least 4 x 4"),
+        ("1e-8 nan\n" * 8, "at least 4 x 4 pixels, not 8 x 2"),
         ("1e-8 nan 0 0\n" * 8, "8 of 32 heights are missing"),
     ],
 )
