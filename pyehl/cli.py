@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import difflib
+import logging
 import sys
 from collections.abc import Sequence
 from importlib import import_module, metadata
@@ -56,6 +57,20 @@ def _parser(chosen: str) -> argparse.ArgumentParser:
     return parser
 
 
+class _Terminal(logging.Handler):
+    """Says what takes seconds and has no bar, on standard error as it is at the time."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        print(record.getMessage(), file=sys.stderr)
+
+
+def _listen(*, quiet: bool) -> None:
+    log = logging.getLogger("pyehl")
+    log.setLevel(logging.WARNING if quiet else logging.INFO)
+    if not any(isinstance(handler, _Terminal) for handler in log.handlers):
+        log.addHandler(_Terminal())
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one subcommand; 0 done, 1 not converged or failed, 2 bad input, 130 interrupted."""
     words = list(sys.argv[1:] if argv is None else argv)
@@ -65,6 +80,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(f"pyehl {metadata.version('pyehl')}")
         return 0
     chosen = words[0] if words else ""
+    _listen(quiet=not {"-q", "--quiet"}.isdisjoint(words))
     try:
         parser = _parser(chosen)
         if chosen not in SUBCOMMANDS and not chosen.startswith("-"):

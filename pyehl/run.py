@@ -149,6 +149,8 @@ def _open(case: Case, resumed: str | os.PathLike[str]) -> Solver:
     kept = np.load(place.with_name("surface.npy"), allow_pickle=False)
     old = Case.read(place).resolve()["surface"]
     size = [f"surface.{key}={old[key]!r}" for key in ("tile_x", "tile_y") if old[key]]
+    if old["tile_mirrored"]:
+        size.append("surface.tile_mirrored=.true.")
     solver = Solver.open(case.with_options(*size) if size else case, kept)
     try:
         made = for_solver(case.resolve())

@@ -21,7 +21,7 @@ from pyehl import display
 from pyehl.case import Case, Option
 from pyehl.errors import FileError, InputError
 from pyehl.handle import SolverHandle, Work
-from pyehl.surfaces import Record, for_solver
+from pyehl.surfaces import Record, Topography, for_solver
 
 if TYPE_CHECKING:
     import xarray
@@ -134,6 +134,7 @@ class Solver(SolverHandle):
     def _start(self, case: Case, heights: ArrayLike | None) -> None:
         self._case = case
         self.preparation: Record | None = None
+        self.part: Topography | None = None
         self.resolution: Addition | None = None
         options: tuple[str, ...] = ()
         if heights is None:
@@ -142,6 +143,7 @@ class Solver(SolverHandle):
             except (ValueError, OSError) as error:
                 raise InputError(str(error)) from error
             heights, options, self.preparation = made.heights, made.options, made.preparation
+            self.part = made.part
         text = case.with_options(*options).text if options else case.text
         self._open(text, heights)
 

@@ -2,8 +2,9 @@
 !> FFTW's planner, which one thread at a time may use, and the transforms of tiles. Executing plans needs no lock.
 module ehl_fftw_planner
    use, intrinsic :: iso_c_binding, only: c_associated, c_double_complex, c_f_pointer, c_int, c_loc, c_null_ptr, c_ptr
-   use ehl_fftw, only: fftw_destroy_plan, fftw_estimate, fftw_execute_dft_c2r, fftw_execute_dft_r2c, &
-                       fftw_plan_dft_1d, fftw_plan_dft_c2r_1d, fftw_plan_dft_c2r_2d, fftw_plan_dft_r2c_2d
+   use ehl_fftw, only: fftw_destroy_plan, fftw_estimate, fftw_execute_dft_c2r, fftw_execute_dft_r2c, fftw_execute_r2r, &
+                       fftw_plan_dft_1d, fftw_plan_dft_c2r_1d, fftw_plan_dft_c2r_2d, fftw_plan_dft_r2c_2d, &
+                       fftw_plan_r2r_2d, fftw_redft10
    use ehl_kinds, only: dp
    use ehl_lock, only: lock, lock_t, unlock
    use ehl_status, only: ehl_internal, ehl_no_memory, status_t
@@ -11,7 +12,7 @@ module ehl_fftw_planner
    implicit none (type, external)
    private
    public :: lock_planner, unlock_planner, drop_plan, check_plan
-   public :: plan_complex, plan_to_real, to_spectrum, to_heights, good_size
+   public :: plan_complex, plan_to_real, to_spectrum, to_cosines, to_heights, good_size
 
    type(lock_t), target :: planner
 
@@ -112,7 +113,40 @@ contains
       end do
    end subroutine to_spectrum
 
-   !> The inverse; the spectrum is lost
+   !> Cosine transform (DCT-II) of values (n1, n2), divided by 4 n1 n2: amplitudes of the waves of the values with their
+   !> mirror images, (2 n1, 2 n2), about half a pixel before the first. Takes no memory but the result.
+   subroutine to_cosines(values, cosines, status)
+      real(dp), intent(in) :: values(:, :)
+      real(dp), allocatable, target, intent(out) :: cosines(:, :)
+      type(status_t), intent(inout) :: status
+      real(dp), pointer, contiguous :: same(:, :)
+      type(c_ptr) :: plan
+      integer :: j, n(2), stat
+
+      if (status%failed()) return
+      n = shape(values)
+      allocate (cosines(n(1), n(2)), stat=stat)
+      if (stat /= 0) then
+         call status%fail(ehl_no_memory, "no memory for the waves of "//to_text(n(1))//" x "//to_text(n(2))//" heights")
+         return
+      end if
+      same => cosines
+      call lock_planner()
+      plan = fftw_plan_r2r_2d(int(n(2), c_int), int(n(1), c_int), cosines, same, fftw_redft10, fftw_redft10, fftw_estimate)
+      call unlock_planner()
+      call check_plan(plan, "the waves of a mirrored map", status)
+      if (status%failed()) return
+      do j = 1, n(2)
+         cosines(:, j) = values(:, j)
+      end do
+      call fftw_execute_r2r(plan, cosines, same)
+      call drop_plan(plan)
+      do j = 1, n(2)
+         cosines(:, j) = cosines(:, j)/(4.0_dp*n(1)*n(2))
+      end do
+   end subroutine to_cosines
+
+   !> The inverse of to_spectrum; the spectrum is lost
    subroutine to_heights(spectrum, values, status)
       complex(c_double_complex), allocatable, target, intent(inout) :: spectrum(:, :)
       real(dp), intent(out) :: values(:, :)

@@ -149,6 +149,8 @@ module ehl_case
       real(dp) :: track = 0.0_dp
       !> [m] size of the tile that pyehl has made of a map; 0 (default): length_x, length_y
       real(dp) :: tile_x = 0.0_dp, tile_y = 0.0_dp
+      !> Whether the tile that pyehl has made is the heights that it gives with their mirror images, default .false.
+      logical :: tile_mirrored = .false.
       !> [m] shortest and longest wavelength of a map or fractal surface that are left, default 0: no limit
       real(dp) :: shortest_wavelength = 0.0_dp, longest_wavelength = 0.0_dp
       !> 'sharp' (default) or 'gaussian': how the spectrum is cut there

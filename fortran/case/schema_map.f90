@@ -33,5 +33,6 @@ contains
                       "size of the tile that pyehl has made of the map; not for input")
       call self%reals("surface", "tile_y", s%tile_y, "m", "0 or [1e-9, 10]", &
                       "size of the tile that pyehl has made of the map; not for input")
+      call self%logicals("surface", "tile_mirrored", s%tile_mirrored, "that tile has mirror images; not for input")
    end subroutine add_map_keys
 end submodule ehl_schema_map

@@ -129,17 +129,16 @@ contains
       type(height_map_t), allocatable :: placed
       type(filter_t) :: filter
       real(dp) :: length(2)
+      logical :: made
 
-      length = [s%length_x, s%length_y]
-      if (s%tile_x > 0.0_dp .and. s%tile_y > 0.0_dp) length = [s%tile_x, s%tile_y]
-      length = length/contact%radius
+      made = s%tile_x > 0.0_dp .and. s%tile_y > 0.0_dp
+      length = merge([s%tile_x, s%tile_y], [s%length_x, s%length_y], made)/contact%radius
       filter = filter_t(s%shortest_wavelength/contact%radius, s%longest_wavelength/contact%radius, &
                         s%filter == "gaussian")
       allocate (placed)
       placed%velocity_ratio = s%velocity_ratio
       placed%x_start = s%x_start
-      call placed%setup(heights, 1.0_dp/contact%film_scale, length(1), length(2), &
-                     filter, map_front, status)
+      call placed%setup(heights, 1.0_dp/contact%film_scale, length, made .and. s%tile_mirrored, filter, map_front, status)
       if (status%failed()) return
       if (placed%variance_whole > 0.0_dp .and. .not. placed%variance > 1.0e-24_dp*placed%variance_whole) then
          call status%fail(ehl_bad_input, "surface.shortest_wavelength and surface.longest_wavelength leave nothing of the "// &

@@ -39,6 +39,7 @@ READY = (
     "crop_y_max=0.0",
     "tile_x=0.0",
     "tile_y=0.0",
+    "tile_mirrored=.false.",
     "shortest_wavelength=0.0",
     "longest_wavelength=0.0",
 )

@@ -40,12 +40,15 @@ class Resolution:
         The same without the waves that have fewer than NODES, or CARRIED nodes [-].
     shortest
         Wavelength that has NODES nodes [m].
+    part
+        Which part of a large surface it was predicted with; empty: the whole.
     """
 
     mu_ratio: float
     resolved: float
     carried: float
     shortest: float
+    part: str = ""
 
     @property
     def matters(self) -> bool:
@@ -58,6 +61,7 @@ class Resolution:
         return (
             f"predicted   mu_r/mu_s {self.mu_ratio:.3f}; of the rise {rise:+.3f}, {part:+.3f} come "
             f"from waves shorter than {self.shortest * 1e6:.3g} um, {NODES} nodes of this grid"
+            + (f" (predicted with {self.part})" if self.part else "")
         )
 
     def report(self) -> list[str]:
@@ -90,13 +94,14 @@ def add_resolution(solver: Solver, case: Case) -> None:
     Nothing is added to a case without such waves, or without a prediction.
     """
     try:
-        solver.resolution = resolution(case)
+        tile = solver.part and surfaces.finished(solver.part, case.resolve()["surface"])
+        solver.resolution = resolution(case, tile, tile.origin if tile else "")
     except (ValueError, OSError, EhlError):
         # the run itself says what is wrong with the case
         solver.resolution = None
 
 
-def resolution(case: Case, tile: Topography | None = None) -> Resolution | None:
+def resolution(case: Case, tile: Topography | None = None, part: str = "") -> Resolution | None:
     """Predict what the grid of a case resolves.
 
     None for surfaces that are no tile of heights on the move, for those without waves that the grid
@@ -107,7 +112,10 @@ def resolution(case: Case, tile: Topography | None = None) -> Resolution | None:
     case
         Its grid is that of the run.
     tile
-        Its surface; None: made as the case says.
+        Its surface; None: made as the case says, of a large one the part of
+        :func:`pyehl.surfaces.part_of`.
+    part
+        Name of the part, if `tile` is one.
 
     Raises
     ------
@@ -128,6 +136,9 @@ def resolution(case: Case, tile: Topography | None = None) -> Resolution | None:
     if tile is None:
         film = contact.central_film * operating.film_scale
         tile = surfaces.from_settings(settings, operating, film)
+        middle = surfaces.part_of(tile.heights, tile.pixel, tile.origin)
+        if middle is not None:
+            tile, part = middle, middle.origin
     passage = RoughPassage(tile, contact, operating, lubricant, Options(), ratio)
     if not passage.variance_below(NODES * mesh) > 0.0:
         return None
@@ -135,4 +146,5 @@ def resolution(case: Case, tile: Topography | None = None) -> Resolution | None:
     if not math.isfinite(found.mu_ratio):
         return None
     resolved, carried = (passage.below(nodes * mesh) for nodes in (NODES, CARRIED))
-    return Resolution(found.mu_ratio, resolved, carried, NODES * mesh * operating.hertz_radius)
+    shortest = NODES * mesh * operating.hertz_radius
+    return Resolution(found.mu_ratio, resolved, carried, shortest, part)

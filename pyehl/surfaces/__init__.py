@@ -13,6 +13,7 @@ from pyehl.surfaces.interpolation import resampled, shifted
 from pyehl.surfaces.maps import read_map, tile_of
 from pyehl.surfaces.of_case import (
     SolverSurface,
+    finished,
     for_solver,
     from_settings,
     harmonic_amplitude,
@@ -21,6 +22,7 @@ from pyehl.surfaces.of_case import (
     without_spikes,
 )
 from pyehl.surfaces.options import Options
+from pyehl.surfaces.part import part_of
 from pyehl.surfaces.prepare import Preparation, prepare
 from pyehl.surfaces.reading import Scan, read_scan
 from pyehl.surfaces.record import Record
@@ -44,12 +46,14 @@ __all__ = [
     "Topography",
     "feature",
     "filtered",
+    "finished",
     "for_solver",
     "fractal",
     "from_settings",
     "harmonic",
     "harmonic_amplitude",
     "made_heights",
+    "part_of",
     "prepare",
     "psd_2d",
     "psd_isotropic",

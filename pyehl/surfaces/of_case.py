@@ -18,14 +18,17 @@ from pyehl.surfaces.generators import fractal, harmonic
 from pyehl.surfaces.interpolation import shift_across
 from pyehl.surfaces.maps import tile_of
 from pyehl.surfaces.options import NEUTRAL, Options
+from pyehl.surfaces.part import part_of
 from pyehl.surfaces.prepare import consume
 from pyehl.surfaces.reading import Scan, plain_array, read_scan
 from pyehl.surfaces.record import Record
+from pyehl.surfaces.seams import mirrored
 from pyehl.surfaces.tile import Topography
 from pyehl.theory.operating import OperatingPoint
 
 __all__ = [
     "SolverSurface",
+    "finished",
     "for_solver",
     "from_settings",
     "harmonic_amplitude",
@@ -90,7 +93,7 @@ def from_settings(
     OSError
         If the map cannot be opened.
     """
-    return _finished(_whole(settings, operating, film), settings["surface"])
+    return finished(_whole(settings, operating, film), settings["surface"])
 
 
 def _whole(
@@ -174,8 +177,11 @@ def _moved(tile: Topography, surface: Mapping[str, Any]) -> Topography:
     return replace(tile, heights=heights)
 
 
-def _finished(tile: Topography, surface: Mapping[str, Any]) -> Topography:
-    """Tile on its track, its spectrum cut; the solver cuts that of its surfaces itself."""
+def finished(tile: Topography, surface: Mapping[str, Any]) -> Topography:
+    """Put a tile on its track and cut its spectrum, as the group ``surface`` of a case says.
+
+    The solver cuts the spectrum of its surfaces itself.
+    """
     shortest = float(surface.get("shortest_wavelength", 0.0))
     longest = float(surface.get("longest_wavelength", 0.0))
     cut = filtered(tile, shortest, longest, str(surface.get("filter", "sharp")))
@@ -202,7 +208,7 @@ def without_spikes(surface: Topography, threshold: float, group: Mapping[str, An
     made = surface.preparation
     if made is None:
         raise ValueError(f"{surface.origin}: not prepared from a map")
-    return _finished(tile_of(made.scan, replace(made.options, outliers=threshold)), group)
+    return finished(tile_of(made.scan, replace(made.options, outliers=threshold)), group)
 
 
 def track_offsets(surface: Topography, tracks: int) -> list[float]:
@@ -226,14 +232,18 @@ class SolverSurface:
     heights
         (nx, ny) [m], Fortran order; None where the solver makes or reads the surface itself.
     options
-        Texts ``group.key=value`` to set in its case: the size of a prepared tile.
+        Texts ``group.key=value`` to set in its case: the size of a prepared tile, and whether it
+        is the heights with their mirror images.
     preparation
         How a map became a tile, or that it was taken as it is; else None.
+    part
+        Of a large map a part, see :func:`part_of`; its spectrum is not cut. Else None.
     """
 
     heights: NDArray[np.float64] | None = None
     options: tuple[str, ...] = ()
     preparation: Record | None = None
+    part: Topography | None = None
 
 
 def for_solver(settings: Mapping[str, Mapping[str, Any]]) -> SolverSurface:
@@ -263,15 +273,20 @@ def for_solver(settings: Mapping[str, Mapping[str, Any]]) -> SolverSurface:
     changed = changed or not plain_array(str(surface["file"]))
     # a large map is in memory once
     heights, record = consume(scan, options)
-    if not changed and options == NEUTRAL and not record.missing:
-        return SolverSurface(preparation=record)
-    x, y = record.tile_size
     del scan
+    x, y = record.tile_size
+    images = record.edges == "mirror"
+    pixel = (x / record.tile_pixels[0], y / record.tile_pixels[1])
+    part = part_of(heights, pixel, record.file, images=images)
+    if not changed and options == NEUTRAL and not record.missing:
+        return SolverSurface(preparation=record, part=part)
+    sizes = [f"surface.tile_x={x!r}", f"surface.tile_y={y!r}"]
     if surface.get("track"):
+        heights = mirrored(heights) if images else heights
         shift_across(heights, y, -float(surface["track"]))
-    return SolverSurface(
-        np.asfortranarray(heights), (f"surface.tile_x={x!r}", f"surface.tile_y={y!r}"), record
-    )
+    elif images:
+        sizes.append("surface.tile_mirrored=.true.")
+    return SolverSurface(np.asfortranarray(heights), tuple(sizes), record, part)
 
 
 def made_heights(settings: Mapping[str, Mapping[str, Any]]) -> NDArray[np.float64] | None:

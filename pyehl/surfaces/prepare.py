@@ -8,6 +8,7 @@ What 'auto' means depends on what the file is, see :func:`pyehl.surfaces.options
 
 from __future__ import annotations
 
+import logging
 import math
 from dataclasses import dataclass, field
 
@@ -24,8 +25,13 @@ __all__ = ["Preparation", "consume", "prepare"]
 
 Array = NDArray[np.float64]
 
+LOG = logging.getLogger(__name__)
+
 RMS_BAND = (1e-10, 1e-4)
 """Rms heights outside of it [m] are mistakes of units."""
+
+LARGE = 2**22
+"""Heights of a map whose steps take seconds: each is told before it begins."""
 
 JUMP = 3.0
 """A seam whose steps are more than this many times those inside is named in the record."""
@@ -102,7 +108,8 @@ def prepare(scan: Scan, options: Options = NEUTRAL) -> Preparation:
     work, options, why = _prepared(scan, options, keep=True)
     prepared = work.z
     _join(work, options, why)
-    return Preparation(scan, options, work.record(options), prepared, work.pixel, work.z)
+    tile = seams.mirrored(work.z) if options.edges == "mirror" else work.z
+    return Preparation(scan, options, work.record(options), prepared, work.pixel, tile)
 
 
 def consume(scan: Scan, options: Options = NEUTRAL) -> tuple[Array, Record]:
@@ -116,7 +123,8 @@ def consume(scan: Scan, options: Options = NEUTRAL) -> tuple[Array, Record]:
     Returns
     -------
     tuple
-        The tile [m], as in :class:`Preparation`, and what was done.
+        The tile [m], and what was done, as in :class:`Preparation`. A map that is mirrored is left
+        as it is, (nx, ny): its mirror images take four times its memory.
 
     Raises
     ------
@@ -131,28 +139,33 @@ def consume(scan: Scan, options: Options = NEUTRAL) -> tuple[Array, Record]:
 def _prepared(scan: Scan, options: Options, *, keep: bool) -> tuple[_Work, Options, dict[str, str]]:
     """All steps but the last one; the mean is zero. `keep`: the heights of `scan` stay."""
     options, why = defaults(options, scan)
+    _tell(scan, "numbers")
     work = _Work(scan, keep=keep)
     check_pixels(scan.origin, work.z.shape)
     if any(options.crop):
         work.do("crop", ", ".join(f"{v:g}" for v in options.crop),
                 cutting.cropped(work.z, work.pixel, options.crop))  # fmt: skip
-    check_pixels(scan.origin, work.z.shape, 4 if options.edges == "mirror" else 1)
+    check_pixels(scan.origin, work.z.shape, 4 if keep and options.edges == "mirror" else 1)
     if options.sign < 0:
         work.do("sign", "-1", -work.z)
     complete = bool(np.isfinite(work.z).all())
     valid = None if complete else np.isfinite(work.z)
     if options.outliers > 0.0:
+        _tell(scan, "outliers")
         spiky = spikes.prominence(work.z) > options.outliers
         valid = ~spiky if valid is None else valid & ~spiky
         work.do("outliers", f"{options.outliers:g}", np.where(spiky, np.nan, work.z),
                 changed=int(spiky.sum()))  # fmt: skip
     if valid is not None:
+        _tell(scan, "fill")
         _fill(work, options, valid)
     if options.detrend != "none":
+        _tell(scan, "detrend")
         work.begin()
         levelling.level(work.own(), options.detrend, valid)
         work.do("detrend", options.detrend, work.z, why["detrend"])
     if options.rotate % 360.0 != 0.0:
+        _tell(scan, "rotate")
         turned, pixel = cutting.rotated(work.z, work.pixel, options.rotate)
         work.do("rotate", f"{options.rotate:g}", turned, pixel=pixel)
     z = work.own()
@@ -162,10 +175,10 @@ def _prepared(scan: Scan, options: Options, *, keep: bool) -> tuple[_Work, Optio
 
 
 def _join(work: _Work, options: Options, why: dict[str, str]) -> None:
-    """Join the edges of the map, which makes it a tile of mean zero."""
+    """Join the edges of the map, which makes it a tile of mean zero; mirror images come later."""
     prepared = work.z
     if options.edges == "mirror":
-        work.do("edges", "mirror", seams.mirrored(prepared), why["edges"])
+        work.do("edges", "mirror", prepared, why["edges"])
     elif options.edges == "window":
         tile = seams.windowed(prepared)
         rim = int(np.count_nonzero(np.roll(tile, tile.shape[1] // 2, axis=1) != prepared))
@@ -254,7 +267,7 @@ class _Work:
     ) -> None:
         """Record a step; its result is what the next one works on."""
         before = self._last or areal.extent(self.z, self.pixel)
-        # the same heights, even if only their edges are looked at
+        # the same heights, even if only their edges are looked at or their images are added
         same = heights is self.z and name == "edges"
         self.z = heights
         self.pixel = pixel or self.pixel
@@ -263,7 +276,8 @@ class _Work:
 
     def record(self, options: Options) -> Record:
         """Tell what was done, in numbers."""
-        scan, (nx, ny) = self.scan, self.z.shape
+        scan, images = self.scan, 2 if options.edges == "mirror" else 1
+        nx, ny = (images * n for n in self.z.shape)
         return Record(
             file=scan.origin,
             channel=scan.channel,
@@ -279,6 +293,13 @@ class _Work:
             tile_size=(nx * self.pixel[0], ny * self.pixel[1]),
             steps=tuple(self.steps),
         )
+
+
+def _tell(scan: Scan, step: str) -> None:
+    """Tell which step of a large map begins."""
+    if scan.heights.size >= LARGE:
+        nx, ny = scan.heights.shape
+        LOG.info("%s: %d x %d heights: %s ...", scan.origin, nx, ny, step)
 
 
 def _check_rms(scan: Scan, rms: float) -> None:

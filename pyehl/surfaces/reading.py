@@ -29,8 +29,9 @@ TEXT_SUFFIXES = (".txt", ".csv", ".dat", ".asc", "")
 # Headers of text exports that name sizes or units: Gwyddion, in each of its languages, SPIP and the
 # like, and Wyko; for the program ehl fortran/case/map_needs.f90 tells the same
 EXPORT = re.compile(
-    r"(width|šířka|breite|anchura|largeur|larghezza|幅|폭|largura|ширина|value units|jednotky hodnot|"
-    r"einheiten|unités|unità valore|値の単位|값 단위|unidades de valor|единицы измерения|"
+    r"(width|šířka|breite|anchura|largeur|larghezza|幅|폭|largura|ширина|"
+    r"value units|jednotky hodnot|einheiten|unités|unità valore|値の単位|값 단위|"
+    r"unidades de valor|единицы измерения|"
     r"lateral units|[xyz]-unit|x-length|x-pixels|pixel size|file format|unit x|scale x)\s*[:：=]"
     r"|^Wyko ASCII",
     re.IGNORECASE,
@@ -157,8 +158,7 @@ def read_scan(
         else:
             heights, own, periodic = _read_text(path)
     else:
-        found = read_instrument(path, channel, (length_x, length_y))
-        heights, own, periodic, name, note = found
+        heights, own, periodic, name, note = read_instrument(path, channel, (length_x, length_y))
     sizes = []
     for key, given, found in zip(("length_x", "length_y"), (length_x, length_y), own, strict=True):
         size = given or found

@@ -24,7 +24,8 @@ class Step:
     changed
         Points that were removed, filled or altered; 0 where all are, evenly.
     before, after
-        How rough the map was and is.
+        How rough the map was and is, without mirror images: each of its heights and each step
+        between two of them occurs four times in the tile.
     note
         What a person should know besides; mostly empty.
     """

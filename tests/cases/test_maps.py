@@ -14,8 +14,9 @@ import numpy as np
 import pytest
 import scipy.fft
 
-from pyehl import surfaces
+from pyehl import Case, Solver, surfaces
 from pyehl.surfaces import Topography
+from pyehl.surfaces.seams import mirrored
 
 # A light load, which 65 x 65 nodes carry; at rest the heights of the tile on the nodes are the
 # field RR
@@ -242,6 +243,44 @@ def test_map_larger_than_memory_is_refused(drive, tmp_path: Path):
     assert not (tmp_path / "out").exists()
 
 
+# The grid carries all waves of the coarser map, of the finer one those that are left and not all
+@pytest.mark.parametrize(("pixel", "cut"), [(8e-6, 24e-6), (4e-5, 0.0)])
+@pytest.mark.parametrize("shape", [(12, 12), (13, 9), (9, 12), (16, 7)])
+def test_mirrored_map_is_its_tile(shape: tuple[int, int], pixel: float, cut: float):
+    """The solver makes no mirror images: the cosines of the map are the spectrum of its tile."""
+    z = 1e-8 * np.random.default_rng(1).normal(size=shape)
+    x, y = (2.0 * n * pixel for n in shape)
+    case = (
+        f"&surface kind = 'map', file = 'none', tile_x = {x}, tile_y = {y}, "
+        f"shortest_wavelength = {cut}, filter = 'gaussian' /\n"
+        "&contact load = 20.0 /\n&grid points = 65 /\n"
+        "&time steps = 2, skip_start = .false., estimate_error = .false. /\n"
+    )
+    found = []
+    for given, images in ((mirrored(z), ".false."), (z, ".true.")):
+        option = f"surface.tile_mirrored={images}"
+        with Solver.open(Case.from_text(case, [option]), np.asfortranarray(given)) as solver:
+            solver.run()
+            found.append((solver.field("RR"), solver.summary()))
+    (tile, whole), (folded, part) = found
+    assert np.abs(tile).max() > 0.0
+    assert folded == pytest.approx(tile, abs=1e-13 * np.abs(tile).max())
+    for name in ("surface_rms_m", "variance_cut", "variance_unresolved", "variance_left_out"):
+        assert part[name] == pytest.approx(whole[name], rel=1e-12, abs=1e-12), name
+
+
+def test_symmetric_map_is_known_as_one():
+    """Half of the domain is enough for a mirrored map that is even about its middle column."""
+    half = 1e-8 * np.random.default_rng(2).normal(size=(12, 6))
+    for z, even in ((np.hstack([half, half[:, -2::-1]]), True), (np.hstack([half, half]), False)):
+        case = (
+            "&surface kind = 'map', file = 'none', tile_x = 2e-4, tile_y = 2e-4, "
+            "tile_mirrored = .true. /\n&grid points = 33 /\n&time steps = 1 /\n"
+        )
+        with Solver.open(Case.from_text(case), np.asfortranarray(z)) as solver:
+            assert (solver.summary()["half_domain"]) is even
+
+
 MEASURE = """
 import json, resource, subprocess, sys
 done = subprocess.run(sys.argv[1:], capture_output=True, text=True)
@@ -277,7 +316,15 @@ with Solver(Case.read(sys.argv[1])) as solver:
 """
 
 
-@pytest.mark.parametrize("keys", ["", "detrend = 'tilt'", "track = 1e-3"])
+@pytest.mark.parametrize(
+    "keys",
+    [
+        "",
+        "detrend = 'tilt'",
+        "track = 1e-3",
+        "detrend = 'tilt', edges = 'mirror', shortest_wavelength = 1e-4, filter = 'gaussian'",
+    ],
+)
 def test_memory_of_prepared_maps(tmp_path: Path, keys: str):
     """From Python, too, at most three times the size of the map."""
     pixels = 2048

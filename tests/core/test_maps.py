@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from pyehl import Case, InputError, Solver, cli, surfaces
+from pyehl.prediction.resolution import add_resolution
 
 pytest.importorskip("SurfaceTopography")
 
@@ -207,3 +209,36 @@ def test_surface_refuses(tmp_path: Path, capsys):
     (tmp_path / "case.nml").write_text("&surface kind = 'fractal' /\n")
     assert cli.main(["surface", str(tmp_path / "case.nml"), "-o", "map.x3p"]) == 2
     assert ".npy, .txt, .nc" in capsys.readouterr().err
+
+
+def test_large_maps_tell_what_is_done(tmp_path: Path, capsys, monkeypatch):
+    np.save(tmp_path / "map.npy", heights())
+    words = ["surface", str(tmp_path / "map.npy"), "--set", f"surface.length_x={LENGTH}"]
+    words += ["--set", f"surface.length_y={LENGTH}", "--set", "surface.detrend='tilt'"]
+    assert cli.main(words) == 0
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr(sys.modules["pyehl.surfaces.prepare"], "LARGE", 1024)
+    assert cli.main(words) == 0
+    assert "32 x 32 heights: detrend ..." in capsys.readouterr().err
+
+
+def test_part_of_a_large_map(tmp_path: Path, monkeypatch):
+    """What the grid does not resolve is predicted with a part; small maps are taken whole."""
+    np.save(tmp_path / "map.npy", heights())
+    size = f"length_x = {LENGTH} length_y = {LENGTH} edges = 'mirror'"
+    case = Case.read(write_case(tmp_path / "case.nml", "map.npy", size))
+    with Solver(case) as solver:
+        assert solver.part is None
+    monkeypatch.setattr("pyehl.surfaces.part.LARGE_PIXELS", 4000)
+    monkeypatch.setattr("pyehl.surfaces.part.PART_PIXELS", 1024)
+    with Solver(case) as solver:
+        add_resolution(solver, case)
+        part, plan = solver.part, solver.describe()
+    assert part is not None
+    assert part.shape == (32, 32)
+    assert part.pixel == pytest.approx((LENGTH / 32, LENGTH / 32))
+    middle = heights()[8:24, 8:24]
+    assert np.sort(np.unique(part.heights)) == pytest.approx(
+        np.sort(middle.ravel() - middle.mean()), abs=1e-18
+    )
+    assert "map.npy, 16 x 16 pixels in its middle" in plan

@@ -1,0 +1,197 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The waves of a periodic tile of heights, in the memory of one copy of the heights that are given: the spectrum of a
+!> tile; of a map whose tile is it with its mirror images the cosine transform, a quarter of the spectrum of that tile
+module ehl_tile_waves
+   use, intrinsic :: iso_c_binding, only: c_double_complex
+   use ehl_fftw_planner, only: to_cosines, to_spectrum
+   use ehl_kinds, only: dp, pi
+   use ehl_status, only: status_t
+   use ehl_tile_filter, only: filter_spectrum, filter_t
+   implicit none (type, external)
+   private
+   public :: tile_waves_t
+
+   !> Waves exp(2 pi i (k x/length(1) + l y/length(2))); pixel (1, 1) lies at x = y = 0
+   type :: tile_waves_t
+      !> Pixels of the tile along X and Y, and its size; mirror images included
+      integer :: pixels(2) = 0
+      real(dp) :: length(2) = 0.0_dp
+      !> Whether the tile is the same at y and -y
+      logical :: even_in_y = .false.
+      logical, private :: mirrored = .false.
+      !> Half spectrum (pixels/2 + 1, pixels), X first, see to_spectrum
+      complex(c_double_complex), allocatable, private :: spectrum(:, :)
+      !> Mirrored: amplitudes of the waves with k, l = 0, 1, ... (pixels/2), whose phases are known
+      real(dp), allocatable, private :: cosines(:, :)
+   contains
+      procedure :: take
+      procedure :: cut
+      procedure :: variance
+      procedure :: column
+      procedure :: give_to
+      procedure :: are_here
+      procedure :: bytes
+   end type tile_waves_t
+
+contains
+
+   !> The waves of heights times a scale, without the mean. Mirrored: the tile is the map with its mirror images, twice
+   !> as long each way, and the middle column of the map (the one behind it for an even number) is the tile's first.
+   subroutine take(self, heights, scale, length, mirrored, status)
+      class(tile_waves_t), intent(inout) :: self
+      !> X first
+      real(dp), intent(in) :: heights(:, :)
+      real(dp), intent(in) :: scale
+      !> Size of the tile
+      real(dp), intent(in) :: length(2)
+      logical, intent(in) :: mirrored
+      type(status_t), intent(inout) :: status
+      integer :: j
+
+      if (status%failed()) return
+      self%pixels = shape(heights)*merge(2, 1, mirrored)
+      self%length = length
+      self%mirrored = mirrored
+      self%even_in_y = .true.
+      do j = 1, self%pixels(2)/2
+         self%even_in_y = .not. any(abs(heights(:, of_map(self, j)) - heights(:, of_map(self, -j))) > 0.0_dp)
+         if (.not. self%even_in_y) exit
+      end do
+      if (mirrored) then
+         call to_cosines(heights, self%cosines, status)
+         if (status%failed()) return
+         do j = 1, size(self%cosines, 2)
+            self%cosines(:, j) = self%cosines(:, j)*scale
+         end do
+         self%cosines(1, 1) = 0.0_dp
+      else
+         call to_spectrum(heights, self%spectrum, status)
+         if (status%failed()) return
+         do j = 1, self%pixels(2)
+            self%spectrum(:, j) = self%spectrum(:, j)*scale
+         end do
+         self%spectrum(1, 1) = (0.0_dp, 0.0_dp)
+      end if
+   end subroutine take
+
+   !> Column of the heights that are given, from 1, at column j of the tile, from 0
+   elemental integer function of_map(self, j)
+      class(tile_waves_t), intent(in) :: self
+      integer, intent(in) :: j
+
+      if (self%mirrored) then
+         of_map = modulo(j + self%pixels(2)/4, self%pixels(2))
+         of_map = min(of_map, self%pixels(2) - 1 - of_map) + 1
+      else
+         of_map = modulo(j, self%pixels(2)) + 1
+      end if
+   end function of_map
+
+   !> Cut them at a shortest and a longest wavelength
+   subroutine cut(self, filter)
+      class(tile_waves_t), intent(inout) :: self
+      type(filter_t), intent(in) :: filter
+      integer :: i, j
+
+      if (filter%passes_all()) return
+      if (.not. self%mirrored) then
+         call filter_spectrum(filter, self%spectrum, self%length(1), self%length(2))
+         return
+      end if
+      do j = 1, size(self%cosines, 2)
+         do i = 1, size(self%cosines, 1)
+            self%cosines(i, j) = self%cosines(i, j) &
+                                 *filter%transmission(2.0_dp*pi*hypot((i - 1)/self%length(1), (j - 1)/self%length(2)))
+         end do
+      end do
+   end subroutine cut
+
+   !> Variance of the waves with at most so many periods in the tile along X and along Y
+   pure real(dp) function variance(self, most)
+      class(tile_waves_t), intent(in) :: self
+      integer, intent(in) :: most(2)
+      real(dp) :: sums(self%pixels(2))
+      integer :: j, last, nx, ny
+
+      nx = self%pixels(1)
+      ny = self%pixels(2)
+      sums = 0.0_dp
+      if (self%mirrored) then
+         last = min(nx/2, most(1) + 1)
+         do j = 1, min(ny/2, most(2) + 1)
+            ! waves with q and -q along X, then along Y
+            sums(j) = 2.0_dp*sum(self%cosines(:last, j)**2) - self%cosines(1, j)**2
+            if (j > 1) sums(j) = 2.0_dp*sums(j)
+         end do
+      else
+         last = min(nx/2, most(1)) + 1
+         do j = 1, ny
+            if (min(j - 1, ny + 1 - j) > most(2)) cycle
+            ! components with q_x < 0 are not stored
+            sums(j) = 2.0_dp*sum(self%spectrum(:last, j)%re**2 + self%spectrum(:last, j)%im**2) - abs(self%spectrum(1, j))**2
+            if (2*(last - 1) == nx) sums(j) = sums(j) - abs(self%spectrum(last, j))**2
+         end do
+      end if
+      variance = sum(sums)
+   end function variance
+
+   !> The waves with k periods along X and -most ... most along Y; of the shortest one, which travels half with q and
+   !> half with -q, a half
+   subroutine column(self, k, most, values)
+      class(tile_waves_t), intent(in) :: self
+      integer, intent(in) :: k, most
+      complex(c_double_complex), intent(out) :: values(-most:most)
+      real(dp) :: along
+      integer :: l
+
+      if (self%mirrored) then
+         values = (0.0_dp, 0.0_dp)
+         ! a cosine has no shortest wave
+         if (2*k >= self%pixels(1)) return
+         along = real(k, dp)/self%pixels(1)
+         do l = -min(most, self%pixels(2)/2 - 1), min(most, self%pixels(2)/2 - 1)
+            values(l) = self%cosines(k + 1, abs(l) + 1)*turned(along + l*(2*(self%pixels(2)/4) + 1)/real(self%pixels(2), dp))
+         end do
+      else
+         do l = -most, most
+            values(l) = self%spectrum(k + 1, modulo(l, self%pixels(2)) + 1)
+         end do
+         if (2*most == self%pixels(2)) values([-most, most]) = 0.5_dp*values([-most, most])
+         if (2*k == self%pixels(1)) values = 0.5_dp*values
+      end if
+   end subroutine column
+
+   !> exp(i pi t)
+   elemental complex(c_double_complex) function turned(t)
+      real(dp), intent(in) :: t
+      turned = cmplx(cos(pi*modulo(t, 2.0_dp)), sin(pi*modulo(t, 2.0_dp)), c_double_complex)
+   end function turned
+
+   !> Give them away
+   subroutine give_to(self, other)
+      class(tile_waves_t), intent(inout) :: self
+      type(tile_waves_t), intent(inout) :: other
+
+      other%pixels = self%pixels
+      other%length = self%length
+      other%even_in_y = self%even_in_y
+      other%mirrored = self%mirrored
+      call move_alloc(self%spectrum, other%spectrum)
+      call move_alloc(self%cosines, other%cosines)
+   end subroutine give_to
+
+   !> Whether they have not been given away
+   pure logical function are_here(self)
+      class(tile_waves_t), intent(in) :: self
+      are_here = allocated(self%spectrum) .or. allocated(self%cosines)
+   end function are_here
+
+   !> Bytes in use
+   pure real(dp) function bytes(self)
+      class(tile_waves_t), intent(in) :: self
+
+      bytes = 0.0_dp
+      if (allocated(self%spectrum)) bytes = 16.0_dp*size(self%spectrum, 1)*real(size(self%spectrum, 2), dp)
+      if (allocated(self%cosines)) bytes = 8.0_dp*size(self%cosines, 1)*real(size(self%cosines, 2), dp)
+   end function bytes
+end module ehl_tile_waves
