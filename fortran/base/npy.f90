@@ -8,9 +8,14 @@ module ehl_npy
    use ehl_text, only: newline, to_text
    implicit none (type, external)
    private
-   public :: write_npy, read_npy, npy_shape
+   public :: matrix_t, write_npy, read_npy, npy_shape
 
-   !> Write a vector or a matrix; a matrix keeps Fortran order, so that values(i, j) in Fortran
+   !> One of several matrices
+   type :: matrix_t
+      real(dp), allocatable :: values(:, :)
+   end type matrix_t
+
+   !> Write a vector, a matrix or a stack of matrices; a matrix keeps Fortran order, so that values(i, j) in Fortran
    !> is values[i - 1, j - 1] in Python
    interface write_npy
       module procedure write_vector
@@ -40,15 +45,16 @@ contains
                                      // to_text(size(values, 2)) // ")"), values, status)
    end subroutine write_matrix
 
-   !> A stack of matrices: values(i, j, k) is values[i - 1, j - 1, k - 1] in Python
-   subroutine write_stack(path, values, status)
+   !> A stack of matrices of one shape: stack(k)%values(i, j) is values[i - 1, j - 1, k - 1] in Python
+   subroutine write_stack(path, stack, status)
       character(len=*), intent(in) :: path
-      real(dp), intent(in) :: values(:, :, :)
+      type(matrix_t), intent(in) :: stack(:)
       type(status_t), intent(inout) :: status
 
-      call write_values(path, header("True", "(" // to_text(size(values, 1)) // ", " &
-                                     // to_text(size(values, 2)) // ", " // to_text(size(values, 3)) // ")"), &
-                        reshape(values, [size(values, 1), size(values, 2)*size(values, 3)]), status)
+      associate (n => shape(stack(1)%values))
+         call write_values(path, header("True", "(" // to_text(n(1)) // ", " // to_text(n(2)) // ", " &
+                                        // to_text(size(stack)) // ")"), stack(1)%values, status, stack(2:))
+      end associate
    end subroutine write_stack
 
    !> Magic, version, length and description, padded to a multiple of 64 bytes
@@ -65,13 +71,17 @@ contains
    end function header
 
    !> Header and numbers; machines with the other byte order are not served
-   subroutine write_values(path, head, values, status)
+   subroutine write_values(path, head, values, status, behind)
       character(len=*), intent(in) :: path, head
       real(dp), intent(in) :: values(:, :)
       type(status_t), intent(inout) :: status
+      !> Matrices of the same shape that come next
+      type(matrix_t), intent(in), optional :: behind(:)
       character(len=256) :: reason
-      integer :: lun, stat, closing
+      integer :: lun, stat, closing, k, more
 
+      more = 0
+      if (present(behind)) more = size(behind)
       if (transfer(1_int32, 0_int8) /= 1_int8) then
          call status%fail(ehl_file, path // ": this machine is not little-endian")
          return
@@ -80,6 +90,9 @@ contains
             form="unformatted", iostat=stat, iomsg=reason)
       if (stat == 0) then
          write (lun, iostat=stat, iomsg=reason) head, values
+         do k = 1, more
+            if (stat == 0) write (lun, iostat=stat, iomsg=reason) behind(k)%values
+         end do
          if (stat == 0) then
             close (lun, iostat=stat, iomsg=reason)
          else
@@ -90,7 +103,7 @@ contains
       if (stat /= 0) then
          call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
       else
-         call check_written(path, len(head) + 8_int64*size(values, kind=int64), status)
+         call check_written(path, len(head) + 8_int64*(1 + more)*size(values, kind=int64), status)
       end if
    end subroutine write_values
 

@@ -27,18 +27,11 @@ module ehl_table
       procedure :: n_rows
       procedure :: n_columns
       procedure :: column
-      procedure :: all_rows
+      procedure :: row
       procedure :: write_csv
    end type table_t
 
 contains
-
-   !> All values, shape (columns, rows)
-   pure function all_rows(self) result(values)
-      class(table_t), intent(in) :: self
-      real(dp), allocatable :: values(:, :)
-      values = self%values(:, :self%rows)
-   end function all_rows
 
    !> Name the columns and drop all rows
    subroutine init(self, names)
@@ -84,6 +77,14 @@ contains
       n_columns = 0
       if (allocated(self%names)) n_columns = size(self%names)
    end function n_columns
+
+   !> Values of a row, one per column
+   pure function row(self, k) result(values)
+      class(table_t), intent(in) :: self
+      integer, intent(in) :: k
+      real(dp), allocatable :: values(:)
+      values = self%values(:, k)
+   end function row
 
    !> Values of the column with this name, one per row; no values when there is no such column
    pure function column(self, name) result(values)

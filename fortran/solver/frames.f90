@@ -4,43 +4,85 @@ module ehl_frames
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
+   use ehl_npy, only: matrix_t
+   use ehl_status, only: ehl_no_memory, status_t
    implicit none (type, external)
    private
    public :: frames_t
 
-   !> Times, and P and H on the whole domain, (nx, full_ny, frame)
    type :: frames_t
-      real(dp), allocatable :: times(:), p(:, :, :), h(:, :, :)
+      !> Frames so far
+      integer :: n = 0
+      !> Time [a/u] of each; P and H on the whole domain, (nx, full_ny). Places behind the last frame are spare.
+      real(dp), allocatable :: times(:)
+      type(matrix_t), allocatable :: p(:), h(:)
    contains
       procedure :: start
       procedure :: keep
+      procedure :: add
    end type frames_t
 
 contains
 
    !> No frame yet
-   subroutine start(self, grid)
+   subroutine start(self)
       class(frames_t), intent(inout) :: self
-      type(grid_t), intent(in) :: grid
-      allocate (self%times(0), self%p(grid%nx, grid%full_ny(), 0), self%h(grid%nx, grid%full_ny(), 0))
+
+      self%n = 0
+      if (allocated(self%times)) deallocate (self%times, self%p, self%h)
+      allocate (self%times(16), self%p(16), self%h(16))
    end subroutine start
 
    !> Keep P and H after a step if a frame is due
-   subroutine keep(self, level, time, time_step, interval)
+   subroutine keep(self, level, time, time_step, interval, status)
       class(frames_t), intent(inout) :: self
       type(level_t), intent(in) :: level
       real(dp), intent(in) :: time, time_step
       !> Time from frame to frame; 0: none
       real(dp), intent(in) :: interval
-      real(dp), allocatable :: values(:, :)
+      type(status_t), intent(inout) :: status
 
       if (interval <= 0.0_dp) return
       if (int(time/interval) == int((time - time_step)/interval)) return
-      self%times = [self%times, time]
-      allocate (values(level%grid%nx, level%grid%full_ny()))
-      call level%grid%unfold(level%p, values)
-      self%p = reshape([self%p, values], [shape(values), size(self%times)])
-      call level%grid%unfold(level%h, values)
-      self%h = reshape([self%h, values], [shape(values), size(self%times)])
+      call self%add(level%grid, status)
+      if (status%failed()) return
+      self%times(self%n) = time
+      call level%grid%unfold(level%p, self%p(self%n)%values)
+      call level%grid%unfold(level%h, self%h(self%n)%values)
    end subroutine keep
+
+   !> Room for one more frame
+   subroutine add(self, grid, status)
+      class(frames_t), intent(inout) :: self
+      type(grid_t), intent(in) :: grid
+      type(status_t), intent(inout) :: status
+      integer :: stat
+
+      if (self%n == size(self%times)) then
+         self%times = [self%times, self%times]
+         call double(self%p)
+         call double(self%h)
+      end if
+      associate (next => self%n + 1)
+         allocate (self%p(next)%values(grid%nx, grid%full_ny()), self%h(next)%values(grid%nx, grid%full_ny()), stat=stat)
+      end associate
+      if (stat == 0) then
+         self%n = self%n + 1
+      else
+         call status%fail(ehl_no_memory, "no memory for another frame of the transient run")
+      end if
+   end subroutine add
+
+   !> Twice as many places; the matrices stay where they are
+   subroutine double(matrices)
+      type(matrix_t), allocatable, intent(inout) :: matrices(:)
+      type(matrix_t), allocatable :: more(:)
+      integer :: k
+
+      allocate (more(2*size(matrices)))
+      do k = 1, size(matrices)
+         call move_alloc(matrices(k)%values, more(k)%values)
+      end do
+      call move_alloc(more, matrices)
+   end subroutine double
 end module ehl_frames

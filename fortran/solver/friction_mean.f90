@@ -31,7 +31,6 @@ module ehl_friction_mean
    contains
       procedure :: start
       procedure :: append
-      procedure :: reserve
       procedure :: mean
       procedure :: has_mean
       procedure :: extremes
@@ -72,16 +71,6 @@ contains
       self%film(self%n) = film
       self%roughness(self%n) = roughness
    end subroutine append
-
-   !> Room for n values
-   subroutine reserve(self, n)
-      class(friction_mean_t), intent(inout) :: self
-      integer, intent(in) :: n
-
-      if (n <= size(self%values)) return
-      deallocate (self%values, self%film, self%roughness)
-      allocate (self%values(2*n), self%film(2*n), self%roughness(2*n))
-   end subroutine reserve
 
    !> A_d/A_i at X = Y = 0: the standard deviation of the film there over the last period, over that of
    !> the roughness that passes

@@ -4,7 +4,7 @@
 module ehl_keeper
    use ehl_case, only: case_t
    use ehl_case_writer, only: case_text
-   use ehl_checkpoint, only: checkpoint_names
+   use ehl_checkpoint, only: coarser, series_files, state_files
    use ehl_clock, only: clock_t, start_clock
    use ehl_files, only: file_exists, make_folder, remove_file, remove_folder, rename_path, write_text
    use ehl_kinds, only: dp
@@ -18,9 +18,9 @@ module ehl_keeper
    public :: keeper_t, find_checkpoint, checkpoint_folder
 
    character(len=*), parameter :: suffix = ".checkpoint", case_file = "case.nml", surface_file = "surface.npy"
-   !> What a folder of states may hold
-   character(len=*), parameter :: state_files(*) = [character(len=24) :: &
-      checkpoint_names, "coarser-"//checkpoint_names]
+   !> States of the run and of that on the coarser grid, and all that belongs to them
+   character(len=*), parameter :: states(*) = [character(len=32) :: state_files, coarser//state_files], &
+      files(*) = [character(len=32) :: state_files, series_files, coarser//state_files, coarser//series_files]
 
    !> Writes the state now and then
    type :: keeper_t
@@ -111,7 +111,7 @@ contains
    !> Save the state if its time has come
    subroutine tick(self, solver, status)
       class(keeper_t), intent(inout) :: self
-      type(solver_t), intent(in) :: solver
+      type(solver_t), intent(inout) :: solver
       type(status_t), intent(inout) :: status
 
       if (.not. allocated(self%folder)) return
@@ -121,7 +121,7 @@ contains
    !> Save the state
    subroutine save(self, solver, status)
       class(keeper_t), intent(inout) :: self
-      type(solver_t), intent(in) :: solver
+      type(solver_t), intent(inout) :: solver
       type(status_t), intent(inout) :: status
 
       if (.not. allocated(self%folder)) return
@@ -151,8 +151,8 @@ contains
       integer :: k
 
       holds_state = .false.
-      do k = 1, size(state_files)
-         if (file_exists(folder//trim(state_files(k)))) holds_state = .true.
+      do k = 1, size(states)
+         if (file_exists(folder//trim(states(k)))) holds_state = .true.
       end do
    end function holds_state
 
@@ -185,9 +185,9 @@ contains
       logical :: gone
       integer :: k
 
-      do k = 1, size(state_files)
-         gone = remove_file(folder//trim(state_files(k)))
-         gone = remove_file(folder//trim(state_files(k))//".new")
+      do k = 1, size(files)
+         gone = remove_file(folder//trim(files(k)))
+         gone = remove_file(folder//trim(files(k))//".new")
       end do
       gone = remove_file(folder//surface_file)
       gone = remove_file(folder//surface_file//".new")

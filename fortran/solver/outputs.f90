@@ -148,11 +148,12 @@ contains
          if (.not. status%failed()) call solver%field(trim(names(k)), values, status)
          if (.not. status%failed()) call write_npy(folder // trim(names(k)) // ".npy", values, status)
       end do
-      if (.not. allocated(solver%frames%times)) return
-      if (size(solver%frames%times) == 0) return
-      if (.not. status%failed()) call write_npy(folder // "frame_T.npy", solver%frames%times, status)
-      if (.not. status%failed()) call write_npy(folder // "frame_P.npy", solver%frames%p, status)
-      if (.not. status%failed()) call write_npy(folder // "frame_H.npy", solver%frames%h, status)
+      associate (frames => solver%frames, n => solver%frames%n)
+         if (n == 0) return
+         if (.not. status%failed()) call write_npy(folder // "frame_T.npy", frames%times(:n), status)
+         if (.not. status%failed()) call write_npy(folder // "frame_P.npy", frames%p(:n), status)
+         if (.not. status%failed()) call write_npy(folder // "frame_H.npy", frames%h(:n), status)
+      end associate
    end subroutine write_fields
 
    !> The folder from the root without a '/' at its end; empty when it cannot be a folder of ours

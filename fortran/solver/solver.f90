@@ -2,7 +2,7 @@
 !> A case on its way: plan, grids, transient run and results. Both drivers call nothing else.
 module ehl_solver
    use ehl_case, only: case_t
-   use ehl_checkpoint, only: state_t
+   use ehl_checkpoint, only: checkpoint_t
    use ehl_frames, only: frames_t
    use ehl_grid, only: grid_t
    use ehl_hierarchy, only: hierarchy_t
@@ -48,8 +48,8 @@ module ehl_solver
       real(dp), allocatable, private :: p_smooth(:, :), h_smooth(:, :)
       !> Frames of the transient run; not allocated before it
       type(frames_t) :: frames
-      !> States to go on from when the smooth contact is solved: of this run, of the coarser one
-      type(state_t), allocatable, private :: state, coarse_state
+      !> State on disk, and to go on from when the smooth contact is solved: of this run, of the coarser one before it begins
+      type(checkpoint_t), private :: checkpoint, coarse_checkpoint
       !> The same run on the next coarser grid, for the grid error of the friction ratio
       type(solver_t), pointer, private :: coarse => null()
       !> Its mean friction ratio; 0: it did not converge; less: it has not been made
@@ -93,7 +93,7 @@ module ehl_solver
       !> Write the state into a folder (its name ends in '/'). Before the first time step there is nothing
       !> that is worth it.
       module subroutine save_state(self, folder, status)
-         class(solver_t), intent(in) :: self
+         class(solver_t), intent(inout) :: self
          character(len=*), intent(in) :: folder
          type(status_t), intent(inout) :: status
       end subroutine save_state

@@ -72,8 +72,8 @@ contains
       if (status%failed()) return
       self%zeros_seconds = seconds_saved_by_zeros(self%hierarchy%levels(n))
       self%marching = .true.
-      call self%frames%start(self%grid)
-      if (allocated(self%state)) call take_state(self, status)
+      call self%frames%start()
+      if (self%checkpoint%found()) call take_state(self, status)
       if (status%failed()) return
       if (self%plan%coarse_run .and. self%coarse_mean < 0.0_dp) call begin_coarse(self, status)
    end subroutine begin_march
@@ -145,7 +145,7 @@ contains
                                                                       self%h_smooth, march%time)
             self%outcome = judge_march(self%plan, self%transient)
             call self%frames%keep(self%hierarchy%levels(self%steady%n), march%time, march%time_step, &
-                                  self%input%output%frame_interval)
+                                  self%input%output%frame_interval, status)
          else if (.not. m%finite) then
             self%outcome = outcome_diverged
          else if (.not. m%positive) then
@@ -170,7 +170,7 @@ contains
       allocate (self%coarse)
       call self%plan%surface%hand_over(self%coarse%surface)
       call self%coarse%start(input, status)
-      if (allocated(self%coarse_state)) call move_alloc(self%coarse_state, self%coarse%state)
+      self%coarse%checkpoint = self%coarse_checkpoint
    end subroutine begin_coarse
 
    !> One step of the coarser run; at its end its mean is kept and the run freed. A coarser run that

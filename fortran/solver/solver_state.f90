@@ -2,18 +2,15 @@
 !> How a transient run is kept on disk and taken up again
 submodule (ehl_solver) ehl_solver_state
    use ehl_case_writer, only: case_text
-   use ehl_checkpoint, only: read_checkpoint, write_checkpoint
+   use ehl_checkpoint, only: coarser
    use ehl_judge, only: judge_march
    use ehl_status, only: ehl_bad_input
    implicit none (type, external)
 
-   !> What the names of the states of the coarser run begin with
-   character(len=*), parameter :: coarser = "coarser-"
-
 contains
 
    module subroutine save_state(self, folder, status)
-      class(solver_t), intent(in) :: self
+      class(solver_t), intent(inout) :: self
       character(len=*), intent(in) :: folder
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: text
@@ -25,13 +22,13 @@ contains
 
    !> Write the state of one run under names that begin with a prefix
    subroutine save_as(self, prefix, text, status)
-      type(solver_t), intent(in) :: self
+      type(solver_t), intent(inout) :: self
       character(len=*), intent(in) :: prefix, text
       type(status_t), intent(inout) :: status
 
       if (self%steps_made() == 0) return
-      call write_checkpoint(prefix, text, self%transient, self%history, self%frames, &
-                            [self%step_seconds, self%coarse_mean], status)
+      call self%checkpoint%write(prefix, text, self%transient, self%history, self%frames, self%grid, &
+                                 [self%step_seconds, self%coarse_mean], status)
    end subroutine save_as
 
    !> The case as text, with the defaults of all keys that change no step: when to stop, threads, what to
@@ -63,36 +60,27 @@ contains
       character(len=:), allocatable :: text
 
       text = step_text(self%input)
-      call read_checkpoint(folder, text, self%state, note, status)
-      if (status%failed() .or. allocated(self%state)) return
-      call read_checkpoint(folder//coarser, text, self%coarse_state, note, status)
+      call self%checkpoint%find(folder, text, note, status)
+      if (status%failed() .or. self%checkpoint%found()) return
+      call self%coarse_checkpoint%find(folder//coarser, text, note, status)
    end subroutine resume
 
    module subroutine take_state(self, status)
       type(solver_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
+      real(dp) :: numbers(2)
       logical :: same
-      integer :: k
 
-      associate (state => self%state, march => self%transient)
-         if (any(shape(state%march%mass_content) /= shape(march%mass_content))) then
-            call status%fail(ehl_bad_input, state%path//": error: this state belongs to another grid")
-            return
-         end if
-         call march%restore(state%march, self%hierarchy%levels(self%steady%n), self%plan%surface, same)
-         if (.not. same) then
-            call status%fail(ehl_bad_input, state%path//": error: the film of this state does not follow from its "// &
-                             "pressure"//new_line("a")//"expected: the surface and the program that it was made with")
-            return
-         end if
-         do k = 1, size(state%rows, 2)
-            call self%history%append(state%rows(:, k))
-         end do
-         self%frames = state%frames
-         self%step_seconds = state%numbers(1)
-         self%coarse_mean = state%numbers(2)
-      end associate
-      deallocate (self%state)
+      call self%checkpoint%read(self%transient, self%history, self%frames, self%grid, numbers, status)
+      if (status%failed()) return
+      self%step_seconds = numbers(1)
+      self%coarse_mean = numbers(2)
+      call self%transient%restore(self%hierarchy%levels(self%steady%n), self%plan%surface, same)
+      if (.not. same) then
+         call status%fail(ehl_bad_input, self%checkpoint%newest()//": error: the film of this state does not follow from "// &
+                          "its pressure"//new_line("a")//"expected: the surface and the program that it was made with")
+         return
+      end if
       self%outcome = judge_march(self%plan, self%transient)
    end subroutine take_state
 end submodule ehl_solver_state

@@ -222,43 +222,18 @@ contains
                        .and. self%m%finite .and. self%m%positive
    end function step_converged
 
-   !> Take over a state that was read. `same` tells whether its film follows from its pressure: it does not
-   !> when the surface, or the program, is another one.
-   subroutine restore(self, state, level, surface, same)
+   !> Go on with a state that was read into this run. `same` tells whether its film follows from its pressure: it does
+   !> not when the surface, or the program, is another one.
+   subroutine restore(self, level, surface, same)
       class(transient_t), intent(inout) :: self
-      type(transient_t), intent(in) :: state
       type(level_t), intent(inout) :: level
       class(surface_t), intent(inout) :: surface
       logical, intent(out) :: same
       !> Rounding of another processor or compiler may pass
       real(dp), parameter :: rounding = 1.0e-9_dp
-      integer :: k
 
-      self%step = state%step
-      self%skipped = state%skipped
-      self%time = state%time
-      self%time_step = state%time_step
-      self%residual = state%residual
-      self%cycles = state%cycles
-      self%total_cycles = state%total_cycles
-      self%total_sweeps = state%total_sweeps
-      self%policy%coarsening = state%policy%coarsening
-      self%policy%changed_at = state%policy%changed_at
-      self%friction_smooth = state%friction_smooth
-      self%h00_before = state%h00_before
-      self%mass_content = state%mass_content
-      self%p_before = state%p_before
-      self%predictor%weights = state%predictor%weights
-      self%accuracy%rise = state%accuracy%rise
-      self%accuracy%sensitivity = state%accuracy%sensitivity
-      self%accuracy%largest = state%accuracy%largest
-      self%extremes = state%extremes
-      do k = 1, state%mean%n
-         call self%mean%append(state%mean%values(k), state%mean%film(k), state%mean%roughness(k))
-      end do
       call self%step_back(level, surface)
       self%m = measure(level)
-      self%film_mark = state%film_mark
       same = abs(sum(1.0_dp/level%h) - self%film_mark) <= rounding*self%film_mark
    end subroutine restore
 

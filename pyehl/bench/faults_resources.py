@@ -54,7 +54,7 @@ def damage(
     whole = folder / "resumed"
     _copy(folder, whole)
     run(folder, "run", "--resume", "resumed", "--set", "time.steps=62")
-    files = sorted(path.name for path in kept.glob("*checkpoint.?"))
+    files = sorted(path.name for path in kept.glob("*checkpoint.*"))
     trials = 0
     for both in (False, True):
         for region in range(REGIONS):

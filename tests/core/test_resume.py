@@ -170,6 +170,28 @@ def test_damaged_newest_state_gives_way_to_the_older_one(
     same(unbroken["wave"] / "out", tmp_path / "out")
 
 
+@pytest.mark.parametrize("name", ["rows", "frames"])
+def test_growing_files(drive, unbroken, tmp_path: Path, name: str):
+    """They are appended to; what lies behind the state is passed over, damage before it is not."""
+    shutil.copy(unbroken["wave"] / "case.nml", tmp_path)
+    stop_after_steps(drive, tmp_path, "ehl", 20)
+    grown = tmp_path / "out.checkpoint" / f"checkpoint.{name}"
+    early = grown.read_bytes()
+    assert len(early) > 8 * 20
+    grown.write_bytes(early + b"cut off while it was written")
+    stop_after_steps(drive, tmp_path, "ehl", 40, "--resume", "out")
+    late = grown.read_bytes()
+    assert late.startswith(early)
+    assert len(late) > len(early) + 28
+    grown.write_bytes(late[: len(early) // 2] + b"?" + late[len(early) // 2 + 1 :])
+    done = drive("ehl", "--resume", "out", "--set", "time.steps=0")
+    assert done.returncode == 2
+    assert "damaged, and there is no other" in done.stderr
+    grown.write_bytes(late)
+    assert drive("ehl", "--resume", "out", "--set", "time.steps=0").returncode == 0
+    same(unbroken["wave"] / "out", tmp_path / "out")
+
+
 @pytest.mark.parametrize("driver", ["ehl", "pyehl"])
 def test_what_cannot_be_resumed_is_said(drive, tmp_path: Path, driver: str):
     def refused(*words: str) -> str:
