@@ -7,9 +7,9 @@ program ehl
    use ehl_case_reader, only: read_case_file
    use ehl_case_writer, only: options_text
    use ehl_clock, only: clock_t, start_clock
-   use ehl_keeper, only: checkpoint_folder, find_checkpoint, keeper_t
+   use ehl_checkpoint_folder, only: checkpoint_path, find_checkpoint, checkpoint_folder_t
    use ehl_kinds, only: dp
-   use ehl_outputs, only: check_folder, write_results
+   use ehl_result_folder, only: check_folder, write_results
    use ehl_signals, only: stop_wanted, watch_signals
    use ehl_solver, only: solver_t
    use ehl_status, only: ehl_bad_input, status_t
@@ -23,7 +23,7 @@ program ehl
    type(arguments_t) :: arguments
    type(case_t) :: input
    type(solver_t) :: solver
-   type(keeper_t) :: keeper
+   type(checkpoint_folder_t) :: checkpoints
    type(status_t) :: status
    type(clock_t) :: clock
    character(len=:), allocatable :: note, case_file
@@ -54,12 +54,12 @@ program ehl
    call end_if_failed()
    call say(solver%describe())
    if (arguments%resume /= "") then
-      call solver%resume(checkpoint_folder(arguments%resume), note, status)
+      call solver%resume(checkpoint_path(arguments%resume), note, status)
       call end_if_failed()
       if (note == "") note = "there is no state yet: the run begins at its beginning"
       call say("resume: " // note)
    end if
-   call keeper%open(arguments%folder, input, solver, arguments%resume, heights, note, status)
+   call checkpoints%open(arguments%folder, input, solver, arguments%resume, heights, note, status)
    call end_if_failed()
    deallocate (heights)
    if (note /= "") call say("note: " // note)
@@ -70,10 +70,10 @@ program ehl
    if (note /= "") call say("note: " // note)
    call say("results: " // arguments%folder)
    if (solver%converged()) then
-      call keeper%close()
+      call checkpoints%close()
       stop exit_ok, quiet=.true.
    end if
-   if (keeper%has_state()) call say("state: " // checkpoint_folder(arguments%folder) // newline &
+   if (checkpoints%has_state()) call say("state: " // checkpoint_path(arguments%folder) // newline &
                                     // "to resume: ehl --resume " // arguments%folder)
    if (stop_wanted()) stop exit_interrupted, quiet=.true.
    stop exit_failed, quiet=.true.
@@ -108,9 +108,9 @@ contains
       type(status_t) :: saving
 
       if (at_once) then
-         call keeper%save(solver, saving)
+         call checkpoints%save(solver, saving)
       else
-         call keeper%tick(solver, saving)
+         call checkpoints%tick(solver, saving)
       end if
       if (saving%failed()) write (error_unit, "(a)") saving%message
    end subroutine keep_state

@@ -9,10 +9,10 @@ module ehl_f2py_functions
    use ehl_deflection, only: deflection_t
    use ehl_deflection_factory, only: new_deflection
    use ehl_grid, only: grid_t
-   use ehl_keeper, only: find_checkpoint
+   use ehl_checkpoint_folder, only: find_checkpoint
    use ehl_lubricant, only: density_constant, density_dowson_higginson, new_lubricant, &
                             solver_lubricant_t => lubricant_t, viscosity_barus, viscosity_roelands
-   use ehl_outputs, only: check_folder
+   use ehl_result_folder, only: check_folder
    use ehl_reply, only: reply
    use ehl_shear, only: shear_carreau, shear_eyring, shear_law_t, shear_limiting, shear_newtonian, shear_stress
    use ehl_status, only: ehl_bad_input, status_t

@@ -11,8 +11,8 @@ module ehl_f2py_solver
    use ehl_case_reader, only: read_case
    use ehl_grid, only: grid_t
    use ehl_handles, only: drop_handle, new_handle, run_of, run_t
-   use ehl_keeper, only: checkpoint_folder
-   use ehl_outputs, only: write_results
+   use ehl_checkpoint_folder, only: checkpoint_path
+   use ehl_result_folder, only: write_results
    use ehl_record, only: record_t
    use ehl_reply, only: reply
    use ehl_status, only: ehl_bad_input, status_t
@@ -265,7 +265,7 @@ contains
       note = ""
       call run_of(handle, run, status)
       if (.not. status%failed()) then
-         call run%solver%resume(checkpoint_folder(results), text, status)
+         call run%solver%resume(checkpoint_path(results), text, status)
          if (.not. status%failed()) note = text
       end if
       call reply(status, stat, message)
@@ -289,7 +289,7 @@ contains
       call run_of(handle, run, status)
       if (.not. status%failed()) then
          associate (n => merge(nx, 0, has_heights /= 0))
-            call run%keeper%open(results, run%input, run%solver, resumed, heights(:n, :), text, status)
+            call run%checkpoints%open(results, run%input, run%solver, resumed, heights(:n, :), text, status)
          end associate
          if (.not. status%failed()) note = text
       end if
@@ -308,10 +308,10 @@ contains
       call run_of(handle, run, status)
       if (.not. status%failed()) then
          if (at_once /= 0) then
-            call run%keeper%save(run%solver, status)
-            if (run%keeper%has_state()) has_state = 1
+            call run%checkpoints%save(run%solver, status)
+            if (run%checkpoints%has_state()) has_state = 1
          else
-            call run%keeper%tick(run%solver, status)
+            call run%checkpoints%tick(run%solver, status)
          end if
       end if
       call reply(status, stat, message)
@@ -326,7 +326,7 @@ contains
       type(status_t) :: status
 
       call run_of(handle, run, status)
-      if (.not. status%failed()) call run%keeper%close()
+      if (.not. status%failed()) call run%checkpoints%close()
       call reply(status, stat, message)
    end subroutine end_keeping
 

@@ -3,7 +3,7 @@
 module ehl_handles
    use ehl_case, only: case_t
    use ehl_clock, only: clock_t, start_clock
-   use ehl_keeper, only: keeper_t
+   use ehl_checkpoint_folder, only: checkpoint_folder_t
    use ehl_lock, only: lock, lock_t, unlock
    use ehl_solver, only: solver_t
    use ehl_status, only: ehl_closed, ehl_no_memory, status_t
@@ -16,7 +16,7 @@ module ehl_handles
    type :: run_t
       type(case_t) :: input
       type(solver_t) :: solver
-      type(keeper_t) :: keeper
+      type(checkpoint_folder_t) :: checkpoints
       type(clock_t) :: clock
    end type run_t
 

@@ -8,7 +8,7 @@ module test_friction
    use ehl_kinds, only: dp, pi
    use ehl_level, only: level_t
    use ehl_lubricant, only: density_dowson_higginson, new_lubricant, viscosity_barus
-   use ehl_measures, only: measure, measures_t
+   use ehl_contact_results, only: measure, contact_results_t
    use ehl_shear, only: shear_carreau, shear_eyring, shear_law_t, shear_limiting, shear_newtonian, shear_stress
    use ehl_status, only: status_t
    implicit none (type, external)
@@ -33,7 +33,7 @@ contains
       integer, intent(in) :: law
       real(dp), intent(in) :: stress, coefficient, exponent, factor
       type(level_t) :: level
-      type(measures_t) :: m
+      type(contact_results_t) :: m
       type(status_t) :: status
 
       level%grid = new_grid(33, -2.0_dp, 2.0_dp, 2.0_dp, .false.)

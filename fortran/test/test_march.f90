@@ -291,10 +291,11 @@ contains
       call make_plan(input, none, no_surface, plan, status)
       call hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, plan%engine, &
                            plan%threads, status)
-      call steady%start(plan)
+      call steady%start(plan%contact, plan%film_expected, plan%start, plan%levels, plan%cycle, plan%accuracy, &
+                        plan%target_error, plan%max_cycles)
       call hierarchy%grow(steady%n, status)
       do while (.not. status%failed() .and. steady%outcome == outcome_running)
-         call steady%advance(plan, hierarchy, status)
+         call steady%advance(hierarchy, status)
       end do
       call is_true(steady%outcome == outcome_converged, "the smooth contact converges")
       n = steady%n

@@ -16,15 +16,27 @@ LAYERS = [
     ["surface", "deflection"],
     ["reynolds"],
     ["multigrid"],
+    ["transient", "steady"],
     ["case"],
-    ["solver"],
+    ["plan"],
+    ["run"],
     ["app", "bind", "test"],
 ]
 RANK = {folder: rank for rank, folders in enumerate(LAYERS) for folder in folders}
 # First line of a program, a module or a submodule
 UNIT = r"^\s*(?:module|program|submodule\s*\(\w+\))\s+(\w+)\s*$"
-# Numerics takes plain arguments; words of a case file stop at the solver
-NUMERICS = ("physics", "contact", "grid", "surface", "deflection", "reynolds", "multigrid")
+# Numerics takes plain arguments; words of a case file stop at the plan
+NUMERICS = (
+    "physics",
+    "contact",
+    "grid",
+    "surface",
+    "deflection",
+    "reynolds",
+    "multigrid",
+    "transient",
+    "steady",
+)
 
 
 def modules(root: Path) -> dict[str, tuple[Path, set[str]]]:

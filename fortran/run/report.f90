@@ -5,11 +5,11 @@ module ehl_report
    use ehl_feature, only: feature_t
    use ehl_harmonic, only: harmonic_t
    use ehl_kinds, only: dp
-   use ehl_measures, only: measures_t
+   use ehl_contact_results, only: contact_results_t
    use ehl_outcome, only: outcome_names
    use ehl_plan, only: plan_t, relative_wedge_error
    use ehl_record, only: record_t
-   use ehl_rest, only: rest_t
+   use ehl_stationary_roughness, only: stationary_roughness_t
    use ehl_steady, only: level_result_t, steady_t
    use ehl_text, only: to_text
    use ehl_transient, only: transient_t
@@ -50,7 +50,7 @@ contains
    !> Line about a cycle of the contact with a rough surface at rest
    function rest_line(grid, rest, stand) result(text)
       type(grid_t), intent(in) :: grid
-      type(rest_t), intent(in) :: rest
+      type(stationary_roughness_t), intent(in) :: rest
       integer, intent(in) :: stand
       character(len=:), allocatable :: text
 
@@ -92,7 +92,7 @@ contains
       !> Level of the results
       integer, intent(in) :: n
       logical, intent(in) :: good
-      type(measures_t) :: m
+      type(contact_results_t) :: m
       real(dp) :: error(2), limit(2), nothing
       logical :: coarser
 
@@ -218,7 +218,7 @@ contains
    subroutine report_rest(record, plan, rest, good, coarse_ratio)
       type(record_t), intent(inout) :: record
       type(plan_t), intent(in) :: plan
-      type(rest_t), intent(in) :: rest
+      type(stationary_roughness_t), intent(in) :: rest
       logical, intent(in) :: good
       !> Friction ratio on the next coarser grid, 0 or less where it is not known
       real(dp), intent(in) :: coarse_ratio

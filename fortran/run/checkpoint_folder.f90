@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The folder DIR.checkpoint beside the results DIR: what it takes to go on with a transient run that was stopped.
 !> It holds the case, the surface if it came from Python, and the last two states.
-module ehl_keeper
+module ehl_checkpoint_folder
    use ehl_case, only: case_t
    use ehl_case_writer, only: case_text
    use ehl_checkpoint, only: coarser, series_files, state_files
@@ -9,13 +9,13 @@ module ehl_keeper
    use ehl_files, only: file_exists, make_folder, remove_file, remove_folder, rename_path, write_text
    use ehl_kinds, only: dp
    use ehl_npy, only: read_npy, write_npy
-   use ehl_outputs, only: full_path, make_parents
+   use ehl_result_folder, only: full_path, make_parents
    use ehl_solver, only: solver_t
    use ehl_status, only: ehl_bad_input, ehl_file, status_t
    use ehl_text, only: newline
    implicit none (type, external)
    private
-   public :: keeper_t, find_checkpoint, checkpoint_folder
+   public :: checkpoint_folder_t, find_checkpoint, checkpoint_path
 
    character(len=*), parameter :: suffix = ".checkpoint", case_file = "case.nml", surface_file = "surface.npy"
    !> States of the run and of that on the coarser grid, and all that belongs to them
@@ -23,7 +23,7 @@ module ehl_keeper
       files(*) = [character(len=32) :: state_files, series_files, coarser//state_files, coarser//series_files]
 
    !> Writes the state now and then
-   type :: keeper_t
+   type :: checkpoint_folder_t
       private
       !> Ends in '/'; not allocated: nothing is kept
       character(len=:), allocatable :: folder
@@ -35,16 +35,16 @@ module ehl_keeper
       procedure :: save
       procedure :: close => close_folder
       procedure :: has_state
-   end type keeper_t
+   end type checkpoint_folder_t
 
 contains
 
    !> The folder that belongs to results, with a '/' at its end
-   function checkpoint_folder(results) result(folder)
+   function checkpoint_path(results) result(folder)
       character(len=*), intent(in) :: results
       character(len=:), allocatable :: folder
       folder = full_path(results)//suffix//"/"
-   end function checkpoint_folder
+   end function checkpoint_path
 
    !> What a run with these results left to go on with: its case file, and its surface [m] (of size 0 when
    !> the case has all of it)
@@ -56,7 +56,7 @@ contains
       character(len=:), allocatable :: folder, hint
 
       allocate (heights(0, 0))
-      folder = checkpoint_folder(results)
+      folder = checkpoint_path(results)
       path = folder//case_file
       if (.not. file_exists(path)) then
          hint = ""
@@ -71,7 +71,7 @@ contains
    !> Make the folder of a transient run, unless the case wants none. States of an earlier run give way
    !> to those of this one, unless it goes on with them: they are kept under the name that the note tells.
    subroutine open_folder(self, results, input, solver, resumed, heights, note, status)
-      class(keeper_t), intent(inout) :: self
+      class(checkpoint_folder_t), intent(inout) :: self
       character(len=*), intent(in) :: results
       type(case_t), intent(in) :: input
       type(solver_t), intent(in) :: solver
@@ -85,11 +85,11 @@ contains
 
       note = ""
       if (.not. solver%moves() .or. input%output%checkpoint_interval <= 0.0_dp) return
-      self%folder = checkpoint_folder(results)
+      self%folder = checkpoint_path(results)
       self%interval = input%output%checkpoint_interval
       self%since = start_clock()
       same = .false.
-      if (resumed /= "") same = self%folder == checkpoint_folder(resumed)
+      if (resumed /= "") same = self%folder == checkpoint_path(resumed)
       if (.not. same) then
          if (holds_state(self%folder)) call set_aside(self%folder, note, status)
          if (status%failed()) return
@@ -110,7 +110,7 @@ contains
 
    !> Save the state if its time has come
    subroutine tick(self, solver, status)
-      class(keeper_t), intent(inout) :: self
+      class(checkpoint_folder_t), intent(inout) :: self
       type(solver_t), intent(inout) :: solver
       type(status_t), intent(inout) :: status
 
@@ -120,7 +120,7 @@ contains
 
    !> Save the state
    subroutine save(self, solver, status)
-      class(keeper_t), intent(inout) :: self
+      class(checkpoint_folder_t), intent(inout) :: self
       type(solver_t), intent(inout) :: solver
       type(status_t), intent(inout) :: status
 
@@ -131,14 +131,14 @@ contains
 
    !> Whether there is a state to go on with
    logical function has_state(self)
-      class(keeper_t), intent(in) :: self
+      class(checkpoint_folder_t), intent(in) :: self
       has_state = .false.
       if (allocated(self%folder)) has_state = holds_state(self%folder)
    end function has_state
 
    !> The run has come to a good end: nothing is left to go on with
    subroutine close_folder(self)
-      class(keeper_t), intent(inout) :: self
+      class(checkpoint_folder_t), intent(inout) :: self
 
       if (.not. allocated(self%folder)) return
       call remove_files(self%folder)
@@ -196,4 +196,4 @@ contains
       gone = remove_file(folder//case_file)
       gone = remove_folder(folder(:len(folder) - 1))
    end subroutine remove_files
-end module ehl_keeper
+end module ehl_checkpoint_folder

@@ -4,10 +4,10 @@ submodule (ehl_solver) ehl_solver_run
    use ehl_clock, only: clock_t, start_clock
    use ehl_feature, only: feature_t
    use ehl_harmonic, only: harmonic_t
-   use ehl_judge, only: judge_march
+   use ehl_stopping_criterion, only: transient_outcome
    use ehl_plan_surface, only: check_carried
    use ehl_outcome, only: outcome_cycle_limit, outcome_diverged, outcome_negative_film
-   use ehl_skips, only: seconds_saved_by_zeros
+   use ehl_skipped_work, only: seconds_saved_by_zeros
    implicit none (type, external)
 
 contains
@@ -40,7 +40,7 @@ contains
 
       clock = start_clock()
       n = self%steady%n
-      call self%steady%advance(self%plan, self%hierarchy, status)
+      call self%steady%advance(self%hierarchy, status)
       self%smooth_seconds = self%smooth_seconds + clock%seconds()
       if (status%failed()) return
       self%grid = self%hierarchy%levels(n)%grid
@@ -143,7 +143,7 @@ contains
                                       march%residual])
             if (self%plan%surface%passes_once) call march%extremes%see(self%hierarchy%levels(self%steady%n), self%p_smooth, &
                                                                       self%h_smooth, march%time)
-            self%outcome = judge_march(self%plan, self%transient)
+            self%outcome = transient_outcome(self%plan, self%transient)
             call self%frames%keep(self%hierarchy%levels(self%steady%n), march%time, march%time_step, &
                                   self%input%output%frame_interval, status)
          else if (.not. m%finite) then

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What a run says on its way: one line about the state, how much is done, the time left
 submodule (ehl_solver) ehl_solver_progress
-   use ehl_judge, only: least_periods, most_periods
+   use ehl_stopping_criterion, only: least_periods, most_periods
    use ehl_report, only: cycle_line, march_line, rest_line
    use ehl_text, only: to_text
    implicit none (type, external)

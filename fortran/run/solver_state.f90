@@ -3,7 +3,7 @@
 submodule (ehl_solver) ehl_solver_state
    use ehl_case_writer, only: case_text
    use ehl_checkpoint, only: coarser
-   use ehl_judge, only: judge_march
+   use ehl_stopping_criterion, only: transient_outcome
    use ehl_status, only: ehl_bad_input
    implicit none (type, external)
 
@@ -81,6 +81,6 @@ contains
                           "its pressure"//new_line("a")//"expected: the surface and the program that it was made with")
          return
       end if
-      self%outcome = judge_march(self%plan, self%transient)
+      self%outcome = transient_outcome(self%plan, self%transient)
    end subroutine take_state
 end submodule ehl_solver_state

@@ -10,7 +10,7 @@ module ehl_solver
    use ehl_outcome, only: outcome_converged, outcome_interrupted, outcome_running
    use ehl_plan, only: make_plan, plan_t
    use ehl_record, only: record_t
-   use ehl_rest, only: rest_t
+   use ehl_stationary_roughness, only: stationary_roughness_t
    use ehl_status, only: status_t
    use ehl_steady, only: steady_t
    use ehl_surface, only: surface_t
@@ -32,7 +32,7 @@ module ehl_solver
       type(hierarchy_t), private :: hierarchy
       type(steady_t), private :: steady
       type(transient_t), private :: transient
-      type(rest_t), private :: rest
+      type(stationary_roughness_t), private :: rest
       !> Whether the transient run has begun; the contact with a rough surface at rest
       logical, private :: marching = .false., resting = .false.
       !> How the transient run stands
@@ -191,7 +191,8 @@ contains
       associate (plan => self%plan)
          call self%hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, &
                                    plan%engine, plan%threads, status)
-         call self%steady%start(plan)
+         call self%steady%start(plan%contact, plan%film_expected, plan%start, plan%levels, plan%cycle, plan%accuracy, &
+                                plan%target_error, plan%max_cycles)
       end associate
       call self%hierarchy%grow(self%steady%n, status)
       if (status%failed()) return

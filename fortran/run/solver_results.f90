@@ -6,7 +6,7 @@ submodule (ehl_solver) ehl_solver_results
    use ehl_report, only: report_march, report_rest, report_scene, report_smooth, report_waves
    use ehl_report_friction, only: report_friction
    use ehl_report_passage, only: report_passage
-   use ehl_skips, only: find_skips, report_skips, skip_lines, skip_t
+   use ehl_skipped_work, only: find_skips, report_skips, skip_lines, skip_t
    use ehl_status, only: ehl_bad_input, ehl_no_memory
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    implicit none (type, external)

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What a run did not have to do, and the seconds that saved
-module ehl_skips
+module ehl_skipped_work
    use ehl_clock, only: clock_t, start_clock
    use ehl_friction_mean, only: start_up
    use ehl_kinds, only: dp
@@ -115,4 +115,4 @@ contains
       end do
       seconds_saved_by_zeros = max(0.0_dp, seconds(2) - seconds(1))
    end function seconds_saved_by_zeros
-end module ehl_skips
+end module ehl_skipped_work

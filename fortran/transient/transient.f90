@@ -9,7 +9,7 @@ module ehl_transient
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
-   use ehl_measures, only: central_value, load_tolerance, measure, measures_t
+   use ehl_contact_results, only: central_value, load_tolerance, measure, contact_results_t
    use ehl_predictor, only: predictor_t
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_step_accuracy, only: step_accuracy_t
@@ -35,7 +35,7 @@ module ehl_transient
       !> Friction of the smooth contact on the same grid
       real(dp) :: friction_smooth = 1.0_dp
       !> State after the last step
-      type(measures_t) :: m
+      type(contact_results_t) :: m
       real(dp) :: residual = 0.0_dp
       integer :: cycles = 0, total_cycles = 0, total_sweeps = 0
       type(friction_mean_t) :: mean
@@ -131,7 +131,7 @@ contains
       integer, intent(in) :: n
       class(surface_t), intent(inout) :: surface
       type(status_t), intent(inout) :: status
-      type(measures_t) :: first
+      type(contact_results_t) :: first
       real(dp) :: load_error, before, residual_first
       integer :: sweeps, made, next
       logical :: met

@@ -1,19 +1,19 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What is read off a solution: film thicknesses, pressure, friction, load
-module ehl_measures
+module ehl_contact_results
    use ehl_film, only: pressure_sum
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    implicit none (type, external)
    private
-   public :: measures_t, measure, central_value, load_tolerance
+   public :: contact_results_t, measure, central_value, load_tolerance
 
    !> Largest relative error of the force balance of a solution
    real(dp), parameter :: load_tolerance = 1.0e-6_dp
 
    !> Results of one state. Dimensionless: films by a^2/R, pressure by p_h.
-   type :: measures_t
+   type :: contact_results_t
       !> Film at X = Y = 0, smallest film, largest pressure
       real(dp) :: film_central = 0.0_dp, film_minimum = 0.0_dp, pressure_maximum = 0.0_dp
       !> Friction integral: iint tau dX dY over the Newtonian stress of eta = eta0 and H = 1. Of a Newtonian lubricant
@@ -23,14 +23,14 @@ module ehl_measures
       real(dp) :: load_error = 0.0_dp
       !> Whether every number is finite, and every film positive
       logical :: finite = .false., positive = .false.
-   end type measures_t
+   end type contact_results_t
 
 contains
 
    !> Read off the present state of a level whose film and coefficients are up to date
    function measure(level) result(m)
       type(level_t), intent(in) :: level
-      type(measures_t) :: m
+      type(contact_results_t) :: m
       real(dp), dimension(level%grid%ny) :: smallest, largest, friction
       real(dp) :: stress(level%grid%nx)
       integer :: j
@@ -79,4 +79,4 @@ contains
                          - t*(t + 1.0_dp)*(t - 2.0_dp)/2.0_dp*v(3) + t*(t*t - 1.0_dp)/6.0_dp*v(4)
       end associate
    end function central_value
-end module ehl_measures
+end module ehl_contact_results

@@ -2,14 +2,13 @@
 !> The smooth, steady solution by full multigrid (nested iteration), one cycle at a time
 module ehl_steady
    use ehl_contact, only: contact_t
-   use ehl_cycle, only: prolong_solution, refresh
+   use ehl_cycle, only: cycle_options_t, prolong_solution, refresh
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
-   use ehl_measures, only: load_tolerance, measure, measures_t
+   use ehl_contact_results, only: load_tolerance, measure, contact_results_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, &
                           outcome_running, outcome_target_missed
-   use ehl_plan, only: plan_t
    use ehl_status, only: status_t
    implicit none (type, external)
    private
@@ -28,7 +27,7 @@ module ehl_steady
    !> What is known of the solution on one level
    type :: level_result_t
       logical :: solved = .false.
-      type(measures_t) :: m
+      type(contact_results_t) :: m
       !> Algebraic errors of H_c and H_min, as estimated
       real(dp) :: algebraic(2) = 0.0_dp
       !> Cycles made, residual (rms) at the end
@@ -36,15 +35,22 @@ module ehl_steady
       real(dp) :: residual = 0.0_dp
    end type level_result_t
 
-   !> March of the nested iteration
+   !> State of the nested iteration
    type :: steady_t
+      private
+      class(contact_t), allocatable :: contact
+      type(cycle_options_t) :: cycle
+      !> Levels; central film expected [a^2/R]; algebraic error as a share of the discretisation error; relative
+      !> error of H_c at which to stop, 0: on the finest grid; most cycles on a level
+      integer :: levels = 0, max_cycles = 0
+      real(dp) :: film_expected = 0.0_dp, accuracy = 0.0_dp, target_error = 0.0_dp
       !> Present level
-      integer :: n = 0
+      integer, public :: n = 0
       logical :: entered = .false.
-      integer :: outcome = outcome_running
+      integer, public :: outcome = outcome_running
       !> Restarts on a finer grid after a failure on a coarse one
-      integer :: restarts = 0
-      type(level_result_t), allocatable :: results(:)
+      integer, public :: restarts = 0
+      type(level_result_t), allocatable, public :: results(:)
       !> Changes of H_c and H_min in the last cycle
       real(dp) :: change(2) = 0.0_dp
    contains
@@ -54,44 +60,60 @@ module ehl_steady
       procedure :: friction_error
       procedure :: extrapolated
       procedure, private :: enter_level
-      procedure, private :: judge
+      procedure, private :: decide
       procedure, private :: fail_level
    end type steady_t
 
 contains
 
    !> Ready for the first cycle
-   subroutine start(self, plan)
+   subroutine start(self, contact, film_expected, first, levels, cycle, accuracy, target_error, max_cycles)
       class(steady_t), intent(inout) :: self
-      type(plan_t), intent(in) :: plan
+      class(contact_t), intent(in) :: contact
+      !> Central film of the first guess [a^2/R]
+      real(dp), intent(in) :: film_expected
+      !> Level to begin on; levels in all
+      integer, intent(in) :: first, levels
+      type(cycle_options_t), intent(in) :: cycle
+      !> Algebraic error as a share of the discretisation error; relative error of H_c at which to stop, 0: on the
+      !> finest grid
+      real(dp), intent(in) :: accuracy, target_error
+      !> Most cycles on a level
+      integer, intent(in) :: max_cycles
 
-      self%n = plan%start
+      self%contact = contact
+      self%film_expected = film_expected
+      self%levels = levels
+      self%cycle = cycle
+      self%accuracy = accuracy
+      self%target_error = target_error
+      self%max_cycles = max_cycles
+      self%n = first
       self%entered = .false.
       self%outcome = outcome_running
       self%restarts = 0
       if (allocated(self%results)) deallocate (self%results)
-      allocate (self%results(plan%levels))
+      allocate (self%results(levels))
    end subroutine start
 
    !> One cycle on the present level, the step to the next level when this one is done
-   subroutine advance(self, plan, hierarchy, status)
+   subroutine advance(self, hierarchy, status)
       class(steady_t), intent(inout) :: self
-      type(plan_t), intent(in) :: plan
       type(hierarchy_t), intent(inout) :: hierarchy
       type(status_t), intent(inout) :: status
-      type(measures_t) :: before
+      type(contact_results_t) :: before
       real(dp) :: change(2), q, residual
 
       if (self%outcome /= outcome_running) return
-      if (.not. self%entered) call self%enter_level(plan, hierarchy, status)
+      if (.not. self%entered) call self%enter_level(hierarchy, status)
       if (status%failed()) return
       associate (result => self%results(self%n), level => hierarchy%levels(self%n))
          before = result%m
-         call hierarchy%cycle(self%n, plan%cycle, residual)
+         call hierarchy%cycle(self%n, self%cycle, residual)
          result%cycles = result%cycles + 1
          result%m = measure(level)
          if (.not. result%m%finite .or. .not. result%m%positive) then
-            call self%fail_level(plan, merge(outcome_negative_film, outcome_diverged, result%m%finite))
+            call self%fail_level(merge(outcome_negative_film, outcome_diverged, result%m%finite))
             return
          end if
          result%residual = residual
@@ -105,13 +127,12 @@ contains
          result%algebraic = change*q/(1.0_dp - q)
          self%change = change
       end associate
-      call self%judge(plan)
+      call self%decide()
    end subroutine advance
 
    !> First approximation on the present level
-   subroutine enter_level(self, plan, hierarchy, status)
+   subroutine enter_level(self, hierarchy, status)
       class(steady_t), intent(inout) :: self
-      type(plan_t), intent(in) :: plan
       type(hierarchy_t), intent(inout) :: hierarchy
       type(status_t), intent(inout) :: status
       logical :: have_coarse
@@ -123,14 +144,14 @@ contains
       if (self%n > 1) have_coarse = self%results(self%n - 1)%solved
       associate (level => hierarchy%levels(self%n), grid => hierarchy%levels(self%n)%grid)
          do j = 1, grid%ny
-            call plan%contact%gap_row(grid%columns(), grid%y(j), level%geometry(:, j))
+            call self%contact%gap_row(grid%columns(), grid%y(j), level%geometry(:, j))
          end do
          level%rhs = 0.0_dp
-         level%load = plan%contact%load()
+         level%load = self%contact%load()
          if (have_coarse) then
             call prolong_solution(hierarchy%levels(self%n - 1), level)
          else
-            call guess(level, plan%contact, plan%film_expected)
+            call guess(level, self%contact, self%film_expected)
          end if
          call refresh(level)
          self%results(self%n)%m = measure(level)
@@ -153,50 +174,48 @@ contains
    end subroutine guess
 
    !> Whether the level is solved, and what to do then
-   subroutine judge(self, plan)
+   subroutine decide(self)
       class(steady_t), intent(inout) :: self
-      type(plan_t), intent(in) :: plan
       real(dp) :: wanted(2), values(2)
       logical :: met, finest
 
-      finest = self%n == plan%levels
+      finest = self%n == self%levels
       associate (result => self%results(self%n))
          values = [result%m%film_central, result%m%film_minimum]
          if (.not. has_coarser(self)) then
             wanted = start_tolerance*values
-            if (finest) wanted = plan%accuracy*start_tolerance*values
+            if (finest) wanted = self%accuracy*start_tolerance*values
          else
-            wanted = plan%accuracy*max(self%discretisation_error(self%n), least_error*values)
+            wanted = self%accuracy*max(self%discretisation_error(self%n), least_error*values)
          end if
          met = all(result%algebraic <= wanted)
-         if (finest .or. plan%target_error > 0.0_dp) met = met .and. abs(result%m%load_error) <= load_tolerance &
+         if (finest .or. self%target_error > 0.0_dp) met = met .and. abs(result%m%load_error) <= load_tolerance &
                                                            .and. result%residual <= residual_tolerance
-         if (.not. met .and. result%cycles < plan%max_cycles) return
+         if (.not. met .and. result%cycles < self%max_cycles) return
          result%solved = .true.
-         if (met .and. plan%target_error > 0.0_dp .and. has_coarser(self)) then
+         if (met .and. self%target_error > 0.0_dp .and. has_coarser(self)) then
             values = self%discretisation_error(self%n) + result%algebraic
-            if (values(1) <= plan%target_error*result%m%film_central) then
+            if (values(1) <= self%target_error*result%m%film_central) then
                self%outcome = outcome_converged
                return
             end if
          end if
          if (finest) then
             self%outcome = merge(outcome_converged, outcome_cycle_limit, met)
-            if (met .and. plan%target_error > 0.0_dp) self%outcome = outcome_target_missed
+            if (met .and. self%target_error > 0.0_dp) self%outcome = outcome_target_missed
          else
             self%n = self%n + 1
             self%entered = .false.
          end if
       end associate
-   end subroutine judge
+   end subroutine decide
 
    !> Failure on a level: begin anew on the next finer one, where the discrete problem is better posed
-   subroutine fail_level(self, plan, outcome)
+   subroutine fail_level(self, outcome)
       class(steady_t), intent(inout) :: self
-      type(plan_t), intent(in) :: plan
       integer, intent(in) :: outcome
 
-      if (self%n == plan%levels) then
+      if (self%n == self%levels) then
          self%outcome = outcome
          return
       end if

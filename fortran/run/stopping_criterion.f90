@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> When a transient run ends
-module ehl_judge
+module ehl_stopping_criterion
    use ehl_friction_mean, only: periods_compared
    use ehl_kinds, only: dp
    use ehl_outcome, only: outcome_converged, outcome_running, outcome_unsettled
@@ -8,7 +8,7 @@ module ehl_judge
    use ehl_transient, only: transient_t
    implicit none (type, external)
    private
-   public :: judge_march, least_periods, most_periods
+   public :: transient_outcome, least_periods, most_periods
 
    !> Periods after which a mean that has not settled is given up. The slowest that was found, at (500, 15) with waves as
    !> high as the film, 0.25 a long, settled after 21.
@@ -17,7 +17,7 @@ module ehl_judge
 contains
 
    !> How a transient run stands after a step that converged
-   integer function judge_march(plan, march) result(outcome)
+   integer function transient_outcome(plan, march) result(outcome)
       type(plan_t), intent(in) :: plan
       type(transient_t), intent(in) :: march
 
@@ -35,7 +35,7 @@ contains
             outcome = outcome_unsettled
          end if
       end associate
-   end function judge_march
+   end function transient_outcome
 
    !> Periods after which a transient run can end first
    pure real(dp) function least_periods(plan)
@@ -49,4 +49,4 @@ contains
       most_periods = merge(plan%max_periods, automatic_periods, plan%max_periods > 0)
       if (plan%surface%passes_once) most_periods = 1
    end function most_periods
-end module ehl_judge
+end module ehl_stopping_criterion

@@ -1,13 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A rough surface at rest: the steady contact with the roughness at its place in the film equation. It begins from
 !> the smooth solution on the same grid. Where the film would be negative then, the roughness grows in steps.
-module ehl_rest
+module ehl_stationary_roughness
    use ehl_contact, only: contact_t
    use ehl_cycle, only: cycle_options_t, refresh
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
-   use ehl_measures, only: load_tolerance, measure, measures_t
+   use ehl_contact_results, only: load_tolerance, measure, contact_results_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, outcome_running
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_steady, only: least_reduction, residual_tolerance
@@ -15,7 +15,7 @@ module ehl_rest
    use ehl_time_levels, only: set_geometry
    implicit none (type, external)
    private
-   public :: rest_t
+   public :: stationary_roughness_t
 
    !> Relative algebraic error of a friction integral, as a share of the accuracy asked for; of a part of the roughness
    !> that is only on the way to the whole of it
@@ -23,7 +23,7 @@ module ehl_rest
    !> Smallest part of the roughness that is tried
    real(dp), parameter :: least_part = 1.0_dp/64.0_dp
 
-   type :: rest_t
+   type :: stationary_roughness_t
       class(contact_t), allocatable, private :: contact
       integer :: outcome = outcome_running
       !> Whether the smooth contact is still being solved, to the accuracy of the friction
@@ -37,7 +37,7 @@ module ehl_rest
       !> Cycles in all, and with the present share
       integer :: total_cycles = 0, cycles = 0
       real(dp) :: residual = 0.0_dp
-      type(measures_t) :: m
+      type(contact_results_t) :: m
       !> Relative algebraic error of the friction integral, as estimated, and the last change of it
       real(dp) :: algebraic = 0.0_dp, change = 0.0_dp
       !> Friction integral of the smooth contact
@@ -53,13 +53,13 @@ module ehl_rest
       procedure :: mu_ratio
       procedure, private :: grow
       procedure, private :: step_back
-   end type rest_t
+   end type stationary_roughness_t
 
 contains
 
    !> Begin from the smooth solution of a level
    subroutine start(self, level, contact, surface, max_cycles, accuracy, status)
-      class(rest_t), intent(inout) :: self
+      class(stationary_roughness_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
       class(contact_t), intent(in) :: contact
       class(surface_t), intent(inout) :: surface
@@ -87,7 +87,7 @@ contains
 
    !> One cycle
    subroutine advance(self, hierarchy, n, options)
-      class(rest_t), intent(inout) :: self
+      class(stationary_roughness_t), intent(inout) :: self
       type(hierarchy_t), intent(inout) :: hierarchy
       integer, intent(in) :: n
       type(cycle_options_t), intent(in) :: options
@@ -134,7 +134,7 @@ contains
 
    !> The next share of the roughness, whose film must be positive under the pressure of the last one
    subroutine grow(self, level)
-      class(rest_t), intent(inout) :: self
+      class(stationary_roughness_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
 
       self%due = .false.
@@ -160,7 +160,7 @@ contains
 
    !> This share was too much: a smaller one, or the end of the run
    subroutine step_back(self, level, outcome)
-      class(rest_t), intent(inout) :: self
+      class(stationary_roughness_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
       integer, intent(in) :: outcome
 
@@ -172,7 +172,7 @@ contains
 
    !> Friction over that of the smooth contact
    pure real(dp) function mu_ratio(self)
-      class(rest_t), intent(in) :: self
+      class(stationary_roughness_t), intent(in) :: self
       mu_ratio = self%m%friction/self%friction_smooth
    end function mu_ratio
-end module ehl_rest
+end module ehl_stationary_roughness

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The result folder, the same for both drivers. It appears whole or not at all: everything is
 !> written into a folder beside it, which is then renamed.
-module ehl_outputs
+module ehl_result_folder
    use ehl_case, only: case_t
    use ehl_case_writer, only: case_text
    use ehl_files, only: absolute_path, file_exists, make_folder, process_mark, real_path, &
@@ -210,4 +210,4 @@ contains
       end do
       done = remove_folder(folder)
    end subroutine remove_results
-end module ehl_outputs
+end module ehl_result_folder
