@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import check
-from pyehl.library import ehl, text_of
+from pyehl.library import checkpoints, ehl, text_of
 
 __all__ = ["SolverHandle", "Work"]
 
@@ -129,7 +129,7 @@ class SolverHandle:
             If the state is damaged, or belongs to another case.
         """
         with self._lock:
-            note, status, message = ehl.resume(self._handle, os.fsencode(results))
+            note, status, message = checkpoints.resume(self._handle, os.fsencode(results))
         check(status, message)
         return text_of(note)
 
@@ -154,7 +154,7 @@ class SolverHandle:
             If the folder cannot be made.
         """
         with self._lock:
-            note, status, message = ehl.keep(
+            note, status, message = checkpoints.keep(
                 self._handle,
                 os.fsencode(results),
                 os.fsencode(resumed),
@@ -174,14 +174,14 @@ class SolverHandle:
             If it cannot be written.
         """
         with self._lock:
-            has_state, status, message = ehl.save_state(self._handle, int(at_once))
+            has_state, status, message = checkpoints.save_state(self._handle, int(at_once))
         check(status, message)
         return bool(has_state)
 
     def end_keeping(self) -> None:
         """Remove the states: the run has ended."""
         with self._lock:
-            check(*ehl.end_keeping(self._handle))
+            check(*checkpoints.end_keeping(self._handle))
 
     def progress(self) -> str:
         """Tell the state in one line."""

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import InputError, check
-from pyehl.extension import functions, surface_functions, waves
+from pyehl.extension import checkpoints, functions, surface_functions, waves
 from pyehl.extension import solvers as ehl
 
 __all__ = [
@@ -27,6 +27,7 @@ __all__ = [
     "build",
     "check_output",
     "checkpoint_case",
+    "checkpoints",
     "deflection",
     "density",
     "ehl",
@@ -111,7 +112,7 @@ def checkpoint_case(results: str | os.PathLike[str]) -> Path:
     InputError
         If no state was kept.
     """
-    path, status, message = functions.checkpoint_case(os.fsencode(results))
+    path, status, message = checkpoints.checkpoint_case(os.fsencode(results))
     check(status, message)
     return Path(os.fsdecode(path.rstrip()))
 

@@ -9,7 +9,6 @@ module ehl_f2py_functions
    use ehl_deflection, only: deflection_t
    use ehl_deflection_factory, only: new_deflection
    use ehl_grid, only: grid_t
-   use ehl_checkpoint_folder, only: find_checkpoint
    use ehl_lubricant, only: density_constant, density_dowson_higginson, new_lubricant, &
                             solver_lubricant_t => lubricant_t, viscosity_barus, viscosity_roelands
    use ehl_result_folder, only: check_folder
@@ -19,7 +18,7 @@ module ehl_f2py_functions
    use ehl_version, only: build_text, version
    implicit none (type, external)
    private
-   public :: resolve, check_output, checkpoint_case, keys, about, deflection, viscosity, density, shear
+   public :: resolve, check_output, keys, about, deflection, viscosity, density, shear
 
 contains
 
@@ -53,23 +52,6 @@ contains
       call check_folder(folder, status)
       call reply(status, stat, message)
    end subroutine check_output
-
-   !> Case file of the run with these results, to resume it; its folder holds surface.npy as well when
-   !> the surface came from Python
-   subroutine checkpoint_case(results, path, stat, message)
-      character(len=*), intent(in) :: results
-      character(len=4096), intent(out) :: path
-      integer(c_int), intent(out) :: stat
-      character(len=4096), intent(out) :: message
-      real(c_double), allocatable :: heights(:, :)
-      character(len=:), allocatable :: text
-      type(status_t) :: status
-
-      path = ""
-      call find_checkpoint(results, text, heights, status)
-      if (.not. status%failed()) path = text
-      call reply(status, stat, message)
-   end subroutine checkpoint_case
 
    !> All keys of a case file, one a line: key, unit, default, allowed values, meaning
    subroutine keys(text)

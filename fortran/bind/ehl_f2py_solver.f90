@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Solvers for Python, by number.
 !>
-!> Both modules for Python are in the small part of Fortran that f2py reads. No arithmetic in them:
+!> The modules for Python are in the small part of Fortran that f2py reads. No arithmetic in them:
 !> every routine hands its arguments on, and ends in a status and a message. Only the long
 !> routines release Python's lock (threadsafe): gfortran keeps the lengths of text that functions
 !> return in static memory, so that routines that make text must not run side by side.
@@ -11,7 +11,6 @@ module ehl_f2py_solver
    use ehl_case_reader, only: read_case
    use ehl_grid, only: grid_t
    use ehl_handles, only: drop_handle, new_handle, run_of, run_t
-   use ehl_checkpoint_folder, only: checkpoint_path
    use ehl_result_folder, only: write_results
    use ehl_record, only: record_t
    use ehl_reply, only: reply
@@ -19,7 +18,7 @@ module ehl_f2py_solver
    implicit none (type, external)
    private
    public :: open_case, close_case, advance, interrupt, describe, progress, work, skipped, summary
-   public :: grid_shape, axes, field, write_output, resume, keep, save_state, end_keeping
+   public :: grid_shape, axes, field, write_output
 
 contains
 
@@ -250,85 +249,6 @@ contains
       end if
       call reply(status, stat, message)
    end subroutine write_output
-
-   !> Resume from the newest state of the run with these results; before the first advance
-   subroutine resume(handle, results, note, stat, message)
-      integer(c_int), intent(in) :: handle
-      character(len=*), intent(in) :: results
-      character(len=4096), intent(out) :: note
-      integer(c_int), intent(out) :: stat
-      character(len=4096), intent(out) :: message
-      type(run_t), pointer :: run
-      type(status_t) :: status
-      character(len=:), allocatable :: text
-
-      note = ""
-      call run_of(handle, run, status)
-      if (.not. status%failed()) then
-         call run%solver%resume(checkpoint_path(results), text, status)
-         if (.not. status%failed()) note = text
-      end if
-      call reply(status, stat, message)
-   end subroutine resume
-
-   !> Keep states of the run beside its results, at the interval of the case; `resumed` names the
-   !> results of the run that is resumed; with has_heights on the surface of open_case too
-   subroutine keep(handle, results, resumed, has_heights, nx, ny, heights, note, stat, message)
-      integer(c_int), intent(in) :: handle
-      character(len=*), intent(in) :: results, resumed
-      integer(c_int), intent(in) :: has_heights, nx, ny
-      real(c_double), intent(inout) :: heights(nx, ny)
-      character(len=4096), intent(out) :: note
-      integer(c_int), intent(out) :: stat
-      character(len=4096), intent(out) :: message
-      type(run_t), pointer :: run
-      type(status_t) :: status
-      character(len=:), allocatable :: text
-
-      note = ""
-      call run_of(handle, run, status)
-      if (.not. status%failed()) then
-         associate (n => merge(nx, 0, has_heights /= 0))
-            call run%checkpoints%open(results, run%input, run%solver, resumed, heights(:n, :), text, status)
-         end associate
-         if (.not. status%failed()) note = text
-      end if
-      call reply(status, stat, message)
-   end subroutine keep
-
-   !> Save the state if its time has come, or at once; has_state tells whether there is one now
-   subroutine save_state(handle, at_once, has_state, stat, message)
-      integer(c_int), intent(in) :: handle, at_once
-      integer(c_int), intent(out) :: has_state, stat
-      character(len=4096), intent(out) :: message
-      type(run_t), pointer :: run
-      type(status_t) :: status
-
-      has_state = 0
-      call run_of(handle, run, status)
-      if (.not. status%failed()) then
-         if (at_once /= 0) then
-            call run%checkpoints%save(run%solver, status)
-            if (run%checkpoints%has_state()) has_state = 1
-         else
-            call run%checkpoints%tick(run%solver, status)
-         end if
-      end if
-      call reply(status, stat, message)
-   end subroutine save_state
-
-   !> Remove the states: the run has come to a good end
-   subroutine end_keeping(handle, stat, message)
-      integer(c_int), intent(in) :: handle
-      integer(c_int), intent(out) :: stat
-      character(len=4096), intent(out) :: message
-      type(run_t), pointer :: run
-      type(status_t) :: status
-
-      call run_of(handle, run, status)
-      if (.not. status%failed()) call run%checkpoints%close()
-      call reply(status, stat, message)
-   end subroutine end_keeping
 
    !> Arrays must have the shape of the grid
    subroutine check_shape(run, nx, ny, status)

@@ -4,15 +4,17 @@ program tester
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use check, only: n_checks, n_failures
    use test_alcouffe, only: run_alcouffe
+   use test_binary, only: run_binary
    use test_case, only: run_case
    use test_deflection, only: run_deflection
    use test_friction, only: run_friction
-   use test_march, only: run_march
    use test_mean, only: run_mean
    use test_policy, only: run_policy
+   use test_predictor, only: run_predictor
    use test_record, only: run_record
    use test_solver, only: run_solver
    use test_text, only: run_text
+   use test_transient, only: run_transient
    implicit none (type, external)
    character(len=32) :: suite
 
@@ -20,6 +22,8 @@ program tester
    select case (suite)
    case ("text")
       call run_text()
+   case ("binary")
+      call run_binary()
    case ("record")
       call run_record()
    case ("case")
@@ -34,8 +38,10 @@ program tester
       call run_friction()
    case ("policy")
       call run_policy()
-   case ("march")
-      call run_march()
+   case ("predictor")
+      call run_predictor()
+   case ("transient")
+      call run_transient()
    case ("solver")
       call run_solver()
    case default

@@ -1,16 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Parts of the march in time: a step that fails, one that begins again, sweeps, the predictor, and what is allocated for it
-module test_march
+!> Parts of a transient run: a step that fails, one that begins again, sweeps, and what is allocated for it
+module test_transient
    use check, only: is_close, is_equal, is_true
    use ehl_case, only: case_t
    use ehl_case_reader, only: read_case
    use ehl_cycle, only: refresh
    use ehl_film, only: update_residual
-   use ehl_predictor, only: predictor_t
-   use ehl_grid, only: new_grid
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
    use ehl_outcome, only: outcome_converged, outcome_running
    use ehl_plan, only: make_plan, plan_t
    use ehl_relaxation, only: full_trust, relax
@@ -20,7 +17,7 @@ module test_march
    use ehl_transient, only: transient_t
    implicit none (type, external)
    private
-   public :: run_march
+   public :: run_transient
 
    character(len=*), parameter :: heavy = "&contact moes_m = 500, moes_l = 10 / &grid points = 65 / "// &
                                   "&surface kind = 'harmonic', amplitude = 0.015, wavelength = 1, "// &
@@ -31,15 +28,14 @@ module test_march
 
 contains
 
-   subroutine run_march()
+   subroutine run_transient()
       call failed_step_leaves_the_last_state()
       call step_begins_again()
       call sweeps_alone_do_not_diverge()
       call changes_are_limited()
       call smooth_part_is_a_whole_mean()
-      call predictor_of_what_stands_and_what_moves()
       call transfers_when_asked_for()
-   end subroutine run_march
+   end subroutine run_transient
 
    !> A step that runs out of cycles leaves the fields of the last good one, from which more cycles lead to the
    !> same bits as if nothing had happened
@@ -82,7 +78,7 @@ contains
          call march%advance(hierarchy, n, plan%surface, status)
       end do
       call is_close(maxval(abs(hierarchy%levels(n)%p - p_next)), 0.0_dp, 0.0_dp, "the failed step left no trace")
-      call is_true(.not. status%failed(), "march")
+      call is_true(.not. status%failed(), "transient run")
    end subroutine failed_step_leaves_the_last_state
 
    !> A prediction that leads nowhere is dropped: the step begins again from the last one and comes to the same end
@@ -117,7 +113,7 @@ contains
       call is_true(march%step_converged() .and. march%step == 4, "a step with a wrong prediction converges")
       call is_true(march%cycles > cycles, "after more cycles")
       call is_close(maxval(abs(hierarchy%levels(n)%p - p)), 0.0_dp, 2.0e-5_dp, "to the same pressure")
-      call is_true(.not. status%failed(), "march")
+      call is_true(.not. status%failed(), "transient run")
    end subroutine step_begins_again
 
    !> Sweeps of a time step make no error grow, whatever coarse grids do about it: here the conductance in all of
@@ -143,7 +139,7 @@ contains
          call update_residual(level, last)
          call is_true(last < first, "the residual falls by sweeps alone")
       end associate
-      call is_true(.not. status%failed(), "march")
+      call is_true(.not. status%failed(), "transient run")
    end subroutine sweeps_alone_do_not_diverge
 
    !> However wrong a pressure is, in a sweep of a time step a node changes its conductance by e^3 at the most; seen at
@@ -177,7 +173,7 @@ contains
       end associate
       call is_true(largest > 2.0_dp, "a large change is wanted")
       call is_true(largest < 3.0_dp*(1.0_dp + 1.0e-12_dp), "no change is larger than can be trusted")
-      call is_true(.not. status%failed(), "march")
+      call is_true(.not. status%failed(), "transient run")
    end subroutine changes_are_limited
 
    !> The mean along X of the changes that may be taken back is the same whether it is formed everywhere or only
@@ -207,52 +203,8 @@ contains
       end associate
       call is_true(largest > 0.0_dp, "something smooth is taken back")
       call is_close(difference, 0.0_dp, 1.0e-12_dp*largest, "mean along X")
-      call is_true(.not. status%failed(), "march")
+      call is_true(.not. status%failed(), "transient run")
    end subroutine smooth_part_is_a_whole_mean
-
-   !> Where nothing flows, a pattern that moves is carried along and one that stands goes on as it does, to second order
-   subroutine predictor_of_what_stands_and_what_moves()
-      type(predictor_t) :: predictor
-      type(level_t) :: level
-      type(status_t) :: status
-      real(dp), parameter :: ripple = 0.005_dp
-      real(dp) :: p(33, 33, -1:3)
-      integer :: i, k
-      logical :: moves
-
-      level%grid = new_grid(33, -2.0_dp, 2.0_dp, 1.0_dp, .false.)
-      call level%poiseuille%setup(level%grid)
-      allocate (level%p(33, 33), level%eps(33, 33), source=0.0_dp)
-      do k = 1, 2
-         moves = k == 1
-         do i = 1, 33
-            if (moves) then
-               p(i, :, :) = spread(1.0_dp + 0.1_dp*sin(0.7_dp*real(i - [-1, 0, 1, 2, 3], dp)), 1, 33)
-            else
-               p(i, :, :) = spread(1.0_dp + 0.1_dp*sin(0.7_dp*i)*real([1, 0, 1, 4, 9], dp), 1, 33)
-            end if
-         end do
-         call predictor%setup(33, 33, 1.0_dp, status)
-         level%p = p(:, :, 2)
-         call predictor%learn(p(:, :, 1:-1:-1), level)
-         call predictor%predict(p(:, :, 2:0:-1), level)
-         call is_close(maxval(abs(level%p(6:31, :) - p(6:31, :, 3))), 0.0_dp, 1.0e-12_dp, &
-                       merge("pattern that moves ", "pattern that stands", moves))
-      end do
-      ! where the lubricant flows, a smooth error of 0.04 weighs less than a ripple of 0.005, elsewhere more
-      do i = 1, 33
-         p(i, :, 1) = 1.0_dp - 0.02_dp*i + 0.25_dp*ripple*(-1)**i
-         p(i, :, 0) = 1.0_dp
-         p(i, :, -1) = 1.0_dp
-         level%p(i, :) = p(i, :, 1) + 2.0_dp*(-0.02_dp*(i - 1) - 0.25_dp*ripple*(-1)**i) + ripple*(-1)**i
-      end do
-      call predictor%learn(p(:, :, 1:-1:-1), level)
-      call is_true(minval(predictor%weights(6:29, :, 1)) > 0.95_dp, "the motion was right")
-      level%eps = 1.0_dp
-      call predictor%learn(p(:, :, 1:-1:-1), level)
-      call is_true(maxval(predictor%weights(6:29, :, 1)) < 0.05_dp, "a ripple in a flow is wrong")
-      call is_true(.not. status%failed(), "predictor")
-   end subroutine predictor_of_what_stands_and_what_moves
 
    !> Operator-dependent transfers cost no memory before they are used
    subroutine transfers_when_asked_for()
@@ -305,4 +257,4 @@ contains
       call march%start(hierarchy%levels(n), plan%contact, plan%surface, plan%skip_start, steady%results(n)%m%friction, status)
       call hierarchy%prepare_steps(n, plan%scheme, march%time_step, status)
    end subroutine begin
-end module test_march
+end module test_transient

@@ -1,0 +1,63 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The predictor of a time step
+module test_predictor
+   use check, only: is_close, is_true
+   use ehl_grid, only: new_grid
+   use ehl_kinds, only: dp
+   use ehl_level, only: level_t
+   use ehl_predictor, only: predictor_t
+   use ehl_status, only: status_t
+   implicit none (type, external)
+   private
+   public :: run_predictor
+
+contains
+
+   subroutine run_predictor()
+      call predictor_of_what_stands_and_what_moves()
+   end subroutine run_predictor
+
+   !> Where nothing flows, a pattern that moves is carried along and one that stands goes on as it does, to second order
+   subroutine predictor_of_what_stands_and_what_moves()
+      type(predictor_t) :: predictor
+      type(level_t) :: level
+      type(status_t) :: status
+      real(dp), parameter :: ripple = 0.005_dp
+      real(dp) :: p(33, 33, -1:3)
+      integer :: i, k
+      logical :: moves
+
+      level%grid = new_grid(33, -2.0_dp, 2.0_dp, 1.0_dp, .false.)
+      call level%poiseuille%setup(level%grid)
+      allocate (level%p(33, 33), level%eps(33, 33), source=0.0_dp)
+      do k = 1, 2
+         moves = k == 1
+         do i = 1, 33
+            if (moves) then
+               p(i, :, :) = spread(1.0_dp + 0.1_dp*sin(0.7_dp*real(i - [-1, 0, 1, 2, 3], dp)), 1, 33)
+            else
+               p(i, :, :) = spread(1.0_dp + 0.1_dp*sin(0.7_dp*i)*real([1, 0, 1, 4, 9], dp), 1, 33)
+            end if
+         end do
+         call predictor%setup(33, 33, 1.0_dp, status)
+         level%p = p(:, :, 2)
+         call predictor%learn(p(:, :, 1:-1:-1), level)
+         call predictor%predict(p(:, :, 2:0:-1), level)
+         call is_close(maxval(abs(level%p(6:31, :) - p(6:31, :, 3))), 0.0_dp, 1.0e-12_dp, &
+                       merge("pattern that moves ", "pattern that stands", moves))
+      end do
+      ! where the lubricant flows, a smooth error of 0.04 weighs less than a ripple of 0.005, elsewhere more
+      do i = 1, 33
+         p(i, :, 1) = 1.0_dp - 0.02_dp*i + 0.25_dp*ripple*(-1)**i
+         p(i, :, 0) = 1.0_dp
+         p(i, :, -1) = 1.0_dp
+         level%p(i, :) = p(i, :, 1) + 2.0_dp*(-0.02_dp*(i - 1) - 0.25_dp*ripple*(-1)**i) + ripple*(-1)**i
+      end do
+      call predictor%learn(p(:, :, 1:-1:-1), level)
+      call is_true(minval(predictor%weights(6:29, :, 1)) > 0.95_dp, "the motion was right")
+      level%eps = 1.0_dp
+      call predictor%learn(p(:, :, 1:-1:-1), level)
+      call is_true(maxval(predictor%weights(6:29, :, 1)) < 0.05_dp, "a ripple in a flow is wrong")
+      call is_true(.not. status%failed(), "predictor")
+   end subroutine predictor_of_what_stands_and_what_moves
+end module test_predictor
