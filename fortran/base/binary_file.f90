@@ -50,6 +50,7 @@ contains
       class(binary_file_t), intent(inout) :: self
       character(len=*), intent(in) :: path
       type(extent_t), intent(in) :: there
+      integer :: stat
 
       if (there%bytes == 0) then
          call self%create(path)
@@ -58,7 +59,9 @@ contains
       call open_as(self, path, "old", "readwrite")
       self%writing = .true.
       self%extent = there
-      if (self%stat == 0) write (self%lun, pos=there%bytes + 1, iostat=self%stat, iomsg=self%reason)
+      if (self%stat /= 0) return
+      write (self%lun, pos=there%bytes + 1, iostat=stat)
+      if (stat /= 0) call self%refuse("it cannot be appended to")
    end subroutine append
 
    !> Open a file to be read
@@ -72,13 +75,16 @@ contains
    subroutine open_as(self, path, there, action)
       type(binary_file_t), intent(inout) :: self
       character(len=*), intent(in) :: path, there, action
+      character(len=256) :: reason
+      integer :: stat
 
       self%path = path
-      self%reason = ""
+      self%stat = 0
       self%extent = extent_t()
       open (newunit=self%lun, file=path, status=there, action=action, access="stream", form="unformatted", &
-            iostat=self%stat, iomsg=self%reason)
-      self%opened = self%stat == 0
+            iostat=stat, iomsg=reason)
+      self%opened = stat == 0
+      if (stat /= 0) call self%refuse(reason)
    end subroutine open_as
 
    !> Whether an item did not pass
@@ -128,26 +134,32 @@ contains
    subroutine text(self, value)
       class(binary_file_t), intent(inout) :: self
       character(len=*), intent(inout) :: value
+      character(len=256) :: reason
+      integer :: stat
 
       if (self%stat /= 0) return
       if (self%writing) then
-         write (self%lun, iostat=self%stat, iomsg=self%reason) value
+         write (self%lun, iostat=stat, iomsg=reason) value
       else
-         read (self%lun, iostat=self%stat, iomsg=self%reason) value
+         read (self%lun, iostat=stat, iomsg=reason) value
       end if
+      if (stat /= 0) call self%refuse(reason)
       call self%extent%add(transfer(value, [0_int8], len(value)))
    end subroutine text
 
    subroutine whole_number(self, value)
       class(binary_file_t), intent(inout) :: self
       integer, intent(inout) :: value
+      character(len=256) :: reason
+      integer :: stat
 
       if (self%stat /= 0) return
       if (self%writing) then
-         write (self%lun, iostat=self%stat, iomsg=self%reason) value
+         write (self%lun, iostat=stat, iomsg=reason) value
       else
-         read (self%lun, iostat=self%stat, iomsg=self%reason) value
+         read (self%lun, iostat=stat, iomsg=reason) value
       end if
+      if (stat /= 0) call self%refuse(reason)
       call self%extent%add(transfer(value, [0_int8]))
    end subroutine whole_number
 
@@ -213,15 +225,18 @@ contains
       integer(int64), intent(in) :: n
       real(dp), intent(inout) :: values(n)
       integer(int64) :: first, last
+      character(len=256) :: reason
+      integer :: stat
 
       do first = 1, n, block
          if (self%stat /= 0) return
          last = min(first + block - 1, n)
          if (self%writing) then
-            write (self%lun, iostat=self%stat, iomsg=self%reason) values(first:last)
+            write (self%lun, iostat=stat, iomsg=reason) values(first:last)
          else
-            read (self%lun, iostat=self%stat, iomsg=self%reason) values(first:last)
+            read (self%lun, iostat=stat, iomsg=reason) values(first:last)
          end if
+         if (stat /= 0) call self%refuse(reason)
          call self%extent%add(transfer(values(first:last), [0_int8], int(8*(last - first + 1))))
       end do
    end subroutine numbers

@@ -3,6 +3,7 @@
 !> in turn, each whole or not there, with a version and a checksum, and beside them two files that only grow, with what
 !> every step adds to the history and with the frames. A state says how much of these belongs to it.
 module ehl_checkpoint
+   use, intrinsic :: iso_fortran_env, only: int64
    use ehl_binary_file, only: binary_file_t
    use ehl_checkpoint_layout, only: family, head_t, magic, pass_body, pass_frame, pass_head, pass_row
    use ehl_file_extent, only: begins_with, file_bytes, is_sealed
@@ -99,13 +100,15 @@ contains
       type(status_t), intent(inout) :: status
       type(binary_file_t) :: file
       character(len=:), allocatable :: rows, pictures
+      integer(int64) :: there(2)
       integer :: k
 
       rows = self%prefix//trim(series_files(1))
       pictures = self%prefix//trim(series_files(2))
       associate (head => self%head)
          ! where somebody has taken them away they begin again
-         if (file_bytes(rows) < head%rows%bytes .or. file_bytes(pictures) < head%pictures%bytes) head = head_t()
+         there = [file_bytes(rows), file_bytes(pictures)]
+         if (any(there < [head%rows%bytes, head%pictures%bytes])) head = head_t()
          call file%append(rows, head%rows)
          do k = head%step + 1, march%step
             call pass_row(file, k, history, march)
@@ -230,8 +233,8 @@ contains
       call read_head(prefix//name, head, status)
       if (head%version /= magic .and. index(head%version, family) == 1) what_is = other_version
       if (status%failed()) return
-      if (begins_with(prefix//trim(series_files(1)), head%rows) .and. &
-          begins_with(prefix//trim(series_files(2)), head%pictures)) what_is = head%step
+      if (.not. begins_with(prefix//trim(series_files(1)), head%rows)) return
+      if (begins_with(prefix//trim(series_files(2)), head%pictures)) what_is = head%step
    end function what_is
 
    !> What a state begins with
