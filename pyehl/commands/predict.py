@@ -58,10 +58,10 @@ def report(prediction: Prediction) -> str:
     if prediction.advice:
         lines += prediction.advice.report()
     if f.cavitated_share > 0.0:
-        lines.append(
-            f"            p_s + delta p <= 0 on {f.cavitated_share:.2g} of the contact (rim), "
-            f"at most {f.cavitated_friction:.1g} of the friction"
-        )
+        line = f"            p_s + delta p <= 0 on {f.cavitated_share:.2g} of the contact (rim)"
+        if math.isfinite(f.cavitated_friction):
+            line += f", at most {f.cavitated_friction:.1g} of the friction"
+        lines.append(line)
     return "\n".join(lines)
 
 

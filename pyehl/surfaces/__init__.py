@@ -17,7 +17,6 @@ from pyehl.surfaces.of_case import (
     for_solver,
     from_settings,
     harmonic_amplitude,
-    made_heights,
     track_offsets,
     without_spikes,
 )
@@ -52,7 +51,6 @@ __all__ = [
     "from_settings",
     "harmonic",
     "harmonic_amplitude",
-    "made_heights",
     "part_of",
     "prepare",
     "psd_2d",

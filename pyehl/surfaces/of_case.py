@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -32,7 +33,6 @@ __all__ = [
     "for_solver",
     "from_settings",
     "harmonic_amplitude",
-    "made_heights",
     "track_offsets",
     "without_spikes",
 ]
@@ -40,10 +40,11 @@ __all__ = [
 # Least pixels per wavelength, and per Hertz radius, of a sampled harmonic pattern
 HARMONIC_PIXELS = 32
 RADIUS_PIXELS = 64
-# Fractal tiles up to so many pixels a side are kept, a few of them
-KEPT_PIXELS = 1024
+# Fractal tiles and maps up to so many pixels are kept, a few of them
+KEPT_PIXELS = 2**20
 _KEPT: Kept[Topography] = Kept(4)
-# What a fractal tile follows from
+# What a map is read by, and what a fractal tile follows from
+SCAN = ("file", "length_x", "length_y", "channel")
 FRACTAL = (
     "pixels",
     "length_x",
@@ -103,7 +104,7 @@ def _whole(
     surface = settings["surface"]
     kind = str(surface["kind"])
     if kind == "fractal":
-        if int(surface["pixels"]) > KEPT_PIXELS:
+        if int(surface["pixels"]) ** 2 > KEPT_PIXELS:
             return _fractal(surface)
         return _KEPT.get(tuple(surface[key] for key in FRACTAL), lambda: _fractal(surface))
     if kind == "harmonic":
@@ -117,7 +118,7 @@ def _whole(
             (pixels[0], pixels[1]),
         )
     if kind == "map":
-        return tile_of(_scan(surface), Options.from_settings(surface))
+        return _map(surface)
     if kind in FEATURES:
         return _feature(settings, operating, film)
     raise ValueError(
@@ -142,6 +143,22 @@ def _feature(
     )
 
 
+def _map(surface: Mapping[str, Any]) -> Topography:
+    """Tile of a map; that of a file of a usual size is kept for as long as the file is the same."""
+    options = Options.from_settings(surface)
+    state = Path(str(surface["file"])).stat()
+    name = (*(surface.get(key) for key in SCAN), state.st_mtime_ns, state.st_size, options)
+    if state.st_size > 8 * KEPT_PIXELS:
+        return tile_of(_scan(surface), options)
+    return _KEPT.get(name, lambda: _read_only(tile_of(_scan(surface), options)))
+
+
+def _read_only(made: Topography) -> Topography:
+    """Refuse changes of what several cases share."""
+    made.heights.flags.writeable = False
+    return made
+
+
 def _fractal(surface: Mapping[str, Any]) -> Topography:
     made = fractal(
         int(surface["pixels"]),
@@ -153,8 +170,7 @@ def _fractal(surface: Mapping[str, Any]) -> Topography:
         seed=int(surface["seed"]),
         modulus=str(surface["modulus"]),
     )
-    made.heights.flags.writeable = False
-    return made
+    return _read_only(made)
 
 
 def _scan(surface: Mapping[str, Any]) -> Scan:
@@ -287,8 +303,3 @@ def for_solver(settings: Mapping[str, Mapping[str, Any]]) -> SolverSurface:
     elif images:
         sizes.append("surface.tile_mirrored=.true.")
     return SolverSurface(np.asfortranarray(heights), tuple(sizes), record, part)
-
-
-def made_heights(settings: Mapping[str, Mapping[str, Any]]) -> NDArray[np.float64] | None:
-    """Heights [m] that the solver needs from Python, see :func:`for_solver`; None: none."""
-    return for_solver(settings).heights

@@ -197,7 +197,7 @@ def test_track_is_the_line_that_passes_the_centre(settings):
     settings["surface"]["track"] = 10 * whole.pixel[1]
     moved = surfaces.from_settings(settings, OperatingPoint(), 2e-7)
     assert moved.heights[:, 0] == pytest.approx(whole.heights[:, 10], abs=1e-18)
-    for_solver = surfaces.made_heights(settings)
+    for_solver = surfaces.for_solver(settings).heights
     assert for_solver == pytest.approx(moved.heights, abs=1e-18)
 
 

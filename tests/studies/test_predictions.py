@@ -6,12 +6,14 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import pyehl
 from pyehl.prediction import of_case, smooth
 from pyehl.studies.outputs import TRACKS
 from pyehl.studies.tasks import Task, execute
+from pyehl.surfaces import of_case as of_case_surface
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -81,6 +83,34 @@ def test_shared_parts_are_made_once(cases: Path):
         for s in (0.1, 0.2)
     ]
     assert texts[0] != texts[1]
+
+
+def test_a_map_is_read_once(tmp_path: Path, monkeypatch):
+    """For all cases with it, until its file is another or it is prepared in another way."""
+    reads = []
+    read = of_case_surface.read_scan
+    monkeypatch.setattr(of_case_surface, "read_scan", lambda *a: reads.append(a) or read(*a))
+    z = pyehl.surfaces.fractal(32, 1e-4, 1e-4, rms_height=1e-8, hurst=0.8).heights
+    np.save(tmp_path / "map.npy", z)
+    base = pyehl.Case.from_text(
+        f"&surface kind = 'map', file = '{tmp_path / 'map.npy'}', length_x = 1e-4, "
+        "length_y = 1e-4 /\n",
+        ["psd.smooth=hertz"],
+    )
+
+    def ratio(*options: str) -> float:
+        return execute(Task(0, base.with_options(*options).text, "predict"))["mu_ratio"]
+
+    first = ratio()
+    assert ratio("contact.load=500") != first
+    assert ratio("surface.shortest_wavelength=2e-5") != first
+    assert ratio("surface.track=3e-5") != first
+    assert len(reads) == 1
+    assert ratio("surface.detrend=tilt") != first
+    assert len(reads) == 2
+    np.save(tmp_path / "map.npy", 2.0 * z[::-1])
+    assert ratio() != first
+    assert len(reads) == 3
 
 
 def test_brief_predictions_have_no_advice(cases: Path):
