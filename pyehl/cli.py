@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import difflib
 import logging
+import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module, metadata
@@ -71,6 +72,17 @@ def _listen(*, quiet: bool) -> None:
         log.addHandler(_Terminal())
 
 
+def _execute(args: argparse.Namespace) -> int:
+    try:
+        status = int(args.execute(args))
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # nobody reads on, as behind `| head`; what is still in the buffer must not raise at the end
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return EXIT_FAILED
+    return status
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one subcommand; 0 done, 1 not converged or failed, 2 bad input, 130 interrupted."""
     words = list(sys.argv[1:] if argv is None else argv)
@@ -91,7 +103,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             parser.print_help(sys.stderr if words else sys.stdout)
             return EXIT_USAGE
         args = parser.parse_args(words)
-        return int(args.execute(args))
+        return _execute(args)
     except InputError as error:
         print(error, file=sys.stderr)
         return EXIT_USAGE

@@ -21,7 +21,14 @@ from pyehl.commands.watching import (
     jobs_of,
 )
 from pyehl.errors import InputError
-from pyehl.studies.curve import BREAKDOWN, curve_rows, full_film_ends
+from pyehl.studies.curve import (
+    BREAKDOWN,
+    FULL_FILM,
+    OUTSIDE,
+    UNSOLVED,
+    curve_rows,
+    full_film_ends,
+)
 from pyehl.studies.curve_table import Measured, curve_dataset, read_measured, write_csv
 from pyehl.studies.gather import gather
 from pyehl.studies.stribeck import KEYS, CurvePlan, plan_curve
@@ -101,8 +108,9 @@ def draw(
     from pyehl.plots.style import save  # noqa: PLC0415
 
     key = plan.study.keys[0]
-    absolute = all(row["mu"] is not None for row in rows if row["mu_ratio"] is not None)
-    absolute = absolute and any(row["mu"] is not None for row in rows)
+    # a point whose smooth contact has no solution has a ratio, and is left out
+    answers = [row for row in rows if row["status"] in (FULL_FILM, OUTSIDE)]
+    absolute = bool(answers) and all(row["mu"] is not None for row in answers)
     if measured is not None and measured.ordinate != ("mu" if absolute else "mu_ratio"):
         raise InputError(
             f"--measured: it holds {measured.ordinate}, the curve "
@@ -161,6 +169,9 @@ def report(plan: CurvePlan, rows: Sequence[Row]) -> str:
         cells = [f"{point.point.values[key]:>21}" for key in keys]
         cells += [f"{'-' if row[n] is None else format(row[n], '.4g'):>10}" for n in names]
         lines.append("  ".join([*cells, str(row["status"])]))
+    failed = [str(row["message"]) for row in rows if row["status"] == UNSOLVED]
+    if failed:
+        lines.append(f"{UNSOLVED} {len(failed)} of {len(rows)}, the first: {failed[0]}")
     for label, places, those in curves_of(plan, rows):
         lines.append(f"{label + ': ' if label else ''}{full_film_ends(keys[0], places, those)[0]}")
     return "\n".join(lines)

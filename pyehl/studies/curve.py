@@ -18,6 +18,7 @@ import scipy.fft
 from numpy.typing import NDArray
 
 from pyehl import surfaces
+from pyehl.prediction.errors import LARGEST_RATIO
 from pyehl.studies.stribeck import CurvePlan, CurvePoint, Settings
 from pyehl.studies.tasks import FAILED
 from pyehl.theory import stribeck
@@ -25,7 +26,16 @@ from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["BREAKDOWN", "FULL_FILM", "OUTSIDE", "UNITS", "curve_rows", "full_film_ends", "pattern"]
+__all__ = [
+    "BREAKDOWN",
+    "FULL_FILM",
+    "OUTSIDE",
+    "UNITS",
+    "UNSOLVED",
+    "curve_rows",
+    "full_film_ends",
+    "pattern",
+]
 
 Row = Mapping[str, Any]
 
@@ -148,7 +158,7 @@ def _at(point: CurvePoint, rows: Mapping[int, Row], kept: dict[str, Pattern]) ->
         values["message"] = _joined(values, f"film of {n} x {n} nodes, not extrapolated: {finer}")
     if smooth["status"] != "converged":
         values["message"] = _joined(values, f"smooth contact: {_why(smooth)}; {finer}")
-        if values["status"] == FULL_FILM:
+        if values["status"] in (FULL_FILM, OUTSIDE):
             values["status"] = UNSOLVED
     return values
 
@@ -207,6 +217,8 @@ def _friction(found: Sequence[Row], smooth: Row) -> dict[str, Any]:
         row = next(row for row in lost if not broken or row["status"] == BREAKDOWN)
         return {"status": status, "message": f"{share}{_why(row)}"}
     outside = sorted({row["outside_range"] for row in found if row.get("outside_range")})
+    if any(row["mu_ratio"] > LARGEST_RATIO for row in found):
+        outside.append(f"mu_ratio above {LARGEST_RATIO:g}")
     coefficient = smooth.get("mu_smooth")
     absolute: list[Row] = [
         {"mu": None if None in (row.get("mu"), coefficient) else row["mu_ratio"] * coefficient}

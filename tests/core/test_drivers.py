@@ -240,3 +240,14 @@ def test_load_without_si_input(drive, tmp_path: Path):
 def test_load_refuses_other_folders(tmp_path: Path):
     with pytest.raises(FileNotFoundError, match=r"summary\.json"):
         pyehl.load(tmp_path)
+
+
+def test_nobody_reads_to_the_end(drivers: dict[str, list[str]], cases: Path):
+    """As behind `| head`: no traceback."""
+    with subprocess.Popen(
+        [*drivers["pyehl"][:-1], "check", str(cases / "quick.nml")],
+        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    ) as process:  # fmt: skip
+        process.stdout.close()
+        assert process.stderr.read() == ""
+        assert process.wait(60) == 1

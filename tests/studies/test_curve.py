@@ -308,3 +308,36 @@ def test_curves_that_are_refused(cases: Path, tmp_path: Path, words: list[str], 
     _, complaint = run(str(cases / "table1.nml"), *words, "-o", str(tmp_path / "out"), expect=2)
     assert says in complaint
     assert not (tmp_path / "out").exists()
+
+
+def test_ends_of_a_curve_say_why(cases: Path, tmp_path: Path):
+    """A load that no grid solves, told in words; a ratio larger than any that was compared."""
+    words = ("--set", "surface.pixels=64", "--set", "grid.points=65", "-o")
+    told, _ = run(str(cases / "table1.nml"), "--speed", "0.005,4", *words, str(tmp_path / "1"))
+    lost, found = table(tmp_path / "1")
+    assert lost["status"] == "not solved"
+    assert "did not converge on 1025 x 1025 nodes" in lost["message"]
+    assert "not solved 1 of 2, the first: failed: EhlError: the smooth contact" in told
+    assert found["status"] == FULL_FILM
+    words = ("--set", "surface.pixels=256", "--set", "grid.points=257", "-o")
+    run(str(cases / "table1.nml"), "--viscosity", "0.01,0.1", *words, str(tmp_path / "2"))
+    high, usual = table(tmp_path / "2")
+    assert float(high["mu_ratio"]) > 2.5
+    assert high["mu_ratio_model_error"] == ""
+    assert high["status"] == OUTSIDE
+    assert "mu_ratio above 2.5" in high["message"]
+    assert usual["status"] == FULL_FILM
+
+
+def test_a_point_without_a_smooth_solution_is_not_solved(cases: Path, tmp_path: Path):
+    """It has a predicted ratio, but no film on the grid; measured coefficients fit the others."""
+    (tmp_path / "m.csv").write_text(f"{KEY},mu\n1.0,0.05\n")
+    words = ("--set", "surface.pixels=64", "--set", "grid.points=65", "--set")
+    words += ("lubricant.shear_law=eyring", "--speed", "0.02,4")
+    words += ("--measured", str(tmp_path / "m.csv"), "-o", str(tmp_path / "out"))
+    run(str(cases / "table1.nml"), *words)
+    slow, fast = table(tmp_path / "out")
+    assert slow["h_c_m"] == ""
+    assert slow["status"] in ("not solved", BREAKDOWN)
+    assert fast["mu"] != ""
+    assert (tmp_path / "out" / "stribeck.png").is_file()
