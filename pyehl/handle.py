@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import os
 import threading
-from types import TracebackType
-from typing import NamedTuple, Self
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pyehl.closing import Closing
 from pyehl.errors import check
 from pyehl.library import checkpoints, ehl, text_of
 
@@ -43,7 +43,7 @@ class Work(NamedTuple):
     latest: float
 
 
-class SolverHandle:
+class SolverHandle(Closing):
     """A solver that was opened, and is closed at the end of a ``with`` block.
 
     Attributes
@@ -80,17 +80,6 @@ class SolverHandle:
             ehl.close_case(self._handle)
             self._handle = 0
             self._given = None
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
     def __del__(self) -> None:
         # The constructor may have failed, and at exit the extension may be gone

@@ -150,17 +150,11 @@ contains
    subroutine whole_number(self, value)
       class(binary_file_t), intent(inout) :: self
       integer, intent(inout) :: value
-      character(len=256) :: reason
-      integer :: stat
+      character(len=storage_size(value)/8) :: bytes
 
-      if (self%stat /= 0) return
-      if (self%writing) then
-         write (self%lun, iostat=stat, iomsg=reason) value
-      else
-         read (self%lun, iostat=stat, iomsg=reason) value
-      end if
-      if (stat /= 0) call self%refuse(reason)
-      call self%extent%add(transfer(value, [0_int8]))
+      bytes = transfer(value, bytes)
+      call self%item(bytes)
+      value = transfer(bytes, value)
    end subroutine whole_number
 
    subroutine number(self, value)

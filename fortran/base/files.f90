@@ -8,7 +8,7 @@ module ehl_files
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: read_text, write_text, flush_file, file_exists, make_folder, remove_folder, remove_file
+   public :: read_text, write_text, flush_file, file_exists, make_folder, remove_folder, remove_file, remove_known
    public :: check_written, rename_path, absolute_path, real_path, folder_of, process_mark
 
    interface
@@ -212,6 +212,18 @@ contains
 
       remove_file = posix_unlink(c_text(path)) == 0
    end function remove_file
+
+   !> Remove these files of a folder as far as they are there, and the folder if nothing else is in it
+   subroutine remove_known(folder, names)
+      character(len=*), intent(in) :: folder, names(:)
+      logical :: gone
+      integer :: k
+
+      do k = 1, size(names)
+         gone = remove_file(folder // "/" // trim(names(k)))
+      end do
+      gone = remove_folder(folder)
+   end subroutine remove_known
 
    !> Rename a file or folder in one step. A folder replaces another only when that is empty.
    logical function rename_path(from, to)

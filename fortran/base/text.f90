@@ -5,7 +5,7 @@ module ehl_text
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: newline, to_text, lower_case, is_letter, is_digit, nearest_word, quoted
+   public :: newline, to_text, fixed, lower_case, is_letter, is_digit, nearest_word, quoted
 
    !> Line separator in texts and files
    character(len=*), parameter :: newline = new_line("a")
@@ -53,6 +53,18 @@ contains
       text = place_point(digits, exponent)
       if (x < 0.0_dp) text = "-" // text
    end function real_to_text
+
+   !> A number by an edit descriptor such as 'f8.4', without blanks around it; by 'es12.5' where it does not fit
+   function fixed(x, form) result(text)
+      real(dp), intent(in) :: x
+      character(len=*), intent(in) :: form
+      character(len=:), allocatable :: text
+      character(len=32) :: buffer
+
+      write (buffer, "("//form//")") x
+      if (buffer(1:1) == "*") write (buffer, "(es12.5)") x
+      text = trim(adjustl(buffer))
+   end function fixed
 
    !> The digits of a mantissa, without sign, point and trailing zeros
    pure function keep_digits(mantissa) result(digits)

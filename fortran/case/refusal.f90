@@ -5,6 +5,7 @@ module ehl_refusal
    use ehl_schema, only: schema_t
    use ehl_source, only: point_at, source_t
    use ehl_status, only: ehl_bad_input, status_t
+   use ehl_text, only: fixed
    implicit none (type, external)
    private
    public :: refuse, contradict, first_given, is_before, short
@@ -95,9 +96,6 @@ contains
    function short(x) result(text)
       real(dp), intent(in) :: x
       character(len=:), allocatable :: text
-      character(len=16) :: buffer
-
-      write (buffer, "(es10.3)") x
-      text = trim(adjustl(buffer))
+      text = fixed(x, "es10.3")
    end function short
 end module ehl_refusal

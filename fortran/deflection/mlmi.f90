@@ -35,6 +35,7 @@ module ehl_mlmi
    use ehl_kinds, only: dp
    use ehl_grid, only: grid_t
    use ehl_status, only: status_t, ehl_bad_input, ehl_no_memory
+   use ehl_text, only: fixed
    use ehl_deflection, only: deflection_t
    use ehl_mlmi_stencil, only: transfer_weights
    use ehl_mlmi_stage, only: stage_t
@@ -175,13 +176,10 @@ contains
    subroutine refuse(accuracy, status)
       real(dp), intent(in) :: accuracy
       type(status_t), intent(inout) :: status
-      character(len=16) :: asked, possible
 
-      write (asked, "(es9.2)") accuracy
-      write (possible, "(es9.2)") fine_limit
       call status%fail(ehl_bad_input, "deflection by 'mlmi' to a relative accuracy of " &
-                       //trim(adjustl(asked))//" was asked for, at least " &
-                       //trim(adjustl(possible))//" was expected; 'fft' is exact to rounding")
+                       //fixed(accuracy, "es9.2")//" was asked for, at least " &
+                       //fixed(fine_limit, "es9.2")//" was expected; 'fft' is exact to rounding")
    end subroutine refuse
 
    !> W = K P

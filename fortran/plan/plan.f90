@@ -15,7 +15,7 @@ module ehl_plan
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_surface, only: aliased_below, resolved_from, surface_t
    use ehl_transient, only: steps_needed
-   use ehl_text, only: to_text
+   use ehl_text, only: fixed, to_text
    use ehl_wedge, only: wedge_narrow, wedge_separate
    implicit none (type, external)
    private
@@ -147,21 +147,19 @@ contains
       type(case_t), intent(in) :: input
       type(plan_t), intent(in) :: plan
       type(status_t), intent(inout) :: status
-      real(dp) :: steps
+      real(dp) :: steps, least
       integer :: most
-      character(len=16) :: needed, least
 
       if (.not. plan%moves()) return
       most = merge(most_steps_asked_for, most_steps, plan%steps > 0)
       steps = steps_needed(plan%surface, plan%finest%hx, plan%skip_start)
       if (steps <= most) return
-      write (needed, "(es12.2e3)") steps
       ! rounded up: what is named will do
-      write (least, "(es12.2e3)") 1.005_dp*input%surface%velocity_ratio*steps/most
+      least = 1.005_dp*input%surface%velocity_ratio*steps/most
       call status%fail(ehl_bad_input, "surface.velocity_ratio = "//to_text(input%surface%velocity_ratio)// &
-                       ": so slow a surface needs "//trim(adjustl(needed))//" time steps until its friction is known, "// &
+                       ": so slow a surface needs "//fixed(steps, "es12.2e3")//" time steps until its friction is known, "// &
                        "more than "//to_text(most)//new_line("a")//"expected: a velocity ratio of at least "// &
-                       trim(adjustl(least))//" on this grid, or 0: a rough surface at rest is a steady contact")
+                       fixed(least, "es12.2e3")//" on this grid, or 0: a rough surface at rest is a steady contact")
    end subroutine check_steps
 
    !> Shape, scales and operating point

@@ -6,7 +6,7 @@ module ehl_checkpoint_folder
    use ehl_case_writer, only: case_text
    use ehl_checkpoint, only: coarser, series_files, state_files
    use ehl_clock, only: clock_t, start_clock
-   use ehl_files, only: file_exists, make_folder, remove_file, remove_folder, rename_path, write_text
+   use ehl_files, only: file_exists, make_folder, remove_file, remove_known, rename_path, write_text
    use ehl_kinds, only: dp
    use ehl_npy, only: read_npy, write_npy
    use ehl_result_folder, only: full_path, make_parents
@@ -20,7 +20,8 @@ module ehl_checkpoint_folder
    character(len=*), parameter :: suffix = ".checkpoint", case_file = "case.nml", surface_file = "surface.npy"
    !> States of the run and of that on the coarser grid, and all that belongs to them
    character(len=*), parameter :: states(*) = [character(len=32) :: state_files, coarser//state_files], &
-      files(*) = [character(len=32) :: state_files, series_files, coarser//state_files, coarser//series_files]
+      ! the case goes last: a folder with it can be gone on with
+      files(*) = [character(len=32) :: states, series_files, coarser//series_files, surface_file, case_file]
 
    !> Writes the state now and then
    type :: checkpoint_folder_t
@@ -179,21 +180,15 @@ contains
       if (.not. rename_path(path//".new", path)) call status%fail(ehl_file, path//": error: cannot write")
    end subroutine put
 
-   !> Remove our files of a folder, and the folder if nothing else is in it
+   !> Remove our files of a folder, also those half written, and the folder if nothing else is in it
    subroutine remove_files(folder)
       character(len=*), intent(in) :: folder
       logical :: gone
       integer :: k
 
       do k = 1, size(files)
-         gone = remove_file(folder//trim(files(k)))
          gone = remove_file(folder//trim(files(k))//".new")
       end do
-      gone = remove_file(folder//surface_file)
-      gone = remove_file(folder//surface_file//".new")
-      gone = remove_file(folder//case_file//".new")
-      ! the case goes last: a folder with it can be gone on with
-      gone = remove_file(folder//case_file)
-      gone = remove_folder(folder(:len(folder) - 1))
+      call remove_known(folder(:len(folder) - 1), files)
    end subroutine remove_files
 end module ehl_checkpoint_folder

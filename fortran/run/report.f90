@@ -11,7 +11,7 @@ module ehl_report
    use ehl_record, only: record_t
    use ehl_stationary_roughness, only: stationary_roughness_t
    use ehl_steady, only: level_result_t, steady_t
-   use ehl_text, only: to_text
+   use ehl_text, only: fixed, to_text
    use ehl_transient, only: transient_t
    use ehl_wedge, only: wedge_narrow
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
@@ -30,7 +30,7 @@ contains
 
       text = to_text(grid%nx)//" x "//to_text(grid%nx)//"  cycle "//to_text(result%cycles)// &
              "  H_c "//fixed(result%m%film_central, "f10.6")//"  H_min "//fixed(result%m%film_minimum, "f10.6")// &
-             "  residual "//fixed(result%residual, "es8.1")//"  "//trim(outcome_names(stand))
+             ending(result%residual, stand)
    end function cycle_line
 
    !> Line about a time step
@@ -44,7 +44,7 @@ contains
       if (march%mean%has_mean()) text = text//"  mean "//fixed(march%mean%mean(0.0_dp), "f9.5")
       if (march%mean%has_change()) text = text//" +- "//fixed(march%mean%change(), "es8.1")
       text = text//"  H_min "//fixed(march%m%film_minimum, "f10.6")//"  cycles "//to_text(march%cycles)// &
-             "  residual "//fixed(march%residual, "es8.1")//"  "//trim(outcome_names(stand))
+             ending(march%residual, stand)
    end function march_line
 
    !> Line about a cycle of the contact with a rough surface at rest
@@ -56,10 +56,17 @@ contains
 
       text = to_text(grid%nx)//" x "//to_text(grid%nx)//"  cycle "//to_text(rest%total_cycles)// &
              "  mu_r/mu_s "//fixed(rest%mu_ratio(), "f9.5")//"  H_c "//fixed(rest%m%film_central, "f10.6")// &
-             "  H_min "//fixed(rest%m%film_minimum, "f10.6")//"  residual "//fixed(rest%residual, "es8.1")// &
-             "  "//trim(outcome_names(stand))
+             "  H_min "//fixed(rest%m%film_minimum, "f10.6")//ending(rest%residual, stand)
       if (rest%share < 1.0_dp .and. .not. rest%smooth) text = text//", share of the roughness "//fixed(rest%share, "f7.4")
    end function rest_line
+
+   !> What such a line ends with
+   function ending(residual, stand) result(text)
+      real(dp), intent(in) :: residual
+      integer, intent(in) :: stand
+      character(len=:), allocatable :: text
+      text = "  residual "//fixed(residual, "es8.1")//"  "//trim(outcome_names(stand))
+   end function ending
 
    !> Operating point, grid and means
    subroutine report_scene(record, plan, grid)
@@ -248,17 +255,4 @@ contains
       call record%set("rough_parts", rest%parts)
       call record%set("rough_residual", rest%residual)
    end subroutine report_rest
-
-   !> A number in a fixed form
-   function fixed(x, form) result(text)
-      real(dp), intent(in) :: x
-      character(len=*), intent(in) :: form
-      character(len=:), allocatable :: text
-      character(len=32) :: buffer
-
-      write (buffer, "("//form//")") x
-      ! too large for its field
-      if (buffer(1:1) == "*") write (buffer, "(es12.5)") x
-      text = trim(adjustl(buffer))
-   end function fixed
 end module ehl_report

@@ -7,7 +7,7 @@ module ehl_report_friction
    use ehl_kinds, only: dp, pi
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
-   use ehl_text, only: to_text
+   use ehl_text, only: fixed, to_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    implicit none (type, external)
    private
@@ -47,8 +47,9 @@ contains
                mu_smooth = friction*shear%scale*plan%contact%radius**2/s%load
                note = "isothermal: the oil is not thinned by the flash temperature (Tian & Kennedy 1994)"
             else
-               note = "a ratio alone: the Newtonian shear stress reaches "//short(stress)//" Pa, and oils shear thin "// &
-                      "above some "//to_text(s%newtonian_limit)//" Pa (lubricant.eyring_stress): give a lubricant.shear_law"
+               note = "a ratio alone: the Newtonian shear stress reaches "//fixed(stress, "es8.1e2")// &
+                      " Pa, and oils shear thin above some "//to_text(s%newtonian_limit)// &
+                      " Pa (lubricant.eyring_stress): give a lubricant.shear_law"
             end if
          end if
          mu = ratio*mu_smooth
@@ -105,14 +106,4 @@ contains
          greatest_stress = max(greatest_stress, plan%lubricant%shear%scale*maxval(stress))
       end do
    end function greatest_stress
-
-   !> Two digits of a number
-   function short(x) result(text)
-      real(dp), intent(in) :: x
-      character(len=:), allocatable :: text
-      character(len=16) :: buffer
-
-      write (buffer, "(es8.1e2)") x
-      text = trim(adjustl(buffer))
-   end function short
 end module ehl_report_friction

@@ -5,7 +5,7 @@ module ehl_result_folder
    use ehl_case, only: case_t
    use ehl_case_writer, only: case_text
    use ehl_files, only: absolute_path, file_exists, make_folder, process_mark, real_path, &
-                        remove_file, remove_folder, rename_path, write_text
+                        remove_folder, remove_known, rename_path, write_text
    use ehl_kinds, only: dp
    use ehl_npy, only: write_npy
    use ehl_record, only: record_t
@@ -87,7 +87,7 @@ contains
       end if
       call write_files(partial // "/", input, solver, wall_seconds, status)
       if (status%failed()) then
-         call remove_results(partial)
+         call remove_known(partial, known_files)
          return
       end if
       if (is_result(target_folder)) then
@@ -102,7 +102,7 @@ contains
          return
       end if
       if (file_exists(previous)) then
-         call remove_results(previous)
+         call remove_known(previous, known_files)
          if (file_exists(previous)) note = "other files of the earlier result are in " // previous
       end if
    end subroutine write_results
@@ -198,16 +198,4 @@ contains
          if (.not. made) return
       end do
    end subroutine make_parents
-
-   !> Remove our files of a folder, and the folder if nothing else is in it
-   subroutine remove_results(folder)
-      character(len=*), intent(in) :: folder
-      integer :: k
-      logical :: done
-
-      do k = 1, size(known_files)
-         done = remove_file(folder // "/" // trim(known_files(k)))
-      end do
-      done = remove_folder(folder)
-   end subroutine remove_results
 end module ehl_result_folder

@@ -7,7 +7,7 @@ module ehl_skipped_work
    use ehl_level, only: level_t
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
-   use ehl_text, only: newline, to_text
+   use ehl_text, only: fixed, newline, to_text
    use ehl_transient, only: transient_t
    implicit none (type, external)
    private
@@ -67,15 +67,12 @@ contains
    function skip_lines(skips) result(text)
       type(skip_t), intent(in) :: skips(:)
       character(len=:), allocatable :: text
-      character(len=16) :: seconds
       integer :: k
 
       text = ""
       do k = 1, size(skips)
          if (k > 1) text = text//newline
-         text = text//"not done: "//trim(skips(k)%what)
-         write (seconds, "(f16.1)") skips(k)%seconds
-         text = text//" (about "//trim(adjustl(seconds))//" s)"
+         text = text//"not done: "//trim(skips(k)%what)//" (about "//fixed(skips(k)%seconds, "f16.1")//" s)"
       end do
    end function skip_lines
 

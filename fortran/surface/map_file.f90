@@ -5,7 +5,7 @@ module ehl_map_file
    use ehl_memory, only: free_bytes
    use ehl_npy, only: npy_shape, read_npy
    use ehl_status, only: ehl_file, ehl_no_memory, status_t
-   use ehl_text, only: to_text
+   use ehl_text, only: fixed, to_text
    implicit none (type, external)
    private
    public :: read_map, check_memory
@@ -52,15 +52,13 @@ contains
       type(status_t), intent(inout) :: status
       real(dp), parameter :: gigabyte = 1.0e9_dp
       real(dp) :: needed, free
-      character(len=16) :: numbers(2)
 
       if (status%failed()) return
       needed = 16.0_dp*n(1)*real(n(2), dp)
       free = free_bytes()
       if (needed <= free) return
-      write (numbers, "(f16.1)") needed/gigabyte, free/gigabyte
       call status%fail(ehl_no_memory, what//": "//to_text(n(1))//" x "//to_text(n(2))//" heights need "// &
-                       trim(adjustl(numbers(1)))//" GB of memory, "//trim(adjustl(numbers(2)))//" GB are free")
+                       fixed(needed/gigabyte, "f16.1")//" GB of memory, "//fixed(free/gigabyte, "f16.1")//" GB are free")
    end subroutine check_memory
 
    !> Text: numbers separated by blanks, tabs, commas or semicolons, '#' begins a comment, every row of the same length

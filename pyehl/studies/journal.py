@@ -14,9 +14,9 @@ import os
 import zlib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
+from pyehl.closing import Closing
 from pyehl.errors import FileError, InputError
 
 __all__ = ["NAME", "Journal", "difference", "read_header"]
@@ -76,7 +76,7 @@ def _short(value: object) -> str:
     return text if len(text) <= 100 else f"{text[:60]} ... {text[-30:]}"
 
 
-class Journal:
+class Journal(Closing):
     """The journal of one study in one folder; a context manager that holds a lock on it.
 
     Parameters
@@ -204,17 +204,6 @@ class Journal:
             self._file.close()
         except OSError as error:
             raise FileError(f"{self.path}: cannot write: {error.strerror}") from error
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
 
 def _sync_folder(folder: Path) -> None:

@@ -4,9 +4,8 @@
 from __future__ import annotations
 
 import csv
-import importlib.util
 import json
-import sys
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
@@ -176,16 +175,9 @@ def test_pressure_of_a_wave_on_the_disc_carries_no_load():
 
 
 @pytest.fixture(scope="module")
-def evidence(root: Path) -> ModuleType:
+def evidence(script: Callable[[str], ModuleType]) -> ModuleType:
     """The script that fits the response."""
-    path = root / "docs" / "evidence" / "response" / "fit.py"
-    spec = importlib.util.spec_from_file_location("fit_of_the_response", path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
-    return module
+    return script("docs/evidence/response/fit.py")
 
 
 def test_coefficients_are_the_fit_to_the_measured_waves(

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-import importlib.util
+from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 
@@ -15,14 +15,8 @@ Row = dict[str, str]
 
 
 @pytest.fixture(scope="module")
-def make(root: Path) -> ModuleType:
-    path = root / "docs" / "evidence" / "stribeck" / "make.py"
-    spec = importlib.util.spec_from_file_location("make_stribeck", path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+def make(script: Callable[[str], ModuleType]) -> ModuleType:
+    return script("docs/evidence/stribeck/make.py")
 
 
 @pytest.fixture(scope="module")
