@@ -25,7 +25,7 @@ module ehl_schema
       procedure, private :: add_surface_keys
       procedure, private :: add_map_keys
       procedure, private :: add_feature_keys
-      procedure, private :: add_march_keys
+      procedure, private :: add_time_keys
       procedure, private :: add_psd_keys
       procedure, private :: reals
       procedure, private :: integers
@@ -73,7 +73,7 @@ contains
       call self%add_lubricant_keys(input)
       call self%add_grid_keys(input)
       call self%add_surface_keys(input)
-      call self%add_march_keys(input)
+      call self%add_time_keys(input)
       call self%add_psd_keys(input)
       call self%logicals("output", "fields", input%output%fields, "write the fields X, Y, P, H")
       call self%reals("output", "frame_interval", input%output%frame_interval, "a/u", "[0, 1000]", &
@@ -142,7 +142,7 @@ contains
       end associate
    end subroutine add_surface_keys
 
-   subroutine add_march_keys(self, input)
+   subroutine add_time_keys(self, input)
       class(schema_t), intent(inout) :: self
       type(case_t), intent(inout), target :: input
 
@@ -173,7 +173,7 @@ contains
          call self%integers("solver", "threads", s%threads, "[1, 256]", &
                             "OpenMP threads; the result does not depend on it")
       end associate
-   end subroutine add_march_keys
+   end subroutine add_time_keys
 
    subroutine add_psd_keys(self, input)
       class(schema_t), intent(inout) :: self

@@ -64,7 +64,7 @@ module ehl_plan
       integer :: scheme = wedge_narrow
       !> Begin the transient run when the roughness comes near the contact
       logical :: skip_start = .true.
-      !> March on the next coarser grid too, for the grid error of the friction ratio
+      !> Repeat the run on the next coarser grid, for the grid error of the friction ratio
       logical :: coarse_run = .false.
       !> Relative change of the mean friction ratio at which to stop, most periods, exact steps
       real(dp) :: time_tolerance = 1.0e-3_dp

@@ -17,7 +17,7 @@ module ehl_report
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    implicit none (type, external)
    private
-   public :: cycle_line, march_line, rest_line, report_scene, report_smooth, report_march, report_rest, report_waves
+   public :: cycle_line, step_line, rest_line, report_scene, report_smooth, report_transient, report_rest, report_waves
 
 contains
 
@@ -34,18 +34,18 @@ contains
    end function cycle_line
 
    !> Line about a time step
-   function march_line(march, stand) result(text)
-      type(transient_t), intent(in) :: march
+   function step_line(transient, stand) result(text)
+      type(transient_t), intent(in) :: transient
       integer, intent(in) :: stand
       character(len=:), allocatable :: text
 
-      text = "step "//to_text(march%step)//"  T "//fixed(march%time, "f8.4")//"  mu_r/mu_s "// &
-             fixed(march%m%friction/march%friction_smooth, "f9.5")
-      if (march%mean%has_mean()) text = text//"  mean "//fixed(march%mean%mean(0.0_dp), "f9.5")
-      if (march%mean%has_change()) text = text//" +- "//fixed(march%mean%change(), "es8.1")
-      text = text//"  H_min "//fixed(march%m%film_minimum, "f10.6")//"  cycles "//to_text(march%cycles)// &
-             ending(march%residual, stand)
-   end function march_line
+      text = "step "//to_text(transient%step)//"  T "//fixed(transient%time, "f8.4")//"  mu_r/mu_s "// &
+             fixed(transient%m%friction/transient%friction_smooth, "f9.5")
+      if (transient%mean%has_mean()) text = text//"  mean "//fixed(transient%mean%mean(0.0_dp), "f9.5")
+      if (transient%mean%has_change()) text = text//" +- "//fixed(transient%mean%change(), "es8.1")
+      text = text//"  H_min "//fixed(transient%m%film_minimum, "f10.6")//"  cycles "//to_text(transient%cycles)// &
+             ending(transient%residual, stand)
+   end function step_line
 
    !> Line about a cycle of the contact with a rough surface at rest
    function rest_line(grid, rest, stand) result(text)
@@ -150,10 +150,10 @@ contains
    end subroutine report_smooth
 
    !> The transient run: results null unless it came to a good end
-   subroutine report_march(record, plan, march, good, seconds, coarse_mean)
+   subroutine report_transient(record, plan, transient, good, seconds, coarse_mean)
       type(record_t), intent(inout) :: record
       type(plan_t), intent(in) :: plan
-      type(transient_t), intent(in) :: march
+      type(transient_t), intent(in) :: transient
       logical, intent(in) :: good
       real(dp), intent(in) :: seconds
       !> Mean friction ratio on the next coarser grid, 0 where it is not known
@@ -166,10 +166,10 @@ contains
       ratio = mean
       grid = mean
       if (good) then
-         mean = march%mean%mean(0.0_dp)
-         range = march%mean%extremes()
-         ratio = march%mean%amplitude_ratio()
-         if (march%mean%has_change()) change = march%mean%change()
+         mean = transient%mean%mean(0.0_dp)
+         range = transient%mean%extremes()
+         ratio = transient%mean%amplitude_ratio()
+         if (transient%mean%has_change()) change = transient%mean%change()
          if (plan%surface%passes_once) then
             ! a passage has an end, and no wave to compare amplitudes of
             change = 0.0_dp
@@ -177,8 +177,8 @@ contains
          end if
          if (coarse_mean > 0.0_dp) grid = abs(mean - coarse_mean)/3.0_dp
       else
-         if (march%mean%has_mean()) call record%set("last_mu_ratio_mean", march%mean%mean(0.0_dp))
-         if (march%mean%n > 0) call record%set("last_mu_ratio", march%mean%values(march%mean%n))
+         if (transient%mean%has_mean()) call record%set("last_mu_ratio_mean", transient%mean%mean(0.0_dp))
+         if (transient%mean%n > 0) call record%set("last_mu_ratio", transient%mean%values(transient%mean%n))
       end if
       call record%set("mu_ratio", mean)
       call record%set("mu_ratio_min", range(1))
@@ -195,16 +195,16 @@ contains
          call record%set("amplitude", surface%amplitude)
       end select
       call record%set("scheme", trim(merge("narrow", "paper ", plan%scheme == wedge_narrow)))
-      call record%set("T", march%time)
-      call record%set("T_period", march%mean%period)
-      call record%set("T_mean", merge(march%mean%window(), 0.0_dp, march%mean%has_mean()))
-      call record%set("steps", march%step)
-      call record%set("steps_skipped", march%skipped)
-      call record%set("cycles_per_step", real(march%total_cycles, dp)/max(march%step, 1))
-      call record%set("coarsening_changed_at", march%policy%changed_at)
-      call record%set("seconds_per_step", seconds/max(march%step, 1))
-      call record%set("step_residual_allowed", march%accuracy%largest)
-   end subroutine report_march
+      call record%set("T", transient%time)
+      call record%set("T_period", transient%mean%period)
+      call record%set("T_mean", merge(transient%mean%window(), 0.0_dp, transient%mean%has_mean()))
+      call record%set("steps", transient%step)
+      call record%set("steps_skipped", transient%skipped)
+      call record%set("cycles_per_step", real(transient%total_cycles, dp)/max(transient%step, 1))
+      call record%set("coarsening_changed_at", transient%policy%changed_at)
+      call record%set("seconds_per_step", seconds/max(transient%step, 1))
+      call record%set("step_residual_allowed", transient%accuracy%largest)
+   end subroutine report_transient
 
    !> What of the surface the grid carries
    subroutine report_waves(record, plan)

@@ -26,9 +26,9 @@ contains
 
    !> What a transient run that has ended did not have to do. The seconds of steps are those of the mean step made,
    !> those of nodes in proportion to their number, those of zeros for every deflection on the finest grid.
-   subroutine find_skips(plan, march, good, seconds_steps, seconds_smooth, seconds_zeros, skips)
+   subroutine find_skips(plan, transient, good, seconds_steps, seconds_smooth, seconds_zeros, skips)
       type(plan_t), intent(in) :: plan
-      type(transient_t), intent(in) :: march
+      type(transient_t), intent(in) :: transient
       !> Whether the transient run ended because the mean has settled
       logical, intent(in) :: good
       !> Seconds spent on the steps, and on the smooth contact
@@ -39,19 +39,19 @@ contains
       real(dp) :: step
       integer :: left, periods, deflections
 
-      step = seconds_steps/max(march%step, 1)
+      step = seconds_steps/max(transient%step, 1)
       allocate (skips(0))
       if (plan%finest%mirror) then
          skips = [skips, skip_t(to_text(plan%finest%nx*(plan%finest%full_ny() - plan%finest%ny))//" of "// &
                                 to_text(plan%finest%nx*plan%finest%full_ny())//" nodes: the scene is symmetric in Y", &
                                 (seconds_steps + seconds_smooth)*(real(plan%finest%full_ny(), dp)/plan%finest%ny - 1.0_dp))]
       end if
-      if (march%skipped > 0) then
-         skips = [skips, skip_t(to_text(march%skipped)//" steps before the roughness came near the contact", &
-                                march%skipped*step)]
+      if (transient%skipped > 0) then
+         skips = [skips, skip_t(to_text(transient%skipped)//" steps before the roughness came near the contact", &
+                                transient%skipped*step)]
       end if
       periods = merge(plan%max_periods, fixed_periods, plan%max_periods > 0)
-      left = ceiling(max(march%mean%filled, 0) + periods*march%mean%period/march%time_step) - march%step
+      left = ceiling(max(transient%mean%filled, 0) + periods*transient%mean%period/transient%time_step) - transient%step
       if (good .and. plan%steps == 0 .and. left > 0 .and. .not. plan%surface%passes_once) then
          skips = [skips, skip_t(to_text(left)//" steps up to the end of period "//to_text(periods)// &
                                 ": the mean of mu_r/mu_s had settled", left*step)]
@@ -59,7 +59,7 @@ contains
       skips = [skips, skip_t("a second solve of the smooth contact: one gave the start of the transient run and mu_s", &
                              seconds_smooth)]
       ! one after the prediction, after every sweep, and after the coarse grids
-      deflections = march%step + march%total_cycles + march%total_sweeps
+      deflections = transient%step + transient%total_cycles + transient%total_sweeps
       skips = [skips, skip_t("corrections of the deflection where P = 0", deflections*seconds_zeros)]
    end subroutine find_skips
 

@@ -34,7 +34,7 @@ module ehl_solver
       type(transient_t), private :: transient
       type(stationary_roughness_t), private :: rest
       !> Whether the transient run has begun; the contact with a rough surface at rest
-      logical, private :: marching = .false., resting = .false.
+      logical, private :: in_steps = .false., resting = .false.
       !> How the transient run stands
       integer, private :: outcome = outcome_running
       !> Seconds spent on time steps, and on the smooth contact
@@ -212,7 +212,7 @@ contains
    !> Time steps made so far
    pure integer function steps_made(self)
       class(solver_t), intent(in) :: self
-      steps_made = merge(self%transient%step, 0, self%marching)
+      steps_made = merge(self%transient%step, 0, self%in_steps)
    end function steps_made
 
    !> Whether the case is a transient run
@@ -226,7 +226,7 @@ contains
       class(solver_t), intent(in) :: self
       stand = self%steady%outcome
       if (.not. allocated(self%plan%surface)) return
-      if (self%marching) then
+      if (self%in_steps) then
          stand = self%outcome
       else if (self%resting) then
          stand = self%rest%outcome
@@ -263,7 +263,7 @@ contains
    subroutine interrupt(self)
       class(solver_t), intent(inout) :: self
       if (self%done()) return
-      if (self%marching) then
+      if (self%in_steps) then
          self%outcome = outcome_interrupted
       else if (self%resting) then
          self%rest%outcome = outcome_interrupted

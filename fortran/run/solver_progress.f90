@@ -2,7 +2,7 @@
 !> What a run says on its way: one line about the state, how much is done, the time left
 submodule (ehl_solver) ehl_solver_progress
    use ehl_stopping_criterion, only: least_periods, most_periods
-   use ehl_report, only: cycle_line, march_line, rest_line
+   use ehl_report, only: cycle_line, step_line, rest_line
    use ehl_text, only: to_text
    implicit none (type, external)
 
@@ -17,7 +17,7 @@ contains
       else
          text = state_line(self)
       end if
-      if (self%marching .and. .not. self%done()) text = text//time_left(self)
+      if (self%in_steps .and. .not. self%done()) text = text//time_left(self)
    end function progress
 
    !> The state without the time left
@@ -25,8 +25,8 @@ contains
       class(solver_t), intent(in) :: self
       character(len=:), allocatable :: text
 
-      if (self%marching) then
-         text = march_line(self%transient, self%stand())
+      if (self%in_steps) then
+         text = step_line(self%transient, self%stand())
       else if (self%resting) then
          text = rest_line(self%grid, self%rest, self%stand())
       else
@@ -42,12 +42,12 @@ contains
       done = 0.0_dp
       earliest = 0.0_dp
       latest = 0.0_dp
-      if (.not. self%marching) return
+      if (.not. self%in_steps) return
       ! the run on the next coarser grid comes first: it has half as many steps
       coarse = self%coarse_work
       if (associated(self%coarse)) then
          coarse = 0.5_dp*coarse_step*earliest_end(self)
-         if (self%coarse%marching) then
+         if (self%coarse%in_steps) then
             done = coarse_step*self%coarse%transient%step
             coarse = coarse_step*earliest_end(self%coarse)
          end if

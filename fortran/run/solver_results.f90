@@ -3,7 +3,7 @@
 submodule (ehl_solver) ehl_solver_results
    use ehl_outcome, only: outcome_names, outcome_target_missed
    use ehl_plan_text, only: plan_text
-   use ehl_report, only: report_march, report_rest, report_scene, report_smooth, report_waves
+   use ehl_report, only: report_transient, report_rest, report_scene, report_smooth, report_waves
    use ehl_report_friction, only: report_friction
    use ehl_report_passage, only: report_passage
    use ehl_skipped_work, only: find_skips, report_skips, skip_lines, skip_t
@@ -28,20 +28,20 @@ contains
       call record%set("status", trim(outcome_names(self%stand())))
       call record%set("converged", self%converged())
       ! the smooth results are good as soon as the transient run has begun
-      good = self%marching .or. self%resting .or. self%steady%outcome == outcome_converged .or. &
+      good = self%in_steps .or. self%resting .or. self%steady%outcome == outcome_converged .or. &
              self%steady%outcome == outcome_target_missed
       call report_scene(record, self%plan, self%grid)
       call report_smooth(record, self%plan, self%steady, self%level(), good)
-      if (self%marching) call report_march(record, self%plan, self%transient, self%converged(), &
+      if (self%in_steps) call report_transient(record, self%plan, self%transient, self%converged(), &
                                               self%step_seconds, self%coarse_mean)
-      if (self%marching) then
+      if (self%in_steps) then
          if (self%plan%surface%passes_once) call report_passage(record, self%plan%contact, self%transient%extremes, &
                                                                 self%converged())
       end if
-      if (self%marching .or. self%resting) call report_waves(record, self%plan)
+      if (self%in_steps .or. self%resting) call report_waves(record, self%plan)
       if (self%resting) call report_rest(record, self%plan, self%rest, self%converged(), self%coarse_mean)
       call summarise_friction(self, record, good)
-      if (self%marching .and. self%done()) call report_skips(record, skips_of(self))
+      if (self%in_steps .and. self%done()) call report_skips(record, skips_of(self))
       bytes = real(self%hierarchy%bytes(), dp)
       if (allocated(self%plan%surface)) bytes = bytes + self%plan%surface%bytes()
       call record%set("bytes", bytes)
@@ -59,9 +59,9 @@ contains
       friction = merge(self%steady%results(self%level())%m%friction, nothing, good)
       ratio = 1.0_dp
       if (allocated(self%plan%surface)) ratio = nothing
-      if (self%marching .and. self%converged()) ratio = self%transient%mean%mean(0.0_dp)
+      if (self%in_steps .and. self%converged()) ratio = self%transient%mean%mean(0.0_dp)
       if (self%resting .and. self%converged()) ratio = self%rest%mu_ratio()
-      if (self%marching .or. self%resting) then
+      if (self%in_steps .or. self%resting) then
          call report_friction(record, self%plan, self%grid, self%p_smooth, self%h_smooth, friction, ratio)
       else
          associate (level => self%hierarchy%levels(self%level()))
@@ -75,7 +75,7 @@ contains
       character(len=:), allocatable :: text
 
       text = ""
-      if (self%marching .and. self%done()) text = skip_lines(skips_of(self))
+      if (self%in_steps .and. self%done()) text = skip_lines(skips_of(self))
    end function skipped
 
    !> What the transient run did not have to do
@@ -91,7 +91,7 @@ contains
       class(solver_t), intent(in) :: self
       character(len=8), allocatable, intent(out) :: names(:)
 
-      if (self%marching .or. self%resting) then
+      if (self%in_steps .or. self%resting) then
          names = [character(len=8) :: "P", "H", "P_smooth", "H_smooth", "RR", "A_d"]
       else
          names = [character(len=8) :: "P", "H"]

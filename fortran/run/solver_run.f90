@@ -19,14 +19,14 @@ contains
       if (self%done()) return
       if (associated(self%coarse)) then
          call advance_coarse(self, status)
-      else if (self%marching) then
+      else if (self%in_steps) then
          call advance_step(self, status)
       else if (self%resting) then
          call advance_rest(self, status)
       else
          call advance_cycle(self, status)
          if (status%failed() .or. self%steady%outcome /= outcome_converged) return
-         if (self%plan%moves()) call begin_march(self, status)
+         if (self%plan%moves()) call begin_transient(self, status)
          if (self%plan%rests()) call begin_rest(self, status)
       end if
    end subroutine advance
@@ -53,7 +53,7 @@ contains
    end subroutine advance_cycle
 
    !> The smooth contact is solved: let the roughness in
-   recursive subroutine begin_march(self, status)
+   recursive subroutine begin_transient(self, status)
       type(solver_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
       integer :: n
@@ -71,12 +71,12 @@ contains
       call self%hierarchy%prepare_steps(n, self%plan%scheme, self%transient%time_step, status)
       if (status%failed()) return
       self%zeros_seconds = seconds_saved_by_zeros(self%hierarchy%levels(n))
-      self%marching = .true.
+      self%in_steps = .true.
       call self%frames%start()
       if (self%checkpoint%found()) call take_state(self, status)
       if (status%failed()) return
       if (self%plan%coarse_run .and. self%coarse_mean < 0.0_dp) call begin_coarse(self, status)
-   end subroutine begin_march
+   end subroutine begin_transient
 
    !> The smooth contact is solved: what a rough one needs of it
    subroutine keep_smooth(self, status)
@@ -133,18 +133,18 @@ contains
       type(clock_t) :: clock
 
       clock = start_clock()
-      associate (march => self%transient, m => self%transient%m)
-         call march%advance(self%hierarchy, self%steady%n, self%plan%surface, status)
+      associate (transient => self%transient, m => self%transient%m)
+         call transient%advance(self%hierarchy, self%steady%n, self%plan%surface, status)
          self%step_seconds = self%step_seconds + clock%seconds()
          if (status%failed()) return
-         if (march%step_converged()) then
-            call self%history%append([real(dp) :: march%step, march%time, m%friction/march%friction_smooth, &
-                                      m%film_central, m%film_minimum, m%pressure_maximum, m%load_error, march%cycles, &
-                                      march%residual])
-            if (self%plan%surface%passes_once) call march%extremes%see(self%hierarchy%levels(self%steady%n), self%p_smooth, &
-                                                                      self%h_smooth, march%time)
+         if (transient%step_converged()) then
+            call self%history%append([real(dp) :: transient%step, transient%time, m%friction/transient%friction_smooth, &
+                                      m%film_central, m%film_minimum, m%pressure_maximum, m%load_error, transient%cycles, &
+                                      transient%residual])
+            if (self%plan%surface%passes_once) call transient%extremes%see(self%hierarchy%levels(self%steady%n), self%p_smooth, &
+                                                                      self%h_smooth, transient%time)
             self%outcome = transient_outcome(self%plan, self%transient)
-            call self%frames%keep(self%hierarchy%levels(self%steady%n), march%time, march%time_step, &
+            call self%frames%keep(self%hierarchy%levels(self%steady%n), transient%time, transient%time_step, &
                                   self%input%output%frame_interval, status)
          else if (.not. m%finite) then
             self%outcome = outcome_diverged

@@ -10,21 +10,20 @@ module ehl_stopping_criterion
    private
    public :: transient_outcome, least_periods, most_periods
 
-   !> Periods after which a mean that has not settled is given up. The slowest that was found, at (500, 15) with waves as
-   !> high as the film, 0.25 a long, settled after 21.
+   !> Periods after which a mean that has not settled is given up; the slowest known one settled after 21
    integer, parameter :: automatic_periods = 36
 
 contains
 
    !> How a transient run stands after a step that converged
-   integer function transient_outcome(plan, march) result(outcome)
+   integer function transient_outcome(plan, transient) result(outcome)
       type(plan_t), intent(in) :: plan
-      type(transient_t), intent(in) :: march
+      type(transient_t), intent(in) :: transient
 
       outcome = outcome_running
-      associate (mean => march%mean)
+      associate (mean => transient%mean)
          if (plan%steps > 0) then
-            if (march%step >= plan%steps) outcome = merge(outcome_converged, outcome_unsettled, mean%has_mean())
+            if (transient%step >= plan%steps) outcome = merge(outcome_converged, outcome_unsettled, mean%has_mean())
             return
          end if
          if (plan%surface%passes_once) then

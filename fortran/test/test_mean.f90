@@ -53,7 +53,7 @@ contains
       call is_true(worst > 0.1_dp*exact, "means of one period are wrong")
    end subroutine peaks_between_steps_take_several_periods
 
-   !> March until the mean has settled, 40 periods at the most
+   !> Until the mean has settled, 40 periods at the most
    subroutine run(height, mean)
       real(dp), intent(in) :: height
       type(friction_mean_t), intent(out) :: mean

@@ -139,7 +139,7 @@ contains
       call is_close(maxval(abs(p - p_whole)), 0.0_dp, tolerance, "half against whole domain")
    end subroutine half_is_whole
 
-   !> Every step of a short march converges and carries the load
+   !> Every step of a short transient run converges and carries the load
    subroutine steps_converge(scheme)
       character(len=*), intent(in) :: scheme
       type(solver_t) :: solver

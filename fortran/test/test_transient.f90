@@ -42,40 +42,40 @@ contains
    subroutine failed_step_leaves_the_last_state()
       type(plan_t) :: plan
       type(hierarchy_t) :: hierarchy
-      type(transient_t) :: march
+      type(transient_t) :: transient
       type(status_t) :: status
       real(dp), dimension(65, 33) :: p, h, p_next
       real(dp) :: h00, allowed
       integer :: n, k
 
-      call begin(heavy, plan, hierarchy, march, n, status)
+      call begin(heavy, plan, hierarchy, transient, n, status)
       do k = 1, 3
-         call march%advance(hierarchy, n, plan%surface, status)
-         call is_true(march%step_converged(), "a step converges")
+         call transient%advance(hierarchy, n, plan%surface, status)
+         call is_true(transient%step_converged(), "a step converges")
       end do
       associate (level => hierarchy%levels(n), space => hierarchy%spaces(n))
          p = level%p
          h = level%h
          h00 = level%h00
-         allowed = march%accuracy%strict
-         march%policy%max_cycles = 1
-         march%accuracy%strict = 1.0e-3_dp*allowed
-         call march%advance(hierarchy, n, plan%surface, status)
-         call is_true(.not. march%step_converged(), "one cycle is too few")
-         call is_equal(march%step, 3, "the failed step does not count")
+         allowed = transient%accuracy%strict
+         transient%policy%max_cycles = 1
+         transient%accuracy%strict = 1.0e-3_dp*allowed
+         call transient%advance(hierarchy, n, plan%surface, status)
+         call is_true(.not. transient%step_converged(), "one cycle is too few")
+         call is_equal(transient%step, 3, "the failed step does not count")
          call is_close(maxval(abs(level%p - p)), 0.0_dp, 0.0_dp, "pressure of the last good step")
          call is_close(maxval(abs(level%h - h)), 0.0_dp, 0.0_dp, "film of the last good step")
          call is_close(level%h00, h00, 0.0_dp, "H00 of the last good step")
-         march%policy%max_cycles = plan%max_cycles
-         march%accuracy%strict = allowed
-         call march%advance(hierarchy, n, plan%surface, status)
-         call is_true(march%step_converged() .and. march%step == 4, "more cycles are enough")
+         transient%policy%max_cycles = plan%max_cycles
+         transient%accuracy%strict = allowed
+         call transient%advance(hierarchy, n, plan%surface, status)
+         call is_true(transient%step_converged() .and. transient%step == 4, "more cycles are enough")
          p_next = level%p
       end associate
 
-      call begin(heavy, plan, hierarchy, march, n, status)
+      call begin(heavy, plan, hierarchy, transient, n, status)
       do k = 1, 4
-         call march%advance(hierarchy, n, plan%surface, status)
+         call transient%advance(hierarchy, n, plan%surface, status)
       end do
       call is_close(maxval(abs(hierarchy%levels(n)%p - p_next)), 0.0_dp, 0.0_dp, "the failed step left no trace")
       call is_true(.not. status%failed(), "transient run")
@@ -85,33 +85,33 @@ contains
    subroutine step_begins_again()
       type(plan_t) :: plan
       type(hierarchy_t) :: hierarchy
-      type(transient_t) :: march
+      type(transient_t) :: transient
       type(status_t) :: status
       real(dp) :: p(65, 33)
       integer :: n, k, j, cycles
 
-      call begin(heavy, plan, hierarchy, march, n, status)
-      march%accuracy%strict = 0.003_dp*march%accuracy%strict
-      march%accuracy%allowed = 0.0_dp
+      call begin(heavy, plan, hierarchy, transient, n, status)
+      transient%accuracy%strict = 0.003_dp*transient%accuracy%strict
+      transient%accuracy%allowed = 0.0_dp
       do k = 1, 4
-         call march%advance(hierarchy, n, plan%surface, status)
+         call transient%advance(hierarchy, n, plan%surface, status)
       end do
       p = hierarchy%levels(n)%p
-      cycles = march%cycles
+      cycles = transient%cycles
 
-      call begin(heavy, plan, hierarchy, march, n, status)
-      march%accuracy%strict = 0.003_dp*march%accuracy%strict
-      march%accuracy%allowed = 0.0_dp
+      call begin(heavy, plan, hierarchy, transient, n, status)
+      transient%accuracy%strict = 0.003_dp*transient%accuracy%strict
+      transient%accuracy%allowed = 0.0_dp
       do k = 1, 3
-         call march%advance(hierarchy, n, plan%surface, status)
+         call transient%advance(hierarchy, n, plan%surface, status)
       end do
       ! only the predictor uses the pressure of three steps ago: peaks and valleys side by side
       do j = 1, 33
-         march%p_before(:, j, 3) = march%p_before(:, j, 3)*[(merge(3.5_dp, 1.0_dp, mod(k, 2) == 0), k=1, 65)]
+         transient%p_before(:, j, 3) = transient%p_before(:, j, 3)*[(merge(3.5_dp, 1.0_dp, mod(k, 2) == 0), k=1, 65)]
       end do
-      call march%advance(hierarchy, n, plan%surface, status)
-      call is_true(march%step_converged() .and. march%step == 4, "a step with a wrong prediction converges")
-      call is_true(march%cycles > cycles, "after more cycles")
+      call transient%advance(hierarchy, n, plan%surface, status)
+      call is_true(transient%step_converged() .and. transient%step == 4, "a step with a wrong prediction converges")
+      call is_true(transient%cycles > cycles, "after more cycles")
       call is_close(maxval(abs(hierarchy%levels(n)%p - p)), 0.0_dp, 2.0e-5_dp, "to the same pressure")
       call is_true(.not. status%failed(), "transient run")
    end subroutine step_begins_again
@@ -121,13 +121,13 @@ contains
    subroutine sweeps_alone_do_not_diverge()
       type(plan_t) :: plan
       type(hierarchy_t) :: hierarchy
-      type(transient_t) :: march
+      type(transient_t) :: transient
       type(status_t) :: status
       real(dp) :: first, last
       integer :: n, k
 
-      call begin(thin, plan, hierarchy, march, n, status)
-      call march%advance(hierarchy, n, plan%surface, status)
+      call begin(thin, plan, hierarchy, transient, n, status)
+      call transient%advance(hierarchy, n, plan%surface, status)
       associate (level => hierarchy%levels(n), space => hierarchy%spaces(n))
          level%p = level%p*(1.0_dp + 1.0e-3_dp*level%p)
          call refresh(level)
@@ -147,14 +147,14 @@ contains
    subroutine changes_are_limited()
       type(plan_t) :: plan
       type(hierarchy_t) :: hierarchy
-      type(transient_t) :: march
+      type(transient_t) :: transient
       type(status_t) :: status
       real(dp), dimension(65, 33) :: p, gain
       real(dp) :: change, largest
       integer :: n, i, j
 
-      call begin(heavy, plan, hierarchy, march, n, status)
-      call march%advance(hierarchy, n, plan%surface, status)
+      call begin(heavy, plan, hierarchy, transient, n, status)
+      call transient%advance(hierarchy, n, plan%surface, status)
       associate (level => hierarchy%levels(n), space => hierarchy%spaces(n))
          level%p = 0.5_dp*level%p
          call refresh(level)
@@ -181,15 +181,15 @@ contains
    subroutine smooth_part_is_a_whole_mean()
       type(plan_t) :: plan
       type(hierarchy_t) :: hierarchy
-      type(transient_t) :: march
+      type(transient_t) :: transient
       type(status_t) :: status
       real(dp), parameter :: weights(-4:4) = [1.0_dp, 8.0_dp, 28.0_dp, 56.0_dp, 70.0_dp, 56.0_dp, 28.0_dp, 8.0_dp, &
                                               1.0_dp]/256.0_dp
       real(dp) :: difference, largest
       integer :: n, i, j
 
-      call begin(heavy, plan, hierarchy, march, n, status)
-      call march%advance(hierarchy, n, plan%surface, status)
+      call begin(heavy, plan, hierarchy, transient, n, status)
+      call transient%advance(hierarchy, n, plan%surface, status)
       associate (level => hierarchy%levels(n), space => hierarchy%spaces(n))
          call relax(level, space, full_trust, 1.0_dp)
          difference = 0.0_dp
@@ -210,12 +210,12 @@ contains
    subroutine transfers_when_asked_for()
       type(plan_t) :: plan
       type(hierarchy_t) :: hierarchy
-      type(transient_t) :: march
+      type(transient_t) :: transient
       type(status_t) :: status
       integer :: n
 
-      call begin(heavy, plan, hierarchy, march, n, status)
-      call march%advance(hierarchy, n, plan%surface, status)
+      call begin(heavy, plan, hierarchy, transient, n, status)
+      call transient%advance(hierarchy, n, plan%surface, status)
       call is_true(all(hierarchy%coarsenings%transfer%nx == 0), "no transfers for classical coarsening")
       associate (before => hierarchy%bytes())
          call hierarchy%prepare_coarsening(status)
@@ -226,11 +226,11 @@ contains
    end subroutine transfers_when_asked_for
 
    !> Solve the smooth contact of a case and let the roughness in
-   subroutine begin(text, plan, hierarchy, march, n, status)
+   subroutine begin(text, plan, hierarchy, transient, n, status)
       character(len=*), intent(in) :: text
       type(plan_t), intent(out) :: plan
       type(hierarchy_t), intent(out) :: hierarchy
-      type(transient_t), intent(out) :: march
+      type(transient_t), intent(out) :: transient
       !> Finest level
       integer, intent(out) :: n
       type(status_t), intent(inout) :: status
@@ -251,10 +251,10 @@ contains
       end do
       call is_true(steady%outcome == outcome_converged, "the smooth contact converges")
       n = steady%n
-      call march%accuracy%set(hierarchy%levels(n)%grid%hx, plan%accuracy, steady%friction_error(n))
-      call march%policy%set(plan%step_cycle, .false., march%accuracy%strict, plan%max_cycles)
+      call transient%accuracy%set(hierarchy%levels(n)%grid%hx, plan%accuracy, steady%friction_error(n))
+      call transient%policy%set(plan%step_cycle, .false., transient%accuracy%strict, plan%max_cycles)
       call plan%surface%prepare(hierarchy%levels(n)%grid, status)
-      call march%start(hierarchy%levels(n), plan%contact, plan%surface, plan%skip_start, steady%results(n)%m%friction, status)
-      call hierarchy%prepare_steps(n, plan%scheme, march%time_step, status)
+      call transient%start(hierarchy%levels(n), plan%contact, plan%surface, plan%skip_start, steady%results(n)%m%friction, status)
+      call hierarchy%prepare_steps(n, plan%scheme, transient%time_step, status)
    end subroutine begin
 end module test_transient

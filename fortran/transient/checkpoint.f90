@@ -46,11 +46,11 @@ module ehl_checkpoint
 contains
 
    !> Write the state after a step, in place of the older one
-   subroutine write_state(self, prefix, text, march, history, frames, grid, numbers, status)
+   subroutine write_state(self, prefix, text, transient, history, frames, grid, numbers, status)
       class(checkpoint_t), intent(inout) :: self
       !> Folder with its '/', and what the names begin with; the case that the state belongs to
       character(len=*), intent(in) :: prefix, text
-      type(transient_t), intent(inout) :: march
+      type(transient_t), intent(inout) :: transient
       type(table_t), intent(inout) :: history
       type(frames_t), intent(inout) :: frames
       type(grid_t), intent(in) :: grid
@@ -69,20 +69,20 @@ contains
          self%head = head_t()
       end if
       ! a state that is there already must not take the place of the one before it
-      if (maxval(self%states) == march%step) return
-      call append_series(self, march, history, frames, grid, status)
+      if (maxval(self%states) == transient%step) return
+      call append_series(self, transient, history, frames, grid, status)
       if (status%failed()) return
       self%head%text = text
       path = prefix//state_files(minloc(self%states, dim=1))
       kept = numbers
       call file%create(path//".new")
       call pass_head(file, self%head)
-      call pass_body(file, march, kept)
+      call pass_body(file, transient, kept)
       call file%seal()
       call file%close(status)
       if (.not. status%failed()) then
          if (rename_path(path//".new", path)) then
-            self%states(minloc(self%states, dim=1)) = march%step
+            self%states(minloc(self%states, dim=1)) = transient%step
             return
          end if
          call status%fail(ehl_file, path//": error: cannot write: it cannot be renamed")
@@ -91,9 +91,9 @@ contains
    end subroutine write_state
 
    !> Append to the growing files what has come since the last state
-   subroutine append_series(self, march, history, frames, grid, status)
+   subroutine append_series(self, transient, history, frames, grid, status)
       class(checkpoint_t), intent(inout) :: self
-      type(transient_t), intent(inout) :: march
+      type(transient_t), intent(inout) :: transient
       type(table_t), intent(inout) :: history
       type(frames_t), intent(inout) :: frames
       type(grid_t), intent(in) :: grid
@@ -110,12 +110,12 @@ contains
          there = [file_bytes(rows), file_bytes(pictures)]
          if (any(there < [head%rows%bytes, head%pictures%bytes])) head = head_t()
          call file%append(rows, head%rows)
-         do k = head%step + 1, march%step
-            call pass_row(file, k, history, march)
+         do k = head%step + 1, transient%step
+            call pass_row(file, k, history, transient)
          end do
          call file%close(status)
          if (status%failed()) return
-         head%step = march%step
+         head%step = transient%step
          head%rows = file%extent
          if (frames%n == head%frames) return
          call file%append(pictures, head%pictures)
@@ -184,9 +184,9 @@ contains
    end function newest
 
    !> Read the state that was found into a run that has started
-   subroutine read_state(self, march, history, frames, grid, numbers, status)
+   subroutine read_state(self, transient, history, frames, grid, numbers, status)
       class(checkpoint_t), intent(inout) :: self
-      type(transient_t), intent(inout) :: march
+      type(transient_t), intent(inout) :: transient
       type(table_t), intent(inout) :: history
       type(frames_t), intent(inout) :: frames
       type(grid_t), intent(in) :: grid
@@ -201,14 +201,14 @@ contains
       associate (head => self%head)
          call file%open(self%newest())
          call pass_head(file, head)
-         call pass_body(file, march, numbers)
+         call pass_body(file, transient, numbers)
          call file%seal()
          call file%close(status)
          if (status%failed()) return
-         march%step = head%step
+         transient%step = head%step
          call file%open(self%prefix//trim(series_files(1)))
          do k = 1, head%step
-            call pass_row(file, k, history, march)
+            call pass_row(file, k, history, transient)
          end do
          call file%close(status)
          if (status%failed() .or. head%frames == 0) return

@@ -49,42 +49,42 @@ contains
    end subroutine pass_head
 
    !> What changes from step to step
-   subroutine pass_body(file, march, numbers)
+   subroutine pass_body(file, transient, numbers)
       type(binary_file_t), intent(inout) :: file
-      type(transient_t), intent(inout) :: march
+      type(transient_t), intent(inout) :: transient
       real(dp), intent(inout) :: numbers(2)
 
-      call file%item(march%skipped)
-      call file%item(march%time)
-      call file%item(march%time_step)
-      call file%item(march%residual)
-      call file%item(march%cycles)
-      call file%item(march%total_cycles)
-      call file%item(march%total_sweeps)
-      call file%item(march%policy%coarsening)
-      call file%item(march%policy%changed_at)
-      call file%item(march%h00_before)
-      call file%item(march%friction_smooth)
-      call file%item(march%mass_content)
-      call file%item(march%p_before)
-      call file%item(march%predictor%weights)
-      call file%item(march%accuracy%rise)
-      call file%item(march%accuracy%sensitivity)
-      call file%item(march%accuracy%largest)
-      call file%item(march%film_mark)
-      call file%item(march%extremes%found)
+      call file%item(transient%skipped)
+      call file%item(transient%time)
+      call file%item(transient%time_step)
+      call file%item(transient%residual)
+      call file%item(transient%cycles)
+      call file%item(transient%total_cycles)
+      call file%item(transient%total_sweeps)
+      call file%item(transient%policy%coarsening)
+      call file%item(transient%policy%changed_at)
+      call file%item(transient%h00_before)
+      call file%item(transient%friction_smooth)
+      call file%item(transient%mass_content)
+      call file%item(transient%p_before)
+      call file%item(transient%predictor%weights)
+      call file%item(transient%accuracy%rise)
+      call file%item(transient%accuracy%sensitivity)
+      call file%item(transient%accuracy%largest)
+      call file%item(transient%film_mark)
+      call file%item(transient%extremes%found)
       call file%item(numbers)
    end subroutine pass_body
 
    !> What step k adds to the history and to the mean
-   subroutine pass_row(file, k, history, march)
+   subroutine pass_row(file, k, history, transient)
       type(binary_file_t), intent(inout) :: file
       integer, intent(in) :: k
       type(table_t), intent(inout) :: history
-      type(transient_t), intent(inout) :: march
+      type(transient_t), intent(inout) :: transient
       real(dp) :: row(history%n_columns()), values(3)
 
-      associate (mean => march%mean)
+      associate (mean => transient%mean)
          if (file%writing) then
             row = history%row(k)
             values = [mean%values(k), mean%film(k), mean%roughness(k)]

@@ -8,11 +8,9 @@ module ehl_friction_mean
 
    !> The last period is compared with those that end this share of a period earlier, one by one
    real(dp), parameter :: lags(*) = [0.125_dp, 0.25_dp, 0.375_dp, 0.5_dp]
-   !> The mean is that of one period. Where it has not settled after so many of them, friction is carried by so few
-   !> nodes that a step does not resolve it, and a period, which is no whole number of steps, meets other phases
-   !> than the next: from then on the mean is that of all periods but those in which what is left of the start dies
-   !> out. At (500, 15) with a wave as high as the film, 0.25 a long, 513 x 513, phases 1/20 of a step apart have been
-   !> met then: ten parts of a transient run of 51 periods settle within 0.8 % of its mean, with 12 in place of 20 within 4 %.
+   !> The mean is that of one period. Where it has not settled after so many of them it is that of all periods but the
+   !> first ones, in which what is left of the start dies out: pressure peaks of single nodes carry the friction there,
+   !> and since a period is no whole number of steps, each one meets other phases of them
    real(dp), parameter :: several = 20.0_dp
    integer, parameter :: start_up = 2
    !> Periods until a mean can be compared with earlier ones
