@@ -32,6 +32,7 @@ module ehl_poiseuille
       procedure :: couplings
       procedure :: integrate
       procedure :: flow_row
+      procedure :: flow_rate
       procedure :: bytes
    end type poiseuille_t
 
@@ -240,6 +241,12 @@ contains
          values(i) = r*eps(i)*(2.0_dp*change(i) - change(i - 1) - change(i + 1))
       end do
    end subroutine flow_row
+
+   !> What flows away from a node per pressure there, with the same conductance around; a factor of eps
+   pure real(dp) function flow_rate(self)
+      class(poiseuille_t), intent(in) :: self
+      flow_rate = 2.0_dp/self%grid%hx**2 + 2.0_dp/self%grid%hy**2
+   end function flow_rate
 
    !> Allocated bytes
    pure integer(int64) function bytes(self)

@@ -64,7 +64,7 @@ contains
       call self%transient%accuracy%set(self%grid%hx, self%plan%accuracy, merge(0.0_dp, self%steady%friction_error(n), &
                                                                                self%plan%surface%passes_once))
       call self%transient%policy%set(self%plan%step_cycle, self%plan%coarsening_may_change, &
-                                     self%transient%accuracy%strict, self%plan%max_cycles)
+                                     self%plan%max_cycles)
       call self%transient%start(self%hierarchy%levels(n), self%plan%contact, self%plan%surface, self%plan%skip_start, &
                                 self%steady%results(n)%m%friction, status)
       if (status%failed()) return

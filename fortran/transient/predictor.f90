@@ -1,9 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> First approximation of the pressure of a time step: a weighted mean of several extrapolations in time. Each node
 !> weighs them by how right they were around it in the step before, judged by what their errors do in the equation:
-!> where the lubricant flows, a small rough error is a large residual. Those of low order are there for the few nodes at
-!> pressure spikes where what a step has left unsolved is larger than what changes from step to step: of it the second
-!> order makes four times as much.
+!> where the lubricant flows, a small rough error is a large residual. That of first order is for nodes where what a
+!> step has left unsolved is larger than what changes from step to step: of it the second order makes twice as much.
+!> The weights must not change steeply from node to node: between candidates that differ they would make a rough
+!> pressure.
 module ehl_predictor
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
@@ -15,8 +16,8 @@ module ehl_predictor
    !> Errors are compared over squares of (2 reach + 1)^2 nodes
    integer, parameter :: reach = 2
    !> Extrapolations: of second order at the node (what stands), and at the nodes where things were that the surface
-   !> carries along; of first order at the node; the last pressure
-   integer, parameter :: candidates = 4
+   !> carries along; of first order at the node
+   integer, parameter :: candidates = 3
    !> Errors that are nothing
    real(dp), parameter :: least_error = 1.0e-60_dp
 
@@ -132,7 +133,6 @@ contains
       c(:, 1) = before(:, 1) + 2.0_dp*last - former
       c(:, 2) = before(:, 1)
       c(:, 3) = before(:, 1) + last
-      c(:, 4) = before(:, 1)
       ! from one step and from two steps up the surface's way, linear between nodes
       n = int(shift)
       t = shift - n
@@ -159,7 +159,7 @@ contains
       weight = weight + flow**2
    end subroutine weigh
 
-   !> Weights of row j: the inverse squares of the errors around
+   !> Weights of row j: the inverse squared errors around
    subroutine compare(self, level, j)
       class(predictor_t), intent(inout) :: self
       type(level_t), intent(in) :: level
@@ -177,11 +177,11 @@ contains
             if (row >= 1) across = across + self%error(:, row, k)
          end do
          do i = first, last
-            q(i, k) = 1.0_dp/(across(i - 2) + across(i - 1) + across(i) + across(i + 1) + across(i + 2) + least_error)**2
+            q(i, k) = 1.0_dp/(across(i - 2) + across(i - 1) + across(i) + across(i + 1) + across(i + 2) + least_error)
          end do
       end do
       do i = first, last
-         across(i) = 1.0_dp/(q(i, 1) + q(i, 2) + q(i, 3) + q(i, 4))
+         across(i) = 1.0_dp/(q(i, 1) + q(i, 2) + q(i, 3))
       end do
       do k = 2, candidates
          self%weights(first:last, j, k - 1) = q(first:last, k)*across(first:last)

@@ -15,12 +15,12 @@ module ehl_step_accuracy
    real(dp), parameter :: rise_before = 0.3_dp
    !> Steps over which that distance is taken (rms, fading)
    real(dp), parameter :: memory = 64.0_dp
-   !> Every so many steps one is solved strictly, to measure
-   integer, parameter :: measured_steps = 15
+   !> Every so many steps one makes a cycle more, to measure
+   integer, parameter :: measured_steps = 30
    !> What an earlier step has shown counts by this factor less with every one that shows anew
    real(dp), parameter :: fading = 0.9_dp
    !> Largest tolerance, in strict ones
-   real(dp), parameter :: loosest = 12.0_dp
+   real(dp), parameter :: loosest = 40.0_dp
 
    type :: step_accuracy_t
       !> Residual (rms) that serves every case
@@ -36,6 +36,7 @@ module ehl_step_accuracy
    contains
       procedure :: set
       procedure :: tolerance
+      procedure :: measures
       procedure :: learn
       procedure :: follow
    end type step_accuracy_t
@@ -65,20 +66,26 @@ contains
    end subroutine set
 
    !> Largest residual (rms) of a step
-   real(dp) function tolerance(self, step, in_mean)
+   real(dp) function tolerance(self, in_mean)
       class(step_accuracy_t), intent(inout) :: self
-      integer, intent(in) :: step
       !> Whether the step counts in the mean of mu_r/mu_s
       logical, intent(in) :: in_mean
       real(dp) :: rise
 
       tolerance = self%strict
-      if (mod(step, measured_steps) == 0 .or. .not. self%sensitivity > 0.0_dp) return
+      if (.not. self%sensitivity > 0.0_dp) return
       rise = sqrt(self%rise)
       if (.not. in_mean) rise = max(rise, rise_before)
       tolerance = min(max(self%strict, self%allowed*rise/self%sensitivity), loosest*self%strict)
       self%largest = max(self%largest, tolerance)
    end function tolerance
+
+   !> Whether the step makes a cycle more than it needs
+   pure logical function measures(self, step)
+      class(step_accuracy_t), intent(in) :: self
+      integer, intent(in) :: step
+      measures = self%sensitivity > 0.0_dp .and. mod(step, measured_steps) == 0
+   end function measures
 
    !> A step that had more than one cycle: mu_r/mu_s and residual after the first one, and at its end
    pure subroutine learn(self, ratio_first, residual_first, ratio, residual)

@@ -24,12 +24,13 @@ module ehl_step_policy
    integer, parameter :: patience(3) = [4, 8, 8], damped_cycles = 3
    !> A cycle that leaves more than this share of the residual is slow, unless another such cycle will do
    real(dp), parameter :: slow = 0.25_dp
+   !> A predicted pressure with a residual of at most so many tolerances needs no sweep before the coarse grids: the
+   !> prediction is smooth already
+   real(dp), parameter :: close = 8.0_dp
    !> What comes after a cycle
    integer, parameter :: step_ends = 1, step_goes_on = 2, step_begins_again = 3
 
    type :: step_policy_t
-      !> Residual (rms) that needs no second sweep after the coarse grids
-      real(dp) :: enough = 8.0e-5_dp
       !> Most cycles a step
       integer :: max_cycles = 30
       !> Cycles of a step to begin with
@@ -37,8 +38,10 @@ module ehl_step_policy
       !> Kind of coarsening; whether it changes for good when a cycle is slow, and the step in which it did (0: none)
       integer :: coarsening = coarsening_classical, changed_at = 0
       logical :: may_change = .false.
-      !> The step under way: its largest residual (rms), the attempt, the cycles made and how the next one is made
+      !> The step under way: its largest residual (rms), whether it makes a cycle more to measure what that does, the
+      !> attempt, the cycles made and how the next one is made
       real(dp) :: tolerance = 8.0e-5_dp
+      logical, private :: measured = .false.
       integer :: attempt = attempt_predicted, cycles = 0
       type(cycle_options_t) :: options
       !> Residuals after the last cycles of the attempt, the latest first
@@ -46,38 +49,55 @@ module ehl_step_policy
    contains
       procedure :: set
       procedure :: begin
+      procedure :: begin_attempt
       procedure :: after_cycle
-      procedure, private :: set_options
    end type step_policy_t
 
 contains
 
    !> For a run
-   pure subroutine set(self, cycle_options, may_change, enough, max_cycles)
+   pure subroutine set(self, cycle_options, may_change, max_cycles)
       class(step_policy_t), intent(inout) :: self
       type(cycle_options_t), intent(in) :: cycle_options
       logical, intent(in) :: may_change
-      real(dp), intent(in) :: enough
       integer, intent(in) :: max_cycles
 
       self%cycle = cycle_options
       self%coarsening = cycle_options%coarsening
       self%may_change = may_change
-      self%enough = enough
       self%max_cycles = max_cycles
    end subroutine set
 
    !> A new step
-   pure subroutine begin(self, tolerance)
+   pure subroutine begin(self, tolerance, measured)
       class(step_policy_t), intent(inout) :: self
       real(dp), intent(in) :: tolerance
+      logical, intent(in) :: measured
 
       self%tolerance = tolerance
+      self%measured = measured
       self%attempt = attempt_predicted
       self%cycles = 0
-      self%past = huge(1.0_dp)
-      call self%set_options()
    end subroutine begin
+
+   !> An attempt whose first approximation has that residual (rms)
+   pure subroutine begin_attempt(self, residual)
+      class(step_policy_t), intent(inout) :: self
+      real(dp), intent(in) :: residual
+
+      self%past = huge(1.0_dp)
+      self%options = self%cycle
+      self%options%coarsening = self%coarsening
+      self%options%enough = self%tolerance
+      self%options%trust = trust(self%attempt)
+      if (self%attempt == attempt_predicted .and. residual <= close*self%tolerance) then
+         self%options%pre = 0
+         self%options%post = self%cycle%pre + self%cycle%post
+      end if
+      if (self%attempt < attempt_damped) return
+      self%options%sweep_share = damped_sweep
+      self%options%correction_share = damped_correction
+   end subroutine begin_attempt
 
    !> What comes after a cycle that has changed the residual from `before` to `residual`
    pure subroutine after_cycle(self, step, met, before, residual, next)
@@ -91,16 +111,20 @@ contains
 
       self%cycles = self%cycles + 1
       next = step_ends
-      if (met .or. self%cycles >= damped_cycles*self%max_cycles) return
+      if (met .and. .not. (self%measured .and. self%cycles == 1)) return
+      if (self%cycles >= damped_cycles*self%max_cycles) return
       self%past = [residual, self%past(:ubound(self%past, 1) - 1)]
       if (stuck(self)) then
          self%attempt = merge(attempt_damped, self%attempt + 1, self%cycles >= self%max_cycles)
-         self%past = huge(1.0_dp)
-         call self%set_options()
          next = step_begins_again
          return
       end if
       next = step_goes_on
+      if (self%options%pre < self%cycle%pre) then
+         self%options%pre = self%cycle%pre
+         self%options%post = self%cycle%post
+         return
+      end if
       if (residual <= max(slow*before, self%tolerance/slow)) return
       if (self%coarsening == coarsening_alcouffe) then
          ! one sweep more for the rest of the attempt; with classical coarsening it can make cycles slower
@@ -108,7 +132,6 @@ contains
       else if (self%may_change) then
          self%coarsening = coarsening_alcouffe
          self%changed_at = step
-         call self%set_options()
          next = step_begins_again
       end if
    end subroutine after_cycle
@@ -122,17 +145,4 @@ contains
       ! a NaN has not halved
       stuck = self%cycles >= self%max_cycles .or. .not. self%past(0) <= 0.5_dp*self%past(patience(self%attempt))
    end function stuck
-
-   !> Options of the first cycle of an attempt
-   pure subroutine set_options(self)
-      class(step_policy_t), intent(inout) :: self
-
-      self%options = self%cycle
-      self%options%coarsening = self%coarsening
-      self%options%enough = min(self%enough, self%tolerance)
-      self%options%trust = trust(self%attempt)
-      if (self%attempt < attempt_damped) return
-      self%options%sweep_share = damped_sweep
-      self%options%correction_share = damped_correction
-   end subroutine set_options
 end module ehl_step_policy

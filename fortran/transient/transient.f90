@@ -141,7 +141,7 @@ contains
       call set_geometry(hierarchy%levels(n), self%contact, self%rr)
       call set_history(hierarchy%levels(n), self%mass_content)
       made = 0
-      call self%policy%begin(self%accuracy%tolerance(self%step + 1, self%mean%n >= self%mean%filled))
+      call self%policy%begin(self%accuracy%tolerance(self%mean%n >= self%mean%filled), self%accuracy%measures(self%step + 1))
       next = step_begins_again
       do
          if (next == step_begins_again) call self%begin_attempt(hierarchy, n, status)
@@ -210,6 +210,7 @@ contains
          call refresh(level)
          call update_residual(level, self%residual)
       end associate
+      call self%policy%begin_attempt(self%residual)
       ! nothing but the fields kept here passes from step to step, so that a run can be resumed
       call hierarchy%forget()
       if (self%policy%options%coarsening == coarsening_alcouffe) call hierarchy%prepare_coarsening(status)
