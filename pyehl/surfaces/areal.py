@@ -55,7 +55,7 @@ class Extent:
 
 
 def extent(heights: Array, pixel: tuple[float, float]) -> Extent:
-    """Rms, peak and slope of the points of a map that are not missing.
+    """Rms, peak and slope of the points of a map that are not missing; NaN if all are.
 
     Parameters
     ----------
@@ -64,11 +64,17 @@ def extent(heights: Array, pixel: tuple[float, float]) -> Extent:
     pixel
         Pixel size along x and y [m].
     """
-    mean = float(np.nanmean(heights)) if np.isnan(heights.sum()) else float(heights.mean())
+    # a few lines at a time: a map may be large
+    lines = max(1, BLOCK // heights.shape[1])
+    mean = float(heights.mean())
+    if math.isnan(mean):
+        parts = [heights[k : k + lines] for k in range(0, heights.shape[0], lines)]
+        present = sum(int(np.count_nonzero(~np.isnan(part))) for part in parts)
+        if present == 0:
+            return Extent(math.nan, math.nan, math.nan)
+        mean = math.fsum(float(np.nansum(part)) for part in parts) / present
     count, square, slopes, slope = 0, 0.0, 0, 0.0
     least, most = math.inf, -math.inf
-    lines = max(1, BLOCK // heights.shape[1])
-    # a few lines at a time: a map may be large
     for first in range(0, heights.shape[0], lines):
         z = heights[first : first + lines + 1] - mean
         inner = z[:lines]

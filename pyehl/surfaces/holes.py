@@ -49,9 +49,8 @@ def filled(heights: Array, pixel: tuple[float, float]) -> Array:
             f"{100 * MAX_MISSING:.0f} %: what the friction would be is what the filling is; "
             "measure again, or take a part of the map by surface.crop_x_min and so on"
         )
-    number = np.full(heights.shape, -1)
-    number[missing] = np.arange(count)
     i, j = np.nonzero(missing)
+    places = np.ravel_multi_index((i, j), heights.shape)
     diagonal, right = np.zeros(count), np.zeros(count)
     rows, columns, values = [], [], []
     for di, dj in ((1, 0), (-1, 0), (0, 1), (0, -1)):
@@ -61,24 +60,25 @@ def filled(heights: Array, pixel: tuple[float, float]) -> Array:
         at = np.nonzero(inside)[0]
         p, q = p[at], q[at]
         diagonal[at] += weight
-        neighbour = number[p, q]
-        unknown = neighbour >= 0
+        unknown = missing[p, q]
         rows.append(at[unknown])
-        columns.append(neighbour[unknown])
+        neighbours = np.ravel_multi_index((p[unknown], q[unknown]), heights.shape)
+        columns.append(np.searchsorted(places, neighbours))
         values.append(np.full(int(unknown.sum()), -weight))
         right[at[~unknown]] += weight * heights[p[~unknown], q[~unknown]]
     matrix = scipy.sparse.coo_matrix(
         (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), (count, count)
     ) + scipy.sparse.diags(diagonal)
     result = heights.copy()
-    result[missing] = _solve(matrix.tocsc(), right, nearest(heights)[missing])
+    if count <= DIRECT_POINTS:
+        result[missing] = scipy.sparse.linalg.spsolve(matrix.tocsc(), right)
+    else:
+        result[missing] = _solve(matrix.tocsr(), right, nearest(heights)[missing])
     return result
 
 
-def _solve(matrix: scipy.sparse.csc_matrix, right: Array, guess: Array) -> Array:
-    """Solve for the missing points: directly, or by conjugate gradients where they are many."""
-    if right.size <= DIRECT_POINTS:
-        return np.asarray(scipy.sparse.linalg.spsolve(matrix, right))
+def _solve(matrix: scipy.sparse.csr_matrix, right: Array, guess: Array) -> Array:
+    """Solve for many missing points by conjugate gradients."""
     offset = float(guess.mean())
     balance = right - offset * (matrix @ np.ones(right.size))
     inverse = scipy.sparse.diags(1.0 / matrix.diagonal())

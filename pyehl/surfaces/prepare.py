@@ -154,8 +154,9 @@ def _prepared(scan: Scan, options: Options, *, keep: bool) -> tuple[_Work, Optio
         _tell(scan, "outliers")
         spiky = spikes.prominence(work.z) > options.outliers
         valid = ~spiky if valid is None else valid & ~spiky
-        work.do("outliers", f"{options.outliers:g}", np.where(spiky, np.nan, work.z),
-                changed=int(spiky.sum()))  # fmt: skip
+        work.begin()
+        work.own()[spiky] = np.nan
+        work.do("outliers", f"{options.outliers:g}", work.z, changed=int(spiky.sum()))
     if valid is not None:
         _tell(scan, "fill")
         _fill(work, options, valid)
@@ -181,8 +182,7 @@ def _join(work: _Work, options: Options, why: dict[str, str]) -> None:
         work.do("edges", "mirror", prepared, why["edges"])
     elif options.edges == "window":
         tile = seams.windowed(prepared)
-        rim = int(np.count_nonzero(np.roll(tile, tile.shape[1] // 2, axis=1) != prepared))
-        work.do("edges", "window", tile, why["edges"], changed=rim)
+        work.do("edges", "window", tile, why["edges"], changed=seams.rim(tile.shape))
         tile -= tile.mean()
     elif (steep := seams.jump(prepared)) > JUMP:
         note = (

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["RIM", "jump", "mirrored", "unmirrored", "windowed"]
+__all__ = ["RIM", "jump", "mirrored", "rim", "unmirrored", "windowed"]
 
 Array = NDArray[np.float64]
 
@@ -70,10 +70,20 @@ def windowed(heights: Array) -> Array:
     heights
         (nx, ny).
     """
-    taper = [_taper(n) for n in heights.shape]
+    half = heights.shape[1] // 2
     mean = float(heights.mean())
-    middle = np.roll(heights, -(heights.shape[1] // 2), axis=1)
-    return mean + (middle - mean) * taper[0][:, None] * np.roll(taper[1], -(heights.shape[1] // 2))
+    tile = np.roll(heights, -half, axis=1)
+    tile -= mean
+    tile *= _taper(heights.shape[0])[:, np.newaxis]
+    tile *= np.roll(_taper(heights.shape[1]), -half)
+    tile += mean
+    return tile
+
+
+def rim(shape: tuple[int, int]) -> int:
+    """Points (nx, ny) of a map that `windowed` brings down."""
+    inside = [int(np.count_nonzero(_taper(n) == 1.0)) for n in shape]
+    return shape[0] * shape[1] - inside[0] * inside[1]
 
 
 def _taper(n: int) -> Array:

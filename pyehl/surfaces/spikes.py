@@ -12,7 +12,7 @@ import scipy.ndimage
 from numpy.typing import NDArray
 
 from pyehl.surfaces.holes import nearest
-from pyehl.surfaces.levelling import fit
+from pyehl.surfaces.levelling import level
 
 __all__ = ["WINDOW", "prominence"]
 
@@ -20,6 +20,9 @@ Array = NDArray[np.float64]
 
 WINDOW = 5
 """Pixels per side of the median that a point is compared with."""
+
+LINES = 64
+"""Lines of a map that are looked at together."""
 
 MAD_TO_SIGMA = 1.482602218505602
 """Standard deviation of a normal distribution over its median absolute deviation."""
@@ -48,14 +51,26 @@ def prominence(heights: Array) -> Array:
     ValueError
         If more than half of the map equals its median: then there is no spread to compare with.
     """
-    valid = np.isfinite(heights)
-    z = nearest(heights - fit(heights, 2))
-    above = z - scipy.ndimage.median_filter(z, WINDOW, mode="nearest")
-    spread = MAD_TO_SIGMA * float(np.median(np.abs(above[valid])))
+    missing = ~np.isfinite(heights)
+    z = heights.copy()
+    level(z, "curvature")
+    z = nearest(z)
+    largest = max(float(z.max()), -float(z.min()))
+    above = np.empty(z.shape)
+    for first in range(0, z.shape[0], LINES):
+        # a few lines at a time, with those around that their medians need
+        part = z[max(0, first - WINDOW) : first + LINES + WINDOW]
+        inner = slice(first - max(0, first - WINDOW), None)
+        median = scipy.ndimage.median_filter(part, WINDOW, mode="nearest")[inner][:LINES]
+        np.abs(z[first : first + LINES] - median, out=above[first : first + LINES])
+    del z
+    spread = MAD_TO_SIGMA * float(np.median(above[~missing], overwrite_input=True))
     # what is left of a plane is rounding
-    if not spread > 1e-12 * float(np.abs(z).max()):
+    if not spread > 1e-12 * largest:
         raise ValueError(
             "surface.outliers: half of the map or more is flat to the last digit, so that there "
             "is no spread to tell spikes by; remove them in the program of the instrument"
         )
-    return np.where(valid, np.abs(above) / spread, 0.0)
+    above /= spread
+    above[missing] = 0.0
+    return above

@@ -322,13 +322,18 @@ with Solver(Case.read(sys.argv[1])) as solver:
         "",
         "detrend = 'tilt'",
         "track = 1e-3",
+        "edges = 'window'",
+        "fill = 'harmonic'",
         "detrend = 'tilt', edges = 'mirror', shortest_wavelength = 1e-4, filter = 'gaussian'",
     ],
 )
 def test_memory_of_prepared_maps(tmp_path: Path, keys: str):
     """From Python, too, at most three times the size of the map."""
     pixels = 2048
-    np.save(tmp_path / "map.npy", 1e3 * rough((pixels, pixels)))
+    z = 1e3 * rough((pixels, pixels))
+    if "fill" in keys:
+        z[100:110, 200:205] = np.nan
+    np.save(tmp_path / "map.npy", z)
     (tmp_path / "case.nml").write_text(
         f"&surface kind = 'map', file = 'map.npy', length_x = 0.03, length_y = 0.03, {keys} /\n"
         "&contact load = 20.0 /\n&grid points = 33 /\n"

@@ -98,6 +98,13 @@ def test_more_than_a_tenth_missing_is_refused():
         prepare(instrument(z))
 
 
+def test_a_part_with_nothing_in_it_is_refused():
+    z = rough((50, 40))
+    z[:10] = np.nan
+    with pytest.raises(ValueError, match=r"400 of 400 heights are missing \(100"):
+        prepare(instrument(z), Options(crop=(0.0, 10e-6, 0.0, 0.0)))
+
+
 def test_refusing_to_fill():
     z = rough()
     z[3, 4] = np.nan
