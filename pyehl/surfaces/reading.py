@@ -159,6 +159,7 @@ def read_scan(
             heights, own, periodic = _read_text(path)
     else:
         heights, own, periodic, name, note = read_instrument(path, channel, (length_x, length_y))
+    _check_shape(path, heights.shape)
     sizes = []
     for key, given, found in zip(("length_x", "length_y"), (length_x, length_y), own, strict=True):
         size = given or found
@@ -175,20 +176,23 @@ def read_scan(
     if given_names and own != (None, None):
         size_from += f" (in place of {own[0]:.6g} x {own[1]:.6g} m of the file)"
     scan = Scan(heights, sizes[0], sizes[1], str(path), array, periodic, name, size_from, note)
-    _check_shape(scan)
+    _check_pixel(scan)
     return scan
 
 
-def _check_shape(scan: Scan) -> None:
-    """Refuse what is no map, and pixels that can only be a mistake of units."""
-    shape = scan.heights.shape
+def _check_shape(path: Path, shape: tuple[int, ...]) -> None:
+    """Refuse what is no map."""
     if min(shape) < LEAST_PIXELS:
         lines = ("a profile along one line", "a profile of x and z", "a list of x, y and z")
         what = f"; is it {lines[shape[1] - 1]}?" if shape[1] <= len(lines) < shape[0] else ""
         raise ValueError(
-            f"{scan.origin}: the map must have at least {LEAST_PIXELS} x {LEAST_PIXELS} pixels, "
+            f"{path}: the map must have at least {LEAST_PIXELS} x {LEAST_PIXELS} pixels, "
             f"not {shape[0]} x {shape[1]}{what}"
         )
+
+
+def _check_pixel(scan: Scan) -> None:
+    """Refuse pixels that can only be a mistake of units."""
     sides = zip(("x", "y"), (scan.length_x, scan.length_y), scan.heights.shape, strict=True)
     for axis, length, pixels in sides:
         pixel = length / pixels

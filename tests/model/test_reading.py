@@ -268,7 +268,7 @@ def test_profiles_are_refused(tmp_path):
     for columns, what in lists.items():
         np.savetxt(tmp_path / "list.txt", np.repeat(z[:, None], columns, axis=1))
         with pytest.raises(ValueError, match=f"not 30 x {columns}; is it {what}"):
-            read_scan(tmp_path / "list.txt", *SIZE)
+            read_scan(tmp_path / "list.txt")
 
 
 def test_empty_file(tmp_path):
