@@ -218,6 +218,8 @@ def test_large_maps_tell_what_is_done(tmp_path: Path, capsys, monkeypatch):
     assert cli.main(words) == 0
     assert capsys.readouterr().err == ""
     monkeypatch.setattr(sys.modules["pyehl.surfaces.prepare"], "LARGE", 1024)
+    # in another way: a map that is prepared already is kept
+    words[-1] = "surface.detrend='curvature'"
     assert cli.main(words) == 0
     assert "32 x 32 heights: detrend ..." in capsys.readouterr().err
 
