@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.theory.response import Zone, inlet_transfer, stiffness, transport
+from pyehl.theory.response import inlet_transfer
+from pyehl.theory.transport import Zone, stiffness, transport
 
 __all__ = ["MIDDLE", "OFF_CENTRE", "STATIONS", "Transfer"]
 
@@ -51,7 +52,7 @@ def _bends(spectrum: Spectrum, velocity_ratio: float) -> bool:
     return abs(velocity_ratio - 1.0) * float(spectrum.qx[-1]) * 0.5 * FRICTION_LINES**2 > BENDING
 
 
-def _at_amplitude(zone: Zone, thickening: Array, variance: float) -> Zone:
+def _at_amplitude(zone: Zone, variance: float) -> Zone:
     """Return a contact that leaks as waves of finite pressure do, for their friction.
 
     The leak is div(rho H^3/(eta lambda) grad P): it is slow where the waves raise the pressure and
@@ -60,13 +61,13 @@ def _at_amplitude(zone: Zone, thickening: Array, variance: float) -> Zone:
 
     Parameters
     ----------
-    zone, thickening
-        The contact, and b on its places.
+    zone
+        The contact; its thickening is b.
     variance
         s^2 of delta P [p_h^2].
     """
     with np.errstate(over="ignore"):
-        gain = np.exp(0.5 * variance * np.square(thickening))
+        gain = np.exp(0.5 * variance * np.square(zone.thickening))
     return replace(zone, conductance=zone.conductance / gain)
 
 
@@ -172,7 +173,8 @@ class Transfer:
         zone: Zone,
         moes: tuple[float, float],
         velocity_ratio: float,
-        thickening: Array | None = None,
+        *,
+        at_amplitude: bool = False,
     ) -> Transfer:
         """Of a tile in a contact, from a table over |q| and direction.
 
@@ -186,9 +188,9 @@ class Transfer:
             M, L.
         velocity_ratio
             U.
-        thickening
-            d ln(shear stress)/dP on the places of the zone [-], for the leak at the amplitude of
-            the tile (:func:`_at_amplitude`); None: of small waves.
+        at_amplitude
+            Whether the waves leak as those of the amplitude of the tile (:func:`_at_amplitude`), or
+            as small ones.
         """
         bent = _bends(spectrum, velocity_ratio)
         table = _Table(spectrum)
@@ -200,13 +202,13 @@ class Transfer:
         inlet = inlet_transfer(kx, ky, *moes, velocity_ratio, lines)
         inlet[1] *= behind
         leaking = zone
-        if thickening is not None:
+        if at_amplitude:
             power = table.gathered(spectrum.power)
             carried = inlet[0] * np.exp(1j * kx * slip)
             for _ in range(REPETITIONS):
                 driven, free = transport(leaking, kx, ky, velocity_ratio, CENTRE)[MIDDLE]
                 pressure = stiffness(np.hypot(kx, ky)) * np.abs(1.0 - driven - free * carried)
-                leaking = _at_amplitude(zone, thickening, float(power @ np.square(pressure)))
+                leaking = _at_amplitude(zone, float(power @ np.square(pressure)))
         stations = transport(leaking, kx, ky, velocity_ratio, STATIONS)
         found = table.spread(
             [driven for driven, _ in stations]
