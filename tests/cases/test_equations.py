@@ -133,7 +133,7 @@ def march(solve, request) -> tuple[str, Any, list[State]]:
         "surface.wavelength": WAVELENGTH,
         "time.scheme": scheme,
         # The balance below is a small difference
-        "solver.accuracy": 1e-5,
+        "solver.accuracy": 2.5e-6,
     }
     runs = [
         solve((moes_m, moes_l), 129, settings | {"time.steps": steps}, fields=True)
