@@ -28,7 +28,7 @@ from pyehl.prediction.passage import (
     working_grid,
 )
 from pyehl.prediction.rough_contact import Edge, RoughContact
-from pyehl.prediction.smooth import SmoothContact, zone_of
+from pyehl.prediction.smooth import SmoothContact, thickening, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.prediction.waves import Waves
@@ -36,7 +36,7 @@ from pyehl.surfaces import Topography, filtered, track_offsets
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.transport import stiffness
+from pyehl.theory.response import stiffness
 
 __all__ = ["RoughPassage"]
 
@@ -86,7 +86,8 @@ class RoughPassage:
             zone = zone_of(self.contact, o, self.lubricant)
             moes = o.moes_m, o.moes_l
             newtonian = self.lubricant.shear.law == "newtonian"
-            return Transfer.of(spectrum, zone, moes, self.velocity_ratio, at_amplitude=newtonian)
+            rise = thickening(self.contact, o, self.lubricant) if newtonian else None
+            return Transfer.of(spectrum, zone, moes, self.velocity_ratio, rise)
         ratio = component_amplitude_ratio(
             spectrum.qx[:, np.newaxis],
             spectrum.qy[np.newaxis, :],

@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.theory.response import inlet_transfer
-from pyehl.theory.transport import Zone, stiffness, transport
+from pyehl.theory.response import Zone, inlet_transfer, stiffness, transport
 
 __all__ = ["MIDDLE", "OFF_CENTRE", "STATIONS", "Transfer"]
 
@@ -52,7 +51,7 @@ def _bends(spectrum: Spectrum, velocity_ratio: float) -> bool:
     return abs(velocity_ratio - 1.0) * float(spectrum.qx[-1]) * 0.5 * FRICTION_LINES**2 > BENDING
 
 
-def _at_amplitude(zone: Zone, variance: float) -> Zone:
+def _at_amplitude(zone: Zone, thickening: Array, variance: float) -> Zone:
     """Return a contact that leaks as waves of finite pressure do, for their friction.
 
     The leak is div(rho H^3/(eta lambda) grad P): it is slow where the waves raise the pressure and
@@ -61,13 +60,13 @@ def _at_amplitude(zone: Zone, variance: float) -> Zone:
 
     Parameters
     ----------
-    zone
-        The contact; its thickening is b.
+    zone, thickening
+        The contact, and b on its places.
     variance
         s^2 of delta P [p_h^2].
     """
     with np.errstate(over="ignore"):
-        gain = np.exp(0.5 * variance * np.square(zone.thickening))
+        gain = np.exp(0.5 * variance * np.square(thickening))
     return replace(zone, conductance=zone.conductance / gain)
 
 
@@ -173,8 +172,7 @@ class Transfer:
         zone: Zone,
         moes: tuple[float, float],
         velocity_ratio: float,
-        *,
-        at_amplitude: bool = False,
+        thickening: Array | None = None,
     ) -> Transfer:
         """Of a tile in a contact, from a table over |q| and direction.
 
@@ -188,9 +186,9 @@ class Transfer:
             M, L.
         velocity_ratio
             U.
-        at_amplitude
-            Whether the waves leak as those of the amplitude of the tile (:func:`_at_amplitude`), or
-            as small ones.
+        thickening
+            d ln(shear stress)/dP on the places of the zone [-], for the leak at the amplitude of
+            the tile (:func:`_at_amplitude`); None: of small waves.
         """
         bent = _bends(spectrum, velocity_ratio)
         table = _Table(spectrum)
@@ -202,13 +200,13 @@ class Transfer:
         inlet = inlet_transfer(kx, ky, *moes, velocity_ratio, lines)
         inlet[1] *= behind
         leaking = zone
-        if at_amplitude:
+        if thickening is not None:
             power = table.gathered(spectrum.power)
             carried = inlet[0] * np.exp(1j * kx * slip)
             for _ in range(REPETITIONS):
                 driven, free = transport(leaking, kx, ky, velocity_ratio, CENTRE)[MIDDLE]
                 pressure = stiffness(np.hypot(kx, ky)) * np.abs(1.0 - driven - free * carried)
-                leaking = _at_amplitude(zone, float(power @ np.square(pressure)))
+                leaking = _at_amplitude(zone, thickening, float(power @ np.square(pressure)))
         stations = transport(leaking, kx, ky, velocity_ratio, STATIONS)
         found = table.spread(
             [driven for driven, _ in stations]

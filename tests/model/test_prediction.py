@@ -13,14 +13,14 @@ from pyehl.prediction import of_case
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.options import Options
 from pyehl.prediction.resolution import resolution
-from pyehl.prediction.smooth import hertz_contact, solve_contact, zone_of
+from pyehl.prediction.smooth import hertz_contact, solve_contact, thickening, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer, _at_amplitude
 from pyehl.prediction.waves import Waves
 from pyehl.surfaces import Topography, filtered
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.transport import Zone, stiffness
+from pyehl.theory.response import Zone, stiffness
 
 POINT, OIL = OperatingPoint(), Lubricant()
 
@@ -227,8 +227,8 @@ def test_leak_at_amplitude_for_gaussian_pressure():
         rates.append((np.mean(weight * leak), np.mean(weight * small)))
     measured, linear = np.mean(rates, axis=0)
     places = np.array([0.0])
-    one = places + 1.0
-    leaking = _at_amplitude(Zone(places, one, one, one, places, b * one, one), 0.3**2)
+    zone = Zone(places, places + 1, places + 1, places, places + 1)
+    leaking = _at_amplitude(zone, np.array([b]), 0.3**2)
     assert measured / linear == pytest.approx(leaking.conductance[0], rel=0.03)
 
 
@@ -237,13 +237,13 @@ def test_small_waves_leak_as_such():
     case = pyehl.Case.from_text("&contact moes_m = 200.0 moes_l = 10.0 /").resolve()
     point, oil = OperatingPoint.from_settings(case), Lubricant.from_settings(case)
     smooth = solve_contact(case)
-    zone = zone_of(smooth, point, oil)
+    zone, rise = zone_of(smooth, point, oil), thickening(smooth, point, oil)
     heights = np.random.default_rng(3).standard_normal((32, 32))
     changes = []
     for rms in (1e-5, 2e-5):
         spectrum = Spectrum.of(rms * heights, 1.0, 1.0)
         small = Transfer.of(spectrum, zone, (200.0, 10.0), 1.05)
-        found = Transfer.of(spectrum, zone, (200.0, 10.0), 1.05, at_amplitude=True)
+        found = Transfer.of(spectrum, zone, (200.0, 10.0), 1.05, rise)
         changes.append(np.abs(found.free[1] - small.free[1]).max())
     assert 0.0 < changes[0] < 1e-3
     assert changes[1] == pytest.approx(4.0 * changes[0], rel=0.01)
