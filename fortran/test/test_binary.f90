@@ -46,7 +46,8 @@ contains
       number = 0.1_dp
       call file%create(path)
       call pass(stack)
-      call is_true(.not. status%failed() .and. is_sealed(path), "written and sealed")
+      call is_true(.not. status%failed(), "written")
+      call is_true(is_sealed(path), "and sealed")
       word = ""
       n = 0
       number = 0.0_dp
