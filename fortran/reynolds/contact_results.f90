@@ -19,6 +19,8 @@ module ehl_contact_results
       !> Friction integral: iint tau dX dY over the Newtonian stress of eta = eta0 and H = 1. Of a Newtonian lubricant
       !> that is iint eta/(eta0 H) dX dY, whatever the sliding speed (Zhang et al. 2019, eq. 5)
       real(dp) :: friction = 0.0_dp
+      !> The same of a Newtonian lubricant, whatever the shear law
+      real(dp) :: friction_newtonian = 0.0_dp
       !> Relative error of the force balance
       real(dp) :: load_error = 0.0_dp
       !> Whether every number is finite, and every film positive
@@ -31,24 +33,28 @@ contains
    function measure(level) result(m)
       type(level_t), intent(in) :: level
       type(contact_results_t) :: m
-      real(dp), dimension(level%grid%ny) :: smallest, largest, friction
+      real(dp), dimension(level%grid%ny) :: smallest, largest, friction, newtonian
       real(dp) :: stress(level%grid%nx)
       integer :: j
 
-      !$omp parallel do default(none) shared(level, smallest, largest, friction) private(stress) &
+      !$omp parallel do default(none) shared(level, smallest, largest, friction, newtonian) private(stress) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
          smallest(j) = minval(level%h(:, j))
          largest(j) = maxval(level%p(:, j))
          ! eta/(eta0 H) from the conductance, which knows the viscosity
          stress = level%inverse_speed*level%rho(:, j)*level%h(:, j)**2/level%eps(:, j)
-         if (level%lubricant%shear%thins()) call level%lubricant%shear%reduce(level%p(:, j), stress)
+         newtonian(j) = sum(stress)*level%grid%weight(j)
+         friction(j) = newtonian(j)
+         if (.not. level%lubricant%shear%thins()) cycle
+         call level%lubricant%shear%reduce(level%p(:, j), stress)
          friction(j) = sum(stress)*level%grid%weight(j)
       end do
       !$omp end parallel do
       m%film_minimum = minval(smallest)
       m%pressure_maximum = maxval(largest)
       m%friction = sum(friction)
+      m%friction_newtonian = sum(newtonian)
       m%load_error = pressure_sum(level, level%p)/level%load - 1.0_dp
       m%film_central = central_value(level%grid, level%h)
       ! a NaN fails every comparison

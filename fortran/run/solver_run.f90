@@ -61,10 +61,9 @@ contains
       n = self%steady%n
       call keep_smooth(self, status)
       ! where a feature passes once, the largest pressure and the least film are asked for, not the mean friction alone
-      call self%transient%accuracy%set(self%grid%hx, self%plan%accuracy, merge(0.0_dp, self%steady%friction_error(n), &
-                                                                               self%plan%surface%passes_once))
-      call self%transient%policy%set(self%plan%step_cycle, self%plan%coarsening_may_change, &
-                                     self%plan%max_cycles)
+      call self%transient%accuracy%set(self%grid%hx, self%plan%accuracy, self%steady%results(n)%m%friction_newtonian, &
+                                       merge(0.0_dp, self%steady%friction_error(n), self%plan%surface%passes_once))
+      call self%transient%policy%set(self%plan%step_cycle, self%plan%coarsening_may_change, self%plan%max_cycles)
       call self%transient%start(self%hierarchy%levels(n), self%plan%contact, self%plan%surface, self%plan%skip_start, &
                                 self%steady%results(n)%m%friction, status)
       if (status%failed()) return

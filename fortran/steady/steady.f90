@@ -243,7 +243,7 @@ contains
       end associate
    end function discretisation_error
 
-   !> Relative discretisation error of the friction integral on level n, as that of H_c; 0: there is no coarser one
+   !> Relative discretisation error of the Newtonian friction integral on level n, as that of H_c; 0: there is no coarser one
    pure real(dp) function friction_error(self, n)
       class(steady_t), intent(in) :: self
       integer, intent(in) :: n
@@ -251,7 +251,8 @@ contains
       friction_error = 0.0_dp
       if (n == 1) return
       associate (fine => self%results(n), coarse => self%results(n - 1))
-         if (coarse%solved) friction_error = abs(fine%m%friction - coarse%m%friction)/(3.0_dp*fine%m%friction)
+         if (coarse%solved) friction_error = abs(fine%m%friction_newtonian - coarse%m%friction_newtonian) &
+                                             /(3.0_dp*fine%m%friction_newtonian)
       end associate
    end function friction_error
 

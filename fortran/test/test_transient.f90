@@ -251,7 +251,8 @@ contains
       end do
       call is_true(steady%outcome == outcome_converged, "the smooth contact converges")
       n = steady%n
-      call transient%accuracy%set(hierarchy%levels(n)%grid%hx, plan%accuracy, steady%friction_error(n))
+      call transient%accuracy%set(hierarchy%levels(n)%grid%hx, plan%accuracy, steady%results(n)%m%friction_newtonian, &
+                                  steady%friction_error(n))
       call transient%policy%set(plan%step_cycle, .false., plan%max_cycles)
       call plan%surface%prepare(hierarchy%levels(n)%grid, status)
       call transient%start(hierarchy%levels(n), plan%contact, plan%surface, plan%skip_start, steady%results(n)%m%friction, status)

@@ -1,8 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> How exactly time steps are solved: so that what is left unsolved changes mu_r/mu_s by less than a share of its grid
-!> error. Both are measured in the run. Steps that go on after their first cycle tell by how much mu_r/mu_s would have
-!> been wrong with the residual after it. The grid error of mu_r/mu_s is taken to be at least a share of its rise over 1,
-!> that of the smooth friction on this grid being the measure; see docs/design.md.
+!> error. Both are measured in the run, with the friction of a Newtonian lubricant whatever its shear law: pressure and
+!> film then do not depend on the law, and Newtonian friction feels a wrong pressure most. Steps that go on after their
+!> first cycle tell by how much mu_r/mu_s would have been wrong with the residual after it. The grid error of mu_r/mu_s is
+!> taken to be at least a share of its rise over 1, that of the smooth friction on this grid being the measure; see
+!> docs/design.md.
 module ehl_step_accuracy
    use ehl_kinds, only: dp
    implicit none (type, external)
@@ -25,6 +27,8 @@ module ehl_step_accuracy
    type :: step_accuracy_t
       !> Residual (rms) that serves every case
       real(dp) :: strict = 8.0e-5_dp
+      !> Newtonian friction of the smooth contact on the same grid
+      real(dp) :: friction_smooth = 1.0_dp
       !> Error of mu_r/mu_s allowed, as a share of its distance from 1; 0: it is not known
       real(dp) :: allowed = 0.0_dp
       !> Mean square of that distance
@@ -51,14 +55,15 @@ contains
    end function step_tolerance
 
    !> For a run
-   pure subroutine set(self, mesh, accuracy, friction_error)
+   pure subroutine set(self, mesh, accuracy, friction_smooth, friction_error)
       class(step_accuracy_t), intent(inout) :: self
       !> Mesh size; algebraic error wanted as a share of the grid error
       real(dp), intent(in) :: mesh, accuracy
-      !> Relative grid error of the smooth friction; 0: it is not known
-      real(dp), intent(in) :: friction_error
+      !> Newtonian friction of the smooth contact, and its relative grid error; 0: that is not known
+      real(dp), intent(in) :: friction_smooth, friction_error
 
       self%strict = step_tolerance(mesh, accuracy)
+      self%friction_smooth = friction_smooth
       self%allowed = accuracy*rise_share*friction_error
       self%rise = 0.0_dp
       self%sensitivity = 0.0_dp
@@ -87,20 +92,22 @@ contains
       measures = self%sensitivity > 0.0_dp .and. mod(step, measured_steps) == 0
    end function measures
 
-   !> A step that had more than one cycle: mu_r/mu_s and residual after the first one, and at its end
-   pure subroutine learn(self, ratio_first, residual_first, ratio, residual)
+   !> A step that had more than one cycle: Newtonian friction and residual after the first one, and at its end
+   pure subroutine learn(self, friction_first, residual_first, friction, residual)
       class(step_accuracy_t), intent(inout) :: self
-      real(dp), intent(in) :: ratio_first, residual_first, ratio, residual
+      real(dp), intent(in) :: friction_first, residual_first, friction, residual
+      real(dp) :: change
 
       if (.not. residual_first > residual) return
-      self%sensitivity = max(abs(ratio_first - ratio)/(residual_first - residual), fading*self%sensitivity)
+      change = abs(friction_first/self%friction_smooth - friction/self%friction_smooth)
+      self%sensitivity = max(change/(residual_first - residual), fading*self%sensitivity)
    end subroutine learn
 
-   !> mu_r/mu_s of a step
-   pure subroutine follow(self, ratio)
+   !> Newtonian friction of a step
+   pure subroutine follow(self, friction)
       class(step_accuracy_t), intent(inout) :: self
-      real(dp), intent(in) :: ratio
+      real(dp), intent(in) :: friction
 
-      self%rise = self%rise + ((ratio - 1.0_dp)**2 - self%rise)/memory
+      self%rise = self%rise + ((friction/self%friction_smooth - 1.0_dp)**2 - self%rise)/memory
    end subroutine follow
 end module ehl_step_accuracy

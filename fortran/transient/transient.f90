@@ -174,11 +174,9 @@ contains
             call self%step_back(level, surface)
             return
          end if
-         associate (ratio => self%m%friction/self%friction_smooth)
-            if (self%cycles > 1) call self%accuracy%learn(first%friction/self%friction_smooth, residual_first, &
-                                                          ratio, self%residual)
-            call self%accuracy%follow(ratio)
-         end associate
+         if (self%cycles > 1) call self%accuracy%learn(first%friction_newtonian, residual_first, &
+                                                       self%m%friction_newtonian, self%residual)
+         call self%accuracy%follow(self%m%friction_newtonian)
          self%total_cycles = self%total_cycles + self%cycles
          self%total_sweeps = self%total_sweeps + made
          self%step = self%step + 1
