@@ -13,6 +13,8 @@ module ehl_schema
    !> All keys, bound to one case
    type :: schema_t
       type(key_t), allocatable :: keys(:)
+      !> Keys so far, while the table is made
+      integer, private :: made = 0
    contains
       procedure :: bind => bind_case
       procedure :: find
@@ -27,11 +29,11 @@ module ehl_schema
       procedure, private :: add_feature_keys
       procedure, private :: add_time_keys
       procedure, private :: add_psd_keys
+      procedure, private :: add
       procedure, private :: reals
       procedure, private :: integers
       procedure, private :: logicals
       procedure, private :: words
-      procedure, private :: paths
       procedure, private :: texts
    end type schema_t
 
@@ -68,7 +70,8 @@ contains
       type(case_t), intent(inout), target :: input
 
       if (allocated(self%keys)) deallocate (self%keys)
-      allocate (self%keys(0))
+      allocate (self%keys(64))
+      self%made = 0
       call self%add_contact_keys(input)
       call self%add_lubricant_keys(input)
       call self%add_grid_keys(input)
@@ -80,6 +83,7 @@ contains
                       "time between frames of P and H that a transient run keeps; 0: none")
       call self%reals("output", "checkpoint_interval", input%output%checkpoint_interval, "s", "[0, 1e6]", &
                       "wall time between states of a transient run kept on disk; 0: none")
+      self%keys = self%keys(:self%made)
    end subroutine bind_case
 
    subroutine add_grid_keys(self, input)
@@ -122,7 +126,7 @@ contains
          call self%reals("surface", "x_start", s%x_start, "a", "[-100, 20]", &
                          "where the roughness begins at time 0, at rest its origin; default x_inlet")
          call self%add_feature_keys(s)
-         call self%paths("surface", "file", s%file, "height map of kind 'map': .npy, text, instrument file")
+         call self%texts("surface", "file", s%file, kind_path, "height map of kind 'map': .npy, text, instrument file")
          call self%add_map_keys(s)
          call self%reals("surface", "shortest_wavelength", s%shortest_wavelength, "m", "[0, 1]", &
                          "waves of a map or fractal surface shorter than this are cut; 0: none")
@@ -197,14 +201,28 @@ contains
       end associate
    end subroutine add_psd_keys
 
+   !> A key behind the others
+   subroutine add(self, key)
+      class(schema_t), intent(inout) :: self
+      type(key_t), intent(in) :: key
+      type(key_t), allocatable :: longer(:)
+
+      if (self%made == size(self%keys)) then
+         allocate (longer(2*self%made))
+         longer(:self%made) = self%keys
+         call move_alloc(longer, self%keys)
+      end if
+      self%made = self%made + 1
+      self%keys(self%made) = key
+   end subroutine add
+
    subroutine reals(self, group, name, value, unit, allowed, meaning)
       class(schema_t), intent(inout) :: self
       character(len=*), intent(in) :: group, name, unit, allowed, meaning
       real(dp), intent(inout), target :: value
 
-      self%keys = [self%keys, key_t(group=group, name=name, kind=kind_real, unit=unit, &
-                                    allowed=allowed, meaning=meaning)]
-      self%keys(size(self%keys))%real_value => value
+      call self%add(key_t(group=group, name=name, kind=kind_real, unit=unit, &
+                          allowed=allowed, meaning=meaning, real_value=value))
    end subroutine reals
 
    subroutine integers(self, group, name, value, allowed, meaning)
@@ -212,9 +230,8 @@ contains
       character(len=*), intent(in) :: group, name, allowed, meaning
       integer, intent(inout), target :: value
 
-      self%keys = [self%keys, key_t(group=group, name=name, kind=kind_integer, unit="-", &
-                                    allowed=allowed, meaning=meaning)]
-      self%keys(size(self%keys))%integer_value => value
+      call self%add(key_t(group=group, name=name, kind=kind_integer, unit="-", &
+                          allowed=allowed, meaning=meaning, integer_value=value))
    end subroutine integers
 
    subroutine logicals(self, group, name, value, meaning)
@@ -222,9 +239,8 @@ contains
       character(len=*), intent(in) :: group, name, meaning
       logical, intent(inout), target :: value
 
-      self%keys = [self%keys, key_t(group=group, name=name, kind=kind_logical, unit="-", &
-                                    allowed=".true.|.false.", meaning=meaning)]
-      self%keys(size(self%keys))%logical_value => value
+      call self%add(key_t(group=group, name=name, kind=kind_logical, unit="-", &
+                          allowed=".true.|.false.", meaning=meaning, logical_value=value))
    end subroutine logicals
 
    subroutine words(self, group, name, value, allowed, meaning)
@@ -232,29 +248,18 @@ contains
       character(len=*), intent(in) :: group, name, allowed, meaning
       character(len=word_length), intent(inout), target :: value
 
-      self%keys = [self%keys, key_t(group=group, name=name, kind=kind_word, unit="-", &
-                                    allowed=allowed, meaning=meaning)]
-      self%keys(size(self%keys))%word_value => value
+      call self%add(key_t(group=group, name=name, kind=kind_word, unit="-", &
+                          allowed=allowed, meaning=meaning, word_value=value))
    end subroutine words
 
-   subroutine paths(self, group, name, value, meaning)
+   subroutine texts(self, group, name, value, kind, meaning)
       class(schema_t), intent(inout) :: self
       character(len=*), intent(in) :: group, name, meaning
+      integer, intent(in) :: kind
       character(len=path_length), intent(inout), target :: value
 
-      self%keys = [self%keys, key_t(group=group, name=name, kind=kind_path, unit="-", &
-                                    allowed="", meaning=meaning)]
-      self%keys(size(self%keys))%path_value => value
-   end subroutine paths
-
-   subroutine texts(self, group, name, value, meaning)
-      class(schema_t), intent(inout) :: self
-      character(len=*), intent(in) :: group, name, meaning
-      character(len=path_length), intent(inout), target :: value
-
-      self%keys = [self%keys, key_t(group=group, name=name, kind=kind_text, unit="-", &
-                                    allowed="", meaning=meaning)]
-      self%keys(size(self%keys))%path_value => value
+      call self%add(key_t(group=group, name=name, kind=kind, unit="-", &
+                          allowed="", meaning=meaning, path_value=value))
    end subroutine texts
 
    !> Position of a key in the table; 0 when there is no such key

@@ -9,7 +9,8 @@ contains
       class(schema_t), intent(inout) :: self
       type(surface_case_t), intent(inout), target :: s
 
-      call self%texts("surface", "channel", s%channel, "channel of an instrument file: name, or number from 1")
+      call self%texts("surface", "channel", s%channel, kind_text, &
+                      "channel of an instrument file: name, or number from 1")
       call self%reals("surface", "length_x", s%length_x, "m", "0 or [1e-9, 1]", &
                       "size of the map along X; 0: that of the file; fractal: 8.29e-4")
       call self%reals("surface", "length_y", s%length_y, "m", "0 or [1e-9, 1]", &
