@@ -8,6 +8,7 @@ module ehl_coarse_problem
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_nine_point, only: nine_point_t
+   use ehl_workspace, only: workspace_t
    implicit none (type, external)
    private
    public :: restrict_problem, correct, coarsening_classical, coarsening_alcouffe
@@ -28,22 +29,23 @@ contains
 
    !> Coarse problem whose solution corrects the fine one. Needs the residual of the fine level, and
    !> changes its first row on folded grids.
-   subroutine restrict_problem(fine, coarse, p_start, coarsening, kind_of_coarsening)
+   subroutine restrict_problem(fine, coarse, space, coarsening, kind_of_coarsening)
       type(level_t), intent(inout) :: fine, coarse
-      !> Pressure that the coarse problem begins from, shape of the coarse grid
-      real(dp), intent(inout) :: p_start(:, :)
+      !> Of the coarse level
+      type(workspace_t), intent(inout) :: space
       type(coarsening_t), intent(inout) :: coarsening
       integer, intent(in) :: kind_of_coarsening
       integer :: j
 
-      !$omp parallel do default(none) shared(fine, coarse, p_start) &
+      !$omp parallel do default(none) shared(fine, coarse, space) &
       !$omp num_threads(coarse%threads) if(coarse%parallel) schedule(static)
       do j = 1, coarse%grid%ny
          call weight_row(coarse%grid, fine%p, j, coarse%p(:, j))
          ! a cavitated node stays so
          where (fine%p(::2, 2*j - 1) <= 0.0_dp) coarse%p(:, j) = 0.0_dp
-         p_start(:, j) = coarse%p(:, j)
+         space%p_start(:, j) = coarse%p(:, j)
          call weight_row(coarse%grid, fine%h, j, coarse%h(:, j))
+         space%h_start(:, j) = coarse%h(:, j)
       end do
       !$omp end parallel do
       coarse%h00 = fine%h00
@@ -170,23 +172,25 @@ contains
       !$omp end parallel do
    end subroutine five_point
 
-   !> Add the coarse change where the fine pressure is positive, interpolated bilinearly or as the transfer
-   !> has it. This ends the coarse problem: the coarse level may be a finest one next, and p_start holds the change then.
-   subroutine correct(fine, coarse, p_start, transfer, coarsening, part)
+   !> Add the coarse change of the pressure where the fine one is positive, interpolated bilinearly or as the transfer
+   !> has it, and that of the film, interpolated bilinearly. This ends the coarse problem: the
+   !> coarse level may be a finest one next, and p_start and h_start hold the changes then.
+   subroutine correct(fine, coarse, space, transfer, coarsening, part)
       type(level_t), intent(inout) :: fine, coarse
-      !> Pressure that the coarse problem began from
-      real(dp), intent(inout) :: p_start(:, :)
+      !> Of the coarse level
+      type(workspace_t), intent(inout) :: space
       type(transfer_t), intent(in) :: transfer
       integer, intent(in) :: coarsening
       !> Share of the change that is taken over
       real(dp), intent(in) :: part
-      real(dp) :: middle(coarse%grid%nx), row(fine%grid%nx), after
-      integer :: i, j, l
+      real(dp) :: row(fine%grid%nx), after
+      integer :: i, j
 
-      !$omp parallel do default(none) shared(coarse, p_start, part) &
+      !$omp parallel do default(none) shared(coarse, space, part) &
       !$omp num_threads(coarse%threads) if(coarse%parallel) schedule(static)
       do j = 1, coarse%grid%ny
-         p_start(:, j) = part*(coarse%p(:, j) - p_start(:, j))
+         space%p_start(:, j) = part*(coarse%p(:, j) - space%p_start(:, j))
+         space%h_start(:, j) = part*(coarse%h(:, j) - space%h_start(:, j))
       end do
       !$omp end parallel do
       if (part < 1.0_dp) then
@@ -195,18 +199,16 @@ contains
          fine%h00 = coarse%h00
       end if
       coarse%poiseuille%frozen = .false.
-      !$omp parallel do default(none) shared(fine, coarse, p_start, transfer, coarsening) private(i, l, middle, row, after) &
+      !$omp parallel do default(none) shared(fine, coarse, space, transfer, coarsening) private(i, row, after) &
       !$omp num_threads(fine%threads) if(fine%parallel) schedule(static)
-      do j = fine%grid%first_inner(), fine%grid%ny - 1
+      do j = 1, fine%grid%ny
+         call interpolate_row(coarse%grid, space%h_start, j, row)
+         fine%h(:, j) = fine%h(:, j) + row
+         if (j < fine%grid%first_inner() .or. j == fine%grid%ny) cycle
          if (coarsening == coarsening_alcouffe) then
-            call transfer%prolong_row(p_start, j, row)
+            call transfer%prolong_row(space%p_start, j, row)
          else
-            l = (j + 1)/2
-            middle = 0.5_dp*(p_start(:, l) + p_start(:, min(l + mod(j + 1, 2), coarse%grid%ny)))
-            row(::2) = middle
-            do i = 1, coarse%grid%nx - 1
-               row(2*i) = 0.5_dp*(middle(i) + middle(i + 1))
-            end do
+            call interpolate_row(coarse%grid, space%p_start, j, row)
          end if
          do i = 2, fine%grid%nx - 1
             if (fine%p(i, j) > 0.0_dp) then
@@ -218,4 +220,23 @@ contains
       end do
       !$omp end parallel do
    end subroutine correct
+
+   !> Row j of the fine grid by bilinear interpolation
+   pure subroutine interpolate_row(coarse, values, j, row)
+      type(grid_t), intent(in) :: coarse
+      !> Shape of the coarse grid
+      real(dp), intent(in) :: values(:, :)
+      integer, intent(in) :: j
+      !> Shape (nx) of the fine grid
+      real(dp), intent(out) :: row(:)
+      real(dp) :: middle(coarse%nx)
+      integer :: i, l
+
+      l = (j + 1)/2
+      middle = 0.5_dp*(values(:, l) + values(:, min(l + mod(j + 1, 2), coarse%ny)))
+      row(::2) = middle
+      do i = 1, coarse%nx - 1
+         row(2*i) = 0.5_dp*(middle(i) + middle(i + 1))
+      end do
+   end subroutine interpolate_row
 end module ehl_coarse_problem

@@ -120,7 +120,7 @@ contains
 
       call sweep(levels(n), spaces(n), options%pre, options%trust, options%sweep_share)
       call update_residual(levels(n), rms)
-      call restrict_problem(levels(n), levels(n - 1), spaces(n - 1)%p_start, coarsenings(n), options%coarsening)
+      call restrict_problem(levels(n), levels(n - 1), spaces(n - 1), coarsenings(n), options%coarsening)
       do k = 1, options%gamma
          call fas_cycle(levels, spaces, coarsenings, n - 1, coarsest, options)
          if (n == 2) exit
@@ -130,9 +130,11 @@ contains
          v%full = .false.
          call fas_cycle(levels, spaces, coarsenings, n - 1, coarsest, v)
       end if
-      call correct(levels(n), levels(n - 1), spaces(n - 1)%p_start, coarsenings(n)%transfer, options%coarsening, &
+      call correct(levels(n), levels(n - 1), spaces(n - 1), coarsenings(n)%transfer, options%coarsening, &
                    options%correction_share)
-      call refresh(levels(n))
+      ! a time step changes the film little, and sweeps follow: the interpolated change of it serves them
+      if (.not. levels(n)%wedge%squeeze > 0.0_dp) call update_film(levels(n))
+      call update_coefficients(levels(n))
    end subroutine visit_coarser
 
    !> First approximation on a finer level: cubic interpolation of the coarse pressure
