@@ -17,7 +17,22 @@ contains
    subroutine run_mean()
       call smooth_signal_settles_at_once()
       call peaks_between_steps_take_several_periods()
+      call values_before_the_window_have_no_part()
    end subroutine run_mean
+
+   !> A peak of the start, be it larger than the mean by more than the digits of a number, leaves the mean as it is
+   subroutine values_before_the_window_have_no_part()
+      type(friction_mean_t) :: mean
+      integer :: k
+
+      call mean%start(period, time_step, 0.0_dp)
+      call mean%append(1.0e24_dp, 0.0_dp, 0.0_dp)
+      do k = 1, nint(1.6_dp*period/time_step)
+         call mean%append(1.0_dp, 0.0_dp, 0.0_dp)
+      end do
+      call is_close(mean%mean(0.0_dp), 1.0_dp, 1.0e-12_dp, "mean of a constant behind a peak")
+      call is_true(mean%settled(1.0e-12_dp), "and it has settled")
+   end subroutine values_before_the_window_have_no_part
 
    !> What a step resolves is known after one and a half periods, from one period
    subroutine smooth_signal_settles_at_once()

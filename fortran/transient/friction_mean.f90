@@ -115,23 +115,38 @@ contains
    pure real(dp) function mean(self, lag)
       class(friction_mean_t), intent(in) :: self
       real(dp), intent(in) :: lag
-      mean = (integral(self, self%n - lag/self%time_step) &
-              - integral(self, self%n - (lag + self%window())/self%time_step))*self%time_step/self%window()
+      real(dp) :: last, length
+
+      last = self%n - lag/self%time_step
+      length = self%window()/self%time_step
+      mean = integral(self%values(:self%n), last - length, last)/length
    end function mean
 
-   !> Integral of the polygon from value 1 to the position t, in steps
-   pure real(dp) function integral(self, t)
-      class(friction_mean_t), intent(in) :: self
-      real(dp), intent(in) :: t
-      real(dp) :: rest
+   !> Integral of the polygon through values between two positions in steps, the first value at 1. What lies outside has
+   !> no part in it, be it ever so large.
+   pure real(dp) function integral(values, from, to)
+      real(dp), intent(in) :: values(:), from, to
+      integer :: first, last
+
+      first = ceiling(from)
+      last = int(to)
+      if (first > last) then
+         integral = 0.5_dp*(at(values, from) + at(values, to))*(to - from)
+         return
+      end if
+      integral = 0.5_dp*(at(values, from) + values(first))*(first - from) &
+                 + 0.5_dp*(sum(values(first:last - 1)) + sum(values(first + 1:last))) &
+                 + 0.5_dp*(values(last) + at(values, to))*(to - last)
+   end function integral
+
+   !> The polygon through values at a position in steps
+   pure real(dp) function at(values, position)
+      real(dp), intent(in) :: values(:), position
       integer :: k
 
-      k = min(max(int(t), 1), self%n - 1)
-      rest = t - k
-      associate (v => self%values)
-         integral = 0.5_dp*(sum(v(1:k - 1)) + sum(v(2:k))) + rest*(v(k) + 0.5_dp*rest*(v(k + 1) - v(k)))
-      end associate
-   end function integral
+      k = min(max(int(position), 1), size(values) - 1)
+      at = values(k) + (position - k)*(values(k + 1) - values(k))
+   end function at
 
    !> Smallest and largest value of the periods that the mean is taken over
    pure function extremes(self) result(range)
@@ -161,7 +176,7 @@ contains
       half = self%period*int(0.5_dp*self%window()/self%period)/self%time_step
       do k = 0, 2
          last = self%n - 0.5_dp*k*(length - half)
-         change = max(change, 0.5_dp*abs((integral(self, last) - integral(self, last - half))/half - self%mean(0.0_dp)))
+         change = max(change, 0.5_dp*abs(integral(self%values(:self%n), last - half, last)/half - self%mean(0.0_dp)))
       end do
    end function change
 
