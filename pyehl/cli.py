@@ -4,14 +4,13 @@
 from __future__ import annotations
 
 import argparse
-import difflib
 import logging
 import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module, metadata
 
-from pyehl.errors import EhlError, InputError
+from pyehl.errors import EhlError, InputError, did_you_mean
 
 __all__ = ["main"]
 
@@ -96,9 +95,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         parser = _parser(chosen)
         if chosen not in SUBCOMMANDS and not chosen.startswith("-"):
-            near = difflib.get_close_matches(chosen, SUBCOMMANDS, n=1)
-            hint = f"; did you mean '{near[0]}'?" if near else ""
             if words:
+                hint = did_you_mean(chosen, SUBCOMMANDS)
                 print(f"pyehl: error: unknown subcommand '{chosen}'{hint}", file=sys.stderr)
             parser.print_help(sys.stderr if words else sys.stdout)
             return EXIT_USAGE

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import difflib
+from collections.abc import Iterable
 from typing import Any
 
 __all__ = [
@@ -14,6 +16,7 @@ __all__ = [
     "NoMemoryError",
     "NotConverged",
     "check",
+    "did_you_mean",
 ]
 
 
@@ -111,3 +114,16 @@ def check(status: int, message: bytes) -> None:
     """
     if status != 0:
         raise CLASSES.get(status, InternalError)(message.decode(errors="replace").rstrip())
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """Give the end of a message about an unknown word: the nearest known one, or nothing.
+
+    Examples
+    --------
+    >>> from pyehl.errors import did_you_mean
+    >>> did_you_mean("prdict", ("solve", "predict", "film"))
+    "; did you mean 'predict'?"
+    """
+    near = difflib.get_close_matches(word, list(known), n=1)
+    return f"; did you mean '{near[0]}'?" if near else ""

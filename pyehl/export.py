@@ -10,10 +10,12 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+import xarray as xr
+
 from pyehl import results
 from pyehl.errors import FileError, InputError
 
-__all__ = ["export"]
+__all__ = ["export", "write_netcdf"]
 
 
 def export(folder: str | os.PathLike[str], path: str | os.PathLike[str] | None = None) -> Path:
@@ -54,6 +56,18 @@ def export(folder: str | os.PathLike[str], path: str | os.PathLike[str] | None =
         if value != ""
     }
     data.attrs = {"Conventions": "CF-1.8", "title": "pyehl results"} | scalars
+    write_netcdf(path, data)
+    return path
+
+
+def write_netcdf(path: Path, data: xr.Dataset) -> None:
+    """Write a Dataset as netCDF-3, whole or not at all.
+
+    Raises
+    ------
+    FileError
+        If it cannot be written.
+    """
     partial = path.with_name(f"{path.name}.partial-{os.getpid()}")
     try:
         data.to_netcdf(partial, format="NETCDF3_64BIT", engine="scipy")
@@ -61,4 +75,3 @@ def export(folder: str | os.PathLike[str], path: str | os.PathLike[str] | None =
     except OSError as error:
         partial.unlink(missing_ok=True)
         raise FileError(f"{path}: cannot write: {error.strerror or error}") from error
-    return path

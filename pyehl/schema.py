@@ -3,8 +3,8 @@
 
 Names that end in a unit (``_m``, ``_Pa``, ...) are in that unit (`moes_m` is the Moes load M);
 capital letters are Hertz units. Kinds: ``solution`` (``ehl``, ``pyehl run``), ``prediction``
-(``pyehl predict``) and ``film`` (``pyehl film --json``). To add a quantity, add a line: a test
-compares this table with all that writes summaries.
+(``pyehl predict``), ``film`` (``pyehl film --json``) and ``response`` (``pyehl response``). To add
+a quantity, add a line: tests compare this table with all that writes summaries.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 __all__ = ["KINDS", "QUANTITIES", "Quantity", "markdown"]
 
-KINDS = {"s": "solution", "p": "prediction", "f": "film"}
+KINDS = {"s": "solution", "p": "prediction", "f": "film", "r": "response"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,15 +28,15 @@ class Quantity:
 
 # Letters of the kinds | name | unit | meaning
 _TABLE = """
-pf | kind | | what the summary is of: 'prediction' or 'film'; a solution has none
+pfr | kind | | what the summary is of: 'prediction', 'film' or 'response'; a solution has none
 sp | status | | 'converged', 'predicted', or why there is no result
 s | converged | | whether the results are a solution
 p | message | | the status in a sentence
 s | version | | version of the library
 sp | wall_seconds | s | time of the run
 s | bytes | byte | memory of the solver
-spf | moes_m | - | Moes load M
-spf | moes_l | - | Moes material number L
+spfr | moes_m | - | Moes load M
+spfr | moes_l | - | Moes material number L
 sf | alpha_bar | - | alpha p_h
 sf | speed_parameter | - | 12 eta0 u R^2/(a^3 p_h)
 spf | hertz_pressure_Pa | Pa | p_h
@@ -162,7 +162,7 @@ p | positions | - | positions of the tile over a passage
 p | position_error | - | relative error that they leave
 p | reduction | | how waves are flattened
 p | smooth | | the smooth contact of the model
-p | velocity_ratio | - | velocity of the rough surface over the mean one
+pr | velocity_ratio | - | velocity of the rough surface over the mean one
 p | wavelength_convention | | what the wavelength of a component is
 p | stiffness | | stiffness of the half-space
 p | viscosity_law | | viscosity under pressure
@@ -181,6 +181,11 @@ p | cavitated_share | - | share of the contact where the pressure would be negat
 p | cavitated_friction | - | bound of the share of the friction from there
 p | bands | | what each octave of wavelengths adds
 f | formulas | | what each film formula gives
+r | waves | - | number of waves that were measured
+r | tiers | | runs that they are from: grid, tile, waves, film, residual of the fit
+r | shipped_difference_rms | - | rms difference to the response that the prediction uses, at X = 0
+r | shipped_difference_max | - | largest difference to it
+r | within_fitted_range | | whether it was fitted at such a point
 """
 
 

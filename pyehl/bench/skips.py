@@ -7,21 +7,15 @@ Seconds are those of the processor, the least of the repeats.
 
 from __future__ import annotations
 
-import json
 import math
-import resource
-import subprocess
-import sys
-import tempfile
-import time
 from collections.abc import Callable, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from pyehl import library
 from pyehl.bench.comparison import (
+    ROUNDING,
     Row,
     Values,
     compare,
@@ -30,13 +24,11 @@ from pyehl.bench.comparison import (
     rounding,
     solve,
 )
+from pyehl.bench.skipped_predictions import prediction_scene, sweep_scene
 from pyehl.bench.unit import hertz
-from pyehl.case import Case
 from pyehl.errors import InputError
-from pyehl.prediction import smooth as smooth_contact
-from pyehl.prediction.of_case import predict
 
-__all__ = ["COLUMNS", "SCENES", "skip_rows"]
+__all__ = ["COLUMNS", "MEANING", "SCENES", "skip_rows"]
 
 COLUMNS = (
     ("scene", "s"),
@@ -48,6 +40,13 @@ COLUMNS = (
     ("difference", ".1e"),
     ("allowed", ".1e"),
 )
+MEANING = (
+    "seconds: of the processor, one thread; without: the same with that work done; difference: in "
+    "the quantity, relative;\nallowed: 0 where the bits are equal, "
+    f"{ROUNDING:.0e} where sums are taken in another order, else the tolerance of the solver or of "
+    "the mean"
+)
+"""What the columns are."""
 
 FRACTAL = ("surface.kind=fractal",)
 WAVE = (
@@ -224,97 +223,6 @@ def fractal_scene(points: int, repeats: int) -> list[Row]:
     """Fractal surface of Table 1."""
     options = [*FRACTAL, f"grid.points={max(points, LEAST)}"]
     return _run_rows("fractal surface", options, repeats, symmetric=False)
-
-
-def _predict(*options: str, keep: bool = True) -> Values:
-    if not keep:
-        smooth_contact.forget()
-    return predict(Case.from_text("", [*FRACTAL, *options]).resolve()).summary
-
-
-def prediction_scene(points: int, repeats: int) -> list[Row]:
-    """Prediction of a fractal surface, nothing simulated."""
-    _predict()
-    return [
-        compare(
-            "prediction only",
-            "the smooth contact of another surface",
-            "mu_ratio",
-            lambda: _predict("surface.seed=2"),
-            lambda: _predict("surface.seed=2", keep=False),
-            nothing,
-            repeats,
-        )
-    ]
-
-
-def sweep_scene(points: int, repeats: int, cases: int = 20) -> list[Row]:
-    """Sweep of predictions over surfaces."""
-    seeds = [f"surface.seed={k + 1}" for k in range(cases)]
-
-    def together() -> Values:
-        smooth_contact.forget()
-        return {"mu_ratio": [_predict(seed)["mu_ratio"] for seed in seeds]}
-
-    def alone() -> Values:
-        return {"mu_ratio": [_predict(seed, keep=False)["mu_ratio"] for seed in seeds]}
-
-    return [
-        compare(
-            f"sweep of {cases}",
-            f"{cases - 1} smooth contacts",
-            "mu_ratio",
-            together,
-            alone,
-            nothing,
-            repeats,
-        ),
-        _starts_row(seeds, together),
-    ]
-
-
-def _processor() -> float:
-    """Seconds of the processor of this process and of its children that have ended."""
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return time.process_time() + used.ru_utime + used.ru_stime
-
-
-def _starts_row(seeds: Sequence[str], together: Callable[[], Values]) -> Row:
-    """One process for all cases, or one for each; seconds of the processor, of children too."""
-
-    def apart() -> Values:
-        found = []
-        with tempfile.TemporaryDirectory(prefix="pyehl-") as place:
-            case = Path(place) / "case.nml"
-            case.write_text("&surface kind = 'fractal' /\n", encoding="utf-8")
-            for k, seed in enumerate(seeds):
-                folder = Path(place) / str(k)
-                words = ["predict", str(case), "--set", seed, "-o", str(folder), "--no-plots"]
-                subprocess.run(
-                    [sys.executable, "-P", "-m", "pyehl", *words], check=True, capture_output=True
-                )
-                text = (folder / "summary.json").read_text(encoding="utf-8")
-                found.append(json.loads(text)["mu_ratio"])
-        return {"mu_ratio": found}
-
-    took = []
-    values = []
-    for call in (together, apart):
-        began = _processor()
-        values.append(np.asarray(call()["mu_ratio"]))
-        took.append(_processor() - began)
-    difference = float(np.max(np.abs(values[0] - values[1])) / np.max(np.abs(values[0])))
-    return {
-        "scene": f"sweep of {len(seeds)}",
-        "skipped": f"{len(seeds) - 1} starts of Python, and the above",
-        "seconds": took[0],
-        "without": took[1],
-        "saved": 1.0 - took[0] / took[1],
-        "quantity": "mu_ratio",
-        "difference": difference,
-        "allowed": 0.0,
-        "same": difference == 0.0,
-    }
 
 
 SCENES: dict[str, Callable[[int, int], list[Row]]] = {

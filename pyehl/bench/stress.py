@@ -19,7 +19,7 @@ from pyehl.bench.stress_cases import FAMILIES, StressCase, draw, study_of
 from pyehl.studies.plan import plan
 from pyehl.studies.sweep import perform
 
-__all__ = ["COLUMNS", "ENDED", "campaign", "judge", "summary"]
+__all__ = ["COLUMNS", "ENDED", "MEANING", "campaign", "judge", "summary"]
 
 Row = dict[str, Any]
 
@@ -51,6 +51,12 @@ COLUMNS = (
     ("cycles", ".1f"),
     ("most_cycles", ".1f"),
 )
+MEANING = (
+    "ended: all steps asked for converged; no solution: of the equations, by the second solver; "
+    "checked: solved once more to a twentieth\nof the algebraic error; wrong: differs by more than "
+    "the error it states; cycles: of a step, or in all"
+)
+"""What the columns are."""
 
 
 def campaign(

@@ -21,7 +21,7 @@ from pyehl.studies.sweep import perform
 from pyehl.studies.tasks import Task
 from pyehl.studies.vary import axis
 
-__all__ = ["COLUMNS", "SCENES", "Scene", "sweep_rows"]
+__all__ = ["COLUMNS", "MEANING", "SCENES", "Scene", "sweep_rows"]
 
 COLUMNS = (
     ("scene", "s"),
@@ -34,6 +34,12 @@ COLUMNS = (
     ("overhead_ms", ".2f"),
     ("efficiency", ".2f"),
 )
+MEANING = (
+    "wall seconds: from the start of the workers to the last row; estimate: of the plan; busy: "
+    "share of the workers' time that cases took;\noverhead: of a case, in the plan and in one "
+    "worker; efficiency: throughput over that of the first number of processes"
+)
+"""What the columns are."""
 
 
 @dataclass(frozen=True, slots=True)

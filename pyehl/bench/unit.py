@@ -1,20 +1,25 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The unit of time of all benchmarks: one elastic deflection by scipy.fft at the same grid.
 
-Zero-padded, real, float64, one worker, kernel transformed beforehand.
+Zero-padded, real, float64, one worker, kernel transformed beforehand. With what measures seconds.
 """
 
 from __future__ import annotations
 
+import platform
+import resource
 import statistics
 import time
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
-__all__ = ["ScipyDeflection", "hertz", "median_seconds"]
+from pyehl import library
+
+__all__ = ["ScipyDeflection", "hertz", "machine", "median_seconds", "processor_seconds"]
 
 Array = NDArray[np.float64]
 
@@ -62,6 +67,24 @@ def median_seconds(call: Callable[[], object], least: float = 0.3) -> float:
         call()
         times.append(time.perf_counter() - began)
     return statistics.median(times)
+
+
+def processor_seconds() -> float:
+    """Seconds of the processor [s] of this process and of its children that have ended."""
+    children = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return time.process_time() + children.ru_utime + children.ru_stime
+
+
+def machine() -> dict[str, str]:
+    """Name what times belong to: processor, and build of the library."""
+    model = ""
+    information = Path("/proc/cpuinfo")
+    if information.is_file():
+        for line in information.read_text(encoding="utf-8").splitlines():
+            if line.startswith("model name"):
+                model = line.partition(":")[2].strip()
+                break
+    return {"processor": model or platform.processor(), "build": library.build()}
 
 
 def hertz(points: int) -> tuple[Array, float, Array, NDArray[np.bool_]]:

@@ -1,32 +1,27 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl bench workprec``: error against seconds and against units, and the cheapest settings.
 
-Every setting is one run. The reference of a scene is extrapolated from its two finest grids by the
-narrow scheme; its error bar is what one grid more has changed it by. Seconds are those of the
-processor; the unit, one scipy.fft deflection at the same grid, is measured before each run.
+Every setting is one run. Seconds are those of the processor; the unit, one scipy.fft deflection at
+the same grid, is measured before each run.
 """
 
 from __future__ import annotations
 
-import itertools
-import math
-import resource
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from pyehl.bench.unit import ScipyDeflection, hertz, median_seconds
+from pyehl.bench.precision import add_errors, extrapolated
+from pyehl.bench.unit import ScipyDeflection, hertz, median_seconds, processor_seconds
 from pyehl.case import Case
 from pyehl.errors import InputError
 from pyehl.prediction.of_case import predict
 from pyehl.solver import Solver
 
-__all__ = ["COLUMNS", "LEVELS", "SCENES", "Scene", "cheapest", "share_of_deflection", "work_rows"]
+__all__ = ["COLUMNS", "SCENES", "Scene", "share_of_deflection", "work_rows"]
 
 Row = dict[str, Any]
 
-LEVELS = (0.03, 0.01, 0.003, 0.001)
-"""Errors that the cheapest setting is looked for."""
 COLUMNS = (
     ("scene", "s"),
     ("quantity", "s"),
@@ -40,7 +35,6 @@ COLUMNS = (
     ("bar", ".0e"),
     ("estimate", ".1e"),
 )
-ORDER = 2
 POINT = ("contact.moes_m=1000.0", "contact.moes_l=10.0")
 WAVE = (
     *POINT,
@@ -150,8 +144,8 @@ def work_rows(
                     mine += _run(scene, setting, options, points, workers, unit)
         if scene.rough:
             mine += _predicted(scene, _unit(max(used)))
-        mine += _extrapolated(mine)
-        _add_errors(mine, scene)
+        mine += extrapolated(mine)
+        add_errors(mine, scene.quantities)
         rows += mine
     return rows
 
@@ -161,10 +155,6 @@ def _unit(points: int) -> float:
     pressure, h, _, _ = hertz(points)
     yardstick = ScipyDeflection(points, points, h, h)
     return median_seconds(lambda: yardstick.apply(pressure))
-
-
-def _processor() -> float:
-    return resource.getrusage(resource.RUSAGE_SELF).ru_utime
 
 
 def _run(
@@ -179,10 +169,10 @@ def _run(
     if scene.rough:
         # the coarser run is a row of its own
         texts.append("time.estimate_error=.false.")
-    began = _processor()
+    began = processor_seconds()
     with Solver(Case.from_text("", texts)) as solver:
         solver.run()
-        seconds = _processor() - began
+        seconds = processor_seconds() - began
         summary = solver.summary()
     rows = []
     for quantity in scene.quantities:
@@ -211,9 +201,9 @@ def _predicted(scene: Scene, unit: float) -> list[Row]:
     if scene.name == "wave":
         # the prediction takes heights in metres: no such surface there
         return []
-    began = _processor()
+    began = processor_seconds()
     told = predict(case.resolve()).summary
-    seconds = _processor() - began
+    seconds = processor_seconds() - began
     model = told.get("mu_ratio_model_error")
     return [
         {
@@ -230,79 +220,6 @@ def _predicted(scene: Scene, unit: float) -> list[Row]:
             "estimate": model / told["mu_ratio"] if model else None,
         }
     ]
-
-
-def _extrapolated(rows: Sequence[Row]) -> list[Row]:
-    """Richardson: the value of a grid and of the next coarser one, at the cost of both."""
-    found = {(r["quantity"], r["setting"], r["threads"], r["points"]): r for r in rows}
-    more = []
-    for (quantity, setting, threads, points), fine in found.items():
-        coarse = found.get((quantity, setting, threads, (points + 1) // 2))
-        if coarse is None or fine["value"] is None or coarse["value"] is None:
-            continue
-        # nested iteration has solved the coarser grid of a smooth contact anyway
-        extra = 0.0 if fine["scene"] == "smooth" else coarse["seconds"]
-        seconds = fine["seconds"] + extra
-        value = fine["value"] + (fine["value"] - coarse["value"]) / (2**ORDER - 1)
-        more.append(
-            fine
-            | {
-                "setting": f"{setting}, extrapolated",
-                "seconds": seconds,
-                "units": seconds / fine["unit_seconds"],
-                "value": value,
-                "estimate": None,
-            }
-        )
-    return more
-
-
-def _reference(values: Mapping[int, float]) -> tuple[float, float]:
-    """Limit of the two finest grids, and its relative error."""
-    grids = sorted(values)[-3:]
-    if len(grids) < 2:
-        return math.nan, math.nan
-    limits = [
-        values[b] + (values[b] - values[a]) / (2**ORDER - 1) for a, b in itertools.pairwise(grids)
-    ]
-    last = limits[-1]
-    bar = abs(last - limits[0]) if len(limits) > 1 else abs(last - values[grids[-1]])
-    return last, bar / abs(last)
-
-
-def _add_errors(rows: Sequence[Row], scene: Scene) -> None:
-    """Add errors against the reference of the scene."""
-    for quantity in scene.quantities:
-        mine = [row for row in rows if row["quantity"] == quantity]
-        values = {
-            row["points"]: row["value"]
-            for row in mine
-            if row["setting"] == "default" and row["value"] is not None
-        }
-        limit, bar = _reference(values)
-        for row in mine:
-            known = row["value"] is not None and math.isfinite(limit)
-            row["error"] = abs(row["value"] / limit - 1.0) if known else None
-            row["bar"] = bar if known else None
-
-
-def cheapest(rows: Sequence[Row]) -> list[Row]:
-    """Give the setting of least seconds for each of `LEVELS`, by scene and quantity.
-
-    An error below the bar of the reference counts as the bar.
-    """
-    found = []
-    for scene, quantity in dict.fromkeys((row["scene"], row["quantity"]) for row in rows):
-        mine = [
-            row
-            for row in rows
-            if (row["scene"], row["quantity"]) == (scene, quantity) and row["error"] is not None
-        ]
-        for level in LEVELS:
-            good = [row for row in mine if max(row["error"], row["bar"]) <= level]
-            best = min(good, key=lambda row: row["seconds"], default=None)
-            found.append({"scene": scene, "quantity": quantity, "level": level, "best": best})
-    return found
 
 
 def share_of_deflection(points: int = 129) -> Row:

@@ -4,26 +4,23 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 import time
 from pathlib import Path
-from typing import Any
 
-import numpy as np
+import xarray as xr
 from tqdm import tqdm
 
 from pyehl.case import Case
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.errors import FileError
 from pyehl.studies.response import measure
+from pyehl.studies.response_folder import FILES, beside_shipped, write
 from pyehl.studies.tiers import TIERS, Tier
 
 __all__ = ["add_arguments", "execute"]
 
-FILES = ("response.csv", "response.nc", "response.png", "summary.json", "case.nml")
-# Directions of the lines of the shipped response [deg]
-LINES = (0.0, 45.0, 80.0, 90.0)
+PICTURE = "response.png"
 # Seconds between progress lines where the output is not a terminal
 PROGRESS_INTERVAL = 10.0
 
@@ -79,6 +76,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def _draw(case: Case, data: xr.Dataset, path: Path) -> None:
+    """Draw a measured response beside the shipped one."""
+    # matplotlib takes long to import
+    from pyehl.plots.response import response_figure  # noqa: PLC0415
+    from pyehl.plots.style import save  # noqa: PLC0415
+
+    save(response_figure(*beside_shipped(case.resolve(), data)), path)
+
+
 def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl response``."""
     case = Case.read(args.case, args.overrides)
@@ -92,13 +98,16 @@ def execute(args: argparse.Namespace) -> int:
             args.output,
             tiers=tiers,
             jobs=args.jobs,
-            files=set(FILES),
+            files={PICTURE, *FILES},
             progress=bar.update,
         )
     finally:
         bar.close()
     try:
-        summary = _write(case, found, args.output)
+        summary, data = write(case, found, args.output)
+        _draw(case, data, args.output / PICTURE)
+    except FileError:
+        raise
     except OSError as error:
         raise FileError(f"{args.output}: cannot write: {error.strerror or error}") from error
     print(
@@ -118,70 +127,3 @@ def execute(args: argparse.Namespace) -> int:
     )
     print(f"results     {args.output}")
     return 0
-
-
-def _write(case: Case, found: dict[str, dict[str, Any]], folder: Path) -> dict[str, Any]:
-    """Write table, Dataset, summary and picture; returns the summary."""
-    # xarray and matplotlib take long to import
-    from pyehl.plots.response import response_figure  # noqa: PLC0415
-    from pyehl.plots.style import save  # noqa: PLC0415
-    from pyehl.prediction.smooth import solve_contact, zone_of  # noqa: PLC0415
-    from pyehl.studies.response_table import (  # noqa: PLC0415
-        dataset,
-        shipped_response,
-        write_table,
-    )
-    from pyehl.theory.lubricant import Lubricant  # noqa: PLC0415
-    from pyehl.theory.operating import OperatingPoint  # noqa: PLC0415
-    from pyehl.theory.response import fitted_range  # noqa: PLC0415
-
-    settings = case.resolve()
-    ratio = float(settings["surface"]["velocity_ratio"])
-    operating = OperatingPoint.from_settings(settings)
-    zone = zone_of(solve_contact(settings), operating, Lubricant.from_settings(settings))
-    data = dataset(found, zone, operating, ratio)
-    write_table(data, folder / "response.csv")
-    data.to_netcdf(folder / "response.nc", format="NETCDF3_64BIT", engine="scipy")
-    values = {"moes_m": operating.moes_m, "moes_l": operating.moes_l, "velocity_ratio": ratio}
-    difference = data["shipped_difference"].values[:, 1]
-    summary = {
-        "kind": "response",
-        **values,
-        "waves": int(data.sizes["wave"]),
-        "tiers": [_tier_summary(name, tier) for name, tier in found.items()],
-        "shipped_difference_rms": float(np.sqrt(np.mean(difference**2))),
-        "shipped_difference_max": float(difference.max()),
-        "within_fitted_range": all(
-            low <= values[name] <= high for name, (low, high) in fitted_range().items()
-        ),
-    }
-    (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
-    (folder / "case.nml").write_text(case.text, encoding="utf-8")
-    nabla = np.geomspace(float(data["nabla_2"].min()), float(data["nabla_2"].max()), 80)
-    q = 2.0 * np.pi / nabla * np.sqrt(operating.moes_m / operating.moes_l)
-    lines = {}
-    for direction in LINES:
-        kx, ky = q * np.cos(np.radians(direction)), q * np.sin(np.radians(direction))
-        lines[direction] = (nabla, shipped_response(kx, ky, zone, operating, ratio)[:, 1])
-    waves = {
-        "nabla_2": data["nabla_2"].values,
-        "direction": data["direction"].values,
-        "amplitude": data["amplitude"].values[:, 1],
-        "lag": data["lag"].values[:, 1],
-    }
-    label = f"M = {operating.moes_m:.4g}, L = {operating.moes_l:.4g}, velocity ratio {ratio:g}"
-    save(response_figure(waves, lines, label), folder / "response.png")
-    return summary
-
-
-def _tier_summary(name: str, tier: dict[str, Any]) -> dict[str, Any]:
-    middle = int(np.argmin(np.abs(tier["x"])))
-    return {
-        "name": name,
-        "points": round(4.0 / float(tier["spacing"])) + 1,
-        "tile": float(tier["tile"]),
-        "waves": int(tier["along"].size),
-        "H_c": float(tier["central_film"]),
-        "fit_residual": float(tier["residual"][:, middle].max()),
-        "seconds": float(tier["seconds"]),
-    }

@@ -21,6 +21,7 @@ from pyehl.commands.watching import (
     jobs_of,
 )
 from pyehl.errors import InputError
+from pyehl.export import write_netcdf
 from pyehl.studies.curve import (
     BREAKDOWN,
     FULL_FILM,
@@ -32,7 +33,6 @@ from pyehl.studies.curve import (
 from pyehl.studies.curve_table import Measured, curve_dataset, read_measured, write_csv
 from pyehl.studies.gather import gather
 from pyehl.studies.stribeck import KEYS, CurvePlan, plan_curve
-from pyehl.studies.table import write_netcdf
 from pyehl.studies.vary import axis
 
 __all__ = ["add_arguments", "execute"]

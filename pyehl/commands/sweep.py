@@ -18,7 +18,8 @@ from pyehl.commands.watching import (
 from pyehl.errors import InputError
 from pyehl.studies.gather import Outcome
 from pyehl.studies.plan import duration, plan
-from pyehl.studies.study import RUNS, make, read_study
+from pyehl.studies.study import RUNS, make
+from pyehl.studies.study_file import read_study
 from pyehl.studies.sweep import CASES, CSV, NETCDF, perform
 from pyehl.studies.tasks import FAILED
 from pyehl.studies.vary import parse_axis

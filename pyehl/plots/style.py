@@ -17,6 +17,7 @@ from matplotlib import pyplot
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.figure import Figure
+from matplotlib.patches import Circle
 from numpy.typing import NDArray
 
 __all__ = [
@@ -31,6 +32,7 @@ __all__ = [
     "axes_or_new",
     "axis_unit",
     "colour_bar",
+    "contact_heights",
     "edges",
     "extent_of",
     "film_unit",
@@ -77,6 +79,45 @@ def colour_bar(
 ) -> None:
     """Put a colour bar beside axes, so much shorter than they are, with a share of their room."""
     ax.figure.colorbar(image, ax=ax, shrink=shrink, fraction=fraction).set_label(label)
+
+
+def contact_heights(
+    heights: Array,
+    extent: tuple[float, float, float, float],
+    radius: float,
+    top: float,
+    unit: str,
+    *,
+    name: str,
+    ax: Axes,
+) -> None:
+    """Draw heights inside the Hertz circle with a colour bar; the title gives their rms.
+
+    Parameters
+    ----------
+    heights
+        (nx, ny) in `unit`, NaN outside of the circle.
+    extent, radius
+        Outer edges of the map, and the Hertz radius, in the unit of the axes.
+    top
+        Largest height of the scale, in `unit`.
+    unit
+        Of the heights, as it is written.
+    name
+        What the field is called in the title.
+    ax
+        Where to draw.
+    """
+    image = ax.imshow(
+        heights.T, origin="lower", extent=extent, cmap=DIVERGING, vmin=-top, vmax=top,
+        interpolation="nearest",
+    )  # fmt: skip
+    ax.add_patch(Circle((0.0, 0.0), radius, fill=False, lw=0.8, ec=GREY))
+    rms = float(np.nanstd(heights))
+    ax.set_title(f"{name} rms {rms:.3g} {unit}".strip(), loc="left", fontsize="medium")
+    ax.set_xlim(-1.05 * radius, 1.05 * radius)
+    ax.set_ylim(-1.05 * radius, 1.05 * radius)
+    colour_bar(image, ax, f"height [{unit}]", shrink=0.85)
 
 
 def extent_of(

@@ -13,7 +13,6 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
-from matplotlib.patches import Circle
 from numpy.typing import NDArray
 
 from pyehl.plots.style import (
@@ -25,6 +24,7 @@ from pyehl.plots.style import (
     VERMILLION,
     axes_or_new,
     colour_bar,
+    contact_heights,
     extent_of,
     height_unit,
     hertz_ticks,
@@ -187,19 +187,11 @@ def roughness(
     top = float(np.abs(topography.heights[at][inside]).max())
     unit, label = height_unit(top)
     extent = extent_of(i * (px / hertz_radius), j * (py / hertz_radius))
-    image = ax.imshow(
-        (np.where(inside, values[at], np.nan) * unit).T, origin="lower", extent=extent,
-        cmap=DIVERGING, vmin=-top * unit, vmax=top * unit,
-    )  # fmt: skip
-    ax.add_patch(Circle((0.0, 0.0), 1.0, fill=False, lw=0.8, ec=GREY))
-    rms = float(np.std(values[at][inside])) * unit
-    ax.set_title(f"{name} rms {rms:.3g} {label}".strip(), loc="left", fontsize="medium")
+    shown = np.where(inside, values[at], np.nan) * unit
+    contact_heights(shown, extent, 1.0, top * unit, label, name=name, ax=ax)
     ax.set_xlabel("$x/a$")
     ax.set_ylabel("$y/a$")
-    ax.set_xlim(-1.05, 1.05)
-    ax.set_ylim(-1.05, 1.05)
     hertz_ticks(ax)
-    colour_bar(image, ax, f"height [{label}]", shrink=0.9)
     return ax
 
 

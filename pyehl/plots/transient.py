@@ -12,19 +12,17 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.patches import Circle
 from numpy.typing import ArrayLike, NDArray
 
 from pyehl.plots.style import (
     BLUE,
-    DIVERGING,
     GREEN,
     GREY,
     VERMILLION,
     Scales,
     axes_or_new,
     axis_unit,
-    colour_bar,
+    contact_heights,
     extent_of,
     film_unit,
     height_unit,
@@ -227,20 +225,11 @@ def roughness(
     within_x, within_y = x[np.abs(x) <= 1.0], y[np.abs(y) <= 1.0]
     extent = extent_of(within_x, within_y, unit_x)
     shown = np.where(circle, heights[at], np.nan) * unit
-    image = ax.imshow(
-        shown.T, origin="lower", extent=extent, cmap=DIVERGING,
-        vmin=-top * unit, vmax=top * unit, interpolation="nearest",
-    )  # fmt: skip
-    ax.add_patch(Circle((0.0, 0.0), unit_x, fill=False, lw=0.8, ec=GREY))
-    rms = float(np.std(heights[at][circle])) * unit
-    ax.set_title(f"{name} rms {rms:.3g} {label}".strip(), loc="left", fontsize="medium")
+    contact_heights(shown, extent, unit_x, top * unit, label, name=name, ax=ax)
     ax.set_xlabel(label_x)
     ax.set_ylabel(label_y)
-    ax.set_xlim(-1.05 * unit_x, 1.05 * unit_x)
-    ax.set_ylim(-1.05 * unit_x, 1.05 * unit_x)
     if scales is None:
         hertz_ticks(ax)
-    colour_bar(image, ax, f"height [{label}]", shrink=0.8)
     return ax
 
 

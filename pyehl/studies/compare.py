@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import csv
-import difflib
 import io
 import json
 import math
@@ -17,7 +16,7 @@ from typing import Any
 
 from pyehl import namelist
 from pyehl.case import Case
-from pyehl.errors import InputError
+from pyehl.errors import InputError, did_you_mean
 from pyehl.studies.journal import read_header
 from pyehl.studies.reference_table import Expected, Key, ReferenceRow, ReferenceTable
 from pyehl.studies.table import cell, replace
@@ -131,7 +130,7 @@ class Results:
         if name in row:
             return row[name]
         if "." not in name:
-            raise InputError(f"{self.name}: there is no '{name}'{_near(name, row)}")
+            raise InputError(f"{self.name}: there is no '{name}'{did_you_mean(name, row)}")
         if self.case:
             settings = namelist.values(self.case)
         elif self.study is not None:
@@ -203,11 +202,6 @@ def _value(text: str | None) -> Value | None:
     return text
 
 
-def _near(word: str, known: Mapping[str, Any]) -> str:
-    near = difflib.get_close_matches(word, list(known), n=1)
-    return f"; did you mean '{near[0]}'?" if near else ""
-
-
 def _same(wanted: Key, found: object) -> bool:
     if isinstance(wanted, bool) or isinstance(found, bool):
         return wanted is found
@@ -227,7 +221,7 @@ def compare(results: Results, table: ReferenceTable) -> Comparison:
     for name in table.values:
         if not any(name in row for row in results.rows):
             raise InputError(
-                f"{table.name}: no result has '{name}'{_near(name, results.rows[0])}\n"
+                f"{table.name}: no result has '{name}'{did_you_mean(name, results.rows[0])}\n"
                 "expected: names of results, as in summary.json"
             )
     deviations, missing = [], []

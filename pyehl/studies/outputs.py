@@ -3,11 +3,10 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Sequence
 
 from pyehl import schema
-from pyehl.errors import InputError
+from pyehl.errors import InputError, did_you_mean
 from pyehl.theory.film import estimates
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -55,10 +54,8 @@ def checked(outputs: Sequence[str], run: str, origin: str = "") -> tuple[str, ..
     names = known(run)
     for name in outputs:
         if name not in names:
-            near = difflib.get_close_matches(name, names, n=1)
-            hint = f"; did you mean '{near[0]}'?" if near else ""
             raise InputError(
                 f"{origin}outputs: unknown result '{name}'\nexpected: names of the summary of "
-                f"run = '{run}'{hint}"
+                f"run = '{run}'{did_you_mean(name, names)}"
             )
     return tuple(dict.fromkeys(outputs))

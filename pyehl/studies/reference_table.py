@@ -11,7 +11,6 @@ compared.
 from __future__ import annotations
 
 import csv
-import difflib
 import math
 import os
 from collections.abc import Iterable
@@ -20,7 +19,7 @@ from importlib import resources
 from pathlib import Path
 
 from pyehl import library
-from pyehl.errors import InputError
+from pyehl.errors import InputError, did_you_mean
 from pyehl.studies.vary import LOGICAL
 
 __all__ = ["SHIPPED", "Expected", "ReferenceRow", "ReferenceTable", "read_reference"]
@@ -145,13 +144,15 @@ def _columns(
             raise InputError(f"{where} the name '{word}' is {'there twice' if word else 'empty'}")
     chosen = set(keys)
     for word in chosen - set(head):
-        raise InputError(f"{name}: error: there is no column '{word}' (--key){_near(word, head)}")
+        raise InputError(
+            f"{name}: error: there is no column '{word}' (--key){did_you_mean(word, head)}"
+        )
     known = {key.name for key in library.keys()}
     key_columns = [word for word in head if "." in word or word in chosen]
     for word in key_columns:
         if "." in word and word not in known:
             raise InputError(
-                f"{where} '{word}' is no key of a case{_near(word, known)}\n"
+                f"{where} '{word}' is no key of a case{did_you_mean(word, known)}\n"
                 "expected: group.key for keys, names of summary.json for values"
             )
     rest = [word for word in head if word not in key_columns and word != NOTE]
@@ -159,16 +160,11 @@ def _columns(
     for word in rest:
         if word not in values and word[: -len(RTOL)] not in values:
             raise InputError(
-                f"{where} '{word}' is the tolerance of no column{_near(word[:-5], values)}"
+                f"{where} '{word}' is the tolerance of no column{did_you_mean(word[:-5], values)}"
             )
     if not values:
         raise InputError(f"{where} no column of values\nexpected: names as in summary.json")
     return key_columns, values
-
-
-def _near(word: str, known: Iterable[str]) -> str:
-    near = difflib.get_close_matches(word, list(known), n=1)
-    return f"; did you mean '{near[0]}'?" if near else ""
 
 
 def _key(where: str, key: str, cell: str) -> Key:

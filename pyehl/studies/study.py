@@ -3,25 +3,22 @@
 
 from __future__ import annotations
 
-import difflib
 import itertools
 import os
-import tomllib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from pyehl.case import Case
-from pyehl.errors import InputError
+from pyehl.errors import InputError, did_you_mean
 from pyehl.studies.outputs import TRACKS, checked
-from pyehl.studies.vary import Axis, Value, axis, option
+from pyehl.studies.vary import Axis, Value, option
 
-__all__ = ["RUNS", "Point", "Study", "make", "read_study"]
+__all__ = ["RUNS", "Point", "Study", "make"]
 
 RUNS = ("solve", "predict", "film")
 """What may be done with each case."""
-STUDY_KEYS = ("case", "run", "set", "vary", "zip", "outputs")
 MAX_CASES = 1_000_000
 
 
@@ -179,7 +176,9 @@ def make(
         that move together: all their values) is there twice, or there is no such output.
     """
     if run not in RUNS:
-        raise InputError(f"run = '{run}': expected one of {', '.join(RUNS)}{_near(run, RUNS)}")
+        raise InputError(
+            f"run = '{run}': expected one of {', '.join(RUNS)}{did_you_mean(run, RUNS)}"
+        )
     if not axes:
         raise InputError("nothing is varied: at least one --vary group.key=VALUES is needed")
     names = [a.key for a in axes]
@@ -221,7 +220,7 @@ def _dimensions(
     for number, group in enumerate(groups):
         for key in group:
             if key not in known:
-                raise InputError(f"zip: '{key}' is not varied{_near(key, known)}")
+                raise InputError(f"zip: '{key}' is not varied{did_you_mean(key, known)}")
             if key in home:
                 raise InputError(f"zip: '{key}' is there twice")
             home[key] = number
@@ -238,77 +237,3 @@ def _dimensions(
             done.add(home[a.key])
             dimensions.append(tuple(known[key] for key in groups[home[a.key]]))
     return tuple(dimensions)
-
-
-def _near(word: str, known: Iterable[str]) -> str:
-    near = difflib.get_close_matches(word, list(known), n=1)
-    return f"; did you mean '{near[0]}'?" if near else ""
-
-
-def read_study(path: str | os.PathLike[str]) -> dict[str, Any]:
-    """Read a study file (TOML) into the arguments of `make`.
-
-    Its keys are ``case`` (a path from the folder of the file), ``run``, ``zip`` (true, or lists of
-    keys), ``outputs`` (a list of names), and the tables ``set`` and ``vary`` of ``group.key``.
-
-    Raises
-    ------
-    InputError
-        With the file, the key and what was expected.
-    """
-    name = os.fspath(path)
-    try:
-        values = tomllib.loads(Path(path).read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{name}: cannot read: {error.strerror}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"{name}: error: {error}") from error
-    for key in values:
-        if key not in STUDY_KEYS:
-            hint = _near(key, STUDY_KEYS)
-            raise InputError(
-                f"{name}: error: unknown key '{key}'\nexpected: one of the keys "
-                f"{', '.join(STUDY_KEYS)}{hint}"
-            )
-    _expect(name, values, "case", str)
-    _expect(name, values, "run", str)
-    _expect(name, values, "set", dict)
-    _expect(name, values, "vary", dict)
-    _expect(name, values, "zip", bool | list)
-    _expect(name, values, "outputs", list)
-    if "case" not in values:
-        raise InputError(f"{name}: error: there is no 'case'\nexpected: the path of a case file")
-    try:
-        axes = [axis(key, found) for key, found in _flat(values.get("vary", {})).items()]
-        fixed = [
-            option(a.key, a.values[0])
-            for a in (axis(key, [found]) for key, found in _flat(values.get("set", {})).items())
-        ]
-    except InputError as error:
-        raise InputError(f"{name}: error: {error}") from error
-    return {
-        "case": os.path.join(os.path.dirname(name), values["case"]),
-        "axes": axes,
-        "options": fixed,
-        "zipped": values.get("zip", False),
-        "run": values.get("run", "solve"),
-        "outputs": [str(word) for word in values.get("outputs", [])],
-        "origin": f"{name}: error: ",
-    }
-
-
-def _expect(name: str, values: Mapping[str, Any], key: str, kind: Any) -> None:  # noqa: ANN401
-    if key in values and not isinstance(values[key], kind):
-        words = {str: "a text", dict: "a table", list: "a list"}.get(kind, "true, false or lists")
-        raise InputError(f"{name}: error: {key} = {values[key]!r}\nexpected: {words}")
-
-
-def _flat(table: Mapping[str, Any]) -> dict[str, Any]:
-    """Keys ``group.key`` of a table whose groups may be tables themselves."""
-    flat: dict[str, Any] = {}
-    for key, value in table.items():
-        if isinstance(value, dict):
-            flat |= {f"{key}.{inner}": found for inner, found in value.items()}
-        else:
-            flat[key] = value
-    return flat

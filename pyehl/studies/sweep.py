@@ -13,6 +13,7 @@ import xarray as xr
 
 from pyehl.case import Case, Option
 from pyehl.errors import InputError
+from pyehl.export import write_netcdf
 from pyehl.studies import table
 from pyehl.studies.gather import Outcome, Watcher, gather
 from pyehl.studies.plan import Plan, plan
@@ -68,7 +69,7 @@ def perform(
         watcher=watcher,
         write=write,
     )
-    table.write_netcdf(folder / NETCDF, table.dataset(todo.study, todo.points, outcome.rows))
+    write_netcdf(folder / NETCDF, table.dataset(todo.study, todo.points, outcome.rows))
     return outcome
 
 

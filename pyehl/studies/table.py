@@ -19,7 +19,7 @@ from pyehl.results import unit_of
 from pyehl.studies.outputs import LAST
 from pyehl.studies.study import Point, Study
 
-__all__ = ["cell", "columns", "dataset", "replace", "write_csv", "write_netcdf"]
+__all__ = ["cell", "columns", "dataset", "replace", "write_csv"]
 
 Row = Mapping[str, Any]
 
@@ -114,20 +114,3 @@ def dataset(study: Study, points: Sequence[Point], rows: Mapping[int, Row]) -> x
     attributes = {"title": "study of pyehl", "run": study.run}
     attributes |= {"set": "\n".join(study.options)} if study.options else {}
     return xr.Dataset(variables, coords, attributes)
-
-
-def write_netcdf(path: Path, data: xr.Dataset) -> None:
-    """Write a Dataset as netCDF-3, whole or not at all.
-
-    Raises
-    ------
-    FileError
-        If it cannot be written.
-    """
-    partial = path.with_name(f"{path.name}.partial-{os.getpid()}")
-    try:
-        data.to_netcdf(partial, format="NETCDF3_64BIT", engine="scipy")
-        partial.replace(path)
-    except OSError as error:
-        partial.unlink(missing_ok=True)
-        raise FileError(f"{path}: cannot write: {error.strerror or error}") from error

@@ -12,9 +12,7 @@ from pyehl.surfaces.generators import fractal, harmonic
 from pyehl.surfaces.interpolation import resampled, shifted
 from pyehl.surfaces.maps import read_map, tile_of
 from pyehl.surfaces.of_case import (
-    SolverSurface,
     finished,
-    for_solver,
     from_settings,
     harmonic_amplitude,
     track_offsets,
@@ -25,6 +23,7 @@ from pyehl.surfaces.part import part_of
 from pyehl.surfaces.prepare import Preparation, prepare
 from pyehl.surfaces.reading import Scan, read_scan
 from pyehl.surfaces.record import Record
+from pyehl.surfaces.solver_surface import SolverSurface, for_solver
 from pyehl.surfaces.spectra import (
     psd_2d,
     psd_isotropic,

@@ -5,12 +5,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.kept import Kept
 from pyehl.surfaces.features import FEATURES, feature
@@ -18,22 +15,19 @@ from pyehl.surfaces.filters import filtered
 from pyehl.surfaces.generators import fractal, harmonic
 from pyehl.surfaces.interpolation import shift_across
 from pyehl.surfaces.maps import tile_of
-from pyehl.surfaces.options import NEUTRAL, Options
-from pyehl.surfaces.part import part_of
-from pyehl.surfaces.prepare import consume
-from pyehl.surfaces.reading import Scan, plain_array, read_scan
-from pyehl.surfaces.record import Record
-from pyehl.surfaces.seams import mirrored
+from pyehl.surfaces.options import Options
+from pyehl.surfaces.reading import Scan, read_scan
 from pyehl.surfaces.tile import Topography
 from pyehl.theory.operating import OperatingPoint
 
 __all__ = [
-    "SolverSurface",
     "finished",
-    "for_solver",
     "from_settings",
     "harmonic_amplitude",
+    "moved",
+    "scan_of",
     "track_offsets",
+    "whole",
     "without_spikes",
 ]
 
@@ -94,13 +88,13 @@ def from_settings(
     OSError
         If the map cannot be opened.
     """
-    return finished(_whole(settings, operating, film), settings["surface"])
+    return finished(whole(settings, operating, film), settings["surface"])
 
 
-def _whole(
+def whole(
     settings: Mapping[str, Mapping[str, Any]], operating: OperatingPoint, film: float
 ) -> Topography:
-    """Surface on its first track, with all of its waves."""
+    """Give the surface on its first track, with all of its waves; else as :func:`from_settings`."""
     surface = settings["surface"]
     kind = str(surface["kind"])
     if kind == "fractal":
@@ -149,8 +143,8 @@ def _map(surface: Mapping[str, Any]) -> Topography:
     state = Path(str(surface["file"])).stat()
     name = (*(surface.get(key) for key in SCAN), state.st_mtime_ns, state.st_size, options)
     if state.st_size > 8 * KEPT_PIXELS:
-        return tile_of(_scan(surface), options)
-    return _KEPT.get(name, lambda: _read_only(tile_of(_scan(surface), options)))
+        return tile_of(scan_of(surface), options)
+    return _KEPT.get(name, lambda: _read_only(tile_of(scan_of(surface), options)))
 
 
 def _read_only(made: Topography) -> Topography:
@@ -173,7 +167,7 @@ def _fractal(surface: Mapping[str, Any]) -> Topography:
     return _read_only(made)
 
 
-def _scan(surface: Mapping[str, Any]) -> Scan:
+def scan_of(surface: Mapping[str, Any]) -> Scan:
     """Read the map of the group ``surface``; a length of 0 is that of the file."""
     return read_scan(
         str(surface["file"]),
@@ -183,8 +177,8 @@ def _scan(surface: Mapping[str, Any]) -> Scan:
     )
 
 
-def _moved(tile: Topography, surface: Mapping[str, Any]) -> Topography:
-    """Tile on its track: the line at y = track passes the centre of the contact."""
+def moved(tile: Topography, surface: Mapping[str, Any]) -> Topography:
+    """Put a tile on its track: the line at y = `surface.track` [m] passes the centre."""
     track = float(surface.get("track", 0.0))
     if not track:
         return tile
@@ -201,7 +195,7 @@ def finished(tile: Topography, surface: Mapping[str, Any]) -> Topography:
     shortest = float(surface.get("shortest_wavelength", 0.0))
     longest = float(surface.get("longest_wavelength", 0.0))
     cut = filtered(tile, shortest, longest, str(surface.get("filter", "sharp")))
-    return _moved(cut, surface)
+    return moved(cut, surface)
 
 
 def without_spikes(surface: Topography, threshold: float, group: Mapping[str, Any]) -> Topography:
@@ -237,69 +231,3 @@ def track_offsets(surface: Topography, tracks: int) -> list[float]:
     if made is None or made.options.edges != "mirror":
         return [k * surface.length_y / tracks for k in range(tracks)]
     return [(k + 0.5 - 0.5 * tracks) * made.measured_width / tracks for k in range(tracks)]
-
-
-@dataclass(frozen=True, slots=True)
-class SolverSurface:
-    """What the solver needs from Python for the surface of a case.
-
-    Attributes
-    ----------
-    heights
-        (nx, ny) [m], Fortran order; None where the solver makes or reads the surface itself.
-    options
-        Texts ``group.key=value`` to set in its case: the size of a prepared tile, and whether it
-        is the heights with their mirror images.
-    preparation
-        How a map became a tile, or that it was taken as it is; else None.
-    part
-        Of a large map a part, see :func:`part_of`; its spectrum is not cut. Else None.
-    """
-
-    heights: NDArray[np.float64] | None = None
-    options: tuple[str, ...] = ()
-    preparation: Record | None = None
-    part: Topography | None = None
-
-
-def for_solver(settings: Mapping[str, Mapping[str, Any]]) -> SolverSurface:
-    """Make what the solver needs from Python for a resolved case.
-
-    The solver makes harmonic patterns and fractal surfaces, reads arrays that need no preparation,
-    and cuts their spectra itself: so these give the same bits by the program `ehl`. Only what it
-    cannot read or prepare comes from here, before its spectrum is cut.
-
-    Raises
-    ------
-    ValueError
-        If a map is not usable.
-    OSError
-        If it cannot be opened.
-    """
-    surface = settings["surface"]
-    if surface["kind"] == "fractal" and surface.get("track"):
-        # the film is the scale of harmonic patterns alone
-        made = _whole(settings, OperatingPoint.from_settings(settings), film=0.0)
-        return SolverSurface(np.asfortranarray(_moved(made, surface).heights))
-    if surface["kind"] != "map":
-        return SolverSurface()
-    scan, options = _scan(surface), Options.from_settings(surface)
-    given = surface.get("length_x") and surface.get("length_y")
-    changed = surface.get("track") or not scan.is_array or not given
-    changed = changed or not plain_array(str(surface["file"]))
-    # a large map is in memory once
-    heights, record = consume(scan, options)
-    del scan
-    x, y = record.tile_size
-    images = record.edges == "mirror"
-    pixel = (x / record.tile_pixels[0], y / record.tile_pixels[1])
-    part = part_of(heights, pixel, record.file, images=images)
-    if not changed and options == NEUTRAL and not record.missing:
-        return SolverSurface(preparation=record, part=part)
-    sizes = [f"surface.tile_x={x!r}", f"surface.tile_y={y!r}"]
-    if surface.get("track"):
-        heights = mirrored(heights) if images else heights
-        shift_across(heights, y, -float(surface["track"]))
-    elif images:
-        sizes.append("surface.tile_mirrored=.true.")
-    return SolverSurface(np.asfortranarray(heights), tuple(sizes), record, part)

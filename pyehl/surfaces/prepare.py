@@ -9,17 +9,17 @@ What 'auto' means depends on what the file is, see :func:`pyehl.surfaces.options
 from __future__ import annotations
 
 import logging
-import math
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pyehl.surfaces import areal, cutting, holes, levelling, seams, spikes
+from pyehl.surfaces import cutting, holes, levelling, seams, spikes
 from pyehl.surfaces.memory import check_pixels
 from pyehl.surfaces.options import NEUTRAL, Options, defaults
 from pyehl.surfaces.reading import Scan
 from pyehl.surfaces.record import Record, Step
+from pyehl.surfaces.working_map import WorkingMap
 
 __all__ = ["Preparation", "consume", "prepare"]
 
@@ -136,11 +136,13 @@ def consume(scan: Scan, options: Options = NEUTRAL) -> tuple[Array, Record]:
     return work.z, work.record(options)
 
 
-def _prepared(scan: Scan, options: Options, *, keep: bool) -> tuple[_Work, Options, dict[str, str]]:
+def _prepared(
+    scan: Scan, options: Options, *, keep: bool
+) -> tuple[WorkingMap, Options, dict[str, str]]:
     """All steps but the last one; the mean is zero. `keep`: the heights of `scan` stay."""
     options, why = defaults(options, scan)
     _tell(scan, "numbers")
-    work = _Work(scan, keep=keep)
+    work = WorkingMap(scan, keep=keep)
     check_pixels(scan.origin, work.z.shape)
     if any(options.crop):
         work.do("crop", ", ".join(f"{v:g}" for v in options.crop),
@@ -175,7 +177,7 @@ def _prepared(scan: Scan, options: Options, *, keep: bool) -> tuple[_Work, Optio
     return work, options, why
 
 
-def _join(work: _Work, options: Options, why: dict[str, str]) -> None:
+def _join(work: WorkingMap, options: Options, why: dict[str, str]) -> None:
     """Join the edges of the map, which makes it a tile of mean zero; mirror images come later."""
     prepared = work.z
     if options.edges == "mirror":
@@ -192,7 +194,7 @@ def _join(work: _Work, options: Options, why: dict[str, str]) -> None:
         work.do("edges", "periodic", prepared, why["edges"], note=note)
 
 
-def _fill(work: _Work, options: Options, valid: NDArray[np.bool_]) -> None:
+def _fill(work: WorkingMap, options: Options, valid: NDArray[np.bool_]) -> None:
     """Fill what is missing, spikes included, or refuse to."""
     missing = int(valid.size - np.count_nonzero(valid))
     if missing == 0:
@@ -209,90 +211,6 @@ def _fill(work: _Work, options: Options, valid: NDArray[np.bool_]) -> None:
         raise ValueError(f"{work.origin}: {error}") from None
     why = "given" if options.outliers > 0.0 else "nothing is known but the rims of the holes"
     work.do("fill", options.fill, full, why, changed=missing)
-
-
-LARGEST = 1e6
-"""Largest height [m] that is not taken for damage."""
-
-
-def _largest(z: Array) -> float:
-    """Largest height by its modulus, of those that are there; without copies."""
-    most = float(np.fmax.reduce(z, axis=None, initial=0.0))
-    return max(most, -float(np.fmin.reduce(z, axis=None, initial=0.0)))
-
-
-class _Work:
-    """A map on its way, with the record of the steps so far."""
-
-    def __init__(self, scan: Scan, *, keep: bool) -> None:
-        self.z = scan.heights
-        self.scan = scan
-        self.origin = scan.origin
-        if math.isinf(_largest(self.z)):
-            # an infinite height is none
-            self.z = np.where(np.isinf(self.z), np.nan, self.z)
-        largest = _largest(self.z)
-        if largest > LARGEST:
-            raise ValueError(
-                f"{scan.origin}: a height of {largest:.3g} m: expected heights in metres"
-            )
-        self.missing = self.z.size - int(np.count_nonzero(np.isfinite(self.z)))
-        nx, ny = scan.heights.shape
-        self.pixel = (scan.length_x / nx, scan.length_y / ny)
-        self.steps: list[Step] = []
-        self._last: areal.Extent | None = None
-        self._kept = scan.heights if keep else None
-
-    def own(self) -> Array:
-        """Heights that may be changed in place."""
-        shared = self._kept is not None and np.may_share_memory(self.z, self._kept)
-        if shared or not self.z.flags.writeable:
-            self.z = self.z.copy()
-        return self.z
-
-    def begin(self) -> None:
-        """Note how rough the map is before a step that works in place."""
-        self._last = self._last or areal.extent(self.z, self.pixel)
-
-    def do(
-        self,
-        name: str,
-        value: str,
-        heights: Array,
-        why: str = "given",
-        *,
-        changed: int = 0,
-        pixel: tuple[float, float] | None = None,
-        note: str = "",
-    ) -> None:
-        """Record a step; its result is what the next one works on."""
-        before = self._last or areal.extent(self.z, self.pixel)
-        # the same heights, even if only their edges are looked at or their images are added
-        same = heights is self.z and name == "edges"
-        self.z = heights
-        self.pixel = pixel or self.pixel
-        self._last = before if same else areal.extent(self.z, self.pixel)
-        self.steps.append(Step(name, value, why, changed, before, self._last, note))
-
-    def record(self, options: Options) -> Record:
-        """Tell what was done, in numbers."""
-        scan, images = self.scan, 2 if options.edges == "mirror" else 1
-        nx, ny = (images * n for n in self.z.shape)
-        return Record(
-            file=scan.origin,
-            channel=scan.channel,
-            is_array=scan.is_array,
-            pixels=(scan.heights.shape[0], scan.heights.shape[1]),
-            size=(scan.length_x, scan.length_y),
-            size_from=scan.size_from,
-            missing=self.missing,
-            note=scan.note,
-            detrend=options.detrend,
-            edges=options.edges,
-            tile_pixels=(nx, ny),
-            tile_size=(nx * self.pixel[0], ny * self.pixel[1]),
-            steps=tuple(self.steps),
-        )
 
 
 def _tell(scan: Scan, step: str) -> None:

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from pyehl import cli
+from pyehl import cli, schema
 from pyehl.bench.second_solver import START, VELOCITY, X_MATTERS, SecondSolver, Wave, Z
 from pyehl.case import Case
 from pyehl.studies import response, tiers
@@ -47,6 +47,7 @@ def test_command(tiny: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[
         assert all(data[name].attrs["units"] for name in data.variables if name != "tier")
     summary = json.loads((folder / "summary.json").read_text())
     assert summary["velocity_ratio"] == 1.05
+    assert set(summary) == {q.name for q in schema.QUANTITIES if "response" in q.kinds}
     assert (folder / "response.png").stat().st_size > 10000
     # along the motion nothing moves: T is real; the grid is coarse
     assert [row["direction"] for row in rows if row["tier"] == "ridges"] == ["90", "90"]

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pyehl.bench import faults_inputs, skips, stress, stress_cases, workprec
+from pyehl.bench import faults_inputs, precision, skips, stress, stress_cases
 from pyehl.bench.faults import CASE, run, same
 from pyehl.bench.faults_resources import damage, limited
 from pyehl.cli import main
@@ -65,7 +65,9 @@ def test_stress_campaign(tmp_path: Path, capsys):
     assert total["wrong"] == 0
     assert total["checked"] >= 1
     assert stress_cases.draw(8, 3, (65,)) == stress_cases.draw(8, 3, (65,))
-    assert main(["bench", "stress", "--cases", "many", "-o", str(tmp_path / "t")]) == 2
+    assert main(["bench", "stress", "--cases", "0", "-o", str(tmp_path / "t")]) == 2
+    with pytest.raises(SystemExit, match="2"):
+        main(["bench", "stress", "--cases", "many", "-o", str(tmp_path / "t")])
 
 
 def test_wrong_results_are_seen():
@@ -148,8 +150,8 @@ def test_cheapest_setting():
         return {"setting": setting, "seconds": seconds, "error": error} | names
 
     rows = [row("dear", 9.0, 1e-5), row("cheap", 1.0, 0.02), row("mean", 2.0, 0.008)]
-    found = {r["level"]: r["best"] for r in workprec.cheapest(rows)}
+    found = {r["level"]: r["best"] for r in precision.cheapest(rows)}
     assert found[0.03]["setting"] == "cheap"
     assert found[0.01]["setting"] == "mean"
     assert found[0.001]["setting"] == "dear"
-    assert math.isclose(sum(found), sum(workprec.LEVELS))
+    assert math.isclose(sum(found), sum(precision.LEVELS))

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from pyehl import InputError
-from pyehl.studies.study import Study, make, read_study
+from pyehl.studies.study import Study, make
+from pyehl.studies.study_file import read_study
 from pyehl.studies.vary import axis, option, parse_axis
 
 
