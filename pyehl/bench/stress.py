@@ -82,7 +82,7 @@ def campaign(
     grids
         Nodes per side; each has half as many cases as the one before.
     sample
-        Cases that the second solver solves too, and as many that have failed.
+        Cases that the second solver solves too, and a quarter of the failed ones that it tries.
     tell
         Takes a line about what is done.
 

@@ -27,14 +27,16 @@ NO_SOLUTION, SAME, DIFFERS, UNSOLVED, SOLVABLE = (
     "not solved either",
     "has a solution",
 )
+LATER = 5
+"""A film may end so many steps later than in the run: near its end the last digits decide."""
 AGREE = 1e-2
 """Relative difference of the largest mu_r/mu_s of a period: algebraic error of default settings."""
 
 
 def check(rows: Sequence[Row], sample: int, tell: Callable[[str], None]) -> None:
-    """Set `second` of up to `sample` rows that have converged, and of as many that have failed."""
-    for wanted in (("converged",), FAILED):
-        chosen = [row for row in rows if row["outcome"] in wanted and _can(row)][:sample]
+    """Set `second` of up to `sample` rows that have converged, and of four times as many failed."""
+    for wanted, most in ((("converged",), sample), (FAILED, 4 * sample)):
+        chosen = [row for row in rows if row["outcome"] in wanted and _can(row)][:most]
         for number, row in enumerate(chosen, 1):
             tell(f"second solver: {number} of {len(chosen)} ({' or '.join(wanted)})")
             row["second"] = solve_again(row)
@@ -56,7 +58,8 @@ def solve_again(row: Row) -> str:
     -------
     str
         Of a case that converged: 'same' or 'differs'. Of one that failed: 'no solution' where the
-        solution of the equations has a negative film, 'has a solution', or 'not solved either'.
+        solution of the equations has a negative film at that step (where the run had one, within
+        `LATER` steps), 'has a solution', or 'not solved either'.
     """
     values = row["values"]
     narrow = values.get("time.scheme", "narrow") == "narrow"
@@ -72,11 +75,13 @@ def solve_again(row: Row) -> str:
             values["surface.wavelength_y"],
             values["surface.velocity_ratio"],
         )
-        found = list(islice(solver.steps(wave), steps if good else steps + 1))
+        if not good:
+            ahead = LATER if row["outcome"] == "negative film" else 1
+            films = (film.min() for _, film in islice(solver.steps(wave), steps + ahead))
+            return NO_SOLUTION if any(least <= 0.0 for least in films) else SOLVABLE
+        found = list(islice(solver.steps(wave), steps))
     except (NotSolvedError, np.linalg.LinAlgError, ValueError):
         return UNSOLVED
-    if not good:
-        return NO_SOLUTION if found[-1][1].min() <= 0.0 else SOLVABLE
     last = [ratio for ratio, _ in found][max(0, steps - int(row["T_mean"] / solver.h) - 1) :]
     return SAME if abs(max(last) / row["mu_ratio_max"] - 1.0) < AGREE else DIFFERS
 
