@@ -60,6 +60,8 @@ module ehl_plan
       !> Shares of the variance of the surface: in waves that the grid would alias, which are left out; in waves with
       !> fewer than eight nodes a period, those included
       real(dp) :: left_out = 0.0_dp, unresolved = 0.0_dp
+      !> Whether the next coarser grid resolves the surface too, so that the friction of both can be extrapolated
+      logical :: extrapolates = .false.
       !> Scheme of the wedge and squeeze terms in time steps
       integer :: scheme = wedge_narrow
       !> Begin the transient run when the roughness comes near the contact
@@ -74,6 +76,9 @@ module ehl_plan
       procedure :: rests
       procedure :: see_waves
    end type plan_t
+
+   !> Share of the variance that the coarser of two grids may leave unresolved where friction is extrapolated
+   real(dp), parameter :: unresolved_most = 1.0e-6_dp
 
 contains
 
@@ -124,8 +129,11 @@ contains
 
       self%left_out = self%surface%unresolved(grid, aliased_below)
       self%unresolved = self%surface%unresolved(grid, resolved_from)
+      if (.not. self%coarse_run) return
       ! nothing would be left of the surface on the next coarser grid
-      if (self%coarse_run) self%coarse_run = self%surface%unresolved(grid%coarser(), aliased_below) < 1.0_dp
+      self%coarse_run = self%surface%unresolved(grid%coarser(), aliased_below) < 1.0_dp
+      self%extrapolates = self%coarse_run .and. .not. self%surface%passes_once .and. &
+                          self%surface%unresolved(grid%coarser(), resolved_from) <= unresolved_most
    end subroutine see_waves
 
    !> Whether there is a rough surface on the move: time steps

@@ -164,7 +164,6 @@ contains
       range = mean
       change = mean
       ratio = mean
-      grid = mean
       if (good) then
          mean = transient%mean%mean(0.0_dp)
          range = transient%mean%extremes()
@@ -175,7 +174,6 @@ contains
             change = 0.0_dp
             ratio = ieee_value(ratio, ieee_quiet_nan)
          end if
-         if (coarse_mean > 0.0_dp) grid = abs(mean - coarse_mean)/3.0_dp
       else
          if (transient%mean%has_mean()) call record%set("last_mu_ratio_mean", transient%mean%mean(0.0_dp))
          if (transient%mean%n > 0) call record%set("last_mu_ratio", transient%mean%values(transient%mean%n))
@@ -183,9 +181,9 @@ contains
       call record%set("mu_ratio", mean)
       call record%set("mu_ratio_min", range(1))
       call record%set("mu_ratio_max", range(2))
+      call report_grid(record, plan, mean, coarse_mean, grid)
       ! without the coarser run the error is not known, only a part of it
       call record%set("mu_ratio_error", change + grid)
-      call record%set("mu_ratio_error_grid", grid)
       call record%set("mu_ratio_error_stop", change)
       call record%set("amplitude_ratio", ratio)
       select type (surface => plan%surface)
@@ -205,6 +203,27 @@ contains
       call record%set("seconds_per_step", seconds/max(transient%step, 1))
       call record%set("step_residual_allowed", transient%accuracy%largest)
    end subroutine report_transient
+
+   !> What the next coarser grid tells of a friction ratio: its discretisation error, and the ratio in the limit of fine
+   !> grids, by the order 2 of the scheme (Richardson), if both grids resolve the surface
+   subroutine report_grid(record, plan, ratio, coarse_ratio, error)
+      type(record_t), intent(inout) :: record
+      type(plan_t), intent(in) :: plan
+      !> NaN where it is not known; 0 or less where there is none on the coarser grid
+      real(dp), intent(in) :: ratio, coarse_ratio
+      !> NaN where it is not known
+      real(dp), intent(out) :: error
+      real(dp) :: limit
+
+      error = ieee_value(error, ieee_quiet_nan)
+      limit = error
+      if (coarse_ratio > 0.0_dp) then
+         error = abs(ratio - coarse_ratio)/3.0_dp
+         if (plan%extrapolates) limit = ratio + (ratio - coarse_ratio)/3.0_dp
+      end if
+      call record%set("mu_ratio_extrapolated", limit)
+      call record%set("mu_ratio_error_grid", error)
+   end subroutine report_grid
 
    !> What of the surface the grid carries
    subroutine report_waves(record, plan)
@@ -234,12 +253,10 @@ contains
       nothing = ieee_value(nothing, ieee_quiet_nan)
       ratio = merge(rest%mu_ratio(), nothing, good)
       algebraic = merge(2.0_dp*rest%algebraic*rest%mu_ratio(), nothing, good)
-      grid = nothing
-      if (good .and. coarse_ratio > 0.0_dp) grid = abs(ratio - coarse_ratio)/3.0_dp
       if (.not. good) call record%set("last_mu_ratio", rest%mu_ratio())
       call record%set("mu_ratio", ratio)
+      call report_grid(record, plan, ratio, coarse_ratio, grid)
       call record%set("mu_ratio_error", algebraic + grid)
-      call record%set("mu_ratio_error_grid", grid)
       call record%set("mu_ratio_error_stop", algebraic)
       call record%set("H_c_rough", merge(rest%m%film_central, nothing, good))
       call record%set("H_min_rough", merge(rest%m%film_minimum, nothing, good))

@@ -68,6 +68,8 @@ def test_error_by_the_coarser_grid(solve):
     tolerance = 2.0 * fine["mu_ratio_error_stop"]
     assert fine["mu_ratio_error_grid"] == pytest.approx(difference / 3.0, abs=tolerance)
     assert fine["mu_ratio_error"] >= fine["mu_ratio_error_grid"] > 0.0
+    shift = fine["mu_ratio_extrapolated"] - fine["mu_ratio"]
+    assert abs(shift) == pytest.approx(fine["mu_ratio_error_grid"], rel=1e-9)
 
 
 def test_map_at_rest_equals_wave_at_rest(solve, tmp_path):

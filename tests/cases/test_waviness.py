@@ -115,6 +115,15 @@ def test_other_cases_converge(solve, point: tuple[float, float], wavelength: flo
     assert np.abs(done.history["load_error"]).max() <= 1e-6
 
 
+def test_extrapolated_ratio_is_nearer_to_finer_grids(solve):
+    """The run on the coarser grid that tells the error gives a better value too."""
+    finest = next(r for r in WAVINESS if (r.points, r.scheme) == (513, "narrow"))
+    wave = settings(finest) | {"time.estimate_error": True}
+    done = solve((1000.0, 10.0), 257, wave)
+    plain, better = done["mu_ratio"], done["mu_ratio_extrapolated"]
+    assert abs(better - finest.mu_ratio) < 0.3 * abs(plain - finest.mu_ratio)
+
+
 @pytest.mark.parametrize(
     ("point", "wavelength", "share"),
     [
