@@ -132,6 +132,7 @@ def _deformed(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
     names = ("(a) undeformed,", "(b) deformed,")
     for ax, field, name in zip(list(figure.axes), (rough, deformed), names, strict=True):
         transient.roughness(x, y, field, scales, top=top, name=name, ax=ax)
+    figure.axes[1].set_ylabel("")
     return figure
 
 
@@ -236,6 +237,7 @@ def prediction_figures(data: xr.Dataset) -> dict[str, Figure]:
         strict=True,
     ):
         surface.roughness(tile, values, radius, name=name, ax=ax)
+    figure.axes[1].set_ylabel("")
     figures["roughness"] = figure
     if about["status"] == "predicted":
         figures["passage"] = _passage(data, title)

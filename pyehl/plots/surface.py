@@ -139,7 +139,8 @@ def spectrum_line(
         twin.set_ylim(0.0, 1.02)
         twin.set_ylabel(r"$A_d/A_i$", color=VERMILLION)
     twin.tick_params(axis="y", colors=VERMILLION)
-    twin.legend(loc="lower left", fontsize="small")
+    # the spectrum falls and the response rises: below both there is room
+    twin.legend(loc="lower center", fontsize="small")
     return ax
 
 
