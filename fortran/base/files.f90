@@ -1,15 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Files and folders: whole texts in and out, and the few POSIX calls that Fortran lacks
+!> Files and folders by the few POSIX calls that Fortran lacks
 module ehl_files
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, &
-                                          c_ptr
-   use, intrinsic :: iso_fortran_env, only: int64
-   use ehl_status, only: ehl_file, status_t
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, c_ptr
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: read_text, write_text, flush_file, file_exists, make_folder, remove_folder, remove_file, remove_known
-   public :: check_written, rename_path, absolute_path, real_path, folder_of, process_mark
+   public :: flush_file, file_exists, make_folder, remove_folder, remove_file, remove_known
+   public :: rename_path, absolute_path, real_path, folder_of, process_mark
 
    interface
       integer(c_int) function posix_mkdir(path, mode) bind(c, name="mkdir")
@@ -90,86 +87,6 @@ module ehl_files
    end interface
 
 contains
-
-   !> The whole text of a file of at most `largest` bytes
-   subroutine read_text(path, largest, text, status)
-      character(len=*), intent(in) :: path
-      integer, intent(in) :: largest
-      character(len=:), allocatable, intent(out) :: text
-      type(status_t), intent(inout) :: status
-      character(len=256) :: reason
-      integer :: lun, stat
-      integer(int64) :: length
-
-      text = ""
-      if (.not. file_exists(path)) then
-         call status%fail(ehl_file, path // ": error: there is no such file")
-         return
-      end if
-      if (file_exists(path // "/.")) then
-         call status%fail(ehl_file, path // ": error: this is a folder, not a file")
-         return
-      end if
-      open (newunit=lun, file=path, status="old", action="read", access="stream", &
-            form="unformatted", iostat=stat, iomsg=reason)
-      if (stat /= 0) then
-         call status%fail(ehl_file, path // ": error: cannot open: " // trim(reason))
-         return
-      end if
-      inquire (unit=lun, size=length)
-      if (length < 0 .or. length > largest) then
-         call status%fail(ehl_file, path // ": error: not a file of at most " &
-                          // to_text(largest) // " bytes")
-      else
-         deallocate (text)
-         allocate (character(len=int(length)) :: text)
-         if (length > 0) then
-            read (lun, iostat=stat, iomsg=reason) text
-            if (stat /= 0) call status%fail(ehl_file, path // ": error: cannot read: " // trim(reason))
-         end if
-      end if
-      close (lun)
-   end subroutine read_text
-
-   !> Write a text to a file, replacing what was there
-   subroutine write_text(path, text, status)
-      character(len=*), intent(in) :: path, text
-      type(status_t), intent(inout) :: status
-      character(len=256) :: reason
-      integer :: lun, stat, closing
-
-      open (newunit=lun, file=path, status="replace", action="write", access="stream", &
-            form="unformatted", iostat=stat, iomsg=reason)
-      if (stat == 0) then
-         write (lun, iostat=stat, iomsg=reason) text
-         if (stat == 0) then
-            close (lun, iostat=stat, iomsg=reason)
-         else
-            ! what could not be written must not hold its unit
-            close (lun, iostat=closing)
-            if (closing /= 0) stat = closing
-         end if
-      end if
-      if (stat /= 0) then
-         call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
-      else
-         call check_written(path, len(text, kind=int64), status)
-      end if
-   end subroutine write_text
-
-   !> Whether a file that was written and closed without an error is whole: a write to a full disk that takes a part is
-   !> none for the library of gfortran
-   subroutine check_written(path, length, status)
-      character(len=*), intent(in) :: path
-      integer(int64), intent(in) :: length
-      type(status_t), intent(inout) :: status
-      integer(int64) :: there
-      integer :: stat
-
-      inquire (file=path, size=there, iostat=stat)
-      if (stat == 0 .and. there == length) return
-      call status%fail(ehl_file, path // ": cannot write: the disk is full, or a limit of the size of files is reached")
-   end subroutine check_written
 
    !> Have the bytes of a file on the disk itself, lest they are lost with the power; false when that fails
    logical function flush_file(path)

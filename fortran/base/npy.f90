@@ -2,7 +2,7 @@
 !> Arrays of real(dp) as .npy files (NumPy format 1.0), the file that both drivers share
 module ehl_npy
    use, intrinsic :: iso_fortran_env, only: int32, int64, int8
-   use ehl_files, only: check_written
+   use ehl_whole_file, only: end_writing
    use ehl_kinds, only: dp
    use ehl_status, only: ehl_file, ehl_no_memory, status_t
    use ehl_text, only: newline, to_text
@@ -78,7 +78,7 @@ contains
       !> Matrices of the same shape that come next
       type(matrix_t), intent(in), optional :: behind(:)
       character(len=256) :: reason
-      integer :: lun, stat, closing, k, more
+      integer :: lun, stat, k, more
 
       more = 0
       if (present(behind)) more = size(behind)
@@ -93,17 +93,9 @@ contains
          do k = 1, more
             if (stat == 0) write (lun, iostat=stat, iomsg=reason) behind(k)%values
          end do
-         if (stat == 0) then
-            close (lun, iostat=stat, iomsg=reason)
-         else
-            close (lun, iostat=closing)
-            if (closing /= 0) stat = closing
-         end if
-      end if
-      if (stat /= 0) then
-         call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
+         call end_writing(lun, path, len(head) + 8_int64*(1 + more)*size(values, kind=int64), stat, reason, status)
       else
-         call check_written(path, len(head) + 8_int64*(1 + more)*size(values, kind=int64), status)
+         call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
       end if
    end subroutine write_values
 

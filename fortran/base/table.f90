@@ -3,7 +3,7 @@
 module ehl_table
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_fortran_env, only: int64
-   use ehl_files, only: check_written
+   use ehl_whole_file, only: end_writing
    use ehl_kinds, only: dp
    use ehl_status, only: ehl_file, ehl_internal, status_t
    use ehl_text, only: to_text
@@ -112,7 +112,7 @@ contains
       character(len=:), allocatable :: line
       character(len=256) :: reason
       integer(int64) :: length
-      integer :: lun, stat, closing, i, k
+      integer :: lun, stat, i, k
 
       if (.not. allocated(self%names)) then
          call status%fail(ehl_internal, "the table for " // path // " has no columns")
@@ -143,18 +143,7 @@ contains
          write (lun, "(a)", iostat=stat, iomsg=reason) line
          length = length + len(line) + 1
       end do
-      if (stat == 0) then
-         close (lun, iostat=stat, iomsg=reason)
-      else
-         ! what could not be written must not hold its unit
-         close (lun, iostat=closing)
-         if (closing /= 0) stat = closing
-      end if
-      if (stat /= 0) then
-         call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
-      else
-         call check_written(path, length, status)
-      end if
+      call end_writing(lun, path, length, stat, reason, status)
    end subroutine write_csv
 
    !> Whether a number has no fraction (and fits an integer)

@@ -4,13 +4,13 @@ module ehl_case_reader
    use ehl_case, only: case_t
    use ehl_case_check, only: check_case
    use ehl_derived, only: settle_marks
-   use ehl_files, only: read_text
    use ehl_group_reader, only: read_groups
    use ehl_option_reader, only: read_option, split_options
    use ehl_schema, only: schema_t
    use ehl_source, only: source_t
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_text, only: newline
+   use ehl_whole_file, only: read_text
    implicit none (type, external)
    private
    public :: read_case, read_case_file

@@ -9,27 +9,10 @@
 !> smooth, it is corrected on every grid. Transfers use 2t points, and grids reach far enough
 !> beyond the domain for them to keep their order at the border.
 !>
-!> Sizes of transfers and corrections follow from the accuracy asked for. Corrections left
-!> out add up to 2.5 times the accuracy on the finest grid, in magnitude, and their effect to
-!> 2^(-1/2) times that on each next one: these are cheaper. They do not all have the same
-!> sign. Errors measured on 65 to 1025 nodes a side, in units of the accuracy: Hertz and inlet
-!> pressure 0.1 to 0.2; the same times random numbers in 0..2 at every node 0.4 to 0.9; times
-!> 1 + 2 cos with waves of 0.125, cut off at zero, 0.2 to 0.7. An accuracy is one relative to
-!> the largest W, for max W about max P as in a contact of the Hertz radius.
-!>
-!> The number 2t of points was chosen by time, on one core (Zen 5, no -march), for a pressure
-!> that is zero behind the contact only on 513 x 513, in ms, by accuracy:
-!>
-!>               1e-4   1e-5   1e-6   1e-7   1e-8   1e-9  1e-10
-!>    t = 3       2.2    4.2    7.5
-!>    t = 4       2.4    3.8    5.6    9.0   15.3
-!>    t = 5       2.9    4.0    5.5    8.0   11.5   17.7   28.6
-!>    t = 6       3.0    4.3    5.7    8.3   10.2   15.1   21.0
-!>    t = 8       3.8    5.3    6.5    8.5   10.5   13.7   18.0
-!>
-!> A coarsest grid of 9 or 33 nodes instead of 17 is slower or, from 257 nodes on, the same.
-!> At 2.2e-5, a tenth of the error of a pressure constant in each cell, the patch of the first
-!> halving is 13 x 7 without its corners, that of the second 5 x 17.
+!> Sizes of transfers and corrections follow from the accuracy asked for, relative to the largest W, for max W about
+!> max P as in a contact of the Hertz radius. Corrections left out add up to 2.5 times the accuracy on the finest grid,
+!> in magnitude, and their effect to 2^(-1/2) times that on each next one: these are cheaper. They do not all have the
+!> same sign. What was measured: docs/design.md.
 module ehl_mlmi
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_kinds, only: dp
@@ -47,8 +30,7 @@ module ehl_mlmi
 
    !> Grids are halved until they have no more nodes a side than this
    integer, parameter :: few = 17
-   !> Grids with fewer nodes are left to one thread. Two threads gain 1.73 and 1.88 on a step of half a contact with
-   !> 513 x 513 nodes; 1.61 and 1.74 with 4096 (two runs of each, in turn).
+   !> Grids with fewer nodes are left to one thread
    integer, parameter :: small = 1024
    !> Operations for a node on its grid, roughly; on the coarsest as many as there are nodes
    integer, parameter :: operations = 16

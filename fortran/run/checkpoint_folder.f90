@@ -6,13 +6,14 @@ module ehl_checkpoint_folder
    use ehl_case_writer, only: case_text
    use ehl_checkpoint, only: coarser, series_files, state_files
    use ehl_clock, only: clock_t, start_clock
-   use ehl_files, only: file_exists, make_folder, remove_file, remove_known, rename_path, write_text
+   use ehl_files, only: file_exists, make_folder, remove_file, remove_known, rename_path
    use ehl_kinds, only: dp
    use ehl_npy, only: read_npy, write_npy
    use ehl_result_folder, only: full_path, make_parents
    use ehl_solver, only: solver_t
    use ehl_status, only: ehl_bad_input, ehl_file, status_t
    use ehl_text, only: newline
+   use ehl_whole_file, only: write_text
    implicit none (type, external)
    private
    public :: checkpoint_folder_t, find_checkpoint, checkpoint_path

@@ -5,13 +5,14 @@ module ehl_result_folder
    use ehl_case, only: case_t
    use ehl_case_writer, only: case_text
    use ehl_files, only: absolute_path, file_exists, make_folder, process_mark, real_path, &
-                        remove_folder, remove_known, rename_path, write_text
+                        remove_folder, remove_known, rename_path
    use ehl_kinds, only: dp
    use ehl_npy, only: write_npy
    use ehl_record, only: record_t
    use ehl_solver, only: solver_t
    use ehl_status, only: ehl_bad_input, ehl_file, status_t
    use ehl_version, only: version
+   use ehl_whole_file, only: write_text
    implicit none (type, external)
    private
    public :: check_folder, full_path, make_parents, write_results
@@ -20,10 +21,13 @@ module ehl_result_folder
    character(len=*), parameter :: known_files(*) = [character(len=24) :: &
       "case.nml", "plan.txt", "summary.json", "history.csv", "X.npy", "Y.npy", "P.npy", "H.npy", &
       "P_smooth.npy", "H_smooth.npy", "RR.npy", "A_d.npy", "frame_T.npy", "frame_P.npy", "frame_H.npy", &
-      "results.nc", "centre_lines.png", "film.png", "interferogram.png", &
-      "deformed_roughness.png", "rough_and_smooth.png", "friction.png", &
-      "centre_lines.pdf", "film.pdf", "deformed_roughness.pdf", "rough_and_smooth.pdf", "friction.pdf", &
-      "centre_lines.svg", "film.svg", "deformed_roughness.svg", "rough_and_smooth.svg", "friction.svg", &
+      "results.nc", &
+      "centre_lines.png", "film.png", "deformed_roughness.png", "rough_and_smooth.png", &
+      "friction.png", "extremes.png", &
+      "centre_lines.pdf", "film.pdf", "deformed_roughness.pdf", "rough_and_smooth.pdf", &
+      "friction.pdf", "extremes.pdf", &
+      "centre_lines.svg", "film.svg", "deformed_roughness.svg", "rough_and_smooth.svg", &
+      "friction.svg", "extremes.svg", &
       "movie.gif", "movie.mp4"]
 
 contains

@@ -3,12 +3,13 @@
 module test_record
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use check, only: has_text, is_close, is_equal, is_text, is_true
-   use ehl_files, only: process_mark, read_text, remove_file, write_text
+   use ehl_files, only: process_mark, remove_file
    use ehl_kinds, only: dp
    use ehl_npy, only: read_npy, write_npy
    use ehl_record, only: record_t
    use ehl_status, only: ehl_file, status_t
    use ehl_table, only: table_t
+   use ehl_whole_file, only: read_text, write_text
    implicit none (type, external)
    private
    public :: run_record

@@ -1,0 +1,103 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Whole files: texts in and out, and what every file that was written must pass
+module ehl_whole_file
+   use, intrinsic :: iso_fortran_env, only: int64
+   use ehl_files, only: file_exists
+   use ehl_status, only: ehl_file, status_t
+   use ehl_text, only: to_text
+   implicit none (type, external)
+   private
+   public :: read_text, write_text, end_writing
+
+contains
+
+   !> The whole text of a file of at most `largest` bytes
+   subroutine read_text(path, largest, text, status)
+      character(len=*), intent(in) :: path
+      integer, intent(in) :: largest
+      character(len=:), allocatable, intent(out) :: text
+      type(status_t), intent(inout) :: status
+      character(len=256) :: reason
+      integer :: lun, stat
+      integer(int64) :: length
+
+      text = ""
+      if (.not. file_exists(path)) then
+         call status%fail(ehl_file, path // ": error: there is no such file")
+         return
+      end if
+      if (file_exists(path // "/.")) then
+         call status%fail(ehl_file, path // ": error: this is a folder, not a file")
+         return
+      end if
+      open (newunit=lun, file=path, status="old", action="read", access="stream", &
+            form="unformatted", iostat=stat, iomsg=reason)
+      if (stat /= 0) then
+         call status%fail(ehl_file, path // ": error: cannot open: " // trim(reason))
+         return
+      end if
+      inquire (unit=lun, size=length)
+      if (length < 0 .or. length > largest) then
+         call status%fail(ehl_file, path // ": error: not a file of at most " &
+                          // to_text(largest) // " bytes")
+      else
+         deallocate (text)
+         allocate (character(len=int(length)) :: text)
+         if (length > 0) then
+            read (lun, iostat=stat, iomsg=reason) text
+            if (stat /= 0) call status%fail(ehl_file, path // ": error: cannot read: " // trim(reason))
+         end if
+      end if
+      close (lun)
+   end subroutine read_text
+
+   !> Write a text to a file, replacing what was there
+   subroutine write_text(path, text, status)
+      character(len=*), intent(in) :: path, text
+      type(status_t), intent(inout) :: status
+      character(len=256) :: reason
+      integer :: lun, stat
+
+      open (newunit=lun, file=path, status="replace", action="write", access="stream", &
+            form="unformatted", iostat=stat, iomsg=reason)
+      if (stat == 0) then
+         write (lun, iostat=stat, iomsg=reason) text
+         call end_writing(lun, path, len(text, kind=int64), stat, reason, status)
+      else
+         call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
+      end if
+   end subroutine write_text
+
+   !> Close a file that was written. A failure if a write or the closing failed, or the file is not whole: a write to
+   !> a full disk that takes a part is no error for the library of gfortran
+   subroutine end_writing(lun, path, length, stat, reason, status)
+      integer, intent(in) :: lun
+      character(len=*), intent(in) :: path
+      !> Bytes that were written
+      integer(int64), intent(in) :: length
+      !> iostat and iomsg of the last write
+      integer, intent(in) :: stat
+      character(len=*), intent(in) :: reason
+      type(status_t), intent(inout) :: status
+      character(len=256) :: why
+      integer(int64) :: there
+      integer :: failed, closing
+
+      failed = stat
+      if (failed == 0) then
+         close (lun, iostat=failed, iomsg=why)
+      else
+         why = reason
+         ! what could not be written must not hold its unit
+         close (lun, iostat=closing)
+         if (closing /= 0) failed = closing
+      end if
+      if (failed /= 0) then
+         call status%fail(ehl_file, path // ": cannot write: " // trim(why))
+         return
+      end if
+      inquire (file=path, size=there, iostat=failed)
+      if (failed == 0 .and. there == length) return
+      call status%fail(ehl_file, path // ": cannot write: the disk is full, or a limit of the size of files is reached")
+   end subroutine end_writing
+end module ehl_whole_file
