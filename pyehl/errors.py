@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One exception class per status code of the Fortran library."""
+"""One exception class per status code of the Fortran library, and those of the package."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import Any
 __all__ = [
     "ClosedError",
     "EhlError",
+    "ExtensionError",
     "FileError",
     "InputError",
     "InternalError",
@@ -88,6 +89,10 @@ class FileError(EhlError, OSError):
     >>> issubclass(pyehl.FileError, OSError)
     True
     """
+
+
+class ExtensionError(EhlError, ImportError):
+    """The compiled extension cannot be imported."""
 
 
 class InternalError(EhlError, RuntimeError):

@@ -6,6 +6,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, cast
 
+from pyehl.errors import ExtensionError
 from pyehl.processor import suffix
 
 if TYPE_CHECKING:
@@ -16,7 +17,7 @@ __all__ = ["checkpoints", "functions", "solvers", "surface_functions", "waves"]
 try:
     _extension = import_module(f"pyehl._core{suffix()}")
 except ImportError as error:  # pragma: no cover
-    raise ImportError(
+    raise ExtensionError(
         "the compiled part of pyehl is not here. Install the package (pip install .) and run "
         "outside of the source folder, or use 'python -P'."
     ) from error

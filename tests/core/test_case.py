@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -317,6 +318,17 @@ def test_version_is_one_line(capsys):
     assert cli.main(["--version"]) == 0
     printed = capsys.readouterr().out
     assert printed == f"pyehl {library.version()}\n"
+
+
+def test_a_missing_compiled_part_is_one_message():
+    code = (
+        "import sys; sys.modules |= {'pyehl._core': None, 'pyehl._core_v3': None}; "
+        "from pyehl import cli; sys.exit(cli.main(['check', 'case.nml']))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert done.stderr.startswith("pyehl: error: the compiled part of pyehl is not here")
+    assert len(done.stderr.splitlines()) == 1
 
 
 def test_info_without_the_compiled_part(capsys, monkeypatch):
