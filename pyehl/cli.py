@@ -10,13 +10,17 @@ import sys
 from collections.abc import Sequence
 from importlib import import_module, metadata
 
-from pyehl.errors import EhlError, InputError, did_you_mean
+from pyehl.errors import (
+    EXIT_FAILED,
+    EXIT_INTERRUPTED,
+    EXIT_OK,
+    EXIT_USAGE,
+    EhlError,
+    InputError,
+    did_you_mean,
+)
 
 __all__ = ["main"]
-
-EXIT_FAILED = 1
-EXIT_USAGE = 2
-EXIT_INTERRUPTED = 130
 
 # Subcommand, which is a module of `pyehl.commands`, and what it does
 SUBCOMMANDS = {
@@ -89,7 +93,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         words[0] = "--help"
     if words == ["--version"]:
         print(f"pyehl {metadata.version('pyehl')}")
-        return 0
+        return EXIT_OK
     chosen = words[0] if words else ""
     _listen(quiet=not {"-q", "--quiet"}.isdisjoint(words))
     try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One exception class per status code of the Fortran library, and those of the package."""
+"""Exceptions, one class per status code of the Fortran library; exit statuses."""
 
 from __future__ import annotations
 
@@ -8,6 +8,10 @@ from collections.abc import Iterable
 from typing import Any
 
 __all__ = [
+    "EXIT_FAILED",
+    "EXIT_INTERRUPTED",
+    "EXIT_OK",
+    "EXIT_USAGE",
     "ClosedError",
     "EhlError",
     "ExtensionError",
@@ -19,6 +23,9 @@ __all__ = [
     "check",
     "did_you_mean",
 ]
+
+EXIT_OK, EXIT_FAILED, EXIT_USAGE, EXIT_INTERRUPTED = 0, 1, 2, 130
+"""Exit statuses of commands: done, not converged or failed, bad input, interrupted (as ``ehl``)."""
 
 
 class EhlError(Exception):

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import argparse
 
-__all__ = ["add_case_arguments"]
+__all__ = ["add_case_arguments", "add_overrides"]
 
 
 def add_case_arguments(parser: argparse.ArgumentParser, *, optional: bool = False) -> None:
@@ -13,11 +13,16 @@ def add_case_arguments(parser: argparse.ArgumentParser, *, optional: bool = Fals
     parser.add_argument(
         "case", metavar="CASE.nml", nargs="?" if optional else None, help="case file"
     )
+    add_overrides(parser, "of the case")
+
+
+def add_overrides(parser: argparse.ArgumentParser, where: str) -> None:
+    """Option --set, which replaces values."""
     parser.add_argument(
         "--set",
         dest="overrides",
         action="append",
         default=[],
         metavar="GROUP.KEY=VALUE",
-        help="replace a value of the case; may be repeated",
+        help=f"replace a value {where}; may be repeated",
     )

@@ -5,13 +5,11 @@ from __future__ import annotations
 
 import argparse
 
-from pyehl.errors import InputError
+from pyehl.errors import EXIT_FAILED, EXIT_OK, InputError
 from pyehl.studies.compare import Comparison, compare, read_results, write_deviations
 from pyehl.studies.reference_table import SHIPPED, ReferenceTable, read_reference
 
 __all__ = ["add_arguments", "execute"]
-
-EXIT_PASSED, EXIT_FAILED = 0, 1
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -84,4 +82,4 @@ def execute(args: argparse.Namespace) -> int:
             f"FAIL: {len(found.missing)} rows of the table have no result, the first in line "
             f"{first.line} ({keys}); --partial allows that"
         )
-    return EXIT_PASSED if found.passed and not incomplete else EXIT_FAILED
+    return EXIT_OK if found.passed and not incomplete else EXIT_FAILED

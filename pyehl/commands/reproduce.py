@@ -11,8 +11,8 @@ from importlib import metadata
 from pathlib import Path
 
 from pyehl import library
-from pyehl.commands.watching import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, Terminal, jobs_of
-from pyehl.errors import InputError
+from pyehl.commands.watching import Terminal, jobs_of
+from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
 from pyehl.reproduce.driver import PIECES, reproduce
 from pyehl.reproduce.level import LEVELS, Level
 from pyehl.reproduce.piece import Result

@@ -9,14 +9,13 @@ import time
 
 from pyehl.case import Case
 from pyehl.commands.arguments import add_case_arguments
-from pyehl.errors import InputError
+from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
 from pyehl.progress import ProgressBar
 from pyehl.run import Observer, Outcome, resume, run
 from pyehl.solver import Solver
 
 __all__ = ["add_arguments", "execute"]
 
-EXIT_OK, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 130
 # Seconds between progress lines where the output is not a terminal
 PROGRESS_INTERVAL = 2.0
 

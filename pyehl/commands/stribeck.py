@@ -13,14 +13,11 @@ from numpy.typing import NDArray
 
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.commands.watching import (
-    EXIT_FAILED,
-    EXIT_INTERRUPTED,
-    EXIT_OK,
     Terminal,
     add_worker_arguments,
     jobs_of,
 )
-from pyehl.errors import InputError
+from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
 from pyehl.export import write_netcdf
 from pyehl.studies.curve import (
     BREAKDOWN,

@@ -7,15 +7,13 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from pyehl.commands.arguments import add_overrides
 from pyehl.commands.watching import (
-    EXIT_FAILED,
-    EXIT_INTERRUPTED,
-    EXIT_OK,
     Terminal,
     add_worker_arguments,
     jobs_of,
 )
-from pyehl.errors import InputError
+from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
 from pyehl.studies.gather import Outcome
 from pyehl.studies.plan import duration, plan
 from pyehl.studies.study import RUNS, make
@@ -43,14 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="start:stop:count, start:stop:countlog, start:stop (whole numbers) or a,b,c; "
         "may be repeated",
     )
-    parser.add_argument(
-        "--set",
-        dest="overrides",
-        action="append",
-        default=[],
-        metavar="GROUP.KEY=VALUE",
-        help="replace a value in all cases; may be repeated",
-    )
+    add_overrides(parser, "of all cases")
     parser.add_argument("--run", choices=RUNS, help="what to do with each case (default: solve)")
     parser.add_argument(
         "--outputs",

@@ -19,15 +19,11 @@ from pyehl.studies.pool import processors
 from pyehl.studies.tasks import FAILED, Task
 
 __all__ = [
-    "EXIT_FAILED",
-    "EXIT_INTERRUPTED",
-    "EXIT_OK",
     "Terminal",
     "add_worker_arguments",
     "jobs_of",
 ]
 
-EXIT_OK, EXIT_FAILED, EXIT_INTERRUPTED = 0, 1, 130
 # Seconds between lines where the output is not a terminal
 LINE_INTERVAL = 5.0
 
