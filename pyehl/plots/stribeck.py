@@ -9,10 +9,17 @@ from dataclasses import dataclass, field
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
-from pyehl.plots.style import BLUE, GREEN, GREY, VERMILLION, letter, new_figure
+from pyehl.plots.style import (
+    BLUE,
+    GREEN,
+    GREY,
+    VERMILLION,
+    label_log_ticks,
+    letter,
+    new_figure,
+)
 from pyehl.theory import stribeck
 
 __all__ = ["ABSCISSAE", "Curve", "Points", "draw_stribeck"]
@@ -120,7 +127,7 @@ def draw_stribeck(
         if name == "theta_2" and eq_16 and not absolute:
             _draw_eq_16(ax)
         ax.set_xscale("log")
-        _label_ticks(ax)
+        label_log_ticks(ax)
         ax.set_xlabel(label)
         ax.grid(visible=True, which="major", color="0.92", lw=0.6)
         ax.set_axisbelow(True)
@@ -135,15 +142,6 @@ def draw_stribeck(
     words = "; ".join(f"{c.label + ': ' if c.label else ''}{c.ends}" for c in curves if c.ends)
     figure.suptitle(f"{surface}\n{words}", fontsize="medium")
     return figure
-
-
-def _label_ticks(ax: Axes) -> None:
-    """Label 1, 2 and 5 of each decade where there are few decades."""
-    low, high = ax.get_xlim()
-    if high < 100.0 * low:
-        ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high > 4.0 * low else "all"))
-        ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-        ax.xaxis.set_minor_formatter(NullFormatter())
 
 
 def _bars(error: Array) -> Array | None:

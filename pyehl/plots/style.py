@@ -18,6 +18,7 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
 __all__ = [
@@ -38,6 +39,7 @@ __all__ = [
     "film_unit",
     "height_unit",
     "hertz_ticks",
+    "label_log_ticks",
     "letter",
     "nearest",
     "new_figure",
@@ -167,6 +169,15 @@ def hertz_ticks(ax: Axes) -> None:
     """Mark the contact radius and its half on both axes."""
     ax.set_xticks([-1.0, -0.5, 0.0, 0.5, 1.0])
     ax.set_yticks([-1.0, -0.5, 0.0, 0.5, 1.0])
+
+
+def label_log_ticks(ax: Axes) -> None:
+    """Label 1, 2 and 5 of each decade of a logarithmic x axis where there are few decades."""
+    low, high = ax.get_xlim()
+    if high < 100.0 * low:
+        ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high > 4.0 * low else "all"))
+        ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        ax.xaxis.set_minor_formatter(NullFormatter())
 
 
 def height_unit(largest: float) -> tuple[float, str]:

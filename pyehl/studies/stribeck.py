@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -179,7 +179,7 @@ def plan_curve(
                 full=add(rough, "solve") if point.number in chosen else None,
             )
         )
-    return CurvePlan(replace(study, run="predict"), tuple(points), tuple(tasks), seeds)
+    return CurvePlan(study, tuple(points), tuple(tasks), seeds)
 
 
 def _check(study: Study, point: Point, settings: Settings, seeds: int, ehl: int) -> None:

@@ -17,7 +17,7 @@ import numpy as np
 
 import pyehl
 from pyehl.cli import main as command
-from pyehl.plots.style import BLUE, GREEN, VERMILLION, letter, new_figure, save
+from pyehl.plots.style import BLUE, GREEN, VERMILLION, label_log_ticks, letter, new_figure, save
 from pyehl.surfaces import filtered
 
 HERE = Path(__file__).resolve().parent
@@ -105,6 +105,7 @@ def draw(found: list[dict[str, str]], path: Path) -> None:
                             label=f"{surface}, slide-to-roll ratio {slip}",
                         )
             ax.set_xscale("log")
+            label_log_ticks(ax)
             ax.set_xlabel(label)
             ax.grid(visible=True, color="0.92", lw=0.6)
     axes[0, 0].set_ylabel(r"$\mu$ (Eyring, 5 MPa)")
