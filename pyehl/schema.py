@@ -111,7 +111,7 @@ s | x_start | a | origin of a rough surface at rest
 sp | mu_ratio | - | friction over that of the smooth contact: mean over a period or a passage
 sp | mu_ratio_min | - | its least value
 sp | mu_ratio_max | - | its largest value
-s | mu_ratio_extrapolated | - | mu_ratio extrapolated to fine grids, if both grids give every wave eight nodes
+s | mu_ratio_extrapolated | - | mu_ratio extrapolated to fine grids, where both resolve the surface
 s | mu_ratio_error | - | estimate of the error of mu_ratio
 s | mu_ratio_error_grid | - | part of it from the grid
 s | mu_ratio_error_stop | - | part of it from the end of the run
