@@ -64,7 +64,8 @@ contains
       text = text//"deflection "//plan%engine//", threads "//to_text(plan%threads)//new_line("a")
       text = text//"cycles     "//plan%cycle_letter//sweeps_of(plan%cycle)
       if (plan%moves()) then
-         text = text//", time steps "//plan%step_cycle_letter//sweeps_of(plan%step_cycle)//", "// &
+         text = text//", time steps "//plan%step_cycle_letter//sweeps_of(plan%step_cycle)// &
+                " (no sweeps first where the prediction is close), "// &
                 trim(merge("Alcouffe ", "classical", plan%step_cycle%coarsening == coarsening_alcouffe))//" coarsening"
          if (plan%coarsening_may_change) text = text//", Alcouffe when a cycle is slow"
       end if
