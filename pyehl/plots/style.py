@@ -176,8 +176,17 @@ def label_log_ticks(ax: Axes) -> None:
     low, high = ax.get_xlim()
     if high < 100.0 * low:
         ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high > 4.0 * low else "all"))
-        ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: _short(value)))
         ax.xaxis.set_minor_formatter(NullFormatter())
+
+
+def _short(value: float) -> str:
+    """Write the number of a tick; as a power of ten where it is very large or small."""
+    if 1e-3 <= value < 1e4:
+        return f"{value:g}"
+    digits, _, power = f"{value:.0e}".partition("e")
+    factor = "" if digits == "1" else rf"{digits}\cdot"
+    return f"${factor}10^{{{int(power)}}}$"
 
 
 def height_unit(largest: float) -> tuple[float, str]:
