@@ -44,6 +44,14 @@ def test_skips_that_change_something_are_told(monkeypatch, capsys):
     assert "perdict" in capsys.readouterr().err
 
 
+def test_each_benchmark_has_its_own_options(capsys):
+    with pytest.raises(SystemExit, match="2"):
+        main(["bench", "deflection", "--seed", "3"])
+    assert "unrecognized arguments: --seed 3" in capsys.readouterr().err
+    assert main(["bench", "stress", "--seed", "3"]) == 2
+    assert "-o DIR is needed" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("scene", ["smooth", pytest.param("sweep", marks=pytest.mark.slow)])
 def test_skips_of_other_scenes(scene: str):
     rows = skips.skip_rows([scene], 257, repeats=1)
