@@ -212,7 +212,7 @@ class RoughPassage:
         smooth = contact.smooth * contact.area / o.load
         if not contact.thins:
             smooth *= self.lubricant.viscosity * o.sliding_speed
-        points = contact.count * int(np.count_nonzero(contact.inside))
+        points = contact.count * contact.points
         return RoughFriction(
             status=status,
             message=message,

@@ -84,6 +84,8 @@ class RoughContact:
     ----------
     area
         That one point stands for [m^2].
+    points
+        Points within the contact.
     smooth
         Sum of the shear stress of the smooth contact over the points [Pa]; of a Newtonian oil
         divided by eta0 and the sliding speed.
@@ -117,6 +119,7 @@ class RoughContact:
         self.pressure, self.film = contact.at(self.x, self.y)
         radius = np.hypot(self.x[:, np.newaxis], self.y[np.newaxis, :])
         self.inside = (radius < REACH) & (self.pressure > 0.0)
+        self.points = int(np.count_nonzero(self.inside))
         self.weights = np.stack(
             [np.interp(self.x, STATIONS, unit) for unit in np.eye(STATIONS.size)], axis=-1
         ).astype(np.float32)
@@ -199,7 +202,7 @@ class RoughContact:
         film = self.film - change[..., 0]
         pressure = self.pressure + change[..., 1]
         self.count += 1
-        carried = 1.5 * float(change[..., 1].mean(where=self.inside))
+        carried = 1.5 * float(change[..., 1].sum(where=self.inside)) / self.points
         self.imbalance = max(self.imbalance, abs(carried))
         self.thinnest = min(self.thinnest, float(film.min(where=self.inside, initial=math.inf)))
         if self.thinnest <= 0.0:

@@ -34,8 +34,9 @@ OFF_CENTRE = 0.5
 FRICTION_LINES = 0.24
 BENDING = 0.2
 
-# Wavenumbers and directions of the table of responses: the interpolated T is right to 1e-3
-TABLE = (72, 25)
+# Wavenumbers and directions of the table of responses: the interpolated T is right to 1e-3. Both
+# are odd, so that every second one is a table, too
+TABLE = (73, 25)
 # Components that are interpolated at a time
 BLOCK = 1 << 18
 # Repetitions of pressure from leak and leak from pressure; each leaves a tenth of the change
@@ -101,12 +102,27 @@ class _Table:
         self._mirror = np.minimum(np.arange(ny), ny - np.arange(ny))
 
     def gathered(self, power: Array) -> Array:
-        """Sum what the components of a tile have at the nearest place of the table, (m,)."""
+        """Sum what the components of a tile have, at the places of the coarse table, (l,).
+
+        Weighted as for a linear interpolation between them.
+        """
         half = self._shape[1]
         folded = power[:, :half].copy()
         folded[:, 1 : power.shape[1] - half + 1] += power[:, half:][:, ::-1]
-        weights = folded.ravel()
-        return np.asarray(np.bincount(self._nearest, weights, self.kx.size), dtype=np.float64)
+        sums = np.bincount(self._nearest, folded.ravel(), self.kx.size)
+        found: Array = np.asarray(sums, dtype=np.float64).reshape(TABLE)
+        for _ in TABLE:
+            between = 0.5 * found[1::2]
+            found = found[::2].copy()
+            found[:-1] += between
+            found[1:] += between
+            found = found.T
+        return found.ravel()
+
+    def coarse(self) -> tuple[Array, Array]:
+        """Every second wavenumber and direction of the table, (l,) each."""
+        kx, ky = (values.reshape(TABLE)[::2, ::2].ravel() for values in (self.kx, self.ky))
+        return kx, ky
 
     def spread(self, tables: Sequence[Complex]) -> list[Complex]:
         """Interpolate tables (m,) to all components, linear in log |q| and direction."""
@@ -201,11 +217,11 @@ class Transfer:
         inlet[1] *= behind
         leaking = zone
         if thickening is not None:
-            power = table.gathered(spectrum.power)
-            carried = inlet[0] * np.exp(1j * kx * slip)
+            power, few = table.gathered(spectrum.power), table.coarse()
+            carried = inlet_transfer(*few, *moes, velocity_ratio) * np.exp(1j * few[0] * slip)
             for _ in range(REPETITIONS):
-                driven, free = transport(leaking, kx, ky, velocity_ratio, CENTRE)[MIDDLE]
-                pressure = stiffness(np.hypot(kx, ky)) * np.abs(1.0 - driven - free * carried)
+                driven, free = transport(leaking, *few, velocity_ratio, CENTRE)[MIDDLE]
+                pressure = stiffness(np.hypot(*few)) * np.abs(1.0 - driven - free * carried)
                 leaking = _at_amplitude(zone, thickening, float(power @ np.square(pressure)))
         stations = transport(leaking, kx, ky, velocity_ratio, STATIONS)
         found = table.spread(

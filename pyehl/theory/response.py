@@ -165,12 +165,16 @@ def inlet_transfer(
 def _polynomial(terms: list[list[float]], variables: tuple[Array | float, ...]) -> Array:
     """Sum of coefficient times powers of the variables; a term is [coefficient, power, ...]."""
     first, second = (_powers(np.asarray(v, dtype=float)) for v in variables[:2])
-    total = np.zeros_like(first[0])
+    # the first two alone are arrays
+    factors: dict[tuple[int, int], float] = {}
     for coefficient, i, j, *others in terms:
-        factor = np.float64(coefficient)
+        factor = coefficient
         for value, power in zip(variables[2:], others, strict=True):
-            factor = factor * np.float64(value) ** power
-        total += factor * first[int(i)] * second[int(j)]
+            factor *= float(value) ** power
+        factors[int(i), int(j)] = factors.get((int(i), int(j)), 0.0) + factor
+    total = np.zeros_like(first[0])
+    for (i, j), factor in factors.items():
+        total += factor * first[i] * second[j]
     return total
 
 

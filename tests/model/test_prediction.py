@@ -105,7 +105,7 @@ def test_table_is_fine_enough(contact, table_1, monkeypatch):
     """Neither the table of responses, nor the stations, nor the points of friction matter."""
     tile = table_1(seed=5)
     usual = passage(contact, tile).run(tracks=1)[0].mu_ratio
-    monkeypatch.setattr("pyehl.prediction.transfer.TABLE", (144, 49))
+    monkeypatch.setattr("pyehl.prediction.transfer.TABLE", (145, 49))
     assert passage(contact, tile).run(1)[0].mu_ratio == pytest.approx(usual, rel=5e-4)
     monkeypatch.setattr("pyehl.prediction.by_response.POINTS", 128)
     assert passage(contact, tile).run(1)[0].mu_ratio == pytest.approx(usual, rel=1e-3)
