@@ -58,7 +58,7 @@ def _seconds(result: Result) -> str:
 def _head(results: Sequence[Result], level: Level, machine: Sequence[str]) -> list[str]:
     passed = sum(all(c.passed for c in r.checks) for r in results)
     explained = sum(r.passed for r in results) - passed
-    more = f" {explained} are not reproduced, which is explained below." if explained else ""
+    more = f" Not reproduced: {explained}, explained below." if explained else ""
     return [
         f"{passed} of {len(results)} pieces are within all their tolerances.{more} "
         f"Level: {level.name}; it leaves out: {level.leaves_out}.",
