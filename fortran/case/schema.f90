@@ -172,7 +172,7 @@ contains
          call self%words("solver", "cycle", s%cycle, "auto|W|V|F", "multigrid cycle")
          call self%reals("solver", "accuracy", s%accuracy, "-", "[1e-6, 1]", &
                          "algebraic error wanted as a share of the discretisation error")
-         call self%integers("solver", "max_cycles", s%max_cycles, "[1, 10000]", "most cycles per level; three times as many in "// &
+         call self%integers("solver", "max_cycles", s%max_cycles, "[1, 10000]", "most cycles per level; ten times as many in "// &
                             "a time step that needs damped changes")
          call self%integers("solver", "threads", s%threads, "[1, 256]", &
                             "OpenMP threads; the result does not depend on it")

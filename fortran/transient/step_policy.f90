@@ -21,7 +21,7 @@ module ehl_step_policy
    real(dp), parameter :: damped_sweep = 0.3_dp, damped_correction = 0.5_dp
    !> Cycles in which the residual must halve, by attempt; the last one is not given up before so many times the
    !> usual number of cycles, at which it begins at the latest
-   integer, parameter :: patience(3) = [4, 8, 8], damped_cycles = 3
+   integer, parameter :: patience(3) = [4, 8, 8], damped_cycles = 10
    !> A cycle that leaves more than this share of the residual is slow, unless another such cycle will do
    real(dp), parameter :: slow = 0.25_dp
    !> A predicted pressure with a residual of at most so many tolerances needs no sweep before the coarse grids: the

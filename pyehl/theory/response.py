@@ -45,6 +45,7 @@ INLET = -0.9
 
 # Largest change of X in the integration of the transport equation [a]
 STEP = 0.025
+LEAST = float(np.finfo(np.float64).tiny)
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +80,8 @@ class Zone:
             np.interp(places, self.x, self.film),
             np.interp(places, self.x, self.density),
             np.interp(places, self.x, self.compressibility),
-            np.exp(np.interp(places, self.x, np.log(self.conductance))),
+            # where nothing flows any more the conductance underflows
+            np.exp(np.interp(places, self.x, np.log(np.maximum(self.conductance, LEAST)))),
         )
 
 
