@@ -132,7 +132,6 @@ contains
       end if
       call correct(levels(n), levels(n - 1), spaces(n - 1), coarsenings(n)%transfer, options%coarsening, &
                    options%correction_share)
-      ! a time step changes the film little, and sweeps follow: the interpolated change of it serves them
       if (.not. levels(n)%wedge%squeeze > 0.0_dp) call update_film(levels(n))
       call update_coefficients(levels(n))
    end subroutine visit_coarser
