@@ -99,7 +99,7 @@ contains
       real(dp) :: change
 
       if (.not. residual_first > residual) return
-      change = abs(friction_first/self%friction_smooth - friction/self%friction_smooth)
+      change = abs(friction_first - friction)/self%friction_smooth
       self%sensitivity = max(change/(residual_first - residual), fading*self%sensitivity)
    end subroutine learn
 

@@ -82,7 +82,7 @@ def campaign(
     grids
         Nodes per side; each has half as many cases as the one before.
     sample
-        Cases that the second solver solves too, and a quarter of the failed ones that it tries.
+        Converged cases that the second solver solves too; it tries four times as many failed ones.
     tell
         Takes a line about what is done.
 

@@ -45,6 +45,7 @@ INLET = -0.9
 
 # Largest change of X in the integration of the transport equation [a]
 STEP = 0.025
+# Smallest conductance whose logarithm is taken
 LEAST = float(np.finfo(np.float64).tiny)
 
 
