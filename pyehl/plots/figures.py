@@ -25,7 +25,7 @@ from pyehl.plots.style import (
 )
 from pyehl.surfaces import Topography, wavenumbers
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.response import stiffness
+from pyehl.theory.transport import stiffness
 
 __all__ = ["headline", "prediction_figures", "scales_of", "solution_figures", "surface_figures"]
 

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from pyehl.prediction.bands import Band, octaves
 from pyehl.prediction.carrying import confirmed
+from pyehl.prediction.errors import KNOWN_RATIO
 from pyehl.prediction.flattening import Response
 from pyehl.prediction.friction import RoughFriction
 from pyehl.prediction.options import Options
@@ -28,7 +29,7 @@ from pyehl.prediction.passage import (
     working_grid,
 )
 from pyehl.prediction.rough_contact import Edge, RoughContact
-from pyehl.prediction.smooth import SmoothContact, thickening, zone_of
+from pyehl.prediction.smooth import SmoothContact, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.prediction.waves import Waves
@@ -36,7 +37,7 @@ from pyehl.surfaces import Topography, filtered, track_offsets
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.response import stiffness
+from pyehl.theory.transport import stiffness
 
 __all__ = ["RoughPassage"]
 
@@ -45,9 +46,8 @@ Array = NDArray[np.float64]
 # Points per Hertz radius at which the shear stress is taken: the tile is finer, and its other
 # pixels are met at other positions
 POINTS = 60
-# Largest mu_r/mu_s that is told, and the largest of those that the model was compared at
+# Largest mu_r/mu_s that is told
 LARGEST_RATIO = 10.0
-KNOWN_RATIO = 2.5
 # Positions of a passage for a track other than the first, and for a band
 FEW_POSITIONS = 8
 
@@ -86,8 +86,7 @@ class RoughPassage:
             zone = zone_of(self.contact, o, self.lubricant)
             moes = o.moes_m, o.moes_l
             newtonian = self.lubricant.shear.law == "newtonian"
-            rise = thickening(self.contact, o, self.lubricant) if newtonian else None
-            return Transfer.of(spectrum, zone, moes, self.velocity_ratio, rise)
+            return Transfer.of(spectrum, zone, moes, self.velocity_ratio, at_amplitude=newtonian)
         ratio = component_amplitude_ratio(
             spectrum.qx[:, np.newaxis],
             spectrum.qy[np.newaxis, :],
@@ -98,10 +97,15 @@ class RoughPassage:
         )
         return Transfer.carried(ratio)
 
-    def _contact(self, spectrum: Spectrum, transfer: Transfer, edge: Edge) -> RoughContact:
+    def _contact(
+        self, spectrum: Spectrum, transfer: Transfer, edge: Edge, power: Array | None = None
+    ) -> RoughContact:
+        """Contact of a tile; `power` of the components as the transfer was made for them."""
         stride = max(1, int(1.0 / (POINTS * max(spectrum.pixel))))
         while spectrum.shape[1] % stride:
             stride -= 1
+        if power is None:
+            power = spectrum.power
         return RoughContact(
             Waves.of(spectrum, transfer, self.contact.central_film, stride),
             edge,
@@ -111,6 +115,7 @@ class RoughPassage:
             operating=self.operating,
             lubricant=self.lubricant,
             velocity_ratio=self.velocity_ratio,
+            second=transfer.second.of(power) if transfer.second else None,
         )
 
     def deformed(self) -> Array:
@@ -246,7 +251,7 @@ class RoughPassage:
         cut = confirmed(high * self.operating.hertz_radius, longest, self._known)
         if cut is None:
             return ""
-        return f"; surface.shortest_wavelength = {cut:g} would leave {KNOWN_RATIO} or less"
+        return f"; surface.shortest_wavelength = {cut:g} would leave {KNOWN_RATIO:g} or less"
 
     def _known(self, shortest: float) -> bool:
         """Whether the tile without waves shorter than a length [m] has a ratio that is known."""
@@ -310,7 +315,8 @@ class RoughPassage:
         columns = np.rint(np.fft.fftfreq(ny, 1.0 / ny)).astype(np.int_) % spectrum.shape[1]
         part = spectrum.kept((rows, columns), (nx, ny))
         part.values[part.q >= limit] = 0.0
-        contact = self._contact(part, transfer.kept((rows, columns)), edge.below(limit))
+        power = np.where(spectrum.q < limit, spectrum.power, 0.0)
+        contact = self._contact(part, transfer.kept((rows, columns)), edge.below(limit), power)
         return _mean(contact, nx)
 
 

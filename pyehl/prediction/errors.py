@@ -11,14 +11,14 @@ from pyehl.prediction.options import Options
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import fitted_range
 
-__all__ = ["LARGEST_RATIO", "cutoff_error", "model_error", "outside_range"]
+__all__ = ["KNOWN_RATIO", "cutoff_error", "model_error", "outside_range"]
 
 # Error of mu_r/mu_s against the full simulation: a part that small waves and tracks make at any
 # ratio, and a part that grows with the rise. Measured in docs/evidence/prediction.
 CONSTANT = 0.01
-SHARE_OF_RISE = 0.09
+SHARE_OF_RISE = 0.07
 # Largest ratio at which it was measured
-LARGEST_RATIO = 2.5
+KNOWN_RATIO = 5.0
 
 
 def model_error(mu_ratio: float) -> float:
@@ -27,7 +27,7 @@ def model_error(mu_ratio: float) -> float:
     It covers the deviation from the full simulation of this package on 513 x 513 nodes in at least
     nine of ten cases of docs/evidence/prediction.
     """
-    if not mu_ratio <= LARGEST_RATIO:
+    if not mu_ratio <= KNOWN_RATIO:
         return math.nan
     return CONSTANT + SHARE_OF_RISE * abs(mu_ratio - 1.0)
 

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Friction of a contact at one position of a rough tile, by the linear response.
+"""Friction of a contact at one position of a rough tile, by the response of the contact.
 
 Pressure P_s + delta P and film H_s - rr_d with P_s and H_s of the smooth contact; friction is the
 integral of the shear stress (Zhang et al. 2019, eqs 13, 14). The waves that the tile makes come
-from :mod:`pyehl.prediction.waves`; a wave longer than half the contact radius also feels the edge
+from :mod:`pyehl.prediction.waves`, the pressure of second order is that of
+:mod:`pyehl.prediction.second_order`; a wave longer than half the contact radius also feels the edge
 of the contact (:mod:`pyehl.theory.disc`).
 """
 
@@ -108,6 +109,7 @@ class RoughContact:
         operating: OperatingPoint,
         lubricant: Lubricant,
         velocity_ratio: float,
+        second: tuple[Array, Array] | None = None,
     ) -> None:
         self.waves, self.edge, self.pixel = waves, edge, pixel
         self.operating, self.lubricant = operating, lubricant
@@ -136,6 +138,8 @@ class RoughContact:
         x, y = (held * values for values in grid)
         # (28, m n): what is summed over them is read in order
         self.monomials = monomials(x, y, axis=0).reshape(-1, held.size).astype(np.float32)
+        # of the pressure of second order
+        self.second = second and [np.interp(self.x, STATIONS, v)[:, np.newaxis] for v in second]
         self.area = stride**2 * pixel[0] * pixel[1] * operating.hertz_radius**2
         self.smooth = float(self._stress(self.pressure, self.film)[self.inside].sum())
         self.thinnest = float(self.film[self.inside].min())
@@ -187,6 +191,9 @@ class RoughContact:
         # threads of a product of matrices cost more than they bring
         wide = np.einsum("k,kn->n", edge.astype(np.float32), self.monomials)
         total[..., 1] += wide.reshape(self.film.shape)
+        if self.second:
+            gain, variance = self.second
+            total[..., 1] += gain * (np.square(total[..., 1]) - variance)
         return np.asarray(total)
 
     def cavitated_bound(self, least: float) -> float:

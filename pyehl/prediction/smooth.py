@@ -21,7 +21,7 @@ from pyehl.kept import Kept
 from pyehl.solver import Solver
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.response import Zone
+from pyehl.theory.transport import Zone
 
 __all__ = [
     "SmoothContact",
@@ -30,8 +30,8 @@ __all__ = [
     "read_contact",
     "smooth_case",
     "solve_contact",
-    "thickening",
     "zone_of",
+    "zone_on",
 ]
 
 Array = NDArray[np.float64]
@@ -214,18 +214,26 @@ def zone_of(contact: SmoothContact, operating: OperatingPoint, lubricant: Lubric
     middle = int(np.argmin(np.abs(contact.y)))
     pressure = np.maximum(contact.pressure[:, middle], 0.0)
     film = contact.film[:, middle]
-    p = pressure * operating.hertz_pressure
-    rho = lubricant.density_ratio(p)
-    step = 1e-3 * operating.hertz_pressure
-    slope = (np.log(lubricant.density_ratio(p + step)) - np.log(rho)) / 1e-3
-    conductance = rho * film**3 / (lubricant.viscosity_ratio(p) * operating.speed_parameter)
-    return Zone(contact.x, film, rho, np.asarray(slope), np.asarray(conductance))
+    return zone_on(contact.x, pressure, film, operating, lubricant)
 
 
-def thickening(contact: SmoothContact, operating: OperatingPoint, lubricant: Lubricant) -> Array:
-    """Give d ln eta/dP on the centre line of a smooth contact, on the places of its zone [-]."""
-    middle = int(np.argmin(np.abs(contact.y)))
-    p = np.maximum(contact.pressure[:, middle], 0.0) * operating.hertz_pressure
-    step = 1e-3 * operating.hertz_pressure
-    ratio = lubricant.viscosity_ratio(p + step) / lubricant.viscosity_ratio(p)
-    return np.asarray(np.log(ratio) / 1e-3)
+def zone_on(
+    x: Array, pressure: Array, film: Array, operating: OperatingPoint, lubricant: Lubricant
+) -> Zone:
+    """Return the zone of a centre line: X [a], P [p_h] and H [a^2/R], (n,) each."""
+    step = 1e-3
+    lower, p, higher = (
+        (pressure + change) * operating.hertz_pressure for change in (-step, 0.0, step)
+    )
+    rho, eta = lubricant.density_ratio(p), lubricant.viscosity_ratio(p)
+    denser, thinner = lubricant.density_ratio(higher), lubricant.density_ratio(lower)
+    return Zone(
+        x,
+        pressure,
+        film,
+        rho,
+        np.log(denser / rho) / step,
+        (denser - 2.0 * rho + thinner) / (step**2 * rho),
+        np.log(lubricant.viscosity_ratio(higher) / eta) / step,
+        rho * film**3 / (eta * operating.speed_parameter),
+    )

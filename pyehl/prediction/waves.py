@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
-from pyehl.theory.response import edge_gain, stiffness
+from pyehl.theory.response import edge_gain
+from pyehl.theory.transport import stiffness
 
 __all__ = ["REFINEMENT", "Waves"]
 

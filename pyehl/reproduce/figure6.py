@@ -22,7 +22,8 @@ from pyehl.reproduce.surface_runs import SEED, deformed_run, tile
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.response import Zone, inlet_transfer, transport
+from pyehl.theory.response import inlet_transfer
+from pyehl.theory.transport import Zone, transport
 
 __all__ = ["NAME", "TITLE", "Deformed", "run", "show"]
 

@@ -24,7 +24,8 @@ from pyehl.case import Case
 from pyehl.prediction.smooth import solve_contact, zone_of
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.response import edge_gain, inlet_transfer, stiffness, transport
+from pyehl.theory.response import edge_gain, inlet_transfer
+from pyehl.theory.transport import stiffness, transport
 
 __all__ = ["SMALL_WAVES", "response_parameter"]
 

@@ -18,7 +18,7 @@ import scipy.fft
 from numpy.typing import NDArray
 
 from pyehl import surfaces
-from pyehl.prediction.errors import LARGEST_RATIO
+from pyehl.prediction.errors import KNOWN_RATIO
 from pyehl.studies.stribeck import CurvePlan, CurvePoint, Settings
 from pyehl.studies.tasks import FAILED
 from pyehl.theory import stribeck
@@ -217,8 +217,8 @@ def _friction(found: Sequence[Row], smooth: Row) -> dict[str, Any]:
         row = next(row for row in lost if not broken or row["status"] == BREAKDOWN)
         return {"status": status, "message": f"{share}{_why(row)}"}
     outside = sorted({row["outside_range"] for row in found if row.get("outside_range")})
-    if any(row["mu_ratio"] > LARGEST_RATIO for row in found):
-        outside.append(f"mu_ratio above {LARGEST_RATIO:g}")
+    if any(row["mu_ratio"] > KNOWN_RATIO for row in found):
+        outside.append(f"mu_ratio above {KNOWN_RATIO:g}")
     coefficient = smooth.get("mu_smooth")
     absolute: list[Row] = [
         {"mu": None if None in (row.get("mu"), coefficient) else row["mu_ratio"] * coefficient}

@@ -18,7 +18,8 @@ from pyehl.prediction.smooth import solve_contact, zone_of
 from pyehl.studies.response_table import dataset, shipped_response, write_table
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.response import Zone, fitted_range
+from pyehl.theory.response import fitted_range
+from pyehl.theory.transport import Zone
 
 __all__ = ["FILES", "beside_shipped", "write"]
 

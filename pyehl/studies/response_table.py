@@ -13,7 +13,8 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.response import Zone, inlet_transfer, stiffness, transport
+from pyehl.theory.response import inlet_transfer
+from pyehl.theory.transport import Zone, stiffness, transport
 
 __all__ = ["STATIONS", "dataset", "shipped_response", "write_table"]
 

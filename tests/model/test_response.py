@@ -13,22 +13,10 @@ import numpy as np
 import pytest
 
 from pyehl.theory import disc
-from pyehl.theory.film import central_film
-from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.response import (
-    INLET,
-    Zone,
-    edge_gain,
-    fitted_range,
-    inlet_transfer,
-    stiffness,
-    transport,
-)
+from pyehl.theory.response import GAIN, fitted_range, inlet_transfer
+from pyehl.theory.transport import INLET, Zone, stiffness, transport
 
 STATIONS = np.array([-0.5, 0.0, 0.5])
-# Of a measured T: what the fit leaves, see docs/evidence/response
-RESIDUAL = 0.025
 
 
 def zone(*, compressibility: float = 0.04, conductance: float = 1e-9) -> Zone:
@@ -36,7 +24,8 @@ def zone(*, compressibility: float = 0.04, conductance: float = 1e-9) -> Zone:
     pressure = np.sqrt(1.0 - x * x)
     same = np.ones_like(x)
     density = np.exp(compressibility * pressure)
-    return Zone(x, 0.025 * same, density, compressibility * same, conductance * same)
+    values = compressibility * same, 0.0 * same, 15.0 * same, conductance * same
+    return Zone(x, pressure, 0.025 * same, density, *values)
 
 
 def response(contact: Zone, qx: np.ndarray, qy: np.ndarray, ratio: float = 1.01) -> np.ndarray:
@@ -54,15 +43,15 @@ def test_short_waves_pass_undeformed_and_long_ones_not_at_all():
         q = 2.0 * np.pi / wavelength
         t = response(zone(), q * np.cos(angle), q * np.sin(angle), 1.0)
         assert np.abs(t - limit).max() < tolerance
-    # between them |T| falls with the wavelength, in every direction; of the shortest waves, as
-    # measured on 1025 x 1025 nodes, the inlet leaks a little
+    # between them |T| falls with the wavelength, in every direction; of the shortest waves the
+    # inlet leaks a little: |G| measured across the motion is 0.999 at 0.091 a, 0.976 at 0.042 a
     q = 2.0 * np.pi / np.geomspace(0.05, 4.0, 30)
     for one in angle:
         t = np.abs(inlet_transfer(q * np.cos(one), q * np.sin(one), 1000.0, 10.0, 1.0))
         top = int(np.argmax(t))
         assert top < 6
         assert np.all(np.diff(t[top:]) < 0.0)
-        assert t[: top + 1].min() > t[top] - 0.015
+        assert t[: top + 1].min() > t[top] - (0.999 - 0.976)
 
 
 @pytest.mark.parametrize("ratio", [0.8, 1.0, 1.2])
@@ -71,8 +60,8 @@ def test_ridges_along_the_motion_do_not_move(ratio: float):
     none = np.zeros_like(qy)
     t = response(zone(), none, qy, ratio)
     assert np.abs(t.imag).max() < 1e-14
-    # nor do they know how fast the surface is, but for what the fit makes of it
-    assert t == pytest.approx(response(zone(), none, qy, 1.0), abs=RESIDUAL)
+    # nor do they know how fast the surface is
+    assert t == pytest.approx(response(zone(), none, qy, 1.0), abs=1e-12)
 
 
 def test_stiff_lubricant_carries_the_wave_at_the_mean_velocity():
@@ -91,31 +80,70 @@ def test_compressible_lubricant_leaves_a_part_with_the_roughness():
     assert driven == pytest.approx(c / (1.0 + c), rel=1e-9)
 
 
-def test_leaking_lubricant_does_not_deform_the_wave():
-    qx = np.array([10.0, 40.0])
-    parts = transport(zone(conductance=1e3), qx, np.zeros(2), 1.01, STATIONS)
-    assert [free == pytest.approx(0.0, abs=1e-12) for _, free in parts] == [True] * 3
-    # the density at the station is not yet that of the film a step before
-    assert all(driven == pytest.approx(1.0, abs=2e-3) for driven, _ in parts)
-
-
-def test_transport_of_constant_coefficients_is_the_closed_form():
+def uniform(*, film: float = 0.03, conductance: float = 2e-4) -> Zone:
+    """Film, pressure and lubricant the same everywhere: C and the leak enter, no gradient does."""
     x = np.linspace(-1.0, 1.0, 9)
     same = np.ones_like(x)
-    # rho is 1, so that nothing but C and the leak D enters
-    contact = Zone(x, 0.03 * same, same, 0.05 * same, 2e-4 * same)
-    qx, qy, ratio = np.array([9.0, 25.0]), np.array([4.0, 0.0]), 1.1
-    q = np.hypot(qx, qy)
-    c = stiffness(q) * 0.03 * 0.05
-    leak = 2e-4 * q**2 * stiffness(q) / (1.0 + c)
-    rate = 1j * qx * (ratio - 1.0) - leak
-    for (driven, free), station in zip(
-        transport(contact, qx, qy, ratio, STATIONS), STATIONS, strict=True
-    ):
-        way = station - INLET
-        made = leak * (np.exp(rate * way) - 1.0) / rate
-        assert driven == pytest.approx((c + made) / (1.0 + c), rel=1e-10)
-        assert free == pytest.approx(np.exp(-leak * way) / (1.0 + c), rel=1e-10)
+    return Zone(x, same, film * same, same, 0.05 * same, 0.0 * same, same, conductance * same)
+
+
+def test_leaking_lubricant_does_not_deform_the_wave():
+    qx = np.array([80.0, 160.0])
+    parts = transport(uniform(conductance=1e3), 0.5 * qx, qx, 1.01, STATIONS)
+    assert [free == pytest.approx(0.0, abs=1e-12) for _, free in parts] == [True] * 3
+    assert all(driven == pytest.approx(1.0, abs=1e-3) for driven, _ in parts)
+
+
+def test_transport_of_ridges_in_a_uniform_contact_is_the_closed_form():
+    qy = np.array([9.0, 25.0])
+    c = stiffness(qy) * 0.03 * 0.05
+    # mu' = leak (1 - mu) + spread mu''
+    spread = 2e-4 * stiffness(qy) / (1.0 + c)
+    leak = spread * qy**2
+    rate = (np.sqrt(1.0 + 4.0 * spread * leak) - 1.0) / (2.0 * spread)
+    parts = transport(uniform(), 0.0 * qy, qy, 1.1, STATIONS)
+    for (driven, free), station in zip(parts, STATIONS, strict=True):
+        left = np.exp(-rate * (station - INLET))
+        assert driven == pytest.approx((c + 1.0 - left) / (1.0 + c), rel=1e-10)
+        assert free == pytest.approx(left / (1.0 + c), rel=1e-10)
+
+
+@pytest.mark.parametrize("ratio", [0.8, 1.0, 1.1])
+def test_free_wave_in_a_uniform_contact_goes_as_the_linearised_equation(ratio: float):
+    """T = exp(r X) in the equation of the module's head: a polynomial in r."""
+    qx, qy, e, held = np.array([9.0, 25.0]), np.array([4.0, 0.0]), 2e-5, 0.03 * 0.05
+    parts = transport(uniform(conductance=e), qx, qy, ratio, STATIONS)
+    slip = qx * (ratio - 1.0)
+    for i in range(qx.size):
+        q2 = qx[i] ** 2 + qy[i] ** 2
+        k = float(stiffness(np.sqrt(q2)))
+        pressure = np.array([1j * k * qx[i] / q2, -k])
+        mass = np.polysub([1.0], held * pressure)
+        change = np.polymul([1.0, -1j * slip[i]], mass)
+        flow = np.polymul([-e, -2j * qx[i] * e, e * q2], pressure)
+        roots = np.roots(np.polysub(change, flow))
+        r = roots[np.argmin(np.abs(roots - 1j * slip[i]))]
+        assert r.real < -0.005
+        for before, after in ((0, 1), (1, 2)):
+            way = STATIONS[after] - STATIONS[before]
+            grown = parts[after][1][i] / parts[before][1][i] * np.exp(1j * slip[i] * way)
+            assert grown == pytest.approx(np.exp(r * way), abs=2e-3)
+
+
+def test_flow_of_the_contact_turns_a_leaking_wave():
+    """Where the film thins along the motion the pressure wave is not that of a uniform film."""
+    x = np.linspace(-1.0, 1.0, 81)
+    same = np.ones_like(x)
+    qx, turned = np.array([15.0]), []
+    for rising in (0.0, 0.2):
+        thinner = 1e-3 * np.exp(-10.0 * rising * x)
+        held = 0.05 * same, 0.0 * same, 10.0 * same, thinner
+        contact = Zone(x, rising * x, 0.03 * same, same, *held)
+        turned.append(np.array(transport(contact, qx, 0.0 * qx, 1.0, STATIONS))[:, :, 0].sum(1))
+    uniform_film, thinning = turned
+    # both parts together are the roughness itself where nothing pushes
+    assert uniform_film == pytest.approx(1.0, abs=1e-9)
+    assert np.abs(thinning - 1.0).min() > 0.01
 
 
 def test_cells_of_a_grid_are_stiffer():
@@ -212,25 +240,20 @@ def test_coefficients_are_the_fit_to_the_measured_waves(
         assert [float(v) for v in old[4:]] == pytest.approx([float(v) for v in new[4:]], abs=1e-3)
 
 
-def test_gain_of_oblique_waves_is_that_of_the_measured_pressures(evidence: ModuleType):
+def test_gain_of_oblique_waves_is_that_of_the_measured_pressures(
+    script: Callable[[str], ModuleType],
+):
     """Waves too short for the edge of the disc, 513 x 513 nodes, M >= 200."""
-    lines = (Path(evidence.HERE) / "waves.csv").read_text().splitlines()
-    deviations: dict[tuple[float, float], list[float]] = {}
-    for row in csv.DictReader(line for line in lines if not line.startswith("#")):
-        moes = float(row["moes_m"]), float(row["moes_l"])
-        kx, ky = float(row["kx"]), float(row["ky"])
-        if row["points"] != "513" or float(row["x"]) or moes[0] < 200 or np.hypot(kx, ky) < 14:
-            continue
-        point = OperatingPoint.from_moes(*moes)
-        film = central_film(point, Lubricant()) / point.film_scale
-        # pressures that are constant over the cells of the grid deflect less
-        cells = np.sinc(0.5 * kx / 128 / np.pi) * np.sinc(0.5 * ky / 128 / np.pi)
-        measured = float(row["pressure_ratio"]) * cells
-        deviations.setdefault(moes, []).append(measured - float(edge_gain(kx, ky, film)))
-    assert len(deviations) >= 15
-    for moes, values in deviations.items():
-        assert np.sqrt(np.mean(np.square(values))) <= 0.011, moes
-        assert np.abs(values).max() <= 0.051, moes
+    gain = script("docs/evidence/response/gain.py")
+    waves = gain.read()
+    assert np.abs(gain.residual(waves, gain.fit(waves)) - gain.residual(waves, GAIN)).max() < 2e-4
+    left = gain.residual(waves, GAIN)
+    points = {(m, ell) for m, ell in waves[:, :2]}
+    assert len(points) >= 15
+    for m, ell in points:
+        here = left[(waves[:, 0] == m) & (waves[:, 1] == ell)]
+        assert np.sqrt(np.mean(np.square(here))) <= 0.011, (m, ell)
+        assert np.abs(here).max() <= 0.051, (m, ell)
 
 
 def test_range_of_the_fit_is_that_of_the_data(evidence: ModuleType):

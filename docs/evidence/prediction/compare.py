@@ -34,7 +34,7 @@ def predictions(row: dict[str, float]) -> tuple[float, float]:
         tile, solve_contact(settings), operating, oil, Options(), row["velocity_ratio"]
     )
     paper = predict_friction(tile, operating, oil, central_film(operating, oil), Options())
-    return passage.run(tracks=1)[0].mu_ratio, paper.mu_ratio
+    return passage.run(0, brief=True)[0].mu_ratio, paper.mu_ratio
 
 
 def main() -> None:

@@ -38,44 +38,54 @@ NODES = {257: 14.0, 513: 10.0, 1025: 8.0}
 # The longest wave along the motion that is fitted [a]: longer ones feel the edge of the contact
 LONGEST = 3.0
 WEIGHT_OF_RIDGES = 3.0
-# Where the leak in the inlet itself, which the transport equation has not, matters most
-WEIGHT_OF_LEAKING = 0.2
-PENALTY = 0.1
+# M L at which the leak in the inlet, LEAK/(M L), is 1
+LEAK = 300.0
+# Of the coefficients, some of which few data hold
+PENALTY = 0.02
 # Scales of the variables, so that one penalty suits all terms
-SCALES = (1.0, 1.0, 1.5, 1.5, 5.0, 1.0)
+SCALES = (1.0, 1.0, 1.5, 1.5, 5.0, 1.0, 1.0)
 
 
 def _terms() -> list[tuple[int, ...]]:
-    """Powers of s, c, ln(L/10), ln(M/1000)/2, U - 1 and M h^2."""
+    """Powers of s, c, ln(L/10), ln(M/1000)/2, U - 1, the leak and M h^2."""
 
     def upto(order: int, *others: int) -> list[tuple[int, ...]]:
-        return [
-            (i, j, *others) for i in range(order + 1) for j in range(order + 1) if i + j <= order
-        ]
+        """All terms in s and c up to an order, times powers of the others; those left out are 0."""
+        rest = (*others, 0, 0, 0, 0, 0)[:5]
+        return [(i, j, *rest) for i in range(order + 1) for j in range(order + 1) if i + j <= order]
 
-    found = upto(4, 0, 0, 0, 0)
+    found = upto(5)
     for powers in ((1, 0), (0, 1)):
-        found += upto(3, *powers, 0, 0)
+        found += upto(4, *powers)
     for powers in ((2, 0), (0, 2), (1, 1)):
-        found += upto(2, *powers, 0, 0)
+        found += upto(3, *powers)
     for powers in ((3, 0), (0, 3), (2, 1), (1, 2)):
-        found += upto(1, *powers, 0, 0)
-    found += upto(3, 0, 0, 1, 0) + upto(1, 0, 0, 2, 0)
-    found += upto(2, 1, 0, 1, 0) + upto(2, 0, 1, 1, 0)
-    for powers in ((2, 0, 1), (0, 2, 1), (1, 1, 1), (1, 0, 2), (0, 1, 2)):
-        found.append((0, 0, *powers, 0))
-    return found + upto(1, 0, 0, 0, 1)
+        found += upto(2, *powers)
+    found += upto(4, 0, 0, 1) + upto(2, 0, 0, 2)
+    found += upto(2, 1, 0, 1) + upto(2, 0, 1, 1)
+    for powers in ((2, 0, 1), (0, 2, 1), (1, 1, 1)):
+        found += upto(1, *powers)
+    for powers in ((1, 0, 2), (0, 1, 2)):
+        found += upto(0, *powers)
+    # what the leak in the inlet does at low M L, and nothing elsewhere
+    found += upto(5, 0, 0, 0, 1) + upto(2, 0, 0, 0, 2)
+    found += upto(4, 0, 0, 1, 1) + upto(3, 0, 0, 2, 1) + upto(1, 0, 0, 1, 2)
+    # ridges do not move: U is nothing to them
+    found = [(i, j + (e > 0), a, b, e, *rest) for i, j, a, b, e, *rest in found]
+    return found + upto(1, 0, 0, 0, 0, 1)
 
 
 TERMS = _terms()
+SHAPES = ((0, 0), (1, 0), (2, 0), (0, 2), (1, 2))
 ORIGIN = [
-    (i, j, a, b, e, 0)
-    for i, j, a, b, e in (
-        *((0, 0, 0, 0, 0), (1, 0, 0, 0, 0), (2, 0, 0, 0, 0), (0, 2, 0, 0, 0), (1, 2, 0, 0, 0)),
-        *((0, 0, 1, 0, 0), (1, 0, 1, 0, 0), (0, 0, 0, 1, 0), (1, 0, 0, 1, 0)),
-        *((0, 0, 0, 0, 1), (1, 0, 0, 0, 1), (0, 0, 1, 0, 1), (0, 0, 0, 1, 1)),
+    (i, j, a, b, e, f, 0)
+    for i, j, a, b, e, f in (
+        *((i, j, 0, 0, 0, f) for f in (0, 1) for i, j in SHAPES),
+        *((i, 0, *powers, 0) for powers in ((1, 0, 0), (0, 1, 0), (0, 0, 1)) for i in (0, 1)),
+        *((0, 0, 1, 0, 1, 0), (0, 0, 0, 1, 1, 0)),
     )
 ]
+GROWTH = [(i, j, 0, 0, 0, f, 0) for f in (1, 2) for i, j in SHAPES]
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,7 +118,7 @@ class Data:
 
     @property
     def variables(self) -> tuple[Array, ...]:
-        """The variables: s (clipped), c, ln(L/10), ln(M/1000)/2, U - 1, M h^2."""
+        """Give s (clipped), c, ln(L/10), ln(M/1000)/2, U - 1, the leak LEAK/(M L), M h^2."""
         s = 0.5 * np.log(2.0 * np.pi / self.q * np.sqrt(self.m / self.l))
         return (
             np.clip(s, *PARAMETER),
@@ -116,6 +126,7 @@ class Data:
             np.log(self.l / 10.0),
             0.5 * np.log(self.m / 1000.0),
             self.ratio - 1.0,
+            LEAK / (self.m * self.l),
             self.m * (4.0 / (self.points - 1.0)) ** 2,
         )
 
@@ -163,18 +174,29 @@ def select(data: Data) -> NDArray[np.bool_]:
 
 
 class Fit:
-    """Coefficients of ln|z|, arg z/c and X_0."""
+    """Coefficients of ln|z|, arg z/c, X_0 and X_1."""
 
     def __init__(self, coefficients: Array) -> None:
         self.coefficients = coefficients
 
     def transfer(self, data: Data) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
         """G and z of waves (m,), with the error of their grids."""
-        n, x = len(TERMS), self.coefficients
-        powers, (_, c, _, _, slip, _) = data.powers(TERMS), data.variables
-        z = np.exp(powers @ x[:n] + data.beyond + 1j * c * (powers @ x[n : 2 * n]))
-        shift = data.kx * slip * (data.powers(ORIGIN) @ x[2 * n :])
+        return self.of_powers(data, *(data.powers(terms) for terms in (TERMS, ORIGIN, GROWTH)))
+
+    def of_powers(
+        self, data: Data, powers: Array, origin: Array, growth: Array
+    ) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
+        """G and z by the powers of the variables in TERMS, ORIGIN and GROWTH."""
+        modulus, angle, first, second = self.parts()
+        _, c, _, _, slip, _, _ = data.variables
+        z = np.exp(powers @ modulus + data.beyond + 1j * c * (powers @ angle))
+        shift = data.kx * slip * (origin @ first) + 1j * c * slip * (growth @ second)
         return np.exp(1j * shift) / (1.0 + z), z
+
+    def parts(self) -> list[Array]:
+        """Coefficients of ln|z|, arg z/c, X_0 and X_1."""
+        sizes = len(TERMS), len(TERMS), len(ORIGIN)
+        return np.split(self.coefficients, np.cumsum(sizes))
 
     def residual(self, data: Data) -> NDArray[np.complex128]:
         """T of the fit less T (m, 3)."""
@@ -182,24 +204,26 @@ class Fit:
 
     def as_json(self) -> dict[str, Any]:
         """Coefficients as :mod:`pyehl.theory.response` reads them."""
-        n = len(TERMS)
 
         def listed(terms: list[tuple[int, ...]], values: Array) -> list[list[float]]:
             found = []
             for term, value in zip(terms, values, strict=True):
-                if not term[5]:
+                if not term[6]:
                     scale = np.prod([f**p for f, p in zip(SCALES, term, strict=True)])
-                    found.append([float(f"{value * scale:.7g}"), *term[:5]])
+                    found.append([float(f"{value * scale:.7g}"), *term[:6]])
             return found
 
+        names = {"modulus": TERMS, "angle": TERMS, "origin": ORIGIN, "growth": GROWTH}
         return {
             "range": {"moes_m": [100, 3000], "moes_l": [3, 20], "velocity_ratio": [0.8, 1.2]},
             "parameter": list(PARAMETER),
             "slope": SLOPE,
+            "leak": LEAK,
             "oblique": OBLIQUE,
-            "modulus": listed(TERMS, self.coefficients[:n]),
-            "angle": listed(TERMS, self.coefficients[n : 2 * n]),
-            "origin": listed(ORIGIN, self.coefficients[2 * n :]),
+            **{
+                name: listed(terms, values)
+                for (name, terms), values in zip(names.items(), self.parts(), strict=True)
+            },
         }
 
 
@@ -220,36 +244,45 @@ def _start(data: Data) -> Fit:
         return np.asarray(np.linalg.lstsq(a, b, rcond=None)[0])
 
     return Fit(
-        np.concatenate([solve(powers, size), solve(powers * c, angle), np.zeros(len(ORIGIN))])
+        np.concatenate(
+            [solve(powers, size), solve(powers * c, angle), np.zeros(len(ORIGIN) + len(GROWTH))]
+        )
     )
 
 
-def fit(data: Data, iterations: int = 40) -> Fit:
-    """Gauss-Newton from the linear fit; waves whose residual is large get more weight."""
-    powers, origin = data.powers(TERMS), data.powers(ORIGIN)
-    _, c, _, _, slip, _ = data.variables
+def fit(data: Data, iterations: tuple[int, int] = (40, 25), start: Fit | None = None) -> Fit:
+    """Gauss-Newton from a start or the linear fit; a wave with a large residual gets more weight.
+
+    The first iterations minimise about the sum of the fourth powers of the residuals, the last ones
+    about that of the tenth.
+    """
+    powers, origin, growth = (data.powers(terms) for terms in (TERMS, ORIGIN, GROWTH))
+    _, c, _, _, slip, _, _ = data.variables
     first = np.where(data.kx == 0.0, WEIGHT_OF_RIDGES, 1.0)
-    first = first * np.where(data.m * data.l < 500.0, WEIGHT_OF_LEAKING, 1.0)
-    found = _start(data)
-    for k in range(iterations):
-        g, z = found.transfer(data)
-        left = found.residual(data)
+    turned, moved = powers * c[:, np.newaxis], origin * (data.kx * slip)[:, np.newaxis]
+    grown = growth * (c * slip)[:, np.newaxis]
+    # what a change of G does to T at all X, as one number
+    strength = np.maximum(np.sqrt((np.abs(data.free) ** 2).sum(axis=1)), 1e-12)
+    found = start or _start(data)
+    for k in range(sum(iterations)):
+        last = k >= iterations[0]
+        g, z = found.of_powers(data, powers, origin, growth)
+        left = data.driven + data.free * g[:, np.newaxis] - data.t
         size = np.abs(left).max(axis=1) * first
-        weight = first * (0.003 + size)
+        weight = first * (0.003 + size) ** (4.0 if last else 1.0)
         weight /= np.sqrt(np.mean(weight**2))
-        log_z = (data.free * (-g * z / (1.0 + z))[:, np.newaxis] * weight[:, np.newaxis])[..., None]
-        shift = (data.free * (1j * g)[:, np.newaxis] * weight[:, np.newaxis])[..., None]
-        moved = origin * (data.kx * slip)[:, np.newaxis]
-        turned = powers * c[:, np.newaxis]
-        parts = [log_z * powers[:, None], 1j * log_z * turned[:, None], shift * moved[:, None]]
-        jacobian = np.concatenate(parts, axis=2).reshape(left.size, -1)
-        wanted = -(left * weight[:, np.newaxis]).ravel()
+        log_z = (-g * z / (1.0 + z) * strength * weight)[:, np.newaxis]
+        shift = (1j * g * strength * weight)[:, np.newaxis]
+        jacobian = np.hstack(
+            [log_z * powers, 1j * log_z * turned, shift * moved, 1j * shift * grown]
+        )
+        wanted = -(np.conj(data.free) * left).sum(axis=1) / strength * weight
         a = np.vstack([jacobian.real, jacobian.imag])
         b = np.concatenate([wanted.real, wanted.imag])
         normal = a.T @ a
-        penalty = PENALTY**2 * np.eye(normal.shape[0]) + 1e-9 * np.diag(np.diag(normal))
+        penalty = np.diag(PENALTY**2 + 1e-9 * np.diag(normal))
         step = np.linalg.solve(normal + penalty, a.T @ b - PENALTY**2 * found.coefficients)
-        limit = min(1.0, 3.0 / np.abs(step).max()) if k < 5 else 0.7
+        limit = min(1.0, 3.0 / np.abs(step).max()) if k < 5 else 0.3 if last else 0.7
         found = Fit(found.coefficients + limit * step)
     return found
 

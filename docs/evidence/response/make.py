@@ -20,11 +20,12 @@ from typing import Any
 import numpy as np
 
 from pyehl.case import Case
-from pyehl.studies.superposition import Superposition, WaveSet, superpose
+from pyehl.prediction.smooth import zone_on
+from pyehl.studies.superposition import FILLING, Superposition, WaveSet, superpose
 from pyehl.studies.tiers import TIERS, tier_waves
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.response import Zone, stiffness, transport
+from pyehl.theory.transport import Zone, stiffness, transport
 
 HERE = Path(__file__).parent
 STATIONS = np.array([-0.5, 0.0, 0.5])
@@ -33,6 +34,22 @@ COLUMNS = (
     "pressure_ratio"
 ).split()
 TILE = 4.0
+# Runs (M, L, U, points, variant) whose record began later than FILLING, at SETTLED [a]
+SETTLED = 5.3
+LATER = {
+    (200.0, 10.0, 0.9, 257, 1),
+    (200.0, 10.0, 1.01, 257, 1),
+    (200.0, 10.0, 1.1, 257, 1),
+    (500.0, 5.0, 1.2, 257, 1),
+    (500.0, 15.0, 1.01, 257, 1),
+    *((300.0, 12.0, ratio, 257, 1) for ratio in (0.8, 0.9, 1.0, 1.01, 1.1, 1.2)),
+    *((100.0, 3.0, ratio, 257, 1) for ratio in (0.8, 0.9, 1.0, 1.01, 1.05, 1.1, 1.2)),
+    *(
+        (*point, ratio, 257, 1)
+        for point in ((100.0, 5.0), (150.0, 3.0), (150.0, 5.0), (200.0, 5.0))
+        for ratio in (0.9, 1.01, 1.1)
+    ),
+}
 # Wavelengths per tile along the motion, as far as the grid has eight nodes for them
 ALONG = (*range(1, 17), 18, 19, 20, 22, 24, 26, 28, 30, 32, 35, 38, 41, 44, 48, 52, 56, 60, 64)
 # Angles [deg], one wave after the other; variants 0 and 1 begin at different ones
@@ -75,11 +92,7 @@ def settings_of(moes_m: float, moes_l: float) -> dict[str, dict[str, Any]]:
 def zone_of(found: Superposition, settings: Mapping[str, Mapping[str, Any]]) -> Zone:
     """Centre line of the smooth contact as the run itself had it."""
     operating, lubricant = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
-    p = np.maximum(found.pressure, 0.0) * operating.hertz_pressure
-    rho = lubricant.density_ratio(p)
-    slope = np.log(lubricant.density_ratio(p + 1e-3 * operating.hertz_pressure) / rho) / 1e-3
-    eta = lubricant.viscosity_ratio(p) * operating.speed_parameter
-    return Zone(found.x, found.film, rho, slope, rho * found.film**3 / eta)
+    return zone_on(found.x, np.maximum(found.pressure, 0.0), found.film, operating, lubricant)
 
 
 def rows(
@@ -133,7 +146,10 @@ def main(arguments: list[str]) -> None:
         for m, ell, u, n, variant in plan:
             print(f"M {m:g} L {ell:g} U {u:g}: {n} x {n} nodes, waves {variant}", flush=True)
             waves = waves_of(n, variant)
-            found = superpose(settings_of(m, ell), waves, points=n, velocity_ratio=u)
+            filling = SETTLED if (m, ell, u, n, variant) in LATER else FILLING
+            found = superpose(
+                settings_of(m, ell), waves, points=n, velocity_ratio=u, filling=filling
+            )
             writer.writerows(rows(waves, found, m, ell, u))
 
 

@@ -13,11 +13,11 @@ from pathlib import Path
 import numpy as np
 from make import settings_of
 
-from pyehl.prediction.smooth import solve_contact, zone_of
+from pyehl.prediction.smooth import zone_on
 from pyehl.studies.ridges import ridges
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.response import stiffness, transport
+from pyehl.theory.transport import stiffness, transport
 
 POINTS = 257
 LONG = (4.0, 2.0, 1.6, 1.0)
@@ -39,7 +39,9 @@ def main(path: Path) -> None:
             centre = int(np.argmin(np.abs(found["x"])))
             ky = 2.0 * np.pi / np.array(wavelengths)
             operating = OperatingPoint.from_settings(settings)
-            zone = zone_of(solve_contact(settings), operating, Lubricant.from_settings(settings))
+            lubricant = Lubricant.from_settings(settings)
+            pressure = np.maximum(found["pressure"], 0.0)
+            zone = zone_on(found["x"], pressure, found["film"], operating, lubricant)
             parts = transport(zone, 0.0 * ky, ky, 1.0, np.array([0.0]), float(found["spacing"]))
             t = found["response"][:, centre].real
             ratio = found["stiffness"][:, centre].real / (stiffness(ky) * (1.0 - t))

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Compute the driven and free parts in ``waves.csv`` and ``ridges.csv`` anew.
+
+    python docs/evidence/response/parts.py
+
+After a change of :mod:`pyehl.theory.transport`: the measured T stays, what the transport equation
+gives of it is taken from smooth contacts that are solved on the grids of the runs, some minutes.
+"""
+
+from __future__ import annotations
+
+import csv
+from functools import lru_cache
+
+import numpy as np
+from make import HERE, STATIONS, settings_of
+
+from pyehl.case import Case
+from pyehl.prediction.smooth import zone_on
+from pyehl.solver import Solver
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.transport import Zone, transport
+
+
+@lru_cache
+def smooth_zone(moes_m: float, moes_l: float, points: int) -> Zone:
+    """Centre line of the smooth contact on a grid."""
+    settings = settings_of(moes_m, moes_l)
+    operating, lubricant = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
+    x, pressure, film = smooth_line(moes_m, moes_l, points)
+    return zone_on(x, np.maximum(pressure, 0.0), film, operating, lubricant)
+
+
+def smooth_line(moes_m: float, moes_l: float, points: int) -> tuple[np.ndarray, ...]:
+    """X, P and H of a smooth contact on Y = 0."""
+    text = f"&contact moes_m = {moes_m!r} moes_l = {moes_l!r} /\n"
+    options = ["surface.kind=smooth", f"grid.points={points}", "solver.accuracy=0.02"]
+    with Solver.open(Case.from_text(text, options)) as solver:
+        if not solver.run():
+            raise SystemExit(f"{moes_m:g}, {moes_l:g} on {points}: {solver.summary()['status']}")
+        x, y = solver.axes()
+        middle = int(np.argmin(np.abs(y)))
+        return x, solver.field("P")[:, middle], solver.field("H")[:, middle]
+
+
+def main() -> None:
+    """Rewrite both tables."""
+    for name in ("waves.csv", "ridges.csv"):
+        with (HERE / name).open(newline="", encoding="utf-8") as stream:
+            head, *rows = list(csv.reader(stream))
+        column = {key: i for i, key in enumerate(head)}
+        moving = "kx" in column
+        groups: dict[tuple[float, float, float, int], list[list[str]]] = {}
+        for row in rows:
+            m, ell = float(row[0]), float(row[1])
+            ratio = float(row[column["velocity_ratio"]]) if moving else 1.0
+            groups.setdefault((m, ell, ratio, int(row[column["points"]])), []).append(row)
+        for (m, ell, ratio, points), group in groups.items():
+            print(f"M {m:g} L {ell:g} U {ratio:g}: {points} x {points} nodes", flush=True)
+            ky = np.array([float(row[column["ky"]]) for row in group])
+            kx = np.array([float(row[column["kx"]]) if moving else 0.0 for row in group])
+            zone, spacing = smooth_zone(m, ell, points), 4.0 / (points - 1.0)
+            parts = transport(zone, kx, ky, ratio, STATIONS, spacing)
+            for j, row in enumerate(group):
+                x = float(row[column["x"]]) if moving else 0.0
+                driven, free = parts[int(np.argmin(np.abs(STATIONS - x)))]
+                there = free[j] * np.exp(1j * kx[j] * (ratio - 1.0) * (x + 1.0))
+                if not moving:
+                    row[column["driven"]] = f"{driven[j].real:.5f}"
+                    row[column["free"]] = f"{there.real:.5f}"
+                    continue
+                values = (driven[j].real, driven[j].imag, there.real, there.imag)
+                first = column["driven_re"]
+                row[first : first + 4] = [f"{v:.5f}".replace("-0.00000", "0") for v in values]
+        with (HERE / name).open("w", newline="", encoding="utf-8") as stream:
+            csv.writer(stream, lineterminator="\n").writerows([head, *rows])
+
+
+if __name__ == "__main__":
+    main()

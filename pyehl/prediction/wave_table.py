@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A table over wavenumber and direction, and the way between it and the components of a tile."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from pyehl.prediction.spectrum import Spectrum
+
+__all__ = ["WaveTable", "coarsened"]
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+# Wavenumbers and directions: the interpolated T is right to 1e-3. Both are odd, and so are those of
+# the coarse tables, which every second one makes
+TABLE = (73, 25)
+# Components that are interpolated at a time
+BLOCK = 1 << 18
+
+
+def coarsened(values: NDArray[Any], times: int) -> NDArray[Any]:
+    """Values of a table (..., m) at the places of a coarse one (..., l)."""
+    step = 2**times
+    whole = values.reshape(*values.shape[:-1], *TABLE)
+    return whole[..., ::step, ::step].reshape(*values.shape[:-1], -1)
+
+
+class WaveTable:
+    """Wavenumbers and directions at which a response is taken, and the way from there to a tile.
+
+    Attributes
+    ----------
+    kx, ky
+        Wavenumbers of the table (m,) [1/a].
+    """
+
+    def __init__(self, spectrum: Spectrum) -> None:
+        rows, ny = spectrum.qx.size, spectrum.qy.size
+        # qy and -qy have the same response
+        half = ny // 2 + 1
+        qx, qy = spectrum.qx[:, np.newaxis], np.abs(spectrum.qy[np.newaxis, :half])
+        q = np.hypot(qx, qy)
+        low, high = np.log(q[q > 0.0].min()), np.log(q.max())
+        wavenumber = np.exp(np.linspace(low, high, TABLE[0]))[:, np.newaxis]
+        direction = np.linspace(0.0, 0.5 * np.pi, TABLE[1])
+        kx, ky = wavenumber * np.cos(direction), wavenumber * np.sin(direction)
+        kx[:, -1] = 0.0
+        self.kx, self.ky = kx.ravel(), ky.ravel()
+        with np.errstate(divide="ignore"):
+            row = (np.log(q) - low) * ((TABLE[0] - 1) / max(high - low, 1e-12))
+        row = np.maximum(row, 0.0).ravel()
+        column = np.arctan2(qy, qx).ravel() * ((TABLE[1] - 1) / (0.5 * np.pi))
+        self._nearest = np.rint(row).astype(int) * TABLE[1] + np.rint(column).astype(int)
+        self._rows, self._columns = row, column
+        self._shape = rows, half
+        self._mirror = np.minimum(np.arange(ny), ny - np.arange(ny))
+
+    def gathered(self, power: Array, times: int = 1) -> Array:
+        """Sum what the components of a tile have, at the places of a coarse table, (l,).
+
+        Weighted as for a linear interpolation between them. `times`: how often every second
+        wavenumber and direction is left out.
+        """
+        half = self._shape[1]
+        folded = power[:, :half].copy()
+        folded[:, 1 : power.shape[1] - half + 1] += power[:, half:][:, ::-1]
+        sums = np.bincount(self._nearest, folded.ravel(), self.kx.size)
+        found: Array = np.asarray(sums, dtype=np.float64).reshape(TABLE)
+        for _ in range(2 * times):
+            between = 0.5 * found[1::2]
+            found = found[::2].copy()
+            found[:-1] += between
+            found[1:] += between
+            found = found.T
+        return found.ravel()
+
+    def coarse(self, times: int = 1) -> tuple[Array, Array]:
+        """Wavenumbers of a coarse table, (l,) each."""
+        kx, ky = (coarsened(values, times) for values in (self.kx, self.ky))
+        return kx, ky
+
+    def spread(self, tables: Sequence[Complex]) -> list[Complex]:
+        """Interpolate tables (m,) to all components, linear in log |q| and direction."""
+        values = np.stack(tables, axis=-1).view(np.float64)
+        found = [np.empty((self._shape[0], self._mirror.size), dtype=complex) for _ in tables]
+        width = self._shape[1]
+        step = max(1, BLOCK // width)
+        for first in range(0, self._shape[0], step):
+            part = slice(first * width, (first + step) * width)
+            spread = (_weights(self._rows[part], self._columns[part]) @ values).view(np.complex128)
+            for k, out in enumerate(found):
+                out[first : first + step] = spread[:, k].reshape(-1, width)[:, self._mirror]
+        for out in found:
+            # a component that does not move has no phase but its own
+            out[0] = out[0].real
+        return found
+
+
+def _weights(row: Array, column: Array) -> sparse.csr_array:
+    """Matrix of the bilinear interpolation in a table, (n, m)."""
+    i, j = (
+        np.minimum(place.astype(np.int32), size - 2)
+        for place, size in zip((row, column), TABLE, strict=True)
+    )
+    # what rounding puts beyond the last column is on it
+    u, v = row - i, np.minimum(column - j, 1.0)
+    at = i * np.int32(TABLE[1]) + j
+    index = np.stack([at, at + 1, at + TABLE[1], at + TABLE[1] + 1], axis=-1)
+    weight = np.stack([(1.0 - u) * (1.0 - v), (1.0 - u) * v, u * (1.0 - v), u * v], axis=-1)
+    ends = np.arange(0, 4 * at.size + 1, 4, dtype=np.int32)
+    return sparse.csr_array(
+        (weight.ravel(), index.ravel(), ends), shape=(at.size, TABLE[0] * TABLE[1])
+    )

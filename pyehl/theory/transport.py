@@ -1,0 +1,198 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Waves of film and pressure in the zone of high pressure: the linearised Reynolds equation.
+
+Roughness A Re exp(i(k(X - U T) + k_Y Y)), U its velocity over the mean velocity, thins the film by
+A Re T exp(i(...)) and raises the pressure by A Re Pi exp(i(...)). All lengths along the surface are
+scaled by the Hertz radius a, films by a^2/R, pressures by p_h, times by a/u; k > 0.
+
+The half-space makes Pi = K (1 - T) + i K k/|q|^2 T', K = (pi/4)|q|, |q| = hypot(k, k_Y): to first
+order the stiffness of a wave whose amplitude changes along the motion. The mass that the film wave
+holds is mu = rho (T - c H Pi), c = d ln rho/dP, and with eps = rho H^3/(eta lambda), delta ln eps =
+g = (c - d ln eta/dP) Pi - 3 T/H the Reynolds equation reads
+
+    mu' = i k (U - 1) mu + eps |q|^2 Pi - i k eps' Pi - (eps' + 2 i k eps) Pi' - eps Pi''
+          - eps P' (i k g + g'),
+
+primes are d/dX; g (rho H)', what the smooth film gains or loses, is left out. The coefficients
+change slowly, so that mu' = a mu + b with a = mu'/mu where no roughness drives. For stiff
+lubricants eps vanishes: mu is made in the inlet and then carried at the mean velocity, a wave of
+wavenumber kU (Greenwood & Morales-Espejel 1994; Hooke 1999 to 2007), beside C/(1 + C), C = K H c,
+which compressibility leaves with the roughness. eps |q|^2 Pi, the leak by viscous flow
+(Morales-Espejel & Brizmer 2011), matters for short waves and low pressures; the terms behind it,
+what the flow of the smooth contact does to the wave, where it leaks a lot.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["INLET", "Zone", "stiffness", "transport"]
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+INLET = -0.9
+"""Where the zone of high pressure is taken to begin, on the centre line [a]."""
+
+# Largest change of X in the integration of the transport equation [a]
+STEP = 0.025
+# Behind it the pressure falls too fast for slowly changing coefficients: eps' and P' are left out
+OUTLET = 0.6
+
+
+@dataclass(frozen=True, slots=True)
+class Zone:
+    """The smooth contact on its centre line, and what of the lubricant enters a wave.
+
+    Attributes
+    ----------
+    x
+        Ascending [a], (n,).
+    pressure
+        P [p_h].
+    film
+        H [a^2/R].
+    density
+        rho/rho0 [-].
+    compressibility
+        d ln rho/dP [-].
+    curvature
+        (d^2 rho/dP^2)/rho [-].
+    thickening
+        d ln eta/dP [-].
+    conductance
+        eps = rho H^3/(eta lambda) [-].
+    """
+
+    x: Array
+    pressure: Array
+    film: Array
+    density: Array
+    compressibility: Array
+    curvature: Array
+    thickening: Array
+    conductance: Array
+
+
+class _Flow:
+    """The smooth contact at places (n,): what the coefficients of the equation are made of."""
+
+    def __init__(self, zone: Zone, places: Array) -> None:
+        def at(values: Array) -> Array:
+            return np.interp(places, zone.x, values)
+
+        # waves of a large amplitude may leak so little that it is 0
+        logarithm = np.log(np.maximum(zone.conductance, np.finfo(float).tiny))
+        inside = np.where(places <= OUTLET, 1.0, 0.0)
+        self.film, self.density = at(zone.film), at(zone.density)
+        self.compressibility = at(zone.compressibility)
+        self.softening = at(zone.compressibility - zone.thickening)
+        self.conductance = np.exp(at(logarithm))
+        slope = inside * self.conductance
+        self.slope = slope * at(np.gradient(logarithm, zone.x))
+        self.gradient = slope * at(np.gradient(zone.pressure, zone.x))
+
+
+class _Waves:
+    """Waves (m,): T and the change of mu, both linear in mu, at the places of a flow."""
+
+    def __init__(self, qx: Array, qy: Array, velocity_ratio: float, spacing: float) -> None:
+        cells = 0.5 * spacing / np.pi
+        self.squared = qx * qx + qy * qy
+        self.k = stiffness(np.sqrt(self.squared)) / (np.sinc(cells * qx) * np.sinc(cells * qy))
+        self.turned = 1j * qx
+        self.slip = self.turned * (velocity_ratio - 1.0)
+        self.changing = self.turned * self.k / np.maximum(self.squared, 1e-24)
+
+    def at(self, flow: _Flow, i: int) -> tuple[Complex, Complex, Complex, Complex]:
+        """Give a, b, t, s of mu' = a mu + b and T = t mu + s at the place i."""
+        e, h, rho, k = flow.conductance[i], flow.film[i], flow.density[i], self.k
+        held = flow.compressibility[i] * h
+        soft, slope, gradient = flow.softening[i], flow.slope[i], flow.gradient[i]
+        by_pressure = e * self.squared - self.turned * (slope + soft * gradient)
+        by_film = (3.0 / h * gradient) * self.turned
+        by_change = -slope - (2.0 * e) * self.turned - soft * gradient
+        share = 1.0 / (1.0 + k * held)
+        # as if the amplitude did not change, then with its change
+        t, s = share / rho + 0j, k * held * share + 0j
+        p, r = -k * t, k * share + 0j
+        for change in (self.changing, None):
+            left = 1.0 - by_change * p - (3.0 / h * gradient) * t
+            whole = self.slip + by_pressure * p + by_film * t
+            # of e p a^2 + left a = whole the root that is whole/left where little leaks
+            root = 2.0 / (left + np.sqrt(left * left + (4.0 * e) * p * whole))
+            a = whole * root
+            b = (by_pressure * r + by_film * s) * root
+            if change is not None:
+                up, steady = change * (t * a), change * (t * b)
+                t, s = share * (1.0 / rho + held * up), share * (held * (k + steady))
+                p, r = up - k * t, steady + k - k * s
+        return a, b, t, s
+
+
+def stiffness(q: ArrayLike) -> Array:
+    """K = (pi/4)|q|: pressure [p_h] per height of flattening [a^2/R] of a wave |q| [1/a].
+
+    E'|q|/4 in Hertz units (Johnson 1985, Contact Mechanics, section 13.2).
+    """
+    return 0.25 * np.pi * np.asarray(q, dtype=float)
+
+
+def transport(
+    zone: Zone,
+    qx: Array,
+    qy: Array,
+    velocity_ratio: float,
+    stations: Array,
+    spacing: float = 0.0,
+) -> list[tuple[Complex, Complex]]:
+    """Integrate the transport equation from the inlet to the stations.
+
+    Parameters
+    ----------
+    zone
+        The smooth contact on the centre line.
+    qx, qy
+        Wavenumbers (m,) [1/a], qx >= 0.
+    velocity_ratio
+        U.
+    stations
+        Ascending X (n,) [a], behind INLET.
+    spacing
+        Of the grid of a simulation to compare with [a]: on cells of constant pressure a wave is
+        stiffer by the mean of its cosine over a cell. 0: the half-space itself.
+
+    Returns
+    -------
+    list of (driven, free)
+        At each station T = driven + free G exp(i qx (U - 1)(X + 1)), both (m,).
+    """
+    starts = np.concatenate([[INLET], stations[:-1]])
+    steps = np.ceil((stations - starts) / STEP - 1e-9).astype(int)
+    lengths = np.repeat((stations - starts) / steps, steps)
+    middles = INLET + np.cumsum(lengths) - 0.5 * lengths
+    flow, there = _Flow(zone, middles), _Flow(zone, stations)
+    waves = _Waves(qx, qy, velocity_ratio, spacing)
+    free = np.full(qx.shape, np.interp(INLET, zone.x, zone.density), dtype=complex)
+    driven = np.zeros(qx.shape, dtype=complex)
+    ends = np.cumsum(steps)
+    found = []
+    for i, h in enumerate(lengths):
+        a, b, _, _ = waves.at(flow, i)
+        # exact for coefficients that are constant over the step
+        turn = a * h
+        grown = np.exp(turn)
+        still = np.abs(turn) < 1e-6
+        turn[still] = 1.0
+        way = (grown - 1.0) / turn
+        way[still] = 1.0
+        free *= grown
+        driven = driven * grown + (b * h) * way
+        for j in np.flatnonzero(ends == i + 1):
+            _, _, t, s = waves.at(there, int(j))
+            back = np.exp(-waves.slip * (stations[j] - INLET))
+            found.append((t * driven + s, t * free * back))
+    return found
