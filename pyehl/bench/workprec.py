@@ -57,7 +57,7 @@ class Scene:
     quantities
         What the error is of.
     grids
-        Nodes per side; the last one with ``--full`` alone.
+        Nodes per side; the last one with ``--full`` alone, for the reference: default setting only.
     rough
         Whether schemes, coarsenings and the prediction belong to it.
     """
@@ -138,8 +138,12 @@ def work_rows(
         mine: list[Row] = []
         for points in used:
             unit = _unit(points)
+            # the finest grid is there for the reference
+            reference = scene.rough and full and points == scene.grids[-1]
             for setting, options in _settings(scene):
-                for workers in threads if setting == "default" else threads[:1]:
+                if reference and options:
+                    continue
+                for workers in threads[:1] if reference or options else threads:
                     tell(f"{name}: {points} x {points}, {setting}, threads {workers}")
                     mine += _run(scene, setting, options, points, workers, unit)
         if scene.rough:

@@ -146,7 +146,9 @@ def _add_workprec(parser: argparse.ArgumentParser) -> None:
     _add_points(parser, (), "those of each scene")
     _add_threads(parser)
     _add_scenes(parser, [scene.name for scene in workprec.SCENES])
-    parser.add_argument("--full", action="store_true", help="the finest grids too")
+    parser.add_argument(
+        "--full", action="store_true", help="the finest grids too, for the reference"
+    )
 
 
 def _deflection(args: argparse.Namespace, answer: Answer) -> Rows:

@@ -95,16 +95,19 @@ def work(rows: Sequence[Row], path: Path) -> None:
         mine = [row for row in rows if (row["scene"], row["quantity"]) == (scene, quantity)]
         for number, setting in enumerate(settings):
             line = [
-                (row["seconds"], max(row["error"], 1e-7))
+                (row["seconds"], row["error"])
                 for row in mine
-                if row["setting"] == setting and row["error"] is not None and row["threads"] == 1
+                # the reference itself has no error
+                if row["setting"] == setting and row["error"] and row["threads"] == 1
             ]
             at: NDArray[np.float64] = np.array(line, dtype=float).reshape(-1, 2)
             marker = "*" if setting == "prediction" else "os^vD<>pP"[number % 9]
             ax.loglog(at[:, 0], at[:, 1], marker=marker, ms=4, lw=0.8, label=setting)
         bars = [row["bar"] for row in mine if row["bar"]]
         if bars:
-            ax.axhspan(1e-7, max(bars[0], 1e-7), color="0.9", zorder=0)
+            lowest = 0.5 * min(bars[0], *(row["error"] for row in mine if row["error"]))
+            ax.axhspan(lowest, bars[0], color="0.9", zorder=0)
+            ax.set_ylim(bottom=lowest)
         ax.set(title=f"{scene}: {quantity}", xlabel="processor seconds")
     axes[0].set_ylabel("relative error")
     handles, labels = axes[-1].get_legend_handles_labels()

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import math
 import resource
@@ -150,6 +151,38 @@ def test_work_and_precision(tmp_path: Path, capsys):
     assert film[129] > film[257] > 0.0
     # second order
     assert film[129] / film[257] == pytest.approx(4.0, rel=0.3)
+
+
+def test_defaults_are_on_the_front_that_was_measured(root: Path):
+    """docs/evidence/workprec: what is cheapest, as its README says."""
+    with (root / "docs" / "evidence" / "workprec" / "workprec.csv").open() as stream:
+        rows = [
+            row | {key: float(row[key]) for key in ("seconds", "error", "bar") if row[key]}
+            for row in csv.DictReader(stream)
+            # right by chance on one grid
+            if row["error"] and row["threads"] == "1" and not row["setting"].startswith("paper")
+        ]
+
+    def least(scene: str, level: float, family: tuple[str, ...]) -> float:
+        return min(
+            row["seconds"]
+            for row in rows
+            if row["scene"] == scene
+            and row["quantity"] in ("H_c", "mu_ratio")
+            and row["setting"].startswith(family)
+            and max(row["error"], row["bar"]) <= level
+        )
+
+    others = ("default", "fft", "alcouffe", "classical")
+    for scene in ("smooth", "wave", "resolved fractal"):
+        for level in precision.LEVELS:
+            assert least(scene, level, ("default",)) <= 1.1 * least(scene, level, others)
+    predicted = least("resolved fractal", 3e-3, ("prediction",))
+    assert predicted < 0.3 * least("resolved fractal", 3e-3, others)
+    whole = [row for row in rows if row["scene"] == "fractal"]
+    assert min(row["bar"] for row in whole) > 0.01
+    (prediction,) = (row for row in whole if row["setting"] == "prediction")
+    assert prediction["error"] <= prediction["bar"]
 
 
 def test_cheapest_setting():
