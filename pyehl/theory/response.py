@@ -12,7 +12,8 @@ What the inlet makes is the inlet transfer G = mu/rho at X = -0.9 on the centre 
 X = -1. It is a fit to the full simulation of this package; its form 1/(1 + z) has the limits G = 1
 for short and G = 0 for long waves, z is a power law in the wavelength parameter
 nabla_2 = (wavelength over a) sqrt(M/L) to first order (Venner & Lubrecht 1999), and real for ridges
-along the motion, which do not move. Away from the centre line the inlet is oblique and z grows.
+along the motion, which do not move. At low M L the inlet leaks: z has terms in 1/(M L), and |G|
+changes with slip. Away from the centre line the inlet is oblique and z grows.
 """
 
 from __future__ import annotations
@@ -105,7 +106,8 @@ def inlet_transfer(
     s = np.clip(parameter, low, high)
     c = kx / q
     slip = velocity_ratio - 1.0
-    leak = fit["leak"] / (moes_m * moes_l)
+    # beyond the range, which is told, the leak is held as s is
+    leak = min(1.0, fit["leak"] / (moes_m * moes_l))
     variables = (s, c, np.log(moes_l / 10.0), 0.5 * np.log(moes_m / 1000.0), slip, leak)
     log_z = _polynomial(fit["modulus"], variables) + 2.0 * fit["slope"] * (parameter - s)
     angle = c * _polynomial(fit["angle"], variables)

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 import sys
 from collections import defaultdict
 from dataclasses import dataclass
@@ -68,8 +69,8 @@ def _terms() -> list[tuple[int, ...]]:
     for powers in ((1, 0, 2), (0, 1, 2)):
         found += upto(0, *powers)
     # what the leak in the inlet does at low M L, and nothing elsewhere
-    found += upto(5, 0, 0, 0, 1) + upto(2, 0, 0, 0, 2)
-    found += upto(4, 0, 0, 1, 1) + upto(3, 0, 0, 2, 1) + upto(1, 0, 0, 1, 2)
+    found += upto(5, 0, 0, 0, 1) + upto(4, 0, 0, 0, 2)
+    found += upto(4, 0, 0, 1, 1) + upto(4, 0, 0, 2, 1) + upto(3, 0, 0, 1, 2)
     # ridges do not move: U is nothing to them
     found = [(i, j + (e > 0), a, b, e, *rest) for i, j, a, b, e, *rest in found]
     return found + upto(1, 0, 0, 0, 0, 1)
@@ -77,15 +78,17 @@ def _terms() -> list[tuple[int, ...]]:
 
 TERMS = _terms()
 SHAPES = ((0, 0), (1, 0), (2, 0), (0, 2), (1, 2))
+LEAKING = (*SHAPES, (3, 0))
 ORIGIN = [
     (i, j, a, b, e, f, 0)
     for i, j, a, b, e, f in (
-        *((i, j, 0, 0, 0, f) for f in (0, 1) for i, j in SHAPES),
+        *((i, j, 0, 0, 0, 0) for i, j in SHAPES),
+        *((i, j, 0, 0, 0, f) for f in (1, 2) for i, j in LEAKING),
         *((i, 0, *powers, 0) for powers in ((1, 0, 0), (0, 1, 0), (0, 0, 1)) for i in (0, 1)),
         *((0, 0, 1, 0, 1, 0), (0, 0, 0, 1, 1, 0)),
     )
 ]
-GROWTH = [(i, j, 0, 0, 0, f, 0) for f in (1, 2) for i, j in SHAPES]
+GROWTH = [(i, j, 0, 0, e, f, 0) for e in (0, 1) for f in (1, 2) for i, j in (*LEAKING, (0, 1))]
 
 
 @dataclass(frozen=True, slots=True)
@@ -307,7 +310,11 @@ def main(target: Path) -> None:
     everything = read()
     data = everything.chosen(select(everything))
     found = fit(data)
-    target.write_text(json.dumps(found.as_json(), indent=1) + "\n", encoding="utf-8")
+    # a term a line
+    text = re.sub(
+        r"\[[^][]*\]", lambda m: " ".join(m[0].split()), json.dumps(found.as_json(), indent=1)
+    )
+    target.write_text(text + "\n", encoding="utf-8")
     lines = table(found, data)
     with (HERE / "residuals.csv").open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, lineterminator="\n")
