@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What part of the pressure does not change its sign with the roughness: ``even.csv``.
+
+python docs/evidence/prediction/even.py [NAME ...] [--points N]
+
+Cases of cases.csv are simulated with their surface as it is and upside down, some minutes each. The
+mean of the two pressures, less that of the smooth contact, is compared within half a Hertz radius
+with the pressure of second order (pyehl/prediction/second_order.py), made from the half difference
+of the two: the standard deviations, the correlation, and what each adds to the mean of exp(b P1)
+over b times that mean.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+from typing import Any
+
+import numpy as np
+import scipy.fft
+from numpy.typing import NDArray
+
+from cases import HERE, case, rows, surface
+from pyehl.solver import Solver
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.transport import stiffness
+
+NAMES = ("c16m200", "m200l10")
+COLUMNS = "name points positions std_even std_second correlation effect_even effect_second".split()
+# Cycles of the smooth contact at most, every so many-th step of the last share of a run, and the
+# part of the contact that is looked at
+BEFORE, EVERY, LAST, RADIUS = 30, 16, 0.18, 0.5
+Array = NDArray[np.float64]
+Fields = list[tuple[Array, Array]]
+
+
+def fields(row: dict[str, Any], factor: float) -> tuple[Array, Array, Fields]:
+    """X, Y and P, H of some steps of a run, its surface times a factor.
+
+    The first ones are from before the surface comes, those of the smooth contact.
+    """
+    one_grid = case(row).with_options("time.estimate_error=.false.")
+    with Solver.open(one_grid, surface(row).heights * factor) as solver:
+        found = [
+            (solver.field("P"), solver.field("H"))
+            for step in solver
+            if step.number > BEFORE and step.number % EVERY == 0
+        ]
+        return *solver.axes(), [found[0], *found[-round(LAST * len(found)) :]]
+
+
+def compared(row: dict[str, Any]) -> list[str]:
+    """Give the line of a case."""
+    settings = case(row).resolve()
+    operating, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
+    x, y, found = fields(row, 1.0)
+    _, _, turned = fields(row, -1.0)
+    smooth, film = found[0]
+    step = 1e-3
+    rho = [
+        oil.density_ratio(np.maximum(smooth + d, 0.0) * operating.hertz_pressure)
+        for d in (-step, 0.0, step)
+    ]
+    c = (rho[2] - rho[0]) / (2.0 * step * rho[1])
+    r = (rho[2] - 2.0 * rho[1] + rho[0]) / (step**2 * rho[1])
+    eta = oil.viscosity_ratio(
+        np.array([smooth.max(), smooth.max() + step]) * operating.hertz_pressure
+    )
+    b = float(np.log(eta[1] / eta[0]) / step)
+    radius = np.hypot(x[:, np.newaxis], y)
+    window = np.clip((1.1 - radius) / 0.25, 0.0, 1.0)
+    h = float(x[1] - x[0])
+    q = np.hypot(
+        2.0 * np.pi * np.fft.fftfreq(x.size, h)[:, np.newaxis],
+        2.0 * np.pi * np.fft.rfftfreq(y.size, h),
+    )
+    middle = np.unravel_index(np.argmin(radius), radius.shape)
+    stiff = stiffness(q) / (1.0 + stiffness(q) * film[middle] * c[middle])
+    part = radius < RADIUS
+    values = []
+    for (up, film_up), (down, film_down) in zip(found[1:], turned[1:], strict=True):
+        p1, t1 = 0.5 * (up - down), 0.5 * (film_down - film_up)
+        source = window * (c * p1 * t1 - 0.5 * r * film * p1**2)
+        second = scipy.fft.irfft2(stiff * scipy.fft.rfft2(source), s=source.shape)
+        even = 0.5 * (up + down) - smooth
+        values.append([p1[part], even[part] - even[part].mean(), second[part]])
+    p1, even, second = np.concatenate(values, axis=1)
+    second -= second.mean()
+    weight = np.exp(b * p1)
+    effects = [b * np.mean(p * weight) / np.mean(weight) for p in (even, second)]
+    numbers = [even.std(), second.std(), np.corrcoef(even, second)[0, 1], *effects]
+    heads = [row["name"], f"{x.size}", f"{len(values)}"]
+    return [*heads, *(f"{v:.3g}" for v in numbers)]
+
+
+def main() -> None:
+    """Simulate, and write the table."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("names", nargs="*", default=NAMES)
+    parser.add_argument("--points", type=int, help="nodes per side in place of those of the table")
+    arguments = parser.parse_args()
+    lines = [COLUMNS]
+    for row in rows():
+        if row["name"] in arguments.names:
+            row["points"] = arguments.points or row["points"]
+            lines.append(compared(row))
+            print(*lines[-1], flush=True)
+    with (HERE / "even.csv").open("w", newline="", encoding="utf-8") as stream:
+        csv.writer(stream, lineterminator="\n").writerows(lines)
+
+
+if __name__ == "__main__":
+    main()
