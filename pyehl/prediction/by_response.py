@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Friction over a passage by the response of the contact, over its tracks, and by bands.
 
-The model is that of Zhang et al. 2019, section 3, with two changes: the ratio of deformed to
-undeformed amplitude is the complex response of :mod:`pyehl.theory.response`, and pressure and film
-are those of the smooth contact of :mod:`pyehl.prediction.smooth`. With ``reduction="amplitude"``
+The model is that of Zhang et al. 2019, section 3, with three changes: the ratio of deformed to
+undeformed amplitude is the complex response of :mod:`pyehl.theory.response`, pressure and film
+are those of the smooth contact of :mod:`pyehl.prediction.smooth`, and the leading term of second
+order is that of :mod:`pyehl.prediction.second_order`. With ``reduction="amplitude"``
 the real ratio of the paper takes the place of the response: it moves with the roughness.
 """
 
