@@ -180,7 +180,7 @@ contains
          return
       end if
       ! the first index of the table is the offset in Y
-      call fill_kernel(self%kernel, hy, hx)
+      call fill_kernel(self%kernel, hy, hx, [1, 1])
       call fftw_execute_r2r(plan, self%kernel, in_place)
       self%kernel = self%kernel/(real(self%lx, dp)*real(self%ly, dp))
       call drop_plan(plan)

@@ -37,15 +37,28 @@ contains
       end if
    end function kernel_coefficient
 
-   !> Table of coefficients: k(1 + di, 1 + dj) for all offsets that the array has room for
-   pure subroutine fill_kernel(k, hx, hy)
-      real(dp), intent(out) :: k(:, :)
+   !> Table of coefficients: k(1 + di, 1 + dj) belongs to the offset (di*step(1), dj*step(2)), for all that the array has
+   !> room for
+   pure subroutine fill_kernel(k, hx, hy, step)
+      real(dp), contiguous, intent(out) :: k(:, :)
       real(dp), intent(in) :: hx, hy
-      integer :: i, j
+      integer, intent(in) :: step(2)
+      real(dp) :: x, y
+      integer :: i, j, near
 
       do j = 1, size(k, 2)
+         y = (j - 1)*step(2)*hy
+         near = 0
          do i = 1, size(k, 1)
-            k(i, j) = kernel_coefficient(i - 1, j - 1, hx, hy)
+            x = (i - 1)*step(1)*hx
+            if (x*x + y*y > (far*max(hx, hy))**2) exit
+            k(i, j) = kernel_coefficient((i - 1)*step(1), (j - 1)*step(2), hx, hy)
+            near = i
+         end do
+         ! apart from those near by, so that the compiler vectorises it
+         do i = near + 1, size(k, 1)
+            x = (i - 1)*step(1)*hx
+            k(i, j) = factor*hx*hy*gauss(x, y, node*hx, node*hy)
          end do
       end do
    end subroutine fill_kernel

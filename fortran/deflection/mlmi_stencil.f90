@@ -10,7 +10,7 @@
 !> error for the Hertz pressure falls to a half or a seventh).
 module ehl_mlmi_stencil
    use ehl_kinds, only: dp
-   use ehl_kernel, only: kernel_coefficient
+   use ehl_kernel, only: fill_kernel
    implicit none (type, external)
    private
    public :: stencil_t, transfer_weights, reach
@@ -63,7 +63,7 @@ contains
       integer, intent(in) :: axis, step(2), extent(2)
       real(dp), intent(in) :: hx, hy, omega(:), tolerance
       logical, intent(out) :: met
-      real(dp), allocatable :: table(:, :), c(:, :), copies(:, :)
+      real(dp), allocatable :: table(:, :), turned(:, :), c(:, :), copies(:, :)
       real(dp) :: low, high, middle, spread
       integer :: a, b, k, along, across, parity, trial
       logical, allocatable :: kept(:, :)
@@ -72,15 +72,13 @@ contains
       across = min(reach, extent(3 - axis))
       allocate (table(0:along + 2*size(omega), 0:across), c(0:along, 0:across), &
                 copies(0:along, 0:across), kept(0:along, 0:across))
-      do b = 0, across
-         do a = 0, ubound(table, 1)
-            if (axis == 1) then
-               table(a, b) = kernel_coefficient(step(1)*a, step(2)*b, hx, hy)
-            else
-               table(a, b) = kernel_coefficient(step(1)*b, step(2)*a, hx, hy)
-            end if
-         end do
-      end do
+      if (axis == 1) then
+         call fill_kernel(table, hx, hy, step)
+      else
+         allocate (turned(0:across, 0:ubound(table, 1)))
+         call fill_kernel(turned, hx, hy, step)
+         table(:, :) = transpose(turned)
+      end if
       do b = 0, across
          do a = 0, along
             copies(a, b) = merge(1.0_dp, 2.0_dp, a == 0)*merge(1.0_dp, 2.0_dp, b == 0)

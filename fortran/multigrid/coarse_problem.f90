@@ -45,15 +45,15 @@ contains
          where (fine%p(::2, 2*j - 1) <= 0.0_dp) coarse%p(:, j) = 0.0_dp
          space%p_start(:, j) = coarse%p(:, j)
          call weight_row(coarse%grid, fine%h, j, coarse%h(:, j))
-         if (coarse%wedge%squeeze > 0.0_dp) space%h_start(:, j) = coarse%h(:, j)
+         space%h_start(:, j) = coarse%h(:, j)
       end do
       !$omp end parallel do
       coarse%h00 = fine%h00
-      call coarse%engine%apply(coarse%p, coarse%w)
+      call coarse%engine%apply(coarse%p, coarse%geometry)
       !$omp parallel do default(none) shared(coarse) &
       !$omp num_threads(coarse%threads) if(coarse%parallel) schedule(static)
       do j = 1, coarse%grid%ny
-         coarse%geometry(:, j) = coarse%h(:, j) - coarse%h00 - coarse%w(:, j)
+         coarse%geometry(:, j) = coarse%h(:, j) - coarse%h00 - coarse%geometry(:, j)
       end do
       !$omp end parallel do
       coarse%poiseuille%frozen = .false.
@@ -173,9 +173,8 @@ contains
    end subroutine five_point
 
    !> Add the coarse change of the pressure where the fine one is positive, interpolated bilinearly or as the transfer
-   !> has it. A time step changes the film little, and sweeps follow: the coarse change of it, interpolated bilinearly,
-   !> serves them; else the film is out of date. This ends the coarse problem: the coarse level may be a finest one next,
-   !> and p_start and h_start hold the changes then.
+   !> has it. The coarse change of the film, interpolated bilinearly, serves the sweeps that follow. This ends the coarse
+   !> problem: the coarse level may be a finest one next, and p_start and h_start hold the changes then.
    subroutine correct(fine, coarse, space, transfer, coarsening, part)
       type(level_t), intent(inout) :: fine, coarse
       !> Of the coarse level
@@ -186,14 +185,12 @@ contains
       real(dp), intent(in) :: part
       real(dp) :: row(fine%grid%nx), after
       integer :: i, j
-      logical :: time_step
 
-      time_step = fine%wedge%squeeze > 0.0_dp
-      !$omp parallel do default(none) shared(coarse, space, part, time_step) &
+      !$omp parallel do default(none) shared(coarse, space, part) &
       !$omp num_threads(coarse%threads) if(coarse%parallel) schedule(static)
       do j = 1, coarse%grid%ny
          space%p_start(:, j) = part*(coarse%p(:, j) - space%p_start(:, j))
-         if (time_step) space%h_start(:, j) = part*(coarse%h(:, j) - space%h_start(:, j))
+         space%h_start(:, j) = part*(coarse%h(:, j) - space%h_start(:, j))
       end do
       !$omp end parallel do
       if (part < 1.0_dp) then
@@ -202,13 +199,11 @@ contains
          fine%h00 = coarse%h00
       end if
       coarse%poiseuille%frozen = .false.
-      !$omp parallel do default(none) shared(fine, coarse, space, transfer, coarsening, time_step) private(i, row, after) &
+      !$omp parallel do default(none) shared(fine, coarse, space, transfer, coarsening) private(i, row, after) &
       !$omp num_threads(fine%threads) if(fine%parallel) schedule(static)
       do j = 1, fine%grid%ny
-         if (time_step) then
-            call interpolate_row(coarse%grid, space%h_start, j, row)
-            fine%h(:, j) = fine%h(:, j) + row
-         end if
+         call interpolate_row(coarse%grid, space%h_start, j, row)
+         fine%h(:, j) = fine%h(:, j) + row
          if (j < fine%grid%first_inner() .or. j == fine%grid%ny) cycle
          if (coarsening == coarsening_alcouffe) then
             call transfer%prolong_row(space%p_start, j, row)

@@ -3,9 +3,9 @@
 module ehl_coarsest
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_dense_lu, only: back_substitute, factor
-   use ehl_film, only: pressure_sum, reynolds_operator, update_coefficients
+   use ehl_film, only: pressure_sum, reynolds_operator, update_coefficients, update_film
    use ehl_grid, only: grid_t
-   use ehl_kernel, only: kernel_coefficient
+   use ehl_kernel, only: fill_kernel
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_poiseuille, only: most_neighbours
@@ -53,6 +53,7 @@ contains
       class(coarsest_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
       type(status_t), intent(inout) :: status
+      real(dp) :: kernel(grid%nx, 2*grid%ny)
       integer :: i, j, k, l, col, stat
 
       if (status%failed()) return
@@ -67,14 +68,15 @@ contains
          call status%fail(ehl_no_memory, "no memory for the coarsest level")
          return
       end if
+      call fill_kernel(kernel, grid%hx, grid%hy, [1, 1])
       do l = self%first, self%last
          do k = 2, grid%nx - 1
             col = unknown(self, grid%nx, k, l)
             do j = 1, grid%ny
                do i = 1, grid%nx
-                  self%k(col, i + (j - 1)*grid%nx) = kernel_coefficient(i - k, j - l, grid%hx, grid%hy)
+                  self%k(col, i + (j - 1)*grid%nx) = kernel(1 + abs(i - k), 1 + abs(j - l))
                   if (grid%mirror .and. l > 1) self%k(col, i + (j - 1)*grid%nx) = &
-                     self%k(col, i + (j - 1)*grid%nx) + kernel_coefficient(i - k, j + l - 2, grid%hx, grid%hy)
+                     self%k(col, i + (j - 1)*grid%nx) + kernel(1 + abs(i - k), j + l - 1)
                end do
             end do
          end do
@@ -169,8 +171,7 @@ contains
    subroutine refresh_film(level)
       type(level_t), intent(inout) :: level
 
-      call level%engine%apply(level%p, level%w)
-      level%h = level%h00 + level%geometry + level%w
+      call update_film(level)
       call update_coefficients(level)
    end subroutine refresh_film
 

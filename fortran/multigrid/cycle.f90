@@ -132,43 +132,54 @@ contains
       end if
       call correct(levels(n), levels(n - 1), spaces(n - 1), coarsenings(n)%transfer, options%coarsening, &
                    options%correction_share)
-      if (.not. levels(n)%wedge%squeeze > 0.0_dp) call update_film(levels(n))
       call update_coefficients(levels(n))
    end subroutine visit_coarser
 
-   !> First approximation on a finer level: cubic interpolation of the coarse pressure
+   !> First approximation on a finer level: cubic interpolation of the coarse pressure and its deflection
    subroutine prolong_solution(coarse, fine)
-      type(level_t), intent(inout) :: coarse, fine
-      real(dp) :: tmp(fine%grid%nx, coarse%grid%ny)
-      integer :: j, l, n
+      type(level_t), intent(in) :: coarse
+      type(level_t), intent(inout) :: fine
+      integer :: j
 
-      do l = 1, coarse%grid%ny
-         call refine_line(coarse%p(:, l), tmp(:, l), .false.)
-      end do
-      n = coarse%grid%ny
-      do j = 1, fine%grid%nx
-         call refine_line(tmp(j, :), fine%p(j, :), coarse%grid%mirror)
-      end do
-      where (fine%p <= 0.0_dp) fine%p = 0.0_dp
+      call refine(coarse, coarse%p, fine%p)
+      call refine(coarse, coarse%h - coarse%h00 - coarse%geometry, fine%h)
       fine%h00 = coarse%h00
+      do j = 1, fine%grid%ny
+         where (fine%p(:, j) <= 0.0_dp) fine%p(:, j) = 0.0_dp
+         fine%h(:, j) = fine%h00 + fine%geometry(:, j) + fine%h(:, j)
+      end do
+      call update_coefficients(fine)
    end subroutine prolong_solution
 
-   pure subroutine refine_line(a, b, mirror)
+   !> Cubic interpolation of a field, row by row
+   subroutine refine(coarse, values, fine)
+      type(level_t), intent(in) :: coarse
+      !> Shapes of the coarse and the fine grid
+      real(dp), intent(in) :: values(:, :)
+      real(dp), intent(out) :: fine(:, :)
+      integer :: l, n, below
+
+      n = size(values, 2)
+      do l = 1, n
+         call refine_line(values(:, l), fine(:, 2*l - 1))
+      end do
+      do l = 1, n - 1
+         below = 2*l - 3
+         if (l == 1) below = merge(3, 1, coarse%grid%mirror)
+         fine(:, 2*l) = (9.0_dp*(fine(:, 2*l - 1) + fine(:, 2*l + 1)) - fine(:, below) &
+                         - fine(:, min(2*l + 3, size(fine, 2))))/16.0_dp
+      end do
+   end subroutine refine
+
+   pure subroutine refine_line(a, b)
       real(dp), intent(in) :: a(:)
       real(dp), intent(out) :: b(:)
-      logical, intent(in) :: mirror
       integer :: i, n
-      real(dp) :: left
 
       n = size(a)
       b(1::2) = a
       do i = 1, n - 1
-         if (i == 1 .and. mirror) then
-            left = a(2)
-         else
-            left = a(max(i - 1, 1))
-         end if
-         b(2*i) = (-left + 9.0_dp*a(i) + 9.0_dp*a(i + 1) - a(min(i + 2, n)))/16.0_dp
+         b(2*i) = (9.0_dp*(a(i) + a(i + 1)) - a(max(i - 1, 1)) - a(min(i + 2, n)))/16.0_dp
       end do
    end subroutine refine_line
 end module ehl_cycle

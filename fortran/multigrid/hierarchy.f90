@@ -84,7 +84,10 @@ contains
 
       do k = self%ready + 1, n
          associate (level => self%levels(k))
-            if (k > 1) level%grid = self%levels(k - 1)%grid%finer()
+            if (k > 1) then
+               level%grid = self%levels(k - 1)%grid%finer()
+               call self%spaces(k - 1)%prepare_coarse(status)
+            end if
             level%threads = threads_that_pay(level%grid, self%threads)
             call level%setup(status)
             call self%spaces(k)%setup(level%grid, level%threads, status)

@@ -83,23 +83,31 @@ contains
       type(workspace_t), intent(inout) :: space
       integer, intent(in) :: first, last
       real(dp) :: limit
-      integer :: i, j, below
+      integer :: j, below
 
       limit = switch*min(level%grid%hx, level%grid%hy)**2
-      !$omp parallel do default(none) shared(level, space, first, last, limit) private(i, below) &
+      !$omp parallel do default(none) shared(level, space, first, last, limit) private(below) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
          below = level%grid%south(j)
-         do i = 2, level%grid%nx - 1
-            space%dipole(i, j) = merge(1.0_dp, 0.0_dp, &
-                                       max(level%eps(i, j), level%eps(i - 1, j), level%eps(i + 1, j), &
-                                           level%eps(i, j + 1), level%eps(i, below)) < limit .and. &
-                                       min(level%p(i, j), level%p(i - 1, j), level%p(i + 1, j), &
-                                           level%p(i, j + 1), level%p(i, below)) > 0.0_dp)
-         end do
+         call mark_row(limit, level%eps(:, below), level%eps(:, j), level%eps(:, j + 1), &
+                       level%p(:, below), level%p(:, j), level%p(:, j + 1), space%dipole(:, j))
       end do
       !$omp end parallel do
    end subroutine mark_dipoles
+
+   !> The same of a row, from it and its neighbours
+   pure subroutine mark_row(limit, eps_south, eps, eps_north, p_south, p, p_north, dipole)
+      real(dp), intent(in) :: limit
+      real(dp), contiguous, intent(in) :: eps_south(:), eps(:), eps_north(:), p_south(:), p(:), p_north(:)
+      real(dp), contiguous, intent(inout) :: dipole(:)
+      integer :: i
+
+      do i = 2, size(dipole) - 1
+         dipole(i) = merge(1.0_dp, 0.0_dp, max(eps(i), eps(i - 1), eps(i + 1), eps_north(i), eps_south(i)) < limit) &
+                     *merge(1.0_dp, 0.0_dp, min(p(i), p(i - 1), p(i + 1), p_north(i), p_south(i)) > 0.0_dp)
+      end do
+   end subroutine mark_row
 
    !> Share of a node's change that is to be free of its smooth part, in time steps: 1 where the conductance
    !> around the node is nothing against the squeeze term, 0 where it is much
@@ -225,22 +233,27 @@ contains
       type(level_t), intent(inout) :: level
       type(workspace_t), intent(in) :: space
       integer, intent(in) :: first, last
-      real(dp) :: after
-      integer :: i, j, below, nx
+      integer :: j
 
-      nx = level%grid%nx
-      !$omp parallel do default(none) shared(level, space, first, last, nx) private(i, below, after) &
+      !$omp parallel do default(none) shared(level, space, first, last) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
-         below = level%grid%south(j)
-         do i = 2, nx - 1
-            if (level%p(i, j) > 0.0_dp) then
-               after = level%p(i, j) + space%change(i, j) - 0.25_dp*(space%change(i - 1, j) + space%change(i + 1, j) &
-                                                                      + space%change(i, below) + space%change(i, j + 1))
-               level%p(i, j) = merge(after, 0.0_dp, .not. after <= 0.0_dp)
-            end if
-         end do
+         call apply_row(space%change(:, level%grid%south(j)), space%change(:, j), space%change(:, j + 1), level%p(:, j))
       end do
       !$omp end parallel do
    end subroutine apply_dipoles
+
+   !> The same of a row, from the changes of it and its neighbours
+   pure subroutine apply_row(south, change, north, p)
+      real(dp), contiguous, intent(in) :: south(:), change(:), north(:)
+      real(dp), contiguous, intent(inout) :: p(:)
+      real(dp) :: after
+      integer :: i
+
+      do i = 2, size(p) - 1
+         after = p(i) + change(i) - 0.25_dp*(change(i - 1) + change(i + 1) + south(i) + north(i))
+         after = merge(after, 0.0_dp, .not. after <= 0.0_dp)
+         p(i) = merge(after, p(i), p(i) > 0.0_dp)
+      end do
+   end subroutine apply_row
 end module ehl_relaxation

@@ -34,11 +34,11 @@ module ehl_workspace
       real(dp) :: near(-near_reach:near_reach) = 0.0_dp, near_dipole(-near_reach:near_reach) = 0.0_dp
       !> Line systems, one a thread
       type(line_work_t), allocatable :: lines(:)
-      !> Pressure that the problem of this level began from, when it is the coarse problem of a finer one; then the
-      !> change of it. The same of the film, for time steps only
+      !> For coarse problems only: pressure and film that the problem of this level began from; then their changes
       real(dp), allocatable :: p_start(:, :), h_start(:, :)
    contains
       procedure :: setup
+      procedure :: prepare_coarse
       procedure :: prepare_steps
       procedure :: bytes
    end type workspace_t
@@ -55,7 +55,7 @@ contains
 
       if (status%failed()) return
       associate (nx => grid%nx, ny => grid%ny)
-         allocate (self%dipole(nx, ny), self%change(nx, ny), self%p_start(nx, ny), source=0.0_dp, stat=stat)
+         allocate (self%dipole(nx, ny), self%change(nx, ny), source=0.0_dp, stat=stat)
          if (stat == 0) allocate (self%lines(threads), stat=stat)
          do d = 1, threads
             if (stat == 0) allocate (self%lines(d)%fields(line_width, line_fields, -1:nx + 2), &
@@ -77,6 +77,22 @@ contains
       end associate
    end subroutine setup
 
+   !> Allocate what a level needs once there is a finer one
+   subroutine prepare_coarse(self, status)
+      class(workspace_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+      integer :: stat
+
+      if (status%failed() .or. allocated(self%p_start)) return
+      allocate (self%p_start, self%h_start, mold=self%change, stat=stat)
+      if (stat /= 0) then
+         call status%fail(ehl_no_memory, "no memory for the coarse problem of a grid level")
+         return
+      end if
+      self%p_start = 0.0_dp
+      self%h_start = 0.0_dp
+   end subroutine prepare_coarse
+
    !> Allocate what time steps need, unless that has been done
    subroutine prepare_steps(self, status)
       class(workspace_t), intent(inout) :: self
@@ -84,7 +100,7 @@ contains
       integer :: stat
 
       if (status%failed() .or. allocated(self%rough)) return
-      allocate (self%share, self%rough, self%smooth, self%h_start, mold=self%change, stat=stat)
+      allocate (self%share, self%rough, self%smooth, mold=self%change, stat=stat)
       if (stat /= 0) then
          call status%fail(ehl_no_memory, "no memory for the time steps of a grid level")
          return
@@ -101,8 +117,9 @@ contains
       integer :: k
 
       numbers = 0
-      if (allocated(self%dipole)) numbers = 3*size(self%dipole, kind=int64)
-      if (allocated(self%rough)) numbers = numbers + 4*size(self%rough, kind=int64)
+      if (allocated(self%dipole)) numbers = 2*size(self%dipole, kind=int64)
+      if (allocated(self%p_start)) numbers = numbers + 2*size(self%p_start, kind=int64)
+      if (allocated(self%rough)) numbers = numbers + 3*size(self%rough, kind=int64)
       if (allocated(self%lines)) then
          do k = 1, size(self%lines)
             numbers = numbers + size(self%lines(k)%fields) + size(self%lines(k)%upper) + size(self%lines(k)%change)

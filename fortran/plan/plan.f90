@@ -39,8 +39,8 @@ module ehl_plan
       !> Levels, and the one nested iteration starts on
       integer :: levels = 0, start = 0
       character(len=:), allocatable :: engine
-      !> Cycles of the smooth contact and of a time step
-      type(cycle_options_t) :: cycle, step_cycle
+      !> Cycles of the smooth contact, on a level that began from a coarser one the first and the second, and of a time step
+      type(cycle_options_t) :: cycle, second_cycle, step_cycle
       !> Whether time steps may go over from classical to Alcouffe coarsening
       logical :: coarsening_may_change = .false.
       !> The cycles in letters
@@ -98,7 +98,6 @@ contains
       call plan%lubricant%density([1.0_dp], rho, slope)
       plan%film_expected = plan%contact%film_formula(plan%point%moes_m, plan%point%moes_l)/rho(1)
       plan%engine = trim(input%solver%deflection)
-      call pick_cycle(input, plan)
       plan%accuracy = input%solver%accuracy
       plan%max_cycles = input%solver%max_cycles
       plan%threads = input%solver%threads
@@ -113,6 +112,7 @@ contains
       else
          call make_surface(input, plan%contact, heights, plan%surface, plan%amplitude_over_film, status)
       end if
+      call pick_cycle(input, plan)
       call pick_grids(input, plan, status)
       if (status%failed() .or. .not. allocated(plan%surface)) return
       plan%surface%threads = plan%threads
@@ -200,6 +200,12 @@ contains
          plan%step_cycle_letter = plan%cycle_letter
       end if
       plan%cycle = cycle_of(plan%cycle_letter)
+      plan%second_cycle = plan%cycle
+      if (plan%cycle%full .and. .not. allocated(plan%surface)) then
+         ! The first leaves so little that is smooth that one visit to the coarser levels will do. Not before rough runs:
+         ! the error of the smooth friction is one of the ratio.
+         plan%second_cycle = cycle_of("V")
+      end if
       ! A time step begins close to its solution, so that the cheapest cycle wins; with two sweeps after the coarse
       ! grids rather than before, more steps take a single one
       plan%step_cycle = cycle_of(plan%step_cycle_letter)

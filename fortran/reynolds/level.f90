@@ -35,8 +35,8 @@ module ehl_level
       real(dp) :: h00 = 0.0_dp
       !> Value that the pressure sum must take (2 pi/3 on the finest grid)
       real(dp) :: load = 0.0_dp
-      !> Pressure, film, deflection, and the film less H00 and deflection
-      real(dp), allocatable :: p(:, :), h(:, :), w(:, :), geometry(:, :)
+      !> Pressure, film, and the film less H00 and deflection
+      real(dp), allocatable :: p(:, :), h(:, :), geometry(:, :)
       !> Right-hand side of the Reynolds equation, and the residual
       real(dp), allocatable :: rhs(:, :), residual(:, :)
       !> Conductance eps = rho H^3/(eta lambda_bar), d ln(eps)/dP at constant film, density, and H d rho/dP
@@ -61,7 +61,7 @@ contains
 
       if (status%failed()) return
       associate (nx => self%grid%nx, ny => self%grid%ny)
-         allocate (self%p(nx, ny), self%h(nx, ny), self%w(nx, ny), self%geometry(nx, ny), &
+         allocate (self%p(nx, ny), self%h(nx, ny), self%geometry(nx, ny), &
                    self%rhs(nx, ny), self%residual(nx, ny), self%eps(nx, ny), self%dlneps_dp(nx, ny), &
                    self%rho(nx, ny), self%h_drho_dp(nx, ny), self%mass_content(nx, ny), source=0.0_dp, stat=stat)
       end associate
@@ -79,6 +79,6 @@ contains
       class(level_t), intent(in) :: self
 
       bytes = self%poiseuille%bytes()
-      if (allocated(self%p)) bytes = bytes + 8*11*size(self%p, kind=int64)
+      if (allocated(self%p)) bytes = bytes + 8*10*size(self%p, kind=int64)
    end function bytes
 end module ehl_level

@@ -191,8 +191,8 @@ contains
       associate (plan => self%plan)
          call self%hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, &
                                    plan%engine, plan%threads, status)
-         call self%steady%start(plan%contact, plan%film_expected, plan%start, plan%levels, plan%cycle, plan%accuracy, &
-                                plan%target_error, plan%max_cycles)
+         call self%steady%start(plan%contact, plan%film_expected, plan%start, plan%levels, plan%cycle, &
+                                plan%second_cycle, plan%accuracy, plan%target_error, plan%max_cycles)
       end associate
       call self%hierarchy%grow(self%steady%n, status)
       if (status%failed()) return

@@ -3,6 +3,7 @@
 module ehl_steady
    use ehl_contact, only: contact_t
    use ehl_cycle, only: cycle_options_t, prolong_solution, refresh
+   use ehl_film, only: balance_load, film_residual, update_residual
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
@@ -19,10 +20,18 @@ module ehl_steady
    real(dp), parameter :: least_reduction = 0.3_dp
    !> Relative discretisation errors below this are not believed, as two levels may agree by chance
    real(dp), parameter :: least_error = 2.0e-5_dp
-   !> Largest residual (rms; the wedge term is of order 1 in the inlet) of a converged solution
+   !> Largest residual (rms, as far as it concerns the film; the wedge term is of order 1 in the inlet) of a converged
+   !> solution
    real(dp), parameter :: residual_tolerance = 2.0e-3_dp
+   !> Relative errors of the force balance that are taken away by scaling the pressure: the film changes by a hundredth of
+   !> its discretisation error at most
+   real(dp), parameter :: small_load_error = 3.0e-6_dp
+   !> Largest relative algebraic error of a result, however coarse its grid
+   real(dp), parameter :: largest_error = 2.0e-3_dp
    !> Relative algebraic error wanted on the first grid, where no discretisation error is known yet
    real(dp), parameter :: start_tolerance = 1.0e-3_dp
+   !> The same where two finer grids follow: the first one then gives a guess, and enters no result
+   real(dp), parameter :: guess_tolerance = 3.0e-2_dp
 
    !> What is known of the solution on one level
    type :: level_result_t
@@ -39,7 +48,8 @@ module ehl_steady
    type :: steady_t
       private
       class(contact_t), allocatable :: contact
-      type(cycle_options_t) :: cycle
+      !> Of a level; the second one on a level that began from a coarser one
+      type(cycle_options_t) :: cycle, second_cycle
       !> Levels; central film expected [a^2/R]; algebraic error as a share of the discretisation error; relative
       !> error of H_c at which to stop, 0: on the finest grid; most cycles on a level
       integer :: levels = 0, max_cycles = 0
@@ -61,20 +71,24 @@ module ehl_steady
       procedure :: extrapolated
       procedure, private :: enter_level
       procedure, private :: decide
+      procedure, private :: quick
+      procedure, private :: is_end
+      procedure, private :: accurate
       procedure, private :: fail_level
    end type steady_t
 
 contains
 
    !> Ready for the first cycle
-   subroutine start(self, contact, film_expected, first, levels, cycle, accuracy, target_error, max_cycles)
+   subroutine start(self, contact, film_expected, first, levels, cycle, second_cycle, accuracy, target_error, max_cycles)
       class(steady_t), intent(inout) :: self
       class(contact_t), intent(in) :: contact
       !> Central film of the first guess [a^2/R]
       real(dp), intent(in) :: film_expected
       !> Level to begin on; levels in all
       integer, intent(in) :: first, levels
-      type(cycle_options_t), intent(in) :: cycle
+      !> The second one on a level that began from a coarser one
+      type(cycle_options_t), intent(in) :: cycle, second_cycle
       !> Algebraic error as a share of the discretisation error; relative error of H_c at which to stop, 0: on the
       !> finest grid
       real(dp), intent(in) :: accuracy, target_error
@@ -85,6 +99,7 @@ contains
       self%film_expected = film_expected
       self%levels = levels
       self%cycle = cycle
+      self%second_cycle = second_cycle
       self%accuracy = accuracy
       self%target_error = target_error
       self%max_cycles = max_cycles
@@ -103,20 +118,25 @@ contains
       type(status_t), intent(inout) :: status
       type(contact_results_t) :: before
       real(dp) :: change(2), q, residual
+      type(cycle_options_t) :: options
 
       if (self%outcome /= outcome_running) return
       if (.not. self%entered) call self%enter_level(hierarchy, status)
       if (status%failed()) return
       associate (result => self%results(self%n), level => hierarchy%levels(self%n))
          before = result%m
-         call hierarchy%cycle(self%n, self%cycle, residual)
+         options = self%cycle
+         if (has_coarser(self) .and. result%cycles == 1) then
+            options = self%second_cycle
+            if (self%quick()) options%pre = min(1, options%pre)
+         end if
+         call hierarchy%cycle(self%n, options, residual)
          result%cycles = result%cycles + 1
          result%m = measure(level)
          if (.not. result%m%finite .or. .not. result%m%positive) then
             call self%fail_level(merge(outcome_negative_film, outcome_diverged, result%m%finite))
             return
          end if
-         result%residual = residual
          change = abs([result%m%film_central - before%film_central, result%m%film_minimum - before%film_minimum])
          if (result%cycles == 1) then
             ! part of this change is discretisation error, so that its size says little of the next
@@ -126,6 +146,14 @@ contains
          end if
          result%algebraic = change*q/(1.0_dp - q)
          self%change = change
+         result%residual = film_residual(level)
+         if (self%is_end() .and. self%accurate() .and. abs(result%m%load_error) > load_tolerance &
+             .and. abs(result%m%load_error) <= small_load_error) then
+            call balance_load(level, result%m%load_error)
+            call update_residual(level, residual)
+            result%residual = film_residual(level)
+            result%m = measure(level)
+         end if
       end associate
       call self%decide()
    end subroutine advance
@@ -150,11 +178,12 @@ contains
          level%load = self%contact%load()
          if (have_coarse) then
             call prolong_solution(hierarchy%levels(self%n - 1), level)
+            self%results(self%n)%m = self%results(self%n - 1)%m
          else
             call guess(level, self%contact, self%film_expected)
+            call refresh(level)
+            self%results(self%n)%m = measure(level)
          end if
-         call refresh(level)
-         self%results(self%n)%m = measure(level)
          self%results(self%n)%cycles = 0
       end associate
       self%entered = .true.
@@ -176,21 +205,12 @@ contains
    !> Whether the level is solved, and what to do then
    subroutine decide(self)
       class(steady_t), intent(inout) :: self
-      real(dp) :: wanted(2), values(2)
-      logical :: met, finest
+      real(dp) :: values(2)
+      logical :: met
 
-      finest = self%n == self%levels
-      associate (result => self%results(self%n))
-         values = [result%m%film_central, result%m%film_minimum]
-         if (.not. has_coarser(self)) then
-            wanted = start_tolerance*values
-            if (finest) wanted = self%accuracy*start_tolerance*values
-         else
-            wanted = self%accuracy*max(self%discretisation_error(self%n), least_error*values)
-         end if
-         met = all(result%algebraic <= wanted)
-         if (finest .or. self%target_error > 0.0_dp) met = met .and. abs(result%m%load_error) <= load_tolerance &
-                                                           .and. result%residual <= residual_tolerance
+      associate (result => self%results(self%n), finest => self%n == self%levels)
+         met = self%accurate()
+         if (self%is_end()) met = met .and. abs(result%m%load_error) <= load_tolerance
          if (.not. met .and. result%cycles < self%max_cycles) return
          result%solved = .true.
          if (met .and. self%target_error > 0.0_dp .and. has_coarser(self)) then
@@ -209,6 +229,42 @@ contains
          end if
       end associate
    end subroutine decide
+
+   !> Whether the coarser level was solved in so few cycles that one sweep will do before the second one of this level
+   pure logical function quick(self)
+      class(steady_t), intent(in) :: self
+      logical :: first
+
+      first = self%n == 2
+      if (.not. first) first = .not. self%results(self%n - 2)%solved
+      quick = self%results(self%n - 1)%cycles <= merge(3, 2, first)
+   end function quick
+
+   !> Whether the solution may end on the present level
+   pure logical function is_end(self)
+      class(steady_t), intent(in) :: self
+      is_end = self%n == self%levels .or. self%target_error > 0.0_dp
+   end function is_end
+
+   !> Whether the algebraic errors are what the grid deserves, and on a level where the solution may end the residual, too
+   pure logical function accurate(self)
+      class(steady_t), intent(in) :: self
+      real(dp) :: wanted(2), values(2)
+
+      associate (result => self%results(self%n))
+         values = [result%m%film_central, result%m%film_minimum]
+         if (has_coarser(self)) then
+            wanted = self%accuracy*max(self%discretisation_error(self%n), least_error*values)
+         else
+            wanted = start_tolerance*values
+            if (self%n == self%levels) wanted = self%accuracy*wanted
+            if (self%n < self%levels - 1 .and. .not. self%is_end()) wanted = guess_tolerance*values
+         end if
+         if (self%is_end()) wanted = min(wanted, largest_error*values)
+         accurate = all(result%algebraic <= wanted)
+         if (self%is_end()) accurate = accurate .and. result%residual <= residual_tolerance
+      end associate
+   end function accurate
 
    !> Failure on a level: begin anew on the next finer one, where the discrete problem is better posed
    subroutine fail_level(self, outcome)
