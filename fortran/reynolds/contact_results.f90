@@ -25,6 +25,8 @@ module ehl_contact_results
       real(dp) :: load_error = 0.0_dp
       !> Whether every number is finite, and every film positive
       logical :: finite = .false., positive = .false.
+   contains
+      procedure :: films
    end type contact_results_t
 
 contains
@@ -62,6 +64,13 @@ contains
                  .and. m%friction < huge(1.0_dp) .and. abs(m%film_minimum) < huge(1.0_dp)
       m%positive = all(smallest > 0.0_dp)
    end function measure
+
+   !> Central film and smallest film
+   pure function films(self)
+      class(contact_results_t), intent(in) :: self
+      real(dp) :: films(2)
+      films = [self%film_central, self%film_minimum]
+   end function films
 
    !> Value of a field at X = Y = 0; between two nodes by cubic interpolation along X
    pure real(dp) function central_value(grid, values)

@@ -10,7 +10,8 @@ module ehl_report
    use ehl_plan, only: plan_t, relative_wedge_error
    use ehl_record, only: record_t
    use ehl_stationary_roughness, only: stationary_roughness_t
-   use ehl_steady, only: level_result_t, steady_t
+   use ehl_level_result, only: discretisation_error, extrapolated, level_result_t
+   use ehl_steady, only: steady_t
    use ehl_text, only: fixed, to_text
    use ehl_transient, only: transient_t
    use ehl_wedge, only: wedge_narrow
@@ -120,8 +121,8 @@ contains
       coarser = .false.
       if (good .and. n > 1) coarser = steady%results(n - 1)%solved
       if (coarser) then
-         error = steady%discretisation_error(n) + steady%results(n)%algebraic
-         limit = steady%extrapolated(n)
+         error = discretisation_error(steady%results, n) + steady%results(n)%algebraic
+         limit = extrapolated(steady%results, n)
       else if (good) then
          ! one grid alone: what such grids have been found to miss; H_min misses about twice as much
          error = relative_wedge_error(plan%point, plan%finest)*[m%film_central, 2.0_dp*m%film_minimum]

@@ -4,6 +4,7 @@ submodule (ehl_solver) ehl_solver_run
    use ehl_clock, only: clock_t, start_clock
    use ehl_feature, only: feature_t
    use ehl_harmonic, only: harmonic_t
+   use ehl_level_result, only: friction_error
    use ehl_stopping_criterion, only: transient_outcome
    use ehl_plan_surface, only: check_carried
    use ehl_outcome, only: outcome_cycle_limit, outcome_diverged, outcome_negative_film
@@ -62,7 +63,7 @@ contains
       call keep_smooth(self, status)
       ! where a feature passes once, the largest pressure and the least film are asked for, not the mean friction alone
       call self%transient%accuracy%set(self%grid%hx, self%plan%accuracy, self%steady%results(n)%m%friction_newtonian, &
-                                       merge(0.0_dp, self%steady%friction_error(n), self%plan%surface%passes_once))
+                                       merge(0.0_dp, friction_error(self%steady%results, n), self%plan%surface%passes_once))
       call self%transient%policy%set(self%plan%step_cycle, self%plan%coarsening_may_change, self%plan%max_cycles)
       call self%transient%start(self%hierarchy%levels(n), self%plan%contact, self%plan%surface, self%plan%skip_start, &
                                 self%steady%results(n)%m%friction, status)

@@ -8,12 +8,13 @@ module ehl_steady
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_contact_results, only: load_tolerance, measure, contact_results_t
+   use ehl_level_result, only: discretisation_error, level_result_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, &
                           outcome_running, outcome_target_missed
    use ehl_status, only: status_t
    implicit none (type, external)
    private
-   public :: level_result_t, steady_t, least_reduction, residual_tolerance
+   public :: steady_t, least_reduction, residual_tolerance
 
    !> The error after a cycle is at most q/(1 - q) of the last change, q being the reduction per
    !> cycle; no better reduction than this is believed
@@ -30,19 +31,12 @@ module ehl_steady
    real(dp), parameter :: largest_error = 2.0e-3_dp
    !> Relative algebraic error wanted on the first grid, where no discretisation error is known yet
    real(dp), parameter :: start_tolerance = 1.0e-3_dp
+   !> Relative algebraic error that a light cycle can be trusted with
+   real(dp), parameter :: light_error = 3.0e-4_dp
+   !> Few cycles on a level that began from a coarser one, from the Hertz pressure
+   integer, parameter :: few = 2, few_from_guess = 3
    !> The same where two finer grids follow: the first one then gives a guess, and enters no result
    real(dp), parameter :: guess_tolerance = 3.0e-2_dp
-
-   !> What is known of the solution on one level
-   type :: level_result_t
-      logical :: solved = .false.
-      type(contact_results_t) :: m
-      !> Algebraic errors of H_c and H_min, as estimated
-      real(dp) :: algebraic(2) = 0.0_dp
-      !> Cycles made, residual (rms) at the end
-      integer :: cycles = 0
-      real(dp) :: residual = 0.0_dp
-   end type level_result_t
 
    !> State of the nested iteration
    type :: steady_t
@@ -66,14 +60,12 @@ module ehl_steady
    contains
       procedure :: start
       procedure :: advance
-      procedure :: discretisation_error
-      procedure :: friction_error
-      procedure :: extrapolated
       procedure, private :: enter_level
       procedure, private :: decide
-      procedure, private :: quick
+      procedure, private :: next_cycle
       procedure, private :: is_end
       procedure, private :: accurate
+      procedure, private :: wanted
       procedure, private :: fail_level
    end type steady_t
 
@@ -118,26 +110,20 @@ contains
       type(status_t), intent(inout) :: status
       type(contact_results_t) :: before
       real(dp) :: change(2), q, residual
-      type(cycle_options_t) :: options
 
       if (self%outcome /= outcome_running) return
       if (.not. self%entered) call self%enter_level(hierarchy, status)
       if (status%failed()) return
       associate (result => self%results(self%n), level => hierarchy%levels(self%n))
          before = result%m
-         options = self%cycle
-         if (has_coarser(self) .and. result%cycles == 1) then
-            options = self%second_cycle
-            if (self%quick()) options%pre = min(1, options%pre)
-         end if
-         call hierarchy%cycle(self%n, options, residual)
+         call hierarchy%cycle(self%n, self%next_cycle(), residual)
          result%cycles = result%cycles + 1
          result%m = measure(level)
          if (.not. result%m%finite .or. .not. result%m%positive) then
             call self%fail_level(merge(outcome_negative_film, outcome_diverged, result%m%finite))
             return
          end if
-         change = abs([result%m%film_central - before%film_central, result%m%film_minimum - before%film_minimum])
+         change = abs(result%m%films() - before%films())
          if (result%cycles == 1) then
             ! part of this change is discretisation error, so that its size says little of the next
             q = least_reduction
@@ -214,7 +200,7 @@ contains
          if (.not. met .and. result%cycles < self%max_cycles) return
          result%solved = .true.
          if (met .and. self%target_error > 0.0_dp .and. has_coarser(self)) then
-            values = self%discretisation_error(self%n) + result%algebraic
+            values = discretisation_error(self%results, self%n) + result%algebraic
             if (values(1) <= self%target_error*result%m%film_central) then
                self%outcome = outcome_converged
                return
@@ -230,15 +216,24 @@ contains
       end associate
    end subroutine decide
 
-   !> Whether the coarser level was solved in so few cycles that one sweep will do before the second one of this level
-   pure logical function quick(self)
+   !> The cycle to make: on a level that began from a coarser one a light one is the second, if what it leaves is good
+   !> enough; with one sweep less at first where the coarser level was solved in few cycles
+   pure function next_cycle(self) result(options)
       class(steady_t), intent(in) :: self
+      type(cycle_options_t) :: options
       logical :: first
 
+      options = self%cycle
+      if (self%second_cycle%full .eqv. self%cycle%full) return
+      associate (result => self%results(self%n))
+         if (.not. has_coarser(self) .or. result%cycles /= 1) return
+         if (any(self%wanted() < light_error*result%m%films())) return
+      end associate
+      options = self%second_cycle
       first = self%n == 2
       if (.not. first) first = .not. self%results(self%n - 2)%solved
-      quick = self%results(self%n - 1)%cycles <= merge(3, 2, first)
-   end function quick
+      if (self%results(self%n - 1)%cycles <= merge(few_from_guess, few, first)) options%pre = options%pre - 1
+   end function next_cycle
 
    !> Whether the solution may end on the present level
    pure logical function is_end(self)
@@ -249,22 +244,28 @@ contains
    !> Whether the algebraic errors are what the grid deserves, and on a level where the solution may end the residual, too
    pure logical function accurate(self)
       class(steady_t), intent(in) :: self
-      real(dp) :: wanted(2), values(2)
-
       associate (result => self%results(self%n))
-         values = [result%m%film_central, result%m%film_minimum]
+         accurate = all(result%algebraic <= self%wanted())
+         if (self%is_end()) accurate = accurate .and. result%residual <= residual_tolerance
+      end associate
+   end function accurate
+
+   !> Algebraic errors of H_c and H_min that the present level deserves
+   pure function wanted(self)
+      class(steady_t), intent(in) :: self
+      real(dp) :: wanted(2)
+
+      associate (values => self%results(self%n)%m%films())
          if (has_coarser(self)) then
-            wanted = self%accuracy*max(self%discretisation_error(self%n), least_error*values)
+            wanted = self%accuracy*max(discretisation_error(self%results, self%n), least_error*values)
          else
             wanted = start_tolerance*values
             if (self%n == self%levels) wanted = self%accuracy*wanted
             if (self%n < self%levels - 1 .and. .not. self%is_end()) wanted = guess_tolerance*values
          end if
          if (self%is_end()) wanted = min(wanted, largest_error*values)
-         accurate = all(result%algebraic <= wanted)
-         if (self%is_end()) accurate = accurate .and. result%residual <= residual_tolerance
       end associate
-   end function accurate
+   end function wanted
 
    !> Failure on a level: begin anew on the next finer one, where the discrete problem is better posed
    subroutine fail_level(self, outcome)
@@ -286,41 +287,4 @@ contains
       has_coarser = .false.
       if (self%n > 1) has_coarser = self%results(self%n - 1)%solved
    end function has_coarser
-
-   !> Discretisation errors of H_c and H_min on level n from the next coarser one, order 2
-   pure function discretisation_error(self, n) result(error)
-      class(steady_t), intent(in) :: self
-      integer, intent(in) :: n
-      real(dp) :: error(2)
-
-      associate (fine => self%results(n), coarse => self%results(n - 1))
-         error = abs([fine%m%film_central - coarse%m%film_central, &
-                      fine%m%film_minimum - coarse%m%film_minimum])/3.0_dp
-      end associate
-   end function discretisation_error
-
-   !> Relative discretisation error of the Newtonian friction integral on level n, as that of H_c; 0: there is no coarser one
-   pure real(dp) function friction_error(self, n)
-      class(steady_t), intent(in) :: self
-      integer, intent(in) :: n
-
-      friction_error = 0.0_dp
-      if (n == 1) return
-      associate (fine => self%results(n), coarse => self%results(n - 1))
-         if (coarse%solved) friction_error = abs(fine%m%friction_newtonian - coarse%m%friction_newtonian) &
-                                             /(3.0_dp*fine%m%friction_newtonian)
-      end associate
-   end function friction_error
-
-   !> H_c and H_min extrapolated from levels n and n-1, order 2
-   pure function extrapolated(self, n) result(values)
-      class(steady_t), intent(in) :: self
-      integer, intent(in) :: n
-      real(dp) :: values(2)
-
-      associate (fine => self%results(n)%m, coarse => self%results(n - 1)%m)
-         values = ([4.0_dp*fine%film_central, 4.0_dp*fine%film_minimum] &
-                   - [coarse%film_central, coarse%film_minimum])/3.0_dp
-      end associate
-   end function extrapolated
 end module ehl_steady

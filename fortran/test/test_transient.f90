@@ -8,6 +8,7 @@ module test_transient
    use ehl_film, only: update_residual
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
+   use ehl_level_result, only: friction_error
    use ehl_outcome, only: outcome_converged, outcome_running
    use ehl_plan, only: make_plan, plan_t
    use ehl_relaxation, only: full_trust, relax
@@ -252,7 +253,7 @@ contains
       call is_true(steady%outcome == outcome_converged, "the smooth contact converges")
       n = steady%n
       call transient%accuracy%set(hierarchy%levels(n)%grid%hx, plan%accuracy, steady%results(n)%m%friction_newtonian, &
-                                  steady%friction_error(n))
+                                  friction_error(steady%results, n))
       call transient%policy%set(plan%step_cycle, .false., plan%max_cycles)
       call plan%surface%prepare(hierarchy%levels(n)%grid, status)
       call transient%start(hierarchy%levels(n), plan%contact, plan%surface, plan%skip_start, steady%results(n)%m%friction, status)

@@ -1,0 +1,53 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What the levels of a nested iteration know of the smooth contact, and what two of them tell of the error
+module ehl_level_result
+   use ehl_contact_results, only: contact_results_t
+   use ehl_kinds, only: dp
+   implicit none (type, external)
+   private
+   public :: level_result_t, discretisation_error, extrapolated, friction_error
+
+   !> What is known of the solution on one level
+   type :: level_result_t
+      logical :: solved = .false.
+      type(contact_results_t) :: m
+      !> Algebraic errors of H_c and H_min, as estimated
+      real(dp) :: algebraic(2) = 0.0_dp
+      !> Cycles made, residual (rms) at the end
+      integer :: cycles = 0
+      real(dp) :: residual = 0.0_dp
+   end type level_result_t
+
+contains
+
+   !> Discretisation errors of H_c and H_min on level n from the next coarser one, order 2
+   pure function discretisation_error(results, n) result(error)
+      type(level_result_t), intent(in) :: results(:)
+      integer, intent(in) :: n
+      real(dp) :: error(2)
+
+      error = abs(results(n)%m%films() - results(n - 1)%m%films())/3.0_dp
+   end function discretisation_error
+
+   !> Relative discretisation error of the Newtonian friction integral on level n, as that of H_c; 0: there is no coarser one
+   pure real(dp) function friction_error(results, n)
+      type(level_result_t), intent(in) :: results(:)
+      integer, intent(in) :: n
+
+      friction_error = 0.0_dp
+      if (n == 1) return
+      associate (fine => results(n), coarse => results(n - 1))
+         if (coarse%solved) friction_error = abs(fine%m%friction_newtonian - coarse%m%friction_newtonian) &
+                                             /(3.0_dp*fine%m%friction_newtonian)
+      end associate
+   end function friction_error
+
+   !> H_c and H_min extrapolated from levels n and n-1, order 2
+   pure function extrapolated(results, n) result(values)
+      type(level_result_t), intent(in) :: results(:)
+      integer, intent(in) :: n
+      real(dp) :: values(2)
+
+      values = (4.0_dp*results(n)%m%films() - results(n - 1)%m%films())/3.0_dp
+   end function extrapolated
+end module ehl_level_result
