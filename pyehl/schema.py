@@ -83,7 +83,7 @@ s | p_max_Pa | Pa | largest pressure
 sp | load_error | - | relative error of the force balance
 s | cycles | - | cycles on the finest grid
 s | total_cycles | - | cycles on all grids
-s | residual | - | residual (rms) at the end
+s | residual | - | residual (rms) at the end, as far as it concerns the film
 s | restarts | - | how often the solution began again
 s | H_c_rough | a^2/R | central film of a rough surface at rest
 s | H_min_rough | a^2/R | minimum film of a rough surface at rest, or while a feature passes

@@ -169,7 +169,8 @@ contains
                          "transfers in time steps: bilinear, or by the conductance (Galerkin)")
          call self%words("solver", "symmetry", s%symmetry, "auto|full", &
                          "auto: half the domain where the scene is symmetric in Y")
-         call self%words("solver", "cycle", s%cycle, "auto|W|V|F", "multigrid cycle")
+         call self%words("solver", "cycle", s%cycle, "auto|W|V|F", "multigrid cycle, "// &
+                    "all of a kind; auto: F and a light second one for a smooth contact, V for time steps")
          call self%reals("solver", "accuracy", s%accuracy, "-", "[1e-6, 1]", &
                          "algebraic error wanted as a share of the discretisation error")
          call self%integers("solver", "max_cycles", s%max_cycles, "[1, 10000]", "most cycles per level; ten times as many in "// &

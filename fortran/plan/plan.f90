@@ -201,7 +201,7 @@ contains
       end if
       plan%cycle = cycle_of(plan%cycle_letter)
       plan%second_cycle = plan%cycle
-      if (plan%cycle%full .and. .not. allocated(plan%surface)) then
+      if (input%solver%cycle == "auto" .and. .not. allocated(plan%surface)) then
          ! The first leaves so little that is smooth that one visit to the coarser levels will do. Not before rough runs:
          ! the error of the smooth friction is one of the ratio.
          plan%second_cycle = cycle_of("V")

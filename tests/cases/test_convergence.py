@@ -42,7 +42,7 @@ def test_convergence_does_not_depend_on_the_grid(solve, point: tuple[float, floa
 def test_light_second_cycles_agree_with_full_ones(solve, point: tuple[float, float], points: int):
     """The plan makes the second cycle on a grid a light one; cycles of one kind give the same."""
     light = solve(point, points)
-    full = solve(point, points, {"solver.cycle": "W", "solver.accuracy": 0.01})
+    full = solve(point, points, {"solver.cycle": "F", "solver.accuracy": 0.01})
     assert light.converged
     assert full.converged
     for name in ("H_c", "H_min"):
