@@ -201,7 +201,7 @@ def _run_rows(scene: str, options: Sequence[str], repeats: int, *, symmetric: bo
             "a solve of the smooth contact for mu_s",
             "F",
             usual,
-            lambda: _smooth_of(options),
+            lambda: _smooth_of(options, symmetric=symmetric),
             nothing,
             repeats,
             besides=True,
@@ -210,10 +210,10 @@ def _run_rows(scene: str, options: Sequence[str], repeats: int, *, symmetric: bo
     return rows
 
 
-def _smooth_of(options: Sequence[str]) -> dict[str, Any]:
+def _smooth_of(options: Sequence[str], *, symmetric: bool) -> dict[str, Any]:
     kept = [text for text in options if not text.startswith("surface.")]
-    # all cycles full, as before a rough run
-    return solve(*kept, "solver.cycle=F")
+    # all cycles full and on the same domain, as before the rough run
+    return solve(*kept, "solver.cycle=F", f"solver.symmetry={'auto' if symmetric else 'full'}")
 
 
 def wave_scene(points: int, repeats: int) -> list[Row]:
