@@ -63,8 +63,9 @@ contains
       end if
       text = text//"deflection "//plan%engine//", threads "//to_text(plan%threads)//new_line("a")
       text = text//"cycles     "//plan%cycle_letter//sweeps_of(plan%cycle)
-      if (plan%cycle%full .and. .not. plan%second_cycle%full) &
+      if (plan%cycle%full .and. .not. plan%second_cycle%full) then
          text = text//", the second on a finer grid V"//sweeps_of(plan%second_cycle)
+      end if
       if (plan%moves()) then
          text = text//", time steps "//plan%step_cycle_letter//sweeps_of(plan%step_cycle)// &
                 " (no sweeps first where the prediction is close), "// &

@@ -31,18 +31,18 @@ module ehl_steady
    real(dp), parameter :: largest_error = 2.0e-3_dp
    !> Relative algebraic error wanted on the first grid, where no discretisation error is known yet
    real(dp), parameter :: start_tolerance = 1.0e-3_dp
+   !> The same where two finer grids follow: the first one then gives a guess, and enters no result
+   real(dp), parameter :: guess_tolerance = 3.0e-2_dp
    !> Relative algebraic error that a light cycle can be trusted with
    real(dp), parameter :: light_error = 3.0e-4_dp
    !> Few cycles on a level that began from a coarser one, from the Hertz pressure
    integer, parameter :: few = 2, few_from_guess = 3
-   !> The same where two finer grids follow: the first one then gives a guess, and enters no result
-   real(dp), parameter :: guess_tolerance = 3.0e-2_dp
 
    !> State of the nested iteration
    type :: steady_t
       private
       class(contact_t), allocatable :: contact
-      !> Of a level; the second one on a level that began from a coarser one
+      !> The first on a level and all but the second; the second one on a level that began from a coarser one
       type(cycle_options_t) :: cycle, second_cycle
       !> Levels; central film expected [a^2/R]; algebraic error as a share of the discretisation error; relative
       !> error of H_c at which to stop, 0: on the finest grid; most cycles on a level
