@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How well the fit meets runs that it does not know: the shortest waves with much slip.
+
+    python docs/evidence/response/unfitted.py
+
+prints the largest deviation of T over all X for each wavelength of ``unfitted.csv``, whose columns
+are those of ``waves.csv``.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections import defaultdict
+from pathlib import Path
+
+import numpy as np
+
+from pyehl.theory.response import inlet_transfer
+
+HERE = Path(__file__).resolve().parent
+
+
+def main() -> None:
+    """Compare T = driven + free G with what was measured."""
+    found: dict[tuple[str, ...], list[float]] = defaultdict(list)
+    with (HERE / "unfitted.csv").open(newline="", encoding="utf-8") as stream:
+        for row in csv.DictReader(stream):
+            t, driven, free = (
+                complex(float(row[f"{name}_re"]), float(row[f"{name}_im"]))
+                for name in ("T", "driven", "free")
+            )
+            if np.isnan(t):
+                continue
+            point = [float(row[name]) for name in ("moes_m", "moes_l", "velocity_ratio")]
+            kx, ky = float(row["kx"]), float(row["ky"])
+            inlet = complex(inlet_transfer([kx], [ky], *point)[0])
+            octave = f"a/{2 ** round(np.log2(np.hypot(kx, ky) / (2.0 * np.pi)))}"
+            key = (row["moes_m"], row["moes_l"], row["velocity_ratio"], octave)
+            found[key].append(abs(driven + free * inlet - t))
+    print("moes_m moes_l     U  wavelength  largest")
+    for (m, ell, ratio, octave), left in sorted(found.items()):
+        print(f"{m:>6} {ell:>6} {ratio:>5}  {octave:>10}  {max(left):7.3f}")
+
+
+if __name__ == "__main__":
+    main()
