@@ -28,12 +28,10 @@ contains
 
       x = abs(di)*hx
       y = abs(dj)*hy
-      if (x*x + y*y > (far*max(hx, hy))**2) then
-         kernel_coefficient = factor*hx*hy*gauss(x, y, node*hx, node*hy)
+      if (is_far(x, y, hx, hy)) then
+         kernel_coefficient = by_gauss(x, y, hx, hy)
       else
-         kernel_coefficient = factor*( &
-            corner(x + 0.5_dp*hx, y + 0.5_dp*hy) - corner(x - 0.5_dp*hx, y + 0.5_dp*hy) &
-            - corner(x + 0.5_dp*hx, y - 0.5_dp*hy) + corner(x - 0.5_dp*hx, y - 0.5_dp*hy))
+         kernel_coefficient = by_corners(x, y, hx, hy)
       end if
    end function kernel_coefficient
 
@@ -44,24 +42,42 @@ contains
       real(dp), intent(in) :: hx, hy
       integer, intent(in) :: step(2)
       real(dp) :: x, y
-      integer :: i, j, near
+      integer :: i, j, first_far
 
       do j = 1, size(k, 2)
          y = (j - 1)*step(2)*hy
-         near = 0
-         do i = 1, size(k, 1)
-            x = (i - 1)*step(1)*hx
-            if (x*x + y*y > (far*max(hx, hy))**2) exit
-            k(i, j) = kernel_coefficient((i - 1)*step(1), (j - 1)*step(2), hx, hy)
-            near = i
+         do first_far = 1, size(k, 1)
+            x = (first_far - 1)*step(1)*hx
+            if (is_far(x, y, hx, hy)) exit
+            k(first_far, j) = by_corners(x, y, hx, hy)
          end do
-         ! apart from those near by, so that the compiler vectorises it
-         do i = near + 1, size(k, 1)
+         ! a loop of its own, which the compiler vectorises
+         do i = first_far, size(k, 1)
             x = (i - 1)*step(1)*hx
-            k(i, j) = factor*hx*hy*gauss(x, y, node*hx, node*hy)
+            k(i, j) = by_gauss(x, y, hx, hy)
          end do
       end do
    end subroutine fill_kernel
+
+   !> Whether a cell of hx x hy at (x, y) is integrated by Gauss points
+   elemental logical function is_far(x, y, hx, hy)
+      real(dp), intent(in) :: x, y, hx, hy
+      is_far = x*x + y*y > (far*max(hx, hy))**2
+   end function is_far
+
+   !> The coefficient of a cell at (x, y) exactly, as the second difference of its corners
+   elemental real(dp) function by_corners(x, y, hx, hy)
+      real(dp), intent(in) :: x, y, hx, hy
+      by_corners = factor*( &
+                   corner(x + 0.5_dp*hx, y + 0.5_dp*hy) - corner(x - 0.5_dp*hx, y + 0.5_dp*hy) &
+                   - corner(x + 0.5_dp*hx, y - 0.5_dp*hy) + corner(x - 0.5_dp*hx, y - 0.5_dp*hy))
+   end function by_corners
+
+   !> The coefficient of a cell at (x, y) by 3 x 3 Gauss points
+   elemental real(dp) function by_gauss(x, y, hx, hy)
+      real(dp), intent(in) :: x, y, hx, hy
+      by_gauss = factor*hx*hy*gauss(x, y, node*hx, node*hy)
+   end function by_gauss
 
    !> Twofold antiderivative of 1/r, odd in x and in y; x and y are never zero at a corner
    elemental real(dp) function corner(x, y)

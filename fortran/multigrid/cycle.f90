@@ -141,8 +141,8 @@ contains
       type(level_t), intent(inout) :: fine
       integer :: j
 
-      call refine(coarse, coarse%p, fine%p)
-      call refine(coarse, coarse%h - coarse%h00 - coarse%geometry, fine%h)
+      call refine(coarse%p, coarse%grid%mirror, fine%p)
+      call refine(coarse%h - coarse%h00 - coarse%geometry, coarse%grid%mirror, fine%h)
       fine%h00 = coarse%h00
       do j = 1, fine%grid%ny
          where (fine%p(:, j) <= 0.0_dp) fine%p(:, j) = 0.0_dp
@@ -152,10 +152,12 @@ contains
    end subroutine prolong_solution
 
    !> Cubic interpolation of a field, row by row
-   subroutine refine(coarse, values, fine)
-      type(level_t), intent(in) :: coarse
-      !> Shapes of the coarse and the fine grid
+   pure subroutine refine(values, mirror, fine)
+      !> Shape of the coarse grid
       real(dp), intent(in) :: values(:, :)
+      !> Whether the grid is folded at Y = 0
+      logical, intent(in) :: mirror
+      !> Shape of the fine grid
       real(dp), intent(out) :: fine(:, :)
       integer :: l, n, below
 
@@ -165,7 +167,7 @@ contains
       end do
       do l = 1, n - 1
          below = 2*l - 3
-         if (l == 1) below = merge(3, 1, coarse%grid%mirror)
+         if (l == 1) below = merge(3, 1, mirror)
          fine(:, 2*l) = (9.0_dp*(fine(:, 2*l - 1) + fine(:, 2*l + 1)) - fine(:, below) &
                          - fine(:, min(2*l + 3, size(fine, 2))))/16.0_dp
       end do

@@ -85,12 +85,7 @@ contains
 
       if (status%failed() .or. allocated(self%p_start)) return
       allocate (self%p_start, self%h_start, mold=self%change, stat=stat)
-      if (stat /= 0) then
-         call status%fail(ehl_no_memory, "no memory for the coarse problem of a grid level")
-         return
-      end if
-      self%p_start = 0.0_dp
-      self%h_start = 0.0_dp
+      if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the coarse problem of a grid level")
    end subroutine prepare_coarse
 
    !> Allocate what time steps need, unless that has been done
