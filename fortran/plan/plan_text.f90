@@ -6,6 +6,7 @@ module ehl_plan_text
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_plan, only: plan_t
+   use ehl_steady, only: largest_error
    use ehl_text, only: to_text
    use ehl_wedge, only: wedge_narrow
    implicit none (type, external)
@@ -19,7 +20,7 @@ contains
       type(plan_t), intent(in) :: plan
       character(len=:), allocatable :: text
       type(grid_t) :: grid
-      character(len=128) :: line
+      character(len=160) :: line
       integer :: k
 
       write (line, "(a,g0.5,a,g0.5,a,g0.5,a,es9.3)") "contact    M = ", plan%point%moes_m, ", L = ", plan%point%moes_l, &
@@ -76,8 +77,8 @@ contains
       if (plan%target_error > 0.0_dp) then
          write (line, "(a,es8.1)") "stop       at the first grid whose relative error of H_c is below ", plan%target_error
       else
-         write (line, "(a,f5.2,a)") "stop       on the finest grid, algebraic error below ", plan%accuracy, &
-            " of the discretisation error, load error below 1e-6"
+         write (line, "(a,f5.2,a,f4.1,a)") "stop       on the finest grid, algebraic error below ", plan%accuracy, &
+            " of the discretisation error and", 100.0_dp*largest_error, " % of the film, load error below 1e-6"
       end if
       text = text//trim(line)//new_line("a")
       text = text//"level  points    stored nodes  mesh size   use"

@@ -125,8 +125,8 @@ contains
    end subroutine update_residual
 
    !> Residual (rms) as far as it concerns the film: each with the share that the deflection by the node's own pressure
-   !> has in what answers it, the rest being the Poiseuille term. In the far inlet, where eps/h^2 is 1e5, a residual of 1
-   !> is a pressure of 1e-6. Needs the residual of the present state.
+   !> has in what answers it, the rest being the Poiseuille term. In the far inlet, where eps/h^2 is 1e8, a residual of 1
+   !> is a pressure of 1e-9. Needs the residual of the present state.
    real(dp) function film_residual(level)
       type(level_t), intent(in) :: level
       real(dp) :: sums(level%grid%ny), wedge, poiseuille

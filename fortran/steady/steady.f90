@@ -14,7 +14,7 @@ module ehl_steady
    use ehl_status, only: status_t
    implicit none (type, external)
    private
-   public :: steady_t, least_reduction, residual_tolerance
+   public :: steady_t, largest_error, least_reduction, residual_tolerance
 
    !> The error after a cycle is at most q/(1 - q) of the last change, q being the reduction per
    !> cycle; no better reduction than this is believed
@@ -24,18 +24,21 @@ module ehl_steady
    !> Largest residual (rms, as far as it concerns the film; the wedge term is of order 1 in the inlet) of a converged
    !> solution
    real(dp), parameter :: residual_tolerance = 2.0e-3_dp
-   !> Relative errors of the force balance that are taken away by scaling the pressure: the film changes by a hundredth of
-   !> its discretisation error at most
+   !> Relative errors of the force balance that may be taken away by scaling the pressure
    real(dp), parameter :: small_load_error = 3.0e-6_dp
+   !> What that changes the film, per relative error: the deflection by the Hertz pressure differs from its mean under it by
+   !> 1/5 at the centre and by 3/10 at the edge [a^2/R]. Share of the algebraic error wanted that it may take
+   real(dp), parameter :: film_per_load = 0.3_dp, share_of_load = 0.1_dp
    !> Largest relative algebraic error of a result, however coarse its grid
    real(dp), parameter :: largest_error = 2.0e-3_dp
    !> Relative algebraic error wanted on the first grid, where no discretisation error is known yet
    real(dp), parameter :: start_tolerance = 1.0e-3_dp
    !> The same where two finer grids follow: the first one then gives a guess, and enters no result
    real(dp), parameter :: guess_tolerance = 3.0e-2_dp
-   !> Relative algebraic error that a light cycle can be trusted with
+   !> Relative algebraic error that a light cycle can be trusted with: where less is wanted (1025 x 1025 nodes at low M, 2049 x
+   !> 2049) it costs a cycle in place of saving half of one
    real(dp), parameter :: light_error = 3.0e-4_dp
-   !> Few cycles on a level that began from a coarser one, from the Hertz pressure
+   !> Cycles that are few: on a level that began from a coarser one, and from the Hertz pressure
    integer, parameter :: few = 2, few_from_guess = 3
 
    !> State of the nested iteration
@@ -65,6 +68,7 @@ module ehl_steady
       procedure, private :: next_cycle
       procedure, private :: is_end
       procedure, private :: accurate
+      procedure, private :: may_scale
       procedure, private :: wanted
       procedure, private :: fail_level
    end type steady_t
@@ -133,8 +137,7 @@ contains
          result%algebraic = change*q/(1.0_dp - q)
          self%change = change
          result%residual = film_residual(level)
-         if (self%is_end() .and. self%accurate() .and. abs(result%m%load_error) > load_tolerance &
-             .and. abs(result%m%load_error) <= small_load_error) then
+         if (self%may_scale()) then
             call balance_load(level, result%m%load_error)
             call update_residual(level, residual)
             result%residual = film_residual(level)
@@ -249,6 +252,16 @@ contains
          if (self%is_end()) accurate = accurate .and. result%residual <= residual_tolerance
       end associate
    end function accurate
+
+   !> Whether the load alone is not yet right, and so little wrong that scaling the pressure costs no accuracy of the film
+   pure logical function may_scale(self)
+      class(steady_t), intent(in) :: self
+      real(dp) :: error
+
+      error = abs(self%results(self%n)%m%load_error)
+      may_scale = self%is_end() .and. error > load_tolerance .and. error <= small_load_error .and. self%accurate()
+      if (may_scale) may_scale = film_per_load*error <= share_of_load*minval(self%wanted())
+   end function may_scale
 
    !> Algebraic errors of H_c and H_min that the present level deserves
    pure function wanted(self)

@@ -27,6 +27,8 @@ STRICT = {"solver.accuracy": 0.005, "solver.max_cycles": 200}
 """Settings of the stricter run."""
 ENDED = "ended at its number of steps"
 """Status of a run that was to end after so many steps, all of which converged."""
+HIGHEST = 1.0
+"""Largest surface.amplitude that a case may have [a^2/R]."""
 UNKNOWN_ERROR = 0.03
 """Difference allowed where a result comes without an estimate of its error."""
 # What a result is, by the kind of scene, and the estimate of its error
@@ -102,7 +104,10 @@ def campaign(
         chosen = [row for row in found if row["outcome"] in ("converged", ENDED)]
         if chosen:
             tell(f"{family}: {len(chosen)} once more, to a stricter end")
-            _check(family, chosen, folder / f"{family}-strict", jobs)
+            for name, high in (("strict", False), ("strict-high", True)):
+                part = [row for row in chosen if _is_high(row) == high]
+                if part:
+                    _check(family, part, folder / f"{family}-{name}", jobs)
         rows += found
     tell("a sample by the second solver")
     stress_second.check(rows, sample, tell)
@@ -129,13 +134,18 @@ def _outcome(row: Mapping[str, Any]) -> str:
     return str(row["status"])
 
 
+def _is_high(row: Mapping[str, Any]) -> bool:
+    """Whether a surface is higher than surface.amplitude may be: it stays a share of the film."""
+    return row["amplitude"] is not None and row["amplitude"] > HIGHEST
+
+
 def _check(family: str, rows: Sequence[Row], folder: Path, jobs: int) -> None:
     """Solve again what has a result, to a stricter end."""
     cases = [StressCase(family, r["moes_m"], r["moes_l"], r["points"], r["values"]) for r in rows]
     strict: list[dict[str, Any]] = []
     for row in rows:
         more: dict[str, Any] = dict(STRICT)
-        if row["amplitude"] is not None:
+        if row["amplitude"] is not None and not _is_high(row):
             # a share of the film would be another height
             more |= {"surface.amplitude_over_film": None, "surface.amplitude": row["amplitude"]}
         if row["steps"] is not None:
