@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from pyehl.prediction.second_order import SecondOrder
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.prediction.wave_table import WaveTable
+from pyehl.prediction.wave_table import WaveTable, coarsened
 from pyehl.theory.response import inlet_transfer
 from pyehl.theory.transport import Zone, stiffness, transport
 
@@ -126,12 +126,12 @@ class Transfer:
         slip = velocity_ratio - 1.0
         behind = 1.0 if bent else np.exp(1j * kx * slip * (np.sqrt(1.0 - OFF_CENTRE**2) - 1.0))
         lines = np.array([[0.0], [OFF_CENTRE]])
-        inlet = inlet_transfer(kx, ky, *moes, velocity_ratio, lines)
+        inlet = inlet_transfer(zone, kx, ky, moes, velocity_ratio, lines)
         inlet[1] *= behind
         leaking = zone
         if at_amplitude:
             power, few = table.gathered(spectrum.power), table.coarse()
-            carried = inlet_transfer(*few, *moes, velocity_ratio) * np.exp(1j * few[0] * slip)
+            carried = coarsened(inlet[0], 1) * np.exp(1j * few[0] * slip)
             for _ in range(REPETITIONS):
                 driven, free = transport(leaking, *few, velocity_ratio, CENTRE)[MIDDLE]
                 pressure = stiffness(np.hypot(*few)) * np.abs(1.0 - driven - free * carried)

@@ -22,8 +22,8 @@ from pyehl.reproduce.surface_runs import SEED, deformed_run, tile
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.response import inlet_transfer
-from pyehl.theory.transport import Zone, transport
+from pyehl.theory.response import inlet_base, inlet_fit
+from pyehl.theory.transport import INLET, Zone, transport
 
 __all__ = ["NAME", "TITLE", "Deformed", "run", "show"]
 
@@ -137,10 +137,13 @@ def _response(waves: _Waves, zone: Zone, point: OperatingPoint, velocity: float,
     half = waves.qx >= 0.0
     kx, ky = np.meshgrid(waves.qx[half], waves.qy, indexing="ij")
     shape = kx.shape
-    chosen, back = np.unique(np.clip(x, -0.89, 0.99), return_inverse=True)
+    chosen, back = np.unique(np.clip(x, INLET + 0.01, 0.99), return_inverse=True)
     parts = transport(zone, kx.ravel(), ky.ravel(), velocity, chosen)
+    moes = point.moes_m, point.moes_l
+    base = inlet_base(zone, kx, ky, moes, velocity)
     inlets = [
-        inlet_transfer(kx, ky, point.moes_m, point.moes_l, velocity, offset)
+        base
+        * inlet_fit(kx, ky, moes, velocity, offset)
         * np.exp(1j * kx * (velocity - 1.0) * np.sqrt(1.0 - offset * offset))
         for offset in LINES
     ]

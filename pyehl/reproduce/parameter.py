@@ -71,11 +71,10 @@ def _of_contact(moes_m: float, moes_l: float, wavelength: Array, velocity_ratio:
     low, high = (float(oil.log_viscosity_ratio(p)) for p in ends)
     thickening = (high - low) / (2.0 * step)
     k = 2.0 * np.pi / wavelength
-    ((driven, free),) = transport(
-        zone_of(contact, point, oil), k, k, velocity_ratio, np.array([0.0])
-    )
+    zone = zone_of(contact, point, oil)
+    ((driven, free),) = transport(zone, k, k, velocity_ratio, np.array([0.0]))
     slip = np.exp(1j * k * (velocity_ratio - 1.0))
-    t = driven + free * inlet_transfer(k, k, moes_m, moes_l, velocity_ratio) * slip
+    t = driven + free * inlet_transfer(zone, k, k, (moes_m, moes_l), velocity_ratio) * slip
     film = contact.central_film
     pressure_wave = stiffness(np.hypot(k, k)) * edge_gain(k, k, film) * (1.0 - t)
     across = np.sqrt(0.5 * (1.0 + np.exp(-2.0 * k * k / thickening)))

@@ -54,7 +54,8 @@ def shipped_response(
     kx: Array, ky: Array, zone: Zone, operating: OperatingPoint, velocity_ratio: float
 ) -> Complex:
     """T at the STATIONS by :mod:`pyehl.theory.response`, (m, 3), for wavenumbers [1/a]."""
-    inlet = inlet_transfer(kx, ky, operating.moes_m, operating.moes_l, velocity_ratio)
+    moes = operating.moes_m, operating.moes_l
+    inlet = inlet_transfer(zone, kx, ky, moes, velocity_ratio)
     slip = np.exp(1j * np.outer(kx * (velocity_ratio - 1.0), STATIONS + 1.0))
     parts = transport(zone, kx, ky, velocity_ratio, STATIONS)
     found = [driven + free * inlet * slip[:, i] for i, (driven, free) in enumerate(parts)]

@@ -8,17 +8,20 @@ a^2/R, pressures by p_h, times by a/u; k > 0.
 
 Behind the inlet the film wave follows the transport equation of :mod:`pyehl.theory.transport`.
 
-What the inlet makes is the inlet transfer G = mu/rho at X = -0.9 on the centre line, turned back to
-X = -1. It is a fit to the full simulation of this package; its form 1/(1 + z) has the limits G = 1
-for short and G = 0 for long waves, z is a power law in the wavelength parameter
-nabla_2 = (wavelength over a) sqrt(M/L) to first order (Venner & Lubrecht 1999), and real for ridges
-along the motion, which do not move. At low M L the inlet leaks: z has terms in 1/(M L), and |G|
-changes with slip. Away from the centre line the inlet is oblique and z grows.
+What the inlet makes is the inlet transfer G = mu/rho at X = -0.8 on the centre line, turned back to
+X = -1. For waves that are short beside the inlet the transport equation itself nearly gives it, B;
+the rest is a fit to the full simulation of this package: G = (1 - w + w B) F, F = 1/(1 + z) but for
+a phase, and a weight w of 1 for short and 0 for long waves. The form has the limits G = B for short
+and 0 for long waves. z is a power law in the wavelength parameter nabla_2 = (wavelength over a)
+sqrt(M/L) to first order (Venner & Lubrecht 1999), and real for ridges along the motion, which do
+not move. At low M L the inlet leaks: z has terms in 1/(M L), and |F| changes with slip. Away from
+the centre line the inlet is oblique and z grows.
 """
 
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Sequence
 from functools import lru_cache
 from importlib import resources
@@ -27,14 +30,18 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["edge_gain", "fitted_range", "inlet_transfer"]
+from pyehl.theory.transport import Zone, upstream
+
+__all__ = ["edge_gain", "fitted_range", "inlet_base", "inlet_fit", "inlet_transfer"]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-
 GAIN = (0.0674, 0.3085, 2.414, 28.44)
 """Constants of `edge_gain`, fitted by docs/evidence/response/gain.py."""
+
+SHORT = 3.0
+"""nabla_2 of the wave for which the transport equation counts half in the inlet."""
 
 
 def edge_gain(
@@ -45,7 +52,8 @@ def edge_gain(
     Measured in the full simulation: 1 for waves across the motion and for short ones, up to 1.04
     for oblique ones and ridges, more in thicker films. Fitted to waves below 0.45 a on 513 x 513
     nodes and M >= 200 in docs/evidence/response; the rms deviation of an operating point is 0.011
-    or less, the largest 0.05. At M = 100, where little pressure is left to measure, it is wrong.
+    or less, the largest 0.05. At M = 100, where little pressure is left to measure, it is wrong;
+    for ridges of a/8 it is 2 % too low.
 
     Parameters
     ----------
@@ -78,30 +86,65 @@ def fitted_range() -> dict[str, list[float]]:
 
 
 def inlet_transfer(
+    zone: Zone,
     qx: ArrayLike,
     qy: ArrayLike,
-    moes_m: float,
-    moes_l: float,
+    moes: tuple[float, float],
     velocity_ratio: float,
     y: ArrayLike = 0.0,
 ) -> Complex:
-    """G = mu/rho at X = -0.9, turned back to X = -1 [-].
+    """G = mu/rho at X = -0.8, turned back to X = -1 [-].
 
     Parameters
     ----------
+    zone
+        The smooth contact on the centre line.
     qx, qy
         Wavenumbers [1/a] of the same shape, qx >= 0; at qx = 0 the value is real.
-    moes_m, moes_l
-        Moes numbers.
+    moes
+        M, L.
     velocity_ratio
         U.
     y
         Distance from the centre line [a]; broadcast with the wavenumbers.
     """
+    base = inlet_base(zone, qx, qy, moes, velocity_ratio)
+    return base * inlet_fit(qx, qy, moes, velocity_ratio, y)
+
+
+def inlet_base(
+    zone: Zone,
+    qx: ArrayLike,
+    qy: ArrayLike,
+    moes: tuple[float, float],
+    velocity_ratio: float,
+    spacing: float = 0.0,
+) -> Complex:
+    """1 - w + w B: what the transport equation gives of G on the centre line [-].
+
+    Parameters as of `inlet_transfer`; `spacing` as of :func:`pyehl.theory.transport.transport`.
+    """
+    kx, ky = np.asarray(qx, dtype=float), np.asarray(qy, dtype=float)
+    weight = 1.0 / (1.0 + (_nabla_2(np.hypot(kx, ky), moes) / SHORT) ** 3)
+    return 1.0 - weight + weight * upstream(zone, kx, ky, velocity_ratio, spacing)
+
+
+def inlet_fit(
+    qx: ArrayLike,
+    qy: ArrayLike,
+    moes: tuple[float, float],
+    velocity_ratio: float,
+    y: ArrayLike = 0.0,
+) -> Complex:
+    """F = G/(1 - w + w B): what is fitted of G [-].
+
+    Parameters as of `inlet_transfer`.
+    """
+    moes_m, moes_l = moes
     fit = _fit()
     kx, ky = np.asarray(qx, dtype=float), np.abs(np.asarray(qy, dtype=float))
     q = np.maximum(np.hypot(kx, ky), 1e-12)
-    parameter = 0.5 * np.log(2.0 * np.pi / q * np.sqrt(moes_m / moes_l))
+    parameter = 0.5 * np.log(_nabla_2(q, moes))
     low, high = fit["parameter"]
     s = np.clip(parameter, low, high)
     c = kx / q
@@ -115,6 +158,11 @@ def inlet_transfer(
     shift = slip * (kx * origin + 1j * c * growth)
     oblique = fit["oblique"] * np.square(y)
     return np.asarray(np.exp(1j * shift) / (1.0 + np.exp(log_z + oblique + 1j * angle)))
+
+
+def _nabla_2(q: Array, moes: tuple[float, float]) -> Array:
+    """Wavelength over a times sqrt(M/L)."""
+    return 2.0 * np.pi / np.maximum(q, 1e-12) * math.sqrt(moes[0] / moes[1])
 
 
 def _polynomial(terms: list[list[float]], variables: tuple[Array | float, ...]) -> Array:

@@ -67,15 +67,16 @@ def test_waves_that_a_coarse_grid_leaves_out_are_in_its_error(evidence):
 
 
 def test_deviations(table):
-    """1 % without short waves and up to 1.3, 2 % and the grid error up to 1.5, 4 % up to 2.5."""
+    """1 % without short waves and up to 1.3; with the grid error 2 % up to 1.5, 3 % to 2.5, 4 %."""
     assert len(table) >= 24
     for name, row in table.items():
         deviation = abs(row["prediction"] / row["mu_ratio"] - 1.0)
         if name.startswith(("c8", "c16")) and row["mu_ratio"] <= 1.3:
             assert deviation <= 0.01, name
-        if row["mu_ratio"] <= 1.5:
-            assert deviation <= 0.02 + row["mu_ratio_error"] / row["mu_ratio"], name
-        assert deviation <= (0.04 if row["mu_ratio"] <= 2.5 else 0.05), name
+        share = 0.02 if row["mu_ratio"] <= 1.5 else 0.03 if row["mu_ratio"] <= 2.5 else 0.04
+        assert deviation <= share + row["mu_ratio_error"] / row["mu_ratio"], name
+        if row["mu_ratio"] <= 2.5:
+            assert deviation <= 0.06, name
 
 
 def test_stated_error_covers_nine_of_ten(table):

@@ -23,10 +23,11 @@ def main() -> None:
     data = everything.chosen(select(everything))
     whole = fit(data)
     print("moes_m moes_l  U = 1 and 1.01  other U")
-    for m, ell in sorted(set(zip(data.m, data.l, strict=True))):
+    moving = data.kx > 0.0
+    for m, ell in sorted(set(zip(data.m[moving], data.l[moving], strict=True))):
         here = (data.m == m) & (data.l == ell)
         found = fit(data.chosen(~here), FEW, whole)
-        waves = data.chosen(here & (data.kx > 0.0))
+        waves = data.chosen(here & moving)
         left = np.abs(found.residual(waves)).max(axis=1)
         slow = np.abs(waves.ratio - 1.0) < 0.02
         largest = [f"{left[part].max():.3f}" if part.any() else "" for part in (slow, ~slow)]

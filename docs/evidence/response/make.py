@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pyehl.case import Case
 from pyehl.prediction.smooth import zone_on
@@ -25,8 +26,10 @@ from pyehl.studies.superposition import FILLING, Superposition, WaveSet, superpo
 from pyehl.studies.tiers import TIERS, tier_waves
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.response import inlet_base
 from pyehl.theory.transport import Zone, stiffness, transport
 
+Array, Complex = NDArray[np.float64], NDArray[np.complex128]
 HERE = Path(__file__).parent
 STATIONS = np.array([-0.5, 0.0, 0.5])
 COLUMNS = (
@@ -96,6 +99,19 @@ def zone_of(found: Superposition, settings: Mapping[str, Mapping[str, Any]]) -> 
     return zone_on(found.x, np.maximum(found.pressure, 0.0), found.film, operating, lubricant)
 
 
+def parts_of(
+    zone: Zone, kx: Array, ky: Array, moes: tuple[float, float], ratio: float, spacing: float
+) -> list[tuple[Complex, Complex]]:
+    """Driven part of T at the STATIONS, and the free part but for what is fitted of it."""
+    base = inlet_base(zone, kx, ky, moes, ratio, spacing)
+    found = []
+    for x, (driven, free) in zip(
+        STATIONS, transport(zone, kx, ky, ratio, STATIONS, spacing), strict=True
+    ):
+        found.append((driven, free * base * np.exp(1j * kx * (ratio - 1.0) * (x + 1.0))))
+    return found
+
+
 def rows(
     waves: WaveSet, found: Superposition, moes_m: float, moes_l: float, ratio: float
 ) -> Iterator[list[str]]:
@@ -103,15 +119,14 @@ def rows(
     settings = settings_of(moes_m, moes_l)
     kx, ky = waves.kx, waves.ky
     zone = zone_of(found, settings)
-    parts = transport(zone, kx, ky, ratio, STATIONS, found.spacing)
+    parts = parts_of(zone, kx, ky, (moes_m, moes_l), ratio, found.spacing)
     points = round(TILE / found.spacing) + 1
     for j in range(kx.size):
         for x, (driven, free) in zip(STATIONS, parts, strict=True):
             i = int(np.argmin(np.abs(found.x - x)))
             t = found.response[j, i]
             ratio_p = abs(found.stiffness[j, i] / (stiffness(waves.q[j]) * (1.0 - t)))
-            free_there = free[j] * np.exp(1j * kx[j] * (ratio - 1.0) * (x + 1.0))
-            values = [v for c in (t, driven[j], free_there) for v in (c.real, c.imag)]
+            values = [v for c in (t, driven[j], free[j]) for v in (c.real, c.imag)]
             yield [
                 *(f"{v:g}" for v in (moes_m, moes_l, ratio, points)),
                 *(f"{v:.6g}" for v in (kx[j], ky[j], x)),

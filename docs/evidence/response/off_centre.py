@@ -16,9 +16,9 @@ import sys
 import numpy as np
 from make import HERE, settings_of
 from numpy.typing import NDArray
+from parts import smooth_zone
 from scipy.optimize import minimize_scalar
 
-from pyehl.prediction.smooth import zone_on
 from pyehl.solver import Solver
 from pyehl.studies.superposition import (
     FRONT,
@@ -27,22 +27,22 @@ from pyehl.studies.superposition import (
     step_counts,
     transient_case,
 )
-from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.response import inlet_base
 from pyehl.theory.transport import transport
 
 POINTS, RATIO, FILLING = 257, 1.01, 5.3
 LINES = (0.0, 0.25, 0.5, 0.625)
 RUNS = ((1000.0, 10.0), (500.0, 5.0), (200.0, 10.0))
 ALONG = np.array([3, 4, 5, 6, 7, 8, 9, 11, 13, 16])
-COLUMNS = "moes_m moes_l kx y T_re T_im driven_re driven_im free_re free_im".split()
+COLUMNS = "moes_m moes_l kx y T_re T_im".split()
 Complex = NDArray[np.complex128]
 
 
 def measure(moes_m: float, moes_l: float) -> list[list[str]]:
     """Rows of one operating point."""
     settings = settings_of(moes_m, moes_l)
-    operating, lubricant = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
+    operating = OperatingPoint.from_settings(settings)
     phase = np.random.default_rng(5).uniform(0.0, 2.0 * np.pi, ALONG.size)
     waves = WaveSet(4.0, ALONG, 0 * ALONG, phase)
     case = transient_case(settings, points=POINTS, tile=4.0, velocity_ratio=RATIO, solver={})
@@ -54,14 +54,12 @@ def measure(moes_m: float, moes_l: float) -> list[list[str]]:
         x, y = run.axes()
         middle = int(np.argmin(np.abs(x)))
         lines = [int(np.argmin(np.abs(y - line))) for line in LINES]
-        times, films, on_line = [], [], []
+        times, films = [], []
         for step in range(1, total + 1):
             run.advance()
             if step > total - period:
-                film, pressure = run.field("H"), run.field("P")
                 times.append(float(run.summary()["T"]))
-                films.append(film[middle, lines])
-                on_line.append((film[:, lines[0]], pressure[:, lines[0]]))
+                films.append(run.field("H")[middle, lines])
     angle = np.outer(times, waves.kx * RATIO)
     basis = np.hstack([np.ones((len(times), 1)), np.cos(angle), np.sin(angle)])
     fitted = np.linalg.pinv(basis) @ np.array(films)
@@ -69,23 +67,30 @@ def measure(moes_m: float, moes_l: float) -> list[list[str]]:
     wave = fitted[1 : m + 1] + 1j * fitted[m + 1 :]
     roughness = amplitude * np.exp(1j * (waves.kx * (x[middle] - FRONT) + waves.phase))
     t = -wave / roughness[:, np.newaxis]
-    film, pressure = np.mean(np.array(on_line), axis=0)
-    zone = zone_on(x, np.maximum(pressure, 0.0), film, operating, lubricant)
-    spacing = float(x[1] - x[0])
-    ((driven, free),) = transport(zone, waves.kx, waves.ky, RATIO, np.array([0.0]), spacing)
     rows = []
     for j in range(m):
         for k, line in enumerate(LINES):
-            parts = [v for c in (t[j, k], driven[j], free[j]) for v in (c.real, c.imag)]
             heads = [f"{moes_m:g}", f"{moes_l:g}", f"{waves.kx[j]:.6g}", f"{line:g}"]
-            rows.append([*heads, *(f"{v:.5f}" for v in parts)])
+            rows.append([*heads, f"{t[j, k].real:.5f}", f"{t[j, k].imag:.5f}"])
     return rows
+
+
+def parts_of(table: NDArray[np.float64]) -> tuple[Complex, Complex]:
+    """Driven part of T on Y = 0, and the free part but for what is fitted of it."""
+    driven, free = np.empty(len(table), complex), np.empty(len(table), complex)
+    for m, ell in RUNS:
+        here = np.flatnonzero((table[:, 0] == m) & (table[:, 1] == ell))
+        zone, kx, spacing = smooth_zone(m, ell, POINTS), table[here, 2], 4.0 / (POINTS - 1.0)
+        ((one, other),) = transport(zone, kx, 0.0 * kx, RATIO, np.array([0.0]), spacing)
+        driven[here] = one
+        free[here] = other * inlet_base(zone, kx, 0.0 * kx, (m, ell), RATIO, spacing)
+    return driven, free
 
 
 def fitted(table: NDArray[np.float64]) -> tuple[float, NDArray[np.float64], NDArray[np.float64]]:
     """Constant, and |T| of it less |T| measured off the centre line, with the Y of each."""
     kx, y = table[:, 2], table[:, 3]
-    t, driven, free = (table[:, i] + 1j * table[:, i + 1] for i in (4, 6, 8))
+    t, (driven, free) = table[:, 4] + 1j * table[:, 5], parts_of(table)
     slip = kx * (RATIO - 1.0)
     # the inlet of a strip off the centre line lies further along the motion
     g = (t - driven) / (free * np.exp(1j * slip * np.sqrt(1.0 - y * y)))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compute the driven and free parts in ``waves.csv`` and ``ridges.csv`` anew.
+"""Compute the driven and free parts in ``waves.csv``, ``unfitted.csv`` and ``ridges.csv`` anew.
 
     python docs/evidence/response/parts.py
 
@@ -13,14 +13,14 @@ import csv
 from functools import lru_cache
 
 import numpy as np
-from make import HERE, STATIONS, settings_of
+from make import HERE, STATIONS, parts_of, settings_of
 
 from pyehl.case import Case
 from pyehl.prediction.smooth import zone_on
 from pyehl.solver import Solver
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.transport import Zone, transport
+from pyehl.theory.transport import Zone
 
 
 @lru_cache
@@ -45,8 +45,8 @@ def smooth_line(moes_m: float, moes_l: float, points: int) -> tuple[np.ndarray, 
 
 
 def main() -> None:
-    """Rewrite both tables."""
-    for name in ("waves.csv", "ridges.csv"):
+    """Rewrite the tables."""
+    for name in ("waves.csv", "unfitted.csv", "ridges.csv"):
         with (HERE / name).open(newline="", encoding="utf-8") as stream:
             head, *rows = list(csv.reader(stream))
         column = {key: i for i, key in enumerate(head)}
@@ -61,16 +61,15 @@ def main() -> None:
             ky = np.array([float(row[column["ky"]]) for row in group])
             kx = np.array([float(row[column["kx"]]) if moving else 0.0 for row in group])
             zone, spacing = smooth_zone(m, ell, points), 4.0 / (points - 1.0)
-            parts = transport(zone, kx, ky, ratio, STATIONS, spacing)
+            parts = parts_of(zone, kx, ky, (m, ell), ratio, spacing)
             for j, row in enumerate(group):
                 x = float(row[column["x"]]) if moving else 0.0
                 driven, free = parts[int(np.argmin(np.abs(STATIONS - x)))]
-                there = free[j] * np.exp(1j * kx[j] * (ratio - 1.0) * (x + 1.0))
                 if not moving:
                     row[column["driven"]] = f"{driven[j].real:.5f}"
-                    row[column["free"]] = f"{there.real:.5f}"
+                    row[column["free"]] = f"{free[j].real:.5f}"
                     continue
-                values = (driven[j].real, driven[j].imag, there.real, there.imag)
+                values = (driven[j].real, driven[j].imag, free[j].real, free[j].imag)
                 first = column["driven_re"]
                 row[first : first + 4] = [f"{v:.5f}".replace("-0.00000", "0") for v in values]
         with (HERE / name).open("w", newline="", encoding="utf-8") as stream:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How well the fit meets runs that it does not know: the shortest waves with much slip.
+"""How well the fit meets runs that it does not know: waves of a/8 to a/32 between its points.
 
     python docs/evidence/response/unfitted.py
 
@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from pyehl.theory.response import inlet_transfer
+from pyehl.theory.response import inlet_fit
 
 HERE = Path(__file__).resolve().parent
 
@@ -31,9 +31,9 @@ def main() -> None:
             )
             if np.isnan(t):
                 continue
-            point = [float(row[name]) for name in ("moes_m", "moes_l", "velocity_ratio")]
+            moes = float(row["moes_m"]), float(row["moes_l"])
             kx, ky = float(row["kx"]), float(row["ky"])
-            inlet = complex(inlet_transfer([kx], [ky], *point)[0])
+            inlet = complex(inlet_fit([kx], [ky], moes, float(row["velocity_ratio"]))[0])
             octave = f"a/{2 ** round(np.log2(np.hypot(kx, ky) / (2.0 * np.pi)))}"
             key = (row["moes_m"], row["moes_l"], row["velocity_ratio"], octave)
             found[key].append(abs(driven + free * inlet - t))
