@@ -38,7 +38,6 @@ from pyehl.surfaces import Topography, filtered, track_offsets
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.transport import stiffness
 
 __all__ = ["RoughPassage"]
 
@@ -108,7 +107,7 @@ class RoughPassage:
         if power is None:
             power = spectrum.power
         return RoughContact(
-            Waves.of(spectrum, transfer, self.contact.central_film, stride),
+            Waves.of(spectrum, transfer, self.contact.central_film, self.velocity_ratio, stride),
             edge,
             self.contact,
             pixel=spectrum.pixel,
@@ -267,8 +266,9 @@ class RoughPassage:
             transfer = self._transfer(spectrum)
         t = transfer.at_centre(spectrum, self.velocity_ratio)
         o = self.operating
+        pressure = transfer.pressure_at_centre(spectrum, self.velocity_ratio)
         return Response(
-            spectrum.tile(stiffness(spectrum.q) * (1.0 - t)) * o.hertz_pressure,
+            spectrum.tile(pressure) * o.hertz_pressure,
             spectrum.tile(t) * o.film_scale,
         )
 
@@ -279,7 +279,7 @@ class RoughPassage:
         o = self.operating
         t = transfer.at_centre(spectrum, self.velocity_ratio)
         power = spectrum.power
-        pressure = stiffness(spectrum.q) * np.abs(1.0 - t)
+        pressure = np.abs(transfer.pressure_at_centre(spectrum, self.velocity_ratio))
         found: list[Band] = []
         before = 1.0
         for longest, inside, last in octaves(spectrum.q, power, only=2 if brief else 0):

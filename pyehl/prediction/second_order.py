@@ -48,12 +48,15 @@ class SecondOrder:
         Of the tile.
     ratios
         T of the waves of the table at the stations (n, m).
+    pressures
+        Their pressure over roughness (n, m) [p_h R/a^2].
     """
 
-    def __init__(self, zone: Zone, stations: Array, table: WaveTable, ratios: Complex) -> None:
+    def __init__(
+        self, zone: Zone, stations: Array, table: WaveTable, ratios: Complex, pressures: Complex
+    ) -> None:
         self._table = table
         kx, ky = table.coarse(COARSER)
-        k = stiffness(np.hypot(kx, ky))
         # a wave stands for +-k_Y, too
         pairs = [
             stiffness(np.hypot(kx[:, np.newaxis] + i * kx, ky[:, np.newaxis] + j * ky))
@@ -64,8 +67,7 @@ class SecondOrder:
             np.interp(stations, zone.x, values)
             for values in (zone.film, zone.compressibility, zone.curvature)
         )
-        t = coarsened(ratios, COARSER)
-        pressure = k * (1.0 - t)
+        t, pressure = coarsened(ratios, COARSER), coarsened(pressures, COARSER)
         self._squared = np.abs(pressure) ** 2
         mixed = (pressure * np.conj(t)).real
         self._source = c[:, np.newaxis] * mixed - (0.5 * r * film)[:, np.newaxis] * self._squared

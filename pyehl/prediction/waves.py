@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.theory.response import edge_gain
-from pyehl.theory.transport import stiffness
+from pyehl.theory.transport import free_stiffness, stiffness
 
 __all__ = ["REFINEMENT", "Waves"]
 
@@ -61,11 +61,14 @@ class Waves:
         spectrum: Spectrum,
         transfer: Transfer,
         central_film: float,
+        velocity_ratio: float,
         stride: int = 1,
     ) -> Waves:
         """Make the tiles of all waves in a contact with a film H_c [a^2/R]."""
-        gain = edge_gain(spectrum.qx[:, np.newaxis], spectrum.qy[np.newaxis, :], central_film)
+        qx, qy = spectrum.qx[:, np.newaxis], spectrum.qy[np.newaxis, :]
+        gain = edge_gain(qx, qy, central_film)
         k = (stiffness(spectrum.q) * gain).astype(np.float32)
+        k_free = (free_stiffness(qx, qy, velocity_ratio) * gain).astype(np.float32)
         narrow = spectrum.single()
         # a linear interpolation between the points dims a wave by this on average
         step = spectrum.qx * (np.pi / REFINEMENT / spectrum.qx[-1])
@@ -81,7 +84,7 @@ class Waves:
 
         def free(waves: list[Complex]) -> Single:
             lit = (t.astype(np.complex64) * bright for t in waves)
-            return tiles([(t, -k * t) for t in lit], REFINEMENT)
+            return tiles([(t, -k_free * t) for t in lit], REFINEMENT)
 
         driven = (t.astype(np.complex64) for t in transfer.driven)
         return cls(

@@ -30,7 +30,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["INLET", "Zone", "stiffness", "transport", "upstream"]
+__all__ = ["INLET", "Zone", "free_stiffness", "stiffness", "transport", "upstream"]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -150,6 +150,11 @@ def stiffness(q: ArrayLike) -> Array:
     E'|q|/4 in Hertz units (Johnson 1985, Contact Mechanics, section 13.2).
     """
     return 0.25 * np.pi * np.asarray(q, dtype=float)
+
+
+def free_stiffness(qx: ArrayLike, qy: ArrayLike, velocity_ratio: float) -> Array:
+    """K of the free wave that roughness (qx, qy) makes: along the motion its wavenumber is qx U."""
+    return stiffness(np.hypot(velocity_ratio * np.asarray(qx, dtype=float), qy))
 
 
 def upstream(

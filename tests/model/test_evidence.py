@@ -37,7 +37,10 @@ def table(evidence):
         }
 
 
-@pytest.mark.parametrize("name", ["c16s11", "c8s12", "t1s21", "t1s21u1", "m700l7", "c16m2000"])
+NAMES = ["c16s11", "c8s12", "t1s21", "t1s21u1", "m700l7", "c16m2000", "u080c16", "u120c16"]
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_table_is_what_is_predicted(evidence, table, name):
     compare, _ = evidence
     (row,) = (row for row in compare.rows() if row["name"] == name)

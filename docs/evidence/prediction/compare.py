@@ -111,7 +111,9 @@ def draw(table: list[dict[str, float]]) -> None:
         axis.set_major_locator(mpl.ticker.FixedLocator(ticks))
         axis.set_major_formatter(mpl.ticker.FormatStrFormatter("%g"))
         axis.set_minor_locator(mpl.ticker.NullLocator())
-    ax.set_title(f"{len(table)} rough surfaces, M = 200 to 2000, L = 5 to 15", fontsize=10)
+    m, ell = ([float(row[name]) for row in table] for name in ("moes_m", "moes_l"))
+    ranges = f"M = {min(m):g} to {max(m):g}, L = {min(ell):g} to {max(ell):g}"
+    ax.set_title(f"{len(table)} rough surfaces, {ranges}", fontsize=10)
     ax.legend(frameon=False, loc="upper left")
     figure.savefig(HERE / "prediction.png", dpi=120)
 
