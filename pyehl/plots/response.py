@@ -40,9 +40,10 @@ def response_figure(
     axes: Any = figure.subplots(1, 2, sharex=True)
     colours: Any = {"cmap": SEQUENTIAL, "vmin": 0.0, "vmax": 90.0}
     for ax, name in zip(axes, ("amplitude", "lag"), strict=True):
-        dots = ax.scatter(waves["nabla_2"], waves[name], c=waves["direction"], s=14, **colours)
+        places = waves[name] if name == "amplitude" else _turned(waves, lines)
+        dots = ax.scatter(waves["nabla_2"], places, c=waves["direction"], s=14, **colours)
         for direction, (nabla, t) in lines.items():
-            values = np.abs(t) if name == "amplitude" else np.degrees(np.unwrap(np.angle(t)))
+            values = np.abs(t) if name == "amplitude" else _lag(t)
             colour = dots.cmap(dots.norm(direction))
             ax.plot(nabla, values, color=colour, lw=1, label=rf"shipped, {direction:g}$\degree$")
         ax.set_xscale("log")
@@ -60,3 +61,24 @@ def response_figure(
     figure.suptitle(label, fontsize="medium")
     letter(axes)
     return figure
+
+
+def _lag(t: Complex) -> Array:
+    """Phase of T along a line [deg], without jumps from the longest wave on, which drifts least."""
+    return np.degrees(np.unwrap(np.angle(t)[::-1])[::-1])
+
+
+def _turned(waves: Mapping[str, Array], lines: Mapping[float, tuple[Array, Complex]]) -> Array:
+    """Lags of the measured waves [deg], by so many full turns that they come near the lines."""
+    # the drift of a wave goes with the cosine of its direction
+    directions = sorted(lines, reverse=True)
+    cosines = np.cos(np.radians(directions))
+    lags = np.stack(
+        [
+            np.interp(np.log(waves["nabla_2"]), np.log(lines[d][0]), _lag(lines[d][1]))
+            for d in directions
+        ]
+    )
+    here = np.cos(np.radians(waves["direction"]))
+    near = np.array([np.interp(c, cosines, column) for c, column in zip(here, lags.T, strict=True)])
+    return np.asarray(waves["lag"] + 360.0 * np.round((near - waves["lag"]) / 360.0))

@@ -97,7 +97,7 @@ def beside_shipped(
     """
     operating = OperatingPoint.from_settings(settings)
     zone, ratio = _zone(settings, operating), float(data.attrs["velocity_ratio"])
-    nabla = np.geomspace(float(data["nabla_2"].min()), float(data["nabla_2"].max()), 80)
+    nabla = np.geomspace(float(data["nabla_2"].min()), float(data["nabla_2"].max()), 400)
     q = 2.0 * np.pi / nabla * np.sqrt(operating.moes_m / operating.moes_l)
     lines = {}
     for direction in DIRECTIONS:
