@@ -15,7 +15,7 @@ from pyehl.prediction.second_order import SecondOrder
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.wave_table import WaveTable, coarsened
 from pyehl.theory.response import inlet_transfer
-from pyehl.theory.transport import Zone, free_stiffness, stiffness, transport
+from pyehl.theory.transport import Zone, transport, wave_pressure
 
 __all__ = ["MIDDLE", "OFF_CENTRE", "STATIONS", "Transfer"]
 
@@ -65,17 +65,6 @@ def _at_amplitude(zone: Zone, variance: float) -> Zone:
     with np.errstate(over="ignore"):
         gain = np.exp(0.5 * variance * np.square(zone.thickening))
     return replace(zone, conductance=zone.conductance / gain)
-
-
-def _pressure(
-    qx: Array, qy: Array, velocity_ratio: float, driven: Complex, free: Complex
-) -> Complex:
-    """Pressure over roughness [p_h R/a^2]: what is flattened of it, by the stiffness of each part.
-
-    The free wave has the wavenumber qx U along the motion.
-    """
-    k, k_free = stiffness(np.hypot(qx, qy)), free_stiffness(qx, qy, velocity_ratio)
-    return np.asarray(k * (1.0 - driven) - k_free * free)
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,13 +134,13 @@ class Transfer:
             carried = coarsened(inlet[0], 1) * np.exp(1j * few[0] * slip)
             for _ in range(REPETITIONS):
                 driven, free = transport(leaking, *few, velocity_ratio, CENTRE)[MIDDLE]
-                pressure = _pressure(*few, velocity_ratio, driven, free * carried)
+                pressure = wave_pressure(*few, velocity_ratio, driven, free * carried)
                 leaking = _at_amplitude(zone, float(power @ np.square(np.abs(pressure))))
         stations = transport(leaking, kx, ky, velocity_ratio, STATIONS)
         turned = [np.exp(1j * kx * slip * (x + 1.0)) for x in STATIONS]
         parts = [(d, f * inlet[0] * t) for (d, f), t in zip(stations, turned, strict=True)]
         ratios = np.array([d + f for d, f in parts])
-        pressures = np.array([_pressure(kx, ky, velocity_ratio, d, f) for d, f in parts])
+        pressures = np.array([wave_pressure(kx, ky, velocity_ratio, d, f) for d, f in parts])
         found = table.spread(
             [driven for driven, _ in stations]
             + [free * inlet[0] for _, free in stations]
@@ -181,7 +170,7 @@ class Transfer:
         """Pressure over roughness at X = Y = 0 [p_h R/a^2]."""
         free = self._free_at_centre(spectrum, velocity_ratio)
         qx, qy = spectrum.qx[:, np.newaxis], spectrum.qy[np.newaxis, :]
-        return _pressure(qx, qy, velocity_ratio, self.driven[MIDDLE], free)
+        return wave_pressure(qx, qy, velocity_ratio, self.driven[MIDDLE], free)
 
     def _free_at_centre(self, spectrum: Spectrum, velocity_ratio: float) -> Complex:
         if not self.free:

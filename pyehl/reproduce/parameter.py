@@ -25,7 +25,7 @@ from pyehl.prediction.smooth import solve_contact, zone_of
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import edge_gain, inlet_transfer
-from pyehl.theory.transport import free_stiffness, stiffness, transport
+from pyehl.theory.transport import transport, wave_pressure
 
 __all__ = ["SMALL_WAVES", "response_parameter"]
 
@@ -77,8 +77,6 @@ def _of_contact(moes_m: float, moes_l: float, wavelength: Array, velocity_ratio:
     carried = free * inlet_transfer(zone, k, k, (moes_m, moes_l), velocity_ratio) * slip
     t = driven + carried
     film = contact.central_film
-    half_space = stiffness(np.hypot(k, k)) * (1.0 - driven)
-    half_space -= free_stiffness(k, k, velocity_ratio) * carried
-    pressure_wave = half_space * edge_gain(k, k, film)
+    pressure_wave = wave_pressure(k, k, velocity_ratio, driven, carried) * edge_gain(k, k, film)
     across = np.sqrt(0.5 * (1.0 + np.exp(-2.0 * k * k / thickening)))
     return np.asarray(1.0 / (np.abs(thickening * pressure_wave + t / film) * across))

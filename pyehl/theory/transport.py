@@ -30,7 +30,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["INLET", "Zone", "free_stiffness", "stiffness", "transport", "upstream"]
+__all__ = [
+    "INLET",
+    "Zone",
+    "free_stiffness",
+    "stiffness",
+    "transport",
+    "upstream",
+    "wave_pressure",
+]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -157,6 +165,24 @@ def free_stiffness(qx: ArrayLike, qy: ArrayLike, velocity_ratio: float) -> Array
     return stiffness(np.hypot(velocity_ratio * np.asarray(qx, dtype=float), qy))
 
 
+def wave_pressure(
+    qx: Array, qy: Array, velocity_ratio: float, driven: Complex, free: Complex
+) -> Complex:
+    """Pressure over roughness [p_h R/a^2]: what is flattened of it, by the stiffness of each part.
+
+    Parameters
+    ----------
+    qx, qy
+        Wavenumbers of the roughness [1/a].
+    velocity_ratio
+        U.
+    driven, free
+        Parts of T [-].
+    """
+    k, k_free = stiffness(np.hypot(qx, qy)), free_stiffness(qx, qy, velocity_ratio)
+    return np.asarray(k * (1.0 - driven) - k_free * free)
+
+
 def upstream(
     zone: Zone, qx: Array, qy: Array, velocity_ratio: float, spacing: float = 0.0
 ) -> Complex:
@@ -183,11 +209,12 @@ def upstream(
     lengths = np.diff(APPROACH)
     flow = _Flow(zone, APPROACH[:-1] + 0.5 * lengths)
     waves = _Waves(qx, qy, velocity_ratio, spacing)
-    a, b, _, _ = waves.at(flow, 0)
     # where nothing leaks or slips any mu is a solution: that of the undeformed wave
-    mu = np.divide(-b, a, out=np.full(qx.shape, flow.density[0], dtype=complex), where=a != 0.0)
+    mu = np.full(qx.shape, flow.density[0], dtype=complex)
     for i, h in enumerate(lengths):
         a, b, _, _ = waves.at(flow, i)
+        if i == 0:
+            np.divide(-b, a, out=mu, where=a != 0.0)
         grown, way = _grown(a * h)
         mu = mu * grown + (b * h) * way
     back = np.exp(-waves.slip * (INLET + 1.0))
