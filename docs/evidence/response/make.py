@@ -32,6 +32,8 @@ from pyehl.theory.transport import Zone, stiffness, transport
 Array, Complex = NDArray[np.float64], NDArray[np.complex128]
 HERE = Path(__file__).parent
 STATIONS = np.array([-0.5, 0.0, 0.5])
+# The one of them at X = 0
+MIDDLE = 1
 COLUMNS = (
     "moes_m moes_l velocity_ratio points kx ky x T_re T_im driven_re driven_im free_re free_im "
     "pressure_ratio"

@@ -14,7 +14,7 @@ import csv
 import sys
 
 import numpy as np
-from make import HERE, settings_of
+from make import HERE, MIDDLE, parts_of, settings_of
 from numpy.typing import NDArray
 from parts import smooth_zone
 from scipy.optimize import minimize_scalar
@@ -28,8 +28,6 @@ from pyehl.studies.superposition import (
     transient_case,
 )
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.response import inlet_base
-from pyehl.theory.transport import transport
 
 POINTS, RATIO, FILLING = 257, 1.01, 5.3
 LINES = (0.0, 0.25, 0.5, 0.625)
@@ -75,25 +73,24 @@ def measure(moes_m: float, moes_l: float) -> list[list[str]]:
     return rows
 
 
-def parts_of(table: NDArray[np.float64]) -> tuple[Complex, Complex]:
+def centre_parts(table: NDArray[np.float64]) -> tuple[Complex, Complex]:
     """Driven part of T on Y = 0, and the free part but for what is fitted of it."""
     driven, free = np.empty(len(table), complex), np.empty(len(table), complex)
     for m, ell in RUNS:
         here = np.flatnonzero((table[:, 0] == m) & (table[:, 1] == ell))
         zone, kx, spacing = smooth_zone(m, ell, POINTS), table[here, 2], 4.0 / (POINTS - 1.0)
-        ((one, other),) = transport(zone, kx, 0.0 * kx, RATIO, np.array([0.0]), spacing)
-        driven[here] = one
-        free[here] = other * inlet_base(zone, kx, 0.0 * kx, (m, ell), RATIO, spacing)
+        parts = parts_of(zone, kx, 0.0 * kx, (m, ell), RATIO, spacing)
+        driven[here], free[here] = parts[MIDDLE]
     return driven, free
 
 
 def fitted(table: NDArray[np.float64]) -> tuple[float, NDArray[np.float64], NDArray[np.float64]]:
     """Constant, and |T| of it less |T| measured off the centre line, with the Y of each."""
     kx, y = table[:, 2], table[:, 3]
-    t, (driven, free) = table[:, 4] + 1j * table[:, 5], parts_of(table)
+    t, (driven, free) = table[:, 4] + 1j * table[:, 5], centre_parts(table)
     slip = kx * (RATIO - 1.0)
     # the inlet of a strip off the centre line lies further along the motion
-    g = (t - driven) / (free * np.exp(1j * slip * np.sqrt(1.0 - y * y)))
+    g = (t - driven) / (free * np.exp(1j * slip * (np.sqrt(1.0 - y * y) - 1.0)))
     z = 1.0 / g - 1.0
     centre = np.repeat(z[y == 0.0], len(LINES))
     off = y > 0.0

@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from make import STATIONS, parts_of, settings_of
+from make import MIDDLE, parts_of, runs, settings_of
 
 from pyehl.prediction.smooth import zone_on
 from pyehl.studies.ridges import ridges
@@ -21,26 +21,8 @@ from pyehl.theory.transport import stiffness
 
 POINTS = 513
 WAVELENGTHS = (2.0, 1.6, 1.0, 0.8, 0.5, 0.25, 0.125)
-# Operating points (M, L): those of the waves, and some between them
-POINTS_OF_RIDGES = tuple(
-    (float(m), float(ell))
-    for m, ells in {
-        100: (3, 5, 8, 10, 20),
-        150: (3, 5, 20),
-        200: (5, 10),
-        300: (12, 15, 18, 20),
-        350: (12,),
-        500: (5, 10, 15),
-        700: (6, 7),
-        900: (10,),
-        1000: (3, 5, 10, 15, 20),
-        1500: (4, 12),
-        2000: (5, 10, 15),
-        2500: (12,),
-        3000: (3, 5, 10, 20),
-    }.items()
-    for ell in ells
-)
+# Operating points (M, L) besides those of the waves
+BETWEEN = {(300.0, 15.0), (700.0, 6.0), (900.0, 10.0)}
 
 
 def main(path: Path) -> None:
@@ -48,7 +30,7 @@ def main(path: Path) -> None:
     with path.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow("moes_m moes_l points ky T driven free pressure_ratio".split())
-        for m, ell in POINTS_OF_RIDGES:
+        for m, ell in sorted(BETWEEN | {run[:2] for run in runs()}):
             settings = settings_of(m, ell)
             found = ridges(settings, WAVELENGTHS, points=POINTS)
             centre = int(np.argmin(np.abs(found["x"])))
@@ -58,10 +40,9 @@ def main(path: Path) -> None:
             pressure = np.maximum(found["pressure"], 0.0)
             zone = zone_on(found["x"], pressure, found["film"], operating, lubricant)
             parts = parts_of(zone, 0.0 * ky, ky, (m, ell), 1.0, float(found["spacing"]))
-            there = parts[int(np.argmin(np.abs(STATIONS)))]
             t = found["response"][:, centre].real
             ratio = found["stiffness"][:, centre].real / (stiffness(ky) * (1.0 - t))
-            for row in zip(ky, t, *(part.real for part in there), ratio, strict=True):
+            for row in zip(ky, t, *(part.real for part in parts[MIDDLE]), ratio, strict=True):
                 k, *values, last = row
                 writer.writerow(
                     [

@@ -21,7 +21,7 @@ HERE = Path(__file__).resolve().parent
 
 
 def main() -> None:
-    """Compare T = driven + free G with what was measured."""
+    """Compare T = driven + free F with what was measured."""
     found: dict[tuple[str, ...], list[float]] = defaultdict(list)
     with (HERE / "unfitted.csv").open(newline="", encoding="utf-8") as stream:
         for row in csv.DictReader(stream):
