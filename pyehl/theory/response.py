@@ -41,7 +41,8 @@ GAIN = (0.0674, 0.3085, 2.414, 28.44)
 """Constants of `edge_gain`, fitted by docs/evidence/response/gain.py."""
 
 SHORT = 3.0
-"""nabla_2 of the wave for which the transport equation counts half in the inlet."""
+"""nabla_2 of the wave for which the transport equation counts half in the inlet; others do as well
+(docs/evidence/response)."""
 # Waves that weigh less are not integrated through the inlet
 LEAST_WEIGHT = 1e-4
 

@@ -70,7 +70,10 @@ def test_waves_that_a_coarse_grid_leaves_out_are_in_its_error(evidence):
 
 
 def test_deviations(table):
-    """1 % without short waves and up to 1.3; with the grid error 2 % up to 1.5, 3 % to 2.5, 4 %."""
+    """1 % without short waves and up to 1.3; with the grid error 2 % up to 1.5, 3 % to 2.5, 4 %.
+
+    And whatever the grid error is, 4.3 % up to 2.5 and 5.2 % above.
+    """
     assert len(table) >= 24
     for name, row in table.items():
         deviation = abs(row["prediction"] / row["mu_ratio"] - 1.0)
@@ -78,8 +81,7 @@ def test_deviations(table):
             assert deviation <= 0.01, name
         share = 0.02 if row["mu_ratio"] <= 1.5 else 0.03 if row["mu_ratio"] <= 2.5 else 0.04
         assert deviation <= share + row["mu_ratio_error"] / row["mu_ratio"], name
-        if row["mu_ratio"] <= 2.5:
-            assert deviation <= 0.06, name
+        assert deviation <= (0.043 if row["mu_ratio"] <= 2.5 else 0.052), name
 
 
 def test_stated_error_covers_nine_of_ten(table):

@@ -86,9 +86,10 @@ def uniform(*, film: float = 0.03, conductance: float = 2e-4) -> Zone:
 
 
 def test_leaking_lubricant_does_not_deform_the_wave():
-    qx = np.array([80.0, 160.0])
+    # what is free decays as exp(-k_Y X)
+    qx = np.array([100.0, 200.0])
     parts = transport(uniform(conductance=1e3), 0.5 * qx, qx, 1.01, STATIONS)
-    assert [free == pytest.approx(0.0, abs=1e-10) for _, free in parts] == [True] * 3
+    assert [free == pytest.approx(0.0, abs=1e-12) for _, free in parts] == [True] * 3
     assert all(driven == pytest.approx(1.0, abs=1e-3) for driven, _ in parts)
 
 
@@ -171,7 +172,7 @@ def test_inlet_follows_the_roughness_until_the_leak_ends(ratio: float):
     contact = Zone(x, 0.0 * x, 0.03 * same, same, 0.0 * x, 0.0 * x, 0.0 * x, leak)
     qx = np.array([20.0, 60.0])
     made = upstream(contact, qx, 0.0 * qx, ratio)
-    assert made == pytest.approx(np.exp(-1j * qx * (ratio - 1.0) * (end + 1.0)), abs=0.15)
+    assert made == pytest.approx(np.exp(-1j * qx * (ratio - 1.0) * (end + 1.0)), abs=0.1)
 
 
 def cell(dx: np.ndarray, dy: np.ndarray, h: float) -> np.ndarray:
@@ -260,26 +261,17 @@ def test_coefficients_are_the_fit_to_the_measured_waves(
         assert [float(v) for v in old[4:]] == pytest.approx([float(v) for v in new[4:]], abs=1e-3)
 
 
-def test_response_is_that_of_measured_waves(root: Path):
+def test_response_is_that_of_measured_waves(evidence: ModuleType):
     """T = driven + free F at all X, of waves of a/8 to a/32 at velocity ratios from 0.8 to 1.2."""
-    largest: dict[tuple[float, ...], float] = {}
-    with (root / "docs" / "evidence" / "response" / "waves.csv").open() as stream:
-        for row in csv.DictReader(stream):
-            # of at least eight nodes
-            short = np.hypot(float(row["kx"]), float(row["ky"])) > 2.0 * np.pi / 8.0 * 256.0
-            if row["points"] != "1025" or row["T_re"] == "nan" or short:
-                continue
-            t, driven, free = (
-                complex(float(row[f"{name}_re"]), float(row[f"{name}_im"]))
-                for name in ("T", "driven", "free")
-            )
-            m, ell, ratio, kx, ky = (
-                float(row[name]) for name in ("moes_m", "moes_l", "velocity_ratio", "kx", "ky")
-            )
-            found = driven + free * inlet_fit(kx, ky, (m, ell), ratio)
-            largest[m, ell, ratio] = max(largest.get((m, ell, ratio), 0.0), abs(found - t))
-    assert len(largest) == 22
-    assert max(largest.values()) <= 0.02, largest
+    everything = evidence.read()
+    data = everything.chosen(evidence.select(everything) & (everything.points == 1025.0))
+    runs = np.unique(np.stack([data.m, data.l, data.ratio], axis=1), axis=0)
+    assert len(runs) == 22
+    for m, ell, ratio in runs:
+        waves = data.chosen((data.m == m) & (data.l == ell) & (data.ratio == ratio))
+        fitted = inlet_fit(waves.kx, waves.ky, (m, ell), ratio)[:, np.newaxis]
+        left = waves.driven + waves.free * fitted - waves.t
+        assert np.abs(left).max() <= 0.02, (m, ell, ratio)
 
 
 def test_gain_of_oblique_waves_is_that_of_the_measured_pressures(
