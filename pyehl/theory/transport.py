@@ -8,8 +8,8 @@ scaled by the Hertz radius a, films by a^2/R, pressures by p_h, times by a/u; k 
 The half-space makes Pi = K (1 - T) + i K k/|q|^2 T', K = (pi/4)|q|, |q| = hypot(k, k_Y): to first
 order the stiffness of a wave whose amplitude changes along the motion (`wave_pressure`: of the
 wavenumber k U that it then has). The mass that the film wave holds is mu = rho (T - c H Pi), c =
-d ln rho/dP, and with eps = rho H^3/(eta lambda), delta ln eps = g = (c - d ln eta/dP) Pi - 3 T/H the
-Reynolds equation reads
+d ln rho/dP, and with eps = rho H^3/(eta lambda), delta ln eps = g = (c - d ln eta/dP) Pi - 3 T/H
+the Reynolds equation reads
 
     mu' = i k (U - 1) mu + eps |q|^2 Pi - i k eps' Pi - (eps' + 2 i k eps) Pi' - eps Pi''
           - eps P' (i k g + g'),
