@@ -61,15 +61,23 @@ s | deflection | | engine of the elastic deflection
 s | threads | - | OpenMP threads
 s | H_c | a^2/R | central film
 s | H_c_extrapolated | a^2/R | central film extrapolated to fine grids
-s | H_c_error | a^2/R | estimate of its error
+s | H_c_error | a^2/R | estimate of the error of H_c: grid and domain
+s | H_c_error_grid | a^2/R | part of it from the grid, and from cycles not made; that of H_c_extrapolated is smaller
+s | H_c_error_domain | a^2/R | part of it from the borders of the domain, also in H_c_extrapolated
 s | H_c_algebraic_error | a^2/R | part of the error that more cycles would take away
 s | H_min | a^2/R | minimum film
 s | H_min_extrapolated | a^2/R | minimum film extrapolated to fine grids
-s | H_min_error | a^2/R | estimate of its error
+s | H_min_error | a^2/R | estimate of the error of H_min
+s | H_min_error_grid | a^2/R | part of it from the grid
+s | H_min_error_domain | a^2/R | part of it from the borders of the domain
 s | H_min_algebraic_error | a^2/R | part of the error that more cycles would take away
 s | error_estimate | | where the estimates are from: 'two grids' or 'a priori'
 s | P_max | p_h | largest pressure
+s | P_max_error | p_h | estimate of its error, by three grids
+s | P_max_error_note | | why there is none
 s | F | - | friction integral
+s | F_error | - | estimate of its error, by three grids
+s | F_error_note | | why there is none
 s | last_H_c | a^2/R | central film at the end of a run without a solution
 s | last_H_min | a^2/R | minimum film at the end of a run without a solution
 s | last_P_max | p_h | largest pressure at the end of a run without a solution

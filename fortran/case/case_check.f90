@@ -3,7 +3,7 @@
 !> keys, and operating points that cannot be meant
 module ehl_case_check
    use ehl_case, only: case_t, is_feature, path_length, surface_case_t
-   use ehl_case_contact, only: check_contact_kind, check_operating_point, complete_kinematics
+   use ehl_case_contact, only: check_contact_kind, check_operating_point, complete_domain, complete_kinematics
    use ehl_case_feature, only: check_feature
    use ehl_case_lubricant, only: check_shear_law, complete_lubricant
    use ehl_case_temperature, only: check_heat, complete_viscosity
@@ -35,6 +35,7 @@ contains
       call check_contact_kind(schema, input, sources, status)
       if (.not. status%failed()) call complete_viscosity(schema, input, sources, status)
       if (.not. status%failed()) call check_operating_point(schema, input, sources, status)
+      if (.not. status%failed()) call complete_domain(schema, input)
       if (.not. status%failed()) call complete_kinematics(schema, input, sources, status)
       if (.not. status%failed()) call complete_lubricant(schema, input, sources, status)
       if (.not. status%failed()) call check_shear_law(schema, input, sources, status)
@@ -53,6 +54,7 @@ contains
 
       call check_contact_kind(schema, input, sources, ignored(1))
       call complete_viscosity(schema, input, sources, ignored(2))
+      call complete_domain(schema, input)
       call complete_kinematics(schema, input, sources, ignored(3))
       call complete_lubricant(schema, input, sources, ignored(4))
       call complete_pattern(schema, input)

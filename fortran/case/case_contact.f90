@@ -3,8 +3,9 @@
 module ehl_case_contact
    use ehl_case, only: case_t
    use ehl_circular, only: circular_from_si, circular_t
+   use ehl_domain, only: domain_t, needed_domain
    use ehl_kinds, only: dp
-   use ehl_moes, only: operating_from_si, operating_t
+   use ehl_moes, only: operating_from_moes, operating_from_si, operating_t
    use ehl_refusal, only: contradict, first_given, is_before, refuse, short
    use ehl_schema, only: schema_t
    use ehl_source, only: point_at, source_t
@@ -12,7 +13,7 @@ module ehl_case_contact
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: check_contact_kind, check_operating_point, complete_kinematics
+   public :: check_contact_kind, check_operating_point, complete_domain, complete_kinematics
 
    character(len=12), parameter :: moes_keys(2) = [character(len=12) :: "moes_m", "moes_l"]
    character(len=16), parameter :: si_keys(4) = &
@@ -56,11 +57,7 @@ contains
       character(len=:), allocatable :: what, expected
 
       if (.not. input%contact%si) return
-      associate (c => input%contact)
-         contact = circular_from_si(c%load, c%radius, c%reduced_modulus)
-         point = operating_from_si(c%load, c%mean_velocity, c%radius, c%reduced_modulus, &
-                                   input%lubricant%viscosity, input%lubricant%pressure_viscosity, contact%pressure)
-      end associate
+      call find_point(input, contact, point)
       what = ""
       expected = ""
       if (contact%pressure < 1.0e5_dp .or. contact%pressure > 2.0e10_dp) then
@@ -84,6 +81,38 @@ contains
                      // key%full_name() // " = " // key%value_text(), expected, status)
       end associate
    end subroutine check_operating_point
+
+   !> Contact and operating point, without the heat of the inlet
+   subroutine find_point(input, contact, point)
+      type(case_t), intent(in) :: input
+      type(circular_t), intent(out) :: contact
+      type(operating_t), intent(out) :: point
+
+      associate (c => input%contact, l => input%lubricant)
+         if (c%si) then
+            contact = circular_from_si(c%load, c%radius, c%reduced_modulus)
+            point = operating_from_si(c%load, c%mean_velocity, c%radius, c%reduced_modulus, l%viscosity, &
+                                      l%pressure_viscosity, contact%pressure)
+         else
+            point = operating_from_moes(c%moes_m, c%moes_l, l%pressure_viscosity)
+         end if
+      end associate
+   end subroutine find_point
+
+   !> The domain follows from the operating point, border by border, unless it is given
+   subroutine complete_domain(schema, input)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(inout) :: input
+      type(circular_t) :: contact
+      type(operating_t) :: point
+      type(domain_t) :: domain
+
+      call find_point(input, contact, point)
+      domain = needed_domain(contact, point)
+      if (.not. schema%given("grid", "x_inlet")) input%grid%x_inlet = domain%inlet
+      if (.not. schema%given("grid", "x_outlet")) input%grid%x_outlet = domain%outlet
+      if (.not. schema%given("grid", "y_extent")) input%grid%y_extent = domain%side
+   end subroutine complete_domain
 
    !> Of slide-to-roll ratio and velocity of the rough surface one follows from the other: surface 1 moves at
    !> 1 + SRR/2, surface 2 at 1 - SRR/2 times the mean velocity

@@ -93,10 +93,10 @@ contains
       associate (g => input%grid)
          call self%integers("grid", "points", g%points, "[17, 4097]", &
                             "nodes per side: odd, points - 1 halved must end even at 32 or less")
-         call self%reals("grid", "x_inlet", g%x_inlet, "a", "[-20, -1.05]", "inlet boundary X")
-         call self%reals("grid", "x_outlet", g%x_outlet, "a", "[1.05, 20]", "outlet boundary X")
-         call self%reals("grid", "y_extent", g%y_extent, "a", "[1.05, 20]", &
-                         "side boundaries Y = -y_extent and y_extent")
+         call self%reals("grid", "x_inlet", g%x_inlet, "a", "[-1e4, -1.05]", "inlet boundary X; default by M and L")
+         call self%reals("grid", "x_outlet", g%x_outlet, "a", "[1.05, 1e4]", "outlet boundary X; default by M and L")
+         call self%reals("grid", "y_extent", g%y_extent, "a", "[1.05, 1e4]", &
+                         "side boundaries Y = -y_extent and y_extent; default by M and L")
          call self%reals("grid", "target_error", g%target_error, "-", "0 or [1e-5, 0.1]", &
                          "relative error of H_c wanted; 0: solve on points as given")
          call self%integers("grid", "max_points", g%max_points, "[17, 8193]", &
@@ -114,7 +114,7 @@ contains
          call self%reals("surface", "amplitude", s%amplitude, "a^2/R", "[0, 1]", &
                          "amplitude A_i of a wave, height or depth of a feature; no default")
          call self%reals("surface", "amplitude_over_film", s%amplitude_over_film, "-", "[0, 10]", &
-                         "the same as a share of the smooth central film, A_i/H_c")
+                         "the same as a share of the smooth central film, extrapolated to fine grids")
          call self%reals("surface", "wavelength", s%wavelength, "a", "[0.01, 100]", &
                          "harmonic wavelength")
          call self%reals("surface", "wavelength_x", s%wavelength_x, "a", "[0.01, 100]", &
@@ -123,7 +123,7 @@ contains
                          "wavelength along Y; default wavelength")
          call self%reals("surface", "velocity_ratio", s%velocity_ratio, "-", "[0, 2]", &
                          "velocity of the rough surface over the mean one; default 1 + SRR/2, surface 2: 1 - SRR/2")
-         call self%reals("surface", "x_start", s%x_start, "a", "[-100, 20]", &
+         call self%reals("surface", "x_start", s%x_start, "a", "[-1e5, 1e4]", &
                          "where the roughness begins at time 0, at rest its origin; default x_inlet")
          call self%add_feature_keys(s)
          call self%texts("surface", "file", s%file, kind_path, "height map of kind 'map': .npy, text, instrument file")

@@ -5,6 +5,7 @@ module ehl_plan
    use ehl_circular, only: circular_from_si, circular_t
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
+   use ehl_domain, only: domain_cost, domain_t
    use ehl_grid, only: find_levels, grid_t, new_grid
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
@@ -36,6 +37,8 @@ module ehl_plan
       type(sliding_t) :: sliding
       !> Coarsest and finest grid
       type(grid_t) :: coarsest, finest
+      !> Shares of H_c and H_min of the flooded contact that the domain takes away
+      real(dp) :: domain_cost(2) = 0.0_dp
       !> Levels, and the one nested iteration starts on
       integer :: levels = 0, start = 0
       character(len=:), allocatable :: engine
@@ -249,7 +252,10 @@ contains
             plan%levels = plan%levels + 1
          end do
       end if
-      plan%coarsest = new_grid(intervals + 1, input%grid%x_inlet, input%grid%x_outlet, input%grid%y_extent, mirror)
+      associate (g => input%grid)
+         plan%coarsest = new_grid(intervals + 1, g%x_inlet, g%x_outlet, g%y_extent, mirror)
+         plan%domain_cost = domain_cost(plan%contact, plan%point, domain_t(g%x_inlet, g%x_outlet, g%y_extent))
+      end associate
       grid = plan%coarsest
       plan%start = 0
       do points = 1, plan%levels

@@ -57,11 +57,7 @@ contains
          text = text//"scene      smooth and steady: no time levels, no roughness"//new_line("a")
       end if
       if (allocated(plan%surface)) text = text//wave_lines(plan)
-      if (plan%coarsest%mirror) then
-         text = text//"domain     symmetric in Y: the half Y >= 0 is solved"//new_line("a")
-      else
-         text = text//"domain     the whole of it is solved"//new_line("a")
-      end if
+      text = text//domain_lines(plan)
       text = text//"deflection "//plan%engine//", threads "//to_text(plan%threads)//new_line("a")
       text = text//"cycles     "//plan%cycle_letter//sweeps_of(plan%cycle)
       if (plan%cycle%full .and. .not. plan%second_cycle%full) then
@@ -100,6 +96,21 @@ contains
          if (level == plan%start) words = "solution, from the Hertz pressure"
       end function use_of
    end function plan_text
+
+   !> Borders, what they cost, and whether half of it is enough
+   function domain_lines(plan) result(text)
+      type(plan_t), intent(in) :: plan
+      character(len=:), allocatable :: text
+      character(len=160) :: line
+
+      associate (grid => plan%coarsest)
+         write (line, "(a,g0.5,a,g0.5,a,g0.5,a,f0.2,a)") "domain     ", grid%x0, " <= X <= ", grid%x(grid%nx), &
+            ", |Y| <= ", grid%y(grid%ny), "; it takes away at most ", 100.0_dp*plan%domain_cost(1), &
+            " % of the film of a fully flooded contact"
+         text = trim(line)//new_line("a")//"           the whole of it is solved"//new_line("a")
+         if (grid%mirror) text = trim(line)//new_line("a")//"           symmetric in Y: the half Y >= 0 is solved"//new_line("a")
+      end associate
+   end function domain_lines
 
    !> What moves: roughness without end, or a feature that passes once
    function scene_lines(plan) result(text)

@@ -10,7 +10,7 @@ module ehl_report
    use ehl_plan, only: plan_t, relative_wedge_error
    use ehl_record, only: record_t
    use ehl_stationary_roughness, only: stationary_roughness_t
-   use ehl_level_result, only: discretisation_error, extrapolated, level_result_t
+   use ehl_level_result, only: discretisation_error, extrapolated, level_result_t, limit_error
    use ehl_steady, only: steady_t
    use ehl_text, only: fixed, to_text
    use ehl_transient, only: transient_t
@@ -101,7 +101,7 @@ contains
       integer, intent(in) :: n
       logical, intent(in) :: good
       type(contact_results_t) :: m
-      real(dp) :: error(2), limit(2), nothing
+      real(dp) :: error(2), limit(2), domain(2), nothing
       logical :: coarser
 
       nothing = ieee_value(nothing, ieee_quiet_nan)
@@ -127,15 +127,23 @@ contains
          ! one grid alone: what such grids have been found to miss; H_min misses about twice as much
          error = relative_wedge_error(plan%point, plan%finest)*[m%film_central, 2.0_dp*m%film_minimum]
       end if
+      ! what is left of the flooded film, less than nothing by the estimate: not known
+      domain = nothing
+      where (plan%domain_cost < 1.0_dp) domain = m%films()*plan%domain_cost/(1.0_dp - plan%domain_cost)
       call record%set("H_c", m%film_central)
       call record%set("H_min", m%film_minimum)
       call record%set("P_max", m%pressure_maximum)
       call record%set("F", m%friction)
       call record%set("H_c_extrapolated", limit(1))
-      call record%set("H_c_error", error(1))
+      call record%set("H_c_error", error(1) + domain(1))
+      call record%set("H_c_error_grid", error(1))
+      call record%set("H_c_error_domain", domain(1))
       call record%set("H_min_extrapolated", limit(2))
-      call record%set("H_min_error", error(2))
+      call record%set("H_min_error", error(2) + domain(2))
+      call record%set("H_min_error_grid", error(2))
+      call record%set("H_min_error_domain", domain(2))
       call record%set("error_estimate", trim(merge("two grids", "a priori ", coarser)))
+      call report_limits(record, plan, steady, n, good)
       call record%set("H_c_algebraic_error", steady%results(n)%algebraic(1))
       call record%set("H_min_algebraic_error", steady%results(n)%algebraic(2))
       call record%set("load_error", m%load_error)
@@ -149,6 +157,40 @@ contains
       call record%set("residual", steady%results(n)%residual)
       call record%set("restarts", steady%restarts)
    end subroutine report_smooth
+
+   !> Errors of P_max and F, which need three grids: where a pressure spike is not resolved neither has a limit that the
+   !> grids could tell, for the viscosity in it carries the friction
+   subroutine report_limits(record, plan, steady, n, good)
+      type(record_t), intent(inout) :: record
+      type(plan_t), intent(in) :: plan
+      type(steady_t), intent(in) :: steady
+      integer, intent(in) :: n
+      logical, intent(in) :: good
+      real(dp) :: error(2), nothing
+      character(len=:), allocatable :: note
+
+      nothing = ieee_value(nothing, ieee_quiet_nan)
+      error = nothing
+      note = "there is no solution"
+      if (good) note = "two coarser grids with a solution are needed"
+      if (good .and. n > 2) then
+         associate (r => steady%results(n - 2:n))
+            if (all(r%solved)) error = [limit_error(r%m%pressure_maximum), limit_error(r%m%friction)]
+         end associate
+      end if
+      if (any(error < 0.0_dp)) then
+         error(2) = nothing
+         if (error(1) < 0.0_dp) error(1) = nothing
+         note = "the change from grid to grid does not fall: no limit is in sight"
+      end if
+      associate (m => steady%results(n)%m)
+         error = error + [m%pressure_maximum, m%friction]*plan%domain_cost(1)
+      end associate
+      call record%set("P_max_error", error(1))
+      call record%set("F_error", error(2))
+      if (.not. error(1) >= 0.0_dp) call record%set("P_max_error_note", note)
+      if (.not. error(2) >= 0.0_dp) call record%set("F_error_note", note)
+   end subroutine report_limits
 
    !> The transient run: results null unless it came to a good end
    subroutine report_transient(record, plan, transient, good, seconds, coarse_mean)

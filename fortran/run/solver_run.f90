@@ -4,12 +4,17 @@ submodule (ehl_solver) ehl_solver_run
    use ehl_clock, only: clock_t, start_clock
    use ehl_feature, only: feature_t
    use ehl_harmonic, only: harmonic_t
-   use ehl_level_result, only: friction_error
+   use ehl_level_result, only: discretisation_error, extrapolated, friction_error
    use ehl_stopping_criterion, only: transient_outcome
    use ehl_plan_surface, only: check_carried
    use ehl_outcome, only: outcome_cycle_limit, outcome_diverged, outcome_negative_film
    use ehl_skipped_work, only: seconds_saved_by_zeros
+   use ehl_status, only: ehl_bad_input
+   use ehl_text, only: to_text
    implicit none (type, external)
+
+   !> Relative grid error of the smooth film from which its extrapolation is good enough for an amplitude
+   real(dp), parameter :: film_error = 0.02_dp
 
 contains
 
@@ -79,7 +84,7 @@ contains
    end subroutine begin_transient
 
    !> The smooth contact is solved: what a rough one needs of it
-   subroutine keep_smooth(self, status)
+   recursive subroutine keep_smooth(self, status)
       type(solver_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
 
@@ -89,18 +94,75 @@ contains
       associate (n => self%steady%n)
          self%p_smooth = self%hierarchy%levels(n)%p
          self%h_smooth = self%hierarchy%levels(n)%h
-         if (.not. self%plan%amplitude_over_film > 0.0_dp) return
-         select type (waviness => self%plan%surface)
-         type is (harmonic_t)
-            waviness%amplitude = self%plan%amplitude_over_film*self%steady%results(n)%m%film_central
-         type is (feature_t)
-            waviness%amplitude = self%plan%amplitude_over_film*self%steady%results(n)%m%film_central
-         end select
       end associate
+      if (self%plan%amplitude_over_film > 0.0_dp .and. .not. status%failed()) call set_amplitude(self, status)
    end subroutine keep_smooth
 
+   !> The amplitude that was given as a share of the film. It belongs to the case and not to the grid: a grid error of
+   !> the film would be one of the roughness, and of a sign that extrapolation does not expect.
+   recursive subroutine set_amplitude(self, status)
+      type(solver_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+      real(dp) :: film, amplitude
+
+      film = known_film(self)
+      if (.not. film > 0.0_dp) film = film_by_finer_grids(self, status)
+      if (status%failed()) return
+      amplitude = self%plan%amplitude_over_film*film
+      select type (waviness => self%plan%surface)
+      type is (harmonic_t)
+         waviness%amplitude = amplitude
+      type is (feature_t)
+         waviness%amplitude = amplitude
+      end select
+      ! what the coarser run starts from
+      self%input%surface%amplitude = amplitude
+      self%input%surface%amplitude_given = .true.
+   end subroutine set_amplitude
+
+   !> Extrapolated central film of the smooth contact; 0 where its grid error is too large for that
+   pure real(dp) function known_film(self)
+      type(solver_t), intent(in) :: self
+      real(dp) :: error(2), limit(2)
+
+      known_film = 0.0_dp
+      associate (n => self%steady%n, results => self%steady%results)
+         if (n == 1) return
+         if (.not. results(n - 1)%solved) return
+         error = discretisation_error(results, n)
+         limit = extrapolated(results, n)
+         if (error(1) <= film_error*limit(1)) known_film = limit(1)
+      end associate
+   end function known_film
+
+   !> The same by a run of the smooth contact alone on as many nodes as that takes
+   recursive real(dp) function film_by_finer_grids(self, status) result(film)
+      type(solver_t), intent(in) :: self
+      type(status_t), intent(inout) :: status
+      type(solver_t), allocatable :: finer
+      type(case_t) :: input
+
+      film = 0.0_dp
+      input = self%input
+      input%surface%kind = "smooth"
+      ! the film is extrapolated: it is better than the grid
+      input%grid%target_error = 0.9_dp*film_error
+      allocate (finer)
+      call finer%start(input, status)
+      do while (.not. (finer%done() .or. status%failed()))
+         call finer%advance(status)
+      end do
+      if (status%failed()) return
+      if (finer%converged()) film = known_film(finer)
+      if (film > 0.0_dp) return
+      call status%fail(ehl_bad_input, "surface.amplitude_over_film = "//to_text(self%plan%amplitude_over_film)// &
+                       ": the film of the smooth contact is not known to "//to_text(100.0_dp*film_error)// &
+                       " % on grids of up to "//to_text(input%grid%max_points)//" points"//new_line("a")// &
+                       "expected: surface.amplitude, or a larger grid.max_points")
+   end function film_by_finer_grids
+
    !> The smooth contact is solved: put the rough surface at rest in its place
-   subroutine begin_rest(self, status)
+   recursive subroutine begin_rest(self, status)
       type(solver_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
 

@@ -5,7 +5,7 @@ module ehl_level_result
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: level_result_t, discretisation_error, extrapolated, friction_error
+   public :: level_result_t, discretisation_error, extrapolated, friction_error, limit_error
 
    !> What is known of the solution on one level
    type :: level_result_t
@@ -28,6 +28,19 @@ contains
 
       error = abs(results(n)%m%films() - results(n - 1)%m%films())/3.0_dp
    end function discretisation_error
+
+   !> Discretisation error of a quantity without a known order, by its values on three grids, coarsest first: what the
+   !> series of differences has left, if they fall by a fifth at least; negative where they do not
+   pure real(dp) function limit_error(values)
+      real(dp), intent(in) :: values(3)
+      real(dp) :: last, before
+
+      last = abs(values(3) - values(2))
+      before = abs(values(2) - values(1))
+      limit_error = -1.0_dp
+      ! no faster than order 2
+      if (last <= 0.8_dp*before) limit_error = max(last/3.0_dp, last**2/(before - last))
+   end function limit_error
 
    !> Relative discretisation error of the Newtonian friction integral on level n, as that of H_c; 0: there is no coarser one
    pure real(dp) function friction_error(results, n)

@@ -23,8 +23,9 @@ __all__ = ["START", "VELOCITY", "X_MATTERS", "NotSolvedError", "SecondSolver", "
 Array = NDArray[np.float64]
 
 ALPHA, P_0, Z = 2.2e-8, 1.96e8, 0.6684
+# The domain of Zhang et al. 2019, where the roughness begins too
 X_INLET, X_OUTLET = -2.5, 1.5
-START = -2.5
+START = X_INLET
 VELOCITY = 1.01
 # The roughness changes nothing before its front, with half its length, is here
 X_MATTERS = -1.25
@@ -59,13 +60,25 @@ class Wave:
 
 
 class SecondSolver:
-    """A contact on the half Y >= 0 of the grid, all nodes in one vector, X first."""
+    """A contact on the half Y >= 0 of the grid, all nodes in one vector, X first.
 
-    def __init__(self, moes_m: float, moes_l: float, points: int, *, narrow: bool = True) -> None:
-        self.h = (X_OUTLET - X_INLET) / (points - 1)
+    The domain is as wide as it is long; `borders` are inlet and outlet [a].
+    """
+
+    def __init__(
+        self,
+        moes_m: float,
+        moes_l: float,
+        points: int,
+        *,
+        narrow: bool = True,
+        borders: tuple[float, float] = (X_INLET, X_OUTLET),
+    ) -> None:
+        self.start = borders[0]
+        self.h = (borders[1] - borders[0]) / (points - 1)
         self.points, self.rows = points, (points + 1) // 2
         self.narrow = narrow
-        x = X_INLET + self.h * np.arange(points)
+        x = self.start + self.h * np.arange(points)
         y = self.h * np.arange(self.rows)
         self.x, self.y = (a.ravel(order="F") for a in np.meshgrid(x, y, indexing="ij"))
         self.p_hertz = moes_l / np.pi * (1.5 * moes_m) ** (1.0 / 3.0) / ALPHA
@@ -121,7 +134,7 @@ class SecondSolver:
 
     def wave(self, wave: Wave, time: float) -> Array:
         """Heights of eq. 15."""
-        along = (self.x - START - wave.velocity * time) / wave.length_x
+        along = (self.x - self.start - wave.velocity * time) / wave.length_x
         fade = 10.0 ** (-10.0 * np.maximum(0.0, along) ** 2)
         across = np.cos(2.0 * np.pi * self.y / wave.length_y)
         answer: Array = wave.amplitude * fade * np.cos(2.0 * np.pi * along) * across
@@ -249,7 +262,7 @@ class SecondSolver:
         shape = 0.5 * (self.x**2 + self.y**2)
         p, h00, film = self.smooth()
         smooth = self.friction(p, film)
-        step = max(0, int((X_MATTERS - 0.5 * wave.length_x - START) / wave.velocity / self.h))
+        step = max(0, int((X_MATTERS - 0.5 * wave.length_x - self.start) / wave.velocity / self.h))
         mass = [self.density(p)[0] * (film - self.wave(wave, (step - k) * self.h)) for k in (0, 1)]
         order = np.where(self.first, 0.0, 1.0)
         if self.narrow:

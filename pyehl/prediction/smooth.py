@@ -112,7 +112,8 @@ def smooth_case(settings: Mapping[str, Mapping[str, Any]]) -> str:
     if not lubricant.get("thermal_reduction", False):
         for key in OF_SLIP:
             contact.pop(key, None)
-    return namelist.text_of({"contact": contact, "lubricant": lubricant})
+    domain = {key: settings["grid"][key] for key in ("x_inlet", "x_outlet", "y_extent")}
+    return namelist.text_of({"contact": contact, "lubricant": lubricant, "grid": domain})
 
 
 def solve_contact(settings: Mapping[str, Mapping[str, Any]]) -> SmoothContact:

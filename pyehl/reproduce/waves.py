@@ -37,11 +37,13 @@ CURVES = (
 RATIOS = (1.0, 1.6, 2.5, 5.0, 10.0)
 """H_c/A_i."""
 
-SMOOTH = "&contact moes_m = 1000.0 moes_l = 10.0 /\n&grid points = {points} /\n"
+# The domain of the paper, whatever M
+DOMAIN = "&grid points = {points} x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+SMOOTH = "&contact moes_m = 1000.0 moes_l = 10.0 /\n" + DOMAIN
 WAVE = (
     "&contact moes_m = 1000.0 moes_l = 10.0 /\n"
-    "&grid points = {points} /\n"
-    "&surface kind = 'harmonic' velocity_ratio = 1.01 amplitude = 0.001 wavelength = 0.5 /\n"
+    + DOMAIN
+    + "&surface kind = 'harmonic' velocity_ratio = 1.01 amplitude = 0.001 wavelength = 0.5 /\n"
     "&time scheme = '{scheme}' estimate_error = .false. /\n"
     "&output fields = .false. /\n"
 )

@@ -173,7 +173,8 @@ def transient_case(
             "velocity_ratio": velocity_ratio,
             "x_start": FRONT,
         },
-        "grid": {"points": points},
+        # the tiers count their nodes on 4 a by 4 a, whatever M and L
+        "grid": {"points": points, "x_inlet": -2.5, "x_outlet": 1.5, "y_extent": 2.0},
         "solver": {"accuracy": ACCURACY, **solver},
         "time": {"steps": 100000, "estimate_error": False},
     }

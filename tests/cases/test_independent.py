@@ -13,8 +13,10 @@ from pyehl.bench.second_solver import START, VELOCITY, SecondSolver, Wave, Z
 
 def options(wavelength: float, scheme: str = "narrow", **amplitude: float) -> dict[str, object]:
     """Settings of a wave; its height is `amplitude` or `amplitude_over_film`."""
-    assert START == -2.5  # the default
     return {
+        "grid.x_inlet": START,
+        "grid.x_outlet": START + 4.0,
+        "grid.y_extent": 2.0,
         "lubricant.roelands_z": Z,
         "surface.kind": "harmonic",
         "surface.wavelength": wavelength,

@@ -123,6 +123,9 @@ def test_unresolved_wave(solve, wavelength: float, velocity: float, share: float
         "surface.wavelength": wavelength * 1.01,
         "surface.velocity_ratio": velocity,
         "time.steps": 1,
+        "grid.x_inlet": -2.5,
+        "grid.x_outlet": 1.5,
+        "grid.y_extent": 2.0,
     }
     done = solve((200.0, 10.0), POINTS, wave)
     assert done["variance_unresolved"] == share

@@ -10,9 +10,12 @@ import pytest
 POINT, POINTS, WAVELENGTH = (200.0, 10.0), 65, 0.5
 WAVE = {
     "surface.kind": "harmonic",
-    "surface.amplitude_over_film": 0.2,
+    "surface.amplitude": 0.01423,
     "surface.wavelength": WAVELENGTH,
     "time.estimate_error": False,
+    "grid.x_inlet": -2.5,
+    "grid.x_outlet": 1.5,
+    "grid.y_extent": 2.0,
 }
 REST = WAVE | {"surface.velocity_ratio": 0.0}
 
@@ -35,7 +38,7 @@ def test_rest_is_the_limit_of_slow_motion(solve):
 
 
 def test_hardly_rough_is_smooth(solve):
-    done = solve(POINT, POINTS, REST | {"surface.amplitude_over_film": 1e-6})
+    done = solve(POINT, POINTS, REST | {"surface.amplitude": 7e-8})
     assert done.converged
     # the algebraic error of two friction integrals
     assert done["mu_ratio"] == pytest.approx(1.0, abs=2e-4)
@@ -55,13 +58,15 @@ def test_it_lies_where_x_start_says(solve):
 
 
 def test_error_by_the_coarser_grid(solve):
-    """A third of the difference to the next coarser grid; it covers the finer one."""
-    wave = REST | {"time.estimate_error": True}
+    """A third of the difference to the next coarser grid, with one amplitude; it covers the finer."""
+    wave = REST | {"time.estimate_error": True, "surface.amplitude_over_film": 0.2}
+    wave.pop("surface.amplitude")
     coarse, fine = (solve(POINT, points, wave) for points in (129, 257))
     assert coarse.converged
     assert fine.converged
-    share = {"surface.amplitude": fine["amplitude"], "surface.amplitude_over_film": None}
-    again = {k: v for k, v in (wave | share).items() if v is not None}
+    # the film that the amplitude is a share of is extrapolated, on any grid
+    assert coarse["amplitude"] == pytest.approx(fine["amplitude"], rel=2e-3)
+    again = REST | {"surface.amplitude": fine["amplitude"]}
     same = solve(POINT, 129, again)
     difference = abs(fine["mu_ratio"] - same["mu_ratio"])
     # the same problem from another start: to the algebraic errors
@@ -110,7 +115,7 @@ def test_map_at_rest_equals_wave_at_rest(solve, tmp_path):
 
 def test_higher_than_the_film(solve):
     """Waves that would pierce the film at once grow in parts; what does not converge says so."""
-    done = solve(POINT, POINTS, REST | {"surface.amplitude_over_film": 1.0})
+    done = solve(POINT, POINTS, REST | {"surface.amplitude": 0.0712})
     assert done.converged
     assert done["rough_parts"] > 1
     assert done["H_min_rough"] > 0.0

@@ -298,7 +298,7 @@ def test_an_edited_value_counts_as_given():
 def test_overrides_of_a_written_case_are_whole(drive, tmp_path: Path):
     """Both drivers, on the case.nml of a result."""
     (tmp_path / "case.nml").write_text(
-        "&contact moes_m = 100.0 moes_l = 5.0 /\n&grid points = 33 /\n"
+        "&contact moes_m = 100.0 moes_l = 5.0 /\n&grid points = 65 /\n"
     )
     assert drive("ehl", "case.nml", "-o", "first").returncode == 0
     option = "lubricant.viscosity=0.08"

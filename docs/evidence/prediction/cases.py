@@ -60,6 +60,7 @@ def case(row: dict[str, Any]) -> pyehl.Case:
 /
 &grid
    points = {int(row["points"])}
+   x_inlet = -2.5  x_outlet = 1.5  y_extent = 2.0
 /
 """
     )
