@@ -86,11 +86,11 @@ s | total_cycles | - | cycles on all grids
 s | residual | - | residual (rms) at the end, as far as it concerns the film
 s | restarts | - | how often the solution began again
 s | H_c_rough | a^2/R | central film of a rough surface at rest
-s | H_min_rough | a^2/R | minimum film of the rough contact: at rest, over the time T_mean, or while a feature passes
+s | H_min_rough | a^2/R | minimum film of the rough contact: at rest, in T_mean, or in a passage
 s | H_min_rough_T | a/u | when
 s | H_min_rough_X | a | where
 s | H_min_rough_Y | a | where
-sp | h_min_rough_m | m | minimum film of the rough contact, as H_min_rough; of a prediction over the passage
+sp | h_min_rough_m | m | minimum film of the rough contact, as H_min_rough
 s | P_max_rough | p_h | largest pressure of a rough surface at rest, or while a feature passes
 s | P_max_rough_T | a/u | when
 s | P_max_rough_X | a | where
@@ -112,11 +112,11 @@ sp | mu_ratio | - | friction over that of the smooth contact: mean over a period
 sp | mu_ratio_min | - | its least value
 sp | mu_ratio_max | - | its largest value
 s | mu_ratio_extrapolated | - | mu_ratio extrapolated to fine grids, where both resolve the surface
-s | mu_ratio_error | - | estimate of the error of mu_ratio: the sum of its parts; null where one is not known
+s | mu_ratio_error | - | error of mu_ratio: the sum of its parts; null if one is not known
 s | mu_ratio_error_note | | why the error is not known; else empty
 s | mu_ratio_error_grid | - | part of the error from the grid, by two grids
-s | mu_ratio_error_stop | - | part of the error from the end of the run: change of the mean, or algebraic error
-s | mu_ratio_error_left_out | - | part of the error from waves that the grid leaves out, as predicted; 0 without any
+s | mu_ratio_error_stop | - | part of the error from the end of the run
+s | mu_ratio_error_left_out | - | part of the error from waves that are left out, predicted
 s | mu_ratio_unresolved | - | predicted part of mu_ratio in waves that the grid does not resolve
 p | mu_ratio_model_error | - | error of the model
 p | mu_ratio_cutoff_error | - | error from waves that are left out
@@ -175,11 +175,11 @@ p | seed | - | seed of a fractal surface
 p | pixels | - | pixels of the tile along x and y
 p | length_x_m | m | size of the tile along x
 p | length_y_m | m | size of the tile along y
-pf | rms_height_m | m | rms height of the roughness
+pf | rms_height_m | m | rms height sigma of the undeformed roughness
 p | rms_deformed_m | m | rms height of the deformed roughness
 p | rms_pressure_Pa | Pa | rms of the pressure change
-sp | lambda_ratio | - | minimum film of the smooth contact over the rms height of the undeformed surface
-spf | lambda_ratio_central | - | the same of the central film
+sp | lambda_ratio | - | h_min/sigma: smooth contact, undeformed surface
+spf | lambda_ratio_central | - | h_c/sigma: smooth contact, undeformed surface
 p | cavitated_share | - | share of the contact where the pressure would be negative
 p | cavitated_friction | - | bound of the share of the friction from there
 p | bands | | what each octave of wavelengths adds
