@@ -11,7 +11,6 @@ import xarray as xr
 from pyehl.case import Case, Option
 from pyehl.errors import FileError, InputError, NotConverged
 from pyehl.prediction import of_case
-from pyehl.prediction.resolution import add_resolution
 from pyehl.prediction.result import Prediction
 from pyehl.progress import ProgressBar
 from pyehl.results import load
@@ -90,7 +89,6 @@ def solve(
     listener = _Listener(progress)
     if output is None:
         with Solver(case) as solver:
-            add_resolution(solver, case)
             while not solver.done:
                 solver.advance()
                 listener.advanced(solver)

@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A solver of the compiled library by its number: the calls, their locks and their errors."""
+"""A solver of the compiled library by its number: the calls, their lock and their errors.
+
+One call at a time works on a solver: a call in another thread waits until it has ended.
+"""
 
 from __future__ import annotations
 
+import json
 import os
 import threading
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -46,6 +51,16 @@ class Work(NamedTuple):
 class SolverHandle(Closing):
     """A solver that was opened, and is closed at the end of a ``with`` block.
 
+    Every method may be called from every thread. What is read while another thread advances is the
+    state after a whole cycle or step.
+
+    Parameters
+    ----------
+    text
+        The resolved case.
+    heights
+        Surface [m], shape (nx, ny), in place of a file.
+
     Attributes
     ----------
     done
@@ -61,9 +76,9 @@ class SolverHandle(Closing):
     done = False
     converged = False
 
-    def _open(self, text: str, heights: ArrayLike | None) -> None:
-        """Open a solver on the text of a case; heights [m] in place of a file."""
-        self._lock = threading.Lock()
+    def __init__(self, text: str, heights: ArrayLike | None = None) -> None:
+        # a call may be made of several
+        self._lock = threading.RLock()
         self._given = None if heights is None else np.asfortranarray(heights, dtype=np.float64)
         handle, status, message = ehl.open_case(
             text.encode(),
@@ -77,7 +92,7 @@ class SolverHandle(Closing):
     def close(self) -> None:
         """Free the memory; the solver cannot be used afterwards."""
         with self._lock:
-            ehl.close_case(self._handle)
+            check(*ehl.close_case(self._handle))
             self._handle = 0
             self._given = None
 
@@ -90,10 +105,10 @@ class SolverHandle(Closing):
         """One cycle (steady) or step (moving surface); whether nothing is left to do."""
         with self._lock:
             done, converged, status, message = ehl.advance(self._handle)
-        check(status, message)
-        self._calls += 1
-        self.done, self.converged = bool(done), bool(converged)
-        return self.done
+            check(status, message)
+            self._calls += 1
+            self.done, self.converged = bool(done), bool(converged)
+            return self.done
 
     def run(self) -> bool:
         """Advance to the end; whether the solution converged."""
@@ -105,7 +120,7 @@ class SolverHandle(Closing):
         """Stop here; the results so far stay readable, with the status 'interrupted'."""
         with self._lock:
             check(*ehl.interrupt(self._handle))
-        self.done = True
+            self.done = True
 
     def resume(self, results: str | os.PathLike[str]) -> str:
         """Resume the transient run that was to write into a folder; before the first `advance`.
@@ -174,34 +189,46 @@ class SolverHandle(Closing):
 
     def progress(self) -> str:
         """Tell the state in one line."""
-        text, status, message = ehl.progress(self._handle)
-        check(status, message)
-        return text_of(text)
+        return self._text(ehl.progress)
 
     def work(self) -> Work:
         """Tell how much of a transient run is done, and how much there is."""
-        done, earliest, latest, status, message = ehl.work(self._handle)
+        with self._lock:
+            done, earliest, latest, status, message = ehl.work(self._handle)
         check(status, message)
         return Work(done, earliest, latest)
 
     def skipped(self) -> str:
         """Tell what a transient run that has ended did not have to do; '' for every other run."""
-        text, status, message = ehl.skipped(self._handle)
-        check(status, message)
-        return text_of(text)
+        return self._text(ehl.skipped)
+
+    def describe(self) -> str:
+        """Tell the plan: what will be solved and how, with a table of the levels."""
+        return self._text(ehl.describe)
+
+    def conclusion(self) -> str:
+        """Tell the results of a run that has ended, with their errors, in a few lines."""
+        return self._text(ehl.conclusion)
+
+    def summary(self) -> dict[str, Any]:
+        """Give the scalar results as in ``summary.json``; None for a number that does not exist."""
+        values: dict[str, Any] = json.loads(self._text(ehl.summary))
+        return values
 
     @property
     def shape(self) -> tuple[int, int]:
         """Nodes of the finest grid in X and Y."""
-        nx, ny, status, message = ehl.grid_shape(self._handle)
+        with self._lock:
+            nx, ny, status, message = ehl.grid_shape(self._handle)
         check(status, message)
         return nx, ny
 
     def axes(self) -> tuple[Array, Array]:
         """Coordinates X (nx,) and Y (ny,) of the nodes in Hertz radii a."""
-        nx, ny = self.shape
-        x, y = np.empty(nx), np.empty(ny)
-        check(*ehl.axes(self._handle, x, y))
+        with self._lock:
+            nx, ny = self.shape
+            x, y = np.empty(nx), np.empty(ny)
+            check(*ehl.axes(self._handle, x, y))
         return x, y
 
     def field(self, name: str) -> Array:
@@ -212,22 +239,40 @@ class SolverHandle(Closing):
         InputError
             If there is no such field.
         """
-        values = np.empty(self.shape, order="F")
-        check(*ehl.field(self._handle, name.encode(), values))
+        with self._lock:
+            values = np.empty(self.shape, order="F")
+            check(*ehl.field(self._handle, name.encode(), values))
         return values
 
-    def _describe(self) -> str:
-        text, status, message = ehl.describe(self._handle)
-        check(status, message)
-        return text_of(text)
+    def take_prediction(self, left_out: float, unresolved: float, why: str) -> None:
+        """Take what is predicted of the waves that the grid leaves out, for the error of mu_ratio.
 
-    def _summary(self) -> str:
-        text, status, message = ehl.summary(self._handle)
-        check(status, message)
-        return text_of(text)
+        Parameters
+        ----------
+        left_out, unresolved
+            Parts of mu_ratio in waves that the grid leaves out, and in those that it does not
+            resolve [-]; NaN where there is no prediction.
+        why
+            Why there is none.
+        """
+        with self._lock:
+            check(*ehl.take_prediction(self._handle, left_out, unresolved, why.encode()))
 
-    def _write(self, folder: str | os.PathLike[str]) -> str:
+    def write(self, folder: str | os.PathLike[str]) -> str:
+        """Write the result folder, whole or not at all; returns a note, mostly empty.
+
+        Raises
+        ------
+        FileError
+            If it cannot be written.
+        """
         with self._lock:
             note, status, message = ehl.write_output(self._handle, os.fsencode(folder))
         check(status, message)
         return text_of(note)
+
+    def _text(self, call: Callable[[int], tuple[bytes, int, bytes]]) -> str:
+        with self._lock:
+            text, status, message = call(self._handle)
+        check(status, message)
+        return text_of(text)

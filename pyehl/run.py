@@ -20,7 +20,6 @@ import numpy as np
 from pyehl import library
 from pyehl.case import Case
 from pyehl.errors import FileError
-from pyehl.prediction.resolution import add_resolution
 from pyehl.solver import Solver
 from pyehl.surfaces import for_solver
 
@@ -158,7 +157,7 @@ def _open(case: Case, resumed: str | os.PathLike[str]) -> Solver:
         # the file of the map is no longer needed
         return solver
     if made.heights is not None and np.array_equal(made.heights, kept):
-        solver.preparation = made.preparation
+        solver.preparation, solver.tile = made.preparation, made.part
     return solver
 
 
@@ -180,7 +179,6 @@ def _drive(
     """Solve a case, from its beginning or from the state of a run with the results `resumed`."""
     library.check_output(folder)
     with stop_on_signals() as request, _open(case, resumed) as solver:
-        add_resolution(solver, case)
         observer.say(solver.describe())
         if os.fspath(resumed):
             begins = "there is no state yet: the run begins at its beginning"
@@ -197,6 +195,7 @@ def _drive(
             observer.advanced(solver)
         if solver.skipped():
             observer.say(solver.skipped())
+        observer.say(solver.conclusion())
         has_state = not solver.converged and _keep_state(solver, observer, at_once=True)
         note = solver.write(folder)
         if note:

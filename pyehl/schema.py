@@ -84,9 +84,9 @@ s | last_P_max | p_h | largest pressure at the end of a run without a solution
 s | last_F | - | friction integral at the end of a run without a solution
 s | last_mu_ratio | - | mu_r/mu_s at the end of a run without a solution
 s | last_mu_ratio_mean | - | its mean over a period at the end of a run without a solution
-sp | h_c_m | m | central film
+sp | h_c_m | m | central film of the smooth contact
 p | h_c_source | | where it is from
-sp | h_min_m | m | minimum film; of a prediction the least of the rough film
+sp | h_min_m | m | minimum film of the smooth contact
 s | p_max_Pa | Pa | largest pressure
 sp | load_error | - | relative error of the force balance
 s | cycles | - | cycles on the finest grid
@@ -94,11 +94,11 @@ s | total_cycles | - | cycles on all grids
 s | residual | - | residual (rms) at the end, as far as it concerns the film
 s | restarts | - | how often the solution began again
 s | H_c_rough | a^2/R | central film of a rough surface at rest
-s | H_min_rough | a^2/R | minimum film of a rough surface at rest, or while a feature passes
+s | H_min_rough | a^2/R | minimum film of the rough contact: at rest, in T_mean, or in a passage
 s | H_min_rough_T | a/u | when
 s | H_min_rough_X | a | where
 s | H_min_rough_Y | a | where
-s | h_min_rough_m | m | minimum film while a feature passes
+sp | h_min_rough_m | m | minimum film of the rough contact, as H_min_rough
 s | P_max_rough | p_h | largest pressure of a rough surface at rest, or while a feature passes
 s | P_max_rough_T | a/u | when
 s | P_max_rough_X | a | where
@@ -120,10 +120,11 @@ sp | mu_ratio | - | friction over that of the smooth contact: mean over a period
 sp | mu_ratio_min | - | its least value
 sp | mu_ratio_max | - | its largest value
 s | mu_ratio_extrapolated | - | mu_ratio extrapolated to fine grids, where both resolve the surface
-s | mu_ratio_error | - | estimate of the error of mu_ratio
-s | mu_ratio_error_grid | - | part of it from the grid
-s | mu_ratio_error_stop | - | part of it from the end of the run
-s | mu_ratio_left_out | - | part of it from waves that the grid does not carry, as predicted
+s | mu_ratio_error | - | error of mu_ratio: the sum of its parts; null if one is not known
+s | mu_ratio_error_note | | why the error is not known; else empty
+s | mu_ratio_error_grid | - | part of the error from the grid, by two grids
+s | mu_ratio_error_stop | - | part of the error from the end of the run
+s | mu_ratio_error_left_out | - | part of the error from waves that are left out, predicted
 s | mu_ratio_unresolved | - | predicted part of mu_ratio in waves that the grid does not resolve
 p | mu_ratio_model_error | - | error of the model
 p | mu_ratio_cutoff_error | - | error from waves that are left out
@@ -145,7 +146,7 @@ s | thermal_loading | - | loading parameter of shear heating
 spf | thermal_reduction | - | film over the isothermal one
 s | amplitude | a^2/R | amplitude A_i of a waviness, height or depth of a feature
 s | amplitude_ratio | - | A_d/A_i at the centre
-s | surface_rms_m | m | rms height of the surface that is solved
+s | surface_rms_m | m | rms height sigma of the surface that is solved, undeformed
 s | variance_cut | - | share of the height's variance that was cut on purpose
 s | variance_left_out | - | share of it in waves that the grid does not carry
 s | variance_unresolved | - | share of it in waves that the grid does not resolve
@@ -182,10 +183,11 @@ p | seed | - | seed of a fractal surface
 p | pixels | - | pixels of the tile along x and y
 p | length_x_m | m | size of the tile along x
 p | length_y_m | m | size of the tile along y
-pf | rms_height_m | m | rms height of the roughness
+pf | rms_height_m | m | rms height sigma of the undeformed roughness
 p | rms_deformed_m | m | rms height of the deformed roughness
 p | rms_pressure_Pa | Pa | rms of the pressure change
-pf | lambda_ratio | - | h_c over the rms height
+sp | lambda_ratio | - | h_min/sigma: smooth contact, undeformed surface
+spf | lambda_ratio_central | - | h_c/sigma: smooth contact, undeformed surface
 p | cavitated_share | - | share of the contact where the pressure would be negative
 p | cavitated_friction | - | bound of the share of the friction from there
 p | bands | | what each octave of wavelengths adds

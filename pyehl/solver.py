@@ -8,25 +8,28 @@ Hertz pressure p_h, lengths by the Hertz radius a, films by a^2/R.
 from __future__ import annotations
 
 import json
+import math
 import os
 import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, Self
+from typing import TYPE_CHECKING, Any, Self
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from pyehl import display
 from pyehl.case import Case, Option
-from pyehl.errors import FileError, InputError
+from pyehl.errors import EhlError, FileError, InputError
 from pyehl.handle import SolverHandle, Work
-from pyehl.surfaces import Record, Topography, for_solver
+from pyehl.prediction.resolution import Resolution, resolution
+from pyehl.surfaces import Record, Topography, for_solver, given
 
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["Addition", "Solver", "Step"]
+__all__ = ["Solver", "Step"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,23 +65,12 @@ class Step:
         return self.solver.work()
 
 
-class Addition(Protocol):
-    """What is known of a run beside what the library tells."""
-
-    def report(self) -> list[str]:
-        """Lines of the plan."""
-        ...
-
-    def amend(self, values: dict[str, Any]) -> None:
-        """Add to the scalars of a summary."""
-        ...
-
-
 class Solver(SolverHandle):
     """A solver on one case, advanced cycle by cycle or step by step.
 
-    A context manager, and an iterator over what is left to do. One thread at a time works on a
-    solver; several solvers may run in several threads.
+    A context manager, and an iterator over what is left to do. Every method may be called from
+    every thread: one call at a time works on a solver, and what is read while another thread
+    advances is the state after a whole cycle or step. Several solvers may run in several threads.
 
     Parameters
     ----------
@@ -134,22 +126,25 @@ class Solver(SolverHandle):
     def _start(self, case: Case, heights: ArrayLike | None) -> None:
         self._case = case
         self.preparation: Record | None = None
-        self.part: Topography | None = None
-        self.resolution: Addition | None = None
-        options: tuple[str, ...] = ()
+        # what a prediction is made with, where it is not the surface of the case
+        self.tile: Topography | None = None
+        self._resolution: Resolution | str | None = None
+        self._predicted = self._told = False
         if heights is None:
             try:
                 made = for_solver(case.resolve())
             except (ValueError, OSError) as error:
                 raise InputError(str(error)) from error
-            heights, options, self.preparation = made.heights, made.options, made.preparation
-            self.part = made.part
-        text = case.with_options(*options).text if options else case.text
-        self._open(text, heights)
+            self.preparation, self.tile = made.preparation, made.part
+            text = case.with_options(*made.options).text if made.options else case.text
+            super().__init__(text, made.heights)
+        else:
+            super().__init__(case.text, heights)
+            self.tile = given(np.asarray(heights, dtype=np.float64), case.resolve()["surface"])
 
     def __repr__(self) -> str:
         """Give the case and the state in one line."""
-        state = "closed" if self._handle == 0 else self.summary()["status"]
+        state = "closed" if self._handle == 0 else super().summary()["status"]
         return f"Solver({self._case!r}, {state!r}, {self._calls} advances)"
 
     def _repr_html_(self) -> str:
@@ -163,26 +158,61 @@ class Solver(SolverHandle):
             self.advance()
             yield Step(self._calls, self.progress(), self)
 
-    def describe(self) -> str:
-        """Tell the plan: what will be solved and how, with a table of the levels."""
-        return "\n".join([self._describe(), *self._lines()])
+    def describe(self, *, predict: bool = True) -> str:
+        """Tell the plan: what will be solved and how, with a table of the levels.
 
-    def _lines(self) -> list[str]:
+        Parameters
+        ----------
+        predict
+            Also predict what of the friction hangs on waves that the grid does not resolve; this
+            solves the smooth contact.
+        """
+        return "\n".join([super().describe(), *self._lines(predict=predict)])
+
+    def _lines(self, *, predict: bool = True) -> list[str]:
         """Tell how a map was prepared, and what the grid does not resolve."""
         lines = self.preparation.report() if self.preparation else []
-        return lines + (self.resolution.report() if self.resolution else [])
+        found = self._resolved() if predict else None
+        if isinstance(found, str):
+            return [*lines, f"predicted   {found}"]
+        return lines + (found.report() if found else [])
 
-    def _amended(self, values: dict[str, Any]) -> dict[str, Any]:
-        """Add to the scalars what the library does not know."""
-        if self.preparation:
-            values["surface_preparation"] = self.preparation.summary()
-        if self.resolution:
-            self.resolution.amend(values)
-        return values
+    def _resolved(self) -> Resolution | str | None:
+        """Predict once what the grid does not resolve; text: why there is no prediction."""
+        if not self._predicted:
+            try:
+                self._resolution = resolution(self._case, self.tile)
+            except (EhlError, ValueError, ArithmeticError, OSError, MemoryError) as error:
+                why = str(error) or type(error).__name__
+                self._resolution = f"no mu_r/mu_s: {why.replace(chr(10), ' ')}"
+            self._predicted = True
+        return self._resolution
+
+    def _tell(self) -> None:
+        """Tell the library what is predicted, as soon as the error of mu_ratio asks for it."""
+        values = super().summary()
+        if self._told or values.get("mu_ratio") is None or not values["variance_unresolved"]:
+            return
+        found = self._resolved()
+        if isinstance(found, Resolution):
+            self.take_prediction(found.left_out, found.unresolved, "")
+        elif found is not None:
+            why = f"waves that the grid leaves out are not in it: {found}"
+            self.take_prediction(math.nan, math.nan, why)
+        self._told = True
 
     def summary(self) -> dict[str, Any]:
         """Give the scalar results as in ``summary.json``; None for a number that does not exist."""
-        return self._amended(json.loads(self._summary()))
+        self._tell()
+        values = super().summary()
+        if self.preparation:
+            values["surface_preparation"] = self.preparation.summary()
+        return values
+
+    def conclusion(self) -> str:
+        """Tell the results of a run that has ended, with their errors, in a few lines."""
+        self._tell()
+        return super().conclusion()
 
     def dataset(self) -> xarray.Dataset:
         """Give the results so far, the same as `pyehl.load` of the folder that `write` makes."""
@@ -201,8 +231,9 @@ class Solver(SolverHandle):
         FileError
             If it cannot be written.
         """
-        note = self._write(folder)
-        if self.preparation or self.resolution:
+        self._tell()
+        note = super().write(folder)
+        if self._lines():
             self._amend(Path(folder))
         return note
 
@@ -213,8 +244,9 @@ class Solver(SolverHandle):
                 text = (folder / name).read_text(encoding="utf-8")
                 if name == "plan.txt":
                     text = "\n".join([text.rstrip("\n"), *self._lines(), ""])
-                else:
-                    values = self._amended(json.loads(text))
+                elif self.preparation:
+                    values = json.loads(text)
+                    values["surface_preparation"] = self.preparation.summary()
                     text = json.dumps(values, indent=2, allow_nan=False) + "\n"
                 fresh = folder / f"{name}.new"
                 fresh.write_text(text, encoding="utf-8")

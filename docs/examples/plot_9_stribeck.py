@@ -32,7 +32,8 @@ print(tables["newtonian"].status.values)
 
 figure, ax = plt.subplots(figsize=(6.2, 3.8), layout="constrained")
 for law, table in tables.items():
-    ax.semilogx(table.lambda_ratio, table.mu_ratio, "o-", label=f"{law.title()} shear stress")
+    label = f"{law.title()} shear stress"
+    ax.semilogx(table.lambda_ratio_central, table.mu_ratio, "o-", label=label)
 ax.set_xticks([3, 4, 6, 8, 10, 14], ["3", "4", "6", "8", "10", "14"])
 ax.minorticks_off()
 ax.axhline(1.0, color="grey", ls=":", lw=0.8)

@@ -100,6 +100,7 @@ contains
       end do
       call say(solver%progress())
       if (solver%skipped() /= "") call say(solver%skipped())
+      call say(solver%conclusion())
    end subroutine advance_to_the_end
 
    !> Save the state, now or if its time has come. A run does not end because that fails.

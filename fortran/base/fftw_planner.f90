@@ -18,23 +18,26 @@ module ehl_fftw_planner
 
 contains
 
-   !> Nobody else may plan from here on
-   subroutine lock_planner()
-      call lock(planner)
+   !> Nobody else may plan from here on; after a failure the caller may not either
+   subroutine lock_planner(status)
+      type(status_t), intent(inout) :: status
+      call lock(planner, status)
    end subroutine lock_planner
 
-   subroutine unlock_planner()
-      call unlock(planner)
+   subroutine unlock_planner(status)
+      type(status_t), intent(inout) :: status
+      call unlock(planner, status)
    end subroutine unlock_planner
 
-   !> Destroy a plan, if it is one
+   !> Destroy a plan, if it is one; without the lock it stays, as it is safe to leave it
    subroutine drop_plan(plan)
       type(c_ptr), intent(inout) :: plan
+      type(status_t) :: status
 
       if (.not. c_associated(plan)) return
-      call lock_planner()
-      call fftw_destroy_plan(plan)
-      call unlock_planner()
+      call lock_planner(status)
+      if (.not. status%failed()) call fftw_destroy_plan(plan)
+      if (.not. status%failed()) call unlock_planner(status)
       plan = c_null_ptr
    end subroutine drop_plan
 
@@ -58,10 +61,12 @@ contains
       type(status_t), intent(inout) :: status
       complex(c_double_complex), pointer, contiguous :: same(:)
 
+      plan = c_null_ptr
       same => work
-      call lock_planner()
+      call lock_planner(status)
+      if (status%failed()) return
       plan = fftw_plan_dft_1d(int(n, c_int), work, same, direction, fftw_estimate)
-      call unlock_planner()
+      call unlock_planner(status)
       call check_plan(plan, "a complex transform", status)
    end subroutine plan_complex
 
@@ -74,9 +79,11 @@ contains
       real(dp), intent(inout) :: values(:)
       type(status_t), intent(inout) :: status
 
-      call lock_planner()
+      plan = c_null_ptr
+      call lock_planner(status)
+      if (status%failed()) return
       plan = fftw_plan_dft_c2r_1d(int(n, c_int), spectrum, values, fftw_estimate)
-      call unlock_planner()
+      call unlock_planner(status)
       call check_plan(plan, "a real transform", status)
    end subroutine plan_to_real
 
@@ -98,9 +105,10 @@ contains
          return
       end if
       call c_f_pointer(c_loc(spectrum), padded, [2*(n(1)/2 + 1), n(2)])
-      call lock_planner()
+      call lock_planner(status)
+      if (status%failed()) return
       plan = fftw_plan_dft_r2c_2d(int(n(2), c_int), int(n(1), c_int), padded, spectrum, fftw_estimate)
-      call unlock_planner()
+      call unlock_planner(status)
       call check_plan(plan, "the spectrum of a tile", status)
       if (status%failed()) return
       do j = 1, n(2)
@@ -131,9 +139,10 @@ contains
          return
       end if
       same => cosines
-      call lock_planner()
+      call lock_planner(status)
+      if (status%failed()) return
       plan = fftw_plan_r2r_2d(int(n(2), c_int), int(n(1), c_int), cosines, same, fftw_redft10, fftw_redft10, fftw_estimate)
-      call unlock_planner()
+      call unlock_planner(status)
       call check_plan(plan, "the waves of a mirrored map", status)
       if (status%failed()) return
       do j = 1, n(2)
@@ -159,9 +168,10 @@ contains
       if (status%failed()) return
       n = shape(values)
       call c_f_pointer(c_loc(spectrum), padded, [2*(n(1)/2 + 1), n(2)])
-      call lock_planner()
+      call lock_planner(status)
+      if (status%failed()) return
       plan = fftw_plan_dft_c2r_2d(int(n(2), c_int), int(n(1), c_int), spectrum, padded, fftw_estimate)
-      call unlock_planner()
+      call unlock_planner(status)
       call check_plan(plan, "the heights of a tile", status)
       if (status%failed()) return
       call fftw_execute_dft_c2r(plan, spectrum, padded)

@@ -2,6 +2,8 @@
 !> Locks that hold between all threads of a process, OpenMP's and others, and in a build without OpenMP: POSIX mutexes
 module ehl_lock
    use, intrinsic :: iso_c_binding, only: c_int, c_int64_t
+   use ehl_status, only: ehl_internal, status_t
+   use ehl_text, only: to_text
    implicit none (type, external)
    private
    public :: lock_t, lock, unlock
@@ -28,18 +30,25 @@ module ehl_lock
 
 contains
 
-   !> Wait until the lock is open, and close it
-   subroutine lock(self)
+   !> Wait until the lock is open, and close it. After a failure, an earlier one too, the caller does not hold it.
+   subroutine lock(self, status)
       type(lock_t), intent(inout) :: self
-      integer(c_int) :: stat
-      ! fails only for a mutex that is none
-      stat = pthread_mutex_lock(self)
+      type(status_t), intent(inout) :: status
+      if (status%failed()) return
+      call check(pthread_mutex_lock(self), status)
    end subroutine lock
 
    !> Open it
-   subroutine unlock(self)
+   subroutine unlock(self, status)
       type(lock_t), intent(inout) :: self
-      integer(c_int) :: stat
-      stat = pthread_mutex_unlock(self)
+      type(status_t), intent(inout) :: status
+      call check(pthread_mutex_unlock(self), status)
    end subroutine unlock
+
+   !> A failure where the system refuses
+   subroutine check(code, status)
+      integer(c_int), intent(in) :: code
+      type(status_t), intent(inout) :: status
+      if (code /= 0) call status%fail(ehl_internal, "a lock between threads failed: error "//to_text(int(code))//" of the system")
+   end subroutine check
 end module ehl_lock

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Named values in the order in which they were set, written as one JSON object
 module ehl_record
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    use ehl_kinds, only: dp
    use ehl_text, only: newline, to_text
    implicit none (type, external)
@@ -29,6 +29,11 @@ module ehl_record
       procedure, private :: set_logical
       procedure, private :: set_text
       procedure, private :: put
+      procedure, private :: value_of
+      !> What is there under a name
+      procedure :: has
+      procedure :: number
+      procedure :: text => text_value
       procedure :: to_json
    end type record_t
 
@@ -119,6 +124,58 @@ contains
       end do
       self%items = [self%items, item_t(name, value)]
    end subroutine put
+
+   !> The value under a name, as JSON; empty where there is none
+   pure function value_of(self, name) result(value)
+      class(record_t), intent(in) :: self
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: value
+      integer :: k
+
+      value = ""
+      if (.not. allocated(self%items)) return
+      do k = 1, size(self%items)
+         if (self%items(k)%name == name) value = self%items(k)%value
+      end do
+   end function value_of
+
+   !> Whether there is a value under a name, null included
+   pure logical function has(self, name)
+      class(record_t), intent(in) :: self
+      character(len=*), intent(in) :: name
+      has = len(self%value_of(name)) > 0
+   end function has
+
+   !> The number under a name; NaN where there is none
+   real(dp) function number(self, name)
+      class(record_t), intent(in) :: self
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: value
+      integer :: stat
+
+      value = self%value_of(name)
+      read (value, *, iostat=stat) number
+      if (stat /= 0) number = ieee_value(number, ieee_quiet_nan)
+   end function number
+
+   !> The text under a name, its escapes taken away; empty where there is none
+   pure function text_value(self, name) result(text)
+      class(record_t), intent(in) :: self
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: text
+      character(len=:), allocatable :: value
+      integer :: i
+
+      text = ""
+      value = self%value_of(name)
+      if (index(value, '"') /= 1) return
+      i = 2
+      do while (i < len(value))
+         if (value(i:i) == "\") i = i + 1
+         text = text // value(i:i)
+         i = i + 1
+      end do
+   end function text_value
 
    !> The record as a JSON object, one value a line. Reals have as many digits as they need to
    !> read back as the same number.

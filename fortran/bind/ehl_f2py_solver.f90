@@ -12,12 +12,13 @@ module ehl_f2py_solver
    use ehl_grid, only: grid_t
    use ehl_handles, only: drop_handle, new_handle, run_of, run_t
    use ehl_result_folder, only: write_results
+   use ehl_ratio_error, only: waves_t
    use ehl_record, only: record_t
    use ehl_reply, only: reply
    use ehl_status, only: ehl_bad_input, status_t
    implicit none (type, external)
    private
-   public :: open_case, close_case, advance, interrupt, describe, progress, work, skipped, summary
+   public :: open_case, close_case, advance, interrupt, describe, progress, work, skipped, summary, conclusion, take_prediction
    public :: grid_shape, axes, field, write_output
 
 contains
@@ -32,7 +33,7 @@ contains
       character(len=4096), intent(out) :: message
       type(case_t), target :: input
       type(run_t), pointer :: run
-      type(status_t) :: status
+      type(status_t) :: status, closing
 
       handle = 0
       call read_case(text, origin, "", input, status)
@@ -44,16 +45,20 @@ contains
          else
             call run%solver%start(input, status)
          end if
-         if (status%failed()) call drop_handle(handle)
+         if (status%failed()) call drop_handle(handle, closing)
       end if
       call reply(status, stat, message)
    end subroutine open_case
 
    !> Free a solver
-   subroutine close_case(handle)
+   subroutine close_case(handle, stat, message)
       integer(c_int), intent(in) :: handle
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(status_t) :: status
 
-      call drop_handle(handle)
+      call drop_handle(handle, status)
+      call reply(status, stat, message)
    end subroutine close_case
 
    !> One cycle or step; done is 1 when there is nothing left to do
@@ -151,6 +156,37 @@ contains
       if (.not. status%failed()) text = run%solver%skipped()
       call reply(status, stat, message)
    end subroutine skipped
+
+   !> What a run that has ended gave, in a few lines
+   subroutine conclusion(handle, text, stat, message)
+      integer(c_int), intent(in) :: handle
+      character(len=4096), intent(out) :: text
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(run_t), pointer :: run
+      type(status_t) :: status
+
+      text = ""
+      call run_of(handle, run, status)
+      if (.not. status%failed()) text = run%solver%conclusion()
+      call reply(status, stat, message)
+   end subroutine conclusion
+
+   !> Hand over what is predicted of mu_ratio: its parts in waves that the grid leaves out, and in those that it does not
+   !> resolve; NaN where there is no prediction, and why
+   subroutine take_prediction(handle, left_out, unresolved, why, stat, message)
+      integer(c_int), intent(in) :: handle
+      real(c_double), intent(in) :: left_out, unresolved
+      character(len=*), intent(in) :: why
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(run_t), pointer :: run
+      type(status_t) :: status
+
+      call run_of(handle, run, status)
+      if (.not. status%failed()) run%solver%waves = waves_t(.true., left_out, unresolved, why)
+      call reply(status, stat, message)
+   end subroutine take_prediction
 
    !> The scalar results as JSON
    subroutine summary(handle, text, stat, message)

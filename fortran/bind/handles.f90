@@ -42,7 +42,8 @@ contains
 
       handle = 0
       nullify (run)
-      call lock(table_lock)
+      call lock(table_lock, status)
+      if (status%failed()) return
       do k = 1, places
          if (associated(table(k)%run)) cycle
          allocate (run, stat=stat)
@@ -53,7 +54,7 @@ contains
          handle = places*table(k)%generation + k
          exit
       end do
-      call unlock(table_lock)
+      call unlock(table_lock, status)
       if (handle == 0) call status%fail(ehl_no_memory, "no room for another solver: close one of " &
                                         // to_text(places))
    end subroutine new_handle
@@ -63,29 +64,38 @@ contains
       integer, intent(in) :: handle
       type(run_t), pointer, intent(out) :: run
       type(status_t), intent(inout) :: status
-      integer :: k
 
-      nullify (run)
-      if (handle > places) then
-         k = modulo(handle - 1, places) + 1
-         call lock(table_lock)
-         if (places*table(k)%generation + k == handle) run => table(k)%run
-         call unlock(table_lock)
-      end if
+      call find(handle, .false., run, status)
       if (.not. associated(run)) call status%fail(ehl_closed, "the solver is closed")
    end subroutine run_of
 
    !> Free a run and its place; nothing happens when the handle is closed already
-   subroutine drop_handle(handle)
+   subroutine drop_handle(handle, status)
       integer, intent(in) :: handle
+      type(status_t), intent(inout) :: status
       type(run_t), pointer :: run
-      type(status_t) :: status
 
-      call run_of(handle, run, status)
-      if (.not. associated(run)) return
-      call lock(table_lock)
-      nullify (table(modulo(handle - 1, places) + 1)%run)
-      call unlock(table_lock)
-      deallocate (run)
+      call find(handle, .true., run, status)
+      if (associated(run)) deallocate (run)
    end subroutine drop_handle
+
+   !> The run of a handle, not associated when there is none; one caller alone can take it out of the table
+   subroutine find(handle, take, run, status)
+      integer, intent(in) :: handle
+      logical, intent(in) :: take
+      type(run_t), pointer, intent(out) :: run
+      type(status_t), intent(inout) :: status
+      integer :: k
+
+      nullify (run)
+      if (handle <= places) return
+      k = modulo(handle - 1, places) + 1
+      call lock(table_lock, status)
+      if (status%failed()) return
+      if (places*table(k)%generation + k == handle) then
+         run => table(k)%run
+         if (take) nullify (table(k)%run)
+      end if
+      call unlock(table_lock, status)
+   end subroutine find
 end module ehl_handles

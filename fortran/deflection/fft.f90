@@ -76,9 +76,10 @@ contains
       self%nk = self%lx/2 + 1
       call reserve(self, status)
       if (status%failed()) return
-      call lock_planner()
+      call lock_planner(status)
+      if (status%failed()) return
       call make_plans(self)
-      call unlock_planner()
+      call unlock_planner(status)
       if (.not. (c_associated(self%row_forward) .and. c_associated(self%row_backward) .and. &
                  c_associated(self%column_forward) .and. c_associated(self%column_backward))) then
          call status%fail(ehl_internal, "FFTW made no plan for the deflection")
@@ -171,10 +172,11 @@ contains
       real(dp), pointer, contiguous :: in_place(:, :)
 
       in_place => self%kernel
-      call lock_planner()
+      call lock_planner(status)
+      if (status%failed()) return
       plan = fftw_plan_r2r_2d(self%nk, self%ly/2 + 1, self%kernel, in_place, &
                               FFTW_REDFT00, FFTW_REDFT00, FFTW_ESTIMATE)
-      call unlock_planner()
+      call unlock_planner(status)
       if (.not. c_associated(plan)) then
          call status%fail(ehl_internal, "FFTW made no plan for the kernel of the deflection")
          return

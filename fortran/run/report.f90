@@ -193,23 +193,27 @@ contains
    end subroutine report_limits
 
    !> The transient run: results null unless it came to a good end
-   subroutine report_transient(record, plan, transient, good, seconds, coarse_mean)
+   subroutine report_transient(record, plan, transient, good, seconds, films, mean, change)
       type(record_t), intent(inout) :: record
       type(plan_t), intent(in) :: plan
       type(transient_t), intent(in) :: transient
       logical, intent(in) :: good
       real(dp), intent(in) :: seconds
-      !> Mean friction ratio on the next coarser grid, 0 where it is not known
-      real(dp), intent(in) :: coarse_mean
-      real(dp) :: mean, range(2), change, ratio, grid
+      !> Least film after each step
+      real(dp), intent(in) :: films(:)
+      !> Mean friction ratio, and its change at the end
+      real(dp), intent(out) :: mean, change
+      real(dp) :: range(2), ratio, least
 
       mean = ieee_value(mean, ieee_quiet_nan)
       range = mean
       change = mean
       ratio = mean
+      least = mean
       if (good) then
          mean = transient%mean%mean(0.0_dp)
          range = transient%mean%extremes()
+         least = minval(films(transient%mean%first_of_mean():))
          ratio = transient%mean%amplitude_ratio()
          if (transient%mean%has_change()) change = transient%mean%change()
          if (plan%surface%passes_once) then
@@ -221,13 +225,9 @@ contains
          if (transient%mean%has_mean()) call record%set("last_mu_ratio_mean", transient%mean%mean(0.0_dp))
          if (transient%mean%n > 0) call record%set("last_mu_ratio", transient%mean%values(transient%mean%n))
       end if
-      call record%set("mu_ratio", mean)
       call record%set("mu_ratio_min", range(1))
       call record%set("mu_ratio_max", range(2))
-      call report_grid(record, plan, mean, coarse_mean, grid)
-      ! without the coarser run the error is not known, only a part of it
-      call record%set("mu_ratio_error", change + grid)
-      call record%set("mu_ratio_error_stop", change)
+      if (.not. plan%surface%passes_once) call report_rough_film(record, plan, least)
       call record%set("amplitude_ratio", ratio)
       select type (surface => plan%surface)
       type is (harmonic_t)
@@ -247,35 +247,32 @@ contains
       call record%set("step_residual_allowed", transient%accuracy%largest)
    end subroutine report_transient
 
-   !> What the next coarser grid tells of a friction ratio: its discretisation error, and the ratio in the limit of fine
-   !> grids, by the order 2 of the scheme (Richardson), if both grids resolve the surface
-   subroutine report_grid(record, plan, ratio, coarse_ratio, error)
+   !> Least film of the rough contact
+   subroutine report_rough_film(record, plan, film)
       type(record_t), intent(inout) :: record
       type(plan_t), intent(in) :: plan
-      !> NaN where it is not known; 0 or less where there is none on the coarser grid
-      real(dp), intent(in) :: ratio, coarse_ratio
-      !> NaN where it is not known
-      real(dp), intent(out) :: error
-      real(dp) :: limit
+      real(dp), intent(in) :: film
 
-      error = ieee_value(error, ieee_quiet_nan)
-      limit = error
-      if (coarse_ratio > 0.0_dp) then
-         error = abs(ratio - coarse_ratio)/3.0_dp
-         if (plan%extrapolates) limit = ratio + (ratio - coarse_ratio)/3.0_dp
+      call record%set("H_min_rough", film)
+      if (plan%contact%has_size()) call record%set("h_min_rough_m", film*plan%contact%film_scale)
+   end subroutine report_rough_film
+
+   !> The roughness, smooth film over it, and what of it the grid carries
+   subroutine report_waves(record, plan, m)
+      type(record_t), intent(inout) :: record
+      type(plan_t), intent(in) :: plan
+      !> The smooth contact
+      type(contact_results_t), intent(in) :: m
+      real(dp) :: sigma
+
+      sigma = plan%surface%rms_height()
+      if (sigma > 0.0_dp) then
+         if (plan%contact%has_size()) call record%set("surface_rms_m", sigma*plan%contact%film_scale)
+         call record%set("lambda_ratio", m%film_minimum/sigma)
+         call record%set("lambda_ratio_central", m%film_central/sigma)
       end if
-      call record%set("mu_ratio_extrapolated", limit)
-      call record%set("mu_ratio_error_grid", error)
-   end subroutine report_grid
-
-   !> What of the surface the grid carries
-   subroutine report_waves(record, plan)
-      type(record_t), intent(inout) :: record
-      type(plan_t), intent(in) :: plan
-
       associate (surface => plan%surface)
-         if (surface%variance > 0.0_dp .and. plan%contact%film_scale > 0.0_dp) then
-            call record%set("surface_rms_m", sqrt(surface%variance)*plan%contact%film_scale)
+         if (surface%variance > 0.0_dp) then
             call record%set("variance_cut", max(0.0_dp, 1.0_dp - surface%variance/surface%variance_whole))
          end if
       end associate
@@ -284,25 +281,21 @@ contains
    end subroutine report_waves
 
    !> The contact with a rough surface at rest: results null unless they are good
-   subroutine report_rest(record, plan, rest, good, coarse_ratio)
+   subroutine report_rest(record, plan, rest, good, ratio, algebraic)
       type(record_t), intent(inout) :: record
       type(plan_t), intent(in) :: plan
       type(stationary_roughness_t), intent(in) :: rest
       logical, intent(in) :: good
-      !> Friction ratio on the next coarser grid, 0 or less where it is not known
-      real(dp), intent(in) :: coarse_ratio
-      real(dp) :: ratio, algebraic, grid, nothing
+      !> Friction ratio, and its algebraic error
+      real(dp), intent(out) :: ratio, algebraic
+      real(dp) :: nothing
 
       nothing = ieee_value(nothing, ieee_quiet_nan)
       ratio = merge(rest%mu_ratio(), nothing, good)
       algebraic = merge(2.0_dp*rest%algebraic*rest%mu_ratio(), nothing, good)
       if (.not. good) call record%set("last_mu_ratio", rest%mu_ratio())
-      call record%set("mu_ratio", ratio)
-      call report_grid(record, plan, ratio, coarse_ratio, grid)
-      call record%set("mu_ratio_error", algebraic + grid)
-      call record%set("mu_ratio_error_stop", algebraic)
       call record%set("H_c_rough", merge(rest%m%film_central, nothing, good))
-      call record%set("H_min_rough", merge(rest%m%film_minimum, nothing, good))
+      call report_rough_film(record, plan, merge(rest%m%film_minimum, nothing, good))
       call record%set("P_max_rough", merge(rest%m%pressure_maximum, nothing, good))
       call record%set("x_start", plan%surface%x_start)
       select type (surface => plan%surface)

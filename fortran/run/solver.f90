@@ -9,6 +9,7 @@ module ehl_solver
    use ehl_kinds, only: dp
    use ehl_outcome, only: outcome_converged, outcome_interrupted, outcome_running
    use ehl_plan, only: make_plan, plan_t
+   use ehl_ratio_error, only: waves_t
    use ehl_record, only: record_t
    use ehl_stationary_roughness, only: stationary_roughness_t
    use ehl_status, only: status_t
@@ -37,23 +38,24 @@ module ehl_solver
       logical, private :: in_steps = .false., resting = .false.
       !> How the transient run stands
       integer, private :: outcome = outcome_running
-      !> Seconds spent on time steps, and on the smooth contact
-      real(dp), private :: step_seconds = 0.0_dp, smooth_seconds = 0.0_dp
-      !> Seconds that zeros save in a deflection
-      real(dp), private :: zeros_seconds = 0.0_dp
+      !> Seconds spent on time steps, and on the smooth contact; those that zeros save in a deflection
+      real(dp), private :: step_seconds = 0.0_dp, smooth_seconds = 0.0_dp, zeros_seconds = 0.0_dp
       !> A surface that was made already
       class(surface_t), allocatable, private :: surface
       type(case_t), private :: input
-      !> Pressure and film of the smooth contact, kept where there is a rough one
+      !> Pressure and film of the smooth contact, kept where there is a rough one; frames of the transient run
       real(dp), allocatable, private :: p_smooth(:, :), h_smooth(:, :)
-      !> Frames of the transient run; not allocated before it
       type(frames_t) :: frames
       !> State on disk, and to go on from when the smooth contact is solved: of this run, of the coarser one before it begins
       type(checkpoint_t), private :: checkpoint, coarse_checkpoint
       !> The same run on the next coarser grid, for the grid error of the friction ratio
       type(solver_t), pointer, private :: coarse => null()
-      !> Its mean friction ratio; 0: it did not converge; less: it has not been made
-      real(dp), private :: coarse_mean = -1.0_dp
+      !> How it ended, outcome_running if it has not; its mean friction ratio if it converged; the error that ended it
+      integer, private :: coarse_outcome = outcome_running
+      real(dp), private :: coarse_mean = 0.0_dp
+      character(len=:), allocatable, private :: coarse_message
+      !> What is predicted of the waves that the grid does not resolve
+      type(waves_t) :: waves
       !> What that run has cost, in time steps of this one and in seconds
       real(dp), private :: coarse_work = 0.0_dp, coarse_seconds = 0.0_dp
    contains
@@ -72,6 +74,7 @@ module ehl_solver
       procedure :: progress
       procedure :: work
       procedure :: summary
+      procedure :: conclusion
       procedure :: skipped
       procedure :: field
       procedure :: field_names
@@ -145,6 +148,12 @@ module ehl_solver
          class(solver_t), intent(in) :: self
          type(record_t) :: record
       end function summary
+
+      !> What a run that has ended gave, in a few lines for a person
+      module function conclusion(self) result(text)
+         class(solver_t), intent(in) :: self
+         character(len=:), allocatable :: text
+      end function conclusion
 
       !> What a transient run that has ended did not have to do, one line each, with the seconds that saved; empty for
       !> every other run

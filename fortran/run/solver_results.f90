@@ -3,13 +3,19 @@
 submodule (ehl_solver) ehl_solver_results
    use ehl_outcome, only: outcome_names, outcome_target_missed
    use ehl_plan_text, only: plan_text
+   use ehl_conclusion, only: conclusion_of => conclusion
+   use ehl_ratio_error, only: ratio_error_t
    use ehl_report, only: report_transient, report_rest, report_scene, report_smooth, report_waves
    use ehl_report_friction, only: report_friction
    use ehl_report_passage, only: report_passage
    use ehl_skipped_work, only: find_skips, report_skips, skip_lines, skip_t
    use ehl_status, only: ehl_bad_input, ehl_no_memory
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use ehl_text, only: newline
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    implicit none (type, external)
+
+   !> Shares of a variance below this one are rounding
+   real(dp), parameter :: rounding = 1.0e-14_dp
 
 contains
 
@@ -23,7 +29,7 @@ contains
       class(solver_t), intent(in) :: self
       type(record_t) :: record
       logical :: good
-      real(dp) :: bytes
+      real(dp) :: bytes, ratio, stop_error
 
       call record%set("status", trim(outcome_names(self%stand())))
       call record%set("converged", self%converged())
@@ -32,20 +38,120 @@ contains
              self%steady%outcome == outcome_target_missed
       call report_scene(record, self%plan, self%grid)
       call report_smooth(record, self%plan, self%steady, self%level(), good)
-      if (self%in_steps) call report_transient(record, self%plan, self%transient, self%converged(), &
-                                              self%step_seconds, self%coarse_mean)
+      ratio = ieee_value(ratio, ieee_quiet_nan)
+      stop_error = ratio
       if (self%in_steps) then
+         call report_transient(record, self%plan, self%transient, self%converged(), self%step_seconds, &
+                               self%history%column("H_min"), ratio, stop_error)
          if (self%plan%surface%passes_once) call report_passage(record, self%plan%contact, self%transient%extremes, &
                                                                 self%converged())
       end if
-      if (self%in_steps .or. self%resting) call report_waves(record, self%plan)
-      if (self%resting) call report_rest(record, self%plan, self%rest, self%converged(), self%coarse_mean)
+      if (self%in_steps .or. self%resting) call report_waves(record, self%plan, self%steady%results(self%level())%m)
+      if (self%resting) call report_rest(record, self%plan, self%rest, self%converged(), ratio, stop_error)
+      if (allocated(self%plan%surface)) call report_ratio(self, record, ratio, stop_error)
       call summarise_friction(self, record, good)
       if (self%in_steps .and. self%done()) call report_skips(record, skips_of(self))
       bytes = real(self%hierarchy%bytes(), dp)
       if (allocated(self%plan%surface)) bytes = bytes + self%plan%surface%bytes()
       call record%set("bytes", bytes)
    end function summary
+
+   module function conclusion(self) result(text)
+      class(solver_t), intent(in) :: self
+      character(len=:), allocatable :: text
+      text = conclusion_of(self%summary())
+   end function conclusion
+
+   !> The friction ratio, that in the limit of fine grids, and its error with the parts of it
+   subroutine report_ratio(self, record, ratio, stop_error)
+      type(solver_t), intent(in) :: self
+      type(record_t), intent(inout) :: record
+      !> NaN where they are not known
+      real(dp), intent(in) :: ratio, stop_error
+      type(ratio_error_t) :: error
+      type(waves_t) :: waves
+      real(dp) :: nothing, limit, grid
+      character(len=:), allocatable :: why
+
+      nothing = ieee_value(nothing, ieee_quiet_nan)
+      limit = nothing
+      grid = nothing
+      if (self%coarse_outcome == outcome_converged .and. ieee_is_finite(ratio)) then
+         ! order 2 (Richardson), if both grids resolve the surface
+         grid = (ratio - self%coarse_mean)/3.0_dp
+         if (self%plan%extrapolates) limit = ratio + grid
+      end if
+      waves = waves_of(self)
+      why = why_no_grid_error(self)
+      if (.not. ieee_is_finite(ratio)) then
+         why = "there is no mu_ratio"
+         waves = waves_t(.true., nothing, nothing, why)
+      end if
+      call record%set("mu_ratio", ratio)
+      call record%set("mu_ratio_extrapolated", limit)
+      call record%set("mu_ratio_unresolved", waves%unresolved)
+      call error%add(record, "mu_ratio_error_grid", grid, why)
+      call error%add(record, "mu_ratio_error_stop", stop_error, why)
+      call error%add(record, "mu_ratio_error_left_out", waves%left_out, waves%why)
+      call error%report(record)
+   end subroutine report_ratio
+
+   !> What is known of the waves that the grid does not resolve. Only tiles have waves that are left out: what there is
+   !> of a single wave or a feature is on the grid.
+   function waves_of(self) result(waves)
+      type(solver_t), intent(in) :: self
+      type(waves_t) :: waves
+
+      waves = self%waves
+      if (.not. waves%known) then
+         if (self%plan%unresolved > rounding) waves%unresolved = ieee_value(waves%unresolved, ieee_quiet_nan)
+         waves%left_out = waves%unresolved
+         waves%why = "waves that the grid leaves out are not in it: pyehl run predicts what they add"
+         if (self%plan%rests()) waves%why = "waves that the grid leaves out are not in it: what they add is predicted "// &
+                                            "for surfaces on the move alone"
+      end if
+      if (.not. (self%plan%left_out > rounding .and. self%plan%surface%variance > 0.0_dp)) waves%left_out = 0.0_dp
+   end function waves_of
+
+   !> Why two grids give no error; empty where they do
+   function why_no_grid_error(self) result(why)
+      type(solver_t), intent(in) :: self
+      character(len=:), allocatable :: why
+      character(len=*), parameter :: alone = "there is no run on the next coarser grid"
+
+      why = ""
+      select case (self%coarse_outcome)
+      case (outcome_converged)
+         return
+      case (outcome_running)
+         if (.not. self%input%time%estimate_error) then
+            why = alone//": time.estimate_error is false"
+         else if (self%plan%moves() .and. self%plan%steps > 0) then
+            why = alone//", because of time.steps"
+         else if (self%plan%coarse_run) then
+            why = alone//" yet"
+         else if (self%plan%levels > 2) then
+            why = alone//": it carries nothing of the surface"
+         else
+            why = alone//": grid.points is too small for one"
+         end if
+      case default
+         why = "the run on the next coarser grid ended with the status '"//trim(outcome_names(self%coarse_outcome))//"'"
+         if (allocated(self%coarse_message)) why = why//" ("//one_line(self%coarse_message)//")"
+      end select
+   end function why_no_grid_error
+
+   !> A message in one line
+   pure function one_line(message) result(text)
+      character(len=*), intent(in) :: message
+      character(len=:), allocatable :: text
+      integer :: i
+
+      text = message
+      do i = 1, len(text)
+         if (text(i:i) == newline) text(i:i) = " "
+      end do
+   end function one_line
 
    !> Absolute friction of the smooth contact and of the rough one
    subroutine summarise_friction(self, record, good)

@@ -7,7 +7,8 @@ submodule (ehl_solver) ehl_solver_run
    use ehl_level_result, only: discretisation_error, extrapolated, friction_error
    use ehl_stopping_criterion, only: transient_outcome
    use ehl_plan_surface, only: check_carried
-   use ehl_outcome, only: outcome_cycle_limit, outcome_diverged, outcome_negative_film
+   use ehl_outcome, only: outcome_cycle_limit, outcome_diverged, outcome_failed, outcome_negative_film
+   use ehl_status, only: ehl_no_memory
    use ehl_skipped_work, only: seconds_saved_by_zeros
    use ehl_status, only: ehl_bad_input
    use ehl_text, only: to_text
@@ -24,11 +25,11 @@ contains
 
       if (self%done()) return
       if (associated(self%coarse)) then
-         call advance_coarse(self, status)
+         call advance_coarse(self)
       else if (self%in_steps) then
          call advance_step(self, status)
       else if (self%resting) then
-         call advance_rest(self, status)
+         call advance_rest(self)
       else
          call advance_cycle(self, status)
          if (status%failed() .or. self%steady%outcome /= outcome_converged) return
@@ -80,7 +81,7 @@ contains
       call self%frames%start()
       if (self%checkpoint%found()) call take_state(self, status)
       if (status%failed()) return
-      if (self%plan%coarse_run .and. self%coarse_mean < 0.0_dp) call begin_coarse(self, status)
+      if (self%plan%coarse_run .and. self%coarse_outcome == outcome_running) call begin_coarse(self)
    end subroutine begin_transient
 
    !> The smooth contact is solved: what a rough one needs of it
@@ -173,9 +174,8 @@ contains
    end subroutine begin_rest
 
    !> One cycle of the contact with the rough surface at rest; when it is solved, on to the next coarser grid
-   recursive subroutine advance_rest(self, status)
+   recursive subroutine advance_rest(self)
       type(solver_t), intent(inout) :: self
-      type(status_t), intent(inout) :: status
       type(clock_t) :: clock
 
       clock = start_clock()
@@ -185,7 +185,7 @@ contains
          call self%history%append([real(dp) :: rest%total_cycles, rest%share, m%friction/rest%friction_smooth, &
                                    m%film_central, m%film_minimum, m%pressure_maximum, m%load_error, rest%residual])
       end associate
-      if (self%plan%coarse_run .and. self%rest%outcome == outcome_converged) call begin_coarse(self, status)
+      if (self%plan%coarse_run .and. self%rest%outcome == outcome_converged) call begin_coarse(self)
    end subroutine advance_rest
 
    !> One time step
@@ -219,34 +219,49 @@ contains
    end subroutine advance_step
 
    !> Start the run on the next coarser grid, with the same roughness
-   recursive subroutine begin_coarse(self, status)
+   recursive subroutine begin_coarse(self)
       type(solver_t), intent(inout) :: self
-      type(status_t), intent(inout) :: status
+      type(status_t) :: status
       type(case_t) :: input
+      integer :: stat
 
       input = self%input
       input%output%frame_interval = 0.0_dp
       input%grid%points = (self%grid%nx + 1)/2
       input%grid%target_error = 0.0_dp
       input%time%estimate_error = .false.
-      allocate (self%coarse)
-      call self%plan%surface%hand_over(self%coarse%surface)
-      call self%coarse%start(input, status)
-      self%coarse%checkpoint = self%coarse_checkpoint
+      allocate (self%coarse, stat=stat)
+      if (stat /= 0) then
+         call status%fail(ehl_no_memory, "no memory for another solver")
+      else
+         call self%plan%surface%hand_over(self%coarse%surface)
+         call self%coarse%start(input, status)
+         self%coarse%checkpoint = self%coarse_checkpoint
+      end if
+      if (status%failed()) call end_coarse(self, status)
    end subroutine begin_coarse
 
-   !> One step of the coarser run; at its end its mean is kept and the run freed. A coarser run that
-   !> does not converge leaves the grid error unknown.
-   recursive subroutine advance_coarse(self, status)
+   !> One step of the coarser run. That it fails is no failure of this one.
+   recursive subroutine advance_coarse(self)
       type(solver_t), intent(inout) :: self
-      type(status_t), intent(inout) :: status
+      type(status_t) :: status
 
       call self%coarse%advance(status)
-      if (.not. self%coarse%done()) return
-      self%coarse_mean = 0.0_dp
+      if (status%failed() .or. self%coarse%done()) call end_coarse(self, status)
+   end subroutine advance_coarse
+
+   !> Keep how the coarser run ended, and its mean if it converged; without that the grid error is not known
+   recursive subroutine end_coarse(self, status)
+      type(solver_t), intent(inout) :: self
+      type(status_t), intent(in) :: status
+
+      self%coarse_outcome = outcome_failed
+      if (status%failed()) self%coarse_message = status%message
+      if (.not. associated(self%coarse)) return
       self%coarse_work = coarse_step*self%coarse%transient%step
       self%coarse_seconds = self%coarse%step_seconds
-      if (self%coarse%converged()) then
+      if (.not. status%failed()) self%coarse_outcome = self%coarse%stand()
+      if (self%coarse_outcome == outcome_converged) then
          if (self%coarse%resting) then
             self%coarse_mean = self%coarse%rest%mu_ratio()
          else
@@ -254,5 +269,5 @@ contains
          end if
       end if
       deallocate (self%coarse)
-   end subroutine advance_coarse
+   end subroutine end_coarse
 end submodule ehl_solver_run

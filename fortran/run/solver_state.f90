@@ -28,7 +28,7 @@ contains
 
       if (self%steps_made() == 0) return
       call self%checkpoint%write(prefix, text, self%transient, self%history, self%frames, self%grid, &
-                                 [self%step_seconds, self%coarse_mean], status)
+                                 [self%step_seconds, self%coarse_mean, real(self%coarse_outcome, dp)], status)
    end subroutine save_as
 
    !> The case as text, with the defaults of all keys that change no step: when to stop, threads, what to
@@ -68,13 +68,14 @@ contains
    module subroutine take_state(self, status)
       type(solver_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
-      real(dp) :: numbers(2)
+      real(dp) :: numbers(3)
       logical :: same
 
       call self%checkpoint%read(self%transient, self%history, self%frames, self%grid, numbers, status)
       if (status%failed()) return
       self%step_seconds = numbers(1)
       self%coarse_mean = numbers(2)
+      self%coarse_outcome = nint(numbers(3))
       call self%transient%restore(self%hierarchy%levels(self%steady%n), self%plan%surface, same)
       if (.not. same) then
          call status%fail(ehl_bad_input, self%checkpoint%newest()//": error: the film of this state does not follow from "// &

@@ -15,25 +15,24 @@ module ehl_stopping_criterion
 
 contains
 
-   !> How a transient run stands after a step that converged
+   !> How a transient run stands after a step that converged. One that ends after so many steps is converged only if it
+   !> has settled by then.
    integer function transient_outcome(plan, transient) result(outcome)
       type(plan_t), intent(in) :: plan
       type(transient_t), intent(in) :: transient
+      logical :: ends, settled
 
-      outcome = outcome_running
       associate (mean => transient%mean)
-         if (plan%steps > 0) then
-            if (transient%step >= plan%steps) outcome = merge(outcome_converged, outcome_unsettled, mean%has_mean())
-            return
-         end if
          if (plan%surface%passes_once) then
-            if (mean%has_mean()) outcome = outcome_converged
-         else if (mean%settled(plan%time_tolerance)) then
-            outcome = outcome_converged
-         else if (mean%periods() >= most_periods(plan)) then
-            outcome = outcome_unsettled
+            settled = mean%has_mean()
+         else
+            settled = mean%settled(plan%time_tolerance)
          end if
+         ends = settled .or. mean%periods() >= most_periods(plan)
+         if (plan%steps > 0) ends = transient%step >= plan%steps
       end associate
+      outcome = outcome_running
+      if (ends) outcome = merge(outcome_converged, outcome_unsettled, settled)
    end function transient_outcome
 
    !> Periods after which a transient run can end first

@@ -17,6 +17,7 @@ module ehl_harmonic
    contains
       procedure :: height
       procedure :: unresolved
+      procedure :: rms_height
    end type harmonic_t
 
 contains
@@ -46,6 +47,12 @@ contains
       unresolved = 0.0_dp
       if (any(has < nodes) .or. any(has <= aliased_below)) unresolved = 1.0_dp
    end function unresolved
+
+   !> Of a product of two cosines
+   pure real(dp) function rms_height(self)
+      class(harmonic_t), intent(in) :: self
+      rms_height = 0.5_dp*self%amplitude
+   end function rms_height
 
    !> Roughness at the nodes, at time T
    subroutine height(self, grid, time, rr)

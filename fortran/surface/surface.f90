@@ -45,6 +45,7 @@ module ehl_surface
       procedure :: hand_over
       procedure :: meshes
       procedure :: bytes
+      procedure :: rms_height
       !> Position of the front at time T
       procedure :: front_position
       !> Time in which the pattern repeats
@@ -104,6 +105,12 @@ contains
       end associate
       bytes = 0.0_dp
    end function bytes
+
+   !> Root mean square of the heights [a^2/R]; 0 where it is not known, or means nothing
+   pure real(dp) function rms_height(self)
+      class(surface_t), intent(in) :: self
+      rms_height = sqrt(self%variance)
+   end function rms_height
 
    !> Distances in which waves are sampled along X, in space or in time, and along Y [a]
    pure function meshes(self, grid)

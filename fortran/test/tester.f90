@@ -12,6 +12,7 @@ program tester
    use test_policy, only: run_policy
    use test_predictor, only: run_predictor
    use test_record, only: run_record
+   use test_report, only: run_report
    use test_solver, only: run_solver
    use test_text, only: run_text
    use test_transient, only: run_transient
@@ -26,6 +27,8 @@ program tester
       call run_binary()
    case ("record")
       call run_record()
+   case ("report")
+      call run_report()
    case ("case")
       call run_case()
    case ("deflection")

@@ -54,12 +54,12 @@ contains
       type(table_t), intent(inout) :: history
       type(frames_t), intent(inout) :: frames
       type(grid_t), intent(in) :: grid
-      !> Seconds spent on the steps, mean friction ratio of the coarser run
-      real(dp), intent(in) :: numbers(2)
+      !> Seconds spent on the steps, mean friction ratio of the coarser run, how that run ended
+      real(dp), intent(in) :: numbers(3)
       type(status_t), intent(inout) :: status
       type(binary_file_t) :: file
       character(len=:), allocatable :: path
-      real(dp) :: kept(2)
+      real(dp) :: kept(3)
       logical :: gone
 
       if (.not. allocated(self%prefix)) self%prefix = ""
@@ -190,8 +190,8 @@ contains
       type(table_t), intent(inout) :: history
       type(frames_t), intent(inout) :: frames
       type(grid_t), intent(in) :: grid
-      !> Seconds spent on the steps, mean friction ratio of the coarser run
-      real(dp), intent(out) :: numbers(2)
+      !> Seconds spent on the steps, mean friction ratio of the coarser run, how that run ended
+      real(dp), intent(out) :: numbers(3)
       type(status_t), intent(inout) :: status
       type(binary_file_t) :: file
       integer :: k

@@ -14,7 +14,7 @@ module ehl_checkpoint_layout
    public :: family, head_t, magic, pass_body, pass_frame, pass_head, pass_row
 
    !> What a state begins with: its last character counts the layouts
-   character(len=*), parameter :: magic = "ehl checkpoint v8", family = magic(:len(magic) - 1)
+   character(len=*), parameter :: magic = "ehl checkpoint v9", family = magic(:len(magic) - 1)
 
    !> What a state begins with
    type :: head_t
@@ -52,7 +52,7 @@ contains
    subroutine pass_body(file, transient, numbers)
       type(binary_file_t), intent(inout) :: file
       type(transient_t), intent(inout) :: transient
-      real(dp), intent(inout) :: numbers(2)
+      real(dp), intent(inout) :: numbers(3)
 
       call file%item(transient%skipped)
       call file%item(transient%time)

@@ -32,6 +32,7 @@ module ehl_friction_mean
       procedure :: mean
       procedure :: has_mean
       procedure :: extremes
+      procedure :: first_of_mean
       procedure :: change
       procedure :: has_change
       procedure :: settled
@@ -152,11 +153,17 @@ contains
    pure function extremes(self) result(range)
       class(friction_mean_t), intent(in) :: self
       real(dp) :: range(2)
-      integer :: first
 
-      first = max(1, self%n - int(self%window()/self%time_step))
-      range = [minval(self%values(first:self%n)), maxval(self%values(first:self%n))]
+      associate (first => self%first_of_mean())
+         range = [minval(self%values(first:self%n)), maxval(self%values(first:self%n))]
+      end associate
    end function extremes
+
+   !> First of the values that the mean is taken over; it ends with the last one
+   pure integer function first_of_mean(self)
+      class(friction_mean_t), intent(in) :: self
+      first_of_mean = max(1, self%n - int(self%window()/self%time_step))
+   end function first_of_mean
 
    !> Largest difference between the last mean and the earlier ones; of a mean over several periods half of the
    !> largest difference to its first, middle and last half, for it comes nearer with its length

@@ -12,7 +12,7 @@ import numpy as np
 
 from pyehl.bench.unit import processor_seconds
 from pyehl.case import Case
-from pyehl.solver import Solver
+from pyehl.handle import SolverHandle
 
 __all__ = [
     "ROUNDING",
@@ -51,7 +51,8 @@ class Timed:
 
 def solve(*options: str) -> dict[str, Any]:
     """Solve the case of all defaults with options, on one thread; returns its summary."""
-    with Solver(Case.from_text("", options), "solver.threads=1") as solver:
+    # what the solver does alone, nothing predicted
+    with SolverHandle(Case.from_text("", [*options, "solver.threads=1"]).text) as solver:
         solver.run()
         return solver.summary()
 

@@ -171,6 +171,9 @@ def judge(row: Row, strict: Mapping[str, Any]) -> None:
         return
     estimate = row[error]
     row["allowed"] = UNKNOWN_ERROR if not estimate else max(estimate / abs(value), 1e-3)
+    if other is None and name == "mu_ratio":
+        # the same steps, solved more strictly: the mean may just not have settled
+        other = strict.get("last_mu_ratio_mean")
     if other is None:
         return
     row["difference"] = abs(value / other - 1.0) if other else math.inf

@@ -23,5 +23,5 @@ def execute(args: argparse.Namespace) -> int:
     case = Case.read(args.case, args.overrides)
     print(case.text)
     with Solver(case) as solver:
-        print(solver.describe())
+        print(solver.describe(predict=False))
     return 0

@@ -71,8 +71,8 @@ def report(values: Mapping[str, Any]) -> str:
             f"Surface ({v['surface']})",
             f"  rms height           sigma  {v['rms_height_m'] * 1e6:12.5g} um",
         ]
-        if v["lambda_ratio"] is not None:
-            lines.append(f"  Lambda = h_c/sigma          {v['lambda_ratio']:12.5g}")
+        if v["lambda_ratio_central"] is not None:
+            lines.append(f"  h_c/sigma                   {v['lambda_ratio_central']:12.5g}")
     if "theta_2" in v:
         flag = ("OUTSIDE" if v["theta_2_outside"] else "inside") + " the range of eq. 16"
         lines += [

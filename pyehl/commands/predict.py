@@ -21,13 +21,15 @@ __all__ = ["add_arguments", "draw", "execute", "report"]
 def report(prediction: Prediction) -> str:
     """Return the lines that ``pyehl predict`` prints."""
     f, s = prediction.friction, prediction.surface
+    known = math.isfinite(prediction.film_minimum)
+    least = f"h_min = {prediction.film_minimum * 1e6:.4g} um, " if known else ""
     lines = [*s.preparation.record.report()] if s.preparation else []
     lines += [
         f"surface     {s.origin}: rms {s.rms_height * 1e6:.4g} um, "
         f"{s.shape[0]} x {s.shape[1]} pixels, "
         f"{s.length_x * 1e3:.4g} x {s.length_y * 1e3:.4g} mm",
         f"film        h_c = {prediction.film * 1e6:.4g} um ({prediction.film_source}), "
-        f"least {f.film_min * 1e6:.4g} um",
+        f"{least}least rough film {f.film_min * 1e6:.4g} um",
         f"model       {_model(prediction)}",
     ]
     if f.status == "predicted":

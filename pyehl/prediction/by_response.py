@@ -170,13 +170,6 @@ class RoughPassage:
         offsets = track_offsets(self.topography, tracks) if tracks else []
         return [(d, round(d / (stride * grid.pixel[1])) * stride) for d in offsets]
 
-    def variance_below(self, length: float) -> float:
-        """Share of the variance in waves shorter than a length [a], 0 where it is rounding."""
-        spectrum = self._spectrum(self.topography)
-        power = spectrum.power
-        share = float(power[spectrum.q > 2.0 * math.pi / length].sum() / power.sum())
-        return share if share > 1e-24 else 0.0
-
     def below(self, shortest: float) -> float:
         """mu_r/mu_s without the waves shorter than a length [a], over a few positions [-]."""
         _, spectrum, transfer, edge = self._parts()

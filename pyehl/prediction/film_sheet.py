@@ -74,7 +74,7 @@ def sheet(settings: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
     if kind != "smooth" and kind not in surfaces.FEATURES:
         rough = surfaces.from_settings(settings, operating, h_c)
         result["rms_height_m"] = rough.rms_height
-        result["lambda_ratio"] = h_c / rough.rms_height if rough.rms_height > 0.0 else None
+        result["lambda_ratio_central"] = h_c / rough.rms_height if rough.rms_height > 0.0 else None
     if kind == "harmonic":
         amplitude = surfaces.harmonic_amplitude(settings, operating, h_c)
         wavelength = min(float(surface["wavelength_x"]), float(surface["wavelength_y"]))

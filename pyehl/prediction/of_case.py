@@ -143,6 +143,7 @@ def predict(
         options=options,
         velocity_ratio=velocity_ratio,
         film=film,
+        film_minimum=contact.minimum_film * operating.film_scale,
         film_source=contact.source,
         surface=surface,
         friction=friction,
@@ -171,10 +172,12 @@ def _smooth_contact(
         return hertz_contact(formula, "Nijenbanning-Venner-Moes formula over rho(p_h)/rho0")
     contact = solve_contact(settings)
     if given > 0.0:
+        scale = given / contact.central_film
         return replace(
             contact,
-            film=contact.film * (given / contact.central_film),
+            film=contact.film * scale,
             central_film=given,
+            minimum_film=contact.minimum_film * scale,
             source="psd.film_thickness",
         )
     return contact

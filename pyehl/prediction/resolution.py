@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 from pyehl import surfaces
 from pyehl.case import Case
@@ -13,12 +12,12 @@ from pyehl.errors import EhlError
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.options import Options
 from pyehl.prediction.smooth import solve_contact
-from pyehl.solver import Solver
+from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import Topography
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["Resolution", "add_resolution", "resolution"]
+__all__ = ["Resolution", "resolution"]
 
 NODES = 8
 """Nodes that a wave needs to be resolved."""
@@ -53,11 +52,11 @@ class Resolution:
     @property
     def matters(self) -> bool:
         """Whether more than TOLERANCE of the answer hangs on waves that are not resolved."""
-        return abs(self.mu_ratio - self.resolved) > TOLERANCE * self.mu_ratio
+        return abs(self.unresolved) > TOLERANCE * self.mu_ratio
 
     def __str__(self) -> str:
         """Say it in a line."""
-        rise, part = self.mu_ratio - 1.0, self.mu_ratio - self.resolved
+        rise, part = self.mu_ratio - 1.0, self.unresolved
         return (
             f"predicted   mu_r/mu_s {self.mu_ratio:.3f}; of the rise {rise:+.3f}, {part:+.3f} come "
             f"from waves shorter than {self.shortest * 1e6:.3g} um, {NODES} nodes of this grid"
@@ -75,50 +74,38 @@ class Resolution:
             )
         return lines
 
-    def amend(self, values: dict[str, Any]) -> None:
-        """Add to a summary what hangs on the waves, and to the error what the grid leaves out.
+    @property
+    def unresolved(self) -> float:
+        """Part of the ratio in waves with fewer than NODES nodes [-]."""
+        return self.mu_ratio - self.resolved
 
-        The error from two grids knows nothing of waves that neither of them carries.
+    @property
+    def left_out(self) -> float:
+        """Part of the ratio in waves with fewer than CARRIED nodes [-].
+
+        The error from two grids knows nothing of them: neither grid carries them.
         """
-        values["mu_ratio_unresolved"] = self.mu_ratio - self.resolved
-        # waves that the grid carries in both directions are not left out, short as they may be
-        out = self.mu_ratio - self.carried if values.get("variance_left_out") else 0.0
-        values["mu_ratio_left_out"] = out
-        if values.get("mu_ratio_error") is not None:
-            values["mu_ratio_error"] += abs(out)
+        return self.mu_ratio - self.carried
 
 
-def add_resolution(solver: Solver, case: Case) -> None:
-    """Predict what the grid of a solver does not resolve, for its plan and its summary.
-
-    Nothing is added to a case without such waves, or without a prediction.
-    """
-    try:
-        tile = solver.part and surfaces.finished(solver.part, case.resolve()["surface"])
-        solver.resolution = resolution(case, tile, tile.origin if tile else "")
-    except (ValueError, OSError, EhlError):
-        # the run itself says what is wrong with the case
-        solver.resolution = None
-
-
-def resolution(case: Case, tile: Topography | None = None, part: str = "") -> Resolution | None:
+def resolution(case: Case, tile: Topography | None = None) -> Resolution | None:
     """Predict what the grid of a case resolves.
 
-    None for surfaces that are no tile of heights on the move, for those without waves that the grid
-    does not resolve, and where the prediction gives no ratio.
+    None for surfaces that are no tile of heights on the move, and for those without waves that the
+    grid does not resolve.
 
     Parameters
     ----------
     case
         Its grid is that of the run.
     tile
-        Its surface; None: made as the case says, of a large one the part of
-        :func:`pyehl.surfaces.part_of`.
-    part
-        Name of the part, if `tile` is one.
+        Its surface on its track, of a large one a part, before the spectrum is cut; None: made as
+        the case says, of a large one the part of :func:`pyehl.surfaces.part_of`.
 
     Raises
     ------
+    EhlError
+        If the smooth contact has no solution, or the prediction gives no ratio.
     ValueError, OSError
         If the surface is not usable.
     """
@@ -132,19 +119,23 @@ def resolution(case: Case, tile: Topography | None = None, part: str = "") -> Re
     mesh = max(float(grid["x_outlet"]) - float(grid["x_inlet"]), 2.0 * float(grid["y_extent"])) / (
         int(grid["points"]) - 1
     )
-    contact = solve_contact(settings)
-    if tile is None:
-        film = contact.central_film * operating.film_scale
-        tile = surfaces.from_settings(settings, operating, film)
+    part = ""
+    if tile is not None:
+        tile = surfaces.finished(tile, {**settings["surface"], "track": 0.0})
+        part = tile.origin
+    else:
+        # the film is the scale of harmonic patterns alone
+        tile = surfaces.from_settings(settings, operating, film=0.0)
         middle = surfaces.part_of(tile.heights, tile.pixel, tile.origin)
         if middle is not None:
             tile, part = middle, middle.origin
-    passage = RoughPassage(tile, contact, operating, lubricant, Options(), ratio)
-    if not passage.variance_below(NODES * mesh) > 0.0:
+    shortest = NODES * mesh * operating.hertz_radius
+    if not Spectrum.of(tile.heights, tile.length_x, tile.length_y).share_below(shortest) > 0.0:
         return None
+    contact = solve_contact(settings)
+    passage = RoughPassage(tile, contact, operating, lubricant, Options(), ratio)
     found, _, _ = passage.run(0, brief=True)
     if not math.isfinite(found.mu_ratio):
-        return None
+        raise EhlError(f"{found.status}: {found.message}")
     resolved, carried = (passage.below(nodes * mesh) for nodes in (NODES, CARRIED))
-    shortest = NODES * mesh * operating.hertz_radius
     return Resolution(found.mu_ratio, resolved, carried, shortest, part)

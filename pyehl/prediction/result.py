@@ -62,6 +62,8 @@ class Prediction:
         Velocity of the rough surface over the mean velocity [-].
     film
         Smooth central film h_c [m].
+    film_minimum
+        Smooth minimum film h_min [m]; NaN where it is not known.
     film_source
         Where h_c is from, in words.
     surface
@@ -100,6 +102,7 @@ class Prediction:
     options: Options
     velocity_ratio: float
     film: float
+    film_minimum: float
     film_source: str
     surface: surfaces.Topography
     friction: RoughFriction
@@ -245,8 +248,10 @@ class Prediction:
             "thermal_reduction": o.thermal_reduction,
             "h_c_m": self.film,
             "h_c_source": self.film_source,
-            "h_min_m": f.film_min,
-            "lambda_ratio": self.film / s.rms_height if s.rms_height > 0.0 else None,
+            "h_min_m": self.film_minimum,
+            "h_min_rough_m": f.film_min,
+            "lambda_ratio": self.film_minimum / s.rms_height if s.rms_height > 0.0 else None,
+            "lambda_ratio_central": self.film / s.rms_height if s.rms_height > 0.0 else None,
             "surface": s.origin,
             "surface_preparation": s.preparation.record.summary() if s.preparation else None,
             "seed": s.seed,

@@ -17,8 +17,8 @@ from scipy.ndimage import map_coordinates
 from pyehl import namelist
 from pyehl.case import Case
 from pyehl.errors import EhlError
+from pyehl.handle import SolverHandle
 from pyehl.kept import Kept
-from pyehl.solver import Solver
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.transport import Zone
@@ -62,6 +62,8 @@ class SmoothContact:
         Its estimated error [a^2/R]; NaN for none.
     source
         Where it is from, in words.
+    minimum_film
+        H_min, extrapolated as H_c [a^2/R]; NaN where it is not known.
     extrapolated
         Whether `central_film` is.
     """
@@ -73,6 +75,7 @@ class SmoothContact:
     central_film: float
     central_film_error: float
     source: str
+    minimum_film: float = math.nan
     extrapolated: bool = False
 
     def at(self, x: Array, y: Array) -> tuple[Array, Array]:
@@ -154,7 +157,7 @@ def _solved(text: str) -> SmoothContact:
 def _on_grid(text: str, points: int) -> tuple[SmoothContact | None, str]:
     """Solve on a grid; None if there is no solution, and its status."""
     case = Case.from_text(text, [f"grid.points={points}"], "smooth contact")
-    with Solver.open(case) as solver:
+    with SolverHandle(case.text) as solver:
         solver.run()
         summary = solver.summary()
         if summary["status"] != "converged":
@@ -163,13 +166,17 @@ def _on_grid(text: str, points: int) -> tuple[SmoothContact | None, str]:
     # without a solution on the next coarser grid there is nothing to extrapolate from
     limit = summary["H_c_extrapolated"]
     how = "extrapolated" if limit is not None else "not extrapolated"
-    central = summary["H_c"] if limit is None else limit
+    central, least = (
+        summary[name] if limit is None else summary[f"{name}_extrapolated"]
+        for name in ("H_c", "H_min")
+    )
     scale = central / summary["H_c"]
     for values in (x, y, pressure, film):
         values.flags.writeable = False
     source = f"solved on {points} x {points} nodes, {how}"
     error = summary["H_c_error"]
-    contact = SmoothContact(x, y, pressure, film * scale, central, error, source, limit is not None)
+    film = film * scale
+    contact = SmoothContact(x, y, pressure, film, central, error, source, least, limit is not None)
     return contact, "converged"
 
 
@@ -196,9 +203,9 @@ def read_contact(folder: str | Path, operating: OperatingPoint) -> SmoothContact
         if not math.isclose(there, here, rel_tol=1e-4):
             raise ValueError(f"{folder}: {name} is {there:.6g} there and {here:.6g} in the case")
     middle = np.argmin(np.abs(x)), np.argmin(np.abs(y))
-    return SmoothContact(
-        x, y, pressure, film, float(film[middle]), math.nan, f"smooth contact in {folder}"
-    )
+    source = f"smooth contact in {folder}"
+    central, least = float(film[middle]), float(film.min())
+    return SmoothContact(x, y, pressure, film, central, math.nan, source, least)
 
 
 def hertz_contact(central_film: float, source: str) -> SmoothContact:

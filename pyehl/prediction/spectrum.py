@@ -95,6 +95,12 @@ class Spectrum:
         tile = scipy.fft.irfft(lines, n=nx * refinement, axis=0, overwrite_x=True)
         return np.asarray(tile * (refinement / stride))
 
+    def share_below(self, length: float) -> float:
+        """Share of the variance in waves shorter than a length [a], 0 where it is rounding."""
+        power = self.power
+        share = float(power[self.q > 2.0 * np.pi / length].sum() / power.sum())
+        return share if share > 1e-24 else 0.0
+
     @property
     def power(self) -> Array:
         """Mean square of each component and its conjugate (nx//2 + 1, ny) [a^4/R^2]."""

@@ -17,7 +17,6 @@ from typing import Any
 from pyehl.case import Case
 from pyehl.kept import saved_seconds
 from pyehl.prediction import film_sheet, folder, of_case
-from pyehl.prediction.resolution import add_resolution
 from pyehl.run import run
 from pyehl.solver import Solver
 from pyehl.studies.outputs import NOT_IN_A_TABLE, TRACKS, film_columns
@@ -89,7 +88,6 @@ def _solve(task: Task) -> Row:
         text = (Path(task.folder) / "summary.json").read_text(encoding="utf-8")
         return _scalars(json.loads(text))
     with Solver(case) as solver:
-        add_resolution(solver, case)
         solver.run()
         return _scalars(solver.summary())
 

@@ -19,7 +19,7 @@ from pyehl.surfaces.of_case import (
     without_spikes,
 )
 from pyehl.surfaces.options import Options
-from pyehl.surfaces.part import part_of
+from pyehl.surfaces.part import given, part_of
 from pyehl.surfaces.prepare import Preparation, prepare
 from pyehl.surfaces.reading import Scan, read_scan
 from pyehl.surfaces.record import Record
@@ -48,6 +48,7 @@ __all__ = [
     "for_solver",
     "fractal",
     "from_settings",
+    "given",
     "harmonic",
     "harmonic_amplitude",
     "part_of",

@@ -3,13 +3,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 from pyehl.surfaces.seams import mirrored
 from pyehl.surfaces.tile import Topography
 
-__all__ = ["LARGE_PIXELS", "PART_PIXELS", "part_of"]
+__all__ = ["LARGE_PIXELS", "PART_PIXELS", "given", "part_of"]
 
 LARGE_PIXELS, PART_PIXELS = 2**20, 2**18
 """Pixels of the largest tile that is looked at as a whole, and of a part of a larger one."""
@@ -47,3 +50,17 @@ def part_of(
     tile -= tile.mean()
     name = f"{origin}, {nx} x {ny} pixels in its middle"
     return Topography(tile, 2 * nx * pixel[0], 2 * ny * pixel[1], name)
+
+
+def given(heights: NDArray[np.float64], surface: Mapping[str, Any]) -> Topography:
+    """Tile of heights [m] that stand in for the surface of a case; of a large one a part.
+
+    Its size is that of the tile in the group ``surface``, or that of the map.
+    """
+    x, y = (float(surface[f"tile_{k}"] or surface[f"length_{k}"]) for k in "xy")
+    images = bool(surface["tile_mirrored"])
+    pixel = (x / heights.shape[0], y / heights.shape[1])
+    if images:
+        pixel = (0.5 * pixel[0], 0.5 * pixel[1])
+    part = part_of(heights, pixel, "the heights", images=images)
+    return part or Topography(mirrored(heights) if images else heights, x, y)

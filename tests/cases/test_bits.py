@@ -85,12 +85,11 @@ def test_drivers(drivers, tmp_path: Path, scene: dict[str, object]):
             timeout=120,
             check=False,
         )
-        # The 12 steps of the waviness make a period and a mean, the others do not
-        assert (done.returncode, done.stderr) == (int("surface.file" in settings), "")
+        # a mean of 12 steps has not settled
+        assert (done.returncode, done.stderr) == (1, "")
     one, two = results(tmp_path / "ehl"), results(tmp_path / "pyehl")
-    # Python adds how it took a map, and what it predicts of waves that the grid does not resolve
-    for name in ("surface_preparation", "mu_ratio_unresolved", "mu_ratio_left_out"):
-        two.pop(name, None)
+    # Python adds how it took a map
+    two.pop("surface_preparation", None)
     plan = one.pop("plan.txt")
     assert two.pop("plan.txt")[: len(plan)] == plan
     assert one == two

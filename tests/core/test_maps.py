@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 from pyehl import Case, InputError, Solver, cli, surfaces
-from pyehl.prediction.resolution import add_resolution
 
 pytest.importorskip("SurfaceTopography")
 
@@ -230,12 +229,11 @@ def test_part_of_a_large_map(tmp_path: Path, monkeypatch):
     size = f"length_x = {LENGTH} length_y = {LENGTH} edges = 'mirror'"
     case = Case.read(write_case(tmp_path / "case.nml", "map.npy", size))
     with Solver(case) as solver:
-        assert solver.part is None
+        assert solver.tile is None
     monkeypatch.setattr("pyehl.surfaces.part.LARGE_PIXELS", 4000)
     monkeypatch.setattr("pyehl.surfaces.part.PART_PIXELS", 1024)
     with Solver(case) as solver:
-        add_resolution(solver, case)
-        part, plan = solver.part, solver.describe()
+        part, plan = solver.tile, solver.describe()
     assert part is not None
     assert part.shape == (32, 32)
     assert part.pixel == pytest.approx((LENGTH / 32, LENGTH / 32))

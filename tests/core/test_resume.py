@@ -36,10 +36,10 @@ def results(folder: Path) -> dict[str, bytes]:
     files = {path.name: path.read_bytes() for path in folder.iterdir()}
     summary = json.loads(files["summary.json"])
     free = {"threads", "bytes"} | {name for name in summary if "seconds" in name}
-    # Python also predicts what the grid does not resolve, and counts what it leaves out as error
-    free |= {"mu_ratio_unresolved", "mu_ratio_left_out"}
-    if summary.get("variance_left_out"):
-        free.add("mu_ratio_error")
+    if summary.get("variance_unresolved"):
+        # Python also predicts what the grid does not resolve, and counts what it leaves out
+        free |= {"mu_ratio_unresolved", "mu_ratio_error_left_out"}
+        free |= {"mu_ratio_error", "mu_ratio_error_note"}
     files["summary.json"] = json.dumps(
         {name: value for name, value in summary.items() if name not in free}
     ).encode()

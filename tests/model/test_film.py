@@ -55,9 +55,9 @@ def test_sheet_of_the_harmonic_case(settings):
     # the paper's fig. 2: eq. 16 gives 1.466 at L = 10; here L = 10.024
     assert values["mu_ratio_eq_16"] == pytest.approx(1.468, abs=0.002)
     assert values["theta_2_outside"] == []
-    assert values["lambda_ratio"] == pytest.approx(2 / 0.4)
+    assert values["lambda_ratio_central"] == pytest.approx(2 / 0.4)
     page = film_command.report(values)
-    for word in ("p_h", "1.6602 GPa", "Lambda", "theta_2", "inside", "Hamrock-Dowson"):
+    for word in ("p_h", "1.6602 GPa", "h_c/sigma", "theta_2", "inside", "Hamrock-Dowson"):
         assert word in page
 
 
@@ -74,7 +74,7 @@ def test_sheet_from_moes_numbers_and_smooth(settings):
     case["surface"]["kind"] = "smooth"
     values = film_sheet.sheet(case)
     assert values["moes_m"] == pytest.approx(20.0)
-    assert "lambda_ratio" not in values
+    assert "lambda_ratio_central" not in values
     assert "made from M and L" in film_command.report(values)
 
 

@@ -194,10 +194,9 @@ def test_waves_left_out_are_in_the_error():
     assert summary["variance_left_out"] > 0.0
     # grids that do not carry all waves have no common limit to extrapolate to
     assert "mu_ratio_extrapolated" not in summary
-    assert abs(summary["mu_ratio_unresolved"]) > abs(summary["mu_ratio_left_out"]) > 0.0
-    parts = summary["mu_ratio_error_grid"] + summary["mu_ratio_error_stop"]
-    expected = parts + abs(summary["mu_ratio_left_out"])
-    assert summary["mu_ratio_error"] == pytest.approx(expected, rel=1e-12)
+    assert abs(summary["mu_ratio_unresolved"]) > summary["mu_ratio_error_left_out"] > 0.0
+    parts = [summary[f"mu_ratio_error_{part}"] for part in ("grid", "stop", "left_out")]
+    assert summary["mu_ratio_error"] == pytest.approx(sum(parts), rel=1e-12)
 
 
 def test_beyond_the_linear_response(contact, table_1):

@@ -75,8 +75,11 @@ def run(text: str, points: int, *options: str) -> tuple[dict[str, Any], float]:
     began = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "case.nml").write_text(text)
-        subprocess.run(["ehl", "case.nml", "-o", "out", "--quiet", *words], cwd=folder, check=True)
+        words = ["ehl", "case.nml", "-o", "out", "--quiet", *words]
+        subprocess.run(words, cwd=folder, check=False)
         summary = json.loads(Path(folder, "out", "summary.json").read_text())
+    # after a given number of steps the mean may not have settled
+    assert summary["status"] in ("converged", "not settled"), summary["status"]
     return summary, resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - began
 
 
@@ -87,7 +90,9 @@ def row(name: str) -> dict[str, Any]:
     steps = f"time.steps={done['steps']}"
     strict, seconds_strict = run(text, points, steps, "solver.accuracy=0.0025")
     finer, _ = run(text, 2 * points - 1)
-    algebraic = abs(done["mu_ratio"] - strict["mu_ratio"])
+    # the mean over the last period, settled or not
+    mean = strict.get("last_mu_ratio_mean", strict["mu_ratio"])
+    algebraic = abs(done["mu_ratio"] - mean)
     grid = 4.0 / 3.0 * abs(finer["mu_ratio"] - done["mu_ratio"])
     return {
         "case": name,
@@ -95,7 +100,7 @@ def row(name: str) -> dict[str, Any]:
         "steps": done["steps"],
         "cycles_per_step": f"{done['cycles_per_step']:.2f}",
         "mu_ratio": f"{done['mu_ratio']:.6f}",
-        "strict": f"{strict['mu_ratio']:.6f}",
+        "strict": f"{mean:.6f}",
         "finer": f"{finer['mu_ratio']:.6f}",
         "algebraic_error": f"{algebraic:.1e}",
         "grid_error": f"{grid:.1e}",

@@ -1,0 +1,292 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One number has one value: by every driver, in every command, whenever it is read."""
+
+from __future__ import annotations
+
+import json
+import threading
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import pyehl
+from pyehl import Case, Solver, cli, errors
+from pyehl.studies.tasks import Task, execute
+
+ROUGH = (
+    "&contact load = 119.0 mean_velocity = 0.832 /\n&grid points = 65 /\n"
+    "&surface kind = 'fractal' pixels = 128 rms_height = 5e-9 length_x = 4e-4 length_y = 4e-4\n"
+    "{} /\n"
+)
+LEFT_OUT = ROUGH.format("")
+"""The grid leaves out waves: a pixel is 3 um, a mesh size 15 um."""
+CARRIED = ROUGH.format("shortest_wavelength = 4e-5")
+WAVE = (
+    "&contact moes_m = 100.0 moes_l = 5.0 /\n&grid points = {} /\n"
+    "&surface kind = 'harmonic' amplitude_over_film = {} wavelength = 0.5 /\n"
+)
+COARSE_FAILS = WAVE.format(129, 0.8)
+"""On 65 x 65 nodes the film becomes negative."""
+PARTS = ("mu_ratio_error_grid", "mu_ratio_error_stop", "mu_ratio_error_left_out")
+
+
+def summary_of(folder: Path) -> dict[str, Any]:
+    return json.loads((folder / "summary.json").read_text())
+
+
+def last_lines(text: str) -> list[str]:
+    """The lines of results at the end of what a driver prints."""
+    lines = text.splitlines()
+    first = next(k for k, line in enumerate(lines) if line.startswith("H_c   "))
+    return lines[first : next(k for k, line in enumerate(lines) if line.startswith("results:"))]
+
+
+@pytest.fixture(scope="module", params=["left out", "carried"])
+def everywhere(request, tmp_path_factory, drivers) -> tuple[dict[str, dict[str, Any]], bool]:
+    """The numbers of one case by all ways to get them."""
+    text = {"left out": LEFT_OUT, "carried": CARRIED}[request.param]
+    folder = tmp_path_factory.mktemp("numbers")
+    case = Case.from_text(text)
+    found = {}
+    with Solver(case) as solver:
+        solver.run()
+        found["Solver"] = solver.summary()
+        solver.write(folder / "written")
+    found["Solver.write"] = summary_of(folder / "written")
+    found["solve"] = dict(pyehl.solve(case).attrs)
+    found["sweep"] = execute(Task(0, case.text, "solve"))
+    found["sweep with folders"] = execute(Task(0, case.text, "solve", str(folder / "of a sweep")))
+    (folder / "case.nml").write_text(text)
+    assert cli.main(["run", str(folder / "case.nml"), "-o", str(folder / "run"), "-q"]) == 0
+    found["run"] = summary_of(folder / "run")
+    return found, request.param == "left out"
+
+
+def test_the_error_is_one_number(everywhere):
+    found, left_out = everywhere
+    first = found["run"]
+    assert (first["variance_left_out"] > 0.0) == left_out
+    assert (first["mu_ratio_error_left_out"] > 0.0) == left_out
+    assert first["mu_ratio_error"] == sum(first[part] for part in PARTS)
+    if left_out:
+        # what the grid leaves out is most of it here
+        assert first["mu_ratio_error"] > 10.0 * first["mu_ratio_error_grid"]
+    for way, values in found.items():
+        for name in ("mu_ratio", "mu_ratio_error", "mu_ratio_unresolved", *PARTS):
+            assert values[name] == first[name], (way, name)
+        assert values["mu_ratio_error_note"] == "", way
+
+
+def test_both_drivers_end_with_the_same_lines(drive, tmp_path: Path):
+    """But where pyehl predicts a part of the error: `ehl` says that it is not known, and why."""
+    for name, text in (("left out", LEFT_OUT), ("carried", CARRIED)):
+        (tmp_path / "case.nml").write_text(text)
+        lines, values = {}, {}
+        for driver in ("ehl", "pyehl"):
+            done = drive(driver, "case.nml", "-o", f"{driver} {name}")
+            assert (done.returncode, done.stderr) == (0, "")
+            lines[driver] = last_lines(done.stdout)
+            values[driver] = summary_of(tmp_path / f"{driver} {name}")
+            assert 3 <= len(lines[driver]) <= 6
+        assert lines["ehl"][:2] == lines["pyehl"][:2]
+        assert [line[:11] for line in lines["ehl"]] == [line[:11] for line in lines["pyehl"]]
+        v = values["pyehl"]
+        nm = 1e9 * v["film_scale_m"]
+        assert f"h_c {v['h_c_m'] * 1e9:.0f} +- {v['H_c_error'] * nm:.0f} nm" in lines["ehl"][0]
+        assert f"rough {v['h_min_rough_m'] * 1e9:.2f} nm" in lines["ehl"][1]
+        decimals = 1 - int(np.floor(np.log10(v["mu_ratio_error"])))
+        ratio = f"mu_r/mu_s  {v['mu_ratio']:.{decimals}f} +- {v['mu_ratio_error']:.{decimals}f}"
+        assert lines["pyehl"][2] == ratio
+        if name == "carried":
+            assert lines["ehl"] == lines["pyehl"]
+            assert values["ehl"]["mu_ratio_error"] == v["mu_ratio_error"]
+        else:
+            assert values["ehl"]["mu_ratio_error"] is None
+            assert values["ehl"]["mu_ratio_error_left_out"] is None
+            note = values["ehl"]["mu_ratio_error_note"]
+            assert note.startswith("waves that the grid leaves out are not in it: pyehl run")
+            assert lines["ehl"][2].endswith(f", error not known: {note}")
+
+
+@pytest.mark.parametrize(
+    ("text", "options", "why"),
+    [
+        (CARRIED, ["time.estimate_error=.false."], "time.estimate_error is false"),
+        (WAVE.format(65, 0.2), ["time.steps=160"], "because of time.steps"),
+        (COARSE_FAILS, [], "coarser grid ended with the status 'negative film'"),
+        (LEFT_OUT, ["surface.velocity_ratio=0"], "predicted for surfaces on the move alone"),
+    ],
+    ids=["no coarser run", "time.steps", "coarser run fails", "at rest"],
+)
+def test_an_error_that_is_not_known_is_null_and_says_why(
+    drive, tmp_path: Path, text: str, options: list[str], why: str
+):
+    (tmp_path / "case.nml").write_text(text)
+    words = [word for option in options for word in ("--set", option)]
+    for driver in ("ehl", "pyehl"):
+        done = drive(driver, "case.nml", "-o", driver, *words)
+        assert (done.returncode, done.stderr) == (0, "")
+        values = summary_of(tmp_path / driver)
+        assert values["mu_ratio"] > 1.0
+        assert values["mu_ratio_error"] is None
+        assert why in values["mu_ratio_error_note"]
+        assert any(line.startswith("mu_r/mu_s") and why in line for line in last_lines(done.stdout))
+
+
+def test_a_prediction_that_fails_makes_no_error_smaller(monkeypatch, tmp_path: Path):
+    def fails(*_: object) -> None:
+        raise errors.EhlError("film breakdown: no full film")
+
+    monkeypatch.setattr("pyehl.solver.resolution", fails)
+    with Solver(Case.from_text(LEFT_OUT)) as solver:
+        assert "predicted   no mu_r/mu_s: film breakdown: no full film" in solver.describe()
+        solver.run()
+        solver.write(tmp_path / "out")
+        for values in (solver.summary(), summary_of(tmp_path / "out")):
+            assert values["mu_ratio_error_grid"] > 0.0
+            assert values["mu_ratio_error"] is values["mu_ratio_error_left_out"] is None
+            assert "film breakdown: no full film" in values["mu_ratio_error_note"]
+        assert "error not known" in solver.conclusion()
+    # where nothing is left out nothing is missing
+    with Solver(Case.from_text(CARRIED)) as solver:
+        solver.run()
+        assert solver.summary()["mu_ratio_error"] > 0.0
+
+
+def test_nothing_is_predicted_where_nothing_is_left_out(monkeypatch):
+    """Nor before there is a ratio with an error; a prediction takes a second solution."""
+
+    def never(*_: object) -> None:
+        raise AssertionError
+
+    monkeypatch.setattr("pyehl.prediction.resolution.solve_contact", never)
+    with Solver(Case.from_text(LEFT_OUT)) as solver:
+        while not solver.advance() and "steps" not in solver.summary():
+            pass
+        assert solver.summary()["mu_ratio"] is None
+        assert "Solver(" in repr(solver)
+        assert "predicted" not in solver.describe(predict=False)
+    for text in (WAVE.format(33, 0.1), ROUGH.format("shortest_wavelength = 1.3e-4")):
+        with Solver(Case.from_text(text)) as solver:
+            assert "predicted" not in solver.describe()
+            solver.run()
+            assert solver.summary()["mu_ratio"] > 1.0
+
+
+def test_error_in_the_coarser_run_does_not_end_the_run(tmp_path: Path):
+    """Its state is there when the run is resumed, and gone when the coarser run begins."""
+    case = Case.from_text(CARRIED, ["output.checkpoint_interval=1000.0"])
+    with Solver(case) as solver:
+        solver.keep(tmp_path / "out")
+        while not solver.work().done > 1.0:
+            solver.advance()
+        assert "next coarser grid" in solver.progress()
+        assert solver.save_state(at_once=True)
+    with Solver(case) as solver:
+        assert "going on after step" in solver.resume(tmp_path / "out")
+        for path in (tmp_path / "out.checkpoint").glob("*coarse*"):
+            path.unlink()
+        assert solver.run()
+        values = solver.summary()
+    assert values["mu_ratio"] > 1.0
+    assert values["mu_ratio_error"] is values["mu_ratio_error_grid"] is None
+    assert "coarser grid ended with the status 'failed' (" in values["mu_ratio_error_note"]
+
+
+def test_steps_asked_for_do_not_make_a_mean_settle():
+    """After as many steps as it takes to settle the run is converged, before it is not."""
+    case = Case.from_text(WAVE.format(65, 0.2), ["time.estimate_error=.false."])
+    settled = pyehl.solve(case).attrs
+    steps = settled["steps"]
+    again = pyehl.solve(case, f"time.steps={steps}").attrs
+    assert (again["status"], again["mu_ratio"]) == ("converged", settled["mu_ratio"])
+    with pytest.raises(pyehl.NotConverged, match="not settled") as caught:
+        pyehl.solve(case, f"time.steps={steps - 1}")
+    before = caught.value.results.attrs
+    assert before["steps"] == steps - 1
+    # it has a mean over a period, which is no result
+    assert before["last_mu_ratio_mean"] == pytest.approx(settled["mu_ratio"], rel=0.05)
+    assert "mu_ratio" not in before
+
+
+@pytest.mark.parametrize(
+    "text", [LEFT_OUT, CARRIED.replace("shortest", "velocity_ratio = 0 shortest")]
+)
+def test_no_ratio_is_none(text: str):
+    """Before it is known, and after a failure: of the smooth contact, or of a step."""
+    with Solver(Case.from_text(text)) as solver:
+        assert solver.summary()["mu_ratio"] is None
+        solver.advance()
+        assert solver.summary()["mu_ratio_error"] is None
+    with Solver(Case.from_text(text, ["solver.max_cycles=1", "solver.accuracy=1e-6"])) as solver:
+        assert not solver.run()
+        values = solver.summary()
+        assert values["mu_ratio"] is values["mu_ratio_error"] is values["H_c"] is None
+        assert values["mu_ratio_error_note"] == "there is no mu_ratio"
+        assert solver.conclusion().endswith("'cycle limit'")
+
+
+def test_least_rough_film_is_that_of_the_time_of_the_mean():
+    data = pyehl.solve(Case.from_text(CARRIED))
+    mean = data.history_T > float(data.history_T[-1]) - data.attrs["T_mean"] - 1e-9
+    least = float(data.history_H_min[mean].min())
+    assert data.attrs["H_min_rough"] == pytest.approx(least, rel=1e-12)
+    assert data.attrs["H_min_rough"] < data.attrs["H_min"]
+    scale = data.attrs["film_scale_m"]
+    assert data.attrs["h_min_rough_m"] == pytest.approx(least * scale, rel=1e-12)
+    assert data.attrs["h_min_m"] == pytest.approx(data.attrs["H_min"] * scale, rel=1e-12)
+
+
+def test_film_and_lambda_mean_the_same_everywhere(tmp_path: Path):
+    """Of the smooth contact, over the rms height of the undeformed surface: run, predict, curve."""
+    case = Case.from_text(CARRIED.replace("65", "257"), ["surface.rms_height=2e-8"])
+    predicted = pyehl.predict(case).summary
+    (tmp_path / "case.nml").write_text(case.text)
+    words = ["--speed", "0.832", "-o", str(tmp_path / "curve"), "-q"]
+    assert cli.main(["stribeck", str(tmp_path / "case.nml"), *words]) == 0
+    curve = np.genfromtxt(
+        tmp_path / "curve" / "stribeck.csv", delimiter=",", names=True, dtype=None, encoding="utf-8"
+    )
+    rest = case.with_options("surface.velocity_ratio=0", "time.estimate_error=.false.")
+    solved = pyehl.solve(rest).attrs
+    sigma = predicted["rms_height_m"]
+    assert solved["surface_rms_m"] == pytest.approx(sigma, rel=1e-9)
+    for way, values in (("run", solved), ("predict", predicted)):
+        assert values["lambda_ratio"] == pytest.approx(values["h_min_m"] / sigma, rel=1e-9), way
+        central = values["lambda_ratio_central"]
+        assert central == pytest.approx(values["h_c_m"] / sigma, rel=1e-9), way
+        assert values["h_min_rough_m"] < values["h_min_m"], way
+    for name in ("h_c_m", "h_min_m", "lambda_ratio", "lambda_ratio_central"):
+        assert predicted[name] == pytest.approx(float(curve[name]), rel=1e-9)
+    # the run gives the film of its grid, the others the extrapolated one
+    assert abs(solved["h_min_m"] - predicted["h_min_m"]) <= 1.1 * (
+        solved["H_min_error"] * solved["film_scale_m"]
+    )
+
+
+def test_what_is_read_while_another_thread_advances_is_a_state():
+    """Of a thousand fields, summaries and lines none is a mixture of two states."""
+    text = WAVE.format(65, 0.2)
+    options = ("time.steps=60", "time.estimate_error=.false.")
+    states, times = set(), set()
+    with Solver(Case.from_text(text, options)) as solver:
+        while not solver.done:
+            states.add(solver.field("P").tobytes())
+            times.add(solver.summary().get("T"))
+            solver.advance()
+        states.add(solver.field("P").tobytes())
+        times.add(solver.summary().get("T"))
+    reads = 0
+    while reads < 1000:
+        with Solver(Case.from_text(text, options)) as solver:
+            thread = threading.Thread(target=solver.run)
+            thread.start()
+            while thread.is_alive():
+                assert solver.field("P").tobytes() in states, f"field {reads} is no state"
+                assert solver.summary().get("T") in times
+                assert solver.progress()
+                assert solver.work().done >= 0.0
+                reads += 1
+            thread.join()
