@@ -23,6 +23,7 @@ from pyehl.studies.stribeck import CurvePlan, CurvePoint, Settings
 from pyehl.studies.tasks import FAILED
 from pyehl.theory import stribeck
 from pyehl.theory.film import central_film
+from pyehl.theory.friction import absolute_friction
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
@@ -34,6 +35,7 @@ __all__ = [
     "UNSOLVED",
     "curve_rows",
     "full_film_ends",
+    "no_coefficient",
     "pattern",
 ]
 
@@ -248,6 +250,14 @@ def _largest(found: Sequence[Row], name: str) -> float | None:
     return max(numbers) if all(number is not None for number in numbers) else None  # type: ignore[type-var]
 
 
+def no_coefficient(settings: Settings) -> str:
+    """Say why a friction coefficient of a resolved case would have no meaning; '' if it has one."""
+    operating, lubricant = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
+    film = central_film(operating, lubricant)
+    found = absolute_friction(operating, lubricant, film=film, mu_smooth=1.0, mu_ratio=1.0)
+    return "" if math.isfinite(found["mu"]) else str(found["mu_note"])
+
+
 def _why(row: Row) -> str:
     return f"{row['status']}: {row['message']}" if row.get("message") else str(row["status"])
 
@@ -272,12 +282,14 @@ def full_film_ends(
     """
     broken = tuple(k for k, row in enumerate(rows) if row["status"] == BREAKDOWN)
     known = [k for k, row in enumerate(rows) if row["status"] in (FULL_FILM, OUTSIDE)]
+    lost = len(rows) - len(known) - len(broken)
+    rest = f" with an answer; {lost} have none" if lost else ""
+    if not known and not broken:
+        return "no point has an answer", broken
     if not broken:
-        lost = len(rows) - len(known)
-        rest = f" with an answer; {lost} have none" if lost else ""
         return f"full film at all points{rest}", broken
     if not known:
-        return "no full film at any point", broken
+        return f"no full film at any point{rest}", broken
     pairs = [
         (k, j) for k in broken for j in known if not any(min(k, j) < m < max(k, j) for m in known)
     ]

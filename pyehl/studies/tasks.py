@@ -9,12 +9,14 @@ from __future__ import annotations
 import json
 import math
 import time
+import traceback
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from pyehl.case import Case
+from pyehl.errors import EhlError
 from pyehl.kept import saved_seconds
 from pyehl.prediction import film_sheet, folder, of_case
 from pyehl.prediction.resolution import add_resolution
@@ -22,12 +24,15 @@ from pyehl.run import run
 from pyehl.solver import Solver
 from pyehl.studies.outputs import NOT_IN_A_TABLE, TRACKS, film_columns
 
-__all__ = ["FAILED", "SAVED", "Task", "execute"]
+__all__ = ["FAILED", "RESULTS", "SAVED", "Task", "execute"]
 
 SAVED = "saved_seconds"
 """What shared parts saved; it goes with a row but is not a column."""
 FAILED = "failed"
-"""Status of a case that gave no result."""
+"""Status of a case that ended with an exception."""
+INSIDE, OUTSIDE = "inside all ranges", "outside the range of a formula"
+RESULTS = frozenset({"converged", "predicted", INSIDE, OUTSIDE})
+"""Statuses of cases that have a result."""
 
 Row = dict[str, Any]
 
@@ -77,6 +82,9 @@ def execute(task: Task) -> Row:
         row = RUNNERS[task.run](task)
     except Exception as error:
         row = {"status": FAILED, "message": f"{type(error).__name__}: {error}"}
+        if not isinstance(error, EhlError):
+            # no fault of the case: the journal keeps where it was raised
+            row["traceback"] = traceback.format_exc()
     row["seconds"] = round(time.perf_counter() - began, 6)
     row[SAVED] = round(saved_seconds() - saved, 6)
     return row
@@ -114,7 +122,7 @@ def _film(task: Task) -> Row:
         if formula["h_min_m"] is not None:
             row[least] = formula["h_min_m"]
     outside = [f["name"] for f in values["formulas"] if f["outside"]]
-    row["status"] = "outside the range of a formula" if outside else "inside all ranges"
+    row["status"] = OUTSIDE if outside else INSIDE
     row["message"] = ", ".join(outside)
     return row
 
