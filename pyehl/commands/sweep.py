@@ -20,7 +20,7 @@ from pyehl.studies.plan import MOST, duration, plan
 from pyehl.studies.study import RUNS, make
 from pyehl.studies.study_file import read_study
 from pyehl.studies.sweep import CASES, CSV, NETCDF, perform
-from pyehl.studies.tasks import RESULTS
+from pyehl.studies.tasks import why_none
 from pyehl.studies.vary import parse_axis
 
 __all__ = ["add_arguments", "execute"]
@@ -127,9 +127,9 @@ def execute(args: argparse.Namespace) -> int:
         return EXIT_INTERRUPTED
     size = todo.study.size
     lost = [
-        f"case {point.number + 1} of {size} ({point}): {row['status']}: {row.get('message') or ''}"
+        f"case {point.number + 1} of {size} ({point}): {why}"
         for point in todo.points
-        if (row := outcome.rows[point.number])["status"] not in RESULTS
+        if (why := why_none(outcome.rows[point.number]))
     ]
     tell_lost(lost, folder / CSV)
     return EXIT_FAILED if lost else EXIT_OK

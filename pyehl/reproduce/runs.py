@@ -20,7 +20,7 @@ from pyehl.studies.gather import Watcher
 from pyehl.studies.plan import Plan, plan
 from pyehl.studies.study import make
 from pyehl.studies.sweep import CASES, perform
-from pyehl.studies.tasks import RESULTS
+from pyehl.studies.tasks import why_none
 from pyehl.studies.vary import axis
 
 __all__ = ["Made", "RunFailed", "Runs", "friction_of"]
@@ -60,11 +60,8 @@ class Made:
             If it has no result.
         """
         row = self.rows[place]
-        if row["status"] not in RESULTS:
-            raise RunFailed(
-                f"case {place + 1} of the study '{self.name}': {row['status']}: "
-                f"{row.get('message') or 'no result'}"
-            )
+        if why := why_none(row):
+            raise RunFailed(f"case {place + 1} of the study '{self.name}': {why}")
         return row
 
     @property

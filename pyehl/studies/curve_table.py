@@ -96,7 +96,9 @@ class Measured:
     def outside(self, key: str, places: Array, rows: Sequence[Row]) -> int:
         """Give the number of its places that the curve does not reach."""
         column = _column(self.abscissa, key, places, rows)
-        inside = (self.places >= np.nanmin(column)) & (self.places <= np.nanmax(column))
+        known = column[np.isfinite(column)]
+        low, high = (known.min(), known.max()) if known.size else (np.inf, -np.inf)
+        inside = (self.places >= low) & (self.places <= high)
         return int(np.count_nonzero(~inside))
 
     def over(self, name: str, key: str, places: Array, rows: Sequence[Row]) -> Array:

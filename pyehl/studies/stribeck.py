@@ -94,7 +94,8 @@ class CurvePlan:
         full = [p.point.number for p in self.points if p.full is not None]
         surfaces = [p.settings["surface"] for p in self.points]
         maps = dict.fromkeys(str(s["file"]) for s in surfaces if s["kind"] == "map")
-        found = self.study.identity(self.tasks[0].text, maps)
+        first = (*self.points[0].predictions, self.points[0].smooth)[0]
+        found = self.study.identity(self.tasks[first].text, maps)
         return found | {"run": "stribeck", "surfaces": self.surfaces, "ehl": full}
 
     def text(self, jobs: int, done: Sequence[int] = ()) -> str:

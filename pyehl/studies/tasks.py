@@ -24,7 +24,7 @@ from pyehl.run import run
 from pyehl.solver import Solver
 from pyehl.studies.outputs import NOT_IN_A_TABLE, TRACKS, film_columns
 
-__all__ = ["FAILED", "RESULTS", "SAVED", "Task", "execute"]
+__all__ = ["FAILED", "SAVED", "Task", "execute", "why_none"]
 
 SAVED = "saved_seconds"
 """What shared parts saved; it goes with a row but is not a column."""
@@ -70,6 +70,13 @@ class Task:
     def message(self) -> dict[str, Any]:
         """Give the task as values of JSON."""
         return asdict(self)
+
+
+def why_none(row: Mapping[str, Any]) -> str:
+    """Say in words why a case has no result; '' for one that has."""
+    if row["status"] in RESULTS:
+        return ""
+    return f"{row['status']}: {row['message']}" if row.get("message") else str(row["status"])
 
 
 def execute(task: Task) -> Row:

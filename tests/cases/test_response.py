@@ -36,7 +36,12 @@ def tiny(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[str]:
     return ["response", str(tmp_path / "case.nml"), "-o", str(tmp_path / "out")]
 
 
-def test_command(tiny: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+def test_command(
+    tiny: list[str],
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+):
     assert cli.main(tiny) == 0
     folder = tmp_path / "out"
     with (folder / "response.csv").open() as stream:
@@ -69,10 +74,14 @@ def test_command(tiny: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[
     (folder / "tier_long.npz").unlink()
     assert cli.main(tiny) == 0
     assert (folder / "response.csv").read_text() == before
-    # another case does not resume it
+    # another case does not resume it, nor does another version
     capsys.readouterr()
     assert cli.main([*tiny, "--set", "surface.velocity_ratio=1.1"]) == 2
-    assert "belongs to another case" in capsys.readouterr().err
+    assert "\n  velocity_ratio: there 1.05, here 1.1\n" in capsys.readouterr().err
+    here = response.metadata.version("pyehl")
+    monkeypatch.setattr(response.metadata, "version", lambda name: "9.9.9")
+    assert cli.main(tiny) == 2
+    assert f"\n  pyehl version: there {here}, here 9.9.9\n" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
