@@ -5,8 +5,11 @@ from __future__ import annotations
 
 import csv
 import json
+import os
 from itertools import islice
 from pathlib import Path
+from queue import Queue
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -110,6 +113,27 @@ def test_foreign_folder_is_refused(
     (tmp_path / "out" / "letter.txt").write_text("dear")
     assert cli.main(tiny) == 2
     assert "letter.txt" in capsys.readouterr().err
+
+
+def test_tiers_share_the_processors_that_may_be_used(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    """Six of 64, for two tiers at a time."""
+    threads = []
+
+    class Context:
+        Queue = Queue
+
+        def Process(self, *, target, args, daemon):  # noqa: N802
+            threads.append(args[3])
+            args[5].put(("end", (args[2].name, "")))
+            return Mock()
+
+    monkeypatch.setattr(os, "cpu_count", lambda: 64)
+    monkeypatch.setattr(os, "sched_getaffinity", lambda process: set(range(6)))
+    monkeypatch.setattr(response.mp, "get_context", lambda kind: Context())
+    response._run_all("", 1.0, TINY, 2, tmp_path, lambda name, done, total: None)
+    assert threads == [3, 3, 3]
 
 
 def test_failed_run_is_named(tmp_path: Path):
