@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,7 @@ from pyehl.commands.watching import (
     Terminal,
     add_worker_arguments,
     jobs_of,
+    tell_lost,
 )
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
 from pyehl.export import write_netcdf
@@ -26,6 +28,7 @@ from pyehl.studies.curve import (
     UNSOLVED,
     curve_rows,
     full_film_ends,
+    no_coefficient,
 )
 from pyehl.studies.curve_table import Measured, curve_dataset, read_measured, write_csv
 from pyehl.studies.gather import gather
@@ -76,6 +79,36 @@ def _plan(args: argparse.Namespace) -> CurvePlan:
     return plan_curve(args.case, axes, options=args.overrides, ehl=args.ehl, seeds=args.surfaces)
 
 
+def _measured(path: str, plan: CurvePlan) -> Measured:
+    """Read measured friction that fits a curve.
+
+    Raises
+    ------
+    InputError
+        If it does not.
+    """
+    keys = plan.study.keys
+    if len(keys) > 1:
+        raise InputError("--measured: expected one curve, over one of the options")
+    measured = read_measured(path, keys[0])
+    why = next((note for p in plan.points if (note := no_coefficient(p.settings))), "")
+    wanted = "mu_ratio" if why else "mu"
+    if measured.ordinate != wanted:
+        raise InputError(
+            f"{path}: --measured: it holds {measured.ordinate}, the curve {wanted} "
+            f"({why or 'with lubricant.shear_law = newtonian it has mu_ratio'})"
+        )
+    places = np.array([float(p.point.values[keys[0]]) for p in plan.points])
+    if measured.abscissa == keys[0] and measured.outside(keys[0], places, []) == len(
+        measured.places
+    ):
+        raise InputError(
+            f"{path}: --measured: no value of {keys[0]} lies on the curve, which goes from "
+            f"{places.min():g} to {places.max():g}"
+        )
+    return measured
+
+
 def curves_of(plan: CurvePlan, rows: Sequence[Row]) -> list[tuple[str, Array, Sequence[Row]]]:
     """Split a table into curves: name, values of the first key, rows."""
     keys = plan.study.keys
@@ -109,10 +142,8 @@ def draw(
     answers = [row for row in rows if row["status"] in (FULL_FILM, OUTSIDE)]
     absolute = bool(answers) and all(row["mu"] is not None for row in answers)
     if measured is not None and measured.ordinate != ("mu" if absolute else "mu_ratio"):
-        raise InputError(
-            f"--measured: it holds {measured.ordinate}, the curve "
-            + ("mu" if absolute else "mu_ratio alone (give a lubricant.shear_law for mu)")
-        )
+        print(f"note: --measured: there is no {measured.ordinate} to draw it over", file=sys.stderr)
+        measured = None
     curves = []
     overlay = None
     for label, places, those in curves_of(plan, rows):
@@ -137,6 +168,9 @@ def draw(
             )
         )
         if measured is not None:
+            if beyond := measured.outside(key, places, those):
+                words = f"{beyond} of {len(measured.places)} measured points are beyond the curve"
+                print(f"note: {words}", file=sys.stderr)
             over = {name: measured.over(name, key, places, those) for name in ABSCISSAE}
             overlay = Points(over, measured.friction, measured.error)
     surface = plan.points[0].settings["surface"]
@@ -166,9 +200,6 @@ def report(plan: CurvePlan, rows: Sequence[Row]) -> str:
         cells = [f"{point.point.values[key]:>21}" for key in keys]
         cells += [f"{'-' if row[n] is None else format(row[n], '.4g'):>10}" for n in names]
         lines.append("  ".join([*cells, str(row["status"])]))
-    failed = [str(row["message"]) for row in rows if row["status"] == UNSOLVED]
-    if failed:
-        lines.append(f"{UNSOLVED} {len(failed)} of {len(rows)}, the first: {failed[0]}")
     for label, places, those in curves_of(plan, rows):
         lines.append(f"{label + ': ' if label else ''}{full_film_ends(keys[0], places, those)[0]}")
     return "\n".join(lines)
@@ -178,11 +209,7 @@ def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl stribeck``."""
     plan = _plan(args)
     jobs = jobs_of(args)
-    measured = None
-    if args.measured is not None:
-        if len(plan.study.keys) > 1:
-            raise InputError("--measured: expected one curve, over one of the options")
-        measured = read_measured(args.measured, plan.study.keys[0])
+    measured = None if args.measured is None else _measured(args.measured, plan)
     folder = Path(args.output)
     watcher = Terminal(lambda done: plan.text(jobs, done), quiet=args.quiet)
     try:
@@ -202,8 +229,19 @@ def execute(args: argparse.Namespace) -> int:
     if outcome.interrupted:
         watcher.goes_on(folder)
         return EXIT_INTERRUPTED
-    draw(plan, rows, measured, folder / PICTURE, args.dpi)
+    files = [CSV, NETCDF]
+    if any(row["mu_ratio"] is not None for row in rows):
+        draw(plan, rows, measured, folder / PICTURE, args.dpi)
+        files.append(PICTURE)
+    else:
+        print("note: no point has a friction; there is no picture", file=sys.stderr)
     if not args.quiet:
         print(report(plan, rows))
-        print(f"results    {', '.join(str(folder / name) for name in (CSV, NETCDF, PICTURE))}")
-    return EXIT_OK if any(row["mu_ratio"] is not None for row in rows) else EXIT_FAILED
+        print(f"results    {', '.join(str(folder / name) for name in files)}")
+    lost = [
+        f"point {p.point.number + 1} of {len(rows)} ({p.point}): {row['status']}: {row['message']}"
+        for p, row in zip(plan.points, rows, strict=True)
+        if row["status"] == UNSOLVED or (p.full is not None and row["mu_ratio_ehl"] is None)
+    ]
+    tell_lost(lost, folder / CSV)
+    return EXIT_OK if PICTURE in files and not lost else EXIT_FAILED

@@ -12,14 +12,15 @@ from pyehl.commands.watching import (
     Terminal,
     add_worker_arguments,
     jobs_of,
+    tell_lost,
 )
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
 from pyehl.studies.gather import Outcome
-from pyehl.studies.plan import duration, plan
+from pyehl.studies.plan import MOST, duration, plan
 from pyehl.studies.study import RUNS, make
 from pyehl.studies.study_file import read_study
 from pyehl.studies.sweep import CASES, CSV, NETCDF, perform
-from pyehl.studies.tasks import FAILED
+from pyehl.studies.tasks import why_none
 from pyehl.studies.vary import parse_axis
 
 __all__ = ["add_arguments", "execute"]
@@ -29,7 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of ``pyehl sweep``."""
     parser.description = (
         "Run a case with many values, in worker processes; started again it runs what is missing. "
-        "Exit status: 0 all cases ran, 1 some failed, 2 bad input (nothing has run), "
+        "Exit status: 0 all cases have a result, 1 not, 2 bad input (nothing has run), "
         "130 interrupted."
     )
     parser.add_argument("case", metavar="CASE.nml|STUDY.toml", help="case file or study file")
@@ -54,7 +55,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--keep", action="store_true", help="a result folder for each case")
     parser.add_argument("--retry", action="store_true", help="run cases again that failed")
     parser.add_argument(
-        "--plan", action="store_true", help="check all cases, print the plan, run nothing"
+        "--plan",
+        action="store_true",
+        help=f"check all cases (of more than {MOST} some of them), print the plan, run nothing",
     )
     add_worker_arguments(parser)
 
@@ -101,7 +104,7 @@ def execute(args: argparse.Namespace) -> int:
         if args.case.endswith(".toml") and args.case not in str(error):
             raise InputError(f"{args.case}: error: {error}") from error
         raise
-    todo = plan(study, folder.absolute() / CASES if args.keep else None)
+    todo = plan(study, folder.absolute() / CASES if args.keep else None, brief=args.plan)
     if args.plan:
         print(todo.text(jobs))
         return EXIT_OK
@@ -122,4 +125,11 @@ def execute(args: argparse.Namespace) -> int:
     if outcome.interrupted:
         watcher.goes_on(folder)
         return EXIT_INTERRUPTED
-    return EXIT_FAILED if FAILED in outcome.statuses() else EXIT_OK
+    size = todo.study.size
+    lost = [
+        f"case {point.number + 1} of {size} ({point}): {why}"
+        for point in todo.points
+        if (why := why_none(outcome.rows[point.number]))
+    ]
+    tell_lost(lost, folder / CSV)
+    return EXIT_FAILED if lost else EXIT_OK

@@ -22,8 +22,10 @@ __all__ = [
     "Terminal",
     "add_worker_arguments",
     "jobs_of",
+    "tell_lost",
 ]
 
+MOST_MESSAGES = 100
 # Seconds between lines where the output is not a terminal
 LINE_INTERVAL = 5.0
 
@@ -100,6 +102,14 @@ def add_worker_arguments(parser: argparse.ArgumentParser) -> None:
         help="use the workers of a dask scheduler, as tcp://host:8786 (extra 'cluster')",
     )
     parser.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
+
+
+def tell_lost(lost: Sequence[str], table: Path) -> None:
+    """Print a message for each case without a result; of very many the first."""
+    for text in lost[:MOST_MESSAGES]:
+        print(" ".join(text.split()), file=sys.stderr)
+    if len(lost) > MOST_MESSAGES:
+        print(f"and {len(lost) - MOST_MESSAGES} more: see status in {table}", file=sys.stderr)
 
 
 def jobs_of(args: argparse.Namespace) -> int:

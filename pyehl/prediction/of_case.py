@@ -40,6 +40,8 @@ __all__ = ["predict"]
 
 Array = NDArray[np.float64]
 
+MAX_TRACKS = 10_000
+
 
 def predict(
     settings: Mapping[str, Mapping[str, Any]],
@@ -58,7 +60,7 @@ def predict(
     text
         The same as namelist text, for the result folder.
     tracks
-        Number of tracks across the surface, for mean and spread.
+        Number of tracks across the surface, for mean and spread: 1 to `MAX_TRACKS`.
     smooth
         Result folder with the smooth contact, in place of a solution on the spot.
     brief
@@ -68,12 +70,17 @@ def predict(
     Raises
     ------
     ValueError
-        If the surface is smooth or a single feature, a map is not usable, or the conditions are
-        outside the model.
+        If the surface is smooth or a single feature, a map is not usable, the conditions are
+        outside the model, or there are too many tracks.
     OSError
         If a map cannot be opened.
     """
     start = time.perf_counter()
+    if not 1 <= tracks <= MAX_TRACKS:
+        raise ValueError(
+            f"--tracks {tracks}: expected 1 to {MAX_TRACKS}; the mean over {MAX_TRACKS} is known "
+            "to a hundredth of the spread"
+        )
     why = unpredictable(str(settings["surface"]["kind"]))
     if why:
         raise ValueError(why)

@@ -28,7 +28,7 @@ from pyehl.reproduce.level import Level
 from pyehl.reproduce.piece import Piece, Result
 from pyehl.reproduce.references import References, read_references
 from pyehl.reproduce.report import write_report
-from pyehl.reproduce.runs import Runs
+from pyehl.reproduce.runs import RunFailed, Runs
 from pyehl.studies.gather import Watcher
 from pyehl.studies.plan import Plan
 
@@ -96,9 +96,13 @@ def reproduce(
         except OSError as error:
             raise FileError(f"{place}: cannot be made: {error.strerror}") from error
         began = time.perf_counter()
-        data = piece.run(runs, level)
-        numbers = read_references() if references is None else references
-        result = piece.show(data, numbers, place, level)
+        try:
+            data = piece.run(runs, level)
+        except RunFailed as error:
+            result = Result(name, piece.TITLE, (), (), None, failed=str(error))
+        else:
+            numbers = read_references() if references is None else references
+            result = piece.show(data, numbers, place, level)
         result = replace(result, wall=time.perf_counter() - began)
         results.append(result)
         if done is not None:

@@ -15,7 +15,7 @@ from pyehl.plots.style import save
 from pyehl.reproduce.level import Level
 from pyehl.reproduce.piece import Check, Result, write_table
 from pyehl.reproduce.references import References
-from pyehl.reproduce.runs import Made, Runs, friction_of
+from pyehl.reproduce.runs import Made, Runs
 from pyehl.reproduce.waves import SCHEMES
 from pyehl.studies.reference_table import read_reference
 
@@ -57,14 +57,13 @@ def run(runs: Runs, level: Level) -> list[Wave]:
         keep=True,
     )
     found = []
-    for (points, scheme), row, folder in zip(cases, made.rows, made.kept, strict=True):
+    for k, ((points, scheme), folder) in enumerate(zip(cases, made.kept, strict=True)):
+        row = made.solved(k)
         with (folder / "history.csv").open(newline="", encoding="utf-8") as stream:
             history = list(csv.DictReader(stream))
         time, ratio = (np.array([float(r[n]) for r in history]) for n in ("T", "mu_ratio"))
-        mean = float(friction_of([row])[0])
-        found.append(
-            Wave(points, scheme, time, ratio, mean, float(row["H_c"]), row["seconds"], made)
-        )
+        mean, film = float(row["mu_ratio"]), float(row["H_c"])
+        found.append(Wave(points, scheme, time, ratio, mean, film, row["seconds"], made))
     return found
 
 

@@ -67,19 +67,13 @@ def run(runs: Runs, level: Level) -> Surfaces:
     """Simulate and predict the surfaces, and the first at pure rolling."""
     rows, studies = simulations(runs, level)
     predicted = {model: predictions(runs, level, model) for model in MODELS}
-    case = CASE.replace("  velocity_ratio = 1.01", "")
     grid = min(SLIP_GRID, level.surface_grid)
     text = "&time estimate_error = .false. /\n&output fields = .false. /\n"
     text += f"&grid points = {grid} /\n"
     vary = {"surface.velocity_ratio": list(VELOCITY_RATIOS)}
     slip = [
-        runs.study(f"slip-{grid}", case + text, vary),
-        runs.study(
-            f"slip-predictions-{grid}",
-            carried(grid).replace("  velocity_ratio = 1.01", ""),
-            vary,
-            run="predict",
-        ),
+        runs.study(f"slip-{grid}", CASE + text, vary),
+        runs.study(f"slip-predictions-{grid}", CASE, vary, options=carried(grid), run="predict"),
     ]
     return Surfaces(
         friction_of(rows),

@@ -118,7 +118,7 @@ class Result:
     pictures
         File and caption.
     table
-        File with the numbers of the picture.
+        File with the numbers of the picture; None where a run has failed.
     notes
         What else is to be said, a sentence or two each.
     findings
@@ -129,27 +129,32 @@ class Result:
         Processor time of these [s].
     paper_seconds
         The time that the paper states, in words; '' for none.
+    failed
+        Which run has no result, so that the piece has none; '' for none.
     """
 
     name: str
     title: str
     checks: Sequence[Check]
     pictures: Sequence[tuple[Path, str]]
-    table: Path
+    table: Path | None
     notes: Sequence[str] = ()
     findings: Sequence[Finding] = ()
     studies: Sequence[str] = ()
     seconds: float = 0.0
     paper_seconds: str = ""
     wall: float = field(default=0.0)
+    failed: str = ""
 
     @property
     def passed(self) -> bool:
         """Whether each deviation beyond its tolerance is explained by a finding."""
-        return all(check.passed or check.explained for check in self.checks)
+        return not self.failed and all(check.passed or check.explained for check in self.checks)
 
     def line(self) -> str:
         """Give the line of deviations."""
+        if self.failed:
+            return f"FAIL: {self.failed}"
         judged = [check for check in self.checks if check.judged]
         failed = [check for check in judged if not check.passed]
         explained = sum(check.explained for check in failed)

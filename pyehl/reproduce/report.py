@@ -56,7 +56,7 @@ def _seconds(result: Result) -> str:
 
 
 def _head(results: Sequence[Result], level: Level, machine: Sequence[str]) -> list[str]:
-    passed = sum(all(c.passed for c in r.checks) for r in results)
+    passed = sum(r.passed and all(c.passed for c in r.checks) for r in results)
     explained = sum(r.passed for r in results) - passed
     more = f" Not reproduced: {explained}, explained below." if explained else ""
     return [
@@ -88,11 +88,12 @@ def _markdown(folder: Path, results: Sequence[Result], level: Level, machine: Se
             lines += ["| " + " | ".join(row) + " |" for row in _rows(r)]
             lines.append("")
         lines += [f"- {note}" for note in r.notes]
-        lines += [
-            "",
-            f"Numbers: [{r.table.name}]({_relative(r.table, folder)}). Runs: "
-            f"{', '.join(f'studies/{s}' for s in r.studies) or 'none'}. {_seconds(r)}.",
-        ]
+        if r.table is not None:
+            lines += [
+                "",
+                f"Numbers: [{r.table.name}]({_relative(r.table, folder)}). Runs: "
+                f"{', '.join(f'studies/{s}' for s in r.studies) or 'none'}. {_seconds(r)}.",
+            ]
     return "\n".join(lines) + "\n"
 
 
@@ -137,10 +138,11 @@ def _html(folder: Path, results: Sequence[Result], level: Level, machine: Sequen
         if r.notes:
             out.append("<ul>" + "".join(f"<li>{text(note)}</li>" for note in r.notes) + "</ul>")
         studies = ", ".join(f"studies/{s}" for s in r.studies) or "none"
-        out.append(
-            f"<p>Numbers: <a href='{_relative(r.table, folder)}'>{r.table.name}</a>. Runs: "
-            f"{text(studies)}. {text(_seconds(r))}.</p>"
-        )
+        if r.table is not None:
+            out.append(
+                f"<p>Numbers: <a href='{_relative(r.table, folder)}'>{r.table.name}</a>. Runs: "
+                f"{text(studies)}. {text(_seconds(r))}.</p>"
+            )
     return "\n".join([*out, "</body></html>"]) + "\n"
 
 

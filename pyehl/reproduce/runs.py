@@ -15,15 +15,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl.case import Case
+from pyehl.errors import EhlError
 from pyehl.studies.gather import Watcher
 from pyehl.studies.plan import Plan, plan
 from pyehl.studies.study import make
 from pyehl.studies.sweep import CASES, perform
+from pyehl.studies.tasks import why_none
 from pyehl.studies.vary import axis
 
-__all__ = ["Made", "Runs", "friction_of"]
+__all__ = ["Made", "RunFailed", "Runs", "friction_of"]
 
 Row = dict[str, Any]
+
+
+class RunFailed(EhlError):  # noqa: N818 (what happened)
+    """A run has no result without which there is no figure."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +50,19 @@ class Made:
     folder: Path
     rows: tuple[Row, ...]
     kept: tuple[Path, ...] = ()
+
+    def solved(self, place: int) -> Row:
+        """Row of a case without which there is no figure.
+
+        Raises
+        ------
+        RunFailed
+            If it has no result.
+        """
+        row = self.rows[place]
+        if why := why_none(row):
+            raise RunFailed(f"case {place + 1} of the study '{self.name}': {why}")
+        return row
 
     @property
     def seconds(self) -> float:
@@ -78,6 +97,7 @@ class Runs:
         case: str,
         vary: Mapping[str, Sequence[Any]],
         *,
+        options: Sequence[str] = (),
         run: str = "solve",
         keep: bool = False,
     ) -> Made:
@@ -91,6 +111,8 @@ class Runs:
             Namelist text of what all cases share.
         vary
             Values by key; all keys move together.
+        options
+            Texts ``group.key=value`` that hold for all cases.
         run
             'solve' or 'predict'.
         keep
@@ -106,11 +128,12 @@ class Runs:
         if name in self.made:
             return self.made[name]
         axes = [axis(key, list(values)) for key, values in vary.items()]
-        study = make(Case.from_text(case, origin=name), axes, zipped=True, run=run)
+        base = Case.from_text(case, origin=name)
+        study = make(base, axes, options=options, zipped=True, run=run)
         folder = self.folder / name
         todo = plan(study, folder.absolute() / CASES if keep else None)
         watcher = self.watch(name, todo) if self.watch is not None else None
-        outcome = perform(todo, folder, jobs=self.jobs, watcher=watcher)
+        outcome = perform(todo, folder, jobs=self.jobs, retry=True, watcher=watcher)
         if outcome.interrupted:
             raise KeyboardInterrupt
         rows = tuple(point.values | outcome.rows[point.number] for point in todo.points)

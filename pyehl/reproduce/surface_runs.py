@@ -67,18 +67,19 @@ def simulations(runs: Runs, level: Level) -> tuple[list[Row], list[Made]]:
     return [first, *others.rows], [made, others]
 
 
-def carried(points: int) -> str:
-    """Text of the case of Table 1 with the waves that a grid carries: longer than two nodes."""
+def carried(points: int) -> list[str]:
+    """Options that leave the waves that a grid carries: longer than two nodes."""
     _, point = tile()
     shortest = 2.0 * WIDTH / (points - 1) * point.hertz_radius
-    return CASE.replace("hurst = 0.8", f"hurst = 0.8  shortest_wavelength = {shortest:.6g}")
+    return [f"surface.shortest_wavelength={shortest:.6g}"]
 
 
 def predictions(runs: Runs, level: Level, model: str) -> Made:
     """Predict the same surfaces by one of `MODELS`, with the waves that the simulation has."""
     return runs.study(
         f"predictions-{model}-{level.surfaces}-{level.surface_grid}",
-        carried(level.surface_grid) + MODELS[model],
+        CASE + MODELS[model],
         {"surface.seed": list(range(SEED, SEED + level.surfaces))},
+        options=carried(level.surface_grid),
         run="predict",
     )

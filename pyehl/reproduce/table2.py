@@ -54,12 +54,19 @@ def run(runs: Runs, level: Level) -> Meshes:
         {"grid.points": [c[0] for c in cases], "time.scheme": [c[1] for c in cases]},
     )
     rows = [
-        (mesh, f"simulation, {scheme}", float(friction_of([row])[0]), float(row["seconds"]))
+        (
+            mesh,
+            f"simulation, {scheme}",
+            float(friction_of([row])[0]),
+            float(row["seconds"] or math.nan),
+        )
         for (mesh, scheme), row in zip(cases, made.rows, strict=True)
     ]
     if level.surface_grid in level.meshes:
         value = float(friction_of([first])[0])
-        rows.append((level.surface_grid, "simulation, narrow", value, float(first["seconds"])))
+        rows.append(
+            (level.surface_grid, "simulation, narrow", value, float(first["seconds"] or math.nan))
+        )
     # a mesh carries waves of more than two nodes
     shortest = [2.0 * WIDTH / (mesh - 1) * tile()[1].hertz_radius for mesh in level.meshes]
     shortest = [float(f"{length:.6g}") for length in shortest]
@@ -73,7 +80,12 @@ def run(runs: Runs, level: Level) -> Meshes:
         )
         studies.append(done)
         rows += [
-            (mesh, f"prediction, {model}", float(friction_of([row])[0]), float(row["seconds"]))
+            (
+                mesh,
+                f"prediction, {model}",
+                float(friction_of([row])[0]),
+                float(row["seconds"] or math.nan),
+            )
             for mesh, row in zip(level.meshes, done.rows, strict=True)
         ]
     return Meshes(sorted(rows), studies)

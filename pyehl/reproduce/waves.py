@@ -57,7 +57,7 @@ def smooth_films(runs: Runs, level: Level) -> dict[tuple[float, float], float]:
         SMOOTH.format(points=level.film_grid),
         {"contact.moes_m": [c[0] for c in contacts], "contact.moes_l": [c[1] for c in contacts]},
     )
-    return {c: float(row["H_c"]) for c, row in zip(contacts, made.rows, strict=True)}
+    return {c: float(made.solved(k)["H_c"]) for k, c in enumerate(contacts)}
 
 
 @dataclass(frozen=True, slots=True)

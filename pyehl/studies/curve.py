@@ -20,9 +20,10 @@ from numpy.typing import NDArray
 from pyehl import surfaces
 from pyehl.prediction.errors import KNOWN_RATIO
 from pyehl.studies.stribeck import CurvePlan, CurvePoint, Settings
-from pyehl.studies.tasks import FAILED
+from pyehl.studies.tasks import FAILED, why_none
 from pyehl.theory import stribeck
 from pyehl.theory.film import central_film
+from pyehl.theory.friction import absolute_friction
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
@@ -34,6 +35,7 @@ __all__ = [
     "UNSOLVED",
     "curve_rows",
     "full_film_ends",
+    "no_coefficient",
     "pattern",
 ]
 
@@ -157,7 +159,7 @@ def _at(point: CurvePoint, rows: Mapping[int, Row], kept: dict[str, Pattern]) ->
     if smooth["status"] == "converged" and smooth["H_c_extrapolated"] is None:
         values["message"] = _joined(values, f"film of {n} x {n} nodes, not extrapolated: {finer}")
     if smooth["status"] != "converged":
-        values["message"] = _joined(values, f"smooth contact: {_why(smooth)}; {finer}")
+        values["message"] = _joined(values, f"smooth contact: {why_none(smooth)}; {finer}")
         if values["status"] in (FULL_FILM, OUTSIDE):
             values["status"] = UNSOLVED
     return values
@@ -215,7 +217,7 @@ def _friction(found: Sequence[Row], smooth: Row) -> dict[str, Any]:
         status = BREAKDOWN if broken else UNSOLVED
         share = f"{broken or len(lost)} of {len(found)} surfaces: " if len(found) > 1 else ""
         row = next(row for row in lost if not broken or row["status"] == BREAKDOWN)
-        return {"status": status, "message": f"{share}{_why(row)}"}
+        return {"status": status, "message": f"{share}{why_none(row)}"}
     outside = sorted({row["outside_range"] for row in found if row.get("outside_range")})
     if any(row["mu_ratio"] > KNOWN_RATIO for row in found):
         outside.append(f"mu_ratio above {KNOWN_RATIO:g}")
@@ -248,8 +250,12 @@ def _largest(found: Sequence[Row], name: str) -> float | None:
     return max(numbers) if all(number is not None for number in numbers) else None  # type: ignore[type-var]
 
 
-def _why(row: Row) -> str:
-    return f"{row['status']}: {row['message']}" if row.get("message") else str(row["status"])
+def no_coefficient(settings: Settings) -> str:
+    """Say why a friction coefficient of a resolved case would have no meaning; '' if it has one."""
+    operating, lubricant = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
+    film = central_film(operating, lubricant)
+    found = absolute_friction(operating, lubricant, film=film, mu_smooth=1.0, mu_ratio=1.0)
+    return "" if math.isfinite(found["mu"]) else str(found["mu_note"])
 
 
 def _joined(values: Row, text: str) -> str:
@@ -272,12 +278,14 @@ def full_film_ends(
     """
     broken = tuple(k for k, row in enumerate(rows) if row["status"] == BREAKDOWN)
     known = [k for k, row in enumerate(rows) if row["status"] in (FULL_FILM, OUTSIDE)]
+    lost = len(rows) - len(known) - len(broken)
+    rest = f" with an answer; {lost} have none" if lost else ""
+    if not known and not broken:
+        return "no point has an answer", broken
     if not broken:
-        lost = len(rows) - len(known)
-        rest = f" with an answer; {lost} have none" if lost else ""
         return f"full film at all points{rest}", broken
     if not known:
-        return "no full film at any point", broken
+        return f"no full film at any point{rest}", broken
     pairs = [
         (k, j) for k in broken for j in known if not any(min(k, j) < m < max(k, j) for m in known)
     ]

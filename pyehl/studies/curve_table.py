@@ -93,6 +93,14 @@ class Measured:
     friction: Array
     error: Array
 
+    def outside(self, key: str, places: Array, rows: Sequence[Row]) -> int:
+        """Give the number of its places that the curve does not reach."""
+        column = _column(self.abscissa, key, places, rows)
+        known = column[np.isfinite(column)]
+        low, high = (known.min(), known.max()) if known.size else (np.inf, -np.inf)
+        inside = (self.places >= low) & (self.places <= high)
+        return int(np.count_nonzero(~inside))
+
     def over(self, name: str, key: str, places: Array, rows: Sequence[Row]) -> Array:
         """Give the places in another column of the curve, (n,); NaN outside of the curve.
 
@@ -137,7 +145,9 @@ def read_measured(path: str | os.PathLike[str], key: str) -> Measured:
     name = os.fspath(path)
     try:
         text = Path(path).read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
+    except OSError as error:
+        raise InputError(f"{name}: cannot read: {error.strerror}") from error
+    except UnicodeDecodeError as error:
         raise InputError(f"{name}: cannot read: {error}") from error
     lines = list(csv.reader(io.StringIO(text)))
     head = [word.strip() for word in lines[0]] if lines else []

@@ -2,8 +2,9 @@
 """The journal of a study: one line for each finished case, safe against a kill at any instant.
 
 A line is the CRC-32 of its text in eight hexadecimal digits, a blank, and JSON. The first line is
-the study; it is there with the file or the file is not there. Lines are only ever added, and are
-on the disk when `Journal.append` returns. What a kill leaves of the last line is cut off.
+the study. Lines are only ever added, by the process that holds the lock of the file, and are on the
+disk when `Journal.append` returns. What a kill leaves of the last line is cut off; of the first
+line it is written again.
 """
 
 from __future__ import annotations
@@ -13,8 +14,9 @@ import json
 import os
 import zlib
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 from pyehl.closing import Closing
 from pyehl.errors import FileError, InputError
@@ -23,8 +25,6 @@ __all__ = ["NAME", "Journal", "difference", "read_header"]
 
 NAME = "journal.jsonl"
 VERSION = 1
-# What a study may have in its folder before its journal is there
-LEFTOVERS = (f"{NAME}.partial",)
 
 Row = dict[str, Any]
 
@@ -62,11 +62,30 @@ def difference(old: Mapping[str, Any], new: Mapping[str, Any]) -> list[str]:
         a, b = old.get(name), new.get(name)
         if a == b:
             continue
-        if isinstance(a, dict) and isinstance(b, dict):
+        if name == "case":
+            lines += difference(_keys(str(a)), _keys(str(b)))
+        elif isinstance(a, dict) and isinstance(b, dict):
             lines += [f"{name}.{text}" for text in difference(a, b)]
         else:
             lines.append(f"{name}: there {_short(a)}, here {_short(b)}")
     return lines
+
+
+def _keys(text: str) -> dict[str, str]:
+    """Give values of a resolved case by ``group.key``, as text, and whether they are defaults.
+
+    Where its map lies is left out.
+    """
+    found, group = {}, ""
+    for line in text.splitlines():
+        key, equals, value = line.partition(" = ")
+        if line.startswith("&"):
+            group = line[1:].strip()
+        elif equals and (group, key.strip()) != ("surface", "file"):
+            word, *_, last = value.split(" ! ")
+            mark = f" ({last})" if last in ("default", "derived") else ""
+            found[f"{group}.{key.strip()}"] = word.strip() + mark
+    return found
 
 
 def _short(value: object) -> str:
@@ -109,43 +128,46 @@ class Journal(Closing):
         self.damaged = 0
         header = {"version": VERSION, **json.loads(json.dumps(study))}
         try:
-            if not self.path.exists():
-                self._begin(header)
-            self._file = self.path.open("r+b")
-            self._lock()
+            self._check_folder()
+            self._file = self._locked()
             self._load(header)
         except OSError as error:
             if isinstance(error, FileError):
                 raise
             raise FileError(f"{self.path}: {error.strerror or error}") from error
 
-    def _begin(self, header: Mapping[str, Any]) -> None:
+    def _check_folder(self) -> None:
         if self.folder.exists() and not self.folder.is_dir():
             raise InputError(f"{self.folder}: exists and is not a folder")
         self.folder.mkdir(parents=True, exist_ok=True)
-        others = [p.name for p in self.folder.iterdir() if not p.name.startswith(LEFTOVERS)]
-        if others:
+        others = os.listdir(self.folder)
+        # the journal is there before anything else of a study that begins just now
+        if others and not self.path.exists():
             raise InputError(
                 f"{self.folder}: not empty ({others[0]}), and not the folder of a study; "
                 "choose another"
             )
-        partial = self.folder / f"{NAME}.partial-{os.getpid()}"
-        with partial.open("wb") as stream:
-            stream.write(_line(header))
-            stream.flush()
-            os.fsync(stream.fileno())
-        partial.replace(self.path)
-        _sync_folder(self.folder)
 
-    def _lock(self) -> None:
-        try:
-            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError as error:
-            self._file.close()
-            raise InputError(f"{self.folder}: another process works on this study") from error
+    def _locked(self) -> BinaryIO:
+        """Open the file, made if it is not there, and lock it before anything is read."""
+        while True:
+            file = os.fdopen(os.open(self.path, os.O_RDWR | os.O_CREAT, 0o666), "r+b")
+            try:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                if os.path.samestat(os.fstat(file.fileno()), self.path.stat()):
+                    return file
+            except FileNotFoundError:
+                pass  # removed since it was opened: try again
+            except BlockingIOError as error:
+                file.close()
+                raise InputError(f"{self.folder}: another process works on this study") from error
+            file.close()
 
     def _load(self, header: Mapping[str, Any]) -> None:
         data = self._file.read()
+        if b"\n" not in data and _line(header).startswith(data):
+            self._begin(header)
+            return
         whole = data[: data.rfind(b"\n") + 1]
         lines = whole.splitlines()
         found = _read(lines[0]) if lines else None
@@ -167,6 +189,20 @@ class Journal(Closing):
                 self.damaged += 1
             else:
                 self.rows[int(row.pop("case"))] = row
+
+    def _begin(self, header: Mapping[str, Any]) -> None:
+        """Write the first line; without room for it there is no file."""
+        try:
+            self._file.seek(0)
+            self._file.write(_line(header))
+            self._file.flush()
+            os.fsync(self._file.fileno())
+            _sync_folder(self.folder)
+        except OSError:
+            self.path.unlink()
+            with suppress(OSError):
+                self._file.close()
+            raise
 
     def append(self, rows: Sequence[tuple[int, Row]]) -> None:
         """Add finished cases; they are on the disk when this returns.

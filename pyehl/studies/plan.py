@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The plan of a study: every case resolved and checked, how long, and what is shared."""
+"""The plan of a study: its cases resolved and checked, how long, and what is shared."""
 
 from __future__ import annotations
 
 import json
 import os
+import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,31 +19,40 @@ from pyehl.solver import Solver
 from pyehl.studies.estimate import seconds_of, shares_of, speed
 from pyehl.studies.study import Point, Study
 from pyehl.studies.tasks import Task
+from pyehl.surfaces.memory import available_bytes
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["Plan", "duration", "plan"]
+__all__ = ["Plan", "check_memory", "duration", "plan"]
 
 Settings = Mapping[str, Mapping[str, Any]]
 
 THREADS = "solver.threads"
+MOST, PATIENCE = 5000, 5.0
+"""Cases that a plan without a run checks at most, and seconds that it takes for them."""
+CASE_BYTES = 12_000
+"""Memory of a case that waits, most of it its resolved text."""
 # What may make a case that can be read one that cannot be solved
 GROUPS = ("grid", "surface", "time", "solver")
 
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """All cases of a study, checked, with what can be told before they run.
+    """Cases of a study, checked, with what can be told before they run.
 
     Attributes
     ----------
     study
         The study.
     points, tasks
-        Its cases in the order of the table.
+        Its cases in the order of the table; of a large study that is not to run, some of them.
     contacts, surfaces
         Smooth contacts and rough surfaces that differ.
+    maps
+        Files of their height maps.
+    check_seconds
+        Time that the checks took [s].
     """
 
     study: Study
@@ -50,6 +60,12 @@ class Plan:
     tasks: tuple[Task, ...]
     contacts: int
     surfaces: int
+    maps: tuple[str, ...]
+    check_seconds: float
+
+    def identity(self) -> dict[str, Any]:
+        """Give what makes this study another one than others, as values of JSON."""
+        return self.study.identity(self.tasks[0].text, self.maps)
 
     def text(self, jobs: int, done: Sequence[int] = ()) -> str:
         """Tell the plan in a few lines, for `jobs` worker processes and the cases left."""
@@ -59,12 +75,18 @@ class Plan:
             f"{len(axes[0].values)} {' with '.join(a.key for a in axes)}"
             for axes in self.study.dimensions
         )
-        lines = [f"study      {len(self.tasks)} cases ({self.study.run}): {names}"]
+        size, checked = self.study.size, len(self.tasks)
+        lines = [f"study      {size} cases ({self.study.run}): {names}"]
+        if checked < size:
+            lines.append(
+                f"checked    {checked} of them, spread over the values of each key; a run checks "
+                f"all before the first, in about {duration(self.check_seconds * size / checked)}"
+            )
         if finished:
             lines.append(f"           {len(finished)} of them are done")
         if not left:
             return "\n".join(lines)
-        total = sum(t.seconds for t in left)
+        total = sum(t.seconds for t in left) * size / checked
         longest = max(t.seconds for t in left)
         workers = min(jobs, len(left))
         words = "1 worker process" if workers == 1 else f"{workers} worker processes"
@@ -72,7 +94,7 @@ class Plan:
             f"time       about {duration(max(total / workers, longest))} by estimate, "
             f"{words} of one thread each; the longest case {duration(longest)}"
         )
-        if self.study.run == "predict" and len(self.tasks) > 1:
+        if self.study.run == "predict" and 1 < checked == size:
             lines.append(
                 f"shared     {self.contacts} smooth contacts and {self.surfaces} surfaces "
                 f"for {len(self.tasks)} cases"
@@ -89,7 +111,23 @@ def duration(seconds: float) -> str:
     return f"{seconds / 60.0:.0f} min" if seconds < 5400.0 else f"{seconds / 3600.0:.1f} h"
 
 
-def plan(study: Study, keep: str | os.PathLike[str] | None = None) -> Plan:
+def check_memory(cases: int) -> None:
+    """Refuse more cases than can wait in memory.
+
+    Raises
+    ------
+    InputError
+        With the memory that they need, and that there is.
+    """
+    need, have = CASE_BYTES * cases, available_bytes()
+    if need > have:
+        raise InputError(
+            f"{cases} cases take {need / 2**30:.2g} GiB of memory to wait in, "
+            f"{have / 2**30:.2g} GiB are available; take fewer values"
+        )
+
+
+def plan(study: Study, keep: str | os.PathLike[str] | None = None, *, brief: bool = False) -> Plan:
     """Resolve and check all cases of a study.
 
     Parameters
@@ -98,23 +136,37 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None) -> Plan:
         What to do.
     keep
         Folder for a result folder of each case; None: none is kept.
+    brief
+        For a plan that is not to run: of a study with more than `MOST` cases, as many as
+        `PATIENCE` allows.
 
     Raises
     ------
     InputError
-        If a case is not acceptable; the message names the case and what is wrong with it.
+        If a case is not acceptable; the message names the case and what is wrong with it. If
+        there are more cases than fit into memory.
     """
+    brief = brief and study.size > MOST
+    if not brief:
+        check_memory(study.size)
     fixed = {text.partition("=")[0].strip().lower() for text in study.options} | set(study.keys)
     one_thread = [] if THREADS in fixed else [f"{THREADS}=1"]
     factor = speed()
     digits = len(str(study.size))
     points, tasks = [], []
     seen: dict[str, set[str]] = {"contact": set(), "surface": set(), "checked": set()}
-    for point in study.points():
+    maps: dict[str, None] = {}
+    began = time.monotonic()
+    for number in study.spread(MOST) if brief else range(study.size):
+        if brief and time.monotonic() - began > PATIENCE:
+            break
+        point = study.point(number)
         case = study.resolved(point, *one_thread)
         settings = case.resolve()
         _check(study, point, case, settings, seen["checked"])
         seen["surface"].add(json.dumps(settings["surface"], default=str))
+        if settings["surface"]["kind"] == "map":
+            maps[str(settings["surface"]["file"])] = None
         folder = "" if keep is None else str(Path(keep) / f"{point.number + 1:0{digits}d}")
         shares = shares_of(settings, study.run)
         full = study.tracks or bool(folder)
@@ -125,7 +177,15 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None) -> Plan:
         tasks.append(
             Task(point.number, case.text, study.run, folder, seconds, shares, study.tracks)
         )
-    return Plan(study, tuple(points), tuple(tasks), len(seen["contact"]), len(seen["surface"]))
+    return Plan(
+        study,
+        tuple(points),
+        tuple(tasks),
+        len(seen["contact"]),
+        len(seen["surface"]),
+        tuple(maps),
+        time.monotonic() - began,
+    )
 
 
 def _check(study: Study, point: Point, case: Case, settings: Settings, checked: set[str]) -> None:

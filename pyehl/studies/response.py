@@ -15,6 +15,7 @@ import os
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
+from importlib import metadata
 from pathlib import Path
 from queue import Empty
 from typing import Any
@@ -24,6 +25,8 @@ from numpy.typing import NDArray
 
 from pyehl.case import Case
 from pyehl.errors import EhlError, FileError, InputError
+from pyehl.studies.journal import difference
+from pyehl.studies.pool import processors
 from pyehl.studies.ridges import ridges
 from pyehl.studies.superposition import superpose
 from pyehl.studies.tiers import TIERS, Tier, ridge_wavelengths, tier_waves
@@ -39,6 +42,7 @@ def _identity(settings: Mapping[str, Mapping[str, Any]], velocity_ratio: float, 
     """Tell what a tier depends on, as text."""
     o = OperatingPoint.from_settings(settings)
     values = {
+        "pyehl version": metadata.version("pyehl"),
         "contact": [o.load, o.mean_velocity, o.radius, o.reduced_modulus],
         "lubricant": dict(settings["lubricant"]),
         "velocity_ratio": velocity_ratio,
@@ -139,11 +143,16 @@ def _check_folder(
             continue
         try:
             with np.load(path, allow_pickle=False) as stored:
-                same = str(stored["identity"]) == _identity(settings, velocity_ratio, tier)
+                found = json.loads(str(stored["identity"]))
         except (OSError, ValueError, KeyError, EOFError) as error:
             raise InputError(f"{path}: cannot be read ({error}); remove it") from error
-        if not same:
-            raise InputError(f"{path}: belongs to another case; use another folder, or remove it")
+        wrong = difference(found, json.loads(_identity(settings, velocity_ratio, tier)))
+        if wrong:
+            raise InputError(
+                "\n  ".join(
+                    [f"{path}: is of another response; use another folder. It differs in", *wrong]
+                )
+            )
         done.append(tier)
     return done
 
@@ -225,7 +234,7 @@ def _run_all(
     context = mp.get_context("spawn")
     queue: Any = context.Queue()
     waiting = sorted(tiers, key=lambda tier: tier.points)
-    threads = max(1, (os.cpu_count() or 1) // max(1, min(jobs, len(waiting))))
+    threads = max(1, processors() // max(1, min(jobs, len(waiting))))
     running: dict[str, Any] = {}
     failed: list[str] = []
     try:

@@ -19,8 +19,8 @@ from pyehl.case import Case
 from pyehl.errors import EhlError, InputError
 from pyehl.prediction.options import Options, unpredictable
 from pyehl.studies.estimate import seconds_of, shares_of, speed
-from pyehl.studies.plan import duration
-from pyehl.studies.study import Point, Study, make
+from pyehl.studies.plan import check_memory, duration
+from pyehl.studies.study import MAX_CASES, Point, Study, make
 from pyehl.studies.tasks import Task
 from pyehl.studies.vary import Axis
 from pyehl.theory.film import central_film
@@ -40,6 +40,7 @@ KEYS = {
 }
 """What a curve may go over, by the option of the command."""
 SEED = "surface.seed"
+MAX_SURFACES = 1000
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +92,11 @@ class CurvePlan:
     def identity(self) -> dict[str, Any]:
         """Give what makes this curve another one than others, as values of JSON."""
         full = [p.point.number for p in self.points if p.full is not None]
-        return self.study.identity() | {"run": "stribeck", "surfaces": self.surfaces, "ehl": full}
+        surfaces = [p.settings["surface"] for p in self.points]
+        maps = dict.fromkeys(str(s["file"]) for s in surfaces if s["kind"] == "map")
+        first = (*self.points[0].predictions, self.points[0].smooth)[0]
+        found = self.study.identity(self.tasks[first].text, maps)
+        return found | {"run": "stribeck", "surfaces": self.surfaces, "ehl": full}
 
     def text(self, jobs: int, done: Sequence[int] = ()) -> str:
         """Tell the plan in a few lines, for `jobs` worker processes and the tasks left."""
@@ -140,14 +145,23 @@ def plan_curve(
     Raises
     ------
     InputError
-        If a case is not acceptable; the message names it.
+        If a case is not acceptable; the message names it. If there are too many.
     """
     study = make(case, axes, options=options, run="predict")
     size = study.size
     if not 0 <= ehl <= size:
         raise InputError(f"--ehl {ehl}: expected 0 to {size}, the number of points")
-    if seeds < 1:
-        raise InputError(f"--surfaces {seeds}: expected 1 or more")
+    if not 1 <= seeds <= MAX_SURFACES:
+        raise InputError(
+            f"--surfaces {seeds}: expected 1 to {MAX_SURFACES}; the spread of {MAX_SURFACES} is "
+            "known to 2 %"
+        )
+    count = size * (1 + seeds) + ehl
+    if count > MAX_CASES:
+        raise InputError(
+            f"{size} points with --surfaces {seeds} are {count} cases; a study can have {MAX_CASES}"
+        )
+    check_memory(count)
     chosen = {int((k + 0.5) * size / ehl) for k in range(ehl)}
     factor = speed()
     points: list[CurvePoint] = []

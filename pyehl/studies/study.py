@@ -3,19 +3,22 @@
 
 from __future__ import annotations
 
+import hashlib
 import itertools
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from pathlib import Path
+from importlib import metadata
 from typing import Any
+
+import numpy as np
 
 from pyehl.case import Case
 from pyehl.errors import InputError, did_you_mean
 from pyehl.studies.outputs import TRACKS, checked
 from pyehl.studies.vary import Axis, Value, option
 
-__all__ = ["RUNS", "Point", "Study", "make"]
+__all__ = ["MAX_CASES", "RUNS", "Point", "Study", "make"]
 
 RUNS = ("solve", "predict", "film")
 """What may be done with each case."""
@@ -93,15 +96,29 @@ class Study:
         """All keys that are varied."""
         return [a.key for axes in self.dimensions for a in axes]
 
+    def point(self, number: int) -> Point:
+        """Case of a number in the order of the table."""
+        index = tuple(int(k) for k in np.unravel_index(number, self.shape))
+        values = {
+            a.key: a.values[k] for k, axes in zip(index, self.dimensions, strict=True) for a in axes
+        }
+        return Point(number, index, values)
+
     def points(self) -> Iterator[Point]:
         """All cases in the order of the table."""
-        for number, index in enumerate(itertools.product(*(range(n) for n in self.shape))):
-            values = {
-                a.key: a.values[k]
-                for k, axes in zip(index, self.dimensions, strict=True)
-                for a in axes
-            }
-            yield Point(number, index, values)
+        return map(self.point, range(self.size))
+
+    def spread(self, count: int) -> list[int]:
+        """Numbers of about so many cases that have, together, the values of each dimension.
+
+        First those at the ends of all dimensions. Of a dimension with more than `count` values
+        they have as many, equally spaced.
+        """
+        ends = itertools.islice(itertools.product(*({0, n - 1} for n in self.shape)), count)
+        random = np.random.default_rng(0)
+        inner = zip(*(random.permutation(count) * n // count for n in self.shape), strict=True)
+        found = (int(np.ravel_multi_index(k, self.shape)) for k in itertools.chain(ends, inner))
+        return list(dict.fromkeys(found))
 
     def resolved(self, point: Point, *more: str) -> Case:
         """Give the case of a point, checked and complete, with `more` options.
@@ -120,12 +137,26 @@ class Study:
                 f"case {point.number + 1} of {self.size} ({point}):\n{error}"
             ) from error
 
-    def identity(self) -> dict[str, Any]:
-        """Give what makes this study another one than others, as values of JSON."""
-        base = self.case.text if isinstance(self.case, Case) else _text(self.case)
-        found = {
+    def identity(self, first: str, maps: Collection[str]) -> dict[str, Any]:
+        """Give what makes this study another one than others, as values of JSON.
+
+        Parameters
+        ----------
+        first
+            The first case, resolved.
+        maps
+            Files of the height maps of all cases.
+
+        Raises
+        ------
+        InputError
+            If a map cannot be read.
+        """
+        found: dict[str, Any] = {
+            "pyehl version": metadata.version("pyehl"),
             "run": self.run,
-            "case": base,
+            "case": first,
+            "height map": contents(maps),
             "set": list(self.options),
             "vary": {a.key: list(a.values) for axes in self.dimensions for a in axes},
             "zip": [[a.key for a in axes] for axes in self.dimensions if len(axes) > 1],
@@ -133,11 +164,18 @@ class Study:
         return found | ({"tracks": True} if self.tracks else {})
 
 
-def _text(path: str) -> str:
-    try:
-        return Path(path).read_text(encoding="utf-8", errors="replace")
-    except OSError as error:
-        raise InputError(f"{path}: cannot read: {error.strerror}") from error
+def contents(files: Collection[str]) -> dict[str, str]:
+    """Give the SHA-256 of files by their names, from the folder that they have in common."""
+    common = os.path.commonpath([os.path.dirname(name) for name in files]) if files else ""
+    found = {}
+    for name in files:
+        try:
+            with open(name, "rb") as stream:
+                digest = hashlib.file_digest(stream, "sha256").hexdigest()
+        except OSError as error:
+            raise InputError(f"{name}: cannot read: {error.strerror}") from error
+        found[os.path.relpath(name, common)] = f"sha256 {digest}"
+    return found
 
 
 def make(

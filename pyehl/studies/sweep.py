@@ -62,7 +62,7 @@ def perform(
     outcome = gather(
         todo.tasks,
         folder,
-        todo.study.identity(),
+        todo.identity(),
         jobs=jobs,
         scheduler=scheduler,
         retry=retry,

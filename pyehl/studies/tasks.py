@@ -9,24 +9,29 @@ from __future__ import annotations
 import json
 import math
 import time
+import traceback
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from pyehl.case import Case
+from pyehl.errors import EhlError
 from pyehl.kept import saved_seconds
 from pyehl.prediction import film_sheet, folder, of_case
 from pyehl.run import run
 from pyehl.solver import Solver
 from pyehl.studies.outputs import NOT_IN_A_TABLE, TRACKS, film_columns
 
-__all__ = ["FAILED", "SAVED", "Task", "execute"]
+__all__ = ["FAILED", "SAVED", "Task", "execute", "why_none"]
 
 SAVED = "saved_seconds"
 """What shared parts saved; it goes with a row but is not a column."""
 FAILED = "failed"
-"""Status of a case that gave no result."""
+"""Status of a case that ended with an exception."""
+INSIDE, OUTSIDE = "inside all ranges", "outside the range of a formula"
+RESULTS = frozenset({"converged", "predicted", INSIDE, OUTSIDE})
+"""Statuses of cases that have a result."""
 
 Row = dict[str, Any]
 
@@ -66,6 +71,13 @@ class Task:
         return asdict(self)
 
 
+def why_none(row: Mapping[str, Any]) -> str:
+    """Say in words why a case has no result; '' for one that has."""
+    if row["status"] in RESULTS:
+        return ""
+    return f"{row['status']}: {row['message']}" if row.get("message") else str(row["status"])
+
+
 def execute(task: Task) -> Row:
     """Do a task; results by their names in ``summary.json``, ``status``, ``seconds``, ``message``.
 
@@ -76,6 +88,9 @@ def execute(task: Task) -> Row:
         row = RUNNERS[task.run](task)
     except Exception as error:
         row = {"status": FAILED, "message": f"{type(error).__name__}: {error}"}
+        if not isinstance(error, EhlError):
+            # no fault of the case: the journal keeps where it was raised
+            row["traceback"] = traceback.format_exc()
     row["seconds"] = round(time.perf_counter() - began, 6)
     row[SAVED] = round(saved_seconds() - saved, 6)
     return row
@@ -112,7 +127,7 @@ def _film(task: Task) -> Row:
         if formula["h_min_m"] is not None:
             row[least] = formula["h_min_m"]
     outside = [f["name"] for f in values["formulas"] if f["outside"]]
-    row["status"] = "outside the range of a formula" if outside else "inside all ranges"
+    row["status"] = OUTSIDE if outside else INSIDE
     row["message"] = ", ".join(outside)
     return row
 

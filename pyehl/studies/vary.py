@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -86,13 +87,15 @@ def axis(key: str, values: str | Iterable[Any] | Value) -> Axis:
         if isinstance(values, str):
             found = _spaced(values) if ":" in values else _listed(values)
         elif isinstance(values, Iterable):
-            found = [_plain(value) for value in values]
+            found = [_plain(value) for value in islice(values, MAX_VALUES + 1)]
         else:
             found = [_plain(values)]
     except ValueError as error:
         raise InputError(f"{key} = {values!r}: {error}; expected {FORMS}") from error
     if not found:
         raise InputError(f"{key}: there are no values; expected {FORMS}")
+    if len(found) > MAX_VALUES:
+        raise InputError(f"{key}: more than {MAX_VALUES} values, the most that a study can have")
     if len({type(value) for value in found}) > 1:
         if not all(isinstance(v, int | float) and not isinstance(v, bool) for v in found):
             raise InputError(f"{key}: numbers and words together: {found}")

@@ -5,8 +5,11 @@ from __future__ import annotations
 
 import csv
 import json
+import os
 from itertools import islice
 from pathlib import Path
+from queue import Queue
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -36,7 +39,12 @@ def tiny(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[str]:
     return ["response", str(tmp_path / "case.nml"), "-o", str(tmp_path / "out")]
 
 
-def test_command(tiny: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+def test_command(
+    tiny: list[str],
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+):
     assert cli.main(tiny) == 0
     folder = tmp_path / "out"
     with (folder / "response.csv").open() as stream:
@@ -69,10 +77,14 @@ def test_command(tiny: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[
     (folder / "tier_long.npz").unlink()
     assert cli.main(tiny) == 0
     assert (folder / "response.csv").read_text() == before
-    # another case does not resume it
+    # another case does not resume it, nor does another version
     capsys.readouterr()
     assert cli.main([*tiny, "--set", "surface.velocity_ratio=1.1"]) == 2
-    assert "belongs to another case" in capsys.readouterr().err
+    assert "\n  velocity_ratio: there 1.05, here 1.1\n" in capsys.readouterr().err
+    here = response.metadata.version("pyehl")
+    monkeypatch.setattr(response.metadata, "version", lambda name: "9.9.9")
+    assert cli.main(tiny) == 2
+    assert f"\n  pyehl version: there {here}, here 9.9.9\n" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
@@ -101,6 +113,27 @@ def test_foreign_folder_is_refused(
     (tmp_path / "out" / "letter.txt").write_text("dear")
     assert cli.main(tiny) == 2
     assert "letter.txt" in capsys.readouterr().err
+
+
+def test_tiers_share_the_processors_that_may_be_used(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    """Six of 64, for two tiers at a time."""
+    threads = []
+
+    class Context:
+        Queue = Queue
+
+        def Process(self, *, target, args, daemon):  # noqa: N802
+            threads.append(args[3])
+            args[5].put(("end", (args[2].name, "")))
+            return Mock()
+
+    monkeypatch.setattr(os, "cpu_count", lambda: 64)
+    monkeypatch.setattr(os, "sched_getaffinity", lambda process: set(range(6)))
+    monkeypatch.setattr(response.mp, "get_context", lambda kind: Context())
+    response._run_all("", 1.0, TINY, 2, tmp_path, lambda name, done, total: None)
+    assert threads == [3, 3, 3]
 
 
 def test_failed_run_is_named(tmp_path: Path):

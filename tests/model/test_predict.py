@@ -44,6 +44,14 @@ def test_summary_says_what_was_done(settings):
         assert word in predict_command.report(result)
 
 
+@pytest.mark.parametrize("tracks", [10**9, 10_001, 0, -1])
+def test_too_many_tracks_are_refused_at_once(settings, tracks):
+    """Before anything is made: a list of a thousand million would take the memory."""
+    settings["surface"] = {"kind": "fractal"}
+    with pytest.raises(ValueError, match=rf"--tracks {tracks}: expected 1 to 10000; the mean over"):
+        predict(settings, tracks=tracks)
+
+
 def test_film_from_the_formula_and_law_from_psd(settings):
     settings["psd"] |= {"film_thickness": 0.0, "viscosity_law": "barus"}
     settings["lubricant"]["shear_law"] = "eyring"

@@ -183,6 +183,31 @@ def test_map_larger_than_the_memory(tmp_path, monkeypatch):
     assert read_scan(tmp_path / "map.npy", *SIZE).heights.shape == (30, 20)
 
 
+@pytest.mark.parametrize(
+    ("groups", "limits", "left"),
+    [
+        ("0::/a/b\n", {"a/b/memory.max": "max", "a/memory.max": "9000"}, 9000 - 500 + 70),
+        ("0::/\n", {"memory.max": "max"}, 2**20),
+        ("1:cpu:/\n4:memory:/a\n", {"memory/a/memory.limit_in_bytes": "8000"}, 8000 - 500 + 70),
+        ("4:memory:/elsewhere\n", {"memory/memory.limit_in_bytes": "7000"}, 7000 - 500 + 70),
+        ("0::/\n", {"memory.max": "9999999"}, 2**20),
+    ],
+)
+def test_memory_that_the_control_groups_leave(tmp_path, groups, limits, left):
+    """Of both versions of control groups, and of those above; pages of files can go."""
+    (tmp_path / "proc" / "self").mkdir(parents=True)
+    (tmp_path / "proc" / "self" / "cgroup").write_text(groups)
+    (tmp_path / "proc" / "meminfo").write_text("MemTotal: 4096 kB\nMemAvailable: 1024 kB\n")
+    for name, text in limits.items():
+        place = tmp_path / "sys" / "fs" / "cgroup" / name
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_text(text + "\n")
+        used = "current" if name.endswith("max") else "usage_in_bytes"
+        (place.parent / f"memory.{used}").write_text("500\n")
+        (place.parent / "memory.stat").write_text("anon 430\ninactive_file 70\n")
+    assert memory.available_bytes(tmp_path) == left
+
+
 def test_lengths_in_other_units_are_noticed(tmp_path):
     np.save(tmp_path / "map.npy", slope_map())
     with pytest.raises(ValueError, match="is the length in m"):

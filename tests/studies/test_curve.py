@@ -14,9 +14,7 @@ import xarray as xr
 
 import pyehl
 from pyehl.cli import main
-from pyehl.errors import InputError
 from pyehl.studies.curve import BREAKDOWN, FULL_FILM, OUTSIDE, full_film_ends, pattern
-from pyehl.studies.curve_table import Measured, read_measured
 from pyehl.surfaces import harmonic
 from pyehl.theory import stribeck
 from pyehl.theory.operating import OperatingPoint
@@ -157,7 +155,7 @@ def test_temperature_and_load(cases: Path, tmp_path: Path):
         values = [float(row[name]) for row in rows]
         assert values == sorted(values, reverse=True), name
     assert "lubricant.temperature" in told
-    run(
+    _, complaint = run(
         str(cases / "table1.nml"),
         *words,
         "--set",
@@ -166,6 +164,11 @@ def test_temperature_and_load(cases: Path, tmp_path: Path):
         "300,1600,5000",
         "-o",
         str(tmp_path / "l"),
+        expect=1,
+    )
+    assert complaint == (
+        "point 3 of 3 (contact.load=5000): not solved: smooth contact: negative film; "
+        "grid.points = 513 may do better\n"
     )
     light, heavy, lost = table(tmp_path / "l")
     assert (light["message"], light["status"]) == ("", FULL_FILM)
@@ -250,45 +253,14 @@ def statuses(*words: str) -> list[dict[str, str]]:
         (statuses(FULL_FILM, BREAKDOWN, BREAKDOWN), "between u = 1 and 2", (1, 2)),
         (statuses(BREAKDOWN, BREAKDOWN, BREAKDOWN), "no full film", (0, 1, 2)),
         (statuses("not solved", FULL_FILM, FULL_FILM), "1 have none", ()),
+        (statuses(BREAKDOWN, BREAKDOWN, "not solved"), "no full film at any point with", (0, 1)),
+        (statuses("not solved", "not solved", "not solved"), "no point has an answer", ()),
     ],
 )
 def test_where_full_film_ends(rows: list[dict[str, str]], says: str, broken: tuple[int, ...]):
     words, found = full_film_ends("u", [1.0, 2.0, 3.0], rows)
     assert says in words
     assert found == broken
-
-
-def test_measured_data_over_other_abscissae(tmp_path: Path):
-    (tmp_path / "m.csv").write_text("u,mu\n2.0,0.05\n8.0,0.04\n99.0,0.03\n")
-    measured = read_measured(tmp_path / "m.csv", "u")
-    places = np.array([1.0, 4.0, 16.0])
-    # lambda goes as u^2 on this curve
-    rows = [{"lambda_ratio": u**2} for u in places]
-    assert measured.over("u", "u", places, rows) == pytest.approx([2.0, 8.0, 99.0])
-    found = measured.over("lambda_ratio", "u", places, rows)
-    assert found[:2] == pytest.approx([4.0, 64.0])
-    assert np.isnan(found[2])
-    back = Measured("lambda_ratio", np.array([9.0]), "mu", np.array([0.1]), np.zeros(1))
-    assert back.over("u", "u", places, rows) == pytest.approx([3.0])
-
-
-@pytest.mark.parametrize(
-    ("text", "says"),
-    [
-        ("", "the columns are none"),
-        ("speed,mu\n1,2\n", "expected: one of u, hersey"),
-        ("u,hersey,mu\n1,1,2\n", "expected: one of u, hersey"),
-        ("u,mu\n1,high\n", ":2: error: mu = 'high'"),
-        ("u,mu\n1,0.1\n-1,0.1\n", ":3: error: u = '-1'"),
-        ("u,mu\n1\n", ":2: error: mu = 'nothing'"),
-        ("u,mu\n", "there are no rows"),
-    ],
-)
-def test_measured_data_that_are_refused(tmp_path: Path, text: str, says: str):
-    (tmp_path / "m.csv").write_text(text)
-    with pytest.raises(InputError) as refusal:
-        read_measured(tmp_path / "m.csv", "u")
-    assert says in str(refusal.value)
 
 
 @pytest.mark.parametrize(
@@ -298,6 +270,8 @@ def test_measured_data_that_are_refused(tmp_path: Path, text: str, says: str):
         (["--speed", "0.5", "--set", "surface.kind=smooth", "--ehl", "1"], "no passage to solve"),
         (["--speed", "0.5", "--ehl", "2"], "--ehl 2: expected 0 to 1"),
         (["--speed", "0.5", "--surfaces", "0"], "--surfaces 0"),
+        (["--speed", "0.5", "--surfaces", "1000000000"], "--surfaces 1000000000: expected 1 to"),
+        (["--speed", "1:2:2000", "--surfaces", "999"], "2000000 cases; a study can have"),
         (["--speed", "0.5,-1"], "case 2 of 2"),
         (["--temperature", "40:60:3"], "lubricant.temperature"),
         (["--speed", "1", "--set", "surface.kind=harmonic", "--surfaces", "2"], "has no seed"),
@@ -313,11 +287,14 @@ def test_curves_that_are_refused(cases: Path, tmp_path: Path, words: list[str], 
 def test_ends_of_a_curve_say_why(cases: Path, tmp_path: Path):
     """A load that no grid solves, told in words; a ratio larger than any that was compared."""
     words = ("--set", "surface.pixels=64", "--set", "grid.points=65", "-o")
-    told, _ = run(str(cases / "table1.nml"), "--speed", "0.005,4", *words, str(tmp_path / "1"))
+    told, complaint = run(
+        str(cases / "table1.nml"), "--speed", "0.005,4", *words, str(tmp_path / "1"), expect=1
+    )
     lost, found = table(tmp_path / "1")
     assert lost["status"] == "not solved"
     assert "did not converge on 1025 x 1025 nodes" in lost["message"]
-    assert "not solved 1 of 2, the first: failed: EhlError: the smooth contact" in told
+    assert "point 1 of 2 (contact.mean_velocity=0.005): not solved: failed: " in complaint
+    assert "full film at all points with an answer; 1 have none" in told
     assert found["status"] == FULL_FILM
     words = ("--set", "surface.pixels=256", "--set", "grid.points=257", "--set")
     words += ("surface.rms_height=7e-8", "-o", str(tmp_path / "2"))
@@ -336,9 +313,31 @@ def test_a_point_without_a_smooth_solution_is_not_solved(cases: Path, tmp_path: 
     words = ("--set", "surface.pixels=64", "--set", "grid.points=65", "--set")
     words += ("lubricant.shear_law=eyring", "--speed", "0.02,4")
     words += ("--measured", str(tmp_path / "m.csv"), "-o", str(tmp_path / "out"))
-    run(str(cases / "table1.nml"), *words)
+    run(str(cases / "table1.nml"), *words, expect=1)
     slow, fast = table(tmp_path / "out")
     assert slow["h_c_m"] == ""
     assert slow["status"] in ("not solved", BREAKDOWN)
     assert fast["mu"] != ""
     assert (tmp_path / "out" / "stribeck.png").is_file()
+
+
+def test_nothing_solved_is_no_full_film(cases: Path, tmp_path: Path):
+    """Neither words nor pictures speak of a film that no point has."""
+    words = ("--set", "surface.kind=smooth", "--set", "grid.points=65", "--speed", "0.003,0.005")
+    told, complaint = run(str(cases / "table1.nml"), *words, "-o", str(tmp_path / "out"), expect=1)
+    assert "no point has an answer" in told
+    assert "full film" not in told
+    assert complaint.count(": not solved: ") == 2
+    assert "there is no picture" in complaint
+    assert not (tmp_path / "out" / "stribeck.png").exists()
+    assert "stribeck.png" not in told
+
+
+def test_a_curve_of_breakdown_alone_has_no_picture(cases: Path, tmp_path: Path):
+    words = ("--set", "surface.pixels=64", "--set", "surface.rms_height=5e-7", "--set")
+    words += ("grid.points=129", "--speed", "0.8,1.6", "-o", str(tmp_path))
+    told, complaint = run(str(cases / "table1.nml"), *words, expect=1)
+    assert "no full film at any point" in told
+    assert "there is no picture" in complaint
+    assert {row["status"] for row in table(tmp_path)} == {BREAKDOWN}
+    assert not (tmp_path / "stribeck.png").exists()

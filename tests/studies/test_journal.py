@@ -4,11 +4,14 @@
 from __future__ import annotations
 
 import shutil
+import threading
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 
-from pyehl import InputError
+from pyehl import Case, FileError, InputError
+from pyehl.studies import journal as journal_module
 from pyehl.studies.journal import NAME, Journal, difference
 
 STUDY = {"run": "film", "vary": {"contact.load": [1.0, 2.0]}}
@@ -98,3 +101,86 @@ def test_other_folders_are_left_alone(tmp_path: Path):
     assert [p.name for p in tmp_path.iterdir()] == ["thesis.txt"]
     with pytest.raises(InputError, match="not a folder"):
         Journal(tmp_path / "thesis.txt", STUDY)
+
+
+def test_first_starts_at_once_lose_nothing(tmp_path: Path):
+    """What `append` returned from is there, whoever was first; the others are refused."""
+    starts = 4
+    lost, refused = [], 0
+    with ThreadPoolExecutor(starts) as pool:
+        for n in range(50):
+            folder, barrier = tmp_path / str(n), threading.Barrier(starts)
+
+            def start(number: int, folder: Path = folder, barrier: threading.Barrier = barrier):
+                barrier.wait()
+                try:
+                    with Journal(folder, STUDY) as journal:
+                        journal.append([(number, {"x": number})])
+                except InputError as error:
+                    return str(error)
+                return number
+
+            found = list(pool.map(start, range(starts)))
+            words = {text for text in found if isinstance(text, str)}
+            assert words <= {f"{folder}: another process works on this study"}
+            refused += len(words)
+            lost += sorted({k for k in found if isinstance(k, int)} - set(rows_of(folder)))
+            assert [p.name for p in folder.iterdir()] == [NAME]
+    assert lost == []
+    assert refused
+
+
+def test_a_journal_that_was_removed_meanwhile_is_not_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    """Between opening and locking: the rows would go to a file that nobody can find."""
+    real = journal_module.fcntl.flock
+    left = [1, 1]
+
+    def flock(*arguments: object) -> None:
+        if left:
+            left.pop()
+            (tmp_path / NAME).unlink()
+        real(*arguments)
+
+    monkeypatch.setattr(journal_module.fcntl, "flock", flock)
+    with Journal(tmp_path, STUDY) as journal:
+        journal.append([(0, {"x": 1.0})])
+    assert rows_of(tmp_path) == {0: {"x": 1.0}}
+
+
+def test_a_first_line_that_was_cut_is_written_again(tmp_path: Path):
+    """It has no rows yet; that of another study is not touched."""
+    Journal(tmp_path, STUDY).close()
+    path = tmp_path / NAME
+    first = path.read_bytes()
+    for length in (0, 5, len(first) - 1):
+        path.write_bytes(first[:length])
+        Journal(tmp_path, STUDY).close()
+        assert path.read_bytes() == first
+    path.write_bytes(first[:-1])
+    with pytest.raises(InputError, match="first line is damaged"):
+        Journal(tmp_path, {"run": "solve"})
+    assert path.read_bytes() == first[:-1]
+
+
+def test_without_room_for_its_first_line_there_is_no_journal(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    def full(number: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(journal_module.os, "fsync", full)
+    with pytest.raises(FileError, match="No space left"):
+        Journal(tmp_path / "new", STUDY)
+    assert list((tmp_path / "new").iterdir()) == []
+
+
+def test_cases_differ_by_their_keys():
+    old = Case.from_text("", ["grid.points=65", "contact.load=600.0"]).text
+    new = Case.from_text("", ["grid.points=129"]).text
+    assert difference({"case": old}, {"case": new}) == [
+        # a default follows other values, one that was given does not
+        "contact.load: there 600.0, here 600.0 (default)",
+        "grid.points: there 65, here 129",
+    ]

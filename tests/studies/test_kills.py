@@ -18,6 +18,7 @@ import pytest
 
 import pyehl
 from pyehl.studies import pool
+from pyehl.studies import tasks as tasks_module
 from pyehl.studies.journal import NAME
 from pyehl.studies.tasks import FAILED, Task, execute
 
@@ -44,6 +45,21 @@ def test_a_failing_case_does_not_stop_the_rest():
     tasks = [Task(n, good if n % 2 else bad, "solve") for n in range(4)]
     rows = dict(row for some in pool.rows(tasks, 2) for row in some)
     assert [rows[n]["status"] == FAILED for n in range(4)] == [True, False, True, False]
+
+
+def test_a_fault_of_the_program_keeps_where_it_was(monkeypatch: pytest.MonkeyPatch):
+    """The journal has the lines of the source; the table the message alone."""
+
+    def broken(task: Task) -> dict[str, object]:
+        raise ZeroDivisionError("no such thing")
+
+    monkeypatch.setitem(tasks_module.RUNNERS, "film", broken)
+    row = execute(Task(0, "", "film"))
+    assert row["message"] == "ZeroDivisionError: no such thing"
+    assert "in broken" in row["traceback"]
+    # a case that is not acceptable is no such fault
+    bad = pyehl.Case.from_text("").text.replace("points = 513", "points = 514")
+    assert "traceback" not in execute(Task(0, bad, "solve"))
 
 
 def test_a_task_that_ends_its_worker_is_a_row(monkeypatch: pytest.MonkeyPatch):
@@ -87,7 +103,7 @@ def test_long_tasks_first_and_sharing_tasks_together():
 
 def begin(folder: Path, case: Path) -> subprocess.Popen[str]:
     return subprocess.Popen(
-        [*SWEEP, str(case), *FAST, "--vary", "contact.moes_l=0:9:20", "-o", str(folder)],
+        [*SWEEP, str(case), *FAST, "--vary", "contact.moes_l=1:9:20", "-o", str(folder)],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,

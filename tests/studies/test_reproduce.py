@@ -12,7 +12,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from pyehl.case import Case
 from pyehl.cli import main
+from pyehl.reproduce import figure2, surface_runs
 from pyehl.reproduce import waves as wave_module
 from pyehl.reproduce.driver import PIECES, reproduce
 from pyehl.reproduce.fit import evaluate, fit, scatter
@@ -183,6 +185,21 @@ def test_parameter_from_the_response():
     assert SMALL_WAVES * theta**-2 == pytest.approx(simulated, rel=0.12)
 
 
+def test_a_failed_run_fails_its_piece_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """The run is named in the report, and the other pieces are there; done again it is tried."""
+    good = figure2.CASE
+    monkeypatch.setattr(figure2, "CASE", good + "&solver max_cycles = 1 /\n")
+    level = replace(SMALL, wave_grids=(33,))
+    table_1, figure_2 = reproduce(["figure 2", "table 1"], level, tmp_path, jobs=2)
+    assert table_1.passed
+    assert not figure_2.passed
+    assert figure_2.line().startswith("FAIL: case 1 of the study 'figure2-33': ")
+    for page in ("report.md", "report.html"):
+        text = (tmp_path / page).read_text()
+        assert "1 of 2 pieces are within all their tolerances." in text
+        assert "case 1 of the study" in text
+
+
 @pytest.mark.slow
 def test_waves_and_surfaces_on_coarse_grids(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """All other pieces, small: what they find, not how well the paper is met on such grids."""
@@ -233,3 +250,9 @@ def test_levels_differ_as_they_say():
     assert FULL.surfaces == 20
     assert FULL.meshes == (257, 513, 1025)
     assert QUICK.collapse_grid < FULL.collapse_grid == 513
+
+
+def test_predictions_have_the_waves_of_the_grid():
+    (option,) = surface_runs.carried(257)
+    shortest = Case.from_text(surface_runs.CASE, [option]).resolve()["surface"]
+    assert shortest["shortest_wavelength"] == pytest.approx(8.0 / 256 * 4.154e-4, rel=1e-3)

@@ -6,6 +6,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import time
 from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
@@ -15,6 +16,7 @@ import xarray as xr
 
 import pyehl
 from pyehl.cli import main
+from pyehl.studies import plan as plan_module
 from pyehl.studies.estimate import seconds_of
 from pyehl.studies.journal import NAME
 from pyehl.studies.plan import plan
@@ -115,6 +117,8 @@ def test_another_study_in_the_same_folder_is_refused(done: tuple[Path, str], cas
         (["--vary", "contact.moes_m=1:2", "--outputs", "H_c,h_cm"], "--outputs: unknown result"),
         (["--vary", "contact.moes_m=1:2", "--outputs", "h_cm"], "did you mean 'h_c_m'"),
         (["--vary", "contact.moes_m=1:2", "--outputs", "mu_ratio_tracks"], "run = 'solve'"),
+        (["--vary", "contact.moes_m=1:9:1000000001"], "there can be 1 to 1000000"),
+        (["--vary", "contact.moes_m=1:9:1001", "--vary", "contact.moes_l=1:9:1000"], "can have"),
     ],
 )
 def test_one_bad_case_and_nothing_runs(cases: Path, tmp_path: Path, words: list[str], says: str):
@@ -218,3 +222,55 @@ def test_benchmark(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     assert two["overhead_ms"] is None
     assert list(one["statuses"].values()) == [400]
     assert main(["bench", "sweep", "--scenes", "flim"]) == 2
+
+
+def test_a_message_for_each_case_without_a_result(cases: Path, tmp_path: Path):
+    """Of those that did not converge, too; in Python the dataset has their status."""
+    words = ("--set", "grid.points=33", "--vary", "solver.max_cycles=1,30,2")
+    told, complaint = sweep(tmp_path / "out", str(cases / "quick.nml"), *words, expect=1)
+    assert "1 converged, 2 cycle limit" in told
+    first, last = complaint.splitlines()
+    assert first == "case 1 of 3 (solver.max_cycles=1): cycle limit"
+    assert last == "case 3 of 3 (solver.max_cycles=2): cycle limit"
+    # nothing is left to do, and the status is the same
+    assert sweep(tmp_path / "out", str(cases / "quick.nml"), *words, expect=1)[1] == complaint
+    data = pyehl.sweep(
+        cases / "quick.nml", {"solver.max_cycles": [1, 30]}, "grid.points=33", jobs=1
+    )
+    assert data.status.values.tolist() == ["cycle limit", "converged"]
+
+
+def test_a_plan_of_a_million_cases(cases: Path, tmp_path: Path):
+    """It checks some, among them both ends of what is varied, and says so."""
+    words = [str(cases / "table1.nml"), "--run", "film", "--plan", "--vary"]
+    words += ["contact.load=100:600:1000", "--vary"]
+    began = time.monotonic()
+    told, _ = sweep(tmp_path / "out", *words, "contact.mean_velocity=0.1:1:1000")
+    assert time.monotonic() - began < 60.0
+    assert "1000000 cases (film)" in told
+    assert "of them, spread over the values of each key; a run checks all before" in told
+    _, refused = sweep(tmp_path / "out", *words, "contact.mean_velocity=1:-1:1000", expect=2)
+    assert "case 1000 of 1000000 (contact.load=100.0, contact.mean_velocity=-1.0)" in refused
+
+
+def test_a_spread_has_all_values_and_the_ends(cases: Path):
+    axes = [parse_axis("contact.load=1:30"), parse_axis("contact.radius=1:9:900")]
+    study = make(str(cases / "quick.nml"), [*axes, parse_axis("surface.seed=1:7")])
+    points = [study.point(number) for number in study.spread(500)]
+    assert 500 <= len(points) <= 508
+    assert len({p.number for p in points}) == len(points)
+    ends = {(i, j, k) for i in (0, 29) for j in (0, 899) for k in (0, 6)}
+    assert {p.index for p in points[:8]} == ends
+    for axis, least in enumerate((30, 500, 7)):
+        assert len({p.index[axis] for p in points}) >= least
+    assert list(study.points())[123] == study.point(123)
+
+
+def test_more_cases_than_fit_into_memory_are_refused(
+    cases: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(plan_module, "available_bytes", lambda: 3 * plan_module.CASE_BYTES - 1)
+    words = [str(cases / "quick.nml"), "--run", "film", "--vary", "surface.seed=1:3"]
+    _, refused = sweep(tmp_path / "out", *words, expect=2)
+    assert "3 cases take " in refused
+    assert not (tmp_path / "out").exists()

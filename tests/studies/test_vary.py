@@ -170,3 +170,11 @@ def test_study_files_that_are_refused(tmp_path: Path, text: str, says: str):
         make(**read_study(path))
     assert says in str(refusal.value)
     assert "study.toml" in str(refusal.value)
+
+
+def test_more_values_than_a_study_can_have_are_not_collected():
+    """A range of so many takes no memory, a list of them would."""
+    taken = iter(range(10**9))
+    with pytest.raises(InputError, match="more than 1000000 values"):
+        axis("surface.seed", taken)
+    assert next(taken) == 1_000_001
