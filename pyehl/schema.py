@@ -124,6 +124,7 @@ s | mu_ratio_error | - | error of mu_ratio: the sum of its parts; null if one is
 s | mu_ratio_error_note | | why the error is not known; else empty
 s | mu_ratio_error_grid | - | part of the error from the grid, by two grids
 s | mu_ratio_error_stop | - | part of the error from the end of the run
+s | mu_ratio_error_domain | - | part of it from the borders of the domain
 s | mu_ratio_error_left_out | - | part of the error from waves that are left out, predicted
 s | mu_ratio_unresolved | - | predicted part of mu_ratio in waves that the grid does not resolve
 p | mu_ratio_model_error | - | error of the model

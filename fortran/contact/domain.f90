@@ -13,7 +13,7 @@ module ehl_domain
    use ehl_moes, only: operating_t
    implicit none (type, external)
    private
-   public :: domain_t, needed_domain, domain_cost
+   public :: domain_t, needed_domain, domain_cost, ratio_cost
 
    !> inlet <= X <= outlet, -side <= Y <= side [a]
    type :: domain_t
@@ -100,6 +100,13 @@ contains
       cost(2) = cost(1) + of_sides_at_minimum*sides
       cost = min(cost, 1.0_dp)
    end function domain_cost
+
+   !> What a cost of H_c makes of a friction ratio: waves of a height of their own rise as the film falls, with about the
+   !> square of their height over it, and exponentially where they raise the pressure by much (docs/accuracy.md)
+   pure real(dp) function ratio_cost(cost, ratio)
+      real(dp), intent(in) :: cost, ratio
+      ratio_cost = 2.0_dp*cost*abs(ratio - 1.0_dp)*max(1.0_dp, log(max(ratio, 1.0_dp)))
+   end function ratio_cost
 
    !> -d ln h/d ln w at constant speed, by the film formula
    pure real(dp) function sensitivity(contact, point)

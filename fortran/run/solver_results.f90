@@ -1,13 +1,15 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The plan in words, results and fields of a run
 submodule (ehl_solver) ehl_solver_results
+   use ehl_domain, only: ratio_cost
    use ehl_outcome, only: outcome_names, outcome_target_missed
    use ehl_plan_text, only: plan_text
    use ehl_conclusion, only: conclusion_of => conclusion
    use ehl_ratio_error, only: ratio_error_t
-   use ehl_report, only: report_transient, report_rest, report_scene, report_smooth, report_waves
+   use ehl_report, only: report_transient, report_rest, report_scene, report_waves
    use ehl_report_friction, only: report_friction
    use ehl_report_passage, only: report_passage
+   use ehl_report_smooth, only: report_smooth
    use ehl_skipped_work, only: find_skips, report_skips, skip_lines, skip_t
    use ehl_status, only: ehl_bad_input, ehl_no_memory
    use ehl_text, only: newline
@@ -93,6 +95,7 @@ contains
       call error%add(record, "mu_ratio_error_grid", grid, why)
       call error%add(record, "mu_ratio_error_stop", stop_error, why)
       call error%add(record, "mu_ratio_error_left_out", waves%left_out, waves%why)
+      call error%add(record, "mu_ratio_error_domain", ratio_cost(self%plan%domain_cost(1), ratio), why)
       call error%report(record)
    end subroutine report_ratio
 

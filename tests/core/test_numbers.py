@@ -29,7 +29,7 @@ WAVE = (
 )
 COARSE_FAILS = WAVE.format(129, 0.8)
 """On 65 x 65 nodes the film becomes negative."""
-PARTS = ("mu_ratio_error_grid", "mu_ratio_error_stop", "mu_ratio_error_left_out")
+PARTS = tuple(f"mu_ratio_error_{part}" for part in ("grid", "stop", "left_out", "domain"))
 
 
 def summary_of(folder: Path) -> dict[str, Any]:

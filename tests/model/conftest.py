@@ -10,6 +10,7 @@ from pyehl import surfaces
 
 # A resolved case: the reference conditions with the fractal surface, the model of the paper
 RESOLVED = {
+    "grid": {"x_inlet": -2.5, "x_outlet": 1.5, "y_extent": 2.0},
     "contact": {
         "load": 600.0,
         "mean_velocity": 0.84,

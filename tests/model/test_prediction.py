@@ -195,7 +195,7 @@ def test_waves_left_out_are_in_the_error():
     # grids that do not carry all waves have no common limit to extrapolate to
     assert "mu_ratio_extrapolated" not in summary
     assert abs(summary["mu_ratio_unresolved"]) > summary["mu_ratio_error_left_out"] > 0.0
-    parts = [summary[f"mu_ratio_error_{part}"] for part in ("grid", "stop", "left_out")]
+    parts = [summary[f"mu_ratio_error_{part}"] for part in ("grid", "stop", "left_out", "domain")]
     assert summary["mu_ratio_error"] == pytest.approx(sum(parts), rel=1e-12)
 
 
