@@ -91,8 +91,9 @@ contains
             axis = next_axis(grid, step)
             extent = high - low + 2*size(self%omega)
             if (grid%mirror) extent(2) = extent(2) + high(2)
+            ! meshes of a quarter of a and more, under thick films, need no more than their own error
             call stage%stencil%make(axis, step, extent, grid%hx, grid%hy, self%omega, &
-                                    share*goal*ratio**(s - 1), met)
+                                    share*goal*ratio**(s - 1)*max(1.0_dp, 4.0_dp*grid%hx, 4.0_dp*grid%hy)**1.35_dp, met)
             if (goal < fine_limit .or. .not. met) then
                call refuse(accuracy, status)
                return
