@@ -226,8 +226,6 @@ class SolverHandle(Closing):
         check(status, message)
         return text_of(text)
 
-    def _write(self, folder: str | os.PathLike[str]) -> str:
+    def _write(self, folder: str | os.PathLike[str]) -> None:
         with self._lock:
-            note, status, message = ehl.write_output(self._handle, os.fsencode(folder))
-        check(status, message)
-        return text_of(note)
+            check(*ehl.write_output(self._handle, os.fsencode(folder)))

@@ -28,7 +28,8 @@ class Quantity:
 
 # Letters of the kinds | name | unit | meaning
 _TABLE = """
-pfr | kind | | what the summary is of: 'prediction', 'film' or 'response'; a solution has none
+spfr | kind | | what the summary is of: 'solution', 'prediction', 'film' or 'response'
+spr | files | | names of the files of the result in its folder
 sp | status | | 'converged', 'predicted', or why there is no result
 s | converged | | whether the results are a solution
 p | message | | the status in a sentence

@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, Self
@@ -19,7 +19,8 @@ from numpy.typing import ArrayLike
 
 from pyehl import display
 from pyehl.case import Case, Option
-from pyehl.errors import FileError, InputError
+from pyehl.destination import Destination
+from pyehl.errors import InputError
 from pyehl.handle import SolverHandle, Work
 from pyehl.surfaces import Record, Topography, for_solver
 
@@ -190,34 +191,45 @@ class Solver(SolverHandle):
         from pyehl.results import load  # noqa: PLC0415
 
         with tempfile.TemporaryDirectory(prefix="pyehl-") as folder:
-            self.write(folder)
+            self._fill(Path(folder))
             return load(folder)
 
-    def write(self, folder: str | os.PathLike[str]) -> str:
-        """Write the result folder, whole or not at all; returns a note, mostly empty.
+    def write(
+        self,
+        folder: str | os.PathLike[str],
+        *,
+        force: bool = False,
+        inputs: Iterable[str | os.PathLike[str]] = (),
+    ) -> None:
+        """Write the result folder, whole or not at all.
+
+        Parameters
+        ----------
+        folder
+            A new or empty folder, or one with a result of an earlier run, which is replaced.
+        force
+            Other files may be in the folder; they stay.
+        inputs
+            Files that must not be replaced.
 
         Raises
         ------
+        InputError
+            If the folder holds something else.
         FileError
             If it cannot be written.
         """
-        note = self._write(folder)
-        if self.preparation or self.resolution:
-            self._amend(Path(folder))
-        return note
+        place = Destination(folder, "solution", inputs=tuple(inputs), force=force)
+        with place.fresh() as fresh:
+            self._fill(fresh)
 
-    def _amend(self, folder: Path) -> None:
-        """Add to plan and summary what the library does not know."""
-        try:
-            for name in ("summary.json", "plan.txt"):
-                text = (folder / name).read_text(encoding="utf-8")
-                if name == "plan.txt":
-                    text = "\n".join([text.rstrip("\n"), *self._lines(), ""])
-                else:
-                    values = self._amended(json.loads(text))
-                    text = json.dumps(values, indent=2, allow_nan=False) + "\n"
-                fresh = folder / f"{name}.new"
-                fresh.write_text(text, encoding="utf-8")
-                fresh.replace(folder / name)
-        except OSError as error:
-            raise FileError(f"{folder}: cannot write: {error.strerror or error}") from error
+    def _fill(self, folder: Path) -> None:
+        """Write all files into an empty folder, with what the library does not know."""
+        self._write(folder)
+        if self.preparation or self.resolution:
+            summary, plan = folder / "summary.json", folder / "plan.txt"
+            values = self._amended(json.loads(summary.read_text(encoding="utf-8")))
+            text = json.dumps(values, indent=2, allow_nan=False) + "\n"
+            summary.write_text(text, encoding="utf-8")
+            told = plan.read_text(encoding="utf-8").rstrip("\n")
+            plan.write_text("\n".join([told, *self._lines(), ""]), encoding="utf-8")

@@ -6,7 +6,7 @@ module ehl_files
    implicit none (type, external)
    private
    public :: flush_file, file_exists, make_folder, remove_folder, remove_file, remove_known
-   public :: rename_path, absolute_path, real_path, folder_of, process_mark
+   public :: rename_path, absolute_path, real_path, folder_of, process_mark, c_text, fortran_text
 
    interface
       integer(c_int) function posix_mkdir(path, mode) bind(c, name="mkdir")

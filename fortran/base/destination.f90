@@ -1,0 +1,404 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Where a result goes: which folder may take it, and how it gets there.
+!>
+!> A folder takes a result of one kind if it is empty, or holds an earlier result of this kind and nothing else. A result
+!> names its kind and its files in summary.json. Pictures and exports of a result, which say what they are, give way with
+!> it. All else is refused; with `force` other files stay, if none of them has a name that the result needs.
+!>
+!> A result is whole at every instant: it is written beside the folder and changes places with the one before it.
+module ehl_destination
+   use ehl_files, only: absolute_path, file_exists, make_folder, real_path, remove_file, remove_folder, rename_path
+   use ehl_folders, only: change_places, is_there, list_folder, make_link, move_new, name_t, spare_path
+   use ehl_status, only: ehl_bad_input, ehl_file, status_t
+   use ehl_text, only: newline
+   use ehl_whole_file, only: holds_text, read_text
+   implicit none (type, external)
+   private
+   public :: destination_t, full_path, make_parents
+
+   !> A folder for a result
+   type :: destination_t
+      !> As the user wrote it, and what kind of result it is for
+      character(len=:), allocatable :: folder, kind
+      !> Lists, each item with a line end: names that the result may need, paths that the command reads, and other
+      !> names that belong to this kind
+      character(len=:), allocatable :: names, inputs, kept
+      !> Whether other files may be in the folder
+      logical :: force = .false.
+   contains
+      procedure :: check
+      procedure :: begin
+      procedure :: finish
+   end type destination_t
+
+   !> What is there
+   type :: found_t
+      !> From the root, without links
+      character(len=:), allocatable :: path
+      !> Kind of the result that is there; empty: none
+      character(len=:), allocatable :: kind
+      !> The files of that result, as JSON; all that is there
+      character(len=:), allocatable :: files
+      type(name_t), allocatable :: entries(:)
+      logical :: exists = .false.
+      !> Whether a folder beside it can take its place
+      logical :: movable = .true.
+   end type found_t
+
+   character(len=*), parameter :: summary = "summary.json", any_other = "expected: another folder"
+   !> What pictures and exports say of themselves, and how their names end
+   character(len=*), parameter :: marks(*) = [character(len=40) :: "pyehl plot: replaced when made again", &
+                                              "pyehl export: replaced when made again"]
+   character(len=*), parameter :: endings(*) = [character(len=4) :: ".png", ".pdf", ".svg", ".gif", ".mp4", ".nc"]
+   !> Bytes of the longest summary
+   integer, parameter :: longest = 16*1024**2
+
+contains
+
+   !> Refuse a folder that must not be touched, or cannot be written
+   subroutine check(self, status)
+      class(destination_t), intent(in) :: self
+      type(status_t), intent(inout) :: status
+      type(found_t) :: found
+
+      call look(self, found, status)
+   end subroutine check
+
+   !> Check, and make an empty folder for the files of the result
+   subroutine begin(self, fresh, status)
+      class(destination_t), intent(in) :: self
+      character(len=:), allocatable, intent(out) :: fresh
+      type(status_t), intent(inout) :: status
+      type(found_t) :: found
+
+      fresh = ""
+      call look(self, found, status)
+      if (status%failed()) return
+      call make_parents(found%path)
+      fresh = spare_path(found%path//".partial")
+      if (.not. found%movable) fresh = spare_path(found%path//"/.partial")
+      if (.not. make_folder(fresh)) call status%fail(ehl_file, self%folder//": error: cannot be written")
+   end subroutine begin
+
+   !> Check again, and put the files in a folder made by `begin` in place. After a failure they are still there.
+   subroutine finish(self, fresh, status)
+      class(destination_t), intent(in) :: self
+      character(len=*), intent(in) :: fresh
+      type(status_t), intent(inout) :: status
+      type(found_t) :: found
+      logical :: done
+
+      call look(self, found, status, fresh)
+      if (.not. status%failed()) then
+         if (.not. found%exists) then
+            done = move_new(fresh, found%path)
+         else if (found%kind /= "") then
+            done = replaced(found, fresh)
+         else
+            done = .false.
+            ! the working directory stays the folder that it is
+            if (.not. is_here(found%path)) done = rename_path(fresh, found%path)
+            if (.not. done) done = filled(found%path, fresh)
+         end if
+         if (.not. done) call status%fail(ehl_file, self%folder//": error: cannot be replaced")
+      end if
+      if (status%failed()) status%message = status%message//newline//"the new result is in "//fresh
+   end subroutine finish
+
+   !> See what is there, and refuse what the rule refuses
+   subroutine look(self, found, status, fresh)
+      class(destination_t), intent(in) :: self
+      type(found_t), intent(out) :: found
+      type(status_t), intent(inout) :: status
+      !> Folder that `begin` made, perhaps in the folder itself
+      character(len=*), intent(in), optional :: fresh
+      character(len=:), allocatable :: trial, beside
+
+      found%kind = ""
+      found%files = ""
+      allocate (found%entries(0))
+      found%path = full_path(self%folder)
+      found%exists = is_there(found%path)
+      if (found%path == "") then
+         call status%fail(ehl_bad_input, "-o '"//self%folder//"': error: this names no folder"//newline// &
+                          "expected: the name of a folder for the results")
+         return
+      else if (.not. found%exists) then
+         call check_above(self, found%path, status)
+         return
+      else if (.not. file_exists(found%path)) then
+         call refuse("a link to nothing", any_other)
+         return
+      else if (.not. file_exists(found%path//"/.")) then
+         call refuse("this is a file, not a folder", any_other)
+         return
+      end if
+      trial = spare_path(found%path//"/.partial")
+      if (.not. list_folder(found%path, found%entries)) then
+         call refuse("no permission to read this folder", any_other)
+      else if (.not. make_folder(trial)) then
+         call refuse("no permission to write into this folder", any_other)
+      else
+         beside = spare_path(found%path//".partial")
+         found%movable = rename_path(trial, beside)
+         if (found%movable) trial = beside
+         if (.not. remove_folder(trial)) call refuse("no permission to remove from this folder", any_other)
+         if (present(fresh)) found%entries = pack_others(found%entries, fresh(index(fresh, "/", back=.true.) + 1:))
+         call read_result(found)
+         if (.not. status%failed()) call judge()
+      end if
+
+   contains
+
+      !> The rule, for a folder that can be written
+      subroutine judge()
+         logical :: ours, read_from
+         integer :: k
+
+         if (found%kind /= "" .and. found%kind /= self%kind) then
+            call refuse("holds a result of "//command_of(found%kind), any_other)
+            return
+         end if
+         do k = 1, size(found%entries)
+            associate (name => found%entries(k)%text)
+               ours = gives_way(found, name)
+               read_from = is_input(self, found, name)
+               if (ours .and. read_from) then
+                  call refuse("'"//name//"' in it is read by this command", any_other)
+               else if (.not. (ours .or. listed(name, self%kept))) then
+                  if (listed(name, self%names)) then
+                     call refuse("holds '"//name//"', which is not of "//command_of(self%kind)// &
+                                 " and has a name that the result needs", any_other)
+                  else if (.not. self%force) then
+                     call refuse("holds '"//name//"', which is not of "//command_of(self%kind), &
+                                 any_other//", or --force, which keeps '"//name//"' beside the result")
+                  end if
+               end if
+            end associate
+            if (status%failed()) return
+         end do
+         if (found%kind == "") return
+         if (is_here(found%path)) then
+            call refuse("holds a result and is the working directory: it cannot be replaced in one step", any_other)
+         else if (.not. found%movable) then
+            call refuse("holds a result and cannot be replaced in one step: it is a mount point, or there is no "// &
+                        "permission to write into the folder above", any_other)
+         end if
+      end subroutine judge
+
+      subroutine refuse(what, way_out)
+         character(len=*), intent(in) :: what, way_out
+
+         call status%fail(ehl_bad_input, self%folder//": error: "//what//newline//way_out)
+      end subroutine refuse
+   end subroutine look
+
+   !> Names but one
+   function pack_others(names, one) result(others)
+      type(name_t), intent(in) :: names(:)
+      character(len=*), intent(in) :: one
+      type(name_t), allocatable :: others(:)
+      integer :: k
+
+      allocate (others(0))
+      do k = 1, size(names)
+         if (names(k)%text /= one) others = [others, names(k)]
+      end do
+   end function pack_others
+
+   !> Refuse a folder that is not there and cannot be made
+   subroutine check_above(self, path, status)
+      class(destination_t), intent(in) :: self
+      character(len=*), intent(in) :: path
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: above, trial
+
+      above = path
+      do while (.not. is_there(above))
+         above = above(:index(above, "/", back=.true.) - 1)
+         if (above == "") exit
+      end do
+      trial = spare_path(above//"/.partial")
+      if (make_folder(trial)) then
+         if (remove_folder(trial)) return
+      end if
+      if (above == "") above = "/"
+      if (file_exists(above//"/.")) then
+         above = "no permission to write into "//above
+      else
+         above = above//" is not a folder"
+      end if
+      call status%fail(ehl_bad_input, self%folder//": error: cannot be made: "//above//newline//any_other)
+   end subroutine check_above
+
+   !> The earlier result and the new one change places; other files are moved over. A link holds the place of each
+   !> until it is there.
+   logical function replaced(found, fresh)
+      type(found_t), intent(in) :: found
+      character(len=*), intent(in) :: fresh
+      character(len=:), allocatable :: last
+      logical :: gone
+      integer :: k
+
+      last = fresh(index(fresh, "/", back=.true.) + 1:)
+      do k = 1, size(found%entries)
+         associate (name => found%entries(k)%text)
+            replaced = gives_way(found, name)
+            if (.not. replaced) then
+               replaced = make_link("../"//last//"/"//name, fresh//"/"//name)
+               if (.not. replaced) return
+            end if
+         end associate
+      end do
+      replaced = change_places(fresh, found%path)
+      if (.not. replaced) return
+      ! what cannot be moved or removed now stays where its link points to
+      do k = 1, size(found%entries)
+         associate (name => found%entries(k)%text)
+            gone = gives_way(found, name, fresh)
+            if (.not. gone) gone = change_places(fresh//"/"//name, found%path//"/"//name)
+            if (gone) gone = remove_file(fresh//"/"//name)
+         end associate
+      end do
+      gone = remove_folder(fresh)
+   end function replaced
+
+   !> Move the files of a result into a folder that holds none, the summary last
+   logical function filled(path, fresh)
+      character(len=*), intent(in) :: path, fresh
+      type(name_t), allocatable :: names(:)
+      integer :: k
+
+      filled = list_folder(fresh, names)
+      do k = 1, size(names)
+         if (is_there(path//"/"//names(k)%text)) filled = .false.
+      end do
+      if (.not. filled) return
+      do k = 1, size(names)
+         if (names(k)%text == summary) cycle
+         filled = move_new(fresh//"/"//names(k)%text, path//"/"//names(k)%text)
+         if (.not. filled) return
+      end do
+      filled = move_new(fresh//"/"//summary, path//"/"//summary)
+      if (filled) filled = remove_folder(fresh)
+   end function filled
+
+   !> Kind and files of the result in a folder, by its summary
+   subroutine read_result(found)
+      type(found_t), intent(inout) :: found
+      character(len=:), allocatable :: text
+      type(status_t) :: reading
+
+      call read_text(found%path//"/"//summary, longest, text, reading)
+      if (reading%failed()) return
+      found%files = between(text, newline//'  "files": [', "]")
+      if (index(found%files, '"'//summary//'"') > 0) found%kind = between(text, newline//'  "kind": "', '"')
+   end subroutine read_result
+
+   !> The part of a text between two others; empty when they are not there
+   pure function between(text, before, behind) result(part)
+      character(len=*), intent(in) :: text, before, behind
+      character(len=:), allocatable :: part
+      integer :: first
+
+      part = ""
+      first = index(text, before)
+      if (first == 0) return
+      part = text(first + len(before):)
+      part = part(:max(0, index(part, behind) - 1))
+   end function between
+
+   !> Whether a name in a folder is of the result there: one of its files, or made of it
+   logical function gives_way(found, name, folder)
+      type(found_t), intent(in) :: found
+      character(len=*), intent(in) :: name
+      !> Where the files are now; default: in the folder
+      character(len=*), intent(in), optional :: folder
+      character(len=:), allocatable :: path
+      integer :: k, point
+
+      gives_way = index(found%files, '"'//name//'"') > 0
+      point = index(name, ".", back=.true.)
+      if (gives_way .or. found%kind == "" .or. point == 0) return
+      if (.not. any(endings == name(point:))) return
+      path = found%path//"/"//name
+      if (present(folder)) path = folder//"/"//name
+      do k = 1, size(marks)
+         if (holds_text(path, trim(marks(k)))) gives_way = .true.
+      end do
+   end function gives_way
+
+   !> Whether a name in a folder is something that the command reads
+   logical function is_input(self, found, name)
+      class(destination_t), intent(in) :: self
+      type(found_t), intent(in) :: found
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: path
+      integer :: first, last
+
+      is_input = .false.
+      first = 1
+      do while (first <= len(self%inputs))
+         last = first + index(self%inputs(first:), newline) - 1
+         path = real_path(absolute_path(self%inputs(first:last - 1)))
+         if (path == found%path//"/"//name) is_input = .true.
+         first = last + 1
+      end do
+   end function is_input
+
+   !> Whether a name is in a list with one a line
+   pure logical function listed(name, list)
+      character(len=*), intent(in) :: name, list
+
+      listed = index(newline//list, newline//name//newline) > 0
+   end function listed
+
+   !> The command that makes results of a kind
+   pure function command_of(kind) result(command)
+      character(len=*), intent(in) :: kind
+      character(len=:), allocatable :: command
+
+      select case (kind)
+      case ("solution")
+         command = "pyehl run"
+      case ("prediction")
+         command = "pyehl predict"
+      case default
+         command = "pyehl "//kind
+      end select
+   end function command_of
+
+   !> Whether a folder is the working directory
+   logical function is_here(path)
+      character(len=*), intent(in) :: path
+
+      is_here = path == real_path(absolute_path("."))
+   end function is_here
+
+   !> The folder from the root without a '/' at its end; empty when it cannot be a folder of ours
+   function full_path(folder) result(path)
+      character(len=*), intent(in) :: folder
+      character(len=:), allocatable :: path
+      integer :: last
+
+      path = ""
+      last = verify(folder, "/", back=.true.)
+      if (last == 0) return
+      path = real_path(absolute_path(folder(:last)))
+      if (path == "/") path = ""
+   end function full_path
+
+   !> Make the folders above a path
+   subroutine make_parents(path)
+      character(len=*), intent(in) :: path
+      integer :: slash
+      logical :: made
+
+      do slash = 2, len(path)
+         if (path(slash:slash) /= "/") cycle
+         if (file_exists(path(:slash - 1))) cycle
+         made = make_folder(path(:slash - 1))
+         if (.not. made) return
+      end do
+   end subroutine make_parents
+end module ehl_destination

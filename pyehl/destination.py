@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where results go: what a command may replace, and how a result gets to its place.
+
+A folder takes a result of one kind if it is empty, or holds an earlier result of this kind and
+nothing else; the rule, its messages and the exchange in one step are those of the library, the same
+for ``ehl``. A single file is written where nothing is, or over a file of the same command, which
+says so in its metadata; never onto what the command reads. Links are kept, their targets used.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from pyehl.errors import FileError, InputError, check
+from pyehl.extension import destination
+
+__all__ = ["Destination", "check_files", "made_by", "mark", "new_file"]
+
+AnyPath = str | os.PathLike[str]
+
+# Bytes at both ends of a file that may say what made it
+NEAR = 64 * 1024
+
+
+def mark(command: str) -> str:
+    """Give what a file says of itself that a command made."""
+    return f"pyehl {command}: replaced when made again"
+
+
+def _lines(items: Iterable[AnyPath]) -> bytes:
+    return b"".join(os.fsencode(item) + b"\n" for item in items)
+
+
+@dataclass(frozen=True, slots=True)
+class Destination:
+    """A folder for a result.
+
+    Attributes
+    ----------
+    folder
+        Where it goes.
+    kind
+        'solution', 'prediction', ...: the ``kind`` of its summary, which also lists its ``files``.
+    names
+        Names that the result may need.
+    inputs
+        What the command reads.
+    kept
+        Other names in the folder that belong to this kind, and stay.
+    force
+        Other files may be in the folder; they stay.
+    """
+
+    folder: AnyPath
+    kind: str
+    names: tuple[str, ...] = ()
+    inputs: tuple[AnyPath, ...] = ()
+    kept: tuple[str, ...] = ()
+    force: bool = False
+
+    def _arguments(self) -> tuple[bytes, bytes, bytes, bytes, bytes, int]:
+        lists = (_lines(self.names), _lines(self.inputs), _lines(self.kept))
+        return os.fsencode(self.folder), self.kind.encode(), *lists, int(self.force)
+
+    def check(self) -> None:
+        """Refuse a folder that must not be touched, or cannot be written.
+
+        Raises
+        ------
+        InputError
+            With the file in the way, and the way out.
+        """
+        check(*destination.check_folder(*self._arguments()))
+
+    @contextmanager
+    def fresh(self) -> Iterator[Path]:
+        """Give an empty folder for the files; at the end of the block it takes its place.
+
+        Raises
+        ------
+        InputError
+            As `check`.
+        FileError
+            If the folder cannot be written.
+        """
+        path, status, message = destination.begin_folder(*self._arguments())
+        check(status, message)
+        fresh = Path(os.fsdecode(path.rstrip()))
+        try:
+            yield fresh
+        except BaseException as error:
+            shutil.rmtree(fresh, ignore_errors=True)
+            if isinstance(error, OSError) and not isinstance(error, FileError):
+                raise FileError(f"{self.folder}: cannot be written: {error.strerror}") from error
+            raise
+        check(*destination.finish_folder(*self._arguments(), os.fsencode(fresh)))
+
+    def claim(self, values: Mapping[str, object]) -> None:
+        """Make the folder, or resume in it; its summary says whose it is from the start.
+
+        Raises
+        ------
+        InputError
+            As `check`.
+        FileError
+            If the folder cannot be written.
+        """
+        self.check()
+        folder = Path(self.folder)
+        summary = {"kind": self.kind, **values, "files": ["summary.json", *self.names]}
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise FileError(f"{folder}: cannot be made: {error.strerror}") from error
+        with new_file(folder / "summary.json") as path:
+            path.write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
+
+
+def made_by(path: Path, word: str) -> bool:
+    """Whether a file holds a word near its beginning or its end."""
+    with path.open("rb") as stream:
+        size = os.fstat(stream.fileno()).st_size
+        head = stream.read(NEAR)
+        stream.seek(max(0, size - NEAR))
+        return word.encode() in head or word.encode() in stream.read(NEAR)
+
+
+def check_files(
+    paths: Iterable[AnyPath],
+    command: str,
+    inputs: Iterable[AnyPath] = (),
+    *,
+    word: str = "",
+) -> None:
+    """Refuse files that must not be written by a command.
+
+    Parameters
+    ----------
+    paths
+        What it would write.
+    command
+        Such as 'plot'.
+    inputs
+        What it reads.
+    word
+        What its files say of themselves; default: `mark`.
+
+    Raises
+    ------
+    InputError
+        With the file in the way, and the way out.
+    """
+    sources = {os.path.realpath(source) for source in inputs}
+    for path in map(Path, paths):
+        other = "expected: another name"
+        folder = Path(os.path.realpath(path)).parent
+        if os.path.realpath(path) in sources:
+            raise InputError(f"{path}: error: this command reads it\n{other}")
+        if path.is_dir():
+            raise InputError(f"{path}: error: this is a folder\n{other}")
+        if not folder.is_dir():
+            raise InputError(f"{path}: error: there is no folder {folder}\n{other}")
+        try:
+            known = not path.exists() or made_by(path, word or mark(command))
+            with tempfile.TemporaryFile(dir=folder):
+                pass
+        except OSError as error:
+            raise InputError(f"{path}: error: no permission to write it\n{other}") from error
+        if not known:
+            raise InputError(
+                f"{path}: error: there is a file that pyehl {command} did not write\n{other}"
+            )
+
+
+@contextmanager
+def new_file(path: AnyPath) -> Iterator[Path]:
+    """Give a name beside a file to write; at the end of the block it takes its place, whole.
+
+    Raises
+    ------
+    FileError
+        If it cannot be written; the file is as it was.
+    """
+    place = Path(os.path.realpath(path))
+    partial = place.with_name(f".partial-{os.getpid()}-{place.name}")
+    try:
+        yield partial
+        partial.replace(place)
+    except BaseException as error:
+        partial.unlink(missing_ok=True)
+        if isinstance(error, OSError) and not isinstance(error, FileError):
+            raise FileError(f"{path}: cannot be written: {error.strerror or error}") from error
+        raise
