@@ -41,7 +41,14 @@ class _Checkpoints:
 
 class _Destination:
     def check_folder(
-        self, folder: bytes, kind: bytes, names: bytes, inputs: bytes, kept: bytes, force: int
+        self,
+        folder: bytes,
+        kind: bytes,
+        names: bytes,
+        inputs: bytes,
+        kept: bytes,
+        force: int,
+        resumes: int,
     ) -> tuple[int, bytes]: ...
     def begin_folder(
         self, folder: bytes, kind: bytes, names: bytes, inputs: bytes, kept: bytes, force: int

@@ -13,9 +13,10 @@ import json
 import os
 import shutil
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from pyehl.errors import FileError, InputError, check
@@ -69,15 +70,20 @@ class Destination:
         lists = (_lines(self.names), _lines(self.inputs), _lines(self.kept))
         return os.fsencode(self.folder), self.kind.encode(), *lists, int(self.force)
 
-    def check(self) -> None:
+    def check(self, *, resumes: bool = False) -> None:
         """Refuse a folder that must not be touched, or cannot be written.
+
+        Parameters
+        ----------
+        resumes
+            An earlier result is not replaced, but completed.
 
         Raises
         ------
         InputError
             With the file in the way, and the way out.
         """
-        check(*destination.check_folder(*self._arguments()))
+        check(*destination.check_folder(*self._arguments(), int(resumes)))
 
     @contextmanager
     def fresh(self) -> Iterator[Path]:
@@ -112,7 +118,7 @@ class Destination:
         FileError
             If the folder cannot be written.
         """
-        self.check()
+        self.check(resumes=True)
         folder = Path(self.folder)
         summary = {"kind": self.kind, **values, "files": ["summary.json", *self.names]}
         try:
@@ -137,7 +143,7 @@ def check_files(
     command: str,
     inputs: Iterable[AnyPath] = (),
     *,
-    word: str = "",
+    known: Callable[[Path], bool] | None = None,
 ) -> None:
     """Refuse files that must not be written by a command.
 
@@ -149,8 +155,8 @@ def check_files(
         Such as 'plot'.
     inputs
         What it reads.
-    word
-        What its files say of themselves; default: `mark`.
+    known
+        Tells whether the command wrote a file that is there; default: the file has its `mark`.
 
     Raises
     ------
@@ -168,12 +174,12 @@ def check_files(
         if not folder.is_dir():
             raise InputError(f"{path}: error: there is no folder {folder}\n{other}")
         try:
-            known = not path.exists() or made_by(path, word or mark(command))
+            ours = not path.exists() or (known or partial(made_by, word=mark(command)))(path)
             with tempfile.TemporaryFile(dir=folder):
                 pass
         except OSError as error:
             raise InputError(f"{path}: error: no permission to write it\n{other}") from error
-        if not known:
+        if not ours:
             raise InputError(
                 f"{path}: error: there is a file that pyehl {command} did not write\n{other}"
             )
@@ -189,12 +195,12 @@ def new_file(path: AnyPath) -> Iterator[Path]:
         If it cannot be written; the file is as it was.
     """
     place = Path(os.path.realpath(path))
-    partial = place.with_name(f".partial-{os.getpid()}-{place.name}")
+    fresh = place.with_name(f".partial-{os.getpid()}-{place.name}")
     try:
-        yield partial
-        partial.replace(place)
+        yield fresh
+        fresh.replace(place)
     except BaseException as error:
-        partial.unlink(missing_ok=True)
+        fresh.unlink(missing_ok=True)
         if isinstance(error, OSError) and not isinstance(error, FileError):
             raise FileError(f"{path}: cannot be written: {error.strerror or error}") from error
         raise

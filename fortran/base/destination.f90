@@ -45,7 +45,9 @@ module ehl_destination
       logical :: movable = .true.
    end type found_t
 
-   character(len=*), parameter :: summary = "summary.json", any_other = "expected: another folder"
+   character(len=*), parameter :: summary = "summary.json", any_other = "expected: another folder", &
+      ! how names begin of what is being written, or was when the command was killed: it stays, and is in nobody's way
+      leftover = ".partial-"
    !> What pictures and exports say of themselves, and how their names end
    character(len=*), parameter :: marks(*) = [character(len=40) :: "pyehl plot: replaced when made again", &
                                               "pyehl export: replaced when made again"]
@@ -56,12 +58,26 @@ module ehl_destination
 contains
 
    !> Refuse a folder that must not be touched, or cannot be written
-   subroutine check(self, status)
+   subroutine check(self, status, resumes)
       class(destination_t), intent(in) :: self
       type(status_t), intent(inout) :: status
+      !> Whether an earlier result stays, and is completed
+      logical, intent(in), optional :: resumes
       type(found_t) :: found
 
       call look(self, found, status)
+      if (status%failed() .or. found%kind == "") return
+      if (present(resumes)) then
+         if (resumes) return
+      end if
+      if (is_here(found%path)) then
+         call status%fail(ehl_bad_input, self%folder//": error: holds a result and is the working directory: it "// &
+                          "cannot be replaced in one step"//newline//any_other)
+      else if (.not. found%movable) then
+         call status%fail(ehl_bad_input, self%folder//": error: holds a result and cannot be replaced in one step: "// &
+                          "it is a mount point, or there is no permission to write into the folder above"// &
+                          newline//any_other)
+      end if
    end subroutine check
 
    !> Check, and make an empty folder for the files of the result
@@ -72,11 +88,12 @@ contains
       type(found_t) :: found
 
       fresh = ""
-      call look(self, found, status)
+      call self%check(status)
+      if (.not. status%failed()) call look(self, found, status)
       if (status%failed()) return
       call make_parents(found%path)
       fresh = spare_path(found%path//".partial")
-      if (.not. found%movable) fresh = spare_path(found%path//"/.partial")
+      if (.not. found%movable) fresh = spare_path(found%path//"/"//leftover(:len(leftover) - 1))
       if (.not. make_folder(fresh)) call status%fail(ehl_file, self%folder//": error: cannot be written")
    end subroutine begin
 
@@ -88,7 +105,7 @@ contains
       type(found_t) :: found
       logical :: done
 
-      call look(self, found, status, fresh)
+      call look(self, found, status)
       if (.not. status%failed()) then
          if (.not. found%exists) then
             done = move_new(fresh, found%path)
@@ -106,12 +123,10 @@ contains
    end subroutine finish
 
    !> See what is there, and refuse what the rule refuses
-   subroutine look(self, found, status, fresh)
+   subroutine look(self, found, status)
       class(destination_t), intent(in) :: self
       type(found_t), intent(out) :: found
       type(status_t), intent(inout) :: status
-      !> Folder that `begin` made, perhaps in the folder itself
-      character(len=*), intent(in), optional :: fresh
       character(len=:), allocatable :: trial, beside
 
       found%kind = ""
@@ -133,7 +148,7 @@ contains
          call refuse("this is a file, not a folder", any_other)
          return
       end if
-      trial = spare_path(found%path//"/.partial")
+      trial = spare_path(found%path//"/"//leftover(:len(leftover) - 1))
       if (.not. list_folder(found%path, found%entries)) then
          call refuse("no permission to read this folder", any_other)
       else if (.not. make_folder(trial)) then
@@ -143,7 +158,6 @@ contains
          found%movable = rename_path(trial, beside)
          if (found%movable) trial = beside
          if (.not. remove_folder(trial)) call refuse("no permission to remove from this folder", any_other)
-         if (present(fresh)) found%entries = pack_others(found%entries, fresh(index(fresh, "/", back=.true.) + 1:))
          call read_result(found)
          if (.not. status%failed()) call judge()
       end if
@@ -165,25 +179,18 @@ contains
                read_from = is_input(self, found, name)
                if (ours .and. read_from) then
                   call refuse("'"//name//"' in it is read by this command", any_other)
-               else if (.not. (ours .or. listed(name, self%kept))) then
+               else if (.not. (ours .or. listed(name, self%kept) .or. index(name, leftover) == 1)) then
                   if (listed(name, self%names)) then
-                     call refuse("holds '"//name//"', which is not of "//command_of(self%kind)// &
-                                 " and has a name that the result needs", any_other)
+                     call refuse("holds '"//name//"', which "//command_of(self%kind)//" did not write, and "// &
+                                 "the result needs this name", any_other)
                   else if (.not. self%force) then
-                     call refuse("holds '"//name//"', which is not of "//command_of(self%kind), &
+                     call refuse("holds '"//name//"', which "//command_of(self%kind)//" did not write", &
                                  any_other//", or --force, which keeps '"//name//"' beside the result")
                   end if
                end if
             end associate
             if (status%failed()) return
          end do
-         if (found%kind == "") return
-         if (is_here(found%path)) then
-            call refuse("holds a result and is the working directory: it cannot be replaced in one step", any_other)
-         else if (.not. found%movable) then
-            call refuse("holds a result and cannot be replaced in one step: it is a mount point, or there is no "// &
-                        "permission to write into the folder above", any_other)
-         end if
       end subroutine judge
 
       subroutine refuse(what, way_out)
@@ -192,19 +199,6 @@ contains
          call status%fail(ehl_bad_input, self%folder//": error: "//what//newline//way_out)
       end subroutine refuse
    end subroutine look
-
-   !> Names but one
-   function pack_others(names, one) result(others)
-      type(name_t), intent(in) :: names(:)
-      character(len=*), intent(in) :: one
-      type(name_t), allocatable :: others(:)
-      integer :: k
-
-      allocate (others(0))
-      do k = 1, size(names)
-         if (names(k)%text /= one) others = [others, names(k)]
-      end do
-   end function pack_others
 
    !> Refuse a folder that is not there and cannot be made
    subroutine check_above(self, path, status)

@@ -12,17 +12,18 @@ module ehl_f2py_destination
 
 contains
 
-   !> Refuse a folder that must not be touched, or cannot be written. Lists have a line end behind each item.
-   subroutine check_folder(folder, kind, names, inputs, kept, force, stat, message)
+   !> Refuse a folder that must not be touched, or cannot be written, for a result that takes the place of an
+   !> earlier one or resumes it. Lists have a line end behind each item.
+   subroutine check_folder(folder, kind, names, inputs, kept, force, resumes, stat, message)
       character(len=*), intent(in) :: folder, kind, names, inputs, kept
-      integer(c_int), intent(in) :: force
+      integer(c_int), intent(in) :: force, resumes
       integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message
       type(destination_t) :: destination
       type(status_t) :: status
 
       destination = new_destination(folder, kind, names, inputs, kept, force)
-      call destination%check(status)
+      call destination%check(status, resumes /= 0)
       call reply(status, stat, message)
    end subroutine check_folder
 

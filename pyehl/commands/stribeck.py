@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -17,6 +18,7 @@ from pyehl.commands.watching import (
     add_worker_arguments,
     jobs_of,
 )
+from pyehl.destination import Destination
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
 from pyehl.export import write_netcdf
 from pyehl.studies.curve import (
@@ -29,6 +31,7 @@ from pyehl.studies.curve import (
 )
 from pyehl.studies.curve_table import Measured, curve_dataset, read_measured, write_csv
 from pyehl.studies.gather import gather
+from pyehl.studies.journal import NAME
 from pyehl.studies.stribeck import KEYS, CurvePlan, plan_curve
 from pyehl.studies.vary import axis
 
@@ -184,6 +187,12 @@ def execute(args: argparse.Namespace) -> int:
             raise InputError("--measured: expected one curve, over one of the options")
         measured = read_measured(args.measured, plan.study.keys[0])
     folder = Path(args.output)
+    files = (CSV, NETCDF, PICTURE)
+    inputs = tuple(word for word in (args.case, args.measured) if word is not None)
+    if {os.path.realpath(folder / name) for name in files} & set(map(os.path.realpath, inputs)):
+        raise InputError(
+            f"{folder}: error: this command reads a file of it\nexpected: another folder"
+        )
     watcher = Terminal(lambda done: plan.text(jobs, done), quiet=args.quiet)
     try:
         outcome = gather(
@@ -192,6 +201,7 @@ def execute(args: argparse.Namespace) -> int:
             plan.identity(),
             jobs=jobs,
             scheduler=args.scheduler,
+            place=Destination(folder, "stribeck", (NAME, *files), inputs, force=args.force),
             watcher=watcher,
             write=lambda rows: write_csv(folder / CSV, plan, curve_rows(plan, rows)),
         )

@@ -13,10 +13,12 @@ import json
 import os
 import zlib
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from pyehl.closing import Closing
+from pyehl.destination import Destination
 from pyehl.errors import FileError, InputError
 
 __all__ = ["NAME", "Journal", "difference", "read_header"]
@@ -85,6 +87,8 @@ class Journal(Closing):
         Where the study is; made when it is not there.
     study
         What the study is, as values of JSON. Two studies are the same when these are.
+    place
+        The folder with the names that the study may need; None: those of the journal alone.
 
     Attributes
     ----------
@@ -102,8 +106,14 @@ class Journal(Closing):
         If it cannot be written.
     """
 
-    def __init__(self, folder: str | os.PathLike[str], study: Mapping[str, Any]) -> None:
+    def __init__(
+        self,
+        folder: str | os.PathLike[str],
+        study: Mapping[str, Any],
+        place: Destination | None = None,
+    ) -> None:
         self.folder = Path(folder)
+        self.place = place or Destination(folder, "sweep", (NAME,))
         self.path = self.folder / NAME
         self.rows: dict[int, Row] = {}
         self.damaged = 0
@@ -120,15 +130,10 @@ class Journal(Closing):
             raise FileError(f"{self.path}: {error.strerror or error}") from error
 
     def _begin(self, header: Mapping[str, Any]) -> None:
-        if self.folder.exists() and not self.folder.is_dir():
-            raise InputError(f"{self.folder}: exists and is not a folder")
+        there = self.folder.iterdir() if self.folder.is_dir() else ()
+        kept = tuple(p.name for p in there if p.name.startswith(LEFTOVERS))
+        replace(self.place, kept=kept).check(resumes=True)
         self.folder.mkdir(parents=True, exist_ok=True)
-        others = [p.name for p in self.folder.iterdir() if not p.name.startswith(LEFTOVERS)]
-        if others:
-            raise InputError(
-                f"{self.folder}: not empty ({others[0]}), and not the folder of a study; "
-                "choose another"
-            )
         partial = self.folder / f"{NAME}.partial-{os.getpid()}"
         with partial.open("wb") as stream:
             stream.write(_line(header))
