@@ -104,7 +104,9 @@ class Destination:
         except BaseException as error:
             shutil.rmtree(fresh, ignore_errors=True)
             if isinstance(error, OSError) and not isinstance(error, FileError):
-                raise FileError(f"{self.folder}: cannot be written: {error.strerror}") from error
+                raise FileError(
+                    f"{self.folder}: cannot be written: {error.strerror or error}"
+                ) from error
             raise
         check(*destination.finish_folder(*self._arguments(), os.fsencode(fresh)))
 
@@ -195,7 +197,8 @@ def new_file(path: AnyPath) -> Iterator[Path]:
         If it cannot be written; the file is as it was.
     """
     place = Path(os.path.realpath(path))
-    fresh = place.with_name(f".partial-{os.getpid()}-{place.name}")
+    # with the suffix that the caller sees: it may say the format
+    fresh = place.with_name(f".partial-{os.getpid()}-{Path(path).name}")
     try:
         yield fresh
         fresh.replace(place)

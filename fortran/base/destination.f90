@@ -7,14 +7,15 @@
 !>
 !> A result is whole at every instant: it is written beside the folder and changes places with the one before it.
 module ehl_destination
+   use ehl_earlier_result, only: found_t, gives_way, read_result, summary
    use ehl_files, only: absolute_path, file_exists, make_folder, real_path, remove_file, remove_folder, rename_path
-   use ehl_folders, only: change_places, is_there, list_folder, make_link, move_new, name_t, spare_path
+   use ehl_folders, only: change_places, full_path, is_here, is_there, list_folder, make_link, make_parents, &
+                          move_new, name_t, spare_path
    use ehl_status, only: ehl_bad_input, ehl_file, status_t
    use ehl_text, only: newline
-   use ehl_whole_file, only: holds_text, read_text
    implicit none (type, external)
    private
-   public :: destination_t, full_path, make_parents
+   public :: destination_t
 
    !> A folder for a result
    type :: destination_t
@@ -31,29 +32,9 @@ module ehl_destination
       procedure :: finish
    end type destination_t
 
-   !> What is there
-   type :: found_t
-      !> From the root, without links
-      character(len=:), allocatable :: path
-      !> Kind of the result that is there; empty: none
-      character(len=:), allocatable :: kind
-      !> The files of that result, as JSON; all that is there
-      character(len=:), allocatable :: files
-      type(name_t), allocatable :: entries(:)
-      logical :: exists = .false.
-      !> Whether a folder beside it can take its place
-      logical :: movable = .true.
-   end type found_t
-
-   character(len=*), parameter :: summary = "summary.json", any_other = "expected: another folder", &
+   character(len=*), parameter :: any_other = "expected: another folder", &
       ! how names begin of what is being written, or was when the command was killed: it stays, and is in nobody's way
       leftover = ".partial-"
-   !> What pictures and exports say of themselves, and how their names end
-   character(len=*), parameter :: marks(*) = [character(len=40) :: "pyehl plot: replaced when made again", &
-                                              "pyehl export: replaced when made again"]
-   character(len=*), parameter :: endings(*) = [character(len=4) :: ".png", ".pdf", ".svg", ".gif", ".mp4", ".nc"]
-   !> Bytes of the longest summary
-   integer, parameter :: longest = 16*1024**2
 
 contains
 
@@ -104,22 +85,26 @@ contains
       type(status_t), intent(inout) :: status
       type(found_t) :: found
       logical :: done
+      integer :: attempt
 
-      call look(self, found, status)
-      if (.not. status%failed()) then
+      ! another process may have put a result here in the meantime
+      do attempt = 1, 2
+         done = .false.
+         call look(self, found, status)
+         if (status%failed()) exit
          if (.not. found%exists) then
             done = move_new(fresh, found%path)
          else if (found%kind /= "") then
             done = replaced(found, fresh)
          else
-            done = .false.
             ! the working directory stays the folder that it is
             if (.not. is_here(found%path)) done = rename_path(fresh, found%path)
             if (.not. done) done = filled(found%path, fresh)
          end if
-         if (.not. done) call status%fail(ehl_file, self%folder//": error: cannot be replaced")
-      end if
-      if (status%failed()) status%message = status%message//newline//"the new result is in "//fresh
+         if (done) return
+      end do
+      call status%fail(ehl_file, self%folder//": error: cannot be replaced")
+      status%message = status%message//newline//"the new result is in "//fresh
    end subroutine finish
 
    !> See what is there, and refuse what the rule refuses
@@ -277,51 +262,6 @@ contains
       if (filled) filled = remove_folder(fresh)
    end function filled
 
-   !> Kind and files of the result in a folder, by its summary
-   subroutine read_result(found)
-      type(found_t), intent(inout) :: found
-      character(len=:), allocatable :: text
-      type(status_t) :: reading
-
-      call read_text(found%path//"/"//summary, longest, text, reading)
-      if (reading%failed()) return
-      found%files = between(text, newline//'  "files": [', "]")
-      if (index(found%files, '"'//summary//'"') > 0) found%kind = between(text, newline//'  "kind": "', '"')
-   end subroutine read_result
-
-   !> The part of a text between two others; empty when they are not there
-   pure function between(text, before, behind) result(part)
-      character(len=*), intent(in) :: text, before, behind
-      character(len=:), allocatable :: part
-      integer :: first
-
-      part = ""
-      first = index(text, before)
-      if (first == 0) return
-      part = text(first + len(before):)
-      part = part(:max(0, index(part, behind) - 1))
-   end function between
-
-   !> Whether a name in a folder is of the result there: one of its files, or made of it
-   logical function gives_way(found, name, folder)
-      type(found_t), intent(in) :: found
-      character(len=*), intent(in) :: name
-      !> Where the files are now; default: in the folder
-      character(len=*), intent(in), optional :: folder
-      character(len=:), allocatable :: path
-      integer :: k, point
-
-      gives_way = index(found%files, '"'//name//'"') > 0
-      point = index(name, ".", back=.true.)
-      if (gives_way .or. found%kind == "" .or. point == 0) return
-      if (.not. any(endings == name(point:))) return
-      path = found%path//"/"//name
-      if (present(folder)) path = folder//"/"//name
-      do k = 1, size(marks)
-         if (holds_text(path, trim(marks(k)))) gives_way = .true.
-      end do
-   end function gives_way
-
    !> Whether a name in a folder is something that the command reads
    logical function is_input(self, found, name)
       class(destination_t), intent(in) :: self
@@ -361,38 +301,4 @@ contains
          command = "pyehl "//kind
       end select
    end function command_of
-
-   !> Whether a folder is the working directory
-   logical function is_here(path)
-      character(len=*), intent(in) :: path
-
-      is_here = path == real_path(absolute_path("."))
-   end function is_here
-
-   !> The folder from the root without a '/' at its end; empty when it cannot be a folder of ours
-   function full_path(folder) result(path)
-      character(len=*), intent(in) :: folder
-      character(len=:), allocatable :: path
-      integer :: last
-
-      path = ""
-      last = verify(folder, "/", back=.true.)
-      if (last == 0) return
-      path = real_path(absolute_path(folder(:last)))
-      if (path == "/") path = ""
-   end function full_path
-
-   !> Make the folders above a path
-   subroutine make_parents(path)
-      character(len=*), intent(in) :: path
-      integer :: slash
-      logical :: made
-
-      do slash = 2, len(path)
-         if (path(slash:slash) /= "/") cycle
-         if (file_exists(path(:slash - 1))) cycle
-         made = make_folder(path(:slash - 1))
-         if (.not. made) return
-      end do
-   end subroutine make_parents
 end module ehl_destination

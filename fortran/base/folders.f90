@@ -3,11 +3,13 @@
 module ehl_folders
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_f_procpointer, c_funptr, &
                                           c_int, c_int64_t, c_null_ptr, c_ptr, c_short, c_size_t
-   use ehl_files, only: c_text, file_exists, fortran_text, process_mark, rename_path
+   use ehl_files, only: absolute_path, c_text, file_exists, fortran_text, make_folder, process_mark, real_path, &
+                        rename_path
    use ehl_text, only: to_text
    implicit none (type, external)
    private
    public :: name_t, list_folder, change_places, move_new, make_link, is_there, spare_path
+   public :: is_here, full_path, make_parents
 
    !> The name of a file or folder
    type :: name_t
@@ -178,4 +180,38 @@ contains
          path = beginning//"-"//process_mark()//"-"//to_text(k)
       end do
    end function spare_path
+
+   !> Whether a folder is the working directory
+   logical function is_here(path)
+      character(len=*), intent(in) :: path
+
+      is_here = path == real_path(absolute_path("."))
+   end function is_here
+
+   !> The folder from the root without a '/' at its end; empty when it cannot be a folder of ours
+   function full_path(folder) result(path)
+      character(len=*), intent(in) :: folder
+      character(len=:), allocatable :: path
+      integer :: last
+
+      path = ""
+      last = verify(folder, "/", back=.true.)
+      if (last == 0) return
+      path = real_path(absolute_path(folder(:last)))
+      if (path == "/") path = ""
+   end function full_path
+
+   !> Make the folders above a path
+   subroutine make_parents(path)
+      character(len=*), intent(in) :: path
+      integer :: slash
+      logical :: made
+
+      do slash = 2, len(path)
+         if (path(slash:slash) /= "/") cycle
+         if (file_exists(path(:slash - 1))) cycle
+         made = make_folder(path(:slash - 1))
+         if (.not. made) return
+      end do
+   end subroutine make_parents
 end module ehl_folders

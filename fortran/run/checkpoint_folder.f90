@@ -6,9 +6,8 @@ module ehl_checkpoint_folder
    use ehl_case_writer, only: case_text
    use ehl_checkpoint, only: coarser, series_files, state_files
    use ehl_clock, only: clock_t, start_clock
-   use ehl_destination, only: full_path, make_parents
    use ehl_files, only: file_exists, make_folder, remove_file, remove_known, rename_path
-   use ehl_folders, only: is_there, list_folder, move_new, name_t, spare_path
+   use ehl_folders, only: full_path, is_there, list_folder, make_parents, move_new, name_t, spare_path
    use ehl_kinds, only: dp
    use ehl_npy, only: read_npy, write_npy
    use ehl_solver, only: solver_t

@@ -18,7 +18,7 @@ __all__ = ["destination", "write"]
 
 TABLES = ("passage", "spectrum", "bands")
 ARRAYS = ("x", "y", "surface", "deformed", "delta_p")
-PICTURES = ("roughness", "passage")
+PICTURES = ("surface_spectrum", "roughness", "passage")
 
 
 def destination(

@@ -14,7 +14,7 @@ from matplotlib import pyplot
 from pyehl import cli, reference
 from pyehl.commands.predict import draw
 from pyehl.plots import contact, figures, folder, movie, style, surface, transient
-from pyehl.prediction.folder import write
+from pyehl.prediction.folder import destination, write
 from pyehl.prediction.of_case import predict
 from pyehl.theory.operating import OperatingPoint
 
@@ -211,7 +211,7 @@ def test_a_new_run_removes_all_pictures_of_the_one_before(root):
 
 
 def test_subcommand_on_a_prediction(settings, tmp_path, capsys):
-    write(predict(settings), tmp_path / "out")
+    write(predict(settings), destination(tmp_path / "out"))
     assert run_subcommand(tmp_path / "out", tmp_path / "png") == 0
     assert len(capsys.readouterr().out.split()) == 3
     assert (tmp_path / "png" / "roughness.png").stat().st_size > 1e4
@@ -220,7 +220,7 @@ def test_subcommand_on_a_prediction(settings, tmp_path, capsys):
 
 
 def test_subcommand_at_other_resolutions_and_formats(settings, tmp_path, capsys):
-    write(predict(settings), tmp_path / "out")
+    write(predict(settings), destination(tmp_path / "out"))
     assert run_subcommand(tmp_path / "out", None, "--dpi", "100") == 0
     data = (tmp_path / "out" / "roughness.png").read_bytes()
     assert struct.unpack(">II", data[16:24]) == (800, 340)
@@ -232,7 +232,7 @@ def test_subcommand_at_other_resolutions_and_formats(settings, tmp_path, capsys)
 
 def test_subcommand_on_a_prediction_that_failed(settings, tmp_path):
     settings["psd"]["film_thickness"] = 1e-8
-    write(predict(settings), tmp_path / "out", draw=draw)
+    write(predict(settings), destination(tmp_path / "out"), draw=draw)
     assert run_subcommand(tmp_path / "out") == 0
     assert not (tmp_path / "out" / "passage.png").exists()
 
