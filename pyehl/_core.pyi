@@ -40,29 +40,17 @@ class _Checkpoints:
     def end_keeping(self, handle: int) -> tuple[int, bytes]: ...
 
 class _Destination:
-    def check_folder(
+    def place(
         self,
+        step: bytes,
         folder: bytes,
         kind: bytes,
         names: bytes,
         inputs: bytes,
         kept: bytes,
         force: int,
-        resumes: int,
-    ) -> tuple[int, bytes]: ...
-    def begin_folder(
-        self, folder: bytes, kind: bytes, names: bytes, inputs: bytes, kept: bytes, force: int
+        made: bytes,
     ) -> tuple[bytes, int, bytes]: ...
-    def finish_folder(
-        self,
-        folder: bytes,
-        kind: bytes,
-        names: bytes,
-        inputs: bytes,
-        kept: bytes,
-        force: int,
-        fresh: bytes,
-    ) -> tuple[int, bytes]: ...
 
 class _Functions:
     def resolve(

@@ -66,9 +66,14 @@ class Destination:
     kept: tuple[str, ...] = ()
     force: bool = False
 
-    def _arguments(self) -> tuple[bytes, bytes, bytes, bytes, bytes, int]:
+    def _step(self, step: bytes, made: str = "") -> str:
         lists = (_lines(self.names), _lines(self.inputs), _lines(self.kept))
-        return os.fsencode(self.folder), self.kind.encode(), *lists, int(self.force)
+        folder, kind = os.fsencode(self.folder), self.kind.encode()
+        fresh, status, message = destination.place(
+            step, folder, kind, *lists, int(self.force), os.fsencode(made)
+        )
+        check(status, message)
+        return os.fsdecode(fresh.rstrip())
 
     def check(self, *, resumes: bool = False) -> None:
         """Refuse a folder that must not be touched, or cannot be written.
@@ -83,7 +88,7 @@ class Destination:
         InputError
             With the file in the way, and the way out.
         """
-        check(*destination.check_folder(*self._arguments(), int(resumes)))
+        self._step(b"resume" if resumes else b"check")
 
     @contextmanager
     def fresh(self) -> Iterator[Path]:
@@ -96,9 +101,7 @@ class Destination:
         FileError
             If the folder cannot be written.
         """
-        path, status, message = destination.begin_folder(*self._arguments())
-        check(status, message)
-        fresh = Path(os.fsdecode(path.rstrip()))
+        fresh = Path(self._step(b"begin"))
         try:
             yield fresh
         except BaseException as error:
@@ -108,7 +111,7 @@ class Destination:
                     f"{self.folder}: cannot be written: {error.strerror or error}"
                 ) from error
             raise
-        check(*destination.finish_folder(*self._arguments(), os.fsencode(fresh)))
+        self._step(b"finish", str(fresh))
 
     def claim(self, values: Mapping[str, object]) -> None:
         """Make the folder, or resume in it; its summary says whose it is from the start.

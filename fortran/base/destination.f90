@@ -7,7 +7,7 @@
 !>
 !> A result is whole at every instant: it is written beside the folder and changes places with the one before it.
 module ehl_destination
-   use ehl_earlier_result, only: found_t, gives_way, read_result, summary
+   use ehl_earlier_result, only: command_of, found_t, gives_way, read_result, summary
    use ehl_files, only: absolute_path, file_exists, make_folder, real_path, remove_file, remove_folder, rename_path
    use ehl_folders, only: change_places, full_path, is_here, is_there, list_folder, make_link, make_parents, &
                           move_new, name_t, spare_path
@@ -160,7 +160,7 @@ contains
          end if
          do k = 1, size(found%entries)
             associate (name => found%entries(k)%text)
-               ours = gives_way(found, name)
+               ours = gives_way(found, name, found%path)
                read_from = is_input(self, found, name)
                if (ours .and. read_from) then
                   call refuse("'"//name//"' in it is read by this command", any_other)
@@ -222,7 +222,7 @@ contains
       last = fresh(index(fresh, "/", back=.true.) + 1:)
       do k = 1, size(found%entries)
          associate (name => found%entries(k)%text)
-            replaced = gives_way(found, name)
+            replaced = removable(name, found%path)
             if (.not. replaced) then
                replaced = make_link("../"//last//"/"//name, fresh//"/"//name)
                if (.not. replaced) return
@@ -234,12 +234,22 @@ contains
       ! what cannot be moved or removed now stays where its link points to
       do k = 1, size(found%entries)
          associate (name => found%entries(k)%text)
-            gone = gives_way(found, name, fresh)
+            gone = removable(name, fresh)
             if (.not. gone) gone = change_places(fresh//"/"//name, found%path//"/"//name)
             if (gone) gone = remove_file(fresh//"/"//name)
          end associate
       end do
       gone = remove_folder(fresh)
+
+   contains
+
+      !> Whether a file, now in a folder, is of the earlier result
+      logical function removable(name, folder)
+         character(len=*), intent(in) :: name, folder
+
+         removable = .not. file_exists(folder//"/"//name//"/.")
+         if (removable) removable = gives_way(found, name, folder)
+      end function removable
    end function replaced
 
    !> Move the files of a result into a folder that holds none, the summary last
@@ -286,19 +296,4 @@ contains
 
       listed = index(newline//list, newline//name//newline) > 0
    end function listed
-
-   !> The command that makes results of a kind
-   pure function command_of(kind) result(command)
-      character(len=*), intent(in) :: kind
-      character(len=:), allocatable :: command
-
-      select case (kind)
-      case ("solution")
-         command = "pyehl run"
-      case ("prediction")
-         command = "pyehl predict"
-      case default
-         command = "pyehl "//kind
-      end select
-   end function command_of
 end module ehl_destination

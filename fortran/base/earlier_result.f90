@@ -7,7 +7,7 @@ module ehl_earlier_result
    use ehl_whole_file, only: holds_text, read_text
    implicit none (type, external)
    private
-   public :: found_t, read_result, gives_way, summary
+   public :: found_t, read_result, gives_way, command_of, summary
 
    !> What is in a folder
    type :: found_t
@@ -62,19 +62,31 @@ contains
    logical function gives_way(found, name, folder)
       type(found_t), intent(in) :: found
       character(len=*), intent(in) :: name
-      !> Where the files are now; default: in the folder
-      character(len=*), intent(in), optional :: folder
-      character(len=:), allocatable :: path
+      !> Where the files are now
+      character(len=*), intent(in) :: folder
       integer :: k, point
 
-      gives_way = index(found%files, '"'//name//'"') > 0
+      gives_way = index(found%files, '"'//name//'"') > 0 .and. index(name, '"') == 0
       point = index(name, ".", back=.true.)
       if (gives_way .or. found%kind == "" .or. point == 0) return
       if (.not. any(endings == name(point:))) return
-      path = found%path//"/"//name
-      if (present(folder)) path = folder//"/"//name
       do k = 1, size(marks)
-         if (holds_text(path, trim(marks(k)))) gives_way = .true.
+         if (holds_text(folder//"/"//name, trim(marks(k)))) gives_way = .true.
       end do
    end function gives_way
+
+   !> The command that makes results of a kind
+   pure function command_of(kind) result(command)
+      character(len=*), intent(in) :: kind
+      character(len=:), allocatable :: command
+
+      select case (kind)
+      case ("solution")
+         command = "pyehl run"
+      case ("prediction")
+         command = "pyehl predict"
+      case default
+         command = "pyehl "//kind
+      end select
+   end function command_of
 end module ehl_earlier_result

@@ -8,63 +8,37 @@ module ehl_f2py_destination
    use ehl_status, only: status_t
    implicit none (type, external)
    private
-   public :: check_folder, begin_folder, finish_folder
+   public :: place
 
 contains
 
-   !> Refuse a folder that must not be touched, or cannot be written, for a result that takes the place of an
-   !> earlier one or resumes it. Lists have a line end behind each item.
-   subroutine check_folder(folder, kind, names, inputs, kept, force, resumes, stat, message)
-      character(len=*), intent(in) :: folder, kind, names, inputs, kept
-      integer(c_int), intent(in) :: force, resumes
-      integer(c_int), intent(out) :: stat
-      character(len=4096), intent(out) :: message
-      type(destination_t) :: destination
-      type(status_t) :: status
-
-      destination = new_destination(folder, kind, names, inputs, kept, force)
-      call destination%check(status, resumes /= 0)
-      call reply(status, stat, message)
-   end subroutine check_folder
-
-   !> Check, and make an empty folder for the files of the result
-   subroutine begin_folder(folder, kind, names, inputs, kept, force, fresh, stat, message)
-      character(len=*), intent(in) :: folder, kind, names, inputs, kept
+   !> A step on the way of a result to its folder: 'check', 'resume' (a check for a result that is completed), 'begin',
+   !> which gives an empty folder `fresh`, or 'finish' with that. Lists have a line end behind each item.
+   subroutine place(step, folder, kind, names, inputs, kept, force, made, fresh, stat, message)
+      character(len=*), intent(in) :: step, folder, kind, names, inputs, kept
       integer(c_int), intent(in) :: force
+      !> The folder that 'begin' gave
+      character(len=*), intent(in) :: made
       character(len=4096), intent(out) :: fresh
       integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message
       type(destination_t) :: destination
       type(status_t) :: status
-      character(len=:), allocatable :: place
+      character(len=:), allocatable :: path
 
-      destination = new_destination(folder, kind, names, inputs, kept, force)
-      call destination%begin(place, status)
-      fresh = place
-      call reply(status, stat, message)
-   end subroutine begin_folder
-
-   !> Check again, and put the files in that folder in place
-   subroutine finish_folder(folder, kind, names, inputs, kept, force, fresh, stat, message)
-      character(len=*), intent(in) :: folder, kind, names, inputs, kept, fresh
-      integer(c_int), intent(in) :: force
-      integer(c_int), intent(out) :: stat
-      character(len=4096), intent(out) :: message
-      type(destination_t) :: destination
-      type(status_t) :: status
-
-      destination = new_destination(folder, kind, names, inputs, kept, force)
-      call destination%finish(fresh, status)
-      call reply(status, stat, message)
-   end subroutine finish_folder
-
-   !> A folder for a result; the library knows the names of a solution
-   function new_destination(folder, kind, names, inputs, kept, force) result(destination)
-      character(len=*), intent(in) :: folder, kind, names, inputs, kept
-      integer(c_int), intent(in) :: force
-      type(destination_t) :: destination
-
+      fresh = ""
       destination = destination_t(folder, kind, names, inputs, kept, force /= 0)
+      ! the library knows what it writes
       if (kind == "solution") destination%names = result_names
-   end function new_destination
+      select case (step)
+      case ("begin")
+         call destination%begin(path, status)
+         fresh = path
+      case ("finish")
+         call destination%finish(made, status)
+      case default
+         call destination%check(status, resumes=step == "resume")
+      end select
+      call reply(status, stat, message)
+   end subroutine place
 end module ehl_f2py_destination

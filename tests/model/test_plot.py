@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures: what they show, on fields that are known."""
 
-import inspect
 import json
-import re
 import struct
 
 import f90nml
@@ -13,7 +11,7 @@ from matplotlib import pyplot
 
 from pyehl import cli, reference
 from pyehl.commands.predict import draw
-from pyehl.plots import contact, figures, folder, movie, style, surface, transient
+from pyehl.plots import contact, figures, folder, style, surface, transient
 from pyehl.prediction.folder import destination, write
 from pyehl.prediction.of_case import predict
 from pyehl.theory.operating import OperatingPoint
@@ -198,16 +196,6 @@ def test_files_of_all_formats(fields, tmp_path):
 def run_subcommand(where, output=None, *words):
     out = [] if output is None else ["-o", str(output)]
     return cli.main(["plot", str(where), *out, *words])
-
-
-def test_a_new_run_removes_all_pictures_of_the_one_before(root):
-    """The library removes files of an earlier result by their names: those of all pictures too."""
-    text = (root / "fortran" / "run" / "result_folder.f90").read_text()
-    known = set(re.findall(r'"(\w+\.(?:png|pdf|svg|gif|mp4))"', text))
-    names = re.findall(r'figures\["(\w+)"\]', inspect.getsource(figures.solution_figures))
-    assert len(names) >= 6
-    drawn = {f"{name}.{suffix}" for name in names for suffix in folder.FORMATS}
-    assert known == drawn | {f"movie.{suffix}" for suffix in movie.SUFFIXES}
 
 
 def test_subcommand_on_a_prediction(settings, tmp_path, capsys):

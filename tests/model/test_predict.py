@@ -156,6 +156,7 @@ def command(settings, monkeypatch, tmp_path):
             "plots": False,
             "tracks": 2,
             "smooth": None,
+            "force": False,
         }
         return execute(argparse.Namespace(**(defaults | arguments)))
 
@@ -168,13 +169,13 @@ def test_command(command, tmp_path, capsys):
     assert (tmp_path / "out" / "case.nml").read_text().startswith("&surface")
 
 
-def test_subcommand_reports_bad_input(command, settings, capsys, tmp_path):
+def test_subcommand_reports_bad_input(command, settings, tmp_path):
     settings["surface"]["kind"] = "smooth"
-    assert command(predict_command.execute) == 2
-    assert "a.nml: surface.kind" in capsys.readouterr().err
+    with pytest.raises(InputError, match=r"a\.nml: surface\.kind"):
+        command(predict_command.execute)
     settings["surface"] |= {"kind": "map", "file": str(tmp_path / "none.npy")}
-    assert command(predict_command.execute) == 2
-    assert "none.npy" in capsys.readouterr().err
+    with pytest.raises(InputError, match=r"none\.npy"):
+        command(predict_command.execute)
     assert not (tmp_path / "out").exists()
 
 
