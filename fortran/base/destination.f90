@@ -7,10 +7,11 @@
 !>
 !> A result is whole at every instant: it is written beside the folder and changes places with the one before it.
 module ehl_destination
+   use, intrinsic :: iso_c_binding, only: c_ptr
    use ehl_earlier_result, only: command_of, found_t, gives_way, read_result, summary
-   use ehl_files, only: absolute_path, file_exists, make_folder, real_path, remove_file, remove_folder, rename_path
-   use ehl_folders, only: change_places, full_path, is_here, is_there, list_folder, make_link, make_parents, &
-                          move_new, name_t, spare_path
+   use ehl_files, only: absolute_path, file_exists, make_folder, may_write, real_path, remove_file, remove_folder, rename_path
+   use ehl_folders, only: change_places, folder_above, full_path, is_here, is_movable, is_there, link_text, list_folder, &
+                          lock_folder, make_link, make_parents, move_new, spare_path, unlock_folder, name_t
    use ehl_status, only: ehl_bad_input, ehl_file, status_t
    use ehl_text, only: newline
    implicit none (type, external)
@@ -84,27 +85,26 @@ contains
       character(len=*), intent(in) :: fresh
       type(status_t), intent(inout) :: status
       type(found_t) :: found
+      type(c_ptr) :: lock
       logical :: done
-      integer :: attempt
 
-      ! another process may have put a result here in the meantime
-      do attempt = 1, 2
-         done = .false.
-         call look(self, found, status)
-         if (status%failed()) exit
+      lock = lock_folder(folder_above(fresh))
+      call look(self, found, status)
+      if (.not. status%failed()) then
          if (.not. found%exists) then
             done = move_new(fresh, found%path)
          else if (found%kind /= "") then
             done = replaced(found, fresh)
          else
+            done = .false.
             ! the working directory stays the folder that it is
             if (.not. is_here(found%path)) done = rename_path(fresh, found%path)
             if (.not. done) done = filled(found%path, fresh)
          end if
-         if (done) return
-      end do
-      call status%fail(ehl_file, self%folder//": error: cannot be replaced")
-      status%message = status%message//newline//"the new result is in "//fresh
+         if (.not. done) call status%fail(ehl_file, self%folder//": error: cannot be replaced")
+      end if
+      call unlock_folder(lock)
+      if (status%failed()) status%message = status%message//newline//"the new result is in "//fresh
    end subroutine finish
 
    !> See what is there, and refuse what the rule refuses
@@ -112,7 +112,6 @@ contains
       class(destination_t), intent(in) :: self
       type(found_t), intent(out) :: found
       type(status_t), intent(inout) :: status
-      character(len=:), allocatable :: trial, beside
 
       found%kind = ""
       found%files = ""
@@ -133,18 +132,14 @@ contains
          call refuse("this is a file, not a folder", any_other)
          return
       end if
-      trial = spare_path(found%path//"/"//leftover(:len(leftover) - 1))
       if (.not. list_folder(found%path, found%entries)) then
          call refuse("no permission to read this folder", any_other)
-      else if (.not. make_folder(trial)) then
+      else if (.not. may_write(found%path)) then
          call refuse("no permission to write into this folder", any_other)
       else
-         beside = spare_path(found%path//".partial")
-         found%movable = rename_path(trial, beside)
-         if (found%movable) trial = beside
-         if (.not. remove_folder(trial)) call refuse("no permission to remove from this folder", any_other)
+         found%movable = is_movable(found%path)
          call read_result(found)
-         if (.not. status%failed()) call judge()
+         call judge()
       end if
 
    contains
@@ -215,16 +210,16 @@ contains
    logical function replaced(found, fresh)
       type(found_t), intent(in) :: found
       character(len=*), intent(in) :: fresh
-      character(len=:), allocatable :: last
+      character(len=:), allocatable :: back
       logical :: gone
       integer :: k
 
-      last = fresh(index(fresh, "/", back=.true.) + 1:)
+      back = "../"//fresh(index(fresh, "/", back=.true.) + 1:)//"/"
       do k = 1, size(found%entries)
          associate (name => found%entries(k)%text)
             replaced = removable(name, found%path)
             if (.not. replaced) then
-               replaced = make_link("../"//last//"/"//name, fresh//"/"//name)
+               replaced = make_link(back//name, fresh//"/"//name)
                if (.not. replaced) return
             end if
          end associate
@@ -235,7 +230,11 @@ contains
       do k = 1, size(found%entries)
          associate (name => found%entries(k)%text)
             gone = removable(name, fresh)
-            if (.not. gone) gone = change_places(fresh//"/"//name, found%path//"/"//name)
+            ! another process may have moved it
+            if (link_text(found%path//"/"//name) == back//name) then
+               gone = change_places(fresh//"/"//name, found%path//"/"//name)
+               if (gone) gone = link_text(fresh//"/"//name) == back//name
+            end if
             if (gone) gone = remove_file(fresh//"/"//name)
          end associate
       end do

@@ -2,14 +2,14 @@
 !> Folders by the calls of Linux: what is in one, and two that change places in one step
 module ehl_folders
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_f_procpointer, c_funptr, &
-                                          c_int, c_int64_t, c_null_ptr, c_ptr, c_short, c_size_t
-   use ehl_files, only: absolute_path, c_text, file_exists, fortran_text, make_folder, process_mark, real_path, &
+                                          c_int, c_int64_t, c_null_char, c_null_ptr, c_ptr, c_short, c_size_t
+   use ehl_files, only: absolute_path, c_text, file_exists, fortran_text, make_folder, may_write, process_mark, real_path, &
                         rename_path
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: name_t, list_folder, change_places, move_new, make_link, is_there, spare_path
-   public :: is_here, full_path, make_parents
+   public :: name_t, list_folder, change_places, move_new, make_link, link_text, is_there, is_movable, spare_path
+   public :: is_here, full_path, folder_above, lock_folder, make_parents, unlock_folder
 
    !> The name of a file or folder
    type :: name_t
@@ -37,6 +37,17 @@ module ehl_folders
    end interface
 
    interface
+      type(c_ptr) function posix_errno() bind(c, name="__errno_location")
+         import :: c_ptr
+         implicit none (type, external)
+      end function posix_errno
+
+      integer(c_int) function posix_link(path, other) bind(c, name="link")
+         import :: c_char, c_int
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: path(*), other(*)
+      end function posix_link
+
       type(c_ptr) function posix_opendir(path) bind(c, name="opendir")
          import :: c_char, c_ptr
          implicit none (type, external)
@@ -54,6 +65,18 @@ module ehl_folders
          implicit none (type, external)
          type(c_ptr), value :: folder
       end function posix_closedir
+
+      integer(c_int) function posix_dirfd(folder) bind(c, name="dirfd")
+         import :: c_int, c_ptr
+         implicit none (type, external)
+         type(c_ptr), value :: folder
+      end function posix_dirfd
+
+      integer(c_int) function posix_flock(descriptor, operation) bind(c, name="flock")
+         import :: c_int
+         implicit none (type, external)
+         integer(c_int), value :: descriptor, operation
+      end function posix_flock
 
       integer(c_int) function posix_symlink(target_path, path) bind(c, name="symlink")
          import :: c_char, c_int
@@ -109,6 +132,26 @@ contains
       stat = posix_closedir(folder)
    end function list_folder
 
+   !> Wait until no other process changes what is in a folder; ends with `unlock_folder`, or with the process
+   function lock_folder(path) result(lock)
+      character(len=*), intent(in) :: path
+      type(c_ptr) :: lock
+      integer(c_int), parameter :: alone = 2
+      integer(c_int) :: stat
+
+      lock = posix_opendir(c_text(path))
+      ! on a file system without locks nobody waits
+      if (c_associated(lock)) stat = posix_flock(posix_dirfd(lock), alone)
+   end function lock_folder
+
+   !> Let others change what is in a folder
+   subroutine unlock_folder(lock)
+      type(c_ptr), intent(in) :: lock
+      integer(c_int) :: stat
+
+      if (c_associated(lock)) stat = posix_closedir(lock)
+   end subroutine unlock_folder
+
    !> Two files or folders change their places, in one step where the file system can do that. False: nothing
    !> has changed.
    logical function change_places(one, other)
@@ -158,14 +201,38 @@ contains
       make_link = posix_symlink(c_text(target_path), c_text(path)) == 0
    end function make_link
 
+   !> What a symbolic link says; empty when there is none
+   function link_text(path) result(text)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: text
+      character(kind=c_char) :: buffer(4097)
+      integer(c_size_t) :: length
+
+      length = posix_readlink(c_text(path), buffer, size(buffer, kind=c_size_t) - 1)
+      buffer(max(0_c_size_t, length) + 1) = c_null_char
+      text = fortran_text(buffer)
+   end function link_text
+
    !> Whether a name is taken, by a link to nothing too
    logical function is_there(path)
       character(len=*), intent(in) :: path
-      character(kind=c_char) :: buffer(1)
 
       is_there = file_exists(path)
-      if (.not. is_there) is_there = posix_readlink(c_text(path), buffer, size(buffer, kind=c_size_t)) >= 0
+      if (.not. is_there) is_there = link_text(path) /= ""
    end function is_there
+
+   !> Whether a folder can change places with one beside it: it is no mount point, and the folder above can be written
+   logical function is_movable(path)
+      character(len=*), intent(in) :: path
+      integer(c_int), parameter :: other_device = 18
+      integer(c_int), pointer :: reason
+
+      is_movable = may_write(folder_above(path))
+      ! a folder has no second name; between file systems the reason is another one
+      if (posix_link(c_text(path), c_text(spare_path(path//".partial"))) == 0) return
+      call c_f_pointer(posix_errno(), reason)
+      if (reason == other_device) is_movable = .false.
+   end function is_movable
 
    !> A path that begins so, and that nobody has taken
    function spare_path(beginning) result(path)
@@ -200,6 +267,14 @@ contains
       path = real_path(absolute_path(folder(:last)))
       if (path == "/") path = ""
    end function full_path
+
+   !> The folder that a path from the root is in
+   pure function folder_above(path) result(folder)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: folder
+
+      folder = path(:max(1, index(path, "/", back=.true.) - 1))
+   end function folder_above
 
    !> Make the folders above a path
    subroutine make_parents(path)

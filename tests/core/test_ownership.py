@@ -452,6 +452,21 @@ def test_whole_at_every_instant(ehl: str, call: Call, tmp_path: Path):
     assert reads > 1000
 
 
+def test_two_at_once(ehl: str, call: Call, tmp_path: Path):
+    """Both results get to the folder, one after the other, and nothing else is left or moved."""
+    assert call("ehl", "-o", "out").returncode == 0
+    foreign(tmp_path / "out")
+    words = [ehl, *FOLDERS["ehl"][1], "-o", "out", "--force"]
+    for _ in range(40):
+        pair = [subprocess.Popen(words) for _ in range(2)]
+        assert [process.wait() for process in pair] == [0, 0]
+        whole(tmp_path / "out")
+        assert (tmp_path / "out" / "notes.txt").read_text() == "mine"
+        assert (tmp_path / "out" / "sub" / "a.txt").read_text() == "mine"
+    assert {path.name for path in tmp_path.iterdir()} == {"case.nml", "out"}
+    assert not (tmp_path / "out" / "sub").is_symlink()
+
+
 def test_killed_at_any_instant(ehl: str, call: Call, tmp_path: Path):
     """What a kill leaves is whole, with the files of the user, and the next run can go there."""
     began = time.monotonic()
