@@ -42,6 +42,7 @@ def solve(
     case: Case | str | os.PathLike[str],
     *options: Option,
     output: str | os.PathLike[str] | None = None,
+    force: bool = False,
     check: bool = True,
     progress: Progress = False,
 ) -> xr.Dataset:
@@ -56,6 +57,8 @@ def solve(
     output
         Result folder, as ``pyehl run -o`` writes it, with checkpoints of a transient run beside
         it; None: nothing is kept on disk.
+    force
+        Other files may be in the result folder; they stay.
     check
         Raise `NotConverged` if there is no solution.
     progress
@@ -70,7 +73,7 @@ def solve(
     Raises
     ------
     InputError
-        If the case is not acceptable, or `output` holds something else than results.
+        If the case is not acceptable, or `output` holds something else than results of `solve`.
     NotConverged
         If the run ended without a solution; the results so far are its ``results``.
     KeyboardInterrupt
@@ -85,6 +88,7 @@ def solve(
     >>> round(ds.attrs["H_c"], 3)
     0.071
     """
+    inputs = () if isinstance(case, Case) else (case,)
     case = Case.of(case, *options)
     listener = _Listener(progress)
     if output is None:
@@ -94,7 +98,7 @@ def solve(
                 listener.advanced(solver)
             data = solver.dataset()
     else:
-        outcome = run(case, output, listener)
+        outcome = run(case, output, listener, force=force, inputs=inputs)
         if outcome.interrupted:
             raise KeyboardInterrupt
         data = load(output)

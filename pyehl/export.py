@@ -13,7 +13,8 @@ from pathlib import Path
 import xarray as xr
 
 from pyehl import results
-from pyehl.errors import FileError, InputError
+from pyehl.destination import check_files, mark, new_file
+from pyehl.errors import InputError
 
 __all__ = ["export", "write_netcdf"]
 
@@ -29,7 +30,7 @@ def export(folder: str | os.PathLike[str], path: str | os.PathLike[str] | None =
     folder
         Result folder.
     path
-        File to write, replaced when it is there; default ``results.nc`` in the folder.
+        File to write; one that `export` wrote is replaced; default ``results.nc`` in the folder.
 
     Returns
     -------
@@ -39,7 +40,7 @@ def export(folder: str | os.PathLike[str], path: str | os.PathLike[str] | None =
     Raises
     ------
     InputError
-        If `folder` is not a result folder.
+        If `folder` is not a result folder, or another file is in the way.
     FileError
         If the file cannot be written.
     """
@@ -48,6 +49,7 @@ def export(folder: str | os.PathLike[str], path: str | os.PathLike[str] | None =
     except FileNotFoundError as error:
         raise InputError(str(error)) from error
     path = Path(folder) / "results.nc" if path is None else Path(path)
+    check_files([path], "export")
     data = data.drop_vars([name for name in data.variables if data[name].size == 0])
     data = data.transpose(*reversed(list(data.dims)))
     scalars = {
@@ -55,7 +57,8 @@ def export(folder: str | os.PathLike[str], path: str | os.PathLike[str] | None =
         for name, value in data.attrs.items()
         if value != ""
     }
-    data.attrs = {"Conventions": "CF-1.8", "title": "pyehl results"} | scalars
+    head = {"Conventions": "CF-1.8", "title": "pyehl results", "source": mark("export")}
+    data.attrs = head | scalars
     write_netcdf(path, data)
     return path
 
@@ -68,10 +71,5 @@ def write_netcdf(path: Path, data: xr.Dataset) -> None:
     FileError
         If it cannot be written.
     """
-    partial = path.with_name(f"{path.name}.partial-{os.getpid()}")
-    try:
+    with new_file(path) as partial:
         data.to_netcdf(partial, format="NETCDF3_64BIT", engine="scipy")
-        partial.replace(path)
-    except OSError as error:
-        partial.unlink(missing_ok=True)
-        raise FileError(f"{path}: cannot write: {error.strerror or error}") from error

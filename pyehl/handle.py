@@ -258,18 +258,9 @@ class SolverHandle(Closing):
         with self._lock:
             check(*ehl.take_prediction(self._handle, left_out, unresolved, why.encode()))
 
-    def write(self, folder: str | os.PathLike[str]) -> str:
-        """Write the result folder, whole or not at all; returns a note, mostly empty.
-
-        Raises
-        ------
-        FileError
-            If it cannot be written.
-        """
+    def _write(self, folder: str | os.PathLike[str]) -> None:
         with self._lock:
-            note, status, message = ehl.write_output(self._handle, os.fsencode(folder))
-        check(status, message)
-        return text_of(note)
+            check(*ehl.write_output(self._handle, os.fsencode(folder)))
 
     def _text(self, call: Callable[[int], tuple[bytes, int, bytes]]) -> str:
         with self._lock:

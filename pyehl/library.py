@@ -25,7 +25,6 @@ __all__ = [
     "Deflection",
     "Key",
     "build",
-    "check_output",
     "checkpoint_case",
     "checkpoints",
     "deflection",
@@ -89,17 +88,6 @@ def resolve(text: str, origin: str, options: Iterable[str] = (), *, from_file: b
     )
     check(status, message)
     return text_of(resolved) + "\n"
-
-
-def check_output(folder: str | os.PathLike[str]) -> None:
-    """Refuse a folder that results could not be written into.
-
-    Raises
-    ------
-    InputError
-        If it holds something else than results, or cannot be made.
-    """
-    check(*functions.check_output(os.fsencode(folder)))
 
 
 def checkpoint_case(results: str | os.PathLike[str]) -> Path:

@@ -19,11 +19,14 @@ import numpy as np
 
 from pyehl import library
 from pyehl.case import Case
+from pyehl.destination import Destination
 from pyehl.errors import FileError
 from pyehl.solver import Solver
 from pyehl.surfaces import for_solver
 
 __all__ = ["Observer", "Outcome", "resume", "run"]
+
+AnyPath = str | os.PathLike[str]
 
 
 class StopRequest:
@@ -80,7 +83,14 @@ class Outcome:
     interrupted: bool
 
 
-def run(case: Case, folder: str | os.PathLike[str], observer: Observer | None = None) -> Outcome:
+def run(
+    case: Case,
+    folder: AnyPath,
+    observer: Observer | None = None,
+    *,
+    force: bool = False,
+    inputs: Iterable[AnyPath] = (),
+) -> Outcome:
     """Solve a case and write the result folder, however the run ends.
 
     Parameters
@@ -91,24 +101,30 @@ def run(case: Case, folder: str | os.PathLike[str], observer: Observer | None = 
         A new or empty folder, or one with results of an earlier run, which are replaced.
     observer
         Who is told what happens.
+    force
+        Other files may be in the folder; they stay.
+    inputs
+        Files that the case was read from: the folder of one of them is not replaced.
 
     Raises
     ------
     InputError
-        If the folder holds something else than results.
+        If the folder holds something else than results, or cannot be written.
     EhlError
         If the solver failed; nothing is written then.
     """
-    return _drive(case, folder, "", observer or Observer())
+    return _drive(case, folder, "", observer or Observer(), force=force, inputs=inputs)
 
 
 def resume(
-    results: str | os.PathLike[str],
-    folder: str | os.PathLike[str] | None = None,
+    results: AnyPath,
+    folder: AnyPath | None = None,
     case: Case | None = None,
     observer: Observer | None = None,
     *,
     options: Iterable[str] = (),
+    force: bool = False,
+    inputs: Iterable[AnyPath] = (),
 ) -> Outcome:
     """Resume a transient run that was stopped; the results are those of an unbroken run.
 
@@ -126,6 +142,8 @@ def resume(
         Who is told what happens.
     options
         Texts ``group.key=value`` that replace values of the case as it was.
+    force, inputs
+        As `run`.
 
     Raises
     ------
@@ -137,7 +155,8 @@ def resume(
     kept = library.checkpoint_case(results)
     if case is None:
         case = Case.read(kept, options)
-    return _drive(case, results if folder is None else folder, results, observer or Observer())
+    place = results if folder is None else folder
+    return _drive(case, place, results, observer or Observer(), force=force, inputs=inputs)
 
 
 def _open(case: Case, resumed: str | os.PathLike[str]) -> Solver:
@@ -172,12 +191,16 @@ def _keep_state(solver: Solver, observer: Observer, *, at_once: bool) -> bool:
 
 def _drive(
     case: Case,
-    folder: str | os.PathLike[str],
-    resumed: str | os.PathLike[str],
+    folder: AnyPath,
+    resumed: AnyPath,
     observer: Observer,
+    *,
+    force: bool,
+    inputs: Iterable[AnyPath],
 ) -> Outcome:
     """Solve a case, from its beginning or from the state of a run with the results `resumed`."""
-    library.check_output(folder)
+    sources = (*inputs, str(case.resolve()["surface"].get("file", "")))
+    Destination(folder, "solution", inputs=sources, force=force).check()
     with stop_on_signals() as request, _open(case, resumed) as solver:
         observer.say(solver.describe())
         if os.fspath(resumed):
@@ -197,9 +220,7 @@ def _drive(
             observer.say(solver.skipped())
         observer.say(solver.conclusion())
         has_state = not solver.converged and _keep_state(solver, observer, at_once=True)
-        note = solver.write(folder)
-        if note:
-            observer.say(f"note: {note}")
+        solver.write(folder, force=force, inputs=sources)
         name = os.fspath(folder)
         observer.say(f"results: {name}")
         if solver.converged:

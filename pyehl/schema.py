@@ -28,7 +28,8 @@ class Quantity:
 
 # Letters of the kinds | name | unit | meaning
 _TABLE = """
-pfr | kind | | what the summary is of: 'prediction', 'film' or 'response'; a solution has none
+spfr | kind | | what the summary is of: 'solution', 'prediction', 'film' or 'response'
+spr | files | | names of the files of the result in its folder
 sp | status | | 'converged', 'predicted', or why there is no result
 s | converged | | whether the results are a solution
 p | message | | the status in a sentence
@@ -62,7 +63,7 @@ s | threads | - | OpenMP threads
 s | H_c | a^2/R | central film
 s | H_c_extrapolated | a^2/R | central film extrapolated to fine grids
 s | H_c_error | a^2/R | estimate of the error of H_c: grid and domain
-s | H_c_error_grid | a^2/R | part of it from the grid, and from cycles not made; that of H_c_extrapolated is smaller
+s | H_c_error_grid | a^2/R | part of it from the grid and from cycles not made
 s | H_c_error_domain | a^2/R | part of it from the borders of the domain, also in H_c_extrapolated
 s | H_c_algebraic_error | a^2/R | part of the error that more cycles would take away
 s | H_min | a^2/R | minimum film

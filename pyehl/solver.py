@@ -11,7 +11,7 @@ import json
 import math
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
@@ -21,7 +21,8 @@ from numpy.typing import ArrayLike
 
 from pyehl import display
 from pyehl.case import Case, Option
-from pyehl.errors import EhlError, FileError, InputError
+from pyehl.destination import Destination
+from pyehl.errors import EhlError, InputError
 from pyehl.handle import SolverHandle, Work
 from pyehl.prediction.resolution import Resolution, resolution
 from pyehl.surfaces import Record, Topography, for_solver, given
@@ -220,36 +221,50 @@ class Solver(SolverHandle):
         from pyehl.results import load  # noqa: PLC0415
 
         with tempfile.TemporaryDirectory(prefix="pyehl-") as folder:
-            self.write(folder)
+            self._fill(Path(folder))
             return load(folder)
 
-    def write(self, folder: str | os.PathLike[str]) -> str:
-        """Write the result folder, whole or not at all; returns a note, mostly empty.
+    def write(
+        self,
+        folder: str | os.PathLike[str],
+        *,
+        force: bool = False,
+        inputs: Iterable[str | os.PathLike[str]] = (),
+    ) -> None:
+        """Write the result folder, whole or not at all.
+
+        Parameters
+        ----------
+        folder
+            A new or empty folder, or one with a result of an earlier run, which is replaced.
+        force
+            Other files may be in the folder; they stay.
+        inputs
+            Files that must not be replaced.
 
         Raises
         ------
+        InputError
+            If the folder holds something else.
         FileError
             If it cannot be written.
         """
-        self._tell()
-        note = super().write(folder)
-        if self._lines():
-            self._amend(Path(folder))
-        return note
+        place = Destination(folder, "solution", inputs=tuple(inputs), force=force)
+        with place.fresh() as fresh:
+            self._fill(fresh)
 
-    def _amend(self, folder: Path) -> None:
-        """Add to plan and summary what the library does not know."""
-        try:
-            for name in ("summary.json", "plan.txt"):
-                text = (folder / name).read_text(encoding="utf-8")
-                if name == "plan.txt":
-                    text = "\n".join([text.rstrip("\n"), *self._lines(), ""])
-                elif self.preparation:
-                    values = json.loads(text)
-                    values["surface_preparation"] = self.preparation.summary()
-                    text = json.dumps(values, indent=2, allow_nan=False) + "\n"
-                fresh = folder / f"{name}.new"
-                fresh.write_text(text, encoding="utf-8")
-                fresh.replace(folder / name)
-        except OSError as error:
-            raise FileError(f"{folder}: cannot write: {error.strerror or error}") from error
+    def _fill(self, folder: Path) -> None:
+        """Write all files into an empty folder, with what the library does not know."""
+        self._tell()
+        self._write(folder)
+        if not self._lines():
+            return
+        plan = folder / "plan.txt"
+        told = plan.read_text(encoding="utf-8").rstrip("\n")
+        plan.write_text("\n".join([told, *self._lines(), ""]), encoding="utf-8")
+        if self.preparation:
+            summary = folder / "summary.json"
+            values = json.loads(summary.read_text(encoding="utf-8"))
+            values["surface_preparation"] = self.preparation.summary()
+            text = json.dumps(values, indent=2, allow_nan=False) + "\n"
+            summary.write_text(text, encoding="utf-8")

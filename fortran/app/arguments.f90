@@ -15,11 +15,13 @@ module ehl_arguments
       character(len=:), allocatable :: resume
       !> Texts group.key=value of the --set options, one a line
       character(len=:), allocatable :: options
+      !> Whether other files may be in the result folder
+      logical :: force = .false.
       logical :: quiet = .false., version = .false., help = .false., keys = .false.
    end type arguments_t
 
    character(len=*), parameter :: switches(*) = [character(len=12) :: &
-      "-o", "--output", "--set", "--resume", "--quiet", "--version", "--help", "--options"]
+      "-o", "--output", "--set", "--resume", "--force", "--quiet", "--version", "--help", "--options"]
 
 contains
 
@@ -48,6 +50,8 @@ contains
          case ("--resume")
             call next_argument(k, word, arguments%resume, status)
             if (arguments%resume == "") call refuse("the folder behind --resume has no name", status)
+         case ("--force")
+            arguments%force = .true.
          case ("-q", "--quiet")
             arguments%quiet = .true.
          case ("--version")
@@ -131,10 +135,11 @@ contains
       character(len=:), allocatable :: text
 
       text = "Solve an elastohydrodynamically lubricated point contact." // newline // newline &
-             // "  ehl CASE.nml -o DIR [--set group.key=value ...] [--quiet]" // newline &
-             // "  ehl --resume DIR [CASE.nml] [-o DIR] [--set group.key=value ...] [--quiet]" // newline // newline &
+             // "  ehl CASE.nml -o DIR [--set group.key=value ...] [--force] [--quiet]" // newline &
+             // "  ehl --resume DIR [CASE.nml] [-o DIR] [--set group.key=value ...] [--force] [--quiet]" // newline // newline &
              // "  CASE.nml   namelist file; every key has a default" // newline &
              // "  -o DIR     folder for the results: new, empty, or of an earlier run" // newline &
+             // "  --force    take a folder with other files, which stay" // newline &
              // "  --set      replace a value of the case, as often as wanted" // newline &
              // "  --resume   resume the interrupted run in DIR; results are bitwise identical" // newline &
              // "  --quiet    print nothing but errors" // newline &

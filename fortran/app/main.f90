@@ -8,8 +8,9 @@ program ehl
    use ehl_case_writer, only: options_text
    use ehl_clock, only: clock_t, start_clock
    use ehl_checkpoint_folder, only: checkpoint_path, find_checkpoint, checkpoint_folder_t
+   use ehl_destination, only: destination_t
    use ehl_kinds, only: dp
-   use ehl_result_folder, only: check_folder, write_results
+   use ehl_result_folder, only: result_names, write_results
    use ehl_signals, only: stop_wanted, watch_signals
    use ehl_solver, only: solver_t
    use ehl_status, only: ehl_bad_input, status_t
@@ -24,9 +25,10 @@ program ehl
    type(case_t) :: input
    type(solver_t) :: solver
    type(checkpoint_folder_t) :: checkpoints
+   type(destination_t) :: destination
    type(status_t) :: status
    type(clock_t) :: clock
-   character(len=:), allocatable :: note, case_file
+   character(len=:), allocatable :: note, case_file, fresh
    real(dp), allocatable :: heights(:, :)
 
    call get_arguments(arguments, status)
@@ -46,7 +48,13 @@ program ehl
    end if
    call read_case_file(arguments%case_file, arguments%options, input, status)
    call end_if_failed()
-   call check_folder(arguments%folder, status)
+   destination%folder = arguments%folder
+   destination%kind = "solution"
+   destination%names = result_names
+   destination%inputs = arguments%case_file // newline // trim(input%surface%file) // newline
+   destination%kept = ""
+   destination%force = arguments%force
+   call destination%check(status)
    call end_if_failed()
    call watch_signals()
    if (.not. allocated(heights)) allocate (heights(0, 0))
@@ -65,9 +73,12 @@ program ehl
    if (note /= "") call say("note: " // note)
    call advance_to_the_end()
    if (.not. solver%converged()) call keep_state(at_once=.true.)
-   call write_results(arguments%folder, input, solver, clock%seconds(), note, status)
+   call destination%begin(fresh, status)
    call end_if_failed()
-   if (note /= "") call say("note: " // note)
+   call write_results(fresh, input, solver, clock%seconds(), status)
+   call end_if_failed()
+   call destination%finish(fresh, status)
+   call end_if_failed()
    call say("results: " // arguments%folder)
    if (solver%converged()) then
       call checkpoints%close()

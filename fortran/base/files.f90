@@ -5,8 +5,8 @@ module ehl_files
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: flush_file, file_exists, make_folder, remove_folder, remove_file, remove_known
-   public :: rename_path, absolute_path, real_path, folder_of, process_mark
+   public :: flush_file, file_exists, may_write, make_folder, remove_folder, remove_file, remove_known
+   public :: rename_path, absolute_path, real_path, folder_of, process_mark, c_text, fortran_text
 
    interface
       integer(c_int) function posix_mkdir(path, mode) bind(c, name="mkdir")
@@ -107,6 +107,14 @@ contains
 
       file_exists = posix_access(c_text(path), there) == 0
    end function file_exists
+
+   !> Whether this process may write a file, or into a folder
+   logical function may_write(path)
+      character(len=*), intent(in) :: path
+      integer(c_int), parameter :: to_write = 2
+
+      may_write = posix_access(c_text(path), to_write) == 0
+   end function may_write
 
    !> Make a folder; false when that is not possible or it is there already
    logical function make_folder(path)

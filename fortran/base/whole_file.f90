@@ -7,7 +7,7 @@ module ehl_whole_file
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: read_text, write_text, end_writing
+   public :: read_text, holds_text, write_text, end_writing
 
 contains
 
@@ -50,6 +50,28 @@ contains
       end if
       close (lun)
    end subroutine read_text
+
+   !> Whether a file holds a word near its beginning or its end
+   logical function holds_text(path, word)
+      character(len=*), intent(in) :: path, word
+      integer(int64), parameter :: near = 64*1024_int64
+      character(len=:), allocatable :: part
+      integer(int64) :: length, first
+      integer :: lun, stat, k
+
+      holds_text = .false.
+      if (file_exists(path // "/.")) return
+      open (newunit=lun, file=path, status="old", action="read", access="stream", form="unformatted", iostat=stat)
+      if (stat /= 0) return
+      inquire (unit=lun, size=length)
+      allocate (character(len=int(max(0_int64, min(near, length)))) :: part)
+      do k = 1, 2
+         first = merge(1_int64, length - len(part) + 1, k == 1)
+         if (len(part) > 0) read (lun, pos=first, iostat=stat) part
+         if (stat == 0 .and. index(part, word) > 0) holds_text = .true.
+      end do
+      close (lun)
+   end function holds_text
 
    !> Write a text to a file, replacing what was there
    subroutine write_text(path, text, status)

@@ -11,14 +11,13 @@ module ehl_f2py_functions
    use ehl_grid, only: grid_t
    use ehl_lubricant, only: density_constant, density_dowson_higginson, new_lubricant, &
                             solver_lubricant_t => lubricant_t, viscosity_barus, viscosity_roelands
-   use ehl_result_folder, only: check_folder
    use ehl_reply, only: reply
    use ehl_shear, only: shear_carreau, shear_eyring, shear_law_t, shear_limiting, shear_newtonian, shear_stress
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_version, only: build_text, version
    implicit none (type, external)
    private
-   public :: resolve, check_output, keys, about, deflection, viscosity, density, shear
+   public :: resolve, keys, about, deflection, viscosity, density, shear
 
 contains
 
@@ -41,17 +40,6 @@ contains
       if (.not. status%failed()) resolved = case_text(input)
       call reply(status, stat, message)
    end subroutine resolve
-
-   !> Whether results could be written into a folder
-   subroutine check_output(folder, stat, message)
-      character(len=*), intent(in) :: folder
-      integer(c_int), intent(out) :: stat
-      character(len=4096), intent(out) :: message
-      type(status_t) :: status
-
-      call check_folder(folder, status)
-      call reply(status, stat, message)
-   end subroutine check_output
 
    !> All keys of a case file, one a line: key, unit, default, allowed values, meaning
    subroutine keys(text)

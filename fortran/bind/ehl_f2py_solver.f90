@@ -266,23 +266,17 @@ contains
       call reply(status, stat, message)
    end subroutine field
 
-   !> Write the result folder; the note is mostly empty
-   subroutine write_output(handle, folder, note, stat, message)
+   !> Write the files of the result into an empty folder
+   subroutine write_output(handle, folder, stat, message)
       integer(c_int), intent(in) :: handle
       character(len=*), intent(in) :: folder
-      character(len=4096), intent(out) :: note
       integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message
       type(run_t), pointer :: run
       type(status_t) :: status
-      character(len=:), allocatable :: text
 
-      note = ""
       call run_of(handle, run, status)
-      if (.not. status%failed()) then
-         call write_results(folder, run%input, run%solver, run%clock%seconds(), text, status)
-         if (.not. status%failed()) note = text
-      end if
+      if (.not. status%failed()) call write_results(folder, run%input, run%solver, run%clock%seconds(), status)
       call reply(status, stat, message)
    end subroutine write_output
 

@@ -7,18 +7,20 @@ module ehl_checkpoint_folder
    use ehl_checkpoint, only: coarser, series_files, state_files
    use ehl_clock, only: clock_t, start_clock
    use ehl_files, only: file_exists, make_folder, remove_file, remove_known, rename_path
+   use ehl_folders, only: full_path, is_there, list_folder, make_parents, move_new, name_t, spare_path
    use ehl_kinds, only: dp
    use ehl_npy, only: read_npy, write_npy
-   use ehl_result_folder, only: full_path, make_parents
    use ehl_solver, only: solver_t
    use ehl_status, only: ehl_bad_input, ehl_file, status_t
    use ehl_text, only: newline
-   use ehl_whole_file, only: write_text
+   use ehl_whole_file, only: holds_text, write_text
    implicit none (type, external)
    private
    public :: checkpoint_folder_t, find_checkpoint, checkpoint_path
 
-   character(len=*), parameter :: suffix = ".checkpoint", case_file = "case.nml", surface_file = "surface.npy"
+   character(len=*), parameter :: suffix = ".checkpoint", case_file = "case.nml", surface_file = "surface.npy", &
+      ! first line of the case, by which the folder is known
+      mark = "! Case of a transient run whose states are beside it; removed with them"
    !> States of the run and of that on the coarser grid, and all that belongs to them
    character(len=*), parameter :: states(*) = [character(len=32) :: state_files, coarser//state_files], &
       ! the case goes last: a folder with it can be gone on with
@@ -70,8 +72,9 @@ contains
       if (file_exists(folder//surface_file)) call read_npy(folder//surface_file, heights, status)
    end subroutine find_checkpoint
 
-   !> Make the folder of a transient run, unless the case wants none. States of an earlier run give way
-   !> to those of this one, unless it goes on with them: they are kept under the name that the note tells.
+   !> Make the folder of a transient run, unless the case wants none; refuse one with anything else in it. States
+   !> of an earlier run give way to those of this one, unless it goes on with them: they are kept under the name that
+   !> the note tells.
    subroutine open_folder(self, results, input, solver, resumed, heights, note, status)
       class(checkpoint_folder_t), intent(inout) :: self
       character(len=*), intent(in) :: results
@@ -84,30 +87,37 @@ contains
       character(len=:), allocatable, intent(out) :: note
       type(status_t), intent(inout) :: status
       logical :: same
+      character(len=:), allocatable :: place
 
       note = ""
       if (.not. solver%moves() .or. input%output%checkpoint_interval <= 0.0_dp) return
-      self%folder = checkpoint_path(results)
+      place = checkpoint_path(results)
+      call check_ours(place, status)
+      if (status%failed()) return
+      same = .false.
+      if (resumed /= "") same = place == checkpoint_path(resumed)
+      if (.not. same) then
+         if (holds_state(place)) call set_aside(place, note, status)
+      end if
+      if (status%failed()) return
+      self%folder = place
       self%interval = input%output%checkpoint_interval
       self%since = start_clock()
-      same = .false.
-      if (resumed /= "") same = self%folder == checkpoint_path(resumed)
-      if (.not. same) then
-         if (holds_state(self%folder)) call set_aside(self%folder, note, status)
-         if (status%failed()) return
+      call make_parents(place(:len(place) - 1))
+      ! the folder is there with all that belongs to it
+      if (.not. is_there(place)) place = spare_path(place(:len(place) - 1)//".partial")//"/"
+      if (.not. file_exists(place)) then
+         if (.not. make_folder(place)) call status%fail(ehl_file, self%folder//": error: cannot make this folder")
       end if
-      call make_parents(self%folder)
-      if (.not. file_exists(self%folder)) then
-         call status%fail(ehl_file, self%folder//": error: cannot make this folder")
-         return
+      if (size(heights) > 0 .and. .not. status%failed()) then
+         call write_npy(place//surface_file//".new", heights, status)
+         if (.not. status%failed()) call put(place//surface_file, status)
       end if
-      if (size(heights) > 0) then
-         call write_npy(self%folder//surface_file//".new", heights, status)
-         if (status%failed()) return
-         call put(self%folder//surface_file, status)
-      end if
-      call write_text(self%folder//case_file//".new", case_text(input), status)
-      if (.not. status%failed()) call put(self%folder//case_file, status)
+      if (.not. status%failed()) call write_text(place//case_file//".new", mark//newline//case_text(input), status)
+      if (.not. status%failed()) call put(place//case_file, status)
+      if (status%failed() .or. place == self%folder) return
+      same = move_new(place(:len(place) - 1), self%folder(:len(self%folder) - 1))
+      if (.not. same) call status%fail(ehl_file, self%folder//": error: cannot make this folder")
    end subroutine open_folder
 
    !> Save the state if its time has come
@@ -158,6 +168,39 @@ contains
       end do
    end function holds_state
 
+   !> Refuse a folder that is there and holds anything but the state of a run
+   subroutine check_ours(folder, status)
+      character(len=*), intent(in) :: folder
+      type(status_t), intent(inout) :: status
+      type(name_t), allocatable :: names(:)
+      logical :: whole
+      integer :: k
+
+      if (.not. is_there(folder(:len(folder) - 1))) return
+      whole = list_folder(folder, names)
+      if (whole .and. size(names) > 0) whole = holds_text(folder//case_file, mark)
+      do k = 1, size(names)
+         if (whole .and. is_file_of_ours(names(k)%text)) cycle
+         call status%fail(ehl_bad_input, folder(:len(folder) - 1)//": error: holds '"//names(k)%text// &
+                          "', which is not of the state of a run"//newline// &
+                          "expected: another folder for the results, or output.checkpoint_interval = 0")
+         return
+      end do
+      if (.not. whole) call status%fail(ehl_bad_input, folder(:len(folder) - 1)// &
+                                        ": error: this is no folder that can be read"//newline// &
+                                        "expected: another folder for the results")
+   end subroutine check_ours
+
+   !> Whether a file of the folder has such a name, whole or half written
+   pure logical function is_file_of_ours(name)
+      character(len=*), intent(in) :: name
+      integer :: last
+
+      last = index(name//" ", ".new ") - 1
+      if (last < 1) last = len(name)
+      is_file_of_ours = any(files == name(:last))
+   end function is_file_of_ours
+
    !> Keep the folder of an earlier run under another name
    subroutine set_aside(folder, note, status)
       character(len=*), intent(in) :: folder
@@ -166,6 +209,8 @@ contains
       character(len=:), allocatable :: aside
 
       aside = folder(:len(folder) - 1)//".previous"
+      call check_ours(aside//"/", status)
+      if (status%failed()) return
       call remove_files(aside//"/")
       if (rename_path(folder(:len(folder) - 1), aside)) then
          note = "the state of an earlier run is now in "//aside

@@ -33,6 +33,7 @@ contains
       logical :: good
       real(dp) :: bytes, ratio, stop_error
 
+      call record%set("kind", "solution")
       call record%set("status", trim(outcome_names(self%stand())))
       call record%set("converged", self%converged())
       ! the smooth results are good as soon as the transient run has begun

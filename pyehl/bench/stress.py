@@ -16,10 +16,11 @@ from typing import Any
 
 from pyehl.bench import stress_second
 from pyehl.bench.stress_cases import FAMILIES, StressCase, draw, study_of
+from pyehl.destination import new_file
 from pyehl.studies.plan import plan
 from pyehl.studies.sweep import perform
 
-__all__ = ["COLUMNS", "ENDED", "MEANING", "campaign", "judge", "summary"]
+__all__ = ["COLUMNS", "ENDED", "MEANING", "campaign", "folders", "judge", "summary"]
 
 Row = dict[str, Any]
 
@@ -112,6 +113,12 @@ def campaign(
     tell("a sample by the second solver")
     stress_second.check(rows, sample, tell)
     return rows
+
+
+def folders() -> list[str]:
+    """Names of the folders of the runs."""
+    ends = ("", "-strict", "-strict-high")
+    return [f"{family}{end}" for family in FAMILIES for end in ends]
 
 
 def _run(family: str, cases: Sequence[StressCase], folder: Path, jobs: int) -> list[Row]:
@@ -212,4 +219,5 @@ def summary(rows: Sequence[Row]) -> list[Row]:
 def write(rows: Sequence[Row], folder: Path, answer: Mapping[str, Any]) -> None:
     """Write ``stress.json`` into a folder."""
     text = json.dumps({**answer, "summary": summary(rows), "rows": rows}, indent=1) + "\n"
-    (folder / "stress.json").write_text(text, encoding="utf-8")
+    with new_file(folder / "stress.json") as path:
+        path.write_text(text, encoding="utf-8")

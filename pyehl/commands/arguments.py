@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import argparse
 
-__all__ = ["add_case_arguments", "add_overrides"]
+__all__ = ["add_case_arguments", "add_force", "add_overrides"]
 
 
 def add_case_arguments(parser: argparse.ArgumentParser, *, optional: bool = False) -> None:
@@ -25,4 +25,11 @@ def add_overrides(parser: argparse.ArgumentParser, where: str) -> None:
         default=[],
         metavar="GROUP.KEY=VALUE",
         help=f"replace a value {where}; may be repeated",
+    )
+
+
+def add_force(parser: argparse.ArgumentParser) -> None:
+    """Option --force of commands that write a folder."""
+    parser.add_argument(
+        "--force", action="store_true", help="take a folder with other files, which stay"
     )

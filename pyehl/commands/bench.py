@@ -27,6 +27,8 @@ from pyehl.bench import (
 )
 from pyehl.bench.text import table
 from pyehl.bench.unit import machine
+from pyehl.commands.arguments import add_force
+from pyehl.destination import Destination, check_files, mark, new_file
 from pyehl.errors import InputError
 from pyehl.plots import bench as figures
 
@@ -219,7 +221,8 @@ def _skips(args: argparse.Namespace, answer: Answer) -> Rows:
 def _stress(args: argparse.Namespace, answer: Answer) -> Rows:
     if args.output is None or args.cases < 1:
         raise InputError("pyehl bench stress: -o DIR is needed, and 1 or more cases")
-    args.output.mkdir(parents=True, exist_ok=True)
+    names = ("stress.json", "stress.png", *stress.folders())
+    Destination(args.output, "bench stress", names, force=args.force).claim({})
     rows = stress.campaign(
         args.cases, args.seed, args.output, jobs=args.jobs, grids=args.points, tell=_tell
     )
@@ -232,15 +235,17 @@ def _stress(args: argparse.Namespace, answer: Answer) -> Rows:
 
 
 def _faults(args: argparse.Namespace, answer: Answer) -> Rows:
-    if args.output is None or (args.output.exists() and any(args.output.iterdir())):
+    if args.output is None:
         raise InputError("pyehl bench faults: -o DIR is needed, a folder that is empty")
+    Destination(args.output, "bench faults").check()
     args.output.mkdir(parents=True, exist_ok=True)
     rows = faults.campaign(
         args.output.resolve(), seed=args.seed, kills=args.kills, inputs=args.inputs, tell=_tell
     )
     print(table(rows, faults.COLUMNS))
     text = json.dumps({**answer, "seed": args.seed, "rows": rows}, indent=1) + "\n"
-    (args.output / "faults.json").write_text(text, encoding="utf-8")
+    with new_file(args.output / "faults.json") as path:
+        path.write_text(text, encoding="utf-8")
     for row in rows:
         for what in row["bad"]:
             print(f"{row['campaign']}: {what}", file=sys.stderr)
@@ -303,6 +308,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
             place = ("DIR", "an empty folder to work in")
         elif name in FILES:
             place = ("FILE.json", "write JSON too")
+        else:
+            add_force(sub)
         sub.add_argument("-o", "--output", type=Path, metavar=place[0], help=place[1])
 
 
@@ -310,10 +317,14 @@ def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl bench``; 1 if something is wrong, or skipped work would change a result."""
     if min(getattr(args, "points", []), default=3) < 3 or min(getattr(args, "threads", [1])) < 1:
         raise InputError("pyehl bench: points must be 3 or more, threads 1 or more")
-    answer: Answer = {"what": args.what, "machine": machine()}
+    if args.what in FILES and args.output is not None:
+        pictures = [args.output.with_suffix(".png")] if args.what == "workprec" else []
+        check_files([args.output, *pictures], "bench")
+    answer: Answer = {"source": mark("bench"), "what": args.what, "machine": machine()}
     _, _, measure = (FILES | FOLDERS)[args.what]
     rows = measure(args, answer)
     if args.what in FILES and args.output is not None:
         answer["rows"] = rows
-        args.output.write_text(json.dumps(answer, indent=2) + "\n", encoding="utf-8")
+        with new_file(args.output) as path:
+            path.write_text(json.dumps(answer, indent=2) + "\n", encoding="utf-8")
     return 0 if all(row.get("same", True) and not row.get("wrong") for row in rows) else 1

@@ -6,7 +6,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from pyehl.errors import EhlError, FileError, InputError
+from pyehl.errors import EhlError, InputError
 from pyehl.plots.folder import FORMATS, plot_folder
 from pyehl.plots.movie import SUFFIXES
 from pyehl.plots.style import DPI
@@ -57,8 +57,6 @@ def execute(args: argparse.Namespace) -> int:
         )
     except EhlError:
         raise
-    except OSError as error:
-        raise FileError(f"{target}: cannot write: {error.strerror or error}") from error
     except ValueError as error:
         raise InputError(f"{args.folder}: {error}") from error
     for path in written:

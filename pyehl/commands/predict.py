@@ -5,12 +5,12 @@ from __future__ import annotations
 
 import argparse
 import math
-import sys
 from pathlib import Path
 
 from pyehl.case import Case
-from pyehl.commands.arguments import add_case_arguments
-from pyehl.prediction.folder import write
+from pyehl.commands.arguments import add_case_arguments, add_force
+from pyehl.errors import InputError
+from pyehl.prediction.folder import destination, write
 from pyehl.prediction.friction import TRACKS
 from pyehl.prediction.of_case import predict
 from pyehl.prediction.result import Prediction
@@ -104,6 +104,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of ``pyehl predict``."""
     add_case_arguments(parser)
     parser.add_argument("-o", "--output", type=Path, required=True, help="result folder")
+    add_force(parser)
     parser.add_argument(
         "--tracks",
         type=int,
@@ -127,15 +128,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl predict``; 0 predicted, 1 no prediction is possible, 2 bad input."""
     case = Case.read(args.case, args.overrides)
+    settings = case.resolve()
+    inputs = (args.case, str(settings["surface"].get("file", "")))
+    place = destination(args.output, inputs=inputs, force=args.force)
+    place.check()
     try:
-        prediction = predict(case.resolve(), case.text, tracks=args.tracks, smooth=args.smooth)
-        write(prediction, args.output, draw=draw if args.plots else None)
-    except (ValueError, FileExistsError, FileNotFoundError) as error:
-        print(f"{args.case}: {error}", file=sys.stderr)
-        return 2
-    except OSError as error:
-        print(f"{args.output}: {error}", file=sys.stderr)
-        return 1
+        prediction = predict(settings, case.text, tracks=args.tracks, smooth=args.smooth)
+    except (ValueError, OSError) as error:
+        raise InputError(f"{args.case}: {error}") from error
+    write(prediction, place, draw=draw if args.plots else None)
     print(report(prediction))
     print(f"results     {args.output}")
     return 0 if prediction.friction.status == "predicted" else 1

@@ -11,6 +11,7 @@ from importlib import metadata
 from pathlib import Path
 
 from pyehl import library
+from pyehl.commands.arguments import add_force
 from pyehl.commands.watching import Terminal, jobs_of
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
 from pyehl.reproduce.driver import PIECES, reproduce
@@ -56,6 +57,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         )
     parser.set_defaults(level="quick")
     parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the report")
+    add_force(parser)
     parser.add_argument(
         "--jobs", type=int, default=0, metavar="N", help="worker processes (default: processors)"
     )
@@ -121,6 +123,7 @@ def execute(args: argparse.Namespace) -> int:
             level,
             folder,
             jobs=jobs,
+            force=args.force,
             machine=_machine(args, level, jobs),
             watch=watch,
             done=done,

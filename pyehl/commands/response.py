@@ -12,15 +12,13 @@ import xarray as xr
 from tqdm import tqdm
 
 from pyehl.case import Case
-from pyehl.commands.arguments import add_case_arguments
-from pyehl.errors import FileError
+from pyehl.commands.arguments import add_case_arguments, add_force
 from pyehl.studies.response import measure
-from pyehl.studies.response_folder import FILES, beside_shipped, write
+from pyehl.studies.response_folder import beside_shipped, destination, write
 from pyehl.studies.tiers import TIERS, Tier
 
 __all__ = ["add_arguments", "execute"]
 
-PICTURE = "response.png"
 # Seconds between progress lines where the output is not a terminal
 PROGRESS_INTERVAL = 10.0
 
@@ -64,6 +62,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="DIR",
         help="result folder; runs that are there already are not made again",
     )
+    add_force(parser)
     parser.add_argument(
         "--jobs",
         type=int,
@@ -91,25 +90,13 @@ def execute(args: argparse.Namespace) -> int:
     tiers = TIERS[:-1] if args.quick else TIERS
     ratio = float(case.resolve()["surface"]["velocity_ratio"])
     began = time.perf_counter()
+    place = destination(args.output, inputs=(args.case,), force=args.force)
     bar = Bar(tiers, max(ratio, 1e-3))
     try:
-        found = measure(
-            case,
-            args.output,
-            tiers=tiers,
-            jobs=args.jobs,
-            files={PICTURE, *FILES},
-            progress=bar.update,
-        )
+        found = measure(case, place, tiers=tiers, jobs=args.jobs, progress=bar.update)
     finally:
         bar.close()
-    try:
-        summary, data = write(case, found, args.output)
-        _draw(case, data, args.output / PICTURE)
-    except FileError:
-        raise
-    except OSError as error:
-        raise FileError(f"{args.output}: cannot write: {error.strerror or error}") from error
+    summary = write(case, found, place, lambda data, path: _draw(case, data, path))
     print(
         f"response    {summary['waves']} waves at M = {summary['moes_m']:.4g}, "
         f"L = {summary['moes_l']:.4g}, velocity ratio {ratio:g}   "

@@ -8,7 +8,7 @@ import sys
 import time
 
 from pyehl.case import Case
-from pyehl.commands.arguments import add_case_arguments
+from pyehl.commands.arguments import add_case_arguments, add_force
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
 from pyehl.progress import ProgressBar
 from pyehl.run import Observer, Outcome, resume, run
@@ -75,6 +75,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="resume the interrupted run in DIR; results are bitwise identical. CASE.nml and -o "
         "may be left out",
     )
+    add_force(parser)
     parser.add_argument("-q", "--quiet", action="store_true", help="print nothing but errors")
 
 
@@ -85,7 +86,16 @@ def execute(args: argparse.Namespace) -> int:
         if args.resume == "":
             raise InputError("pyehl run: error: the folder behind --resume has no name")
         case = None if args.case is None else Case.read(args.case, args.overrides)
-        return _status(resume(args.resume, args.output, case, observer, options=args.overrides))
+        done = resume(
+            args.resume,
+            args.output,
+            case,
+            observer,
+            options=args.overrides,
+            force=args.force,
+            inputs=() if args.case is None else (args.case,),
+        )
+        return _status(done)
     if args.case is None or args.output is None:
         missing = "case file" if args.case is None else "result folder: -o DIR is missing"
         raise InputError(
@@ -93,4 +103,4 @@ def execute(args: argparse.Namespace) -> int:
             "expected: pyehl run CASE.nml -o DIR, or pyehl run --resume DIR"
         )
     case = Case.read(args.case, args.overrides)
-    return _status(run(case, args.output, observer))
+    return _status(run(case, args.output, observer, force=args.force, inputs=(args.case,)))

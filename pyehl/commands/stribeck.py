@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -19,6 +20,7 @@ from pyehl.commands.watching import (
     jobs_of,
     tell_lost,
 )
+from pyehl.destination import Destination
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
 from pyehl.export import write_netcdf
 from pyehl.studies.curve import (
@@ -32,6 +34,7 @@ from pyehl.studies.curve import (
 )
 from pyehl.studies.curve_table import Measured, curve_dataset, read_measured, write_csv
 from pyehl.studies.gather import gather
+from pyehl.studies.journal import NAME
 from pyehl.studies.stribeck import KEYS, CurvePlan, plan_curve
 from pyehl.studies.vary import axis
 
@@ -211,6 +214,12 @@ def execute(args: argparse.Namespace) -> int:
     jobs = jobs_of(args)
     measured = None if args.measured is None else _measured(args.measured, plan)
     folder = Path(args.output)
+    files = (CSV, NETCDF, PICTURE)
+    inputs = tuple(word for word in (args.case, args.measured) if word is not None)
+    if {os.path.realpath(folder / name) for name in files} & set(map(os.path.realpath, inputs)):
+        raise InputError(
+            f"{folder}: error: this command reads a file of it\nexpected: another folder"
+        )
     watcher = Terminal(lambda done: plan.text(jobs, done), quiet=args.quiet)
     try:
         outcome = gather(
@@ -219,6 +228,7 @@ def execute(args: argparse.Namespace) -> int:
             plan.identity(),
             jobs=jobs,
             scheduler=args.scheduler,
+            place=Destination(folder, "stribeck", (NAME, *files), inputs, force=args.force),
             watcher=watcher,
             write=lambda rows: write_csv(folder / CSV, plan, curve_rows(plan, rows)),
         )
@@ -229,19 +239,19 @@ def execute(args: argparse.Namespace) -> int:
     if outcome.interrupted:
         watcher.goes_on(folder)
         return EXIT_INTERRUPTED
-    files = [CSV, NETCDF]
+    written = [CSV, NETCDF]
     if any(row["mu_ratio"] is not None for row in rows):
         draw(plan, rows, measured, folder / PICTURE, args.dpi)
-        files.append(PICTURE)
+        written.append(PICTURE)
     else:
         print("note: no point has a friction; there is no picture", file=sys.stderr)
     if not args.quiet:
         print(report(plan, rows))
-        print(f"results    {', '.join(str(folder / name) for name in files)}")
+        print(f"results    {', '.join(str(folder / name) for name in written)}")
     lost = [
         f"point {p.point.number + 1} of {len(rows)} ({p.point}): {row['status']}: {row['message']}"
         for p, row in zip(plan.points, rows, strict=True)
         if row["status"] == UNSOLVED or (p.full is not None and row["mu_ratio_ehl"] is None)
     ]
     tell_lost(lost, folder / CSV)
-    return EXIT_OK if PICTURE in files and not lost else EXIT_FAILED
+    return EXIT_OK if PICTURE in written and not lost else EXIT_FAILED

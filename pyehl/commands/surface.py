@@ -7,11 +7,14 @@ A file of an instrument or an array, or the surface of a case, whatever its kind
 from __future__ import annotations
 
 import argparse
+import zlib
+from collections.abc import Sequence
 from pathlib import Path
 
 from pyehl.case import Case
 from pyehl.commands.arguments import add_case_arguments
-from pyehl.errors import FileError, InputError
+from pyehl.destination import check_files, made_by, mark, new_file
+from pyehl.errors import InputError
 from pyehl.surfaces import FEATURES, Topography, from_settings
 from pyehl.surfaces.areal import AREAL_NAMES, areal_numbers
 from pyehl.surfaces.writing import SUFFIXES, write_map
@@ -21,7 +24,7 @@ from pyehl.theory.operating import OperatingPoint
 
 __all__ = ["add_arguments", "execute", "numbers"]
 
-MADE = "! A tile made by pyehl surface, in the contact that it was made for\n"
+MADE = f"! {mark('surface')}\n! A tile in the contact that it was made for\n"
 
 # Keys of a tile that is ready: nothing is left to do
 READY = (
@@ -85,6 +88,8 @@ def execute(args: argparse.Namespace) -> int:
             f"pyehl surface: cannot write {args.output}\n"
             f"expected: a name with {', '.join(SUFFIXES)}"
         )
+    if args.output is not None:
+        _check(args.output, (args.case, str(settings["surface"].get("file", ""))), args.plots)
     operating = OperatingPoint.from_settings(settings)
     lubricant = Lubricant.from_settings(settings, str(settings["psd"]["viscosity_law"]))
     try:
@@ -133,6 +138,31 @@ def numbers(surface: Topography) -> list[str]:
     return lines
 
 
+def _beside(path: Path) -> tuple[Path, Path]:
+    """Names of the case and of the picture of a tile."""
+    return path.with_name(f"{path.name}.nml"), path.with_name(f"{path.name}.png")
+
+
+def _seal(path: Path) -> str:
+    """Size and checksum of a tile, as its case has them."""
+    crc = 0
+    with path.open("rb") as stream:
+        while part := stream.read(2**20):
+            crc = zlib.crc32(part, crc)
+    return f"! {path.name}: {path.stat().st_size} bytes, CRC-32 {crc:08x}\n"
+
+
+def _check(path: Path, inputs: Sequence[str], plots: bool) -> None:
+    """Refuse files that are there and are not of an earlier tile of this name."""
+    beside, picture = _beside(path)
+    check_files([beside, picture] if plots else [beside], "surface", inputs)
+
+    def known(tile: Path) -> bool:
+        return beside.is_file() and made_by(beside, _seal(tile))
+
+    check_files([path], "surface", inputs, known=known)
+
+
 def _write(
     surface: Topography,
     case: Case,
@@ -141,24 +171,21 @@ def _write(
     plots: bool,
 ) -> list[Path]:
     """Write the tile, a case for it, and the picture; returns their names."""
-    try:
-        written = [write_map(surface, path)]
-        options = [f"surface.{option}" for option in READY]
-        options += [f"surface.length_x={surface.length_x!r}"]
-        options += [f"surface.length_y={surface.length_y!r}"]
-        name = str(path.absolute()).replace("'", "''")
-        text = case.with_options(*options, f"surface.file='{name}'").text
-        # beside it: the folder may be moved
-        text = text.replace(f"'{name}'", "'" + path.name.replace("'", "''") + "'")
-        beside = path.with_name(f"{path.name}.nml")
-        beside.write_text(MADE + text, encoding="utf-8")
-        written.append(beside)
-        if plots:
-            from pyehl.plots.preparation import before_and_after  # noqa: PLC0415 (slow to import)
-            from pyehl.plots.style import save  # noqa: PLC0415
+    beside, picture = _beside(path)
+    written = [write_map(surface, path), beside]
+    options = [f"surface.{option}" for option in READY]
+    options += [f"surface.length_x={surface.length_x!r}"]
+    options += [f"surface.length_y={surface.length_y!r}"]
+    name = str(path.absolute()).replace("'", "''")
+    text = case.with_options(*options, f"surface.file='{name}'").text
+    # beside it: the folder may be moved
+    text = text.replace(f"'{name}'", "'" + path.name.replace("'", "''") + "'")
+    with new_file(beside) as fresh:
+        fresh.write_text(MADE + _seal(path) + text, encoding="utf-8")
+    if plots:
+        from pyehl.plots.preparation import before_and_after  # noqa: PLC0415 (slow to import)
+        from pyehl.plots.style import save  # noqa: PLC0415
 
-            picture = path.with_name(f"{path.name}.png")
-            written.append(save(before_and_after(surface, conditions), picture))
-    except OSError as error:
-        raise FileError(f"{path}: cannot write: {error.strerror or error}") from error
+        figure = before_and_after(surface, conditions)
+        written.append(save(figure, picture, command="surface"))
     return written

@@ -116,6 +116,7 @@ def execute(args: argparse.Namespace) -> int:
             jobs=jobs,
             scheduler=args.scheduler,
             retry=args.retry,
+            force=args.force,
             watcher=watcher,
         )
     finally:

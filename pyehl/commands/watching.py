@@ -12,6 +12,7 @@ from typing import Any
 
 from tqdm import tqdm
 
+from pyehl.commands.arguments import add_force
 from pyehl.errors import InputError
 from pyehl.studies.gather import Watcher
 from pyehl.studies.plan import duration
@@ -92,6 +93,7 @@ class Terminal(Watcher):
 def add_worker_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of all subcommands that run many cases."""
     parser.add_argument("-o", "--output", metavar="DIR", required=True, help="folder of the study")
+    add_force(parser)
     parser.add_argument(
         "--jobs", type=int, default=0, metavar="N", help="worker processes (default: processors)"
     )

@@ -74,7 +74,7 @@ def stress(rows: Sequence[Row], path: Path) -> None:
     axes[0].set_ylabel("L")
     handles, labels = axes[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=4)
-    figure.savefig(path, dpi=DPI)
+    style.save(figure, path, DPI, "bench")
 
 
 def work(rows: Sequence[Row], path: Path) -> None:
@@ -112,4 +112,4 @@ def work(rows: Sequence[Row], path: Path) -> None:
     axes[0].set_ylabel("relative error")
     handles, labels = axes[-1].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=4)
-    figure.savefig(path, dpi=DPI)
+    style.save(figure, path, DPI, "bench")

@@ -9,6 +9,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from pyehl import results
+from pyehl.destination import check_files
 from pyehl.errors import InputError
 from pyehl.plots.figures import prediction_figures, solution_figures
 from pyehl.plots.movie import movie
@@ -22,8 +23,25 @@ FORMATS = ("png", "pdf", "svg")
 def save_all(
     figures: Mapping[str, Figure], target: Path, suffix: str = "png", dpi: int = DPI
 ) -> list[Path]:
-    """Write figures into a folder under their names; returns their paths."""
-    return [save(figure, target / f"{name}.{suffix}", dpi) for name, figure in figures.items()]
+    """Write figures into a folder under their names; returns their paths.
+
+    Raises
+    ------
+    InputError
+        If another file has one of the names; nothing is written then.
+    """
+    paths = {name: target / f"{name}.{suffix}" for name in figures}
+    check_files(paths.values(), "plot")
+    return [save(figure, paths[name], dpi) for name, figure in figures.items()]
+
+
+def _make(target: Path) -> None:
+    try:
+        target.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(
+            f"{target}: error: this folder cannot be made\nexpected: another folder"
+        ) from error
 
 
 def plot_folder(
@@ -53,7 +71,8 @@ def plot_folder(
     Raises
     ------
     InputError
-        If the folder is not a result folder, or has nothing to draw.
+        If the folder is not a result folder, or has nothing to draw, or another file has the name
+        of a picture.
     FileError
         If a picture cannot be written.
     """
@@ -65,7 +84,7 @@ def plot_folder(
     if moving:
         if prediction:
             raise InputError(f"{folder}: a prediction has no frames to make a movie of")
-        target.mkdir(parents=True, exist_ok=True)
+        _make(target)
         return [movie(data, target, moving, units)]
     figures = prediction_figures(data) if prediction else solution_figures(data, units)
     if not figures:
@@ -73,5 +92,5 @@ def plot_folder(
             f"{folder}: there are no fields to draw: the case has output.fields = .false.\n"
             "expected: a result folder with P.npy and H.npy"
         )
-    target.mkdir(parents=True, exist_ok=True)
+    _make(target)
     return save_all(figures, target, suffix, dpi)

@@ -9,6 +9,7 @@ import xarray as xr
 from matplotlib import animation
 from matplotlib.artist import Artist
 
+from pyehl.destination import check_files, mark, new_file
 from pyehl.errors import InputError
 from pyehl.plots import contact
 from pyehl.plots.figures import headline, scales_of
@@ -41,7 +42,7 @@ def movie(
     Raises
     ------
     InputError
-        If there are no frames, or no ffmpeg for 'mp4'.
+        If there are no frames, or no ffmpeg for 'mp4', or another file has the name.
     """
     if "frame_H" not in data or data.sizes["T"] == 0:
         raise InputError(
@@ -70,12 +71,18 @@ def movie(
         figure.suptitle(f"{title}\n$T$ = {times[frame]:.2f}", fontsize="medium")
         return []
 
+    path = target / f"movie.{suffix}"
+    check_files([path], "plot")
     moving = animation.FuncAnimation(figure, draw, frames=times.size, blit=False)
     writer: animation.AbstractMovieWriter
     if suffix == "mp4":
-        writer = animation.FFMpegWriter(fps=FRAMES_PER_SECOND)
+        writer = animation.FFMpegWriter(fps=FRAMES_PER_SECOND, metadata={"comment": mark("plot")})
     else:
         writer = animation.PillowWriter(fps=FRAMES_PER_SECOND)
-    path = target / f"movie.{suffix}"
-    moving.save(path, writer=writer, dpi=dpi)
+    with new_file(path) as partial:
+        moving.save(partial, writer=writer, dpi=dpi)
+        if suffix == "gif":
+            # what follows the end of a GIF is passed over
+            with partial.open("ab") as stream:
+                stream.write(mark("plot").encode())
     return path

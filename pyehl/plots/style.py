@@ -21,6 +21,8 @@ from matplotlib.patches import Circle
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
+from pyehl.destination import mark, new_file
+
 __all__ = [
     "BLUE",
     "DIVERGING",
@@ -130,10 +132,29 @@ def extent_of(
     return left * unit, right * unit, bottom * unit, top * unit
 
 
-def save(figure: Figure, path: str | Path, dpi: int = DPI) -> Path:
-    """Write a figure as PNG (or what the suffix says) at `dpi` dots per inch; returns the path."""
+def save(figure: Figure, path: str | Path, dpi: int = DPI, command: str = "plot") -> Path:
+    """Write a figure as PNG (or what the suffix says), whole or not at all; returns the path.
+
+    Parameters
+    ----------
+    figure
+        What to write.
+    path
+        Where; replaced when it is there.
+    dpi
+        Dots per inch.
+    command
+        Whose picture it says that it is.
+
+    Raises
+    ------
+    FileError
+        If it cannot be written.
+    """
     path = Path(path)
-    figure.savefig(path, dpi=dpi)
+    key = "Software" if path.suffix == ".png" else "Creator"
+    with new_file(path) as partial:
+        figure.savefig(partial, dpi=dpi, metadata={key: mark(command)})
     return path
 
 

@@ -5,23 +5,34 @@ from __future__ import annotations
 
 import csv
 import json
-import os
-import shutil
-import tempfile
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.destination import Destination
 from pyehl.prediction.result import Prediction
 
-__all__ = ["write"]
+__all__ = ["destination", "write"]
+
+TABLES = ("passage", "spectrum", "bands")
+ARRAYS = ("x", "y", "surface", "deformed", "delta_p")
+PICTURES = ("surface_spectrum", "roughness", "passage")
+
+
+def destination(
+    folder: str | Path, *, inputs: Iterable[str | Path] = (), force: bool = False
+) -> Destination:
+    """Give the place of the result of a prediction, to check it before there is one."""
+    names = [f"{name}.csv" for name in TABLES] + [f"{name}.npy" for name in ARRAYS]
+    names += [f"{name}.png" for name in PICTURES] + ["case.nml", "summary.json"]
+    return Destination(folder, "prediction", tuple(names), tuple(inputs), force=force)
 
 
 def write(
     prediction: Prediction,
-    folder: str | Path,
+    place: Destination,
     *,
     draw: Callable[[Prediction, Path], None] | None = None,
 ) -> None:
@@ -34,28 +45,24 @@ def write(
 
     Raises
     ------
-    FileExistsError
-        If the folder holds something other than an earlier result.
-    OSError
+    InputError
+        If the folder holds something other than an earlier prediction.
+    FileError
         If it cannot be written.
     """
-
-    def fill(target: Path) -> None:
-        (target / "case.nml").write_text(prediction.case_text.rstrip() + "\n", encoding="utf-8")
-        _write_files(prediction, target)
+    with place.fresh() as folder:
+        text = prediction.case_text.rstrip() + "\n"
+        (folder / "case.nml").write_text(text, encoding="utf-8")
+        for name, columns in prediction.tables.items():
+            rows = zip(*columns.values(), strict=True)
+            _write_csv(folder / f"{name}.csv", tuple(columns), rows)
+        for name, values in prediction.arrays.items():
+            np.save(folder / f"{name}.npy", values)
         if draw is not None:
-            draw(prediction, target)
-
-    _write_folder(Path(folder), fill)
-
-
-def _write_files(prediction: Prediction, target: Path) -> None:
-    text = json.dumps(prediction.summary, indent=2, allow_nan=False)
-    (target / "summary.json").write_text(text + "\n", encoding="utf-8")
-    for name, columns in prediction.tables.items():
-        _write_csv(target / f"{name}.csv", tuple(columns), zip(*columns.values(), strict=True))
-    for name, values in prediction.arrays.items():
-        np.save(target / f"{name}.npy", values)
+            draw(prediction, folder)
+        files = sorted(["summary.json", *(path.name for path in folder.iterdir())])
+        text = json.dumps(prediction.summary | {"files": files}, indent=2, allow_nan=False)
+        (folder / "summary.json").write_text(text + "\n", encoding="utf-8")
 
 
 def _write_csv(
@@ -65,31 +72,3 @@ def _write_csv(
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(names)
         writer.writerows([repr(float(value)) for value in row] for row in rows)
-
-
-def _write_folder(folder: Path, write: Callable[[Path], None]) -> None:
-    """Fill a new folder beside `folder`, then put it in its place."""
-    folder = Path(os.path.abspath(folder))
-    if folder.exists():
-        if not folder.is_dir():
-            raise FileExistsError(f"{folder}: exists and is not a folder")
-        if any(folder.iterdir()) and not (folder / "summary.json").is_file():
-            raise FileExistsError(f"{folder}: not empty and not a result folder; choose another")
-    folder.parent.mkdir(parents=True, exist_ok=True)
-    fresh = Path(tempfile.mkdtemp(prefix=f".{folder.name}.", dir=folder.parent))
-    try:
-        write(fresh)
-        # mkdtemp makes private folders; results are as open as the user's other files
-        mask = os.umask(0)
-        os.umask(mask)
-        fresh.chmod(0o777 & ~mask)
-        if folder.exists():
-            old = Path(tempfile.mkdtemp(prefix=f".{folder.name}.", dir=folder.parent))
-            folder.rename(old / "old")
-            fresh.rename(folder)
-            shutil.rmtree(old)
-        else:
-            fresh.rename(folder)
-    except BaseException:
-        shutil.rmtree(fresh, ignore_errors=True)
-        raise

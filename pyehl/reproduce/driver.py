@@ -12,6 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import cast
 
+from pyehl.destination import Destination
 from pyehl.errors import FileError, InputError
 from pyehl.reproduce import (
     figure1,
@@ -46,6 +47,7 @@ def reproduce(
     folder: Path,
     *,
     jobs: int = 0,
+    force: bool = False,
     machine: Sequence[str] = (),
     watch: Callable[[str, Plan], Watcher] | None = None,
     done: Callable[[Result], None] | None = None,
@@ -64,6 +66,8 @@ def reproduce(
         there of the same level is not computed again.
     jobs
         Worker processes; 0: as many as processors.
+    force
+        Other files may be in the folder; they stay.
     machine
         Lines of the report that name versions, machine and settings.
     watch
@@ -85,14 +89,16 @@ def reproduce(
     for name in names:
         if name not in PIECES:
             raise InputError(f"'{name}' is no piece of the paper; expected {', '.join(PIECES)}")
+    names_of_all = ("report.md", "report.html", "studies", *map(_folder_of, PIECES))
+    Destination(folder, "reproduce", names_of_all, force=force).claim({"level": level.name})
     runs = Runs(folder / "studies", jobs, watch)
     results = []
     for name, piece in PIECES.items():
         if name not in names:
             continue
-        place = folder / name.replace(" ", "")
+        place = folder / _folder_of(name)
         try:
-            place.mkdir(parents=True, exist_ok=True)
+            place.mkdir(exist_ok=True)
         except OSError as error:
             raise FileError(f"{place}: cannot be made: {error.strerror}") from error
         began = time.perf_counter()
@@ -109,3 +115,7 @@ def reproduce(
             done(result)
     write_report(folder, results, level, machine)
     return results
+
+
+def _folder_of(name: str) -> str:
+    return name.replace(" ", "")

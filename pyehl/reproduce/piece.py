@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
 
+from pyehl.destination import new_file
 from pyehl.reproduce.level import Level
 from pyehl.reproduce.references import Reference, References
 from pyehl.reproduce.runs import Runs
@@ -191,7 +192,7 @@ class Piece(Protocol):
 
 def write_table(path: Path, names: Sequence[str], rows: Iterable[Sequence[Any]]) -> Path:
     """Write a CSV table; numbers with all digits, None as an empty cell."""
-    with path.open("w", newline="", encoding="utf-8") as stream:
+    with new_file(path) as fresh, fresh.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(names)
         for row in rows:

@@ -9,9 +9,9 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
+from pyehl.destination import new_file
 from pyehl.reproduce.level import Level
 from pyehl.reproduce.piece import Result
-from pyehl.studies.table import replace
 
 __all__ = ["write_report"]
 
@@ -177,5 +177,6 @@ def write_report(
     """
     pages = folder / "report.md", folder / "report.html"
     for path, text in zip(pages, (_markdown, _html), strict=True):
-        replace(path, text(folder, results, level, machine).encode())
+        with new_file(path) as partial:
+            partial.write_text(text(folder, results, level, machine), encoding="utf-8")
     return pages

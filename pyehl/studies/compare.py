@@ -16,10 +16,11 @@ from typing import Any
 
 from pyehl import namelist
 from pyehl.case import Case
+from pyehl.destination import check_files, made_by, new_file
 from pyehl.errors import InputError, did_you_mean
 from pyehl.studies.journal import read_header
 from pyehl.studies.reference_table import Expected, Key, ReferenceRow, ReferenceTable
-from pyehl.studies.table import cell, replace
+from pyehl.studies.table import cell
 from pyehl.studies.vary import Value, option
 
 __all__ = ["Comparison", "Deviation", "Results", "compare", "read_results", "write_deviations"]
@@ -29,6 +30,8 @@ Row = Mapping[str, Any]
 TABLES = ("results.csv", "stribeck.csv")
 # Numbers of keys are the same when they are written with so many digits
 SAME = 1e-9
+# First line of a table of deviations
+COLUMNS = "line,case,name,reference,tolerance,result,deviation,verdict"
 
 
 @dataclass(frozen=True, slots=True)
@@ -267,16 +270,18 @@ def write_deviations(path: str | os.PathLike[str], deviations: Sequence[Deviatio
 
     Raises
     ------
+    InputError
+        If there is another file.
     FileError
         If it cannot be written.
     """
+    check_files([path], "compare", known=lambda there: made_by(there, COLUMNS))
     text = io.StringIO(newline="")
+    text.write(f"{COLUMNS}\n")
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(
-        ["line", "case", "name", "reference", "tolerance", "result", "deviation", "verdict"]
-    )
     for d in deviations:
         difference = None if d.found is None else d.difference
         cells = (d.line, d.case, d.name, d.expected.value, d.expected.tolerance, d.found)
         writer.writerow([cell(v) for v in (*cells, difference, "pass" if d.passed else "fail")])
-    replace(Path(path), text.getvalue().encode())
+    with new_file(path) as partial:
+        partial.write_text(text.getvalue(), encoding="utf-8", newline="")

@@ -16,10 +16,11 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from pyehl import library
+from pyehl.destination import new_file
 from pyehl.errors import InputError
 from pyehl.studies.curve import UNITS
 from pyehl.studies.stribeck import CurvePlan
-from pyehl.studies.table import cell, replace
+from pyehl.studies.table import cell
 
 __all__ = ["Measured", "curve_csv", "curve_dataset", "read_measured", "write_csv"]
 
@@ -48,7 +49,8 @@ def write_csv(path: Path, plan: CurvePlan, rows: Sequence[Row]) -> None:
     FileError
         If it cannot be written.
     """
-    replace(path, curve_csv(plan, rows).encode())
+    with new_file(path) as partial:
+        partial.write_text(curve_csv(plan, rows), encoding="utf-8", newline="")
 
 
 def curve_dataset(plan: CurvePlan, rows: Sequence[Row]) -> xr.Dataset:

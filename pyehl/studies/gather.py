@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from types import FrameType
 from typing import Any
 
+from pyehl.destination import Destination
 from pyehl.studies import cluster, pool
 from pyehl.studies.journal import Journal
 from pyehl.studies.tasks import FAILED, SAVED, Task
@@ -118,6 +119,7 @@ def gather(
     jobs: int = 0,
     scheduler: str = "",
     retry: bool = False,
+    place: Destination | None = None,
     watcher: Watcher | None = None,
     write: Callable[[Mapping[int, Row]], None] | None = None,
 ) -> Outcome:
@@ -137,6 +139,8 @@ def gather(
         Address of a dask scheduler; '': workers on this machine.
     retry
         Do tasks again that failed.
+    place
+        The folder with the names of its tables; None: those of the journal alone.
     watcher
         Who is told what happens.
     write
@@ -150,7 +154,7 @@ def gather(
         If it cannot be written.
     """
     watcher = watcher or Watcher()
-    with Journal(folder, identity) as journal:
+    with Journal(folder, identity, place) as journal:
         if retry:
             journal.forget([n for n, row in journal.rows.items() if row.get("status") == FAILED])
         watcher.began(tasks, sorted(journal.rows), journal.damaged)

@@ -15,10 +15,12 @@ import os
 import zlib
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, BinaryIO
 
 from pyehl.closing import Closing
+from pyehl.destination import Destination
 from pyehl.errors import FileError, InputError
 
 __all__ = ["NAME", "Journal", "difference", "read_header"]
@@ -104,6 +106,8 @@ class Journal(Closing):
         Where the study is; made when it is not there.
     study
         What the study is, as values of JSON. Two studies are the same when these are.
+    place
+        The folder with the names that the study may need; None: those of the journal alone.
 
     Attributes
     ----------
@@ -121,8 +125,14 @@ class Journal(Closing):
         If it cannot be written.
     """
 
-    def __init__(self, folder: str | os.PathLike[str], study: Mapping[str, Any]) -> None:
+    def __init__(
+        self,
+        folder: str | os.PathLike[str],
+        study: Mapping[str, Any],
+        place: Destination | None = None,
+    ) -> None:
         self.folder = Path(folder)
+        self.place = place or Destination(folder, "sweep", (NAME,))
         self.path = self.folder / NAME
         self.rows: dict[int, Row] = {}
         self.damaged = 0
@@ -137,16 +147,10 @@ class Journal(Closing):
             raise FileError(f"{self.path}: {error.strerror or error}") from error
 
     def _check_folder(self) -> None:
-        if self.folder.exists() and not self.folder.is_dir():
-            raise InputError(f"{self.folder}: exists and is not a folder")
+        # a journal may appear at any instant: whose it is, is seen when it is locked
+        if not self.path.exists():
+            replace(self.place, kept=(NAME,)).check(resumes=True)
         self.folder.mkdir(parents=True, exist_ok=True)
-        others = os.listdir(self.folder)
-        # the journal is there before anything else of a study that begins just now
-        if others and not self.path.exists():
-            raise InputError(
-                f"{self.folder}: not empty ({others[0]}), and not the folder of a study; "
-                "choose another"
-            )
 
     def _locked(self) -> BinaryIO:
         """Open the file, made if it is not there, and lock it before anything is read."""

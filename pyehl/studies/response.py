@@ -11,10 +11,9 @@ from __future__ import annotations
 
 import json
 import multiprocessing as mp
-import os
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from importlib import metadata
 from pathlib import Path
 from queue import Empty
@@ -24,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl.case import Case
+from pyehl.destination import Destination, new_file
 from pyehl.errors import EhlError, FileError, InputError
 from pyehl.studies.journal import difference
 from pyehl.studies.pool import processors
@@ -32,7 +32,7 @@ from pyehl.studies.superposition import superpose
 from pyehl.studies.tiers import TIERS, Tier, ridge_wavelengths, tier_waves
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["measure"]
+__all__ = ["measure", "with_tiers"]
 
 Array = NDArray[np.float64]
 Progress = Callable[[str, int, int], None]
@@ -86,15 +86,13 @@ def run_tier(
                 progress=report,
             )
         )
-    partial = path.with_name(f"{path.name}.partial-{os.getpid()}")
-    with partial.open("wb") as stream:
+    with new_file(path) as partial, partial.open("wb") as stream:
         np.savez(
             stream,
             identity=_identity(settings, velocity_ratio, tier),
             seconds=time.perf_counter() - began,
             **found,
         )
-    partial.replace(path)
 
 
 def _child(
@@ -122,23 +120,22 @@ def _child(
         queue.put(("end", (tier.name, "interrupted")))
 
 
+def with_tiers(place: Destination) -> Destination:
+    """Give a place with the tiers in it, which stay."""
+    folder = Path(place.folder)
+    tiers = [_file(folder, tier).name for tier in TIERS]
+    there = [path.name for path in folder.iterdir()] if folder.is_dir() else []
+    return replace(place, kept=tuple(name for name in there if name in tiers))
+
+
 def _check_folder(
-    folder: Path, settings: Mapping[str, Mapping[str, Any]], velocity_ratio: float, names: set[str]
+    place: Destination, settings: Mapping[str, Mapping[str, Any]], velocity_ratio: float
 ) -> list[Tier]:
     """Tiers that are there already; refuses a folder with anything else in it."""
-    if folder.exists() and not folder.is_dir():
-        raise InputError(f"{folder}: not a folder")
-    files = sorted(path.name for path in folder.iterdir()) if folder.is_dir() else []
-    own = names | {_file(folder, tier).name for tier in TIERS}
-    foreign = [n for n in files if n not in own and ".partial-" not in n]
-    if foreign:
-        raise InputError(
-            f"{folder}: holds '{foreign[0]}', which is not of a measured response; "
-            "expected: a new or empty folder, or one of `pyehl response`"
-        )
+    with_tiers(place).check()
     done = []
     for tier in TIERS:
-        path = _file(folder, tier)
+        path = _file(Path(place.folder), tier)
         if not path.is_file():
             continue
         try:
@@ -159,11 +156,10 @@ def _check_folder(
 
 def measure(
     case: Case,
-    folder: str | os.PathLike[str],
+    place: Destination,
     *,
     tiers: Sequence[Tier] = TIERS,
     jobs: int = 2,
-    files: set[str] | None = None,
     progress: Progress = lambda name, done, total: None,
 ) -> dict[str, dict[str, Any]]:
     """Measure the response at the operating point and velocity ratio of a case.
@@ -172,14 +168,13 @@ def measure(
     ----------
     case
         Its groups contact and lubricant and `surface.velocity_ratio` are used.
-    folder
-        Where the tiers are kept; those that are there are not run again.
+    place
+        Where the tiers are kept (`pyehl.studies.response_folder.destination`); those that are
+        there are not run again.
     tiers
         What to run.
     jobs
         Processes at a time; the processors are shared among them.
-    files
-        Names that may be in the folder beside those of the tiers.
     progress
         Called with the name of a tier, its steps done and its steps in all.
 
@@ -207,8 +202,8 @@ def measure(
         )
     if jobs < 1:
         raise InputError(f"jobs = {jobs}; expected: 1 or more")
-    folder = Path(folder)
-    done = _check_folder(folder, settings, ratio, files or set())
+    folder = Path(place.folder)
+    done = _check_folder(place, settings, ratio)
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:

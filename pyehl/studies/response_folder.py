@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -13,21 +13,25 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from pyehl.case import Case
+from pyehl.destination import Destination
 from pyehl.export import write_netcdf
 from pyehl.prediction.smooth import solve_contact, zone_of
+from pyehl.studies.response import with_tiers
 from pyehl.studies.response_table import dataset, shipped_response, write_table
+from pyehl.studies.tiers import TIERS
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import fitted_range
 from pyehl.theory.transport import Zone
 
-__all__ = ["FILES", "beside_shipped", "write"]
+__all__ = ["beside_shipped", "destination", "write"]
 
 Settings = Mapping[str, Mapping[str, Any]]
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-FILES = ("response.csv", "response.nc", "summary.json", "case.nml")
+PICTURE = "response.png"
+FILES = ("response.csv", "response.nc", "case.nml", PICTURE, "summary.json")
 DIRECTIONS = (0.0, 45.0, 80.0, 90.0)
 """Of the lines of the shipped response: crests to those across the motion [deg]."""
 
@@ -37,10 +41,21 @@ def _zone(settings: Settings, operating: OperatingPoint) -> Zone:
     return zone_of(solve_contact(settings), operating, Lubricant.from_settings(settings))
 
 
+def destination(
+    folder: str | Path, *, inputs: Iterable[str | Path] = (), force: bool = False
+) -> Destination:
+    """Give the place of a measured response."""
+    names = (*FILES, *(f"tier_{tier.name}.npz" for tier in TIERS))
+    return Destination(folder, "response", names, tuple(inputs), force=force)
+
+
 def write(
-    case: Case, found: Mapping[str, Mapping[str, Any]], folder: Path
-) -> tuple[dict[str, Any], xr.Dataset]:
-    """Write table, Dataset, summary and case of a measured response.
+    case: Case,
+    found: Mapping[str, Mapping[str, Any]],
+    place: Destination,
+    draw: Callable[[xr.Dataset, Path], object],
+) -> dict[str, Any]:
+    """Write table, Dataset, picture, summary and case of a measured response, whole or not at all.
 
     Parameters
     ----------
@@ -48,29 +63,30 @@ def write(
         What was measured.
     found
         As :func:`pyehl.studies.response.measure` returns it.
-    folder
-        Where to; it exists.
+    place
+        Where to, with the tiers in it.
+    draw
+        Draws the waves, as :func:`pyehl.studies.response_table.dataset` gives them, into a file.
 
     Returns
     -------
-    tuple
-        The summary, and the waves as :func:`pyehl.studies.response_table.dataset` gives them.
+    dict
+        The summary.
 
     Raises
     ------
-    OSError
-        If a file cannot be written (a FileError is one).
+    InputError, FileError
+        If the folder holds something else, or cannot be written.
     """
     settings = case.resolve()
     ratio = float(settings["surface"]["velocity_ratio"])
     operating = OperatingPoint.from_settings(settings)
     data = dataset(found, _zone(settings, operating), operating, ratio)
-    write_table(data, folder / "response.csv")
-    write_netcdf(folder / "response.nc", data)
     values = {"moes_m": operating.moes_m, "moes_l": operating.moes_l, "velocity_ratio": ratio}
     difference = data["shipped_difference"].values[:, 1]
     summary = {
         "kind": "response",
+        "files": list(FILES),
         **values,
         "waves": int(data.sizes["wave"]),
         "tiers": [_tier_summary(name, tier) for name, tier in found.items()],
@@ -80,9 +96,14 @@ def write(
             low <= values[name] <= high for name, (low, high) in fitted_range().items()
         ),
     }
-    (folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
-    (folder / "case.nml").write_text(case.text, encoding="utf-8")
-    return summary, data
+    with with_tiers(place).fresh() as folder:
+        write_table(data, folder / "response.csv")
+        write_netcdf(folder / "response.nc", data)
+        draw(data, folder / PICTURE)
+        (folder / "case.nml").write_text(case.text, encoding="utf-8")
+        text = json.dumps(summary, indent=2, allow_nan=False) + "\n"
+        (folder / "summary.json").write_text(text, encoding="utf-8")
+    return summary
 
 
 def beside_shipped(

@@ -12,10 +12,12 @@ from typing import Any
 import xarray as xr
 
 from pyehl.case import Case, Option
+from pyehl.destination import Destination
 from pyehl.errors import InputError
 from pyehl.export import write_netcdf
 from pyehl.studies import table
 from pyehl.studies.gather import Outcome, Watcher, gather
+from pyehl.studies.journal import NAME
 from pyehl.studies.plan import Plan, plan
 from pyehl.studies.study import make
 from pyehl.studies.vary import axis
@@ -34,6 +36,7 @@ def perform(
     jobs: int = 0,
     scheduler: str = "",
     retry: bool = False,
+    force: bool = False,
     watcher: Watcher | None = None,
 ) -> Outcome:
     """Run what is missing of a study, and write its table.
@@ -46,6 +49,8 @@ def perform(
         Gets ``journal.jsonl``, ``results.csv`` and ``results.nc``.
     jobs, scheduler, retry, watcher
         As `gather`.
+    force
+        Other files may be in the folder; they stay.
 
     Raises
     ------
@@ -66,6 +71,7 @@ def perform(
         jobs=jobs,
         scheduler=scheduler,
         retry=retry,
+        place=Destination(folder, "sweep", (NAME, CSV, NETCDF, CASES), force=force),
         watcher=watcher,
         write=write,
     )
@@ -81,6 +87,7 @@ def sweep(
     run: str = "solve",
     outputs: Sequence[str] = (),
     output: str | os.PathLike[str] | None = None,
+    force: bool = False,
     jobs: int = 0,
     scheduler: str = "",
 ) -> xr.Dataset:
@@ -105,6 +112,8 @@ def sweep(
     output
         Folder for the journal and the table, from which an interrupted study is resumed; None:
         nothing is kept on disk.
+    force
+        Other files may be in that folder; they stay.
     jobs
         Worker processes; 0: as many as processors.
     scheduler
@@ -145,7 +154,7 @@ def sweep(
         raise InputError(f"jobs = {jobs}: expected a number of worker processes")
     todo = plan(study)
     if output is not None:
-        outcome = perform(todo, output, jobs=jobs, scheduler=scheduler)
+        outcome = perform(todo, output, jobs=jobs, scheduler=scheduler, force=force)
     else:
         with tempfile.TemporaryDirectory(prefix="pyehl-") as place:
             outcome = perform(todo, place, jobs=jobs, scheduler=scheduler)

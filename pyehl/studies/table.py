@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import csv
 import io
-import os
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -14,12 +13,12 @@ import numpy as np
 import xarray as xr
 
 from pyehl import library
-from pyehl.errors import FileError
+from pyehl.destination import new_file
 from pyehl.results import unit_of
 from pyehl.studies.outputs import LAST
 from pyehl.studies.study import Point, Study
 
-__all__ = ["cell", "columns", "dataset", "replace", "write_csv"]
+__all__ = ["cell", "columns", "dataset", "write_csv"]
 
 Row = Mapping[str, Any]
 
@@ -59,7 +58,8 @@ def write_csv(path: Path, study: Study, points: Sequence[Point], rows: Mapping[i
         if row is not None:
             cells = [*point.values.values(), *(row.get(name) for name in names)]
             writer.writerow([cell(value) for value in cells])
-    replace(path, text.getvalue().encode())
+    with new_file(path) as partial:
+        partial.write_text(text.getvalue(), encoding="utf-8", newline="")
 
 
 def cell(value: object) -> str:
@@ -69,23 +69,6 @@ def cell(value: object) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     return repr(value) if isinstance(value, float) else " ".join(str(value).split())
-
-
-def replace(path: Path, data: bytes) -> None:
-    """Write a file, whole or not at all.
-
-    Raises
-    ------
-    FileError
-        If it cannot be written.
-    """
-    partial = path.with_name(f"{path.name}.partial-{os.getpid()}")
-    try:
-        partial.write_bytes(data)
-        partial.replace(path)
-    except OSError as error:
-        partial.unlink(missing_ok=True)
-        raise FileError(f"{path}: cannot write: {error.strerror or error}") from error
 
 
 def dataset(study: Study, points: Sequence[Point], rows: Mapping[int, Row]) -> xr.Dataset:

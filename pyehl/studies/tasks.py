@@ -112,7 +112,7 @@ def _predict(task: Task) -> Row:
     full = task.full or bool(task.folder)
     prediction = of_case.predict(case.resolve(), case.text, brief=not full)
     if task.folder:
-        folder.write(prediction, task.folder)
+        folder.write(prediction, folder.destination(task.folder))
     row = _scalars(prediction.summary)
     return row if full else {name: row[name] for name in row if name not in TRACKS}
 

@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import numpy as np
 from scipy.io import netcdf_file
 
+from pyehl.destination import new_file
 from pyehl.surfaces.tile import Topography
 
 __all__ = ["SUFFIXES", "write_map"]
@@ -36,20 +36,15 @@ def write_map(tile: Topography, path: str | Path) -> Path:
     ------
     ValueError
         For any other suffix.
-    OSError
+    FileError
         If the file cannot be written.
     """
     path = Path(path)
     writers = {".npy": _write_npy, ".txt": _write_text, ".nc": _write_netcdf}
     if path.suffix not in writers:
         raise ValueError(f"{path}: a map is written as one of {', '.join(SUFFIXES)}")
-    partial = path.with_name(f"{path.name}.partial-{os.getpid()}")
-    try:
+    with new_file(path) as partial:
         writers[path.suffix](tile, partial)
-        partial.replace(path)
-    except BaseException:
-        partial.unlink(missing_ok=True)
-        raise
     return path
 
 

@@ -218,7 +218,7 @@ def test_rows_that_are_not_numbers_are_refused(
     (tmp_path / "map.txt").write_text("1 2 3 4\n" * 3 + row + "\n")
     (tmp_path / "case.nml").write_text(
         "&surface kind = 'map', file = 'map.txt', length_x = 1e-3, length_y = 1e-3 /\n"
-        "&grid points = 33 /\n"
+        "&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
     )
     done = drive(driver, "case.nml", "-o", "out")
     assert done.returncode != 0
@@ -238,7 +238,7 @@ def test_map_larger_than_memory_is_refused(drive, tmp_path: Path):
             pytest.skip("no files of this size here")
     (tmp_path / "case.nml").write_text(
         "&surface kind = 'map', file = 'map.npy', length_x = 1e-3, length_y = 1e-3 /\n"
-        "&grid points = 33 /\n"
+        "&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
     )
     done = drive("ehl", "case.nml", "-o", "out")
     assert done.returncode == 1
@@ -278,7 +278,7 @@ def test_symmetric_map_is_known_as_one():
     for z, even in ((np.hstack([half, half[:, -2::-1]]), True), (np.hstack([half, half]), False)):
         case = (
             "&surface kind = 'map', file = 'none', tile_x = 2e-4, tile_y = 2e-4, "
-            "tile_mirrored = .true. /\n&grid points = 33 /\n&time steps = 1 /\n"
+            "tile_mirrored = .true. /\n&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n&time steps = 1 /\n"
         )
         with Solver.open(Case.from_text(case), np.asfortranarray(z)) as solver:
             assert (solver.summary()["half_domain"]) is even
@@ -339,7 +339,7 @@ def test_memory_of_prepared_maps(tmp_path: Path, keys: str):
     np.save(tmp_path / "map.npy", z)
     (tmp_path / "case.nml").write_text(
         f"&surface kind = 'map', file = 'map.npy', length_x = 0.03, length_y = 0.03, {keys} /\n"
-        "&contact load = 20.0 /\n&grid points = 33 /\n"
+        "&contact load = 20.0 /\n&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
     )
     done = subprocess.run(
         [sys.executable, "-P", "-c", PREPARED, str(tmp_path / "case.nml")],

@@ -19,6 +19,7 @@ from pyehl import cli, schema
 from pyehl.bench.second_solver import START, VELOCITY, X_MATTERS, SecondSolver, Wave, Z
 from pyehl.case import Case
 from pyehl.studies import response, tiers
+from pyehl.studies.response_folder import destination
 from pyehl.studies.superposition import SLOPE, WaveSet, superpose
 
 # Long waves and short ones in a thick film, where a coarse grid does
@@ -141,7 +142,7 @@ def test_failed_run_is_named(tmp_path: Path):
     case = Case.from_text("&contact moes_m = 20000.0 moes_l = 20.0 /\n")
     tier = tiers.Tier("long", 4.0, 17, 4.0, 2.0)
     with pytest.raises(response.EhlError, match="tier 'long'"):
-        response.measure(case, tmp_path / "out", tiers=[tier])
+        response.measure(case, destination(tmp_path / "out"), tiers=[tier])
     assert not list((tmp_path / "out").iterdir())
 
 

@@ -58,7 +58,7 @@ def test_it_lies_where_x_start_says(solve):
 
 
 def test_error_by_the_coarser_grid(solve):
-    """A third of the difference to the next coarser grid, with one amplitude; it covers the finer."""
+    """A third of the difference to the next coarser grid, with one amplitude."""
     wave = REST | {"time.estimate_error": True, "surface.amplitude_over_film": 0.2}
     wave.pop("surface.amplitude")
     coarse, fine = (solve(POINT, points, wave) for points in (129, 257))

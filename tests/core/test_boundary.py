@@ -13,7 +13,7 @@ import pytest
 from pyehl import Case, Solver, errors, library
 from pyehl.library import ehl
 
-SMALL = "&contact moes_m = 100.0 moes_l = 5.0 /\n&grid points = 33 /\n"
+SMALL = "&contact moes_m = 100.0 moes_l = 5.0 /\n&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
 
 
 @pytest.fixture
@@ -119,7 +119,9 @@ def test_closed_solver_raises():
 
 
 def test_places_run_out_and_come_back():
-    case = Case.from_text("&contact moes_m = 100.0 /\n&grid points = 17 /\n")
+    case = Case.from_text(
+        "&contact moes_m = 100.0 /\n&grid points = 17 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+    )
     opened = [Solver(case) for _ in range(64)]
     with pytest.raises(errors.NoMemoryError, match="64"):
         Solver(case)

@@ -16,7 +16,7 @@ pytest.importorskip("SurfaceTopography")
 
 LENGTH = 1e-4
 CASE = (
-    "&contact load = 20.0 /\n&grid points = 33 /\n&time steps = 3 /\n"
+    "&contact load = 20.0 /\n&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n&time steps = 3 /\n"
     "&surface kind = 'map' file = '{}' {} /\n"
 )
 
@@ -202,7 +202,9 @@ def test_surface_of_every_kind(tmp_path: Path, kind: str):
 
 
 def test_surface_refuses(tmp_path: Path, capsys):
-    (tmp_path / "case.nml").write_text("&grid points = 33 /\n")
+    (tmp_path / "case.nml").write_text(
+        "&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+    )
     assert cli.main(["surface", str(tmp_path / "case.nml")]) == 2
     assert "no rough surface" in capsys.readouterr().err
     (tmp_path / "case.nml").write_text("&surface kind = 'fractal' /\n")

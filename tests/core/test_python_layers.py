@@ -15,7 +15,7 @@ LAYERS = [
     ["errors", "closing", "display", "kept", "schema", "reference"],
     ["processor", "namelist"],
     ["extension"],
-    ["library", "program"],
+    ["library", "program", "destination"],
     ["theory"],
     ["surfaces"],
     ["case"],

@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from pyehl import InputError
 from pyehl.commands import film as film_command
 from pyehl.commands import predict as predict_command
-from pyehl.prediction.folder import write
+from pyehl.prediction.folder import destination, write
 from pyehl.prediction.of_case import predict
 from pyehl.results import load
 from pyehl.theory import film
@@ -72,7 +73,7 @@ def test_harmonic_amplitude_is_a_share_of_the_film(settings):
 @pytest.fixture
 def folder(settings, tmp_path):
     target = tmp_path / "deep" / "out"
-    write(predict(settings), target, draw=predict_command.draw)
+    write(predict(settings), destination(target), draw=predict_command.draw)
     return target
 
 
@@ -111,7 +112,7 @@ def test_folder_holds_the_data(folder, settings):
 
 def test_earlier_result_is_replaced(folder, settings):
     settings["surface"]["seed"] = 2
-    write(predict(settings), folder)
+    write(predict(settings), destination(folder))
     assert json.loads((folder / "summary.json").read_text())["seed"] == 2
     assert not (folder / "passage.png").exists()
 
@@ -119,10 +120,10 @@ def test_earlier_result_is_replaced(folder, settings):
 def test_other_folders_are_left_alone(settings, tmp_path):
     (tmp_path / "thesis.tex").write_text("precious")
     result = predict(settings)
-    with pytest.raises(FileExistsError, match="not a result folder"):
-        write(result, tmp_path)
-    with pytest.raises(FileExistsError, match="not a folder"):
-        write(result, tmp_path / "thesis.tex")
+    with pytest.raises(InputError, match=r"holds 'thesis\.tex'"):
+        write(result, destination(tmp_path))
+    with pytest.raises(InputError, match="not a folder"):
+        write(result, destination(tmp_path / "thesis.tex"))
     assert [p.name for p in tmp_path.iterdir()] == ["thesis.tex"]
 
 
@@ -133,7 +134,7 @@ def test_failed_write_leaves_the_old_result(folder, settings):
         raise OSError("disk full")
 
     with pytest.raises(OSError, match="disk full"):
-        write(predict(settings), folder, draw=fail)
+        write(predict(settings), destination(folder), draw=fail)
     assert (folder / "summary.json").read_text() == before
     assert [p.name for p in folder.parent.iterdir()] == ["out"]
 
@@ -163,6 +164,7 @@ def command(settings, monkeypatch, tmp_path):
             "plots": False,
             "tracks": 2,
             "smooth": None,
+            "force": False,
         }
         return execute(argparse.Namespace(**(defaults | arguments)))
 
@@ -175,13 +177,13 @@ def test_command(command, tmp_path, capsys):
     assert (tmp_path / "out" / "case.nml").read_text().startswith("&surface")
 
 
-def test_subcommand_reports_bad_input(command, settings, capsys, tmp_path):
+def test_subcommand_reports_bad_input(command, settings, tmp_path):
     settings["surface"]["kind"] = "smooth"
-    assert command(predict_command.execute) == 2
-    assert "a.nml: surface.kind" in capsys.readouterr().err
+    with pytest.raises(InputError, match=r"a\.nml: surface\.kind"):
+        command(predict_command.execute)
     settings["surface"] |= {"kind": "map", "file": str(tmp_path / "none.npy")}
-    assert command(predict_command.execute) == 2
-    assert "none.npy" in capsys.readouterr().err
+    with pytest.raises(InputError, match=r"none\.npy"):
+        command(predict_command.execute)
     assert not (tmp_path / "out").exists()
 
 

@@ -32,7 +32,7 @@ def study(cases: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, 
     data = pyehl.sweep(
         cases / "quick.nml",
         {"contact.moes_m": [50.0, 100.0]},
-        "grid.points=33",
+        "grid.points=65",
         output=folder,
         jobs=1,
     )
@@ -105,7 +105,7 @@ def test_rows_without_results(study: tuple[Path, list[float]], tmp_path: Path, c
 
 def test_a_single_result(cases: Path, tmp_path: Path):
     """Keys are those of the case, varied or not; a row of another case is left out."""
-    data = pyehl.solve(cases / "quick.nml", "grid.points=33", output=tmp_path / "one")
+    data = pyehl.solve(cases / "quick.nml", "grid.points=65", output=tmp_path / "one")
     value = data.attrs["H_c"]
     table = write(
         tmp_path / "t.csv",

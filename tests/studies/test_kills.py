@@ -23,7 +23,7 @@ from pyehl.studies.journal import NAME
 from pyehl.studies.tasks import FAILED, Task, execute
 
 SWEEP = [sys.executable, "-P", "-m", "pyehl", "sweep"]
-FAST = ("--set", "grid.points=17", "--vary", "contact.moes_m=20:60:10")
+FAST = ("--set", "grid.points=33", "--vary", "contact.moes_m=20:60:10")
 
 
 def table(folder: Path) -> list[dict[str, str]]:

@@ -42,7 +42,7 @@ def table(folder: Path) -> list[dict[str, str]]:
 def done(cases: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
     """A study that is finished, and what it printed."""
     folder = tmp_path_factory.mktemp("sweep") / "new" / "study"
-    words = ("--set", "grid.points=33", "--vary", "contact.moes_m=50:200:4log")
+    words = ("--set", "grid.points=65", "--vary", "contact.moes_m=50:200:4log")
     words += ("--vary", "contact.moes_l=5,10")
     told, _ = sweep(folder, str(cases / "quick.nml"), *words, "--jobs", "2")
     return folder, told
@@ -58,7 +58,7 @@ def test_table_is_that_of_single_runs(done: tuple[Path, str], cases: Path):
     assert len(rows) == 8
     for row in (rows[0], rows[5]):
         options = [f"contact.{key}={row[f'contact.{key}']}" for key in ("moes_m", "moes_l")]
-        with pyehl.Solver(cases / "quick.nml", "grid.points=33", *options) as solver:
+        with pyehl.Solver(cases / "quick.nml", "grid.points=65", *options) as solver:
             solver.run()
             alone = solver.summary()
         for name in ("H_c", "H_c_error", "H_min", "F", "P_max"):
@@ -89,7 +89,7 @@ def test_the_plan_and_the_end_are_told(done: tuple[Path, str]):
 
 def test_started_again_it_runs_nothing_twice(done: tuple[Path, str], cases: Path):
     before = (done[0] / NAME).read_bytes()
-    words = ("--set", "grid.points=33", "--vary", "contact.moes_m=50:200:4log")
+    words = ("--set", "grid.points=65", "--vary", "contact.moes_m=50:200:4log")
     words += ("--vary", "contact.moes_l=5,10")
     again, _ = sweep(done[0], str(cases / "quick.nml"), *words)
     assert (done[0] / NAME).read_bytes() == before
@@ -99,9 +99,9 @@ def test_started_again_it_runs_nothing_twice(done: tuple[Path, str], cases: Path
 
 def test_another_study_in_the_same_folder_is_refused(done: tuple[Path, str], cases: Path):
     before = (done[0] / NAME).read_bytes()
-    words = ("--set", "grid.points=65", "--vary", "contact.moes_m=50:200:4log")
+    words = ("--set", "grid.points=129", "--vary", "contact.moes_m=50:200:4log")
     _, refused = sweep(done[0], str(cases / "quick.nml"), *words, expect=2)
-    assert "set: there ['grid.points=33'], here ['grid.points=65']" in refused
+    assert "set: there ['grid.points=65'], here ['grid.points=129']" in refused
     assert "vary.contact.moes_l: there [5, 10], here nothing" in refused
     assert (done[0] / NAME).read_bytes() == before
 
@@ -158,7 +158,7 @@ def test_from_python(cases: Path, tmp_path: Path):
 def test_study_file_and_result_folders(cases: Path, tmp_path: Path):
     (tmp_path / "study.toml").write_text(
         f'case = "{cases}/quick.nml"\noutputs = ["H_c"]\n'
-        "set = {grid.points = 17}\nvary = {contact.moes_m = [50.0, 60.0]}\n"
+        "set = {grid.points = 33}\nvary = {contact.moes_m = [50.0, 60.0]}\n"
     )
     sweep(tmp_path / "out", str(tmp_path / "study.toml"), "--keep", "--jobs", "1")
     assert list(table(tmp_path / "out")[0]) == [
@@ -226,7 +226,7 @@ def test_benchmark(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
 
 def test_a_message_for_each_case_without_a_result(cases: Path, tmp_path: Path):
     """Of those that did not converge, too; in Python the dataset has their status."""
-    words = ("--set", "grid.points=33", "--vary", "solver.max_cycles=1,30,2")
+    words = ("--set", "grid.points=65", "--vary", "solver.max_cycles=1,30,2")
     told, complaint = sweep(tmp_path / "out", str(cases / "quick.nml"), *words, expect=1)
     assert "1 converged, 2 cycle limit" in told
     first, last = complaint.splitlines()
@@ -235,7 +235,7 @@ def test_a_message_for_each_case_without_a_result(cases: Path, tmp_path: Path):
     # nothing is left to do, and the status is the same
     assert sweep(tmp_path / "out", str(cases / "quick.nml"), *words, expect=1)[1] == complaint
     data = pyehl.sweep(
-        cases / "quick.nml", {"solver.max_cycles": [1, 30]}, "grid.points=33", jobs=1
+        cases / "quick.nml", {"solver.max_cycles": [1, 30]}, "grid.points=65", jobs=1
     )
     assert data.status.values.tolist() == ["cycle limit", "converged"]
 

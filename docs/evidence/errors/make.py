@@ -1,0 +1,199 @@
+"""Measure whether the errors that runs state hold: smooth contacts and rough ones at random points.
+
+    python docs/evidence/errors/make.py smooth     # smooth.csv, ten minutes
+    python docs/evidence/errors/make.py rough      # rough.csv, half an hour or more
+    python docs/evidence/errors/make.py show       # what holds, from the two tables
+
+Operating points and surfaces are drawn from a seed that was not used to choose any estimate.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+import sys
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import pyehl
+
+HERE = Path(__file__).parent
+SEED = 20261
+SMOOTH, ROUGH = 80, 48
+QUANTITIES = ("H_c", "H_min", "P_max", "F")
+Row = dict[str, Any]
+
+
+def run(options: dict[str, Any]) -> Row:
+    """Solve a case and give its summary."""
+    case = pyehl.Case.from_text("", [f"{key}={value}" for key, value in options.items()])
+    with pyehl.Solver(case) as solver:
+        solver.run()
+        return solver.summary() | {"domain": case.resolve()["grid"]}
+
+
+def grids_of(moes_m: float, width: float) -> list[int]:
+    """Three grids, of which the coarsest is fine enough to have a solution at that load."""
+    for points in (65, 129, 257, 513):
+        if 0.16 * moes_m * (width / (points - 1)) ** 2 <= 0.4:
+            return [points, 2 * points - 1, 4 * points - 3]
+    return []
+
+
+def domain_of(point: Row) -> Row:
+    """Give the default domain of an operating point."""
+    case = pyehl.Case.from_text("", [f"{key}={value}" for key, value in point.items()])
+    return case.resolve()["grid"]
+
+
+def smooth_rows(point: Row) -> list[Row]:
+    """Solve a smooth contact on three grids, and the flooded contact: the domain doubled."""
+    grid = domain_of(point)
+    grids = grids_of(point["contact.moes_m"], grid["x_outlet"] - grid["x_inlet"])
+    doubled = {f"grid.{key}": 2.0 * grid[key] for key in ("x_inlet", "x_outlet", "y_extent")}
+    rows = []
+    for points in grids:
+        found = run(point | {"grid.points": points})
+        wide = run(point | doubled | {"grid.points": 2 * points - 1})
+        row = {"moes_m": point["contact.moes_m"], "moes_l": point["contact.moes_l"]}
+        row |= {"x_inlet": grid["x_inlet"], "points": points}
+        row |= {"status": found["status"], "status_doubled": wide["status"]}
+        for name in QUANTITIES:
+            row |= {name: found[name], f"{name}_error": found[f"{name}_error"]}
+            row |= {f"{name}_doubled": wide[name]}
+        for name in ("H_c", "H_min"):
+            row |= {f"{name}_error_domain": found[f"{name}_error_domain"]}
+        rows.append(row)
+    # the limit of fine grids on the doubled domain, order 2
+    for name in QUANTITIES:
+        middle, fine = (row[f"{name}_doubled"] for row in rows[-2:])
+        known = middle is not None and fine is not None
+        for row in rows:
+            row[f"{name}_limit"] = (4.0 * fine - middle) / 3.0 if known else None
+    return rows
+
+
+def smooth_points() -> Iterator[Row]:
+    """Draw operating points: M from 0.1 to 5000, evenly in its logarithm, L from 0 to 25."""
+    generator = np.random.default_rng(SEED)
+    for _ in range(SMOOTH):
+        moes_m = math.exp(generator.uniform(math.log(0.1), math.log(5000.0)))
+        moes_l = generator.uniform(0.0, 25.0) * (generator.random() > 0.1)
+        yield {"contact.moes_m": float(f"{moes_m:.4g}"), "contact.moes_l": float(f"{moes_l:.3g}")}
+
+
+def rough_cases() -> Iterator[Row]:
+    """Draw waves: M from 20 to 2000, L from 2 to 20, up to three quarters of the film high."""
+    generator = np.random.default_rng(SEED + 1)
+    for _ in range(ROUGH):
+        moes_m = math.exp(generator.uniform(math.log(20.0), math.log(2000.0)))
+        case = {"contact.moes_m": float(f"{moes_m:.4g}")}
+        case["contact.moes_l"] = float(f"{generator.uniform(2.0, 20.0):.3g}")
+        case["surface.kind"] = str(generator.choice(["harmonic", "harmonic", "dent", "ridge"]))
+        size = float(f"{math.exp(generator.uniform(math.log(0.5), math.log(1.5))):.3g}")
+        if case["surface.kind"] == "harmonic":
+            case["surface.wavelength"] = size
+        else:
+            case["surface.width"] = size
+        case["surface.amplitude_over_film"] = float(f"{generator.uniform(0.1, 0.75):.3g}")
+        case["surface.velocity_ratio"] = float(generator.choice([0.9, 1.0, 1.01, 1.1, 1.2]))
+        yield case
+
+
+def rough_rows(case: Row) -> list[Row]:
+    """Run a rough contact on three grids with default settings, and on a finer one."""
+    grid = domain_of({k: v for k, v in case.items() if k.startswith("contact.")})
+    first = grids_of(case["contact.moes_m"], grid["x_outlet"] - grid["x_inlet"])[0]
+    # three eighths of the mesh size of the second of them, and twice that: for the limit
+    grids = [first, 2 * first - 1, 3 * (first - 1) + 1]
+    rows = []
+    for points in [*grids, 6 * (first - 1) + 1]:
+        reference = {"time.estimate_error": False} if points not in grids else {}
+        found = run(case | {"grid.points": points} | reference)
+        row = {key.partition(".")[2]: value for key, value in case.items()}
+        row = {name: row.get(name) for name in ROUGH_NAMES} | {"points": points}
+        row |= {name: found.get(name) for name in ("status", "mu_ratio", "mu_ratio_error")}
+        row["mu_ratio_error_stop"] = found.get("mu_ratio_error_stop")
+        rows.append(row)
+    middle, fine = (row["mu_ratio"] for row in rows[-2:])
+    known = middle is not None and fine is not None
+    for row in rows:
+        row["mu_ratio_limit"] = (4.0 * fine - middle) / 3.0 if known else None
+    return rows
+
+
+ROUGH_NAMES = (
+    *("moes_m", "moes_l", "kind", "wavelength", "width", "amplitude_over_film", "velocity_ratio"),
+)
+
+
+def numbers(name: str) -> list[Row]:
+    """Read a table; None where there is no number."""
+
+    def value(text: str) -> float | str | None:
+        try:
+            return float(text)
+        except ValueError:
+            return text or None
+
+    with (HERE / f"{name}.csv").open(encoding="utf-8", newline="") as stream:
+        return [{k: value(v) for k, v in row.items()} for row in csv.DictReader(stream)]
+
+
+def shares(rows: list[Row], name: str, true: str, stated: str, factor: float) -> tuple[int, int]:
+    """Count the rows whose true error is at most `factor` times the stated one, and all of them."""
+    known = [row for row in rows if None not in (row[name], row[true], row[stated])]
+    good = sum(abs(row[name] - row[true]) <= factor * row[stated] for row in known)
+    return good, len(known)
+
+
+def show() -> None:
+    """Print the shares of the two tables."""
+    rows = numbers("smooth")
+    for name in ("H_c", "H_min"):
+        for stated in (f"{name}_error_domain", f"{name}_error"):
+            good, known = shares(rows, name, f"{name}_doubled", stated, 1.0)
+            print(f"{name}: changed by the doubled domain by {stated} at most: {good} of {known}")
+    usual = [row for row in rows if row["moes_m"] >= 10.0]
+    costs = [
+        1.0 - row["H_c"] / row["H_c_doubled"] for row in usual if row["H_c_doubled"] and row["H_c"]
+    ]
+    print(
+        f"M >= 10: the domain costs H_c at most {max(costs):.2%}, in the mean {np.mean(costs):.2%}"
+    )
+    for name in QUANTITIES:
+        good, known = shares(rows, name, f"{name}_limit", f"{name}_error", 2.0)
+        print(f"{name}: true error at most twice the stated one: {good} of {known}")
+    rows = [row for row in numbers("rough") if row["mu_ratio_error"] is not None]
+    cases = {tuple(row[key] for key in ROUGH_NAMES) for row in rows if row["mu_ratio_limit"]}
+    good, known = shares(rows, "mu_ratio", "mu_ratio_limit", "mu_ratio_error", 2.0)
+    print(
+        f"mu_ratio: true error at most twice the stated one: {good} of {known}, {len(cases)} cases"
+    )
+
+
+def main() -> None:
+    """Make a table with two workers, or print what holds."""
+    what = sys.argv[1]
+    if what == "show":
+        show()
+        return
+    todo = list(smooth_points() if what == "smooth" else rough_cases())
+    make = smooth_rows if what == "smooth" else rough_rows
+    rows: list[Row] = []
+    with ProcessPoolExecutor(2) as pool:
+        for number, found in enumerate(pool.map(make, todo), 1):
+            rows += found
+            print(f"{number} of {len(todo)}", file=sys.stderr)
+    with (HERE / f"{what}.csv").open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, rows[0], lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,298 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Where a result goes: which folder may take it, and how it gets there.
+!>
+!> A folder takes a result of one kind if it is empty, or holds an earlier result of this kind and nothing else. A result
+!> names its kind and its files in summary.json. Pictures and exports of a result, which say what they are, give way with
+!> it. All else is refused; with `force` other files stay, if none of them has a name that the result needs.
+!>
+!> A result is whole at every instant: it is written beside the folder and changes places with the one before it.
+module ehl_destination
+   use, intrinsic :: iso_c_binding, only: c_ptr
+   use ehl_earlier_result, only: command_of, found_t, gives_way, read_result, summary
+   use ehl_files, only: absolute_path, file_exists, make_folder, may_write, real_path, remove_file, remove_folder, rename_path
+   use ehl_folders, only: change_places, folder_above, full_path, is_here, is_movable, is_there, link_text, list_folder, &
+                          lock_folder, make_link, make_parents, move_new, spare_path, unlock_folder, name_t
+   use ehl_status, only: ehl_bad_input, ehl_file, status_t
+   use ehl_text, only: newline
+   implicit none (type, external)
+   private
+   public :: destination_t
+
+   !> A folder for a result
+   type :: destination_t
+      !> As the user wrote it, and what kind of result it is for
+      character(len=:), allocatable :: folder, kind
+      !> Lists, each item with a line end: names that the result may need, paths that the command reads, and other
+      !> names that belong to this kind
+      character(len=:), allocatable :: names, inputs, kept
+      !> Whether other files may be in the folder
+      logical :: force = .false.
+   contains
+      procedure :: check
+      procedure :: begin
+      procedure :: finish
+   end type destination_t
+
+   character(len=*), parameter :: any_other = "expected: another folder", &
+      ! how names begin of what is being written, or was when the command was killed: it stays, and is in nobody's way
+      leftover = ".partial-"
+
+contains
+
+   !> Refuse a folder that must not be touched, or cannot be written
+   subroutine check(self, status, resumes)
+      class(destination_t), intent(in) :: self
+      type(status_t), intent(inout) :: status
+      !> Whether an earlier result stays, and is completed
+      logical, intent(in), optional :: resumes
+      type(found_t) :: found
+
+      call look(self, found, status)
+      if (status%failed() .or. found%kind == "") return
+      if (present(resumes)) then
+         if (resumes) return
+      end if
+      if (is_here(found%path)) then
+         call status%fail(ehl_bad_input, self%folder//": error: holds a result and is the working directory: it "// &
+                          "cannot be replaced in one step"//newline//any_other)
+      else if (.not. found%movable) then
+         call status%fail(ehl_bad_input, self%folder//": error: holds a result and cannot be replaced in one step: "// &
+                          "it is a mount point, or there is no permission to write into the folder above"// &
+                          newline//any_other)
+      end if
+   end subroutine check
+
+   !> Check, and make an empty folder for the files of the result
+   subroutine begin(self, fresh, status)
+      class(destination_t), intent(in) :: self
+      character(len=:), allocatable, intent(out) :: fresh
+      type(status_t), intent(inout) :: status
+      type(found_t) :: found
+
+      fresh = ""
+      call self%check(status)
+      if (.not. status%failed()) call look(self, found, status)
+      if (status%failed()) return
+      call make_parents(found%path)
+      fresh = spare_path(found%path//".partial")
+      if (.not. found%movable) fresh = spare_path(found%path//"/"//leftover(:len(leftover) - 1))
+      if (.not. make_folder(fresh)) call status%fail(ehl_file, self%folder//": error: cannot be written")
+   end subroutine begin
+
+   !> Check again, and put the files in a folder made by `begin` in place. After a failure they are still there.
+   subroutine finish(self, fresh, status)
+      class(destination_t), intent(in) :: self
+      character(len=*), intent(in) :: fresh
+      type(status_t), intent(inout) :: status
+      type(found_t) :: found
+      type(c_ptr) :: lock
+      logical :: done
+
+      lock = lock_folder(folder_above(fresh))
+      call look(self, found, status)
+      if (.not. status%failed()) then
+         if (.not. found%exists) then
+            done = move_new(fresh, found%path)
+         else if (found%kind /= "") then
+            done = replaced(found, fresh)
+         else
+            done = .false.
+            ! the working directory stays the folder that it is
+            if (.not. is_here(found%path)) done = rename_path(fresh, found%path)
+            if (.not. done) done = filled(found%path, fresh)
+         end if
+         if (.not. done) call status%fail(ehl_file, self%folder//": error: cannot be replaced")
+      end if
+      call unlock_folder(lock)
+      if (status%failed()) status%message = status%message//newline//"the new result is in "//fresh
+   end subroutine finish
+
+   !> See what is there, and refuse what the rule refuses
+   subroutine look(self, found, status)
+      class(destination_t), intent(in) :: self
+      type(found_t), intent(out) :: found
+      type(status_t), intent(inout) :: status
+
+      found%kind = ""
+      found%files = ""
+      allocate (found%entries(0))
+      found%path = full_path(self%folder)
+      found%exists = is_there(found%path)
+      if (found%path == "") then
+         call status%fail(ehl_bad_input, "-o '"//self%folder//"': error: this names no folder"//newline// &
+                          "expected: the name of a folder for the results")
+         return
+      else if (.not. found%exists) then
+         call check_above(self, found%path, status)
+         return
+      else if (.not. file_exists(found%path)) then
+         call refuse("a link to nothing", any_other)
+         return
+      else if (.not. file_exists(found%path//"/.")) then
+         call refuse("this is a file, not a folder", any_other)
+         return
+      end if
+      if (.not. list_folder(found%path, found%entries)) then
+         call refuse("no permission to read this folder", any_other)
+      else if (.not. may_write(found%path)) then
+         call refuse("no permission to write into this folder", any_other)
+      else
+         found%movable = is_movable(found%path)
+         call read_result(found)
+         call judge()
+      end if
+
+   contains
+
+      !> The rule, for a folder that can be written
+      subroutine judge()
+         logical :: ours, read_from
+         integer :: k
+
+         if (found%kind /= "" .and. found%kind /= self%kind) then
+            call refuse("holds a result of "//command_of(found%kind), any_other)
+            return
+         end if
+         do k = 1, size(found%entries)
+            associate (name => found%entries(k)%text)
+               ours = gives_way(found, name, found%path)
+               read_from = is_input(self, found, name)
+               if (ours .and. read_from) then
+                  call refuse("'"//name//"' in it is read by this command", any_other)
+               else if (.not. (ours .or. listed(name, self%kept) .or. index(name, leftover) == 1)) then
+                  if (listed(name, self%names)) then
+                     call refuse("holds '"//name//"', which "//command_of(self%kind)//" did not write, and "// &
+                                 "the result needs this name", any_other)
+                  else if (.not. self%force) then
+                     call refuse("holds '"//name//"', which "//command_of(self%kind)//" did not write", &
+                                 any_other//", or --force, which keeps '"//name//"' beside the result")
+                  end if
+               end if
+            end associate
+            if (status%failed()) return
+         end do
+      end subroutine judge
+
+      subroutine refuse(what, way_out)
+         character(len=*), intent(in) :: what, way_out
+
+         call status%fail(ehl_bad_input, self%folder//": error: "//what//newline//way_out)
+      end subroutine refuse
+   end subroutine look
+
+   !> Refuse a folder that is not there and cannot be made
+   subroutine check_above(self, path, status)
+      class(destination_t), intent(in) :: self
+      character(len=*), intent(in) :: path
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: above, trial
+
+      above = path
+      do while (.not. is_there(above))
+         above = above(:index(above, "/", back=.true.) - 1)
+         if (above == "") exit
+      end do
+      trial = spare_path(above//"/.partial")
+      if (make_folder(trial)) then
+         if (remove_folder(trial)) return
+      end if
+      if (above == "") above = "/"
+      if (file_exists(above//"/.")) then
+         above = "no permission to write into "//above
+      else
+         above = above//" is not a folder"
+      end if
+      call status%fail(ehl_bad_input, self%folder//": error: cannot be made: "//above//newline//any_other)
+   end subroutine check_above
+
+   !> The earlier result and the new one change places; other files are moved over. A link holds the place of each
+   !> until it is there.
+   logical function replaced(found, fresh)
+      type(found_t), intent(in) :: found
+      character(len=*), intent(in) :: fresh
+      character(len=:), allocatable :: back
+      logical :: gone
+      integer :: k
+
+      back = "../"//fresh(index(fresh, "/", back=.true.) + 1:)//"/"
+      do k = 1, size(found%entries)
+         associate (name => found%entries(k)%text)
+            replaced = removable(name, found%path)
+            if (.not. replaced) then
+               replaced = make_link(back//name, fresh//"/"//name)
+               if (.not. replaced) return
+            end if
+         end associate
+      end do
+      replaced = change_places(fresh, found%path)
+      if (.not. replaced) return
+      ! what cannot be moved or removed now stays where its link points to
+      do k = 1, size(found%entries)
+         associate (name => found%entries(k)%text)
+            gone = removable(name, fresh)
+            ! another process may have moved it
+            if (link_text(found%path//"/"//name) == back//name) then
+               gone = change_places(fresh//"/"//name, found%path//"/"//name)
+               if (gone) gone = link_text(fresh//"/"//name) == back//name
+            end if
+            if (gone) gone = remove_file(fresh//"/"//name)
+         end associate
+      end do
+      gone = remove_folder(fresh)
+
+   contains
+
+      !> Whether a file, now in a folder, is of the earlier result
+      logical function removable(name, folder)
+         character(len=*), intent(in) :: name, folder
+
+         removable = .not. file_exists(folder//"/"//name//"/.")
+         if (removable) removable = gives_way(found, name, folder)
+      end function removable
+   end function replaced
+
+   !> Move the files of a result into a folder that holds none, the summary last
+   logical function filled(path, fresh)
+      character(len=*), intent(in) :: path, fresh
+      type(name_t), allocatable :: names(:)
+      integer :: k
+
+      filled = list_folder(fresh, names)
+      do k = 1, size(names)
+         if (is_there(path//"/"//names(k)%text)) filled = .false.
+      end do
+      if (.not. filled) return
+      do k = 1, size(names)
+         if (names(k)%text == summary) cycle
+         filled = move_new(fresh//"/"//names(k)%text, path//"/"//names(k)%text)
+         if (.not. filled) return
+      end do
+      filled = move_new(fresh//"/"//summary, path//"/"//summary)
+      if (filled) filled = remove_folder(fresh)
+   end function filled
+
+   !> Whether a name in a folder is something that the command reads
+   logical function is_input(self, found, name)
+      class(destination_t), intent(in) :: self
+      type(found_t), intent(in) :: found
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: path
+      integer :: first, last
+
+      is_input = .false.
+      first = 1
+      do while (first <= len(self%inputs))
+         last = first + index(self%inputs(first:), newline) - 1
+         path = real_path(absolute_path(self%inputs(first:last - 1)))
+         if (path == found%path//"/"//name) is_input = .true.
+         first = last + 1
+      end do
+   end function is_input
+
+   !> Whether a name is in a list with one a line
+   pure logical function listed(name, list)
+      character(len=*), intent(in) :: name, list
+
+      listed = index(newline//list, newline//name//newline) > 0
+   end function listed
+end module ehl_destination

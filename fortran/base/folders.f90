@@ -1,0 +1,292 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Folders by the calls of Linux: what is in one, and two that change places in one step
+module ehl_folders
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_f_procpointer, c_funptr, &
+                                          c_int, c_int64_t, c_null_char, c_null_ptr, c_ptr, c_short, c_size_t
+   use ehl_files, only: absolute_path, c_text, file_exists, fortran_text, make_folder, may_write, process_mark, real_path, &
+                        rename_path
+   use ehl_text, only: to_text
+   implicit none (type, external)
+   private
+   public :: name_t, list_folder, change_places, move_new, make_link, link_text, is_there, is_movable, spare_path
+   public :: is_here, full_path, folder_above, lock_folder, make_parents, unlock_folder
+
+   !> The name of a file or folder
+   type :: name_t
+      character(len=:), allocatable :: text
+   end type name_t
+
+   !> struct dirent of Linux with 64 bits
+   type, bind(c) :: entry_t
+      integer(c_int64_t) :: inode, offset
+      integer(c_short) :: length
+      character(kind=c_char) :: kind
+      character(kind=c_char) :: name(256)
+   end type entry_t
+
+   !> Flags of renameat2, and the working directory as it knows it
+   integer(c_int), parameter :: never_replace = 1, exchange = 2, here = -100
+
+   abstract interface
+      integer(c_int) function renameat2(from_folder, from, to_folder, to, flags) bind(c)
+         import :: c_char, c_int
+         implicit none (type, external)
+         integer(c_int), value :: from_folder, to_folder, flags
+         character(kind=c_char), intent(in) :: from(*), to(*)
+      end function renameat2
+   end interface
+
+   interface
+      type(c_ptr) function posix_errno() bind(c, name="__errno_location")
+         import :: c_ptr
+         implicit none (type, external)
+      end function posix_errno
+
+      integer(c_int) function posix_link(path, other) bind(c, name="link")
+         import :: c_char, c_int
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: path(*), other(*)
+      end function posix_link
+
+      type(c_ptr) function posix_opendir(path) bind(c, name="opendir")
+         import :: c_char, c_ptr
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: path(*)
+      end function posix_opendir
+
+      type(c_ptr) function posix_readdir(folder) bind(c, name="readdir")
+         import :: c_ptr
+         implicit none (type, external)
+         type(c_ptr), value :: folder
+      end function posix_readdir
+
+      integer(c_int) function posix_closedir(folder) bind(c, name="closedir")
+         import :: c_int, c_ptr
+         implicit none (type, external)
+         type(c_ptr), value :: folder
+      end function posix_closedir
+
+      integer(c_int) function posix_dirfd(folder) bind(c, name="dirfd")
+         import :: c_int, c_ptr
+         implicit none (type, external)
+         type(c_ptr), value :: folder
+      end function posix_dirfd
+
+      integer(c_int) function posix_flock(descriptor, operation) bind(c, name="flock")
+         import :: c_int
+         implicit none (type, external)
+         integer(c_int), value :: descriptor, operation
+      end function posix_flock
+
+      integer(c_int) function posix_symlink(target_path, path) bind(c, name="symlink")
+         import :: c_char, c_int
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: target_path(*), path(*)
+      end function posix_symlink
+
+      integer(c_size_t) function posix_readlink(path, buffer, length) bind(c, name="readlink")
+         import :: c_char, c_size_t
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: path(*)
+         character(kind=c_char), intent(out) :: buffer(*)
+         integer(c_size_t), value :: length
+      end function posix_readlink
+
+      type(c_funptr) function posix_dlsym(library, name) bind(c, name="dlsym")
+         import :: c_char, c_funptr, c_ptr
+         implicit none (type, external)
+         type(c_ptr), value :: library
+         character(kind=c_char), intent(in) :: name(*)
+      end function posix_dlsym
+   end interface
+
+contains
+
+   !> What is in a folder, sorted; false when it cannot be read
+   logical function list_folder(path, names)
+      character(len=*), intent(in) :: path
+      type(name_t), allocatable, intent(out) :: names(:)
+      type(c_ptr) :: folder, place
+      type(entry_t), pointer :: entry
+      character(len=:), allocatable :: text
+      integer :: k
+      integer(c_int) :: stat
+
+      allocate (names(0))
+      folder = posix_opendir(c_text(path))
+      list_folder = c_associated(folder)
+      if (.not. list_folder) return
+      do
+         place = posix_readdir(folder)
+         if (.not. c_associated(place)) exit
+         call c_f_pointer(place, entry)
+         text = fortran_text(entry%name)
+         if (text == "." .or. text == "..") cycle
+         k = 1
+         do while (k <= size(names))
+            if (lgt(names(k)%text, text)) exit
+            k = k + 1
+         end do
+         names = [names(:k - 1), name_t(text), names(k:)]
+      end do
+      stat = posix_closedir(folder)
+   end function list_folder
+
+   !> Wait until no other process changes what is in a folder; ends with `unlock_folder`, or with the process
+   function lock_folder(path) result(lock)
+      character(len=*), intent(in) :: path
+      type(c_ptr) :: lock
+      integer(c_int), parameter :: alone = 2
+      integer(c_int) :: stat
+
+      lock = posix_opendir(c_text(path))
+      ! on a file system without locks nobody waits
+      if (c_associated(lock)) stat = posix_flock(posix_dirfd(lock), alone)
+   end function lock_folder
+
+   !> Let others change what is in a folder
+   subroutine unlock_folder(lock)
+      type(c_ptr), intent(in) :: lock
+      integer(c_int) :: stat
+
+      if (c_associated(lock)) stat = posix_closedir(lock)
+   end subroutine unlock_folder
+
+   !> Two files or folders change their places, in one step where the file system can do that. False: nothing
+   !> has changed.
+   logical function change_places(one, other)
+      character(len=*), intent(in) :: one, other
+      character(len=:), allocatable :: aside
+
+      change_places = renamed(one, other, exchange)
+      if (change_places) return
+      aside = spare_path(one//".old")
+      if (.not. rename_path(other, aside)) return
+      change_places = rename_path(one, other)
+      if (change_places) then
+         change_places = rename_path(aside, one)
+      else
+         change_places = rename_path(aside, other)
+         change_places = .false.
+      end if
+   end function change_places
+
+   !> Rename a file or folder; false when the new name is taken
+   logical function move_new(from, to)
+      character(len=*), intent(in) :: from, to
+
+      move_new = renamed(from, to, never_replace)
+      if (move_new) return
+      if (.not. is_there(to)) move_new = rename_path(from, to)
+   end function move_new
+
+   !> Rename with flags, as not all systems and file systems can
+   logical function renamed(from, to, flags)
+      character(len=*), intent(in) :: from, to
+      integer(c_int), intent(in) :: flags
+      type(c_funptr) :: place
+      procedure(renameat2), pointer :: call_it
+
+      place = posix_dlsym(c_null_ptr, c_text("renameat2"))
+      renamed = c_associated(place)
+      if (.not. renamed) return
+      call c_f_procpointer(place, call_it)
+      renamed = call_it(here, c_text(from), here, c_text(to), flags) == 0
+   end function renamed
+
+   !> Make a symbolic link; false when the name is taken
+   logical function make_link(target_path, path)
+      character(len=*), intent(in) :: target_path, path
+
+      make_link = posix_symlink(c_text(target_path), c_text(path)) == 0
+   end function make_link
+
+   !> What a symbolic link says; empty when there is none
+   function link_text(path) result(text)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: text
+      character(kind=c_char) :: buffer(4097)
+      integer(c_size_t) :: length
+
+      length = posix_readlink(c_text(path), buffer, size(buffer, kind=c_size_t) - 1)
+      buffer(max(0_c_size_t, length) + 1) = c_null_char
+      text = fortran_text(buffer)
+   end function link_text
+
+   !> Whether a name is taken, by a link to nothing too
+   logical function is_there(path)
+      character(len=*), intent(in) :: path
+
+      is_there = file_exists(path)
+      if (.not. is_there) is_there = link_text(path) /= ""
+   end function is_there
+
+   !> Whether a folder can change places with one beside it: it is no mount point, and the folder above can be written
+   logical function is_movable(path)
+      character(len=*), intent(in) :: path
+      integer(c_int), parameter :: other_device = 18
+      integer(c_int), pointer :: reason
+
+      is_movable = may_write(folder_above(path))
+      ! a folder has no second name; between file systems the reason is another one
+      if (posix_link(c_text(path), c_text(spare_path(path//".partial"))) == 0) return
+      call c_f_pointer(posix_errno(), reason)
+      if (reason == other_device) is_movable = .false.
+   end function is_movable
+
+   !> A path that begins so, and that nobody has taken
+   function spare_path(beginning) result(path)
+      character(len=*), intent(in) :: beginning
+      character(len=:), allocatable :: path
+      integer :: k
+
+      path = beginning//"-"//process_mark()
+      k = 1
+      do while (is_there(path))
+         k = k + 1
+         path = beginning//"-"//process_mark()//"-"//to_text(k)
+      end do
+   end function spare_path
+
+   !> Whether a folder is the working directory
+   logical function is_here(path)
+      character(len=*), intent(in) :: path
+
+      is_here = path == real_path(absolute_path("."))
+   end function is_here
+
+   !> The folder from the root without a '/' at its end; empty when it cannot be a folder of ours
+   function full_path(folder) result(path)
+      character(len=*), intent(in) :: folder
+      character(len=:), allocatable :: path
+      integer :: last
+
+      path = ""
+      last = verify(folder, "/", back=.true.)
+      if (last == 0) return
+      path = real_path(absolute_path(folder(:last)))
+      if (path == "/") path = ""
+   end function full_path
+
+   !> The folder that a path from the root is in
+   pure function folder_above(path) result(folder)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: folder
+
+      folder = path(:max(1, index(path, "/", back=.true.) - 1))
+   end function folder_above
+
+   !> Make the folders above a path
+   subroutine make_parents(path)
+      character(len=*), intent(in) :: path
+      integer :: slash
+      logical :: made
+
+      do slash = 2, len(path)
+         if (path(slash:slash) /= "/") cycle
+         if (file_exists(path(:slash - 1))) cycle
+         made = make_folder(path(:slash - 1))
+         if (.not. made) return
+      end do
+   end subroutine make_parents
+end module ehl_folders

@@ -1,0 +1,116 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Results of the smooth contact by name, each with the error that its grids and its domain leave
+module ehl_report_smooth
+   use ehl_contact_results, only: contact_results_t
+   use ehl_kinds, only: dp
+   use ehl_level_result, only: discretisation_error, extrapolated, limit_error
+   use ehl_plan, only: plan_t, relative_wedge_error
+   use ehl_record, only: record_t
+   use ehl_steady, only: steady_t
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   implicit none (type, external)
+   private
+   public :: report_smooth
+
+contains
+
+   !> The smooth contact: results and errors, null unless they are good
+   subroutine report_smooth(record, plan, steady, n, good)
+      type(record_t), intent(inout) :: record
+      type(plan_t), intent(in) :: plan
+      type(steady_t), intent(in) :: steady
+      !> Level of the results
+      integer, intent(in) :: n
+      logical, intent(in) :: good
+      type(contact_results_t) :: m
+      real(dp) :: error(2), limit(2), domain(2), nothing
+      logical :: coarser
+
+      nothing = ieee_value(nothing, ieee_quiet_nan)
+      m = steady%results(n)%m
+      if (.not. good) then
+         call record%set("last_H_c", m%film_central)
+         call record%set("last_H_min", m%film_minimum)
+         call record%set("last_P_max", m%pressure_maximum)
+         call record%set("last_F", m%friction)
+         m%film_central = nothing
+         m%film_minimum = nothing
+         m%pressure_maximum = nothing
+         m%friction = nothing
+      end if
+      error = nothing
+      limit = nothing
+      coarser = .false.
+      if (good .and. n > 1) coarser = steady%results(n - 1)%solved
+      if (coarser) then
+         error = discretisation_error(steady%results, n) + steady%results(n)%algebraic
+         limit = extrapolated(steady%results, n)
+      else if (good) then
+         ! one grid alone: what such grids have been found to miss; H_min misses about twice as much
+         error = relative_wedge_error(plan%point, plan%finest)*[m%film_central, 2.0_dp*m%film_minimum]
+      end if
+      ! what is left of the flooded film, less than nothing by the estimate: not known
+      domain = nothing
+      where (plan%domain_cost < 1.0_dp) domain = m%films()*plan%domain_cost/(1.0_dp - plan%domain_cost)
+      call record%set("H_c", m%film_central)
+      call record%set("H_min", m%film_minimum)
+      call record%set("P_max", m%pressure_maximum)
+      call record%set("F", m%friction)
+      call record%set("H_c_extrapolated", limit(1))
+      call record%set("H_c_error", error(1) + domain(1))
+      call record%set("H_c_error_grid", error(1))
+      call record%set("H_c_error_domain", domain(1))
+      call record%set("H_min_extrapolated", limit(2))
+      call record%set("H_min_error", error(2) + domain(2))
+      call record%set("H_min_error_grid", error(2))
+      call record%set("H_min_error_domain", domain(2))
+      call record%set("error_estimate", trim(merge("two grids", "a priori ", coarser)))
+      call report_limits(record, plan, steady, n, good)
+      call record%set("H_c_algebraic_error", steady%results(n)%algebraic(1))
+      call record%set("H_min_algebraic_error", steady%results(n)%algebraic(2))
+      call record%set("load_error", m%load_error)
+      if (plan%contact%has_size()) then
+         call record%set("h_c_m", m%film_central*plan%contact%film_scale)
+         call record%set("h_min_m", m%film_minimum*plan%contact%film_scale)
+         call record%set("p_max_Pa", m%pressure_maximum*plan%contact%pressure)
+      end if
+      call record%set("cycles", steady%results(n)%cycles)
+      call record%set("total_cycles", sum(steady%results%cycles))
+      call record%set("residual", steady%results(n)%residual)
+      call record%set("restarts", steady%restarts)
+   end subroutine report_smooth
+
+   !> Errors of P_max and F, which need three grids: where a pressure spike is not resolved neither has a limit that the
+   !> grids could tell, for the viscosity in it carries the friction
+   subroutine report_limits(record, plan, steady, n, good)
+      type(record_t), intent(inout) :: record
+      type(plan_t), intent(in) :: plan
+      type(steady_t), intent(in) :: steady
+      integer, intent(in) :: n
+      logical, intent(in) :: good
+      real(dp) :: error(2), nothing
+      character(len=:), allocatable :: note
+
+      nothing = ieee_value(nothing, ieee_quiet_nan)
+      error = nothing
+      note = "there is no solution"
+      if (good) note = "two coarser grids with a solution are needed"
+      if (good .and. n > 2) then
+         associate (r => steady%results(n - 2:n))
+            if (all(r%solved)) error = [limit_error(r%m%pressure_maximum), limit_error(r%m%friction)]
+         end associate
+      end if
+      if (any(error < 0.0_dp)) then
+         error(2) = nothing
+         if (error(1) < 0.0_dp) error(1) = nothing
+         note = "the change from grid to grid does not fall: no limit is in sight"
+      end if
+      associate (m => steady%results(n)%m)
+         error = error + [m%pressure_maximum, m%friction]*plan%domain_cost(1)
+      end associate
+      call record%set("P_max_error", error(1))
+      call record%set("F_error", error(2))
+      if (.not. error(1) >= 0.0_dp) call record%set("P_max_error_note", note)
+      if (.not. error(2) >= 0.0_dp) call record%set("F_error_note", note)
+   end subroutine report_limits
+end module ehl_report_smooth

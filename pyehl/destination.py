@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where results go: what a command may replace, and how a result gets to its place.
+
+A folder takes a result of one kind if it is empty, or holds an earlier result of this kind and
+nothing else; the rule, its messages and the exchange in one step are those of the library, the same
+for ``ehl``. A single file is written where nothing is, or over a file of the same command, which
+says so in its metadata; never onto what the command reads. Links are kept, their targets used.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import tempfile
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from pyehl.errors import FileError, InputError, check
+from pyehl.extension import destination
+
+__all__ = ["Destination", "check_files", "made_by", "mark", "new_file"]
+
+AnyPath = str | os.PathLike[str]
+
+# Bytes at both ends of a file that may say what made it
+NEAR = 64 * 1024
+
+
+def mark(command: str) -> str:
+    """Give what a file says of itself that a command made."""
+    return f"pyehl {command}: replaced when made again"
+
+
+def _lines(items: Iterable[AnyPath]) -> bytes:
+    return b"".join(os.fsencode(item) + b"\n" for item in items)
+
+
+@dataclass(frozen=True, slots=True)
+class Destination:
+    """A folder for a result.
+
+    Attributes
+    ----------
+    folder
+        Where it goes.
+    kind
+        'solution', 'prediction', ...: the ``kind`` of its summary, which also lists its ``files``.
+    names
+        Names that the result may need.
+    inputs
+        What the command reads.
+    kept
+        Other names in the folder that belong to this kind, and stay.
+    force
+        Other files may be in the folder; they stay.
+    """
+
+    folder: AnyPath
+    kind: str
+    names: tuple[str, ...] = ()
+    inputs: tuple[AnyPath, ...] = ()
+    kept: tuple[str, ...] = ()
+    force: bool = False
+
+    def _step(self, step: bytes, made: str = "") -> str:
+        lists = (_lines(self.names), _lines(self.inputs), _lines(self.kept))
+        folder, kind = os.fsencode(self.folder), self.kind.encode()
+        fresh, status, message = destination.place(
+            step, folder, kind, *lists, int(self.force), os.fsencode(made)
+        )
+        check(status, message)
+        return os.fsdecode(fresh.rstrip())
+
+    def check(self, *, resumes: bool = False) -> None:
+        """Refuse a folder that must not be touched, or cannot be written.
+
+        Parameters
+        ----------
+        resumes
+            An earlier result is not replaced, but completed.
+
+        Raises
+        ------
+        InputError
+            With the file in the way, and the way out.
+        """
+        self._step(b"resume" if resumes else b"check")
+
+    @contextmanager
+    def fresh(self) -> Iterator[Path]:
+        """Give an empty folder for the files; at the end of the block it takes its place.
+
+        Raises
+        ------
+        InputError
+            As `check`.
+        FileError
+            If the folder cannot be written.
+        """
+        fresh = Path(self._step(b"begin"))
+        try:
+            yield fresh
+        except BaseException as error:
+            shutil.rmtree(fresh, ignore_errors=True)
+            if isinstance(error, OSError) and not isinstance(error, FileError):
+                raise FileError(
+                    f"{self.folder}: cannot be written: {error.strerror or error}"
+                ) from error
+            raise
+        self._step(b"finish", str(fresh))
+
+    def claim(self, values: Mapping[str, object]) -> None:
+        """Make the folder, or resume in it; its summary says whose it is from the start.
+
+        Raises
+        ------
+        InputError
+            As `check`.
+        FileError
+            If the folder cannot be written.
+        """
+        self.check(resumes=True)
+        folder = Path(self.folder)
+        summary = {"kind": self.kind, **values, "files": ["summary.json", *self.names]}
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise FileError(f"{folder}: cannot be made: {error.strerror}") from error
+        with new_file(folder / "summary.json") as path:
+            path.write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
+
+
+def made_by(path: Path, word: str) -> bool:
+    """Whether a file holds a word near its beginning or its end."""
+    with path.open("rb") as stream:
+        size = os.fstat(stream.fileno()).st_size
+        head = stream.read(NEAR)
+        stream.seek(max(0, size - NEAR))
+        return word.encode() in head or word.encode() in stream.read(NEAR)
+
+
+def check_files(
+    paths: Iterable[AnyPath],
+    command: str,
+    inputs: Iterable[AnyPath] = (),
+    *,
+    known: Callable[[Path], bool] | None = None,
+) -> None:
+    """Refuse files that must not be written by a command.
+
+    Parameters
+    ----------
+    paths
+        What it would write.
+    command
+        Such as 'plot'.
+    inputs
+        What it reads.
+    known
+        Tells whether the command wrote a file that is there; default: the file has its `mark`.
+
+    Raises
+    ------
+    InputError
+        With the file in the way, and the way out.
+    """
+    sources = {os.path.realpath(source) for source in inputs}
+    for path in map(Path, paths):
+        other = "expected: another name"
+        folder = Path(os.path.realpath(path)).parent
+        if os.path.realpath(path) in sources:
+            raise InputError(f"{path}: error: this command reads it\n{other}")
+        if path.is_dir():
+            raise InputError(f"{path}: error: this is a folder\n{other}")
+        if not folder.is_dir():
+            raise InputError(f"{path}: error: there is no folder {folder}\n{other}")
+        try:
+            ours = not path.exists() or (known or partial(made_by, word=mark(command)))(path)
+            with tempfile.TemporaryFile(dir=folder):
+                pass
+        except OSError as error:
+            raise InputError(f"{path}: error: no permission to write it\n{other}") from error
+        if not ours:
+            raise InputError(
+                f"{path}: error: there is a file that pyehl {command} did not write\n{other}"
+            )
+
+
+@contextmanager
+def new_file(path: AnyPath) -> Iterator[Path]:
+    """Give a name beside a file to write; at the end of the block it takes its place, whole.
+
+    Raises
+    ------
+    FileError
+        If it cannot be written; the file is as it was.
+    """
+    place = Path(os.path.realpath(path))
+    # with the suffix that the caller sees: it may say the format
+    fresh = place.with_name(f".partial-{os.getpid()}-{Path(path).name}")
+    try:
+        yield fresh
+        fresh.replace(place)
+    except BaseException as error:
+        fresh.unlink(missing_ok=True)
+        if isinstance(error, OSError) and not isinstance(error, FileError):
+            raise FileError(f"{path}: cannot be written: {error.strerror or error}") from error
+        raise

@@ -1,0 +1,521 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""No command touches what it did not write, and every result is whole at every instant."""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pyehl
+from pyehl import cli
+from pyehl.bench import smooth
+from pyehl.studies import tiers
+
+SMOOTH = "&contact moes_m = 100.0 moes_l = 5.0 /\n&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+SI = "&contact load = 20.0 /\n&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+ROUGH = "&grid points = 65 /\n&surface kind = 'fractal' pixels = 32 /\n"
+WAVE = SMOOTH + "&surface kind = 'harmonic' amplitude = 0.001 /\n&time steps = 2 /\n"
+MANY = "contact.moes_m=100,200"
+QUIET = ["--jobs", "1", "-q"]
+
+# Commands that write a folder: the case of each, and its words without -o
+FOLDERS = {
+    "run": (SMOOTH, ["run", "case.nml", "-q"]),
+    "ehl": (SMOOTH, ["case.nml", "-q"]),
+    "predict": (ROUGH, ["predict", "case.nml", "--no-plots"]),
+    "sweep": (SMOOTH, ["sweep", "case.nml", "--run", "film", "--vary", MANY, *QUIET]),
+    "stribeck": (SI, ["stribeck", "case.nml", "--speed", "1,2", *QUIET]),
+    "response": (SMOOTH, ["response", "case.nml"]),
+    "reproduce": (SMOOTH, ["reproduce", "zhang2019", "--table", "1", *QUIET]),
+    "stress": (SMOOTH, ["bench", "stress", "--cases", "1"]),
+}  # fmt: skip
+REPLACING = ("run", "ehl", "predict")
+Call = Callable[..., subprocess.CompletedProcess[str]]
+
+
+@pytest.fixture
+def call(
+    ehl: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> Call:
+    """Run a command of `FOLDERS` on its case, ``call("run", "-o", "out")``, or any other."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(name: str, *words: str, case: str = "case.nml") -> subprocess.CompletedProcess[str]:
+        text, own = FOLDERS.get(name, ("", [name]))
+        own = [case if word == "case.nml" else word for word in own]
+        if text and not Path(case).exists():
+            Path(case).write_text(text)
+        if name == "ehl":
+            command = [ehl, *own, *words]
+            return subprocess.run(command, capture_output=True, text=True, check=False)
+        capsys.readouterr()
+        status = cli.main([*own, *words])
+        return subprocess.CompletedProcess(name, status, *capsys.readouterr())
+
+    return run
+
+
+def tree(folder: Path) -> dict[str, object]:
+    """All that is below a folder: files with their bytes, links with their targets."""
+    found: dict[str, object] = {}
+    for path in sorted(folder.rglob("*")):
+        name = str(path.relative_to(folder))
+        if path.is_symlink():
+            found[name] = path.readlink()
+        else:
+            found[name] = path.read_bytes() if path.is_file() else None
+    return found
+
+
+def foreign(folder: Path) -> None:
+    """Put a file and a folder of a user into a folder."""
+    (folder / "sub").mkdir(parents=True)
+    (folder / "sub").chmod(0o700)
+    (folder / "sub" / "a.txt").write_text("mine")
+    (folder / "notes.txt").write_text("mine")
+
+
+def refused(done: subprocess.CompletedProcess[str], *parts: str) -> None:
+    assert done.returncode == 2, done
+    for part in (*parts, "expected: "):
+        assert part in done.stderr
+    for raw in ("Traceback", "Errno", ".partial", ".nml."):
+        assert raw not in done.stderr
+
+
+def whole(folder: Path) -> dict[str, object]:
+    """Read the summary; all files that it lists are there."""
+    summary = json.loads((folder / "summary.json").read_text())
+    names = {path.name for path in folder.iterdir()}
+    assert set(summary["files"]) <= names
+    return summary
+
+
+@pytest.mark.parametrize("name", FOLDERS)
+def test_foreign_files(call: Call, tmp_path: Path, name: str):
+    foreign(tmp_path / "out")
+    Path("case.nml").write_text(FOLDERS[name][0])
+    before = tree(tmp_path)
+    refused(call(name, "-o", "out"), "out", "'notes.txt'", "--force")
+    assert tree(tmp_path) == before
+
+
+@pytest.mark.parametrize("name", FOLDERS)
+def test_result_of_another_command(call: Call, tmp_path: Path, name: str):
+    other = "predict" if name in ("run", "ehl") else "run"
+    assert call(other, "-o", "out").returncode == 0
+    Path("case.nml").write_text(FOLDERS[name][0])
+    before = tree(tmp_path)
+    for words in ([], ["--force"]):
+        refused(call(name, "-o", "out", *words), "out", f"holds a result of pyehl {other}")
+        assert tree(tmp_path) == before
+
+
+@pytest.mark.parametrize("name", FOLDERS)
+def test_a_name_that_the_result_needs(call: Call, tmp_path: Path, name: str):
+    needed = {
+        "sweep": "results.csv",
+        "stribeck": "stribeck.png",
+        "reproduce": "report.md",
+        "response": "case.nml",
+        "stress": "stress.json",
+    }.get(name, "case.nml")
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / needed).write_text("mine")
+    Path("case.nml").write_text(FOLDERS[name][0])
+    before = tree(tmp_path)
+    for words in ([], ["--force"]):
+        refused(call(name, "-o", "out", *words), f"'{needed}'")
+        assert tree(tmp_path) == before
+
+
+@pytest.mark.parametrize("name", FOLDERS)
+def test_folder_of_the_input(call: Call, tmp_path: Path, name: str):
+    Path("case.nml").write_text(FOLDERS[name][0])
+    before = tree(tmp_path)
+    refused(call(name, "-o", "."), "'case.nml'")
+    assert tree(tmp_path) == before
+
+
+@pytest.mark.parametrize("name", REPLACING)
+def test_forced_beside_the_input(call: Call, tmp_path: Path, name: str):
+    """What has another name stays; the working directory is filled, not replaced."""
+    foreign(tmp_path)
+    (tmp_path / "my.nml").write_text(FOLDERS[name][0])
+    inode = tmp_path.stat().st_ino
+    assert call(name, "-o", ".", "--force", case="my.nml").returncode == 0
+    whole(tmp_path)
+    assert (tmp_path / "my.nml").read_text() == FOLDERS[name][0]
+    assert (tmp_path / "notes.txt").read_text() == (tmp_path / "sub/a.txt").read_text() == "mine"
+    assert tmp_path.stat().st_ino == inode
+    before = tree(tmp_path)
+    refused(call(name, "-o", ".", "--force", case="my.nml"), "working directory")
+    assert tree(tmp_path) == before
+
+
+@pytest.mark.parametrize("name", REPLACING)
+def test_earlier_result_with_foreign_files(call: Call, tmp_path: Path, name: str):
+    out = tmp_path / "out"
+    assert call(name, "-o", "out").returncode == 0
+    names = set(tree(out))
+    foreign(out)
+    os.symlink("notes.txt", out / "link")
+    before = tree(tmp_path)
+    refused(call(name, "-o", "out"), "'link'", "--force")
+    assert tree(tmp_path) == before
+    places = {n: (out / n).lstat().st_ino for n in ("notes.txt", "sub", "link")}
+    old = (out / "summary.json").stat().st_ino
+    assert call(name, "-o", "out", "--force").returncode == 0
+    assert set(tree(out)) == names | {"notes.txt", "sub", "sub/a.txt", "link"}
+    assert {n: (out / n).lstat().st_ino for n in places} == places
+    assert (out / "sub").stat().st_mode & 0o777 == 0o700
+    assert (out / "summary.json").stat().st_ino != old
+    whole(out)
+    assert {path.name for path in tmp_path.iterdir()} == {"case.nml", "out"}
+
+
+@pytest.mark.parametrize("name", ["run", "ehl"])
+def test_foreign_files_with_names_of_results(call: Call, tmp_path: Path, name: str):
+    out = tmp_path / "out"
+    assert call(name, "-o", "out", "--set", "output.fields=.false.").returncode == 0
+    (out / "film.png").write_text("mine")
+    (out / "H.npy").write_text("mine")
+    refused(call(name, "-o", "out", "--force"), "'H.npy'")
+    (out / "H.npy").rename(out / "mine.npy")
+    refused(call(name, "-o", "out"), "'film.png'")
+    assert call(name, "-o", "out", "--force").returncode == 0
+    assert (out / "film.png").read_text() == (out / "mine.npy").read_text() == "mine"
+    whole(out)
+
+
+@pytest.mark.parametrize("name", ["run", "ehl"])
+def test_own_case_as_input(call: Call, tmp_path: Path, name: str):
+    assert call(name, "-o", "out").returncode == 0
+    Path("case.nml").unlink()
+    Path("case.nml").symlink_to("out/case.nml")
+    before = tree(tmp_path)
+    refused(call(name, "-o", "out"), "'case.nml'", "read by this command")
+    assert tree(tmp_path) == before
+
+
+@pytest.mark.parametrize("name", ["run", "ehl", "predict", "sweep", "stribeck"])
+def test_links_are_kept(call: Call, tmp_path: Path, name: str):
+    (tmp_path / "real").mkdir()
+    Path("out").symlink_to("real")
+    for _ in range(2):
+        assert call(name, "-o", "out").returncode == 0
+        assert Path("out").readlink() == Path("real")
+        assert any((tmp_path / "real").iterdir())
+    assert {path.name for path in tmp_path.iterdir()} == {"case.nml", "out", "real"}
+    if name in REPLACING:
+        Path("gone").symlink_to("nothing")
+        refused(call(name, "-o", "gone"), "a link to nothing")
+
+
+def without_rights() -> list[str]:
+    """Words before a command that take the rights of the superuser from it."""
+    if os.geteuid() != 0:
+        return []
+    if shutil.which("setpriv") is None:
+        pytest.skip("the superuser may write everywhere")
+    return ["setpriv", "--bounding-set", "-dac_override,-dac_read_search"]
+
+
+@pytest.mark.parametrize("deep", [False, True])
+@pytest.mark.parametrize("name", FOLDERS)
+def test_no_permission(ehl: str, tmp_path: Path, name: str, deep: bool):
+    text, words = FOLDERS[name]
+    (tmp_path / "case.nml").write_text(text)
+    (tmp_path / "locked").mkdir()
+    (tmp_path / "locked").chmod(0o555)
+    command = [ehl, *words] if name == "ehl" else [sys.executable, "-P", "-m", "pyehl", *words]
+    place = "locked/deep/out" if deep else "locked"
+    began = time.monotonic()
+    done = subprocess.run(
+        [*without_rights(), *command, "-o", place],
+        cwd=tmp_path, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    refused(done, place, "no permission to write into")
+    assert "level" not in done.stdout
+    assert time.monotonic() - began < 60.0
+    assert set(tree(tmp_path)) == {"case.nml", "locked"}
+
+
+@pytest.mark.parametrize("name", ["plot", "export", "surface", "bench"])
+def test_no_permission_for_files(tmp_path: Path, name: str):
+    (tmp_path / "case.nml").write_text(ROUGH)
+    pyehl.solve(pyehl.Case.from_text(SMOOTH), output=tmp_path / "out")
+    (tmp_path / "locked").mkdir()
+    (tmp_path / "locked").chmod(0o555)
+    words = {
+        "plot": ["plot", "out", "-o", "locked"],
+        "export": ["export", "out", "-o", "locked/a.nc"],
+        "surface": ["surface", "case.nml", "-o", "locked/a.npy"],
+        "bench": ["bench", "smooth", "--points", "17", "-o", "locked/a.json"],
+    }[name]
+    done = subprocess.run(
+        [*without_rights(), sys.executable, "-P", "-m", "pyehl", *words],
+        cwd=tmp_path, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    refused(done, "locked", "no permission to write")
+    assert done.stdout == ""
+    assert not list((tmp_path / "locked").iterdir())
+
+
+# Single files: words of the command, and what it writes
+FILES = {
+    "export": (["export", "out", "-o", "a.nc"], ["a.nc"]),
+    "export of the folder": (["export", "out"], ["out/results.nc"]),
+    "plot": (["plot", "out", "-o", "."], ["centre_lines.png", "film.png"]),
+    "plot of the folder": (["plot", "out"], ["out/centre_lines.png", "out/film.png"]),
+    "plot as PDF": (["plot", "out", "--format", "pdf"], ["out/centre_lines.pdf", "out/film.pdf"]),
+    "plot as SVG": (["plot", "out", "--format", "svg"], ["out/centre_lines.svg", "out/film.svg"]),
+    "movie": (["plot", "moving", "--movie"], ["moving/movie.gif"]),
+    **{
+        f"surface as {end}": (
+            ["surface", "rough.nml", "-o", f"a{end}"],
+            [f"a{end}{more}" for more in ("", ".nml", ".png")],
+        )
+        for end in (".npy", ".txt", ".nc")
+    },
+    "bench": (["bench", "smooth", "--points", "17", "--threads", "1", "-o", "a.json"], ["a.json"]),
+    "compare": (["compare", "out", "ref.csv", "-o", "a.csv"], ["a.csv"]),
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Inputs of commands that write single files."""
+    folder = tmp_path_factory.mktemp("results")
+    pyehl.solve(pyehl.Case.from_text(SMOOTH), output=folder / "out")
+    moving = pyehl.Case.from_text(WAVE, ["output.frame_interval=1e-6"])
+    pyehl.solve(moving, output=folder / "moving", check=False)
+    shutil.rmtree(folder / "moving.checkpoint")
+    (folder / "rough.nml").write_text(ROUGH)
+    (folder / "ref.csv").write_text("grid.points,H_c,H_c_rtol\n33,0.08,9\n")
+    return folder
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_single_files(
+    call: Call, results: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+):
+    monkeypatch.setattr(smooth, "smooth_rows", lambda *_: [])
+    monkeypatch.setattr(smooth, "exponents", lambda _: {})
+    shutil.copytree(results, tmp_path, dirs_exist_ok=True)
+    words, files = FILES[name]
+    # a foreign file in place of each: nothing is written, not even the others
+    for file in files:
+        (tmp_path / file).write_text("made by pyehl, I think")
+        before = tree(tmp_path)
+        refused(call(*words), Path(file).name, "did not write")
+        assert tree(tmp_path) == before
+        (tmp_path / file).unlink()
+    assert call(*words).returncode == 0
+    assert all((tmp_path / file).is_file() for file in files)
+    # those of this command are replaced, through a link too
+    link, target = tmp_path / files[0], tmp_path / "elsewhere"
+    link.rename(target)
+    link.symlink_to(target)
+    inode = target.stat().st_ino
+    assert call(*words).returncode == 0
+    assert link.is_symlink()
+    assert target.stat().st_ino != inode
+    assert not [p for p in tmp_path.rglob("*") if "partial" in p.name]
+
+
+@pytest.mark.parametrize("suffix", [".npy", ".txt"])
+def test_surface_onto_its_input(call: Call, tmp_path: Path, suffix: str):
+    heights = np.random.default_rng(1).normal(scale=1e-8, size=(32, 32))
+    scan = f"scan{suffix}"
+    np.save(scan, heights) if suffix == ".npy" else np.savetxt(scan, heights)
+    size = ["--set", "surface.length_x=1e-4", "--set", "surface.length_y=1e-4"]
+    Path("case.nml").write_text(
+        f"&surface kind = 'map' file = '{scan}' length_x = 1e-4 length_y = 1e-4 /\n"
+    )
+    Path("link.npy").symlink_to(scan)
+    before = tree(tmp_path)
+    for words in ([scan, *size], ["case.nml"]):
+        for target in (scan, "link.npy"):
+            refused(call("surface", *words, "-o", target), target, "reads it")
+            assert tree(tmp_path) == before
+
+
+def test_changed_map_is_foreign(call: Call, tmp_path: Path):
+    """The case beside a map knows its bytes."""
+    Path("rough.nml").write_text(ROUGH)
+    words = ["surface", "rough.nml", "-o", "a.npy", "--no-plots"]
+    assert call(*words).returncode == 0
+    np.save("a.npy", np.zeros((32, 32)))
+    refused(call(*words), "a.npy", "did not write")
+    assert not np.load("a.npy").any()
+
+
+def test_pictures_and_exports_go_with_the_result(call: Call, tmp_path: Path):
+    for driver in ("run", "ehl"):
+        assert call(driver, "-o", "out").returncode == 0
+        assert call("plot", "out").returncode == 0
+        assert call("plot", "out", "--format", "svg").returncode == 0
+        assert call("export", "out").returncode == 0
+        assert call(driver, "-o", "out").returncode == 0
+        assert set(tree(tmp_path / "out")) == set(whole(tmp_path / "out")["files"])
+
+
+def test_response_with_foreign_case(call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """Beside a tier of its own, without a summary."""
+    tiny = (tiers.Tier("long", 2.0, 65, 2.0, 0.5),)
+    for module in ("studies.response", "studies.response_folder", "commands.response"):
+        monkeypatch.setattr(f"pyehl.{module}.TIERS", tiny)
+    assert call("response", "-o", "out").returncode == 0
+    out = tmp_path / "out"
+    tier = (out / "tier_long.npz").stat().st_ino
+    assert call("response", "-o", "out").returncode == 0
+    assert (out / "tier_long.npz").stat().st_ino == tier
+    whole(out)
+    for name in ("summary.json", "response.csv", "response.nc", "response.png"):
+        (out / name).unlink()
+    (out / "case.nml").write_text("mine")
+    before = tree(tmp_path)
+    for words in ([], ["--force"]):
+        refused(call("response", "-o", "out", *words), "'case.nml'")
+        assert tree(tmp_path) == before
+
+
+def test_output_in_python(tmp_path: Path):
+    case = pyehl.Case.from_text(SMOOTH)
+    foreign(tmp_path / "out")
+    before = tree(tmp_path)
+    with pytest.raises(pyehl.InputError, match=r"'notes\.txt'"):
+        pyehl.solve(case, output=tmp_path / "out")
+    with pytest.raises(pyehl.InputError, match=r"'notes\.txt'"):
+        pyehl.sweep(case, {"contact.moes_m": [100.0]}, run="film", output=tmp_path / "out", jobs=1)
+    with pyehl.Solver(case) as solver, pytest.raises(pyehl.InputError, match=r"'notes\.txt'"):
+        solver.write(tmp_path / "out")
+    assert tree(tmp_path) == before
+    pyehl.solve(case, output=tmp_path / "out", force=True)
+    whole(tmp_path / "out")
+    pyehl.sweep(
+        case, {"contact.moes_m": [100.0]}, run="film", jobs=1, force=True,
+        output=tmp_path / "study",
+    )  # fmt: skip
+    assert {n: tree(tmp_path)[n] for n in before} == before
+
+
+@pytest.mark.parametrize("name", ["run", "ehl"])
+@pytest.mark.parametrize("place", ["out.checkpoint", "out.checkpoint.previous"])
+def test_foreign_states(call: Call, tmp_path: Path, name: str, place: str):
+    Path("case.nml").write_text(WAVE)
+    if place.endswith("previous"):
+        assert call(name, "-o", "out").returncode == 1
+    (tmp_path / place).mkdir()
+    (tmp_path / place / "case.nml").write_text("mine")
+    before = tree(tmp_path)
+    refused(call(name, "-o", "out"), place, "'case.nml'")
+    assert tree(tmp_path) == before
+
+
+def test_both_drivers_say_the_same(call: Call, tmp_path: Path):
+    assert call("run", "-o", "out").returncode == 0
+    (tmp_path / "file").write_text("mine")
+    foreign(tmp_path / "out")
+    for words in (["out"], ["file"], ["file/deep"], ["/"], [".", "--force"]):
+        told = [call(name, "-o", *words) for name in ("run", "ehl")]
+        assert told[0].stderr == told[1].stderr
+        assert told[0].returncode == told[1].returncode == 2
+
+
+def test_whole_at_every_instant(ehl: str, call: Call, tmp_path: Path):
+    """A reader never misses the result, nor the files of the user, while it is replaced."""
+    assert call("ehl", "-o", "out").returncode == 0
+    foreign(tmp_path / "out")
+    words = [ehl, *FOLDERS["ehl"][1], "-o", "out", "--force"]
+    reads = 0
+    for _ in range(25):
+        with subprocess.Popen(words) as process:
+            while process.poll() is None:
+                summary = json.loads((tmp_path / "out" / "summary.json").read_bytes())
+                assert summary["status"] == "converged"
+                assert (tmp_path / "out" / "notes.txt").read_bytes() == b"mine"
+                assert (tmp_path / "out" / "sub" / "a.txt").read_bytes() == b"mine"
+                reads += 1
+        assert process.returncode == 0
+    assert reads > 1000
+
+
+def test_two_at_once(ehl: str, call: Call, tmp_path: Path):
+    """Both results get to the folder, one after the other, and nothing else is left or moved."""
+    assert call("ehl", "-o", "out").returncode == 0
+    foreign(tmp_path / "out")
+    words = [ehl, *FOLDERS["ehl"][1], "-o", "out", "--force"]
+    for _ in range(40):
+        pair = [subprocess.Popen(words) for _ in range(2)]
+        assert [process.wait() for process in pair] == [0, 0]
+        whole(tmp_path / "out")
+        assert (tmp_path / "out" / "notes.txt").read_text() == "mine"
+        assert (tmp_path / "out" / "sub" / "a.txt").read_text() == "mine"
+    assert {path.name for path in tmp_path.iterdir()} == {"case.nml", "out"}
+    assert not (tmp_path / "out" / "sub").is_symlink()
+
+
+def test_killed_at_any_instant(ehl: str, call: Call, tmp_path: Path):
+    """What a kill leaves is whole, with the files of the user, and the next run can go there."""
+    began = time.monotonic()
+    assert call("ehl", "-o", "out").returncode == 0
+    takes = time.monotonic() - began
+    foreign(tmp_path / "out")
+    words = [ehl, *FOLDERS["ehl"][1], "-o", "out", "--force"]
+    chance = random.Random(20190128)
+    killed = 0
+    for _ in range(60):
+        process = subprocess.Popen(words)
+        time.sleep(chance.uniform(0.3, 1.1) * takes)
+        process.kill()
+        killed += process.wait() != 0
+        whole(tmp_path / "out")
+        assert (tmp_path / "out" / "notes.txt").read_text() == "mine"
+        assert (tmp_path / "out" / "sub" / "a.txt").read_text() == "mine"
+    assert killed > 5
+    assert subprocess.run(words, check=False).returncode == 0
+
+
+@pytest.mark.skipif(shutil.which("strace") is None, reason="needs strace")
+@pytest.mark.parametrize("calls", ["renameat2", "unlink", "rmdir", "symlink"])
+def test_killed_between_two_calls(ehl: str, call: Call, tmp_path: Path, calls: str):
+    """At each call that changes a folder."""
+    assert call("ehl", "-o", "out").returncode == 0
+    foreign(tmp_path / "out")
+    for number in range(1, 12):
+        words = ["strace", "-f", "-qq", "-o", os.devnull, f"-etrace={calls}"]
+        words += [f"-einject={calls}:signal=KILL:when={number}", ehl, *FOLDERS["ehl"][1]]
+        done = subprocess.run([*words, "-o", "out", "--force"], capture_output=True, check=False)
+        if done.returncode == 0:
+            break
+        whole(tmp_path / "out")
+        assert (tmp_path / "out" / "notes.txt").read_text() == "mine"
+        assert (tmp_path / "out" / "sub" / "a.txt").read_text() == "mine"
+    assert number > 1
+
+
+@pytest.mark.skipif(shutil.which("strace") is None, reason="needs strace")
+def test_file_system_without_exchange(ehl: str, call: Call, tmp_path: Path):
+    assert call("ehl", "-o", "out").returncode == 0
+    foreign(tmp_path / "out")
+    old = (tmp_path / "out" / "summary.json").stat().st_ino
+    words = ["strace", "-f", "-qq", "-o", os.devnull, "-einject=renameat2:error=EINVAL"]
+    command = [*words, ehl, *FOLDERS["ehl"][1], "-o", "out", "--force"]
+    subprocess.run(command, check=True)
+    assert (tmp_path / "out" / "summary.json").stat().st_ino != old
+    assert not (tmp_path / "out" / "notes.txt").is_symlink()
+    assert not (tmp_path / "out" / "sub").is_symlink()
+    whole(tmp_path / "out")
+    assert {path.name for path in tmp_path.iterdir()} == {"case.nml", "out"}
