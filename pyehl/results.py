@@ -210,7 +210,7 @@ def load(folder: str | os.PathLike[str]) -> xr.Dataset:
     Examples
     --------
     >>> import pyehl
-    >>> solved = pyehl.solve("cases/quick.nml", "grid.points=33", output="out/example")
+    >>> solved = pyehl.solve("cases/quick.nml", "grid.points=65", output="out/example")
     >>> data = pyehl.load("out/example")
     >>> data.P.shape, data.attrs["status"]
     ((33, 33), 'converged')

@@ -90,7 +90,7 @@ class Solver(SolverHandle):
     Examples
     --------
     >>> import pyehl
-    >>> with pyehl.Solver("cases/quick.nml", "grid.points=33") as solver:
+    >>> with pyehl.Solver("cases/quick.nml", "grid.points=65") as solver:
     ...     for step in solver:
     ...         if step.number == 20:
     ...             break

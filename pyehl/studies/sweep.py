@@ -136,7 +136,7 @@ def sweep(
     --------
     >>> import pyehl
     >>> ds = pyehl.sweep(
-    ...     "cases/quick.nml", {"contact.moes_m": [100.0, 200.0]}, "grid.points=33", jobs=1
+    ...     "cases/quick.nml", {"contact.moes_m": [100.0, 200.0]}, "grid.points=65", jobs=1
     ... )
     >>> ds.H_c.dims, ds.status.values.tolist()
     (('contact.moes_m',), ['converged', 'converged'])

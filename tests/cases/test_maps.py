@@ -278,7 +278,9 @@ def test_symmetric_map_is_known_as_one():
     for z, even in ((np.hstack([half, half[:, -2::-1]]), True), (np.hstack([half, half]), False)):
         case = (
             "&surface kind = 'map', file = 'none', tile_x = 2e-4, tile_y = 2e-4, "
-            "tile_mirrored = .true. /\n&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n&time steps = 1 /\n"
+            "tile_mirrored = .true. /\n"
+            "&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+            "&time steps = 1 /\n"
         )
         with Solver.open(Case.from_text(case), np.asfortranarray(z)) as solver:
             assert (solver.summary()["half_domain"]) is even

@@ -19,7 +19,10 @@ import xarray as xr
 
 import pyehl
 
-SMOOTH = "&contact moes_m = 100.0 moes_l = 5.0 /\n&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+SMOOTH = (
+    "&contact moes_m = 100.0 moes_l = 5.0 /\n"
+    "&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+)
 FRACTAL = (
     "&contact load = 20.0 /\n&grid points = 65 /\n&surface kind = 'fractal' pixels = 32 "
     "length_x = 1e-4 length_y = 1e-4 rms_height = 2e-8 /\n"

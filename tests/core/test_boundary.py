@@ -13,7 +13,10 @@ import pytest
 from pyehl import Case, Solver, errors, library
 from pyehl.library import ehl
 
-SMALL = "&contact moes_m = 100.0 moes_l = 5.0 /\n&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+SMALL = (
+    "&contact moes_m = 100.0 moes_l = 5.0 /\n"
+    "&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+)
 
 
 @pytest.fixture
@@ -120,7 +123,8 @@ def test_closed_solver_raises():
 
 def test_places_run_out_and_come_back():
     case = Case.from_text(
-        "&contact moes_m = 100.0 /\n&grid points = 17 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+        "&contact moes_m = 100.0 /\n"
+        "&grid points = 17 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
     )
     opened = [Solver(case) for _ in range(64)]
     with pytest.raises(errors.NoMemoryError, match="64"):

@@ -16,7 +16,9 @@ pytest.importorskip("SurfaceTopography")
 
 LENGTH = 1e-4
 CASE = (
-    "&contact load = 20.0 /\n&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n&time steps = 3 /\n"
+    "&contact load = 20.0 /\n"
+    "&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+    "&time steps = 3 /\n"
     "&surface kind = 'map' file = '{}' {} /\n"
 )
 

@@ -16,7 +16,8 @@ from pyehl import Case, Solver, cli, errors
 from pyehl.studies.tasks import Task, execute
 
 ROUGH = (
-    "&contact load = 119.0 mean_velocity = 0.832 /\n&grid points = 65 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+    "&contact load = 119.0 mean_velocity = 0.832 /\n"
+    "&grid points = 65 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
     "&surface kind = 'fractal' pixels = 128 rms_height = 5e-9 length_x = 4e-4 length_y = 4e-4\n"
     "{} /\n"
 )
@@ -24,7 +25,8 @@ LEFT_OUT = ROUGH.format("")
 """The grid leaves out waves: a pixel is 3 um, a mesh size 15 um."""
 CARRIED = ROUGH.format("shortest_wavelength = 4e-5")
 WAVE = (
-    "&contact moes_m = 100.0 moes_l = 5.0 /\n&grid points = {} x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+    "&contact moes_m = 100.0 moes_l = 5.0 /\n"
+    "&grid points = {} x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
     "&surface kind = 'harmonic' amplitude_over_film = {} wavelength = 0.5 /\n"
 )
 COARSE_FAILS = WAVE.format(129, 0.8)

@@ -21,7 +21,10 @@ from pyehl import cli
 from pyehl.bench import smooth
 from pyehl.studies import tiers
 
-SMOOTH = "&contact moes_m = 100.0 moes_l = 5.0 /\n&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+SMOOTH = (
+    "&contact moes_m = 100.0 moes_l = 5.0 /\n"
+    "&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+)
 SI = "&contact load = 20.0 /\n&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
 ROUGH = "&grid points = 65 /\n&surface kind = 'fractal' pixels = 32 /\n"
 WAVE = SMOOTH + "&surface kind = 'harmonic' amplitude = 0.001 /\n&time steps = 2 /\n"
