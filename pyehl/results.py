@@ -213,7 +213,7 @@ def load(folder: str | os.PathLike[str]) -> xr.Dataset:
     >>> solved = pyehl.solve("cases/quick.nml", "grid.points=65", output="out/example")
     >>> data = pyehl.load("out/example")
     >>> data.P.shape, data.attrs["status"]
-    ((33, 33), 'converged')
+    ((65, 65), 'converged')
     """
     folder = Path(folder)
     if not (folder / "summary.json").is_file():

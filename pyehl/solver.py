@@ -96,7 +96,7 @@ class Solver(SolverHandle):
     ...             break
     ...     pressure = solver.field("P")
     >>> solver.converged, pressure.shape
-    (True, (33, 33))
+    (True, (65, 65))
     """
 
     def __init__(self, case: Case | str | os.PathLike[str], *options: Option) -> None:

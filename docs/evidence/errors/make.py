@@ -163,7 +163,7 @@ def show() -> None:
     for low, high in ((10.0, 400.0), (400.0, 5000.0)):
         costs = [1.0 - r["H_c"] / r["H_c_doubled"] for r in both if low <= r["moes_m"] < high]
         print(
-            f"M {low:g} to {high:g}: cost of the domain {np.mean(costs):.2%}, {max(costs):.2%} at most"
+            f"M {low:g} to {high:g}: the domain costs {np.mean(costs):.2%}, {max(costs):.2%} at most"
         )
     for name in QUANTITIES:
         good, known = shares(rows, name, f"{name}_limit", f"{name}_error", 2.0)
@@ -171,9 +171,7 @@ def show() -> None:
     rows = [row for row in numbers("rough") if row["mu_ratio_error"] is not None]
     cases = {tuple(row[key] for key in ROUGH_NAMES) for row in rows if row["mu_ratio_limit"]}
     good, known = shares(rows, "mu_ratio", "mu_ratio_limit", "mu_ratio_error", 2.0)
-    print(
-        f"mu_ratio: true error at most twice the stated one: {good} of {known}, {len(cases)} cases"
-    )
+    print(f"mu_ratio: at most twice the stated error: {good} of {known} in {len(cases)} cases")
 
 
 def main() -> None:
