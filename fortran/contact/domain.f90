@@ -25,7 +25,7 @@ module ehl_domain
    !> From the second M on the domain is that of Zhang et al. 2019, up to the first one that of the tolerance
    real(dp), parameter :: last_needed = 400.0_dp, first_usual = 500.0_dp
    !> Largest width: in lengths of a thick film, (2 H_c)^(1/2), on wider ones cycles do not converge; and in a
-   real(dp), parameter :: widest_in_films = 10.0_dp, widest = 12.0_dp
+   real(dp), parameter :: widest_in_films = 12.0_dp, widest = 12.0_dp
    !> What inlet and sides cost H_c, and what the sides cost H_min beside that, over q; films below which the inlet
    !> costs more, with the power of that
    real(dp), parameter :: of_inlet = 0.46_dp, of_sides = 0.06_dp, of_sides_at_minimum = 0.15_dp, &
@@ -33,7 +33,7 @@ module ehl_domain
    !> Load beyond inlet and sides, over lambda_bar
    real(dp), parameter :: load_beyond_inlet = 1.0_dp, load_beyond_sides = 0.25_dp
    !> Least sensitivity of the film to load around M = 5, where the film formula has none and the elastic dent counts
-   real(dp), parameter :: least_sensitivity = 0.3_dp, dented_below = 5.5_dp
+   real(dp), parameter :: least_sensitivity = 0.5_dp, dented_below = 5.5_dp
    !> Points of an integral
    integer, parameter :: points = 100
 

@@ -6,7 +6,7 @@ module ehl_plan
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
    use ehl_domain, only: domain_cost, domain_t
-   use ehl_grid, only: find_levels, grid_t, new_grid
+   use ehl_grid, only: coarsest_most, find_levels, grid_t, new_grid
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
    use ehl_moes, only: operating_from_moes, operating_t
@@ -26,6 +26,8 @@ module ehl_plan
    integer, parameter :: start_fewest = 33
    !> ... whose wedge error, relative to the central film, is at most this
    real(dp), parameter :: start_error = 0.6_dp
+   !> Lengths of thick films, (2 H_c)^(1/2) [a], and largest mesh of the coarsest grid in terms of them
+   real(dp), parameter :: thick_film = 0.8_dp, coarsest_mesh = 0.9_dp
    !> Most time steps until the friction of a rough surface can be known, and where their number is asked for
    integer, parameter :: most_steps = 100000, most_steps_asked_for = 1000000000
 
@@ -236,12 +238,20 @@ contains
       type(grid_t) :: grid
       logical :: mirror
       integer :: intervals, points
+      real(dp) :: film
 
       if (status%failed()) return
       mirror = input%solver%symmetry == "auto"
       if (mirror .and. allocated(plan%surface)) mirror = plan%surface%even_in_y
       points = input%grid%points
       call find_levels(points, plan%levels, intervals)
+      ! a coarsest grid that does not resolve a thick film corrects it at random
+      film = sqrt(2.0_dp*plan%film_expected)
+      if (plan%levels > 1 .and. 2*intervals <= coarsest_most .and. film > thick_film .and. &
+          input%grid%x_outlet - input%grid%x_inlet > coarsest_mesh*film*intervals) then
+         intervals = 2*intervals
+         plan%levels = plan%levels - 1
+      end if
       if (plan%levels == 0) then
          call status%fail(ehl_bad_input, "grid of "//to_text(points)//" points cannot be coarsened far enough")
          return

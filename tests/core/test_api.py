@@ -67,7 +67,7 @@ def test_solve_is_load_of_the_folder(smooth: Path, tmp_path: Path):
 def test_solve_takes_a_case_and_options(smooth: Path):
     case = pyehl.Case.read(smooth, "grid.points=65")
     same(pyehl.solve(case), pyehl.solve(smooth, ["grid.points=65"]))
-    assert pyehl.solve(case, "grid.points=65").P.shape == (65, 65)
+    assert pyehl.solve(case, "grid.points=129").P.shape == (129, 129)
     assert case.resolve()["grid"]["points"] == 65
 
 

@@ -163,7 +163,7 @@ def show() -> None:
     for low, high in ((10.0, 400.0), (400.0, 5000.0)):
         costs = [1.0 - r["H_c"] / r["H_c_doubled"] for r in both if low <= r["moes_m"] < high]
         print(
-            f"M {low:g} to {high:g}: the domain costs {np.mean(costs):.2%}, {max(costs):.2%} at most"
+            f"M {low:g} to {high:g}: domain costs {np.mean(costs):.2%}, {max(costs):.2%} at most"
         )
     for name in QUANTITIES:
         good, known = shares(rows, name, f"{name}_limit", f"{name}_error", 2.0)
