@@ -11,6 +11,7 @@ module ehl_f2py_functions
    use ehl_grid, only: grid_t
    use ehl_lubricant, only: density_constant, density_dowson_higginson, new_lubricant, &
                             solver_lubricant_t => lubricant_t, viscosity_barus, viscosity_roelands
+   use ehl_memory, only: check_memory, free_bytes
    use ehl_result_folder, only: check_folder
    use ehl_reply, only: reply
    use ehl_shear, only: shear_carreau, shear_eyring, shear_law_t, shear_limiting, shear_newtonian, shear_stress
@@ -18,7 +19,7 @@ module ehl_f2py_functions
    use ehl_version, only: build_text, version
    implicit none (type, external)
    private
-   public :: resolve, check_output, keys, about, deflection, viscosity, density, shear
+   public :: resolve, check_output, needs_memory, memory_left, keys, about, deflection, viscosity, density, shear
 
 contains
 
@@ -52,6 +53,26 @@ contains
       call check_folder(folder, status)
       call reply(status, stat, message)
    end subroutine check_output
+
+   !> Refuse what would not fit into the memory
+   subroutine needs_memory(what, bytes, stat, message)
+      character(len=*), intent(in) :: what
+      real(c_double), intent(in) :: bytes
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(status_t) :: status
+
+      call check_memory(what, bytes, status)
+      call reply(status, stat, message)
+   end subroutine needs_memory
+
+   !> Bytes of memory that are free; root: folder of /proc and /sys
+   subroutine memory_left(root, bytes)
+      character(len=*), intent(in) :: root
+      real(c_double), intent(out) :: bytes
+
+      bytes = free_bytes(root)
+   end subroutine memory_left
 
    !> All keys of a case file, one a line: key, unit, default, allowed values, meaning
    subroutine keys(text)
