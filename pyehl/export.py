@@ -13,7 +13,7 @@ from pathlib import Path
 import xarray as xr
 
 from pyehl import results
-from pyehl.errors import FileError, InputError
+from pyehl.errors import FileError
 
 __all__ = ["export", "write_netcdf"]
 
@@ -43,10 +43,7 @@ def export(folder: str | os.PathLike[str], path: str | os.PathLike[str] | None =
     FileError
         If the file cannot be written.
     """
-    try:
-        data = results.load(folder)
-    except FileNotFoundError as error:
-        raise InputError(str(error)) from error
+    data = results.load(folder)
     path = Path(folder) / "results.nc" if path is None else Path(path)
     data = data.drop_vars([name for name in data.variables if data[name].size == 0])
     data = data.transpose(*reversed(list(data.dims)))

@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from pyehl.closing import Closing
 from pyehl.errors import check
-from pyehl.library import checkpoints, ehl, text_of
+from pyehl.given import path_of, text_of
+from pyehl.library import checkpoints, ehl, returned
 
 __all__ = ["SolverHandle", "Work"]
 
@@ -118,9 +119,11 @@ class SolverHandle(Closing):
             If the state is damaged, or belongs to another case.
         """
         with self._lock:
-            note, status, message = checkpoints.resume(self._handle, os.fsencode(results))
+            note, status, message = checkpoints.resume(
+                self._handle, os.fsencode(path_of(results, "the result folder"))
+            )
         check(status, message)
-        return text_of(note)
+        return returned(note)
 
     def keep(self, results: str | os.PathLike[str], resumed: str | os.PathLike[str] = "") -> str:
         """Save states of a transient run in ``RESULTS.checkpoint`` at the interval of the case.
@@ -145,14 +148,14 @@ class SolverHandle(Closing):
         with self._lock:
             note, status, message = checkpoints.keep(
                 self._handle,
-                os.fsencode(results),
-                os.fsencode(resumed),
+                os.fsencode(path_of(results, "the result folder")),
+                os.fsencode(path_of(resumed, "the folder to resume")),
                 int(self._given is not None),
                 NO_HEIGHTS if self._given is None else self._given,
             )
             self._given = None
         check(status, message)
-        return text_of(note)
+        return returned(note)
 
     def save_state(self, *, at_once: bool = False) -> bool:
         """Save the state if its time has come, or at once; whether there is one then.
@@ -176,7 +179,7 @@ class SolverHandle(Closing):
         """Tell the state in one line."""
         text, status, message = ehl.progress(self._handle)
         check(status, message)
-        return text_of(text)
+        return returned(text)
 
     def work(self) -> Work:
         """Tell how much of a transient run is done, and how much there is."""
@@ -188,7 +191,7 @@ class SolverHandle(Closing):
         """Tell what a transient run that has ended did not have to do; '' for every other run."""
         text, status, message = ehl.skipped(self._handle)
         check(status, message)
-        return text_of(text)
+        return returned(text)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -213,21 +216,23 @@ class SolverHandle(Closing):
             If there is no such field.
         """
         values = np.empty(self.shape, order="F")
-        check(*ehl.field(self._handle, name.encode(), values))
+        check(*ehl.field(self._handle, text_of(name, "field"), values))
         return values
 
     def _describe(self) -> str:
         text, status, message = ehl.describe(self._handle)
         check(status, message)
-        return text_of(text)
+        return returned(text)
 
     def _summary(self) -> str:
         text, status, message = ehl.summary(self._handle)
         check(status, message)
-        return text_of(text)
+        return returned(text)
 
     def _write(self, folder: str | os.PathLike[str]) -> str:
         with self._lock:
-            note, status, message = ehl.write_output(self._handle, os.fsencode(folder))
+            note, status, message = ehl.write_output(
+                self._handle, os.fsencode(path_of(folder, "the result folder"))
+            )
         check(status, message)
-        return text_of(note)
+        return returned(note)

@@ -18,8 +18,9 @@ from typing import TYPE_CHECKING, Any, Protocol, Self
 from numpy.typing import ArrayLike
 
 from pyehl import display
-from pyehl.case import Case, Option
+from pyehl.case import Case
 from pyehl.errors import FileError, InputError
+from pyehl.given import Option, heights_of, path_of
 from pyehl.handle import SolverHandle, Work
 from pyehl.surfaces import Record, Topography, for_solver
 
@@ -110,13 +111,13 @@ class Solver(SolverHandle):
         self._start(Case.of(case, *options), None)
 
     @classmethod
-    def open(cls, case: Case, heights: ArrayLike | None = None) -> Self:
+    def open(cls, case: Case | str | os.PathLike[str], heights: ArrayLike | None = None) -> Self:
         """Start a solver on a case with a surface that is given.
 
         Parameters
         ----------
         case
-            What to solve.
+            A case, or the path of a case file.
         heights
             Surface [m], shape (nx, ny), peaks positive; for the kinds 'map' and 'fractal', in
             place of the file or the generator. None: that of the case. Its size is `surface.tile_x`
@@ -128,7 +129,7 @@ class Solver(SolverHandle):
             As the constructor.
         """
         solver = cls.__new__(cls)
-        solver._start(case, heights)
+        solver._start(Case.of(case), None if heights is None else heights_of(heights))
         return solver
 
     def _start(self, case: Case, heights: ArrayLike | None) -> None:
@@ -138,12 +139,14 @@ class Solver(SolverHandle):
         self.resolution: Addition | None = None
         options: tuple[str, ...] = ()
         if heights is None:
-            try:
-                made = for_solver(case.resolve())
-            except (ValueError, OSError) as error:
-                raise InputError(str(error)) from error
+            made = for_solver(case.resolve())
             heights, options, self.preparation = made.heights, made.options, made.preparation
             self.part = made.part
+        elif case.resolve()["surface"]["kind"] not in ("map", "fractal"):
+            raise InputError(
+                "heights are given, and the surface of the case is none of heights\n"
+                "expected: surface.kind = 'map' or 'fractal'"
+            )
         text = case.with_options(*options).text if options else case.text
         self._open(text, heights)
 
@@ -201,6 +204,7 @@ class Solver(SolverHandle):
         FileError
             If it cannot be written.
         """
+        folder = path_of(folder, "folder")
         note = self._write(folder)
         if self.preparation or self.resolution:
             self._amend(Path(folder))

@@ -9,7 +9,7 @@ module ehl_plan_need
    use ehl_transient, only: steps_needed
    implicit none (type, external)
    private
-   public :: check_need, need_lines
+   public :: check_need, need_lines, making_need
 
    !> Bytes per stored node of the finest grid, those of the coarser ones included, as measured on 513 x 513 nodes: the
    !> smooth contact; what the rough one takes besides; what Alcouffe coarsening takes
@@ -23,6 +23,9 @@ module ehl_plan_need
    real(dp), parameter :: smooth_seconds = 8.0e-7_dp, step_seconds = 3.0e-7_dp, direct_seconds = 1.0e-9_dp
    !> Deflections of a smooth contact and of a step, and cycles of a rough contact at rest
    real(dp), parameter :: smooth_deflections = 30.0_dp, step_deflections = 5.0_dp, rest_cycles = 20.0_dp
+
+   !> Bytes and seconds per pixel of a fractal surface that is made
+   real(dp), parameter :: making_bytes = 16.0_dp, making_seconds = 8.0e-8_dp
 
 contains
 
@@ -62,6 +65,19 @@ contains
       end if
       text = text//", about "//to_text(int(frames(plan)))//" of P and H"//new_line("a")
    end function need_lines
+
+   !> What it takes to make a fractal surface of so many pixels per side, in words; empty where it is done in no time
+   function making_need(pixels) result(text)
+      integer, intent(in) :: pixels
+      character(len=:), allocatable :: text
+      real(dp) :: all
+
+      text = ""
+      all = real(pixels, dp)**2
+      if (making_seconds*all < 1.0_dp) return
+      text = "surface    "//to_text(pixels)//" x "//to_text(pixels)//" pixels take about "//amount(making_bytes*all)// &
+             " of memory and "//duration(making_seconds*all)//" to make"
+   end function making_need
 
    !> Seconds in words
    function duration(seconds) result(text)

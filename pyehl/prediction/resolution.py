@@ -119,7 +119,7 @@ def resolution(case: Case, tile: Topography | None = None, part: str = "") -> Re
 
     Raises
     ------
-    ValueError, OSError
+    InputError, FileError
         If the surface is not usable.
     """
     settings = case.resolve()

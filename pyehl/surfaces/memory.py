@@ -1,31 +1,33 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether a map fits into the memory of this machine, before it is read."""
+"""Whether a surface fits into the memory, before it is read or made."""
 
 from __future__ import annotations
 
-import os
-from pathlib import Path
+import logging
 
-__all__ = ["available_bytes", "check_pixels"]
+from pyehl import library
+from pyehl.errors import NoMemoryError
 
-WORKING_COPIES = 12
-"""Arrays of the size of the tile that a prediction holds at once, spectra included."""
+__all__ = ["PREDICTION_COPIES", "check_pixels"]
 
+WORKING_COPIES, PREDICTION_COPIES = 12, 28
+"""Arrays of the size of the map that its preparation holds at once, and of the size of a made tile
+that a prediction does, spectra included."""
+LARGE = 1e9
+"""Bytes from which on the need is told."""
 
-def available_bytes() -> int:
-    """Return the memory that can be used without swapping [bytes]."""
-    try:
-        for line in Path("/proc/meminfo").read_text(encoding="ascii").splitlines():
-            if line.startswith("MemAvailable:"):
-                return int(line.split()[1]) * 1024
-    except (OSError, ValueError):
-        pass
-    # elsewhere than on Linux: all of the memory, which is more than there is
-    return int(os.sysconf("SC_PHYS_PAGES")) * int(os.sysconf("SC_PAGE_SIZE"))
+_LOG = logging.getLogger(__name__)
 
 
-def check_pixels(origin: str, pixels: tuple[int, int], tiles: int = 1) -> None:
-    """Refuse a map that this machine cannot work on.
+def check_pixels(
+    origin: str,
+    pixels: tuple[int, int],
+    tiles: int = 1,
+    *,
+    copies: int = WORKING_COPIES,
+    way: str = "a part of the map, in a file of its own",
+) -> None:
+    """Refuse a surface that the memory that is free cannot hold while it is worked on.
 
     Parameters
     ----------
@@ -35,18 +37,22 @@ def check_pixels(origin: str, pixels: tuple[int, int], tiles: int = 1) -> None:
         (nx, ny) of the map.
     tiles
         How many times as many pixels the tile has (4: mirrored).
+    copies
+        Arrays of that size that are held at once.
+    way
+        What would do, for the message.
 
     Raises
     ------
-    ValueError
-        With the number of bytes needed and available.
+    NoMemoryError
+        With the bytes needed and free.
     """
-    need = 8 * pixels[0] * pixels[1] * tiles * WORKING_COPIES
-    have = available_bytes()
-    if need > have:
-        raise ValueError(
-            f"{origin}: {pixels[0]} x {pixels[1]} heights"
-            f"{' with their mirror images' if tiles > 1 else ''} take {need / 2**30:.3g} GiB to "
-            f"work on, {have / 2**30:.3g} GiB are available; take a part of the map by "
-            "surface.crop_x_min, crop_x_max, crop_y_min, crop_y_max"
-        )
+    need = 8.0 * pixels[0] * pixels[1] * tiles * copies
+    images = " with their mirror images" if tiles > 1 else ""
+    what = f"{origin}: work on {pixels[0]} x {pixels[1]} heights{images}"
+    try:
+        library.check_memory(what, need)
+    except NoMemoryError as error:
+        raise NoMemoryError(f"{error}\nexpected: {way}") from None
+    if need > LARGE:
+        _LOG.info("%s takes up to %.1f GB of memory", what, need / 1e9)
