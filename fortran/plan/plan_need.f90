@@ -52,7 +52,8 @@ contains
       type(plan_t), intent(in) :: plan
       character(len=:), allocatable :: text
 
-      text = "need       about "//amount(bytes(plan))//" of memory and "//duration(seconds(plan))//" on one thread"
+      text = "need       about "//amount(bytes(plan))//" of memory with solver.threads = "//to_text(plan%threads)// &
+             ", and "//duration(seconds(plan))//" on one of them"
       if (plan%target_error > 0.0_dp) text = text//", if it comes to the finest grid"
       if (plan%moves() .and. plan%steps == 0) text = text//", if it ends as early as it can"
       text = text//new_line("a")
