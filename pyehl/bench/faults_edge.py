@@ -35,16 +35,16 @@ COMMANDS: tuple[tuple[tuple[str, ...], str], ...] = (
     (("check", "binary.nml"), "binary.nml"),
     (("check", "long.nml"), "long.nml"),
     (("check", "npy.nml"), "sparse.npy"),
-    (("predict", "npy.nml", "-o", "out"), "sparse.npy"),
+    (("predict", "npy.nml", "-o", "edge-out"), "sparse.npy"),
     (("surface", "npy.nml"), "sparse.npy"),
-    (("run", "txt.nml", "-o", "out"), "sparse.txt"),
-    (("run", "pipe.nml", "-o", "out"), "surface.file"),
+    (("run", "txt.nml", "-o", "edge-out"), "sparse.txt"),
+    (("run", "pipe.nml", "-o", "edge-out"), "surface.file"),
     (("check", "case.nml", "--set", "contact.moes_m=-1"), "contact.moes_m"),
     (("check", "radius.nml"), "contact.radius"),
     (("check", "fast.nml", "--set", "time.steps=10000000"), "output.frame_interval"),
     (("check", "case.nml", "--set", "surface.velocity_ratio=1e-12"), "surface.velocity_ratio"),
     (("check", "case.nml", "--set", "surface.file=\udcff", "--set", "surface.kind=map"), "file"),
-    (("predict", "wave.nml", "-o", "out"), "a wave of"),
+    (("predict", "wave.nml", "-o", "edge-out"), "a wave of"),
 )
 # Calls of Python with arguments of the wrong kind; the path of a case is given
 CALLS: tuple[Callable[[str], Any], ...] = (
@@ -114,7 +114,7 @@ def inputs_at_the_edge(folder: Path, run: Run) -> Found:
         counts["refused"] += 1
         if done.returncode not in (1, 2) or "Traceback" in done.stderr or part not in done.stderr:
             bad.append(f"{told}: exit status {done.returncode}: {done.stderr}")
-        if (folder / "out").exists():
+        if (folder / "edge-out").exists():
             bad.append(f"{told}: a folder is there")
     return len(COMMANDS), dict(counts), bad
 
