@@ -41,7 +41,7 @@ contains
       if (plan%target_error > 0.0_dp) what = "grid.max_points, with grid.target_error up to "
       what = what//to_text(plan%finest%nx)
       if (frames(plan) > 0.0_dp) what = what//" with output.frame_interval = "//to_text(plan%frame_interval)
-      needed = bytes(plan)
+      needed = bytes(plan, plan%threads)
       ! what a surface holds now is free no more
       if (allocated(plan%surface)) needed = needed - plan%surface%bytes()
       call check_memory(what, needed, status)
@@ -52,8 +52,7 @@ contains
       type(plan_t), intent(in) :: plan
       character(len=:), allocatable :: text
 
-      text = "need       about "//amount(bytes(plan))//" of memory with solver.threads = "//to_text(plan%threads)// &
-             ", and "//duration(seconds(plan))//" on one of them"
+      text = "need       about "//amount(bytes(plan, 1))//" of memory and "//duration(seconds(plan))//" on one thread"
       if (plan%target_error > 0.0_dp) text = text//", if it comes to the finest grid"
       if (plan%moves() .and. plan%steps == 0) text = text//", if it ends as early as it can"
       text = text//new_line("a")
@@ -119,13 +118,14 @@ contains
    end function nodes
 
    !> Bytes of all grids, of the surface and of the frames
-   real(dp) function bytes(plan)
+   real(dp) function bytes(plan, threads)
       type(plan_t), intent(in) :: plan
+      integer, intent(in) :: threads
 
       bytes = smooth_bytes
       if (allocated(plan%surface)) bytes = bytes + rough_bytes
       if (plan%moves()) bytes = bytes + alcouffe_bytes
-      bytes = bytes*nodes(plan) + line_bytes*plan%finest%nx*plan%threads
+      bytes = bytes*nodes(plan) + line_bytes*plan%finest%nx*threads
       if (allocated(plan%surface)) bytes = bytes + plan%surface%bytes_on(plan%finest)
       if (plan%coarse_run) bytes = bytes*(1.0_dp + coarser_bytes)
       bytes = bytes + 16.0_dp*frames(plan)*plan%finest%nx*plan%finest%full_ny()

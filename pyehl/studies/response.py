@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from pyehl.case import Case
 from pyehl.errors import EhlError, FileError, InputError
+from pyehl.studies.pool import processors
 from pyehl.studies.ridges import ridges
 from pyehl.studies.superposition import superpose
 from pyehl.studies.tiers import TIERS, Tier, ridge_wavelengths, tier_waves
@@ -225,7 +226,7 @@ def _run_all(
     context = mp.get_context("spawn")
     queue: Any = context.Queue()
     waiting = sorted(tiers, key=lambda tier: tier.points)
-    threads = max(1, (os.cpu_count() or 1) // max(1, min(jobs, len(waiting))))
+    threads = max(1, processors() // max(1, min(jobs, len(waiting))))
     running: dict[str, Any] = {}
     failed: list[str] = []
     try:
