@@ -8,8 +8,9 @@ from collections.abc import Callable
 
 import xarray as xr
 
-from pyehl.case import Case, Option
-from pyehl.errors import FileError, InputError, NotConverged
+from pyehl.case import Case
+from pyehl.errors import NotConverged
+from pyehl.given import Option, check_kind, path_of
 from pyehl.prediction import of_case
 from pyehl.prediction.result import Prediction
 from pyehl.progress import ProgressBar
@@ -90,6 +91,9 @@ def solve(
     """
     inputs = () if isinstance(case, Case) else (case,)
     case = Case.of(case, *options)
+    check_kind(check, bool, "check", "True or False")
+    if not callable(progress):
+        check_kind(progress, bool, "progress", "True, False or a function")
     listener = _Listener(progress)
     if output is None:
         with Solver(case) as solver:
@@ -98,6 +102,7 @@ def solve(
                 listener.advanced(solver)
             data = solver.dataset()
     else:
+        output = path_of(output, "output")
         outcome = run(case, output, listener, force=force, inputs=inputs)
         if outcome.interrupted:
             raise KeyboardInterrupt
@@ -145,9 +150,6 @@ def predict(
     Prediction(mu_ratio=1..., 'predicted')
     """
     case = Case.of(case, *options)
-    try:
-        return of_case.predict(case.resolve(), case.text, smooth=smooth)
-    except OSError as error:
-        raise FileError(str(error)) from error
-    except ValueError as error:
-        raise InputError(str(error)) from error
+    if smooth is not None:
+        smooth = path_of(smooth, "smooth")
+    return of_case.predict(case.resolve(), case.text, smooth=smooth)

@@ -9,29 +9,29 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 from pyehl import display, library, namelist
+from pyehl.given import Option, path_of
 
 __all__ = ["Case"]
 
 
-Option = str | Iterable[str]
-
-
-def _flat(options: Iterable[Option]) -> list[str]:
-    """Options one by one, also where they come as lists."""
-    flat: list[str] = []
-    for option in options:
-        flat += [option] if isinstance(option, str) else list(option)
-    return flat
-
-
 @dataclass(frozen=True, slots=True, repr=False)
 class Case:
-    """A case that can be solved.
+    """A case that can be solved: checked, with every value spelled out.
+
+    Parameters
+    ----------
+    text
+        Namelist text; '' is the case of all defaults.
 
     Attributes
     ----------
     text
         Resolved namelist text: every value spelled out, names of maps made absolute.
+
+    Raises
+    ------
+    InputError
+        As `read` does.
 
     Examples
     --------
@@ -45,6 +45,17 @@ class Case:
 
     text: str
 
+    def __post_init__(self) -> None:
+        """Check and resolve the text."""
+        object.__setattr__(self, "text", library.resolve(self.text, "text of the case"))
+
+    @classmethod
+    def resolved(cls, text: str) -> Self:
+        """Take text that a case has resolved before, as it is."""
+        case = object.__new__(cls)
+        object.__setattr__(case, "text", text)
+        return case
+
     @classmethod
     def read(cls, path: str | os.PathLike[str], *options: Option) -> Self:
         """Read a case file; `options` are texts ``group.key=value`` that replace its values.
@@ -54,7 +65,7 @@ class Case:
         InputError
             With file, line and column, what was expected, and the nearest name.
         """
-        return cls(library.resolve("", os.fspath(path), _flat(options), from_file=True))
+        return cls.resolved(library.resolve("", path_of(path, "case"), options, from_file=True))
 
     @classmethod
     def of(cls, case: Case | str | os.PathLike[str], *options: Option) -> Case:
@@ -66,12 +77,12 @@ class Case:
             As `read` does.
         """
         if isinstance(case, Case):
-            return case.with_options(*_flat(options)) if options else case
+            return case.with_options(*options) if options else case
         return cls.read(case, *options)
 
     @classmethod
     def from_text(
-        cls, text: str, options: Iterable[str] = (), origin: str = "text of the case"
+        cls, text: str, options: Option | Iterable[Option] = (), origin: str = "text of the case"
     ) -> Self:
         """Read a case from namelist text; '' is the case of all defaults.
 
@@ -80,12 +91,12 @@ class Case:
         InputError
             As `read` does, with `origin` in place of the file.
         """
-        return cls(library.resolve(text, origin, options))
+        return cls.resolved(library.resolve(text, origin, options))
 
-    def with_options(self, *options: str) -> Case:
+    def with_options(self, *options: Option) -> Case:
         """Replace some values: ``case.with_options("grid.points=257")`` is another case.
 
-        Derived defaults stay as they were resolved (the Roelands exponent, for one).
+        Defaults that follow from other values (the Roelands exponent, for one) follow the new ones.
 
         Raises
         ------

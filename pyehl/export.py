@@ -14,7 +14,6 @@ import xarray as xr
 
 from pyehl import results
 from pyehl.destination import check_files, mark, new_file
-from pyehl.errors import InputError
 
 __all__ = ["export", "write_netcdf"]
 
@@ -44,10 +43,7 @@ def export(folder: str | os.PathLike[str], path: str | os.PathLike[str] | None =
     FileError
         If the file cannot be written.
     """
-    try:
-        data = results.load(folder)
-    except FileNotFoundError as error:
-        raise InputError(str(error)) from error
+    data = results.load(folder)
     path = Path(folder) / "results.nc" if path is None else Path(path)
     check_files([path], "export")
     data = data.drop_vars([name for name in data.variables if data[name].size == 0])

@@ -17,7 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from pyehl.closing import Closing
 from pyehl.errors import check
-from pyehl.library import checkpoints, ehl, text_of
+from pyehl.given import path_of, text_of
+from pyehl.library import checkpoints, ehl, returned
 
 __all__ = ["SolverHandle", "Work"]
 
@@ -133,9 +134,11 @@ class SolverHandle(Closing):
             If the state is damaged, or belongs to another case.
         """
         with self._lock:
-            note, status, message = checkpoints.resume(self._handle, os.fsencode(results))
+            note, status, message = checkpoints.resume(
+                self._handle, os.fsencode(path_of(results, "the result folder"))
+            )
         check(status, message)
-        return text_of(note)
+        return returned(note)
 
     def keep(self, results: str | os.PathLike[str], resumed: str | os.PathLike[str] = "") -> str:
         """Save states of a transient run in ``RESULTS.checkpoint`` at the interval of the case.
@@ -160,14 +163,14 @@ class SolverHandle(Closing):
         with self._lock:
             note, status, message = checkpoints.keep(
                 self._handle,
-                os.fsencode(results),
-                os.fsencode(resumed),
+                os.fsencode(path_of(results, "the result folder")),
+                os.fsencode(path_of(resumed, "the folder to resume")),
                 int(self._given is not None),
                 NO_HEIGHTS if self._given is None else self._given,
             )
             self._given = None
         check(status, message)
-        return text_of(note)
+        return returned(note)
 
     def save_state(self, *, at_once: bool = False) -> bool:
         """Save the state if its time has come, or at once; whether there is one then.
@@ -241,7 +244,7 @@ class SolverHandle(Closing):
         """
         with self._lock:
             values = np.empty(self.shape, order="F")
-            check(*ehl.field(self._handle, name.encode(), values))
+            check(*ehl.field(self._handle, text_of(name, "field"), values))
         return values
 
     def take_prediction(self, left_out: float, unresolved: float, why: str) -> None:
@@ -266,4 +269,4 @@ class SolverHandle(Closing):
         with self._lock:
             text, status, message = call(self._handle)
         check(status, message)
-        return text_of(text)
+        return returned(text)

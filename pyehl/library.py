@@ -17,26 +17,29 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pyehl.errors import InputError, check
+from pyehl.errors import check
 from pyehl.extension import checkpoints, functions, surface_functions, waves
 from pyehl.extension import solvers as ehl
+from pyehl.given import Option, options_of, path_of, text_of
 
 __all__ = [
     "Deflection",
     "Key",
     "build",
+    "check_memory",
     "checkpoint_case",
     "checkpoints",
     "deflection",
     "density",
     "ehl",
+    "free_bytes",
     "functions",
     "keys",
     "log_viscosity",
     "resolve",
+    "returned",
     "shear_stress",
     "surface_functions",
-    "text_of",
     "version",
     "waves",
 ]
@@ -44,27 +47,14 @@ __all__ = [
 Array = NDArray[np.float64]
 
 
-def text_of(value: bytes) -> str:
+def returned(value: bytes) -> str:
     """Text that the extension returned, without the blanks at its end."""
     return value.decode(errors="replace").rstrip()
 
 
-def join_options(options: Iterable[str]) -> str:
-    """Options group.key=value as the library takes them, one a line.
-
-    Raises
-    ------
-    InputError
-        If an option has more than one line.
-    """
-    options = list(options)
-    for option in options:
-        if "\n" in option:
-            raise InputError("--set: more than one line\nexpected: group.key=value")
-    return "".join(f"{option}\n" for option in options)
-
-
-def resolve(text: str, origin: str, options: Iterable[str] = (), *, from_file: bool = False) -> str:
+def resolve(
+    text: str, origin: str, options: Option | Iterable[Option] = (), *, from_file: bool = False
+) -> str:
     """Resolve a case: check it, and spell out every value of it as namelist text.
 
     Parameters
@@ -84,10 +74,31 @@ def resolve(text: str, origin: str, options: Iterable[str] = (), *, from_file: b
         With file, line and column, what was expected, and the nearest name.
     """
     resolved, status, message = functions.resolve(
-        text.encode(), os.fsencode(origin), join_options(options).encode(), int(from_file)
+        text_of(text, "the text of a case"),
+        os.fsencode(path_of(origin, "the name of a case")),
+        text_of("".join(f"{option}\n" for option in options_of(options)), "options"),
+        int(from_file),
     )
     check(status, message)
-    return text_of(resolved) + "\n"
+    return returned(resolved) + "\n"
+
+
+def check_memory(what: str, size: float) -> None:
+    """Refuse what would not fit into the memory that is free, before it is taken.
+
+    What the machine, the control groups of the process and its address space leave counts.
+
+    Raises
+    ------
+    NoMemoryError
+        With the bytes needed and free.
+    """
+    check(*functions.needs_memory(what.encode(errors="replace"), size))
+
+
+def free_bytes(root: str = "") -> float:
+    """Memory that is free [bytes]; `root` is the folder of /proc and /sys."""
+    return functions.memory_left(os.fsencode(root))
 
 
 def checkpoint_case(results: str | os.PathLike[str]) -> Path:
@@ -118,17 +129,17 @@ class Key:
 
 def keys() -> list[Key]:
     """All keys of a case file, in order."""
-    return [Key(*line.split("\t")) for line in text_of(functions.keys()).splitlines()]
+    return [Key(*line.split("\t")) for line in returned(functions.keys()).splitlines()]
 
 
 def version() -> str:
     """Version of the compiled library."""
-    return text_of(functions.about()[0])
+    return returned(functions.about()[0])
 
 
 def build() -> str:
     """Compiler and options of the compiled library."""
-    return text_of(functions.about()[1])
+    return returned(functions.about()[1])
 
 
 @dataclass(frozen=True, slots=True)

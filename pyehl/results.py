@@ -22,6 +22,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from pyehl import namelist
+from pyehl.arrays import read_array
+from pyehl.errors import FileError, InputError
+from pyehl.given import path_of
 from pyehl.theory.operating import OperatingPoint
 
 __all__ = ["load", "prediction_dataset", "settings_of", "unit_of"]
@@ -204,8 +207,12 @@ def load(folder: str | os.PathLike[str]) -> xr.Dataset:
 
     Raises
     ------
-    FileNotFoundError
+    InputError
         If it is not a result folder.
+    FileError
+        If a file of it cannot be read, or is damaged.
+    NoMemoryError
+        If it does not fit into the memory.
 
     Examples
     --------
@@ -215,15 +222,20 @@ def load(folder: str | os.PathLike[str]) -> xr.Dataset:
     >>> data.P.shape, data.attrs["status"]
     ((65, 65), 'converged')
     """
-    folder = Path(folder)
+    folder = Path(path_of(folder, "folder"))
     if not (folder / "summary.json").is_file():
-        raise FileNotFoundError(f"{folder}: not a result folder (there is no summary.json)")
-    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-    case = (folder / "case.nml").read_text(encoding="utf-8")
+        raise InputError(f"{folder}: not a result folder (there is no summary.json)")
+    try:
+        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+        case = (folder / "case.nml").read_text(encoding="utf-8")
+    except OSError as error:
+        raise FileError(f"{folder}: cannot read: {error.filename}: {error.strerror}") from error
+    except ValueError as error:
+        raise FileError(f"{folder}: summary.json or case.nml is damaged: {error}") from error
     prediction = summary.get("kind") == "prediction"
     files = list(PREDICTION) if prediction else [field.file for field in SOLUTION]
     arrays = {
-        name: np.load(folder / f"{name}.npy", allow_pickle=False)
+        name: read_array(folder / f"{name}.npy")
         for name in files
         if (folder / f"{name}.npy").is_file()
     }

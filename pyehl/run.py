@@ -18,9 +18,10 @@ from types import FrameType
 import numpy as np
 
 from pyehl import library
+from pyehl.arrays import read_array
 from pyehl.case import Case
 from pyehl.destination import Destination
-from pyehl.errors import FileError
+from pyehl.errors import FileError, InputError
 from pyehl.solver import Solver
 from pyehl.surfaces import for_solver
 
@@ -164,7 +165,7 @@ def _open(case: Case, resumed: str | os.PathLike[str]) -> Solver:
     place = library.checkpoint_case(resumed) if os.fspath(resumed) else None
     if place is None or not place.with_name("surface.npy").is_file():
         return Solver.open(case)
-    kept = np.load(place.with_name("surface.npy"), allow_pickle=False)
+    kept = read_array(place.with_name("surface.npy"))
     old = Case.read(place).resolve()["surface"]
     size = [f"surface.{key}={old[key]!r}" for key in ("tile_x", "tile_y") if old[key]]
     if old["tile_mirrored"]:
@@ -172,7 +173,7 @@ def _open(case: Case, resumed: str | os.PathLike[str]) -> Solver:
     solver = Solver.open(case.with_options(*size) if size else case, kept)
     try:
         made = for_solver(case.resolve())
-    except (ValueError, OSError):
+    except (InputError, FileError):
         # the file of the map is no longer needed
         return solver
     if made.heights is not None and np.array_equal(made.heights, kept):

@@ -20,9 +20,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pyehl import display
-from pyehl.case import Case, Option
+from pyehl.case import Case
 from pyehl.destination import Destination
 from pyehl.errors import EhlError, InputError
+from pyehl.given import Option, heights_of, path_of
 from pyehl.handle import SolverHandle, Work
 from pyehl.prediction.resolution import Resolution, resolution
 from pyehl.surfaces import Record, Topography, for_solver, given
@@ -103,13 +104,13 @@ class Solver(SolverHandle):
         self._start(Case.of(case, *options), None)
 
     @classmethod
-    def open(cls, case: Case, heights: ArrayLike | None = None) -> Self:
+    def open(cls, case: Case | str | os.PathLike[str], heights: ArrayLike | None = None) -> Self:
         """Start a solver on a case with a surface that is given.
 
         Parameters
         ----------
         case
-            What to solve.
+            A case, or the path of a case file.
         heights
             Surface [m], shape (nx, ny), peaks positive; for the kinds 'map' and 'fractal', in
             place of the file or the generator. None: that of the case. Its size is `surface.tile_x`
@@ -121,7 +122,7 @@ class Solver(SolverHandle):
             As the constructor.
         """
         solver = cls.__new__(cls)
-        solver._start(case, heights)
+        solver._start(Case.of(case), None if heights is None else heights_of(heights))
         return solver
 
     def _start(self, case: Case, heights: ArrayLike | None) -> None:
@@ -132,16 +133,19 @@ class Solver(SolverHandle):
         self._resolution: Resolution | str | None = None
         self._predicted = self._told = False
         if heights is None:
-            try:
-                made = for_solver(case.resolve())
-            except (ValueError, OSError) as error:
-                raise InputError(str(error)) from error
+            made = for_solver(case.resolve())
             self.preparation, self.tile = made.preparation, made.part
             text = case.with_options(*made.options).text if made.options else case.text
             super().__init__(text, made.heights)
         else:
+            surface = case.resolve()["surface"]
+            if surface["kind"] not in ("map", "fractal"):
+                raise InputError(
+                    "heights are given, and the surface of the case is none of heights\n"
+                    "expected: surface.kind = 'map' or 'fractal'"
+                )
             super().__init__(case.text, heights)
-            self.tile = given(np.asarray(heights, dtype=np.float64), case.resolve()["surface"])
+            self.tile = given(np.asarray(heights, dtype=np.float64), surface)
 
     def __repr__(self) -> str:
         """Give the case and the state in one line."""
@@ -249,6 +253,7 @@ class Solver(SolverHandle):
         FileError
             If it cannot be written.
         """
+        folder = path_of(folder, "the result folder")
         place = Destination(folder, "solution", inputs=tuple(inputs), force=force)
         with place.fresh() as fresh:
             self._fill(fresh)

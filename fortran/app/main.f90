@@ -10,6 +10,7 @@ program ehl
    use ehl_checkpoint_folder, only: checkpoint_path, find_checkpoint, checkpoint_folder_t
    use ehl_destination, only: destination_t
    use ehl_kinds, only: dp
+   use ehl_plan_need, only: making_need
    use ehl_result_folder, only: result_names, write_results
    use ehl_signals, only: stop_wanted, watch_signals
    use ehl_solver, only: solver_t
@@ -58,6 +59,9 @@ program ehl
    call end_if_failed()
    call watch_signals()
    if (.not. allocated(heights)) allocate (heights(0, 0))
+   if (input%surface%kind == "fractal") then
+      if (making_need(input%surface%pixels) /= "") call say(making_need(input%surface%pixels))
+   end if
    call solver%start(input, status, heights)
    call end_if_failed()
    call say(solver%describe())

@@ -1,11 +1,11 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Files and folders by the few POSIX calls that Fortran lacks
 module ehl_files
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, c_ptr, c_size_t
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: flush_file, file_exists, may_write, make_folder, remove_folder, remove_file, remove_known
+   public :: flush_file, file_exists, is_file, may_write, make_folder, remove_folder, remove_file, remove_known
    public :: rename_path, absolute_path, real_path, folder_of, process_mark, c_text, fortran_text
 
    interface
@@ -80,6 +80,34 @@ module ehl_files
          type(c_ptr), value :: stream
       end function posix_fclose
 
+      integer(c_int) function posix_open(path, flags) bind(c, name="open")
+         import :: c_char, c_int
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value, intent(in) :: flags
+      end function posix_open
+
+      integer(c_size_t) function posix_lseek(descriptor, offset, from) bind(c, name="lseek")
+         import :: c_int, c_size_t
+         implicit none (type, external)
+         integer(c_int), value, intent(in) :: descriptor, from
+         integer(c_size_t), value, intent(in) :: offset
+      end function posix_lseek
+
+      integer(c_size_t) function posix_read(descriptor, bytes, most) bind(c, name="read")
+         import :: c_char, c_int, c_size_t
+         implicit none (type, external)
+         integer(c_int), value, intent(in) :: descriptor
+         character(kind=c_char), intent(out) :: bytes(*)
+         integer(c_size_t), value, intent(in) :: most
+      end function posix_read
+
+      integer(c_int) function posix_close(descriptor) bind(c, name="close")
+         import :: c_int
+         implicit none (type, external)
+         integer(c_int), value, intent(in) :: descriptor
+      end function posix_close
+
       integer(c_int) function posix_getpid() bind(c, name="getpid")
          import :: c_int
          implicit none (type, external)
@@ -115,6 +143,28 @@ contains
 
       may_write = posix_access(c_text(path), to_write) == 0
    end function may_write
+
+   !> Whether a path is a file: no folder, device or pipe, which might never end, or never begin. One that cannot be
+   !> opened counts as a file: reading it tells why.
+   logical function is_file(path)
+      character(len=*), intent(in) :: path
+      !> Do not wait for the other end of a pipe (Linux)
+      integer(c_int), parameter :: at_once = 2048, from_end = 2
+      integer(c_int) :: descriptor, closed
+      integer(c_size_t) :: length
+      character(kind=c_char) :: byte(1)
+
+      is_file = .not. file_exists(path//"/.")
+      if (.not. is_file) return
+      descriptor = posix_open(c_text(path), at_once)
+      if (descriptor < 0) return
+      length = posix_lseek(descriptor, 0_c_size_t, from_end)
+      is_file = length >= 0
+      ! a device has no length, but bytes
+      if (length == 0) is_file = posix_read(descriptor, byte, 1_c_size_t) == 0
+      closed = posix_close(descriptor)
+      if (closed /= 0) is_file = .false.
+   end function is_file
 
    !> Make a folder; false when that is not possible or it is there already
    logical function make_folder(path)

@@ -1,28 +1,99 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> How much memory is free
+!> How much memory is free, and whether something fits: the one rule of both drivers
 module ehl_memory
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_kinds, only: dp
+   use ehl_status, only: ehl_no_memory, status_t
+   use ehl_text, only: fixed, to_text
    implicit none (type, external)
    private
-   public :: free_bytes
+   public :: check_memory, free_bytes, amount
+
+   !> Longest line of the files read here
+   integer, parameter :: longest = 4096
 
 contains
 
-   !> Bytes that the machine and the control group of the process still have; huge where nobody tells
-   real(dp) function free_bytes()
-      real(dp) :: limit, used
+   !> Refuse what would not fit, before memory is taken
+   subroutine check_memory(what, needed, status)
+      !> What wants the memory
+      character(len=*), intent(in) :: what
+      real(dp), intent(in) :: needed
+      type(status_t), intent(inout) :: status
+      real(dp) :: free
 
-      free_bytes = number_in("/proc/meminfo", "MemAvailable:")*1024.0_dp
-      limit = number_in("/sys/fs/cgroup/memory.max", "")
-      used = number_in("/sys/fs/cgroup/memory.current", "")
-      if (limit < huge(1.0_dp) .and. used < huge(1.0_dp)) free_bytes = min(free_bytes, max(0.0_dp, limit - used))
+      if (status%failed()) return
+      free = free_bytes("")
+      if (needed <= free) return
+      call status%fail(ehl_no_memory, what//" needs "//amount(needed)//" of memory, "//amount(free)//" are free")
+   end subroutine check_memory
+
+   !> Bytes in words
+   function amount(bytes) result(text)
+      real(dp), intent(in) :: bytes
+      character(len=:), allocatable :: text
+
+      if (bytes < 1.0e9_dp) then
+         text = to_text(ceiling(bytes/1.0e6_dp))//" MB"
+      else
+         text = fixed(bytes/1.0e9_dp, "f16.1")//" GB"
+      end if
+   end function amount
+
+   !> Bytes that the machine, the control groups of the process and its address space still have; huge where nobody tells
+   real(dp) function free_bytes(root) result(free)
+      !> Folder that /proc and /sys are in: empty, but in tests
+      character(len=*), intent(in) :: root
+      character(len=longest) :: line
+      real(dp) :: limit, used
+      integer :: lun, stat
+
+      free = min(number_in(root//"/proc/meminfo", "MemAvailable:"), huge(free)/1024)*1024
+      limit = number_in(root//"/proc/self/limits", "Max address space")
+      used = number_in(root//"/proc/self/status", "VmSize:")
+      if (limit < huge(limit) .and. used < huge(used)) free = min(free, max(0.0_dp, limit - 1024*used))
+      open (newunit=lun, file=root//"/proc/self/cgroup", status="old", action="read", iostat=stat)
+      if (stat /= 0) return
+      do
+         read (lun, "(a)", iostat=stat) line
+         if (stat /= 0) exit
+         if (index(line, "0::/") == 1) then
+            call limit_by_groups(root//"/sys/fs/cgroup", trim(line(4:)), "memory.max", "memory.current", &
+                                 "inactive_file", free)
+         else if (index(line, ":memory:/") > 0) then
+            call limit_by_groups(root//"/sys/fs/cgroup/memory", trim(line(index(line, ":memory:/") + 8:)), &
+                                 "memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file", free)
+         end if
+      end do
+      close (lun)
    end function free_bytes
+
+   !> What a control group and those that it is in leave; pages of files that nobody uses count as free
+   subroutine limit_by_groups(root, path, limit_name, used_name, cache_name, free)
+      character(len=*), intent(in) :: root, path, limit_name, used_name, cache_name
+      real(dp), intent(inout) :: free
+      real(dp) :: limit, used, cache
+      integer :: last
+
+      last = len(path)
+      do
+         if (path(last:last) == "/") last = last - 1
+         associate (group => root//path(:last)//"/")
+            limit = number_in(group//limit_name, "")
+            used = number_in(group//used_name, "")
+            cache = number_in(group//"memory.stat", cache_name//" ")
+         end associate
+         if (.not. cache < huge(cache)) cache = 0.0_dp
+         if (limit < huge(limit) .and. used < huge(used)) free = min(free, max(0.0_dp, limit - used + cache))
+         if (last == 0) return
+         last = index(path(:last), "/", back=.true.)
+      end do
+   end subroutine limit_by_groups
 
    !> The number behind a word at the beginning of a line of a file; huge when there is none
    real(dp) function number_in(path, word) result(number)
       character(len=*), intent(in) :: path, word
-      character(len=256) :: line
+      character(len=longest) :: line
       integer(int64) :: found
       integer :: lun, stat, read_stat
 

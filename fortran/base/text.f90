@@ -2,6 +2,7 @@
 !> Text: numbers as text, lower case, lines, and the nearest of several words
 module ehl_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use, intrinsic :: iso_fortran_env, only: int64
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
@@ -14,6 +15,7 @@ module ehl_text
    interface to_text
       module procedure real_to_text
       module procedure integer_to_text
+      module procedure long_to_text
       module procedure logical_to_text
    end interface to_text
 
@@ -112,6 +114,16 @@ contains
       write (buffer, "(i0)") i
       text = trim(buffer)
    end function integer_to_text
+
+   !> The same for large ones
+   pure function long_to_text(i) result(text)
+      integer(int64), intent(in) :: i
+      character(len=:), allocatable :: text
+      character(len=24) :: buffer
+
+      write (buffer, "(i0)") i
+      text = trim(buffer)
+   end function long_to_text
 
    !> .true. or .false.
    pure function logical_to_text(flag) result(text)

@@ -2,7 +2,7 @@
 !> Whole files: texts in and out, and what every file that was written must pass
 module ehl_whole_file
    use, intrinsic :: iso_fortran_env, only: int64
-   use ehl_files, only: file_exists
+   use ehl_files, only: file_exists, is_file
    use ehl_status, only: ehl_file, status_t
    use ehl_text, only: to_text
    implicit none (type, external)
@@ -28,6 +28,10 @@ contains
       end if
       if (file_exists(path // "/.")) then
          call status%fail(ehl_file, path // ": error: this is a folder, not a file")
+         return
+      end if
+      if (.not. is_file(path)) then
+         call status%fail(ehl_file, path // ": error: this is a device or a pipe, not a file")
          return
       end if
       open (newunit=lun, file=path, status="old", action="read", access="stream", &

@@ -11,13 +11,14 @@ module ehl_f2py_functions
    use ehl_grid, only: grid_t
    use ehl_lubricant, only: density_constant, density_dowson_higginson, new_lubricant, &
                             solver_lubricant_t => lubricant_t, viscosity_barus, viscosity_roelands
+   use ehl_memory, only: check_memory, free_bytes
    use ehl_reply, only: reply
    use ehl_shear, only: shear_carreau, shear_eyring, shear_law_t, shear_limiting, shear_newtonian, shear_stress
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_version, only: build_text, version
    implicit none (type, external)
    private
-   public :: resolve, keys, about, deflection, viscosity, density, shear
+   public :: resolve, needs_memory, memory_left, keys, about, deflection, viscosity, density, shear
 
 contains
 
@@ -40,6 +41,26 @@ contains
       if (.not. status%failed()) resolved = case_text(input)
       call reply(status, stat, message)
    end subroutine resolve
+
+   !> Refuse what would not fit into the memory
+   subroutine needs_memory(what, bytes, stat, message)
+      character(len=*), intent(in) :: what
+      real(c_double), intent(in) :: bytes
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(status_t) :: status
+
+      call check_memory(what, bytes, status)
+      call reply(status, stat, message)
+   end subroutine needs_memory
+
+   !> Bytes of memory that are free; root: folder of /proc and /sys
+   subroutine memory_left(root, bytes)
+      character(len=*), intent(in) :: root
+      real(c_double), intent(out) :: bytes
+
+      bytes = free_bytes(root)
+   end subroutine memory_left
 
    !> All keys of a case file, one a line: key, unit, default, allowed values, meaning
    subroutine keys(text)

@@ -4,14 +4,23 @@ module ehl_f2py_surfaces
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use ehl_feature, only: feature_t, new_feature
    use ehl_fractal, only: fractal_t, make_fractal
+   use ehl_plan_need, only: making_need
    use ehl_reply, only: reply
    use ehl_status, only: status_t
    use ehl_tile_filter, only: filter_heights, filter_t
    implicit none (type, external)
    private
-   public :: fractal, feature, filter_tile
+   public :: making, fractal, feature, filter_tile
 
 contains
+
+   !> What it takes to make a fractal surface of so many pixels per side; empty where that is little
+   subroutine making(pixels, text)
+      integer(c_int), intent(in) :: pixels
+      character(len=256), intent(out) :: text
+
+      text = making_need(pixels)
+   end subroutine making
 
    !> Heights [m] of a fractal surface, heights(ny, nx); words: the seed, 32 bits each, the lowest first
    subroutine fractal(nx, ny, heights, length_x, length_y, rms_height, hurst, rolloff_wavenumber, n, words, gaussian, &

@@ -7,7 +7,7 @@ module ehl_case_check
    use ehl_case_feature, only: check_feature
    use ehl_case_lubricant, only: check_shear_law, complete_lubricant
    use ehl_case_temperature, only: check_heat, complete_viscosity
-   use ehl_files, only: absolute_path, file_exists, folder_of
+   use ehl_files, only: absolute_path, file_exists, folder_of, is_file
    use ehl_grid, only: coarsest_most, find_levels
    use ehl_kinds, only: dp
    use ehl_refusal, only: contradict, refuse, short
@@ -210,6 +210,9 @@ contains
          if (.not. file_exists(path) .and. .not. input%surface%tile_x > 0.0_dp) then
             call refuse(schema, sources, "surface", "file", "surface.file: there is no file " // path, &
                "a height map: .npy, text or a file of an instrument", status)
+         else if (file_exists(path)) then
+            if (.not. is_file(path)) call refuse(schema, sources, "surface", "file", "surface.file: " // path &
+               // " is a folder, a device or a pipe", "a height map: .npy, text or a file of an instrument", status)
          end if
       end if
       if (.not. status%failed()) input%surface%file = path

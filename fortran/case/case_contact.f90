@@ -74,8 +74,7 @@ contains
          expected = "values in SI units with L of 100 at most"
       end if
       if (what == "") return
-      culprit = first_given(schema, "contact", si_keys)
-      if (culprit == 0) culprit = schema%find("lubricant", "viscosity")
+      culprit = most_unusual(schema)
       associate (key => schema%keys(culprit))
          call refuse(schema, sources, trim(key%group), trim(key%name), what // " with " &
                      // key%full_name() // " = " // key%value_text(), expected, status)
@@ -113,6 +112,32 @@ contains
       if (.not. schema%given("grid", "x_outlet")) input%grid%x_outlet = domain%outlet
       if (.not. schema%given("grid", "y_extent")) input%grid%y_extent = domain%side
    end subroutine complete_domain
+
+   !> Of the keys that were given and make the operating point the one whose value is the least usual
+   integer function most_unusual(schema) result(culprit)
+      type(schema_t), intent(in) :: schema
+      type(case_t), target :: usual
+      type(schema_t) :: defaults
+      character(len=9), parameter :: groups(6) = [character(len=9) :: "contact", "contact", "contact", "contact", &
+                                                  "lubricant", "lubricant"]
+      character(len=18), parameter :: names(6) = [character(len=18) :: si_keys, "viscosity", "pressure_viscosity"]
+      !> Powers of ten around their defaults that are common
+      real(dp), parameter :: common(6) = [3.0_dp, 2.0_dp, 1.0_dp, 0.5_dp, 2.0_dp, 0.5_dp]
+      real(dp) :: unusual, most
+      integer :: k, at
+
+      call defaults%bind(usual)
+      culprit = schema%find("lubricant", "viscosity")
+      most = -1.0_dp
+      do k = 1, size(names)
+         at = schema%find(groups(k), names(k))
+         if (.not. schema%keys(at)%given) cycle
+         unusual = abs(log10(schema%keys(at)%real_value/defaults%keys(at)%real_value))/common(k)
+         if (unusual <= most) cycle
+         most = unusual
+         culprit = at
+      end do
+   end function most_unusual
 
    !> Of slide-to-roll ratio and velocity of the rough surface one follows from the other: surface 1 moves at
    !> 1 + SRR/2, surface 2 at 1 - SRR/2 times the mean velocity

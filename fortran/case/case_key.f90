@@ -32,8 +32,8 @@ module ehl_case_key
       !> name, first and last position of the value
       logical :: given = .false.
       integer :: source = 0, name_first = 0, name_last = 0, first = 0, last = 0
-      !> Whether the input says that nobody gave it
-      logical :: marked = .false.
+      !> Whether the input says that nobody gave it; whether an option replaces what the file gives
+      logical :: marked = .false., replaced = .false.
    contains
       procedure :: full_name
       procedure :: value_text

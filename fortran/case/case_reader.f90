@@ -5,7 +5,7 @@ module ehl_case_reader
    use ehl_case_check, only: check_case
    use ehl_derived, only: settle_marks
    use ehl_group_reader, only: read_groups
-   use ehl_option_reader, only: read_option, split_options
+   use ehl_option_reader, only: note_option, read_option, split_options
    use ehl_schema, only: schema_t
    use ehl_source, only: source_t
    use ehl_status, only: ehl_bad_input, status_t
@@ -53,6 +53,9 @@ contains
       call schema%bind(input)
       sources = [source_t(origin, text)]
       call split_options(options, sources)
+      do k = 2, size(sources)
+         call note_option(sources(k), schema)
+      end do
       call read_groups(sources(1), schema, status)
       if (.not. status%failed()) call settle_marks(schema, sources(:1))
       do k = 2, size(sources)

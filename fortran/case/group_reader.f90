@@ -92,11 +92,13 @@ contains
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: group
       type(token_t) :: name, token
+      type(status_t) :: value_status
       integer :: k
 
       group = lower_case(opening%text)
       k = 0
       do
+         value_status = status_t()
          call scan_token(source%text, position, name)
          if (name%kind == token_slash) return
          if (name%kind == token_comma .and. k > 0) then
@@ -118,8 +120,11 @@ contains
          call refuse_missing_value(source, schema, k, token, position, status)
          if (.not. status%failed()) call refuse_decimal_comma(source, schema, k, token, status)
          if (status%failed()) return
-         call set_value(schema%keys(k), source, 1, name, token, status)
-         if (status%failed()) return
+         call set_value(schema%keys(k), source, 1, name, token, value_status)
+         if (value_status%failed() .and. .not. schema%keys(k)%replaced) then
+            status = value_status
+            return
+         end if
          schema%keys(k)%marked = has_mark(source%text, token%last)
       end do
    end subroutine read_group

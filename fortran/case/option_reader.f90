@@ -10,7 +10,7 @@ module ehl_option_reader
    use ehl_text, only: lower_case, newline
    implicit none (type, external)
    private
-   public :: split_options, read_option
+   public :: split_options, note_option, read_option
 
 contains
 
@@ -32,16 +32,31 @@ contains
       end do
    end subroutine split_options
 
-   !> One option group.key=value; words need no quotes here
-   subroutine read_option(source, number, schema, status)
+   !> Note that an option replaces a value of the file, which need not be acceptable then. Faults of the option are told
+   !> when it is read.
+   subroutine note_option(source, schema)
       type(source_t), intent(in) :: source
-      integer, intent(in) :: number
       type(schema_t), intent(inout) :: schema
-      type(status_t), intent(inout) :: status
-      character(len=:), allocatable :: group, value
-      type(token_t) :: name, token
-      integer :: dot, equals, k, position
+      type(token_t) :: name
+      type(status_t) :: later
+      integer :: k, equals
 
+      call find_option(source, schema, k, name, equals, later)
+      if (.not. later%failed()) schema%keys(k)%replaced = .true.
+   end subroutine note_option
+
+   !> Key that an option names
+   subroutine find_option(source, schema, k, name, equals, status)
+      type(source_t), intent(in) :: source
+      type(schema_t), intent(in) :: schema
+      !> Position of the key in the schema, and of the equals sign in the option
+      integer, intent(out) :: k, equals
+      type(token_t), intent(out) :: name
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: group
+      integer :: dot
+
+      k = 0
       equals = index(source%text, "=")
       dot = index(source%text(:max(equals - 1, 0)), ".")
       if (dot == 0) then
@@ -60,6 +75,19 @@ contains
       name%last = max(dot + 1, equals - 1)
       name%text = trim(adjustl(source%text(dot + 1:equals - 1)))
       k = find_key(source, schema, group, name, status)
+   end subroutine find_option
+
+   !> One option group.key=value; words need no quotes here
+   subroutine read_option(source, number, schema, status)
+      type(source_t), intent(in) :: source
+      integer, intent(in) :: number
+      type(schema_t), intent(inout) :: schema
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: value
+      type(token_t) :: name, token
+      integer :: equals, k, position
+
+      call find_option(source, schema, k, name, equals, status)
       if (status%failed()) return
       if (schema%keys(k)%given .and. schema%keys(k)%source > 1) then
          call status%fail(ehl_bad_input, point_at(source, 1, equals - 1, &

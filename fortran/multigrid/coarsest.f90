@@ -87,7 +87,8 @@ contains
    !> Allocated bytes
    pure integer(int64) function bytes(self)
       class(coarsest_t), intent(in) :: self
-      bytes = 8*(size(self%k, kind=int64) + 2*size(self%lu, kind=int64))
+      bytes = 0
+      if (allocated(self%k)) bytes = 8*(size(self%k, kind=int64) + 2*size(self%lu, kind=int64))
    end function bytes
 
    !> Number of the unknown at node (i, j)

@@ -66,13 +66,14 @@ contains
          call update_residual(levels(1), residual)
       else
          call visit_coarser(levels, spaces, coarsenings, n, coarsest, options)
+         if (options%post == 0) call update_residual(levels(n), residual)
          do k = options%pre + 1, options%pre + options%post
             call sweep(levels(n), spaces(n), 1, options%trust, options%sweep_share)
             call update_residual(levels(n), residual)
             if (k == options%pre + options%post .or. residual <= options%enough) exit
          end do
       end if
-      if (present(sweeps)) sweeps = k
+      if (present(sweeps)) sweeps = min(k, options%pre + options%post)
    end subroutine finest_cycle
 
    !> One cycle on level n

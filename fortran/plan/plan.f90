@@ -76,6 +76,8 @@ module ehl_plan
       !> Relative change of the mean friction ratio at which to stop, most periods, exact steps
       real(dp) :: time_tolerance = 1.0e-3_dp
       integer :: max_periods = 0, steps = 0
+      !> Time between the frames that are kept; 0: none
+      real(dp) :: frame_interval = 0.0_dp
    contains
       procedure :: moves
       procedure :: rests
@@ -112,6 +114,7 @@ contains
       plan%time_tolerance = input%time%tolerance
       plan%max_periods = input%time%max_periods
       plan%steps = input%time%steps
+      plan%frame_interval = input%output%frame_interval
       if (allocated(surface)) then
          call move_alloc(surface, plan%surface)
       else
@@ -160,19 +163,26 @@ contains
       type(case_t), intent(in) :: input
       type(plan_t), intent(in) :: plan
       type(status_t), intent(inout) :: status
-      real(dp) :: steps, least
+      real(dp) :: at_mean_velocity
       integer :: most
 
       if (.not. plan%moves()) return
-      most = merge(most_steps_asked_for, most_steps, plan%steps > 0)
-      steps = steps_needed(plan%surface, plan%finest%hx, plan%skip_start)
-      if (steps <= most) return
-      ! rounded up: what is named will do
-      least = 1.005_dp*input%surface%velocity_ratio*steps/most
-      call status%fail(ehl_bad_input, "surface.velocity_ratio = "//to_text(input%surface%velocity_ratio)// &
-                       ": so slow a surface needs "//fixed(steps, "es12.2e3")//" time steps until its friction is known, "// &
-                       "more than "//to_text(most)//new_line("a")//"expected: a velocity ratio of at least "// &
-                       fixed(least, "es12.2e3")//" on this grid, or 0: a rough surface at rest is a steady contact")
+      associate (ratio => input%surface%velocity_ratio)
+         most = merge(most_steps_asked_for, most_steps, plan%steps > 0)
+         at_mean_velocity = steps_needed(plan%surface, plan%finest%hx, plan%skip_start)
+         if (at_mean_velocity/ratio <= most) then
+            ! steps that are skipped are counted, too
+            most = most_steps_asked_for
+            at_mean_velocity = steps_needed(plan%surface, plan%finest%hx, .false.)
+            if (at_mean_velocity/ratio <= most) return
+         end if
+         ! rounded up: what is named will do
+         call status%fail(ehl_bad_input, "surface.velocity_ratio = "//to_text(ratio)//": so slow a surface needs "// &
+                          fixed(at_mean_velocity/ratio, "es12.2e3")//" time steps until its friction is known, more than "// &
+                          to_text(most)//new_line("a")//"expected: a velocity ratio of at least "// &
+                          fixed(1.005_dp*at_mean_velocity/most, "es12.2e3")// &
+                          " on this grid, or 0: a rough surface at rest is a steady contact")
+      end associate
    end subroutine check_steps
 
    !> Shape, scales and operating point

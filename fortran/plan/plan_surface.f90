@@ -5,13 +5,15 @@ module ehl_plan_surface
    use ehl_case, only: case_t, is_feature, surface_case_t
    use ehl_contact, only: contact_t
    use ehl_feature, only: feature_t, new_feature
+   use ehl_file_extent, only: file_bytes
    use ehl_fractal, only: fractal_t, make_fractal
    use ehl_grid, only: grid_t
    use ehl_harmonic, only: harmonic_t, new_harmonic
    use ehl_height_map, only: height_map_t
    use ehl_kinds, only: dp
-   use ehl_map_file, only: check_memory, read_map
+   use ehl_map_file, only: check_heights, read_map
    use ehl_map_needs, only: map_needs
+   use ehl_memory, only: check_memory
    use ehl_status, only: ehl_bad_input, ehl_no_memory, status_t
    use ehl_surface, only: aliased_below, surface_t
    use ehl_text, only: to_text
@@ -106,6 +108,11 @@ contains
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: why, what
 
+      if (s%kind == "map" .and. index(s%file, ".npy", back=.true.) /= len_trim(s%file) - 3) then
+         ! a line may be as long as the file
+         call check_memory(trim(s%file)//": a file of this length", real(file_bytes(trim(s%file)), dp), status)
+         if (status%failed()) return
+      end if
       why = map_needs(s)
       what = trim(s%file)
       if (s%kind == "fractal") what = "surface.kind = 'fractal'"
@@ -157,7 +164,7 @@ contains
       real(dp), allocatable :: rows(:, :)
       integer :: stat
 
-      call check_memory("surface.pixels = "//to_text(s%pixels), [s%pixels, s%pixels], status)
+      call check_heights("surface.pixels = "//to_text(s%pixels), [s%pixels, s%pixels], status)
       if (status%failed()) return
       what = fractal_t(s%length_x, s%length_y, s%rms_height, s%hurst, s%rolloff_wavenumber, [int(s%seed, int32)], &
                        s%modulus == "gaussian")

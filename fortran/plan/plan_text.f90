@@ -6,6 +6,7 @@ module ehl_plan_text
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_plan, only: plan_t
+   use ehl_plan_need, only: need_lines
    use ehl_steady, only: largest_error
    use ehl_text, only: to_text
    use ehl_wedge, only: wedge_narrow
@@ -77,6 +78,7 @@ contains
             " of the discretisation error and", 100.0_dp*largest_error, " % of the film, load error below 1e-6"
       end if
       text = text//trim(line)//new_line("a")
+      text = text//need_lines(plan)
       text = text//"level  points    stored nodes  mesh size   use"
       grid = plan%coarsest
       do k = 1, plan%levels

@@ -36,15 +36,16 @@ module ehl_poiseuille
       procedure :: bytes
    end type poiseuille_t
 
-   !> What a line system along X takes from a stretch of a row; nodes are numbered from 1
+   !> What a line system along X takes from a stretch of a row; nodes are numbered from 1. Zero where the row has a border
+   !> node, which has no equation.
    type :: line_terms_t
       !> Right-hand side less the term
-      real(dp) :: rest(stretch)
+      real(dp) :: rest(stretch) = 0.0_dp
       !> Sum of the couplings to other rows with the excess, with a minus; its change with the node's conductance
-      real(dp) :: other(stretch), other_rate(stretch)
+      real(dp) :: other(stretch) = 0.0_dp, other_rate(stretch) = 0.0_dp
       !> Coupling to the next node of the row, from the node before the stretch on; its change with the conductance
       !> of either node
-      real(dp) :: east(0:stretch), east_rate(0:stretch)
+      real(dp) :: east(0:stretch) = 0.0_dp, east_rate(0:stretch) = 0.0_dp
    end type line_terms_t
 
 contains

@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What a run did not have to do, and the seconds that saved
 module ehl_skipped_work
+   use, intrinsic :: iso_fortran_env, only: int64
    use ehl_clock, only: clock_t, start_clock
    use ehl_friction_mean, only: start_up
    use ehl_kinds, only: dp
@@ -37,7 +38,8 @@ contains
       real(dp), intent(in) :: seconds_zeros
       type(skip_t), allocatable, intent(out) :: skips(:)
       real(dp) :: step
-      integer :: left, periods, deflections
+      integer(int64) :: left
+      integer :: periods, deflections
 
       step = seconds_steps/max(transient%step, 1)
       allocate (skips(0))
@@ -51,7 +53,8 @@ contains
                                 transient%skipped*step)]
       end if
       periods = merge(plan%max_periods, fixed_periods, plan%max_periods > 0)
-      left = ceiling(max(transient%mean%filled, 0) + periods*transient%mean%period/transient%time_step) - transient%step
+      ! beyond the largest integer with many periods of a slow surface
+      left = ceiling(max(transient%mean%filled, 0) + periods*transient%mean%period/transient%time_step, int64) - transient%step
       if (good .and. plan%steps == 0 .and. left > 0 .and. .not. plan%surface%passes_once) then
          skips = [skips, skip_t(to_text(left)//" steps up to the end of period "//to_text(periods)// &
                                 ": the mean of mu_r/mu_s had settled", left*step)]

@@ -9,6 +9,7 @@ module ehl_solver
    use ehl_kinds, only: dp
    use ehl_outcome, only: outcome_converged, outcome_interrupted, outcome_running
    use ehl_plan, only: make_plan, plan_t
+   use ehl_plan_need, only: check_need
    use ehl_ratio_error, only: waves_t
    use ehl_record, only: record_t
    use ehl_stationary_roughness, only: stationary_roughness_t
@@ -189,13 +190,17 @@ contains
       !> Heights of a map [m], X first, in place of a file; of size 0: none. They are no longer needed afterwards.
       real(dp), intent(in), optional :: heights(:, :)
       real(dp) :: none(0, 0)
+      logical :: is_part
 
       self%input = input
+      ! the run on the coarser grid was counted with the one it belongs to
+      is_part = allocated(self%surface)
       if (present(heights)) then
          call make_plan(input, heights, self%surface, self%plan, status)
       else
          call make_plan(input, none, self%surface, self%plan, status)
       end if
+      if (.not. is_part) call check_need(self%plan, status)
       if (status%failed()) return
       associate (plan => self%plan)
          call self%hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, &

@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What a run says on its way: one line about the state, how much is done, the time left
 submodule (ehl_solver) ehl_solver_progress
+   use, intrinsic :: iso_fortran_env, only: int64
    use ehl_stopping_criterion, only: least_periods, most_periods
    use ehl_report, only: cycle_line, step_line, rest_line
    use ehl_text, only: to_text
@@ -93,9 +94,9 @@ contains
       if (associated(self%coarse)) seconds = seconds + self%coarse%step_seconds
       if (.not. done > 0.0_dp) return
       if (earliest > done) then
-         text = ", about "//to_text(nint((earliest - done)*seconds/done))//" s left"
+         text = ", about "//to_text(nint((earliest - done)*seconds/done, int64))//" s left"
       else
-         text = ", at most "//to_text(nint((latest - done)*seconds/done))//" s left"
+         text = ", at most "//to_text(nint((latest - done)*seconds/done, int64))//" s left"
       end if
    end function time_left
 end submodule ehl_solver_progress

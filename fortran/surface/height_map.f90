@@ -40,7 +40,9 @@ module ehl_height_map
       procedure :: height
       procedure :: unresolved
       procedure :: bytes
+      procedure :: bytes_on
       procedure, private :: carried
+      procedure, private :: refined_points
    end type height_map_t
 
 contains
@@ -103,8 +105,8 @@ contains
       !> So that rounding does not decide
       real(dp), parameter :: slack = 1.0e-9_dp
 
-      most = int(self%waves%length/self%meshes(grid)/nodes*(1.0_dp + merge(-slack, slack, more)))
-      most = min(most, self%waves%pixels/2)
+      most = int(min(self%waves%length/self%meshes(grid)/nodes*(1.0_dp + merge(-slack, slack, more)), &
+                     0.5_dp*self%waves%pixels))
    end function carried
 
    !> Share of the variance in waves that have fewer nodes than that along X or along Y
@@ -122,9 +124,29 @@ contains
    !> Bytes in use
    pure real(dp) function bytes(self)
       class(height_map_t), intent(in) :: self
-      bytes = self%waves%bytes()
+      bytes = 0.0_dp
+      if (self%waves%are_here()) bytes = self%waves%bytes()
       if (allocated(self%refined)) bytes = bytes + 8.0_dp*size(self%refined, 1)*real(size(self%refined, 2), dp)
    end function bytes
+
+   !> Points along X that the tile is refined to, for waves of at most so many periods in it
+   pure integer function refined_points(self, most)
+      class(height_map_t), intent(in) :: self
+      integer, intent(in) :: most
+
+      refined_points = refinement*self%waves%pixels(1)
+      if (most < self%waves%pixels(1)/2) refined_points = min(refined_points, good_size(refinement*(2*most + 1)))
+   end function refined_points
+
+   !> Its waves, the refined heights and, meanwhile, the waves of the rows
+   pure real(dp) function bytes_on(self, grid)
+      class(height_map_t), intent(in) :: self
+      type(grid_t), intent(in) :: grid
+      integer :: most(2)
+
+      most = self%carried(grid, aliased_below, .true.)
+      bytes_on = self%waves%bytes() + 8.0_dp*grid%ny*(self%refined_points(most(1)) + 2.0_dp*most(1))
+   end function bytes_on
 
    !> Heights on the rows of a grid, refined along X, of the waves that have more than two nodes a period
    subroutine prepare(self, grid, status)
@@ -139,8 +161,7 @@ contains
 
       if (status%failed()) return
       most = self%carried(grid, aliased_below, .true.)
-      n = refinement*self%waves%pixels(1)
-      if (most(1) < self%waves%pixels(1)/2) n = min(n, good_size(refinement*(2*most(1) + 1)))
+      n = self%refined_points(most(1))
       if (allocated(self%refined)) deallocate (self%refined)
       allocate (self%refined(n + points - 1, grid%ny), rows(grid%ny, 0:most(1)), column(-most(2):most(2)), &
                 row(0:n/2), values(n), stat=stat)

@@ -2,13 +2,13 @@
 !> Height maps from files: .npy, or text with one row of numbers for each X
 module ehl_map_file
    use ehl_kinds, only: dp
-   use ehl_memory, only: free_bytes
+   use ehl_memory, only: check_memory
    use ehl_npy, only: npy_shape, read_npy
-   use ehl_status, only: ehl_file, ehl_no_memory, status_t
-   use ehl_text, only: fixed, to_text
+   use ehl_status, only: ehl_file, status_t
+   use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: read_map, check_memory
+   public :: read_map, check_heights
 
    !> What numbers, "nan" and "inf" are made of, and what stands between them
    character(len=*), parameter :: number_characters = "0123456789+-.eEdDnNaAiIfFtTyY, "
@@ -25,7 +25,7 @@ contains
       length = len_trim(path)
       if (length > 4 .and. path(max(1, length - 3):length) == ".npy") then
          call npy_shape(trim(path), n, status)
-         call check_memory(trim(path), n, status)
+         call check_heights(trim(path), n, status)
          allocate (heights(0, 0))
          if (.not. status%failed()) call read_npy(trim(path), heights, status)
       else
@@ -43,23 +43,16 @@ contains
       end if
    end subroutine read_map
 
-   !> Refuse a map that would not fit, before memory is taken. It needs room twice: for the heights and their spectrum.
-   subroutine check_memory(what, n, status)
+   !> Refuse a map that would not fit. It needs room twice: for the heights and their spectrum.
+   subroutine check_heights(what, n, status)
       !> What wants the memory
       character(len=*), intent(in) :: what
       !> Pixels along X and Y
       integer, intent(in) :: n(2)
       type(status_t), intent(inout) :: status
-      real(dp), parameter :: gigabyte = 1.0e9_dp
-      real(dp) :: needed, free
 
-      if (status%failed()) return
-      needed = 16.0_dp*n(1)*real(n(2), dp)
-      free = free_bytes()
-      if (needed <= free) return
-      call status%fail(ehl_no_memory, what//": "//to_text(n(1))//" x "//to_text(n(2))//" heights need "// &
-                       fixed(needed/gigabyte, "f16.1")//" GB of memory, "//fixed(free/gigabyte, "f16.1")//" GB are free")
-   end subroutine check_memory
+      call check_memory(what//": a map of "//to_text(n(1))//" x "//to_text(n(2))//" heights", 16.0_dp*n(1)*real(n(2), dp), status)
+   end subroutine check_heights
 
    !> Text: numbers separated by blanks, tabs, commas or semicolons, '#' begins a comment, every row of the same length
    subroutine read_text(path, heights, status)
@@ -97,7 +90,7 @@ contains
             exit
          end if
          if (n == size(rows, 2)) then
-            call check_memory(path//" (so far)", [columns, 2*n], status)
+            call check_heights(path//" (so far)", [columns, 2*n], status)
             if (status%failed()) exit
             call make_room(rows, n)
          end if

@@ -46,6 +46,7 @@ module ehl_surface
       procedure :: meshes
       procedure :: bytes
       procedure :: rms_height
+      procedure :: bytes_on
       !> Position of the front at time T
       procedure :: front_position
       !> Time in which the pattern repeats
@@ -111,6 +112,15 @@ contains
       class(surface_t), intent(in) :: self
       rms_height = sqrt(self%variance)
    end function rms_height
+
+   !> Bytes that it will take when it is prepared for a grid
+   pure real(dp) function bytes_on(self, grid)
+      class(surface_t), intent(in) :: self
+      type(grid_t), intent(in) :: grid
+      associate (unused => grid)
+      end associate
+      bytes_on = self%bytes()
+   end function bytes_on
 
    !> Distances in which waves are sampled along X, in space or in time, and along Y [a]
    pure function meshes(self, grid)

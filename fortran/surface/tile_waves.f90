@@ -186,12 +186,14 @@ contains
       are_here = allocated(self%spectrum) .or. allocated(self%cosines)
    end function are_here
 
-   !> Bytes in use
+   !> Bytes in use, or, once they have been given away, that were
    pure real(dp) function bytes(self)
       class(tile_waves_t), intent(in) :: self
 
-      bytes = 0.0_dp
-      if (allocated(self%spectrum)) bytes = 16.0_dp*size(self%spectrum, 1)*real(size(self%spectrum, 2), dp)
-      if (allocated(self%cosines)) bytes = 8.0_dp*size(self%cosines, 1)*real(size(self%cosines, 2), dp)
+      if (self%mirrored) then
+         bytes = 2.0_dp*self%pixels(1)*real(self%pixels(2), dp)
+      else
+         bytes = 16.0_dp*(self%pixels(1)/2 + 1)*real(self%pixels(2), dp)
+      end if
    end function bytes
 end module ehl_tile_waves

@@ -33,7 +33,7 @@ contains
       allocate (self%times(16), self%p(16), self%h(16))
    end subroutine start
 
-   !> Keep P and H after a step if a frame is due
+   !> Keep P and H after a step if a frame is due: after every step where the interval is no longer than a step
    subroutine keep(self, level, time, time_step, interval, status)
       class(frames_t), intent(inout) :: self
       type(level_t), intent(in) :: level
@@ -43,7 +43,8 @@ contains
       type(status_t), intent(inout) :: status
 
       if (interval <= 0.0_dp) return
-      if (int(time/interval) == int((time - time_step)/interval)) return
+      ! no integers: the number of intervals may exceed the largest
+      if (interval > time_step .and. .not. aint(time/interval) > aint((time - time_step)/interval)) return
       call self%add(level%grid, status)
       if (status%failed()) return
       self%times(self%n) = time

@@ -58,7 +58,8 @@ module ehl_transient
 
 contains
 
-   !> Time steps until the mean friction over a period can be compared with an earlier one, or the passage ends
+   !> Time steps of a surface with the mean velocity until the mean friction over a period can be compared with an earlier
+   !> one, or the passage ends
    real(dp) function steps_needed(surface, time_step, skip)
       class(surface_t), intent(in) :: surface
       real(dp), intent(in) :: time_step
@@ -69,7 +70,7 @@ contains
       from = surface%x_start
       if (skip) from = max(from, x_matters - 0.5_dp*surface%front_length)
       way = max(0.0_dp, x_counts(surface) - from) + merge(1.0_dp, periods_compared, surface%passes_once)*surface%period
-      steps_needed = way/(surface%velocity_ratio*time_step)
+      steps_needed = way/time_step
    end function steps_needed
 
    !> Position of the front from which on the friction belongs to a mean

@@ -21,6 +21,8 @@ from typing import Any
 
 import numpy as np
 
+from pyehl.bench.faults_edge import arguments, inputs_at_the_edge, reads
+from pyehl.bench.faults_files import foreign, starts
 from pyehl.bench.faults_resources import damage, resources
 
 __all__ = ["COLUMNS", "campaign"]
@@ -88,6 +90,15 @@ def campaign(
     rows.append(_row("damaged states", *damage(folder, generator, run, same)))
     tell("disk full, folder gone or read-only, no memory, two runs into one folder")
     rows.append(_row("resources", *resources(folder, run)))
+    tell(f"two first starts of one study at once: {max(1, round(0.1 * kills))}")
+    rows.append(_row("two first starts", *starts(folder, max(1, round(0.1 * kills)), run, command)))
+    tell("files of others in every output folder")
+    rows.append(_row("files of others", *foreign(folder, run)))
+    tell(f"reads while another thread advances: {inputs}")
+    rows.append(_row("reads during steps", *reads(inputs)))
+    tell("devices, pipes, files of terabytes, arguments of the wrong kind")
+    rows.append(_row("inputs at the edge", *inputs_at_the_edge(folder, run)))
+    rows.append(_row("arguments of Python", *arguments(folder)))
     tell(f"mutated inputs: {inputs}")
     rows.append(_row("mutated inputs", *_inputs(folder, seed, inputs)))
     return rows
@@ -114,9 +125,8 @@ def run(
         cwd=folder,
         capture_output=True,
         text=True,
-        timeout=HANG,
         check=False,
-        **how,
+        **{"timeout": HANG, **how},
     )
 
 

@@ -42,6 +42,9 @@ CASE = b"""! a small case
    deflection = 'mlmi'
    max_cycles = 12
 /
+&output
+   frame_interval = 0.25
+/
 """
 STUDY = b"""case = "case.nml"
 run = "film"
@@ -63,6 +66,7 @@ MAP = b"""&surface
 WORDS = (
     *(b"nan", b"inf", b"-1", b"0", b"1e308", b"1e-308", b"1e999", b"99999999999999999999", b"''"),
     *(b"'", b'"', b"&", b"/", b"!", b"=", b",", b"\n", b"\0", b"\xff\xfe", b"\xc3\xa9", b"[", b"]"),
+    *(b"1e-12", b"4097", b"2147483647", b"'/dev/zero'"),
     *(b".true.", b"3*1.0", b"(1)", b"&grid", b"points", b"../../etc/passwd", b"%s%n", b"{}", b"#"),
 )
 # What may be solved in no time

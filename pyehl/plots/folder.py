@@ -76,10 +76,7 @@ def plot_folder(
     FileError
         If a picture cannot be written.
     """
-    try:
-        data = results.load(folder)
-    except FileNotFoundError as error:
-        raise InputError(str(error)) from error
+    data = results.load(folder)
     prediction = data.attrs.get("kind") == "prediction"
     if moving:
         if prediction:

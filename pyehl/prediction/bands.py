@@ -104,7 +104,7 @@ def contributions(
 
     Raises
     ------
-    ValueError
+    InputError
         As :func:`predict_friction`.
     """
     options = options or Options()

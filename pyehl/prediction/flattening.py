@@ -22,6 +22,7 @@ import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
+from pyehl.errors import InputError
 from pyehl.prediction.options import STIFFNESSES, Options
 from pyehl.surfaces import Topography, wavenumbers
 from pyehl.theory import amplitude
@@ -63,7 +64,7 @@ def stiffness(qx: Array, qy: Array, reduced_modulus: float, kind: str = "exact")
 
     Raises
     ------
-    ValueError
+    InputError
         If the kind is unknown.
     """
     q = np.hypot(qx, qy)
@@ -71,7 +72,7 @@ def stiffness(qx: Array, qy: Array, reduced_modulus: float, kind: str = "exact")
         return np.asarray(0.25 * reduced_modulus * q)
     if kind == "paper":
         return np.asarray(reduced_modulus * q / (2.0 * math.sqrt(2.0)))
-    raise ValueError(f"stiffness {kind!r}: expected one of {STIFFNESSES}")
+    raise InputError(f"stiffness {kind!r}: expected one of {STIFFNESSES}")
 
 
 def response(
@@ -90,7 +91,7 @@ def response(
 
     Raises
     ------
-    ValueError
+    InputError
         If the conditions have no amplitude reduction (L = 0).
     """
     options = options or Options()

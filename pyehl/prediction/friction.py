@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.errors import InputError
 from pyehl.prediction.contact import Contact
 from pyehl.prediction.flattening import Response, response
 from pyehl.prediction.options import Options
@@ -111,7 +112,7 @@ def predict_friction(
 
     Raises
     ------
-    ValueError
+    InputError
         If the film is not positive, or the conditions have no amplitude reduction (L = 0).
 
     Notes
@@ -127,7 +128,7 @@ def predict_friction(
     start = time.perf_counter()
     options = options or Options()
     if not (math.isfinite(film) and film > 0.0):
-        raise ValueError(f"film thickness must be positive [m], not {film!r}")
+        raise InputError(f"film thickness must be positive [m], not {film!r}")
     field = response(topography, operating, options)
     grid = working_grid(topography, operating, options.positions)
     work = field if grid is topography else response(grid, operating, options)
@@ -214,11 +215,11 @@ def over_tracks(
 
     Raises
     ------
-    ValueError
+    InputError
         As :func:`predict_friction`, and for less than one track.
     """
     if tracks < 1:
-        raise ValueError(f"tracks must be positive, not {tracks!r}")
+        raise InputError(f"tracks must be positive, not {tracks!r}")
     ratios = np.array(
         [
             predict_friction(

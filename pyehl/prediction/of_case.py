@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl import surfaces
+from pyehl.errors import InputError
 from pyehl.prediction.bands import Band, contributions
 from pyehl.prediction.breakdown import advise, below_zero
 from pyehl.prediction.by_response import RoughPassage
@@ -69,7 +70,7 @@ def predict(
 
     Raises
     ------
-    ValueError
+    InputError
         If the surface is smooth or a single feature, a map is not usable, the conditions are
         outside the model, or there are too many tracks.
     OSError
@@ -77,18 +78,18 @@ def predict(
     """
     start = time.perf_counter()
     if not 1 <= tracks <= MAX_TRACKS:
-        raise ValueError(
+        raise InputError(
             f"--tracks {tracks}: expected 1 to {MAX_TRACKS}; the mean over {MAX_TRACKS} is known "
             "to a hundredth of the spread"
         )
     why = unpredictable(str(settings["surface"]["kind"]))
     if why:
-        raise ValueError(why)
+        raise InputError(why)
     operating = OperatingPoint.from_settings(settings)
     lubricant = Lubricant.from_settings(settings, str(settings["psd"]["viscosity_law"]))
     options = Options.from_settings(settings)
     if not options.as_in_paper and (options.load_balance or options.stiffness == "paper"):
-        raise ValueError(
+        raise InputError(
             "psd.load_balance and psd.stiffness = 'paper' belong to the model of the paper: "
             "psd.reduction = 'amplitude' with psd.smooth = 'hertz'"
         )

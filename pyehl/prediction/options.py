@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from pyehl.errors import InputError
 from pyehl.surfaces.features import FEATURES
 from pyehl.theory import amplitude
 
@@ -56,7 +57,7 @@ class Options:
 
     Raises
     ------
-    ValueError
+    InputError
         For an unknown word or a number out of range.
     """
 
@@ -76,9 +77,9 @@ class Options:
             ("stiffness", self.stiffness, STIFFNESSES),
         ):
             if value not in allowed:
-                raise ValueError(f"{name} {value!r}: expected one of {allowed}")
+                raise InputError(f"{name} {value!r}: expected one of {allowed}")
         if not 0 <= self.positions <= MAX_POSITIONS:
-            raise ValueError(f"positions must be 0 ... {MAX_POSITIONS}, not {self.positions!r}")
+            raise InputError(f"positions must be 0 ... {MAX_POSITIONS}, not {self.positions!r}")
 
     @property
     def as_in_paper(self) -> bool:
@@ -91,7 +92,7 @@ class Options:
 
         Raises
         ------
-        ValueError
+        InputError
             For a value out of range.
         """
         group = settings["psd"]

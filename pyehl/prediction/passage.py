@@ -9,6 +9,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.errors import InputError
 from pyehl.prediction.options import MAX_POSITIONS
 from pyehl.surfaces import MAX_PIXELS, Topography, resampled
 from pyehl.theory.operating import OperatingPoint
@@ -30,7 +31,7 @@ def working_grid(topography: Topography, operating: OperatingPoint, positions: i
 
     Raises
     ------
-    ValueError
+    InputError
         If that takes too many pixels.
     """
     nx, ny = topography.shape
@@ -40,7 +41,7 @@ def working_grid(topography: Topography, operating: OperatingPoint, positions: i
     multiple = positions or FIRST_POSITIONS * 4
     want_x = multiple * math.ceil(want_x / multiple)
     if want_x * want_y > MAX_PIXELS:
-        raise ValueError(
+        raise InputError(
             f"{topography.origin}: a tile of {topography.length_x:.3g} x "
             f"{topography.length_y:.3g} m would need {want_x} x {want_y} pixels to resolve a "
             f"contact of radius {operating.hertz_radius:.3g} m; cut a part out of it"

@@ -106,7 +106,7 @@ def resolution(case: Case, tile: Topography | None = None) -> Resolution | None:
     ------
     EhlError
         If the smooth contact has no solution, or the prediction gives no ratio.
-    ValueError, OSError
+    InputError, FileError
         If the surface is not usable.
     """
     settings = case.resolve()

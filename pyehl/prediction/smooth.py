@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 from scipy.ndimage import map_coordinates
 
 from pyehl import namelist
+from pyehl.arrays import read_array
 from pyehl.case import Case
-from pyehl.errors import EhlError
+from pyehl.errors import EhlError, InputError
 from pyehl.handle import SolverHandle
 from pyehl.kept import Kept
 from pyehl.theory.lubricant import Lubricant
@@ -185,7 +186,7 @@ def read_contact(folder: str | Path, operating: OperatingPoint) -> SmoothContact
 
     Raises
     ------
-    ValueError
+    InputError
         If it is not the folder of a converged solution at the same M and L.
     """
     folder = Path(folder)
@@ -193,15 +194,16 @@ def read_contact(folder: str | Path, operating: OperatingPoint) -> SmoothContact
         summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
         rough = (folder / "P_smooth.npy").is_file()
         names = ("X", "Y", "P_smooth", "H_smooth") if rough else ("X", "Y", "P", "H")
-        x, y, pressure, film = (np.load(folder / f"{n}.npy", allow_pickle=False) for n in names)
-    except OSError as error:
-        raise ValueError(f"{folder}: not a result folder with fields ({error.strerror})") from error
+        x, y, pressure, film = (read_array(folder / f"{n}.npy") for n in names)
+    except (OSError, ValueError) as error:
+        why = error.strerror if isinstance(error, OSError) and error.strerror else error
+        raise InputError(f"{folder}: not a result folder with fields ({why})") from error
     if summary["status"] != "converged":
-        raise ValueError(f"{folder}: not a solution, its status is '{summary['status']}'")
+        raise InputError(f"{folder}: not a solution, its status is '{summary['status']}'")
     for name, here in (("moes_m", operating.moes_m), ("moes_l", operating.moes_l)):
         there = summary[name]
         if not math.isclose(there, here, rel_tol=1e-4):
-            raise ValueError(f"{folder}: {name} is {there:.6g} there and {here:.6g} in the case")
+            raise InputError(f"{folder}: {name} is {there:.6g} there and {here:.6g} in the case")
     middle = np.argmin(np.abs(x)), np.argmin(np.abs(y))
     source = f"smooth contact in {folder}"
     central, least = float(film[middle]), float(film.min())

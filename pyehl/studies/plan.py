@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from pyehl import surfaces
+from pyehl import library, surfaces
 from pyehl.case import Case
 from pyehl.errors import EhlError, InputError
 from pyehl.prediction.options import Options, unpredictable
@@ -19,7 +19,6 @@ from pyehl.solver import Solver
 from pyehl.studies.estimate import seconds_of, shares_of, speed
 from pyehl.studies.study import Point, Study
 from pyehl.studies.tasks import Task
-from pyehl.surfaces.memory import available_bytes
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -119,7 +118,7 @@ def check_memory(cases: int) -> None:
     InputError
         With the memory that they need, and that there is.
     """
-    need, have = CASE_BYTES * cases, available_bytes()
+    need, have = CASE_BYTES * cases, library.free_bytes()
     if need > have:
         raise InputError(
             f"{cases} cases take {need / 2**30:.2g} GiB of memory to wait in, "

@@ -11,10 +11,11 @@ from typing import Any
 
 import xarray as xr
 
-from pyehl.case import Case, Option
+from pyehl.case import Case
 from pyehl.destination import Destination
 from pyehl.errors import InputError
 from pyehl.export import write_netcdf
+from pyehl.given import Option, check_kind, options_of, path_of
 from pyehl.studies import table
 from pyehl.studies.gather import Outcome, Watcher, gather
 from pyehl.studies.journal import NAME
@@ -141,20 +142,27 @@ def sweep(
     >>> ds.H_c.dims, ds.status.values.tolist()
     (('contact.moes_m',), ['converged', 'converged'])
     """
-    flat = [text for o in options for text in ([o] if isinstance(o, str) else o)]
+    check_kind(vary, Mapping, "vary", "values by key, as {'contact.load': [100.0, 200.0]}")
+    for key in vary:
+        check_kind(key, str, "a key of vary", "a text group.key")
+    check_kind(run, str, "run", "'solve', 'predict' or 'film'")
+    check_kind(outputs, Sequence, "outputs", "names of results")
+    check_kind(jobs, int, "jobs", "a number of worker processes")
+    check_kind(zip, (bool, Sequence), "zip", "True, False or lists of keys")
     study = make(
         case,
         [axis(key, values) for key, values in vary.items()],
-        options=flat,
+        options=options_of(options),
         zipped=zip,
         run=run,
-        outputs=outputs,
+        outputs=[outputs] if isinstance(outputs, str) else outputs,
     )
     if jobs < 0:
         raise InputError(f"jobs = {jobs}: expected a number of worker processes")
     todo = plan(study)
     if output is not None:
-        outcome = perform(todo, output, jobs=jobs, scheduler=scheduler, force=force)
+        folder = path_of(output, "output")
+        outcome = perform(todo, folder, jobs=jobs, scheduler=scheduler, force=force)
     else:
         with tempfile.TemporaryDirectory(prefix="pyehl-") as place:
             outcome = perform(todo, place, jobs=jobs, scheduler=scheduler)

@@ -97,7 +97,7 @@ def execute(task: Task) -> Row:
 
 
 def _solve(task: Task) -> Row:
-    case = Case(task.text)
+    case = Case.resolved(task.text)
     if task.folder:
         run(case, task.folder)
         text = (Path(task.folder) / "summary.json").read_text(encoding="utf-8")
@@ -108,7 +108,7 @@ def _solve(task: Task) -> Row:
 
 
 def _predict(task: Task) -> Row:
-    case = Case(task.text)
+    case = Case.resolved(task.text)
     full = task.full or bool(task.folder)
     prediction = of_case.predict(case.resolve(), case.text, brief=not full)
     if task.folder:
@@ -118,7 +118,7 @@ def _predict(task: Task) -> Row:
 
 
 def _film(task: Task) -> Row:
-    values = film_sheet.sheet(Case(task.text).resolve())
+    values = film_sheet.sheet(Case.resolved(task.text).resolve())
     row = _scalars(values)
     row["h_c_m"] = values["formulas"][0]["h_c_m"]
     for formula in values["formulas"]:

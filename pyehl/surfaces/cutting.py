@@ -9,6 +9,8 @@ import numpy as np
 import scipy.ndimage
 from numpy.typing import NDArray
 
+from pyehl.errors import InputError
+
 __all__ = ["cropped", "rotated"]
 
 Array = NDArray[np.float64]
@@ -40,7 +42,7 @@ def cropped(
 
     Raises
     ------
-    ValueError
+    InputError
         If the part reaches beyond the map, or less than 4 x 4 pixels are left.
     """
     cuts = []
@@ -48,13 +50,13 @@ def cropped(
         n, size = heights.shape[axis], heights.shape[axis] * pixel[axis]
         low, high = bounds[2 * axis], bounds[2 * axis + 1] or size
         if high > size * (1.0 + 1e-9):
-            raise ValueError(
+            raise InputError(
                 f"surface.crop_{name}_max = {high:g} m reaches beyond the map, which is "
                 f"{size:g} m long in {name}"
             )
         first, last = round(low / pixel[axis]), min(n, round(high / pixel[axis]))
         if last - first < LEAST_PIXELS:
-            raise ValueError(
+            raise InputError(
                 f"surface.crop_{name}_min = {low:g} and crop_{name}_max = {high:g} m leave "
                 f"{max(0, last - first)} pixels of {pixel[axis]:.3g} m; {LEAST_PIXELS} are needed"
             )
@@ -96,7 +98,7 @@ def rotated(
     step = min(pixel)
     nx, ny = int(width / step), int(height / step)
     if min(nx, ny) < LEAST_PIXELS:
-        raise ValueError(f"surface.rotate = {angle:g}: no rectangle of 4 x 4 pixels is left inside")
+        raise InputError(f"surface.rotate = {angle:g}: no rectangle of 4 x 4 pixels is left inside")
     y = (np.arange(ny) - 0.5 * (ny - 1)) * step
     c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
     # the margin takes what the splines feel of the end of the map

@@ -17,6 +17,7 @@ import math
 
 import numpy as np
 
+from pyehl.errors import InputError
 from pyehl.library import surface_functions
 from pyehl.surfaces.tile import Topography
 
@@ -62,16 +63,16 @@ def feature(
 
     Raises
     ------
-    ValueError
+    InputError
         For an unknown kind or a size that is not positive.
     """
     if kind not in FEATURES:
-        raise ValueError(f"kind {kind!r}: expected one of {FEATURES}")
+        raise InputError(f"kind {kind!r}: expected one of {FEATURES}")
     for name, value in (("height", height), ("width", width)):
         if not (math.isfinite(value) and value > 0.0):
-            raise ValueError(f"{name} must be positive [m], not {value!r}")
+            raise InputError(f"{name} must be positive [m], not {value!r}")
     if not (math.isfinite(length) and length >= 0.0):
-        raise ValueError(f"length must not be negative [m], not {length!r}")
+        raise InputError(f"length must not be negative [m], not {length!r}")
     is_line = kind in ("ridge", "groove")
     along = length or (2.0 * (end or 2.0 * width) if is_line else width)
     across, half = REACH * width, REACH * along

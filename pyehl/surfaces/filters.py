@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from pyehl.errors import check
+from pyehl.errors import InputError, check
 from pyehl.library import surface_functions
 from pyehl.surfaces.tile import Topography
 
@@ -44,20 +44,20 @@ def filtered(
 
     Raises
     ------
-    ValueError
+    InputError
         For a negative or infinite wavelength, a longest that is not above the shortest, or another
         kind.
     """
     for name, value in (("shortest", shortest_wavelength), ("longest", longest_wavelength)):
         if not (math.isfinite(value) and value >= 0.0):
-            raise ValueError(f"{name}_wavelength must not be negative [m], not {value!r}")
+            raise InputError(f"{name}_wavelength must not be negative [m], not {value!r}")
     if longest_wavelength and longest_wavelength <= shortest_wavelength:
-        raise ValueError(
+        raise InputError(
             f"longest_wavelength = {longest_wavelength!r} m is not longer than "
             f"shortest_wavelength = {shortest_wavelength!r} m"
         )
     if kind not in ("sharp", "gaussian"):
-        raise ValueError(f"filter {kind!r}: expected 'sharp' or 'gaussian'")
+        raise InputError(f"filter {kind!r}: expected 'sharp' or 'gaussian'")
     if not shortest_wavelength and not longest_wavelength:
         return topography
     z = np.array(topography.heights, dtype=np.float64, order="F")

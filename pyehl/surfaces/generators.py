@@ -13,7 +13,7 @@ import math
 
 import numpy as np
 
-from pyehl.errors import check
+from pyehl.errors import InputError, check
 from pyehl.library import surface_functions
 from pyehl.surfaces.tile import MAX_PIXELS, Topography
 
@@ -61,27 +61,27 @@ def fractal(
 
     Raises
     ------
-    ValueError
+    InputError
         For an argument out of range.
     """
     nx, ny = (pixels, pixels) if isinstance(pixels, int) else pixels
     if nx < 4 or ny < 4 or nx * ny > MAX_PIXELS:
-        raise ValueError(f"pixels must be at least 4 per side and at most {MAX_PIXELS} in all")
+        raise InputError(f"pixels must be at least 4 per side and at most {MAX_PIXELS} in all")
     if not (math.isfinite(rms_height) and rms_height > 0.0):
-        raise ValueError(f"rms_height must be positive [m], not {rms_height!r}")
+        raise InputError(f"rms_height must be positive [m], not {rms_height!r}")
     if not 0.0 < hurst <= 1.0:
-        raise ValueError(f"hurst must be in (0, 1], not {hurst!r}")
+        raise InputError(f"hurst must be in (0, 1], not {hurst!r}")
     if not (math.isfinite(rolloff_wavenumber) and rolloff_wavenumber >= 0.0):
-        raise ValueError(
+        raise InputError(
             f"rolloff_wavenumber must not be negative [rad/m], not {rolloff_wavenumber!r}"
         )
     for name, value in (("length_x", length_x), ("length_y", length_y)):
         if not (math.isfinite(value) and value > 0.0):
-            raise ValueError(f"{name} must be positive [m], not {value!r}")
+            raise InputError(f"{name} must be positive [m], not {value!r}")
     if seed < 0:
-        raise ValueError(f"seed must not be negative, not {seed!r}")
+        raise InputError(f"seed must not be negative, not {seed!r}")
     if modulus not in ("deterministic", "gaussian"):
-        raise ValueError(f"modulus {modulus!r}: expected 'deterministic' or 'gaussian'")
+        raise InputError(f"modulus {modulus!r}: expected 'deterministic' or 'gaussian'")
 
     size = max(1, (seed.bit_length() + 31) // 32)
     words = np.frombuffer(seed.to_bytes(4 * size, "little"), dtype="<i4").astype(np.int32)

@@ -9,6 +9,8 @@ import scipy.sparse
 import scipy.sparse.linalg
 from numpy.typing import NDArray
 
+from pyehl.errors import InputError
+
 __all__ = ["MAX_MISSING", "filled", "nearest"]
 
 Array = NDArray[np.float64]
@@ -35,7 +37,7 @@ def filled(heights: Array, pixel: tuple[float, float]) -> Array:
 
     Raises
     ------
-    ValueError
+    InputError
         If more than a share of `MAX_MISSING` is missing.
     """
     missing = ~np.isfinite(heights)
@@ -44,7 +46,7 @@ def filled(heights: Array, pixel: tuple[float, float]) -> Array:
         return heights
     share = count / heights.size
     if share > MAX_MISSING:
-        raise ValueError(
+        raise InputError(
             f"{count} of {heights.size} heights are missing ({100 * share:.1f} %), more than "
             f"{100 * MAX_MISSING:.0f} %: what the friction would be is what the filling is; "
             "measure again, or take a part of the map by surface.crop_x_min and so on"
@@ -86,7 +88,7 @@ def _solve(matrix: scipy.sparse.csr_matrix, right: Array, guess: Array) -> Array
         matrix, balance, x0=guess - offset, rtol=TOLERANCE, maxiter=20_000, M=inverse
     )
     if failed:
-        raise ValueError(f"{right.size} missing heights: their interpolation does not converge")
+        raise InputError(f"{right.size} missing heights: their interpolation does not converge")
     return np.asarray(solution + offset)
 
 

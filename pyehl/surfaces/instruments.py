@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.errors import EhlError, InputError
 from pyehl.surfaces.memory import check_pixels
 
 __all__ = ["read_instrument"]
@@ -49,14 +50,14 @@ def read_instrument(
 
     Raises
     ------
-    ValueError
+    InputError
         If the package is missing, the file is of no kind that it knows, has no such channel, is a
         profile along a line, has no size and the caller knows none, or has a size without a unit.
     """
     try:
         from SurfaceTopography.IO import open_topography  # noqa: PLC0415 (heavy, and optional)
     except ImportError:
-        raise ValueError(
+        raise InputError(
             f"{path}: files of instruments are read by the package SurfaceTopography, which is "
             f"not installed: {INSTALL}; or save the heights in m as .npy"
         ) from None
@@ -68,20 +69,18 @@ def read_instrument(
             name = str(picked.name)
             sized = picked.physical_sizes is not None
             if not sized and not all(lengths):
-                raise _UnusableError(
+                raise InputError(
                     f"{path}: the size of the map is not known: the file has none; "
                     "give surface.length_x and surface.length_y [m]"
                 )
             scan = picked.topography(**({} if sized else {"physical_sizes": (1.0, 1.0)}))
-    except OSError:
+    except (EhlError, OSError):
         raise
-    except _UnusableError as error:
-        raise ValueError(str(error)) from None
     except Exception as error:
         reason = str(error).strip().partition("\n")[0] or type(error).__name__
         if type(error).__name__ == "CannotDetectFileFormat":
             reason = "it is of no format that SurfaceTopography knows"
-        raise ValueError(
+        raise InputError(
             f"{path}: cannot be read as a height map: {reason}; save the heights in m as .npy "
             "or text, and give surface.length_x and surface.length_y"
         ) from None
@@ -89,7 +88,7 @@ def read_instrument(
     if scan.unit is not None:
         scan = scan.to_unit("m")
     elif sized:
-        raise ValueError(
+        raise InputError(
             f"{path}: the file names no unit of its size and heights; save its heights in m as "
             ".npy or text, and give surface.length_x and surface.length_y"
         )
@@ -101,10 +100,6 @@ def read_instrument(
     if sized:
         size = (float(scan.physical_sizes[0]), float(scan.physical_sizes[1]))
     return heights, size, bool(scan.is_periodic), name, note
-
-
-class _UnusableError(Exception):
-    """A channel that cannot serve, in words for a person."""
 
 
 def _pick(path: Path, channels: list[Any], default: Any, wanted: str) -> Any:  # noqa: ANN401
@@ -119,18 +114,18 @@ def _pick(path: Path, channels: list[Any], default: Any, wanted: str) -> Any:  #
         if not named and wanted.isdigit() and 1 <= int(wanted) <= len(channels):
             named = [channels[int(wanted) - 1]]
         if not named:
-            raise _UnusableError(
+            raise InputError(
                 f"{path}: surface.channel = '{wanted}': there is no such channel\n"
                 f"expected: one of the channels {listing}, by name or number"
             )
         picked = named[0]
     if picked.dim == 1:
-        raise _UnusableError(
+        raise InputError(
             f"{path}: channel '{picked.name}' is a profile along a line; a contact needs the map "
             f"of an area; the channels are {listing}"
         )
     if picked.dim != 2 or not picked.is_height_channel:
-        raise _UnusableError(
+        raise InputError(
             f"{path}: channel '{picked.name}' is not a height map; the channels are {listing}"
         )
     return picked

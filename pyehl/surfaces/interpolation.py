@@ -10,6 +10,7 @@ import numpy as np
 import scipy.fft
 from numpy.typing import NDArray
 
+from pyehl.errors import InputError
 from pyehl.surfaces.spectra import wavenumbers
 from pyehl.surfaces.tile import Topography
 
@@ -70,7 +71,7 @@ def resampled(topography: Topography, pixels: tuple[int, int]) -> Topography:
 
     Raises
     ------
-    ValueError
+    InputError
         If the new grid has fewer pixels in a direction.
     """
     if pixels == topography.shape:
@@ -79,7 +80,7 @@ def resampled(topography: Topography, pixels: tuple[int, int]) -> Topography:
     for axis in (0, 1):
         old, new = topography.shape[axis], pixels[axis]
         if new < old:
-            raise ValueError(f"cannot resample {topography.shape} pixels to fewer, {pixels}")
+            raise InputError(f"cannot resample {topography.shape} pixels to fewer, {pixels}")
         if new == old:
             continue
         values = scipy.fft.rfft(z, axis=axis, norm="forward")

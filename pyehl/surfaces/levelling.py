@@ -6,6 +6,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.errors import InputError
+
 __all__ = ["DEGREES", "fit", "level", "levelled"]
 
 Array = NDArray[np.float64]
@@ -36,7 +38,7 @@ def fit(heights: Array, degree: int, valid: NDArray[np.bool_] | None = None) -> 
 
     Raises
     ------
-    ValueError
+    InputError
         If too few points are left to tell the polynomial.
     """
     x, coefficient, y = _factors(heights, degree, valid)
@@ -66,7 +68,7 @@ def _factors(
         right = x.T @ np.where(good, heights, 0.0) @ y
     matrix = np.array([[moments[a + c, b + d] for c, d in powers] for a, b in powers])
     if count < len(powers) or np.linalg.cond(matrix) > 1e12:
-        raise ValueError(
+        raise InputError(
             f"surface.detrend: {count} heights lie so that a polynomial of degree "
             f"{degree} cannot be told from them"
         )

@@ -40,7 +40,7 @@ def read_map(
     ------
     OSError
         If the file cannot be opened.
-    ValueError
+    InputError
         If it cannot be read or prepared.
     """
     return tile_of(read_scan(path, length_x, length_y, channel), options)

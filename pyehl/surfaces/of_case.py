@@ -9,12 +9,14 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from pyehl.errors import InputError
 from pyehl.kept import Kept
 from pyehl.surfaces.features import FEATURES, feature
 from pyehl.surfaces.filters import filtered
 from pyehl.surfaces.generators import fractal, harmonic
 from pyehl.surfaces.interpolation import shift_across
 from pyehl.surfaces.maps import tile_of
+from pyehl.surfaces.memory import PREDICTION_COPIES, check_pixels
 from pyehl.surfaces.options import Options
 from pyehl.surfaces.reading import Scan, read_scan
 from pyehl.surfaces.tile import Topography
@@ -31,6 +33,7 @@ __all__ = [
     "without_spikes",
 ]
 
+FEWER = "fewer pixels: surface.pixels"
 # Least pixels per wavelength, and per Hertz radius, of a sampled harmonic pattern
 HARMONIC_PIXELS = 32
 RADIUS_PIXELS = 64
@@ -83,7 +86,7 @@ def from_settings(
 
     Raises
     ------
-    ValueError
+    InputError
         If the surface is smooth or the map is not usable.
     OSError
         If the map cannot be opened.
@@ -105,6 +108,9 @@ def whole(
         shares = (float(surface["wavelength_x"]), float(surface["wavelength_y"]))
         # a long wave is sampled as finely as the contact needs, not only as it needs itself
         pixels = tuple(2 * math.ceil(max(HARMONIC_PIXELS, RADIUS_PIXELS * s) / 2) for s in shares)
+        name = f"a wave of {shares[0]:g} x {shares[1]:g} a"
+        size = (pixels[0], pixels[1])
+        check_pixels(name, size, copies=PREDICTION_COPIES, way="shorter waves")
         return harmonic(
             harmonic_amplitude(settings, operating, film),
             shares[0] * operating.hertz_radius,
@@ -115,7 +121,7 @@ def whole(
         return _map(surface)
     if kind in FEATURES:
         return _feature(settings, operating, film)
-    raise ValueError(
+    raise InputError(
         f"surface.kind = {kind!r} has no heights; expected 'harmonic', 'map', 'fractal', "
         + ", ".join(repr(name) for name in FEATURES)
     )
@@ -154,8 +160,12 @@ def _read_only(made: Topography) -> Topography:
 
 
 def _fractal(surface: Mapping[str, Any]) -> Topography:
+    pixels = int(surface["pixels"])
+    check_pixels(
+        f"surface.pixels = {pixels}", (pixels, pixels), copies=PREDICTION_COPIES, way=FEWER
+    )
     made = fractal(
-        int(surface["pixels"]),
+        pixels,
         float(surface["length_x"]),
         float(surface["length_y"]),
         rms_height=float(surface["rms_height"]),
@@ -212,12 +222,12 @@ def without_spikes(surface: Topography, threshold: float, group: Mapping[str, An
 
     Raises
     ------
-    ValueError
+    InputError
         If it was not, or cannot be.
     """
     made = surface.preparation
     if made is None:
-        raise ValueError(f"{surface.origin}: not prepared from a map")
+        raise InputError(f"{surface.origin}: not prepared from a map")
     return finished(tile_of(made.scan, replace(made.options, outliers=threshold)), group)
 
 

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.errors import InputError
 from pyehl.surfaces import cutting, holes, levelling, seams, spikes
 from pyehl.surfaces.memory import check_pixels
 from pyehl.surfaces.options import NEUTRAL, Options, defaults
@@ -27,6 +28,7 @@ Array = NDArray[np.float64]
 
 LOG = logging.getLogger(__name__)
 
+SMALLER = "a part of the map: surface.crop_x_min, crop_x_max, crop_y_min, crop_y_max"
 RMS_BAND = (1e-10, 1e-4)
 """Rms heights outside of it [m] are mistakes of units."""
 
@@ -101,7 +103,7 @@ def prepare(scan: Scan, options: Options = NEUTRAL) -> Preparation:
 
     Raises
     ------
-    ValueError
+    InputError
         If a step cannot be done, the map is larger than the memory, or the rms height is so
         large or small that the unit must be wrong.
     """
@@ -128,7 +130,7 @@ def consume(scan: Scan, options: Options = NEUTRAL) -> tuple[Array, Record]:
 
     Raises
     ------
-    ValueError
+    InputError
         As :func:`prepare`.
     """
     work, options, why = _prepared(scan, options, keep=False)
@@ -147,7 +149,8 @@ def _prepared(
     if any(options.crop):
         work.do("crop", ", ".join(f"{v:g}" for v in options.crop),
                 cutting.cropped(work.z, work.pixel, options.crop))  # fmt: skip
-    check_pixels(scan.origin, work.z.shape, 4 if keep and options.edges == "mirror" else 1)
+    tiles = 4 if keep and options.edges == "mirror" else 1
+    check_pixels(scan.origin, work.z.shape, tiles, way=SMALLER)
     if options.sign < 0:
         work.do("sign", "-1", -work.z)
     complete = bool(np.isfinite(work.z).all())
@@ -201,14 +204,14 @@ def _fill(work: WorkingMap, options: Options, valid: NDArray[np.bool_]) -> None:
         return
     if options.fill == "none":
         i, j = np.argwhere(~valid)[0]
-        raise ValueError(
+        raise InputError(
             f"{work.origin}: {missing} of {valid.size} heights are missing, the first at row {i}, "
             f"column {j}, and surface.fill = 'none'; with 'harmonic' they are interpolated"
         )
     try:
         full = holes.filled(work.z, work.pixel)
     except ValueError as error:
-        raise ValueError(f"{work.origin}: {error}") from None
+        raise InputError(f"{work.origin}: {error}") from None
     why = "given" if options.outliers > 0.0 else "nothing is known but the rims of the holes"
     work.do("fill", options.fill, full, why, changed=missing)
 
@@ -223,7 +226,7 @@ def _tell(scan: Scan, step: str) -> None:
 def _check_rms(scan: Scan, rms: float) -> None:
     """Refuse what can only be a mistake of units."""
     if not RMS_BAND[0] <= rms <= RMS_BAND[1]:
-        raise ValueError(
+        raise InputError(
             f"{scan.origin}: rms height {rms:.3g} m is outside {RMS_BAND[0]:g} ... "
             f"{RMS_BAND[1]:g} m; are the heights in m?"
         )

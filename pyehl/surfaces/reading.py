@@ -15,8 +15,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.errors import EhlError, FileError, InputError
+from pyehl.library import check_memory
 from pyehl.surfaces.instruments import read_instrument
 from pyehl.surfaces.memory import check_pixels
+from pyehl.surfaces.text_map import read_text
 
 __all__ = ["Scan", "is_array_file", "plain_array", "read_scan"]
 
@@ -38,10 +41,6 @@ EXPORT = re.compile(
 )
 # First characters of numbers, nan and inf among them
 NUMBER_BEGINS = "0123456789+-.nNiI,;"
-# What stands between separators
-WORD = re.compile(r"[^\s,;]+")
-OWN_SIZE = re.compile(r"^#\s*(length_[xy])\s*=\s*(\S+)\s*m\s*$")
-OWN_PERIODIC = re.compile(r"^#\s*periodic\s*$")
 HEADER_LINES = 100
 LEAST_PIXELS = 4
 
@@ -134,29 +133,44 @@ def read_scan(
 
     Raises
     ------
-    OSError
+    FileError
         If the file cannot be opened.
-    ValueError
-        If it is no matrix of numbers, has no size, has no such channel, is larger than the memory
-        or its size cannot be meant.
+    NoMemoryError
+        If it is larger than the memory.
+    InputError
+        If it is no matrix of numbers, has no size, has no such channel or its size cannot be meant.
     """
     path = Path(path)
     if not path.is_file():
-        raise FileNotFoundError(f"{path}: no such height map")
-    if path.stat().st_size == 0:
-        raise ValueError(f"{path}: the file is empty")
+        raise FileError(f"{path}: no such height map")
+    try:
+        return _read(path, length_x, length_y, channel)
+    except EhlError:
+        raise
+    except OSError as error:
+        raise FileError(f"{path}: cannot read: {error.strerror or error}") from error
+
+
+def _read(path: Path, length_x: float | None, length_y: float | None, channel: str) -> Scan:
+    """Read a file of any kind."""
+    length = path.stat().st_size
+    if length == 0:
+        raise InputError(f"{path}: the file is empty")
+    if path.suffix.lower() != ".npy":
+        # a line of text may be as long as the file; the header of an array tells more
+        check_memory(f"{path}: a file of this length", length)
     own: tuple[float | None, float | None] = (None, None)
     periodic, name, note = False, "", ""
     array = is_array_file(path)
     if array:
         if channel:
-            raise ValueError(
+            raise InputError(
                 f"{path}: surface.channel = '{channel}', but .npy and text hold one map alone"
             )
         if path.suffix.lower() == ".npy":
             heights = _read_npy(path)
         else:
-            heights, own, periodic = _read_text(path)
+            heights, own, periodic = read_text(path)
     else:
         heights, own, periodic, name, note = read_instrument(path, channel, (length_x, length_y))
     _check_shape(path, heights.shape)
@@ -164,7 +178,7 @@ def read_scan(
     for key, given, found in zip(("length_x", "length_y"), (length_x, length_y), own, strict=True):
         size = given or found
         if size is None:
-            raise ValueError(
+            raise InputError(
                 f"{path}: the size of the map is not known: the file has none; "
                 f"give surface.{key} [m]"
             )
@@ -185,7 +199,7 @@ def _check_shape(path: Path, shape: tuple[int, ...]) -> None:
     if min(shape) < LEAST_PIXELS:
         lines = ("a profile along one line", "a profile of x and z", "a list of x, y and z")
         what = f"; is it {lines[shape[1] - 1]}?" if shape[1] <= len(lines) < shape[0] else ""
-        raise ValueError(
+        raise InputError(
             f"{path}: the map must have at least {LEAST_PIXELS} x {LEAST_PIXELS} pixels, "
             f"not {shape[0]} x {shape[1]}{what}"
         )
@@ -197,7 +211,7 @@ def _check_pixel(scan: Scan) -> None:
     for axis, length, pixels in sides:
         pixel = length / pixels
         if not PIXEL_BAND[0] <= pixel <= PIXEL_BAND[1]:
-            raise ValueError(
+            raise InputError(
                 f"{scan.origin}: length_{axis} = {length:.4g} m gives a pixel of {pixel:.3g} m, "
                 f"outside {PIXEL_BAND[0]:g} ... {PIXEL_BAND[1]:g} m; is the length in m?"
             )
@@ -218,77 +232,10 @@ def _read_npy(path: Path) -> Array:
         raise
     except Exception as error:
         # a damaged header makes numpy raise whatever the parser of Python does
-        raise ValueError(f"{path}: not a readable .npy file of numbers: {error}") from None
+        raise InputError(f"{path}: not a readable .npy file of numbers: {error}") from None
     if raw.ndim != 2:
-        raise ValueError(f"{path}: heights must be a matrix (nx, ny), not of shape {raw.shape}")
+        raise InputError(f"{path}: heights must be a matrix (nx, ny), not of shape {raw.shape}")
     if raw.dtype.kind not in "fiu":
-        raise ValueError(f"{path}: heights must be real numbers, not {raw.dtype}")
+        raise InputError(f"{path}: heights must be real numbers, not {raw.dtype}")
     check_pixels(str(path), raw.shape)
     return np.array(raw, dtype=float, order="C")
-
-
-def _read_text(path: Path) -> tuple[Array, tuple[float | None, float | None], bool]:
-    """Heights, the size if the header has it, and whether it says 'periodic'."""
-    size: dict[str, float | None] = {"length_x": None, "length_y": None}
-    periodic = False
-    rows: list[Array] = []
-    with path.open(encoding="utf-8", errors="replace") as lines:
-        for number, line in enumerate(lines, 1):
-            if match := OWN_SIZE.match(line):
-                size[match[1]] = float(match[2])
-            periodic = periodic or bool(OWN_PERIODIC.match(line))
-            row = _row(path, number, line)
-            if row is None:
-                continue
-            if rows and row.size != rows[0].size:
-                raise ValueError(
-                    f"{path}:{number}:{_column(line, rows[0].size)}: {row.size} heights, but "
-                    f"{rows[0].size} in the lines above"
-                )
-            rows.append(row)
-            if len(rows) % 1024 == 0:
-                check_pixels(str(path), (len(rows), row.size))
-    if not rows:
-        raise ValueError(f"{path}: no heights in the file")
-    return np.array(rows), (size["length_x"], size["length_y"]), periodic
-
-
-def _row(path: Path, number: int, line: str) -> Array | None:
-    """Heights of one line; None for an empty one."""
-    text = line.partition("#")[0].replace(";", " ")
-    if "," in text:
-        # "1,2 3,4" would otherwise be read as four heights
-        commas = text.count(",")
-        text = text.replace(",", " ")
-        words = text.split()
-        if commas not in (len(words) - 1, len(words)):
-            raise ValueError(
-                f"{path}:{number}:{line.index(',') + 1}: commas and blanks both separate the "
-                "numbers; if the comma is a decimal comma, write a point"
-            )
-    else:
-        words = text.split()
-    if not words:
-        return None
-    try:
-        return np.array(words, dtype=float)
-    except ValueError:
-        bad = next(n for n, word in enumerate(words) if not _is_number(word))
-        raise ValueError(
-            f"{path}:{number}:{_column(line, bad)}: {words[bad]!r} is no number; expected: heights "
-            "in m"
-        ) from None
-
-
-def _is_number(word: str) -> bool:
-    try:
-        float(word)
-    except ValueError:
-        return False
-    return True
-
-
-def _column(line: str, index: int) -> int:
-    """Column of a word of a line, from 1; behind its last one where it has fewer."""
-    words = list(WORD.finditer(line.partition("#")[0]))
-    return words[index].start() + 1 if index < len(words) else words[-1].end() + 1

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -10,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl import library
 from pyehl.surfaces.interpolation import shift_across
 from pyehl.surfaces.of_case import moved, scan_of, whole
 from pyehl.surfaces.options import NEUTRAL, Options
@@ -22,6 +24,8 @@ from pyehl.surfaces.tile import Topography
 from pyehl.theory.operating import OperatingPoint
 
 __all__ = ["SolverSurface", "for_solver"]
+
+LOG = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +60,7 @@ def for_solver(settings: Mapping[str, Mapping[str, Any]]) -> SolverSurface:
 
     Raises
     ------
-    ValueError
+    InputError
         If a map is not usable.
     OSError
         If it cannot be opened.
@@ -66,6 +70,10 @@ def for_solver(settings: Mapping[str, Mapping[str, Any]]) -> SolverSurface:
         # the film is the scale of harmonic patterns alone
         made = whole(settings, OperatingPoint.from_settings(settings), film=0.0)
         return SolverSurface(np.asfortranarray(moved(made, surface).heights))
+    if surface["kind"] == "fractal":
+        need = library.returned(library.surface_functions.making(int(surface["pixels"])))
+        if need:
+            LOG.info(need)
     if surface["kind"] != "map":
         return SolverSurface()
     scan, options = scan_of(surface), Options.from_settings(surface)

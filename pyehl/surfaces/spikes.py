@@ -11,6 +11,7 @@ import numpy as np
 import scipy.ndimage
 from numpy.typing import NDArray
 
+from pyehl.errors import InputError
 from pyehl.surfaces.holes import nearest
 from pyehl.surfaces.levelling import level
 
@@ -48,7 +49,7 @@ def prominence(heights: Array) -> Array:
 
     Raises
     ------
-    ValueError
+    InputError
         If more than half of the map equals its median: then there is no spread to compare with.
     """
     missing = ~np.isfinite(heights)
@@ -67,7 +68,7 @@ def prominence(heights: Array) -> Array:
     spread = MAD_TO_SIGMA * float(np.median(above[~missing], overwrite_input=True))
     # what is left of a plane is rounding
     if not spread > 1e-12 * largest:
-        raise ValueError(
+        raise InputError(
             "surface.outliers: half of the map or more is flat to the last digit, so that there "
             "is no spread to tell spikes by; remove them in the program of the instrument"
         )

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.errors import InputError
 from pyehl.surfaces.prepare import Preparation
 
 __all__ = ["MAX_PIXELS", "Topography"]
@@ -38,7 +39,7 @@ class Topography:
 
     Raises
     ------
-    ValueError
+    InputError
         If the heights are not a finite matrix of at least 2 x 2 or a length is not positive.
     """
 
@@ -53,20 +54,20 @@ class Topography:
         """Check shape, numbers and size."""
         z = self.heights
         if z.ndim != 2 or min(z.shape) < 2:
-            raise ValueError(
+            raise InputError(
                 f"{self.origin or 'surface'}: heights must be a matrix (nx, ny) of at least 2 x 2, "
                 f"not of shape {z.shape}"
             )
         bad = int(z.size - np.count_nonzero(np.isfinite(z)))
         if bad:
             i, j = np.argwhere(~np.isfinite(z))[0]
-            raise ValueError(
+            raise InputError(
                 f"{self.origin or 'surface'}: {bad} of {z.size} heights are not finite, the first "
                 f"at row {i}, column {j}; fill the holes of the map first"
             )
         for name, value in (("length_x", self.length_x), ("length_y", self.length_y)):
             if not (math.isfinite(value) and value > 0.0):
-                raise ValueError(f"{name} must be positive [m], not {value!r}")
+                raise InputError(f"{name} must be positive [m], not {value!r}")
 
     @property
     def shape(self) -> tuple[int, int]:

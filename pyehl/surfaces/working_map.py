@@ -8,6 +8,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.errors import InputError
 from pyehl.surfaces import areal
 from pyehl.surfaces.options import Options
 from pyehl.surfaces.reading import Scan
@@ -48,7 +49,7 @@ class WorkingMap:
 
     Raises
     ------
-    ValueError
+    InputError
         If a height cannot be one in metres.
     """
 
@@ -61,7 +62,7 @@ class WorkingMap:
             self.z = np.where(np.isinf(self.z), np.nan, self.z)
         largest = _largest(self.z)
         if largest > LARGEST:
-            raise ValueError(
+            raise InputError(
                 f"{scan.origin}: a height of {largest:.3g} m: expected heights in metres"
             )
         self.missing = self.z.size - int(np.count_nonzero(np.isfinite(self.z)))

@@ -9,6 +9,7 @@ import numpy as np
 from scipy.io import netcdf_file
 
 from pyehl.destination import new_file
+from pyehl.errors import InputError
 from pyehl.surfaces.tile import Topography
 
 __all__ = ["SUFFIXES", "write_map"]
@@ -34,7 +35,7 @@ def write_map(tile: Topography, path: str | Path) -> Path:
 
     Raises
     ------
-    ValueError
+    InputError
         For any other suffix.
     FileError
         If the file cannot be written.
@@ -42,7 +43,7 @@ def write_map(tile: Topography, path: str | Path) -> Path:
     path = Path(path)
     writers = {".npy": _write_npy, ".txt": _write_text, ".nc": _write_netcdf}
     if path.suffix not in writers:
-        raise ValueError(f"{path}: a map is written as one of {', '.join(SUFFIXES)}")
+        raise InputError(f"{path}: a map is written as one of {', '.join(SUFFIXES)}")
     with new_file(path) as partial:
         writers[path.suffix](tile, partial)
     return path

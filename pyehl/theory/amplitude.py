@@ -30,6 +30,8 @@ from typing import cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pyehl.errors import InputError
+
 __all__ = [
     "CONVENTIONS",
     "amplitude_ratio",
@@ -78,12 +80,12 @@ def wavelength_parameter(
 
     Raises
     ------
-    ValueError
+    InputError
         If M or L is not positive (the theory is one of piezoviscous contacts) or the kind of
         contact is unknown.
     """
     if not (moes_m > 0.0 and moes_l > 0.0):
-        raise ValueError(
+        raise InputError(
             f"amplitude reduction needs positive Moes numbers, not M = {moes_m:g}, L = {moes_l:g}"
         )
     lam = np.asarray(wavelength, dtype=float)
@@ -91,9 +93,9 @@ def wavelength_parameter(
         return cast(Array, anisotropy_factor(ratio) * lam * np.sqrt(moes_m / moes_l))
     if contact == "line":
         if not np.all(np.asarray(ratio) == 1.0):
-            raise ValueError("the line contact formula has no ratio of wavelengths")
+            raise InputError("the line contact formula has no ratio of wavelengths")
         return np.asarray(lam * moes_m**0.75 / moes_l**0.5)
-    raise ValueError(f"contact {contact!r}: expected 'point' or 'line'")
+    raise InputError(f"contact {contact!r}: expected 'point' or 'line'")
 
 
 def amplitude_ratio(parameter: ArrayLike, *, contact: str = "point") -> Array:
@@ -101,11 +103,11 @@ def amplitude_ratio(parameter: ArrayLike, *, contact: str = "point") -> Array:
 
     Raises
     ------
-    ValueError
+    InputError
         If the kind of contact is unknown.
     """
     if contact not in _COEFFICIENTS:
-        raise ValueError(f"contact {contact!r}: expected 'point' or 'line'")
+        raise InputError(f"contact {contact!r}: expected 'point' or 'line'")
     c1, c2 = _COEFFICIENTS[contact]
     x = np.asarray(parameter, dtype=float)
     return np.asarray(1.0 / (1.0 + c1 * x + c2 * x * x))
@@ -120,7 +122,7 @@ def component_wavelength(
 
     Raises
     ------
-    ValueError
+    InputError
         If the convention is unknown.
     """
     x, y = np.broadcast_arrays(np.abs(qx), np.abs(qy))
@@ -133,7 +135,7 @@ def component_wavelength(
         if convention == "components":
             ratio = np.where((x == 0.0) & (y == 0.0), 1.0, y / x)
             return cast(Array, 2.0 * np.pi / np.maximum(x, y)), cast(Array, ratio)
-    raise ValueError(f"wavelength convention {convention!r}: expected one of {CONVENTIONS}")
+    raise InputError(f"wavelength convention {convention!r}: expected one of {CONVENTIONS}")
 
 
 def component_amplitude_ratio(

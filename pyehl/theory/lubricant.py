@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pyehl.errors import InputError
 from pyehl.theory.numbers import positive
 from pyehl.theory.shear import ShearLaw
 
@@ -41,12 +42,12 @@ def default_roelands_z(
 
     Raises
     ------
-    ValueError
+    InputError
         If the viscosity is so low that ln eta0 + 9.67 <= 0, where the law has no meaning.
     """
     denominator = math.log(positive("viscosity", viscosity, "Pa s")) + 9.67
     if denominator <= 0.0:
-        raise ValueError(
+        raise InputError(
             f"viscosity {viscosity!r} Pa s is below exp(-9.67) Pa s, the lowest the Roelands law "
             "knows; is the unit Pa s?"
         )
@@ -76,7 +77,7 @@ class Lubricant:
 
     Raises
     ------
-    ValueError
+    InputError
         For an unknown law or a number out of range.
     """
 
@@ -94,11 +95,11 @@ class Lubricant:
         positive("pressure_viscosity", self.pressure_viscosity, "1/Pa")
         positive("roelands_p0", self.roelands_p0, "Pa")
         if self.viscosity_law not in ("roelands", "barus"):
-            raise ValueError(
+            raise InputError(
                 f"viscosity_law {self.viscosity_law!r}: expected 'roelands' or 'barus'"
             )
         if self.density_law not in ("dowson-higginson", "incompressible"):
-            raise ValueError(
+            raise InputError(
                 f"density_law {self.density_law!r}: expected 'dowson-higginson' or 'incompressible'"
             )
         if self.roelands_z == 0.0 and self.viscosity_law == "roelands":

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import math
 
+from pyehl.errors import InputError
+
 __all__ = ["inlet_viscosity_ratio", "nijenbanning_venner_moes"]
 
 
@@ -17,11 +19,11 @@ def nijenbanning_venner_moes(moes_m: float, moes_l: float) -> float:
 
     Raises
     ------
-    ValueError
+    InputError
         If M is not positive or L is negative.
     """
     if not (moes_m > 0.0 and moes_l >= 0.0):
-        raise ValueError(f"need M > 0 and L >= 0, not M = {moes_m:g}, L = {moes_l:g}")
+        raise InputError(f"need M > 0 and L >= 0, not M = {moes_m:g}, L = {moes_l:g}")
     rigid_iso = 145.0 * 1.796 ** (-15 / 7) * moes_m**-2
     elastic_iso = 3.18 * 1.63 ** (-14 / 25) * moes_m ** (-2 / 15)
     rigid_piezo = 1.29 * 1.691 ** (-2 / 3) * moes_l ** (2 / 3)

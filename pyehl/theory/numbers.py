@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import math
 
+from pyehl.errors import InputError
+
 __all__ = ["positive"]
 
 
@@ -13,10 +15,10 @@ def positive(name: str, value: float, unit: str) -> float:
 
     Raises
     ------
-    ValueError
+    InputError
         If it is not positive or not finite; the message names it and its unit.
     """
     value = float(value)
     if not (math.isfinite(value) and value > 0.0):
-        raise ValueError(f"{name} must be a positive number [{unit}], not {value!r}")
+        raise InputError(f"{name} must be a positive number [{unit}], not {value!r}")
     return value

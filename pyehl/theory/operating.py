@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+from pyehl.errors import InputError
 from pyehl.theory.heat import thermal_loading, thermal_reduction
 from pyehl.theory.moes_film import inlet_viscosity_ratio
 from pyehl.theory.numbers import positive
@@ -54,7 +55,7 @@ class OperatingPoint:
 
     Raises
     ------
-    ValueError
+    InputError
         For a number that is not positive or not finite.
     """
 
@@ -78,11 +79,11 @@ class OperatingPoint:
         positive("reduced_modulus", self.reduced_modulus, "Pa")
         positive("viscosity", self.viscosity, "Pa s")
         if not (math.isfinite(self.pressure_viscosity) and self.pressure_viscosity >= 0.0):
-            raise ValueError(
+            raise InputError(
                 f"pressure_viscosity must not be negative [1/Pa], not {self.pressure_viscosity!r}"
             )
         if not abs(self.slide_to_roll) <= 2.0:
-            raise ValueError(f"slide_to_roll must be -2 ... 2 [-], not {self.slide_to_roll!r}")
+            raise InputError(f"slide_to_roll must be -2 ... 2 [-], not {self.slide_to_roll!r}")
 
     @classmethod
     def from_moes(
@@ -103,7 +104,7 @@ class OperatingPoint:
 
         Raises
         ------
-        ValueError
+        InputError
             For M or L that is not positive (L = 0 fixes no speed in SI units).
         """
         m = positive("moes_m", moes_m, "-")

@@ -15,6 +15,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pyehl.errors import InputError
+
 __all__ = ["LAWS", "ShearLaw", "shear_stress"]
 
 Array = NDArray[np.float64]
@@ -41,7 +43,7 @@ class ShearLaw:
 
     Raises
     ------
-    ValueError
+    InputError
         For an unknown law or a number out of range.
     """
 
@@ -55,7 +57,7 @@ class ShearLaw:
     def __post_init__(self) -> None:
         """Check the word and the numbers."""
         if self.law not in LAWS:
-            raise ValueError(f"shear_law {self.law!r}: expected one of {LAWS}")
+            raise InputError(f"shear_law {self.law!r}: expected one of {LAWS}")
         used = {
             "eyring": ("eyring_stress",),
             "limiting": ("limiting_coefficient",),
@@ -66,11 +68,11 @@ class ShearLaw:
         for name in used:
             number = getattr(self, name)
             if not (math.isfinite(number) and number > 0.0):
-                raise ValueError(f"{name} must be positive, not {number!r}")
+                raise InputError(f"{name} must be positive, not {number!r}")
         if not (math.isfinite(self.limiting_stress) and self.limiting_stress >= 0.0):
-            raise ValueError(f"limiting_stress must not be negative, not {self.limiting_stress!r}")
+            raise InputError(f"limiting_stress must not be negative, not {self.limiting_stress!r}")
         if self.carreau_exponent > 1.0:
-            raise ValueError(f"carreau_exponent must be at most 1, not {self.carreau_exponent!r}")
+            raise InputError(f"carreau_exponent must be at most 1, not {self.carreau_exponent!r}")
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Mapping[str, Any]]) -> ShearLaw:

@@ -11,6 +11,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pyehl.errors import InputError
+
 __all__ = ["RANGE", "in_range", "relative_friction", "theta_2", "theta_2_at"]
 
 Array = NDArray[np.float64]
@@ -31,14 +33,14 @@ def theta_2(
 
     Raises
     ------
-    ValueError
+    InputError
         If an argument is not positive.
     """
     m, ell, lam, ratio = (
         np.asarray(v, dtype=float) for v in (moes_m, moes_l, wavelength, film_over_amplitude)
     )
     if not all(np.all(v > 0.0) for v in (m, ell, lam, ratio)):
-        raise ValueError("theta_2 needs positive M, L, wavelength and H_c/A_i")
+        raise InputError("theta_2 needs positive M, L, wavelength and H_c/A_i")
     return np.asarray(ell**-1.1 * m**0.33 * lam**0.67 * ratio)
 
 
@@ -47,12 +49,12 @@ def relative_friction(theta: ArrayLike) -> Array:
 
     Raises
     ------
-    ValueError
+    InputError
         If a theta_2 is not positive.
     """
     t = np.asarray(theta, dtype=float)
     if not np.all(t > 0.0):
-        raise ValueError("theta_2 must be positive")
+        raise InputError("theta_2 must be positive")
     return np.asarray(1.0 + 0.546 * t**-2 + 0.219 * t**-4)
 
 
@@ -61,12 +63,12 @@ def theta_2_at(ratio: ArrayLike) -> Array:
 
     Raises
     ------
-    ValueError
+    InputError
         If a ratio is not above one.
     """
     r = np.asarray(ratio, dtype=float)
     if not np.all(r > 1.0):
-        raise ValueError("eq. 16 only gives ratios above 1")
+        raise InputError("eq. 16 only gives ratios above 1")
     s = (-0.546 + np.sqrt(0.546**2 + 4.0 * 0.219 * (r - 1.0))) / (2.0 * 0.219)
     return np.asarray(1.0 / np.sqrt(s))
 

@@ -242,7 +242,7 @@ def test_map_larger_than_memory_is_refused(drive, tmp_path: Path):
     )
     done = drive("ehl", "case.nml", "-o", "out")
     assert done.returncode == 1
-    assert "200000 x 200000 heights need 640.0 GB" in done.stderr
+    assert "200000 x 200000 heights needs 640.0 GB" in done.stderr
     assert not (tmp_path / "out").exists()
 
 

@@ -232,7 +232,7 @@ def test_load_without_si_input(drive, tmp_path: Path):
 
 
 def test_load_refuses_other_folders(tmp_path: Path):
-    with pytest.raises(FileNotFoundError, match=r"summary\.json"):
+    with pytest.raises(pyehl.InputError, match=r"summary\.json"):
         pyehl.load(tmp_path)
 
 

@@ -6,6 +6,7 @@ In the table a section sign marks the character under which the first caret must
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -130,7 +131,12 @@ FAULTS: list[tuple[str, str, list[str], list[str]]] = [
     ("centistokes", "&lubricant viscosity = §40 /", [], ["lubricant.viscosity", "unit Pa s"]),
     ("per gigapascal", "&lubricant pressure_viscosity = §22 /", [], ["pressure_viscosity", "1/Pa"]),
     ("nanometres", "&surface rms_height = §50 /", [], ["surface.rms_height", "unit m"]),
-    ("impossible pressure", "&contact load = §9e4 radius = 1e-4/", [], ["Hertz", "contact.load"]),
+    ("impossible pressure", "&contact load = §9e4 radius = 5e-3/", [], ["Hertz", "contact.load"]),
+    ("radius in mm", "&contact load = 10.0 radius = §9.525 /", [], ["M is", "contact.radius = 9.525"]),
+    ("modulus far too low", "&contact load=5e4 reduced_modulus=§1e8/", [], ["contact.reduced_modulus"]),
+    ("another value replaced", "&grid points=66/ &contact load=§-1 /", ["grid.points=65"], ["load = -1"]),
+    ("option as bad as the value", "&grid points = 66 /", ["grid.points=68"], ["grid.points = 68"]),
+    ("pipe as a map", "&surface kind='map' file=§'/dev/zero'/", [], ["surface.file", "a device"]),
     ("negative Moes number", "&contact moes_m = §-1 /", [], ["contact.moes_m", "(0, 1e5]"]),
     ("inlet inside the contact", "&grid x_inlet = §-0.5 /", [], ["grid.x_inlet", "-1.05"]),
     ("accuracy of zero", "&solver accuracy = §0 /", [], ["solver.accuracy"]),
@@ -275,6 +281,31 @@ def test_bad_command_line(drive, tmp_path: Path, driver, words, part):
     assert part in done.stderr
     assert "Traceback" not in done.stderr
     assert sorted(p.name for p in tmp_path.rglob("*")) == ["case.nml", "file", "full", "thesis.tex"]
+
+
+def test_option_replaces_a_value_that_is_not_acceptable(drive, tmp_path: Path):
+    text = "&contact moes_m = -3 moes_l = 'x' /\n&grid points = 66 /\n&surface kind = 'smoth' /\n"
+    (tmp_path / "case.nml").write_text(text)
+    values = ("contact.moes_m=200", "contact.moes_l=10", "grid.points=33", "surface.kind=smooth")
+    options = [word for value in values for word in ("--set", value)]
+    for driver in ("ehl", "pyehl"):
+        assert drive(driver, "case.nml", "-o", driver, *options).returncode == 0
+    fault = drive("ehl", "case.nml", "-o", "out", *options[2:])
+    assert fault.returncode == 2
+    assert fault.stderr.startswith("case.nml:1:19: error: contact.moes_m = -3")
+
+
+@pytest.mark.parametrize("driver", ["ehl", "pyehl"])
+@pytest.mark.parametrize("kind", ["/dev/zero", "/dev/random", "pipe", "large"])
+def test_no_case_file(drive, tmp_path: Path, driver, kind):
+    """Told at once: nothing waits for a pipe, or reads what has no end."""
+    os.mkfifo(tmp_path / "pipe")
+    with (tmp_path / "large").open("wb") as stream:
+        stream.truncate(2_000_000)
+    done = drive(driver, kind, "-o", "out")
+    assert done.returncode == 2
+    assert done.stderr.startswith(f"{kind}: error: ")
+    assert not (tmp_path / "out").exists()
 
 
 def test_table_is_large_enough():

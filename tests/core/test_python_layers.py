@@ -13,10 +13,10 @@ import pytest
 # and those for typing alone count too.
 LAYERS = [
     ["errors", "closing", "display", "kept", "schema", "reference"],
-    ["processor", "namelist"],
+    ["processor", "namelist", "given"],
     ["extension"],
     ["library", "program", "destination"],
-    ["theory"],
+    ["theory", "arrays"],
     ["surfaces"],
     ["case"],
     ["handle"],

@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pyehl import surfaces
+from pyehl.errors import FileError
 from pyehl.surfaces import Topography
 from pyehl.theory.operating import OperatingPoint
 
@@ -221,7 +222,7 @@ def test_npy_map_loses_its_mean(tmp_path):
 
 
 def test_missing_map(tmp_path):
-    with pytest.raises(FileNotFoundError, match=r"none\.npy"):
+    with pytest.raises(FileError, match=r"none\.npy"):
         surfaces.read_map(tmp_path / "none.npy", 1e-3, 1e-3)
 
 

@@ -269,7 +269,7 @@ def test_a_spread_has_all_values_and_the_ends(cases: Path):
 def test_more_cases_than_fit_into_memory_are_refused(
     cases: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
-    monkeypatch.setattr(plan_module, "available_bytes", lambda: 3 * plan_module.CASE_BYTES - 1)
+    monkeypatch.setattr(plan_module.library, "free_bytes", lambda: 3 * plan_module.CASE_BYTES - 1)
     words = [str(cases / "quick.nml"), "--run", "film", "--vary", "surface.seed=1:3"]
     _, refused = sweep(tmp_path / "out", *words, expect=2)
     assert "3 cases take " in refused

@@ -1,0 +1,147 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Memory and time that a plan needs, before it takes them
+module ehl_plan_need
+   use ehl_kinds, only: dp
+   use ehl_memory, only: check_memory, amount
+   use ehl_plan, only: plan_t
+   use ehl_status, only: status_t
+   use ehl_text, only: fixed, to_text
+   use ehl_transient, only: steps_needed
+   implicit none (type, external)
+   private
+   public :: check_need, need_lines, making_need
+
+   !> Bytes per stored node of the finest grid, those of the coarser ones included, as measured on 513 x 513 nodes: the
+   !> smooth contact; what the rough one takes besides; what Alcouffe coarsening takes
+   real(dp), parameter :: smooth_bytes = 190.0_dp, rough_bytes = 150.0_dp, alcouffe_bytes = 120.0_dp
+   !> Bytes per node along X and thread
+   real(dp), parameter :: line_bytes = 2000.0_dp
+   !> Share of the run on the next coarser grid in memory and, with half as many steps, in time
+   real(dp), parameter :: coarser_bytes = 0.25_dp, coarser_seconds = 0.125_dp
+   !> Seconds per stored node of a smooth contact and of a time step or cycle, and per pair of nodes of a directly summed
+   !> deflection, on one thread of a processor of 2020
+   real(dp), parameter :: smooth_seconds = 8.0e-7_dp, step_seconds = 3.0e-7_dp, direct_seconds = 1.0e-9_dp
+   !> Deflections of a smooth contact and of a step, and cycles of a rough contact at rest
+   real(dp), parameter :: smooth_deflections = 30.0_dp, step_deflections = 5.0_dp, rest_cycles = 20.0_dp
+
+   !> Bytes and seconds per pixel of a fractal surface that is made
+   real(dp), parameter :: making_bytes = 16.0_dp, making_seconds = 8.0e-8_dp
+
+contains
+
+   !> Refuse a plan whose arrays do not fit
+   subroutine check_need(plan, status)
+      type(plan_t), intent(in) :: plan
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: what
+      real(dp) :: needed
+
+      if (status%failed()) return
+      what = "grid.points = "
+      if (plan%target_error > 0.0_dp) what = "grid.max_points, with grid.target_error up to "
+      what = what//to_text(plan%finest%nx)
+      if (frames(plan) > 0.0_dp) what = what//" with output.frame_interval = "//to_text(plan%frame_interval)
+      needed = bytes(plan, plan%threads)
+      ! what a surface holds now is free no more
+      if (allocated(plan%surface)) needed = needed - plan%surface%bytes()
+      call check_memory(what, needed, status)
+   end subroutine check_need
+
+   !> The need in words, and how many frames are kept
+   function need_lines(plan) result(text)
+      type(plan_t), intent(in) :: plan
+      character(len=:), allocatable :: text
+
+      text = "need       about "//amount(bytes(plan, 1))//" of memory and "//duration(seconds(plan))//" on one thread"
+      if (plan%target_error > 0.0_dp) text = text//", if it comes to the finest grid"
+      if (plan%moves() .and. plan%steps == 0) text = text//", if it ends as early as it can"
+      text = text//new_line("a")
+      if (.not. frames(plan) > 0.0_dp) return
+      text = text//"frames     "
+      if (plan%frame_interval > plan%finest%hx) then
+         text = text//"one in "//to_text(plan%frame_interval)//" a/u"
+      else
+         text = text//"after every step: output.frame_interval is no longer than a step"
+      end if
+      text = text//", about "//to_text(int(frames(plan)))//" of P and H"//new_line("a")
+   end function need_lines
+
+   !> What it takes to make a fractal surface of so many pixels per side, in words; empty where it is done in no time
+   function making_need(pixels) result(text)
+      integer, intent(in) :: pixels
+      character(len=:), allocatable :: text
+      real(dp) :: all
+
+      text = ""
+      all = real(pixels, dp)**2
+      if (making_seconds*all < 1.0_dp) return
+      text = "surface    "//to_text(pixels)//" x "//to_text(pixels)//" pixels take about "//amount(making_bytes*all)// &
+             " of memory and "//duration(making_seconds*all)//" to make"
+   end function making_need
+
+   !> Seconds in words
+   function duration(seconds) result(text)
+      real(dp), intent(in) :: seconds
+      character(len=:), allocatable :: text
+
+      if (seconds < 1.0_dp) then
+         text = "less than a second"
+      else if (seconds < 3600.0_dp) then
+         text = to_text(nint(seconds))//" s"
+      else
+         text = fixed(seconds/3600.0_dp, "f16.1")//" h"
+      end if
+   end function duration
+
+   !> Time steps until the run can end
+   real(dp) function steps(plan)
+      type(plan_t), intent(in) :: plan
+
+      steps = 0.0_dp
+      if (.not. plan%moves()) return
+      steps = plan%steps
+      if (plan%steps == 0) steps = steps_needed(plan%surface, plan%finest%hx, plan%skip_start)/plan%surface%velocity_ratio
+   end function steps
+
+   !> Frames that are kept until then
+   real(dp) function frames(plan)
+      type(plan_t), intent(in) :: plan
+
+      frames = 0.0_dp
+      if (plan%frame_interval > 0.0_dp) frames = aint(steps(plan)*min(1.0_dp, plan%finest%hx/plan%frame_interval))
+   end function frames
+
+   !> Stored nodes of the finest grid
+   pure real(dp) function nodes(plan)
+      type(plan_t), intent(in) :: plan
+      nodes = real(plan%finest%nx, dp)*plan%finest%ny
+   end function nodes
+
+   !> Bytes of all grids, of the surface and of the frames
+   real(dp) function bytes(plan, threads)
+      type(plan_t), intent(in) :: plan
+      integer, intent(in) :: threads
+
+      bytes = smooth_bytes
+      if (allocated(plan%surface)) bytes = bytes + rough_bytes
+      if (plan%moves()) bytes = bytes + alcouffe_bytes
+      bytes = bytes*nodes(plan) + line_bytes*plan%finest%nx*threads
+      if (allocated(plan%surface)) bytes = bytes + plan%surface%bytes_on(plan%finest)
+      if (plan%coarse_run) bytes = bytes*(1.0_dp + coarser_bytes)
+      bytes = bytes + 16.0_dp*frames(plan)*plan%finest%nx*plan%finest%full_ny()
+   end function bytes
+
+   !> Seconds on one thread until the run can end
+   real(dp) function seconds(plan)
+      type(plan_t), intent(in) :: plan
+      real(dp) :: cycles, deflection
+
+      cycles = steps(plan)
+      if (plan%rests()) cycles = rest_cycles
+      if (plan%coarse_run) cycles = cycles*(1.0_dp + coarser_seconds)
+      deflection = 0.0_dp
+      if (plan%engine == "direct") deflection = direct_seconds*plan%finest%nx*real(plan%finest%full_ny(), dp)
+      seconds = nodes(plan)*(smooth_seconds + cycles*step_seconds &
+                             + (smooth_deflections + cycles*step_deflections)*deflection)
+   end function seconds
+end module ehl_plan_need

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What callers hand over: checked where it comes in, so that a wrong type is told as bad input."""
+
+from __future__ import annotations
+
+import os
+import reprlib
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pyehl.errors import InputError
+
+__all__ = ["Option", "check_kind", "heights_of", "options_of", "path_of", "text_of"]
+
+Option = str | Iterable[str]
+"""One text ``group.key=value``, or several."""
+
+EXPECTED = "texts group.key=value"
+
+
+def check_kind(value: object, kinds: type | tuple[type, ...], name: str, expected: str) -> None:
+    """Refuse an argument that is of none of some kinds.
+
+    Raises
+    ------
+    InputError
+        With the value, what was expected, and what there is.
+    """
+    if not isinstance(value, kinds):
+        raise InputError(
+            f"{name} = {reprlib.repr(value)}: expected {expected}, not {type(value).__name__}"
+        )
+
+
+def path_of(value: Any, name: str) -> str:  # noqa: ANN401
+    """Give a path as text.
+
+    Raises
+    ------
+    InputError
+        If it is none.
+    """
+    check_kind(value, (str, bytes, os.PathLike), name, "a path")
+    path = os.fsdecode(value)
+    if "\0" in path:
+        raise InputError(f"{name} = {path!r}: expected a path, without a zero byte")
+    return path
+
+
+def text_of(value: Any, name: str) -> bytes:  # noqa: ANN401
+    """Give a text as the library takes it.
+
+    Raises
+    ------
+    InputError
+        If it is no text, or has characters that are none.
+    """
+    check_kind(value, str, name, "a text")
+    try:
+        # what a terminal handed over and is no UTF-8 goes back as it came
+        return bytes(value.encode(errors="surrogateescape"))
+    except UnicodeEncodeError as error:
+        raise InputError(f"{name} = {reprlib.repr(value)}: no text: {error.reason}") from None
+
+
+def options_of(options: Any) -> list[str]:  # noqa: ANN401
+    """Options one by one, also where they come as one text or in lists.
+
+    Raises
+    ------
+    InputError
+        If one is no text of one line.
+    """
+    if isinstance(options, str):
+        if "\n" in options:
+            raise InputError("--set: more than one line\nexpected: group.key=value")
+        return [options]
+    kind = (type(None), bytes, Mapping)
+    if isinstance(options, kind) or not isinstance(options, Iterable):
+        check_kind(options, (), "options", EXPECTED)
+    return [text for option in options for text in options_of(option)]
+
+
+def heights_of(heights: ArrayLike) -> NDArray[np.float64]:
+    """Heights of a surface in Fortran order.
+
+    Raises
+    ------
+    InputError
+        If they are no matrix of finite numbers.
+    """
+    try:
+        values = np.asfortranarray(heights, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"heights: expected a matrix of numbers [m]: {error}") from None
+    if values.ndim != 2 or not np.isfinite(values).all():
+        raise InputError(
+            f"heights of shape {values.shape}: expected a matrix (nx, ny) of finite numbers [m]"
+        )
+    return values

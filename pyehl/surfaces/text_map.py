@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Height maps as text: one x per line, y along the line."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pyehl.errors import InputError
+from pyehl.surfaces.memory import check_pixels
+
+__all__ = ["read_text"]
+
+Array = NDArray[np.float64]
+
+# What stands between separators
+WORD = re.compile(r"[^\s,;]+")
+OWN_SIZE = re.compile(r"^#\s*(length_[xy])\s*=\s*(\S+)\s*m\s*$")
+OWN_PERIODIC = re.compile(r"^#\s*periodic\s*$")
+
+
+def read_text(path: Path) -> tuple[Array, tuple[float | None, float | None], bool]:
+    """Heights, the size if the header has it, and whether it says 'periodic'."""
+    size: dict[str, float | None] = {"length_x": None, "length_y": None}
+    periodic = False
+    rows: list[Array] = []
+    with path.open(encoding="utf-8", errors="replace") as lines:
+        for number, line in enumerate(lines, 1):
+            if match := OWN_SIZE.match(line):
+                size[match[1]] = float(match[2])
+            periodic = periodic or bool(OWN_PERIODIC.match(line))
+            row = _row(path, number, line)
+            if row is None:
+                continue
+            if rows and row.size != rows[0].size:
+                raise InputError(
+                    f"{path}:{number}:{_column(line, rows[0].size)}: {row.size} heights, but "
+                    f"{rows[0].size} in the lines above"
+                )
+            rows.append(row)
+            if len(rows) % 1024 == 0:
+                check_pixels(str(path), (len(rows), row.size))
+    if not rows:
+        raise InputError(f"{path}: no heights in the file")
+    return np.array(rows), (size["length_x"], size["length_y"]), periodic
+
+
+def _row(path: Path, number: int, line: str) -> Array | None:
+    """Heights of one line; None for an empty one."""
+    text = line.partition("#")[0].replace(";", " ")
+    if "," in text:
+        # "1,2 3,4" would otherwise be read as four heights
+        commas = text.count(",")
+        text = text.replace(",", " ")
+        words = text.split()
+        if commas not in (len(words) - 1, len(words)):
+            raise InputError(
+                f"{path}:{number}:{line.index(',') + 1}: commas and blanks both separate the "
+                "numbers; if the comma is a decimal comma, write a point"
+            )
+    else:
+        words = text.split()
+    if not words:
+        return None
+    try:
+        return np.array(words, dtype=float)
+    except ValueError:
+        bad = next(n for n, word in enumerate(words) if not _is_number(word))
+        raise InputError(
+            f"{path}:{number}:{_column(line, bad)}: {words[bad]!r} is no number; expected: heights "
+            "in m"
+        ) from None
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
+
+
+def _column(line: str, index: int) -> int:
+    """Column of a word of a line, from 1; behind its last one where it has fewer."""
+    words = list(WORD.finditer(line.partition("#")[0]))
+    return words[index].start() + 1 if index < len(words) else words[-1].end() + 1

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Arguments of the wrong type or value: InputError with what was expected, never a bare error."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import pyehl
+
+SMALL = "grid.points=33"
+WHOLE_TEXT = "the text of a case"
+
+
+class Nothing:
+    """Neither a number nor a text."""
+
+
+@pytest.fixture(scope="module")
+def quick(cases: Path) -> str:
+    return str(cases / "quick.nml")
+
+
+# What is called with the path of a case, and what its message must hold
+CALLS: dict[str, tuple[Callable[[str], Any], str]] = {
+    "text None": (lambda q: pyehl.Case.from_text(None), "expected a text, not NoneType"),
+    "text bytes": (lambda q: pyehl.Case.from_text(b"&grid /"), "expected a text, not bytes"),
+    "text surrogate": (lambda q: pyehl.Case.from_text("\ud800"), "no text"),
+    "text nonsense": (lambda q: pyehl.solve(pyehl.Case("nonsense")), "text outside of a group"),
+    "case None": (lambda q: pyehl.Case(None), "expected a text"),
+    "option of text": (lambda q: pyehl.Case.from_text("", [3]), "expected texts group.key=value"),
+    "origin": (lambda q: pyehl.Case.from_text("", [], 3), "expected a path"),
+    "read None": (lambda q: pyehl.Case.read(None), "expected a path, not NoneType"),
+    "read zero byte": (lambda q: pyehl.Case.read("a\0b"), "zero byte"),
+    "read number": (lambda q: pyehl.Case.read(q, 65), "expected texts group.key=value, not int"),
+    "read dict": (lambda q: pyehl.Case.read(q, {"grid.points": 65}), "not dict"),
+    "read list": (lambda q: pyehl.Case.read(q, [SMALL, 3]), "options = 3"),
+    "read bytes": (lambda q: pyehl.Case.read(q, b"grid.points=65"), "not bytes"),
+    "read lines": (lambda q: pyehl.Case.read(q, f"{SMALL}\n"), "more than one line"),
+    "options number": (lambda q: pyehl.Case.read(q).with_options(3), "not int"),
+    "solve None": (lambda q: pyehl.solve(None), "expected a path"),
+    "solve dict": (lambda q: pyehl.solve({}), "not dict"),
+    "solve output": (lambda q: pyehl.solve(q, SMALL, output=3), "output = 3"),
+    "solve progress": (lambda q: pyehl.solve(q, SMALL, progress="x"), "a function"),
+    "solve check": (lambda q: pyehl.solve(q, SMALL, check="no"), "True or False"),
+    "predict None": (lambda q: pyehl.predict(None), "expected a path"),
+    "predict smooth": (lambda q: pyehl.predict(q, smooth=3), "smooth = 3"),
+    "predict of a smooth contact": (pyehl.predict, "surface"),
+    "solver None": (lambda q: pyehl.Solver(None), "expected a path"),
+    "field number": (lambda q: pyehl.Solver(q, SMALL).field(3), "field = 3"),
+    "field unknown": (lambda q: pyehl.Solver(q, SMALL).field("Q"), "'P' or 'H'"),
+    "write": (lambda q: pyehl.Solver(q, SMALL).write(3), "folder = 3"),
+    "resume": (lambda q: pyehl.Solver(q, SMALL).resume(None), "expected a path"),
+    "keep": (lambda q: pyehl.Solver(q, SMALL).keep(None), "expected a path"),
+    "heights of a smooth contact": (lambda q: pyehl.Solver.open(q, np.ones((8, 8))), "'fractal'"),
+    "heights text": (lambda q: pyehl.Solver.open(q, "abc"), "a matrix of numbers"),
+    "heights line": (lambda q: pyehl.Solver.open(q, [1.0, 2.0]), "shape (2,)"),
+    "heights nan": (lambda q: pyehl.Solver.open(q, np.full((8, 8), np.nan)), "finite"),
+    "load None": (lambda q: pyehl.load(None), "expected a path"),
+    "load file": (pyehl.load, "not a result folder"),
+    "load nothing": (lambda q: pyehl.load("nowhere"), "nowhere: not a result folder"),
+    "sweep list": (lambda q: pyehl.sweep(q, ["contact.load=3"]), "values by key"),
+    "sweep key": (lambda q: pyehl.sweep(q, {3: [1.0]}), "group.key"),
+    "sweep value": (lambda q: pyehl.sweep(q, {"contact.moes_m": [Nothing()]}), "neither a number"),
+    "sweep run": (lambda q: pyehl.sweep(q, {"contact.moes_m": [9.0]}, run=3), "'predict'"),
+    "sweep jobs": (lambda q: pyehl.sweep(q, {"contact.moes_m": [9.0]}, jobs="x"), "jobs = 'x'"),
+    "sweep output": (lambda q: pyehl.sweep(q, {"contact.moes_m": [9.0]}, output=3), "output = 3"),
+    "sweep outputs": (lambda q: pyehl.sweep(q, {"contact.moes_m": [9.0]}, outputs=3), "names"),
+}
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_bad_argument(quick: str, name: str):
+    call, part = CALLS[name]
+    with pytest.raises(pyehl.InputError) as caught:
+        call(quick)
+    assert part in str(caught.value)
+
+
+def test_one_option_is_one_option(quick: str):
+    """A text in place of a list of texts is no list of its characters."""
+    for case in (
+        pyehl.Case.from_text("", SMALL),
+        pyehl.Case.from_text("", [SMALL]),
+        pyehl.Case.from_text("").with_options([SMALL]),
+        pyehl.Case.read(quick, (SMALL,)),
+        pyehl.Case(f"&grid points = {33} /"),
+    ):
+        assert case.resolve()["grid"]["points"] == 33
+    ds = pyehl.sweep(quick, {"contact.moes_m": 100.0}, SMALL, outputs="H_c", jobs=1)
+    assert "H_c" in ds
+    assert "H_min" not in ds
+
+
+def test_a_case_is_checked_at_once_and_resolved_once(monkeypatch):
+    case = pyehl.Case("")
+    assert pyehl.Case(case.text) == case
+    calls = []
+    resolve = pyehl.case.library.resolve
+    monkeypatch.setattr(
+        "pyehl.library.resolve", lambda *a, **k: calls.append(a) or resolve(*a, **k)
+    )
+    assert pyehl.Case.resolved(case.text) == case
+    assert calls == []
+
+
+def test_derived_values_follow_new_ones():
+    case = pyehl.Case("")
+    other = case.with_options("lubricant.pressure_viscosity=1.1e-8")
+    before, after = (c.resolve()["lubricant"]["roelands_z"] for c in (case, other))
+    assert after == pytest.approx(0.5 * before, rel=1e-12)
+
+
+def test_what_a_terminal_hands_over_need_not_be_text(quick: str):
+    """Bytes of a file name that are no UTF-8 come as lone surrogates."""
+    name = os.fsdecode(b"m\xff.npy")
+    with pytest.raises(pyehl.InputError, match=r"surface\.file"):
+        pyehl.Case.read(quick, "surface.kind=map", f"surface.file={name}")
+
+
+def test_faults_of_the_package_stay_what_they_are(cases: Path, monkeypatch):
+    """An error that no argument has caused is no bad input."""
+
+    def broken(*_: object, **__: object) -> None:
+        raise ValueError("a fault")
+
+    monkeypatch.setattr("pyehl.prediction.of_case.predict", broken)
+    with pytest.raises(ValueError, match="a fault") as caught:
+        pyehl.predict(cases / "table1.nml")
+    assert not isinstance(caught.value, pyehl.EhlError)
+    monkeypatch.setattr("pyehl.solver.for_solver", broken)
+    with pytest.raises(ValueError, match="a fault") as caught:
+        pyehl.Solver(cases / "quick.nml")
+    assert not isinstance(caught.value, pyehl.EhlError)
+
+
+@pytest.mark.parametrize("damage", ["short array", "array", "large array", "summary", "encoding"])
+def test_damaged_result_folder(quick: str, tmp_path: Path, damage: str):
+    pyehl.solve(quick, SMALL, output=tmp_path / "out")
+    array, summary = tmp_path / "out" / "P.npy", tmp_path / "out" / "summary.json"
+    if damage == "short array":
+        array.write_bytes(array.read_bytes()[:-8])
+    elif damage == "array":
+        array.write_bytes(b"\x93NUMPY\x01\0\x10\0{'descr': ((((((")
+    elif damage == "large array":
+        with array.open("r+b") as stream:
+            stream.truncate(2**41)
+    elif damage == "summary":
+        summary.write_text(summary.read_text()[:50])
+    else:
+        summary.write_bytes(b"\xff" + json.dumps({}).encode())
+    kind = pyehl.errors.NoMemoryError if damage == "large array" else pyehl.FileError
+    with pytest.raises(kind, match=r"P\.npy|summary\.json"):
+        pyehl.load(tmp_path / "out")
