@@ -21,11 +21,11 @@ from pyehl.case import Case
 from pyehl.solver import Solver
 
 WAVE = (
-    "&contact moes_m = 200.0 /\n&grid points = {points} /\n"
+    "&contact moes_m = 200.0 /\n&grid points = {points} x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
     "&surface kind = 'harmonic' {extra} /\n&output frame_interval = 0.5 /\n"
 )
 FRACTAL = (
-    "&contact load = 20.0 /\n&grid points = 65 /\n"
+    "&contact load = 20.0 /\n&grid points = 65 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
     "&surface kind = 'fractal' pixels = 32 length_x = 1e-4 length_y = 1e-4 rms_height = 2e-8 /\n"
 )
 OFTEN = ["--set", "output.checkpoint_interval=1e-3"]

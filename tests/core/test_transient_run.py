@@ -19,13 +19,13 @@ from pyehl.plots.figures import solution_figures
 from pyehl.plots.style import new_figure
 
 WAVE = (
-    "&contact load = 20.0 /\n&grid points = 65 /\n"
+    "&contact load = 20.0 /\n&grid points = 65 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
     "&surface kind = 'harmonic' amplitude_over_film = 0.2 wavelength = 0.8 /\n"
     "&time estimate_error = .false. /\n&output frame_interval = 0.5 /\n"
 )
 FRACTAL = (
-    "&contact load = 20.0 /\n&surface kind = 'fractal' pixels = 32 length_x = 1e-4 length_y = 1e-4 "
-    "rms_height = 2e-8 /\n"
+    "&contact load = 20.0 /\n&grid x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+    "&surface kind = 'fractal' pixels = 32 length_x = 1e-4 length_y = 1e-4 rms_height = 2e-8 /\n"
 )
 # a^3 = 3wR/(2E')
 RADIUS = (1.5 * 20.0 * 0.018 / 2.26e11) ** (1.0 / 3.0)
