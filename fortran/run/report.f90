@@ -2,8 +2,6 @@
 !> What a run says: lines of progress, and its results by name
 module ehl_report
    use ehl_grid, only: grid_t
-   use ehl_feature, only: feature_t
-   use ehl_harmonic, only: harmonic_t
    use ehl_kinds, only: dp
    use ehl_contact_results, only: contact_results_t
    use ehl_outcome, only: outcome_names
@@ -128,12 +126,7 @@ contains
       call record%set("mu_ratio_max", range(2))
       if (.not. plan%surface%passes_once) call report_rough_film(record, plan, least)
       call record%set("amplitude_ratio", ratio)
-      select type (surface => plan%surface)
-      type is (harmonic_t)
-         call record%set("amplitude", surface%amplitude)
-      type is (feature_t)
-         call record%set("amplitude", surface%amplitude)
-      end select
+      if (plan%surface%amplitude >= 0.0_dp) call record%set("amplitude", plan%surface%amplitude)
       call record%set("scheme", trim(merge("narrow", "paper ", plan%scheme == wedge_narrow)))
       call record%set("T", transient%time)
       call record%set("T_period", transient%mean%period)
@@ -197,12 +190,7 @@ contains
       call report_rough_film(record, plan, merge(rest%m%film_minimum, nothing, good))
       call record%set("P_max_rough", merge(rest%m%pressure_maximum, nothing, good))
       call record%set("x_start", plan%surface%x_start)
-      select type (surface => plan%surface)
-      type is (harmonic_t)
-         call record%set("amplitude", surface%amplitude)
-      type is (feature_t)
-         call record%set("amplitude", surface%amplitude)
-      end select
+      if (plan%surface%amplitude >= 0.0_dp) call record%set("amplitude", plan%surface%amplitude)
       call record%set("rough_cycles", rest%total_cycles)
       call record%set("rough_parts", rest%parts)
       call record%set("rough_residual", rest%residual)

@@ -2,8 +2,6 @@
 !> How a case runs: cycles of the smooth contact, time steps, and the same on the next coarser grid
 submodule (ehl_solver) ehl_solver_run
    use ehl_clock, only: clock_t, start_clock
-   use ehl_feature, only: feature_t
-   use ehl_harmonic, only: harmonic_t
    use ehl_level_result, only: discretisation_error, extrapolated, friction_error
    use ehl_stopping_criterion, only: transient_outcome
    use ehl_plan_surface, only: check_carried
@@ -104,21 +102,12 @@ contains
    recursive subroutine set_amplitude(self, status)
       type(solver_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
-      real(dp) :: film, amplitude
+      real(dp) :: film
 
       film = known_film(self)
       if (.not. film > 0.0_dp) film = film_by_finer_grids(self, status)
       if (status%failed()) return
-      amplitude = self%plan%amplitude_over_film*film
-      select type (waviness => self%plan%surface)
-      type is (harmonic_t)
-         waviness%amplitude = amplitude
-      type is (feature_t)
-         waviness%amplitude = amplitude
-      end select
-      ! what the coarser run starts from
-      self%input%surface%amplitude = amplitude
-      self%input%surface%amplitude_given = .true.
+      self%plan%surface%amplitude = self%plan%amplitude_over_film*film
    end subroutine set_amplitude
 
    !> Extrapolated central film of the smooth contact; 0 where its grid error is too large for that

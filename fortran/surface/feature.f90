@@ -21,8 +21,6 @@ module ehl_feature
    !> 10^(-10 e^2), e = max(0, |eta| - length/2)/width. The profile is that of Venner, Lubrecht & ten Napel 1991
    !> (J. Tribology 113, 777) and of Venner & Lubrecht 1994 (J. Tribology 116, 751).
    type, extends(surface_t) :: feature_t
-      !> Height of a bump or ridge, depth of a dent or groove A [a^2/R]
-      real(dp) :: amplitude = 0.0_dp
       !> 1: bump, ridge; -1: dent, groove
       real(dp) :: sign = 1.0_dp
       !> Size across and along [a]; length 0: a ridge or groove without ends

@@ -10,8 +10,6 @@ module ehl_harmonic
 
    !> RR = A_i 10^(-10 max(0, (X - X_f)/lambda_x)^2) cos(2 pi (X - X_f)/lambda_x) cos(2 pi Y/lambda_y)
    type, extends(surface_t) :: harmonic_t
-      !> Amplitude A_i [a^2/R]
-      real(dp) :: amplitude = 0.0_dp
       !> Wavelengths [a]
       real(dp) :: wavelength_x = 0.5_dp, wavelength_y = 0.5_dp
    contains
