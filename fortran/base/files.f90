@@ -2,10 +2,11 @@
 !> Files and folders by the few POSIX calls that Fortran lacks
 module ehl_files
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, c_ptr, c_size_t
+   use, intrinsic :: iso_fortran_env, only: int64
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: flush_file, file_exists, is_file, may_write, make_folder, remove_folder, remove_file, remove_known
+   public :: flush_file, file_bytes, file_exists, is_file, may_write, make_folder, remove_folder, remove_file
    public :: rename_path, absolute_path, real_path, folder_of, process_mark, c_text, fortran_text
 
    interface
@@ -136,6 +137,14 @@ contains
       file_exists = posix_access(c_text(path), there) == 0
    end function file_exists
 
+   !> Length of a file; 0 when it is not there
+   integer(int64) function file_bytes(path)
+      character(len=*), intent(in) :: path
+
+      inquire (file=path, size=file_bytes)
+      file_bytes = max(file_bytes, 0_int64)
+   end function file_bytes
+
    !> Whether this process may write a file, or into a folder
    logical function may_write(path)
       character(len=*), intent(in) :: path
@@ -187,18 +196,6 @@ contains
 
       remove_file = posix_unlink(c_text(path)) == 0
    end function remove_file
-
-   !> Remove these files of a folder as far as they are there, and the folder if nothing else is in it
-   subroutine remove_known(folder, names)
-      character(len=*), intent(in) :: folder, names(:)
-      logical :: gone
-      integer :: k
-
-      do k = 1, size(names)
-         gone = remove_file(folder // "/" // trim(names(k)))
-      end do
-      gone = remove_folder(folder)
-   end subroutine remove_known
 
    !> Rename a file or folder in one step. A folder replaces another only when that is empty.
    logical function rename_path(from, to)

@@ -5,7 +5,7 @@ module ehl_plan_surface
    use ehl_case, only: case_t, is_feature, surface_case_t
    use ehl_contact, only: contact_t
    use ehl_feature, only: feature_t, new_feature
-   use ehl_file_extent, only: file_bytes
+   use ehl_files, only: file_bytes
    use ehl_fractal, only: fractal_t, make_fractal
    use ehl_grid, only: grid_t
    use ehl_harmonic, only: harmonic_t, new_harmonic

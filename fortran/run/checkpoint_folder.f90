@@ -4,9 +4,9 @@
 module ehl_checkpoint_folder
    use ehl_case, only: case_t
    use ehl_case_writer, only: case_text
-   use ehl_checkpoint, only: coarser, series_files, state_files
+   use ehl_checkpoint, only: coarser, frame_file, state_files
    use ehl_clock, only: clock_t, start_clock
-   use ehl_files, only: file_exists, make_folder, remove_file, remove_known, rename_path
+   use ehl_files, only: file_exists, make_folder, remove_file, remove_folder, rename_path
    use ehl_folders, only: full_path, is_there, list_folder, make_parents, move_new, name_t, spare_path
    use ehl_kinds, only: dp
    use ehl_npy, only: read_npy, write_npy
@@ -21,10 +21,9 @@ module ehl_checkpoint_folder
    character(len=*), parameter :: suffix = ".checkpoint", case_file = "case.nml", surface_file = "surface.npy", &
       ! first line of the case, by which the folder is known
       mark = "! Case of a transient run whose states are beside it; removed with them"
-   !> States of the run and of that on the coarser grid, and all that belongs to them
+   !> States of the run and of that on the coarser grid, and all that belongs to them but frames
    character(len=*), parameter :: states(*) = [character(len=32) :: state_files, coarser//state_files], &
-      ! the case goes last: a folder with it can be gone on with
-      files(*) = [character(len=32) :: states, series_files, coarser//series_files, surface_file, case_file]
+      files(*) = [character(len=32) :: states, surface_file, case_file]
 
    !> Writes the state now and then
    type :: checkpoint_folder_t
@@ -198,7 +197,7 @@ contains
 
       last = index(name//" ", ".new ") - 1
       if (last < 1) last = len(name)
-      is_file_of_ours = any(files == name(:last))
+      is_file_of_ours = any(files == name(:last)) .or. index(name, frame_file) == 1
    end function is_file_of_ours
 
    !> Keep the folder of an earlier run under another name
@@ -229,12 +228,16 @@ contains
    !> Remove our files of a folder, also those half written, and the folder if nothing else is in it
    subroutine remove_files(folder)
       character(len=*), intent(in) :: folder
+      type(name_t), allocatable :: names(:)
       logical :: gone
       integer :: k
 
-      do k = 1, size(files)
-         gone = remove_file(folder//trim(files(k))//".new")
+      gone = list_folder(folder, names)
+      do k = 1, size(names)
+         if (names(k)%text /= case_file .and. is_file_of_ours(names(k)%text)) gone = remove_file(folder//names(k)%text)
       end do
-      call remove_known(folder(:len(folder) - 1), files)
+      ! last: a folder with it can be gone on with
+      gone = remove_file(folder//case_file)
+      gone = remove_folder(folder(:len(folder) - 1))
    end subroutine remove_files
 end module ehl_checkpoint_folder

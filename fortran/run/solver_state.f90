@@ -27,7 +27,7 @@ contains
       type(status_t), intent(inout) :: status
 
       if (self%steps_made() == 0) return
-      call self%checkpoint%write(prefix, text, self%transient, self%history, self%frames, self%grid, &
+      call self%checkpoint%write(prefix, text, self%transient, self%history, self%frames, &
                                  [self%step_seconds, self%coarse_mean, real(self%coarse_outcome, dp)], status)
    end subroutine save_as
 
@@ -78,7 +78,7 @@ contains
       self%coarse_outcome = nint(numbers(3))
       call self%transient%restore(self%hierarchy%levels(self%steady%n), self%plan%surface, same)
       if (.not. same) then
-         call status%fail(ehl_bad_input, self%checkpoint%newest()//": error: the film of this state does not follow from "// &
+         call status%fail(ehl_bad_input, self%checkpoint%path//": error: the film of this state does not follow from "// &
                           "its pressure"//new_line("a")//"expected: the surface and the program that it was made with")
          return
       end if

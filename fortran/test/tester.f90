@@ -4,7 +4,7 @@ program tester
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use check, only: n_checks, n_failures
    use test_alcouffe, only: run_alcouffe
-   use test_binary, only: run_binary
+   use test_sealed, only: run_sealed
    use test_case, only: run_case
    use test_deflection, only: run_deflection
    use test_friction, only: run_friction
@@ -23,8 +23,8 @@ program tester
    select case (suite)
    case ("text")
       call run_text()
-   case ("binary")
-      call run_binary()
+   case ("sealed")
+      call run_sealed()
    case ("record")
       call run_record()
    case ("report")

@@ -1,133 +1,112 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The state of a transient run on disk, so that a run killed at any instant can go on from the last good one: two files
-!> in turn, each whole or not there, with a version and a checksum, and beside them two files that only grow, with what
-!> every step adds to the history and with the frames. A state says how much of these belongs to it.
+!> The state of a transient run on disk, so that a run killed at any instant can go on from the last good one: the newest
+!> state and the one before it, each whole or not there, with a version and a checksum. A frame never changes: each is
+!> written once, into a file of its own beside them.
 module ehl_checkpoint
-   use, intrinsic :: iso_fortran_env, only: int64
-   use ehl_binary_file, only: binary_file_t
-   use ehl_checkpoint_layout, only: family, head_t, magic, pass_body, pass_frame, pass_head, pass_row
-   use ehl_file_extent, only: begins_with, file_bytes, is_sealed
    use ehl_files, only: file_exists, remove_file, rename_path
    use ehl_frames, only: frames_t
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
+   use ehl_sealed_file, only: end_reading, end_sealed, is_sealed, open_sealed
    use ehl_status, only: ehl_bad_input, ehl_file, status_t
    use ehl_table, only: table_t
    use ehl_text, only: newline, to_text
    use ehl_transient, only: transient_t
    implicit none (type, external)
    private
-   public :: checkpoint_t, coarser, series_files, state_files
+   public :: checkpoint_t, coarser, frame_file, state_files
 
-   !> The files of a run; behind a prefix those of the run on the coarser grid
-   character(len=*), parameter :: state_files(2) = ["checkpoint.a", "checkpoint.b"], &
-      series_files(2) = ["checkpoint.rows  ", "checkpoint.frames"], coarser = "coarser-"
+   !> The newest state and the one before it; what names of frames begin with; behind a prefix the states of the run on
+   !> the coarser grid
+   character(len=*), parameter :: state_files(2) = ["checkpoint.a", "checkpoint.b"], frame_file = "checkpoint.frame-", &
+      coarser = "coarser-"
+   !> What a state begins with: behind `family` stands the number of the layout
+   character(len=*), parameter :: family = "ehl checkpoint v", magic = family//"10"
    !> What a file can be; otherwise the step of its state
    integer, parameter :: missing = -1, damaged = -2, other_version = -3
 
+   !> What stands behind that
+   type :: head_t
+      integer :: step = 0, frames = 0
+      !> The case
+      character(len=:), allocatable :: text
+   end type head_t
+
    type :: checkpoint_t
-      private
+      !> State to go on from
+      character(len=:), allocatable :: path
+      !> What it begins with
+      type(head_t), private :: head
       !> Folder with its '/', and what the names begin with; empty: nothing is known of any files
-      character(len=:), allocatable :: prefix
-      !> What the two states are
-      integer :: states(2) = missing
-      !> Steps, frames and bytes that are in the growing files
-      type(head_t) :: head
-      !> Whether there is a state to go on from
-      logical :: waiting = .false.
+      character(len=:), allocatable, private :: prefix
+      !> Step of the newest state, frames beside it
+      integer, private :: newest = missing, frames = 0
    contains
       procedure :: write => write_state
       procedure :: find => find_state
       procedure :: found
-      procedure :: newest
       procedure :: read => read_state
    end type checkpoint_t
 
 contains
 
-   !> Write the state after a step, in place of the older one
-   subroutine write_state(self, prefix, text, transient, history, frames, grid, numbers, status)
+   !> Write the state after a step; the newest so far becomes the one before it
+   subroutine write_state(self, prefix, text, transient, history, frames, numbers, status)
       class(checkpoint_t), intent(inout) :: self
       !> Folder with its '/', and what the names begin with; the case that the state belongs to
       character(len=*), intent(in) :: prefix, text
-      type(transient_t), intent(inout) :: transient
-      type(table_t), intent(inout) :: history
-      type(frames_t), intent(inout) :: frames
-      type(grid_t), intent(in) :: grid
+      type(transient_t), intent(in) :: transient
+      type(table_t), intent(in) :: history
+      type(frames_t), intent(in) :: frames
       !> Seconds spent on the steps, mean friction ratio of the coarser run, how that run ended
       real(dp), intent(in) :: numbers(3)
       type(status_t), intent(inout) :: status
-      type(binary_file_t) :: file
       character(len=:), allocatable :: path
-      real(dp) :: kept(3)
-      logical :: gone
+      character(len=256) :: reason
+      logical :: done
+      integer :: lun, stat, k
 
       if (.not. allocated(self%prefix)) self%prefix = ""
       if (self%prefix /= prefix) then
          self%prefix = prefix
-         self%states = missing
-         self%head = head_t()
+         self%newest = missing
+         self%frames = 0
       end if
-      ! a state that is there already must not take the place of the one before it
-      if (maxval(self%states) == transient%step) return
-      call append_series(self, transient, history, frames, grid, status)
+      if (self%newest == transient%step) return
+      do k = 1, frames%n
+         path = frame_path(prefix, k)
+         done = file_exists(path)
+         if (done .and. k <= self%frames) cycle
+         call open_sealed(path, "write", lun, status)
+         if (status%failed()) return
+         write (lun, iostat=stat, iomsg=reason) frames%times(k), frames%p(k)%values, frames%h(k)%values
+         call end_sealed(lun, path, stat, reason, status)
+         if (status%failed()) return
+      end do
+      self%frames = frames%n
+      path = prefix//state_files(1)
+      call open_sealed(path//".new", "write", lun, status)
       if (status%failed()) return
-      self%head%text = text
-      path = prefix//state_files(minloc(self%states, dim=1))
-      kept = numbers
-      call file%create(path//".new")
-      call pass_head(file, self%head)
-      call pass_body(file, transient, kept)
-      call file%seal()
-      call file%close(status)
+      ! as it is read in read_head and read_state
+      associate (t => transient, mean => transient%mean)
+         write (lun, iostat=stat, iomsg=reason) magic, t%step, frames%n, len(text), text, &
+            t%skipped, t%time, t%time_step, t%residual, t%cycles, t%total_cycles, t%total_sweeps, t%policy%coarsening, &
+            t%policy%changed_at, t%h00_before, t%friction_smooth, t%mass_content, t%p_before, t%predictor%weights, &
+            t%accuracy%rise, t%accuracy%sensitivity, t%accuracy%largest, t%film_mark, t%extremes%found, numbers, &
+            (history%row(k), mean%values(k), mean%film(k), mean%roughness(k), k=1, t%step)
+      end associate
+      call end_sealed(lun, path//".new", stat, reason, status)
       if (.not. status%failed()) then
+         ! one that is damaged must not take the place of the one before it
+         if (self%newest /= missing) done = rename_path(path, prefix//state_files(2))
          if (rename_path(path//".new", path)) then
-            self%states(minloc(self%states, dim=1)) = transient%step
+            self%newest = transient%step
             return
          end if
          call status%fail(ehl_file, path//": error: cannot write: it cannot be renamed")
       end if
-      gone = remove_file(path//".new")
+      done = remove_file(path//".new")
    end subroutine write_state
-
-   !> Append to the growing files what has come since the last state
-   subroutine append_series(self, transient, history, frames, grid, status)
-      class(checkpoint_t), intent(inout) :: self
-      type(transient_t), intent(inout) :: transient
-      type(table_t), intent(inout) :: history
-      type(frames_t), intent(inout) :: frames
-      type(grid_t), intent(in) :: grid
-      type(status_t), intent(inout) :: status
-      type(binary_file_t) :: file
-      character(len=:), allocatable :: rows, pictures
-      integer(int64) :: there(2)
-      integer :: k
-
-      rows = self%prefix//trim(series_files(1))
-      pictures = self%prefix//trim(series_files(2))
-      associate (head => self%head)
-         ! where somebody has taken them away they begin again
-         there = [file_bytes(rows), file_bytes(pictures)]
-         if (any(there < [head%rows%bytes, head%pictures%bytes])) head = head_t()
-         call file%append(rows, head%rows)
-         do k = head%step + 1, transient%step
-            call pass_row(file, k, history, transient)
-         end do
-         call file%close(status)
-         if (status%failed()) return
-         head%step = transient%step
-         head%rows = file%extent
-         if (frames%n == head%frames) return
-         call file%append(pictures, head%pictures)
-         do k = head%frames + 1, frames%n
-            call pass_frame(file, k, frames, grid, status)
-         end do
-         call file%close(status)
-         if (status%failed()) return
-         head%frames = frames%n
-         head%pictures = file%extent
-      end associate
-   end subroutine append_series
 
    !> Look for the newest good state of a case. That there are files and none of them is good, or that the state belongs
    !> to another case, is an error.
@@ -137,55 +116,48 @@ contains
       !> What a person should know: the step, and whether a damaged file was passed over
       character(len=:), allocatable, intent(out) :: note
       type(status_t), intent(inout) :: status
-      character(len=:), allocatable :: path
-      integer :: k
+      integer :: k, state
 
       note = ""
-      self%prefix = prefix
       do k = 1, 2
-         self%states(k) = what_is(prefix, state_files(k))
+         state = what_is(prefix, state_files(k), self%head)
+         if (k == 1) self%newest = state
+         if (state >= 0) exit
       end do
-      if (all(self%states == missing)) return
-      path = self%newest()
-      if (maxval(self%states) < 0) then
-         if (any(self%states == other_version)) then
-            call status%fail(ehl_bad_input, path//": error: this state was written by another version of the program"// &
-                             newline//"expected: '"//magic//"'")
-         else
-            call status%fail(ehl_bad_input, path//": error: this state is damaged, and there is no other"//newline// &
-                             "expected: a file that is whole")
-         end if
-         return
+      if (self%newest == missing .and. state == missing) return
+      ! with the older one missing, the newest tells what is wrong
+      if (state == missing) then
+         state = self%newest
+         k = 1
       end if
-      call read_head(path, self%head, status)
-      if (status%failed()) return
-      if (self%head%text /= text) then
-         call status%fail(ehl_bad_input, path//": error: this state belongs to another case"//newline// &
+      self%path = prefix//state_files(min(k, 2))
+      if (state == other_version) then
+         call status%fail(ehl_bad_input, self%path//": error: this state was written by another version of the program"// &
+                          newline//"expected: '"//magic//"'")
+      else if (state == damaged) then
+         call status%fail(ehl_bad_input, self%path//": error: this state is damaged, and there is no other"//newline// &
+                          "expected: a file that is whole")
+      else if (self%head%text /= text) then
+         call status%fail(ehl_bad_input, self%path//": error: this state belongs to another case"//newline// &
                           first_difference(self%head%text, text))
-         return
       end if
-      note = "going on after step "//to_text(self%head%step)//" with the state in "//path
-      if (any(self%states == damaged)) note = note//"; "//state_files(minloc(self%states, dim=1))// &
-                                              " is damaged and was passed over"
-      self%waiting = .true.
+      if (status%failed()) return
+      note = "going on after step "//to_text(self%head%step)//" with the state in "//self%path
+      if (self%newest < missing) note = note//"; "//state_files(1)//" is damaged and was passed over"
+      self%newest = max(self%newest, missing)
+      self%prefix = prefix
+      self%frames = self%head%frames
    end subroutine find_state
 
    !> Whether there is a state to go on from
    pure logical function found(self)
       class(checkpoint_t), intent(in) :: self
-      found = self%waiting
+      found = allocated(self%path)
    end function found
-
-   !> Path of the newest state
-   function newest(self) result(path)
-      class(checkpoint_t), intent(in) :: self
-      character(len=:), allocatable :: path
-      path = self%prefix//state_files(maxloc(self%states, dim=1))
-   end function newest
 
    !> Read the state that was found into a run that has started
    subroutine read_state(self, transient, history, frames, grid, numbers, status)
-      class(checkpoint_t), intent(inout) :: self
+      class(checkpoint_t), intent(in) :: self
       type(transient_t), intent(inout) :: transient
       type(table_t), intent(inout) :: history
       type(frames_t), intent(inout) :: frames
@@ -193,61 +165,90 @@ contains
       !> Seconds spent on the steps, mean friction ratio of the coarser run, how that run ended
       real(dp), intent(out) :: numbers(3)
       type(status_t), intent(inout) :: status
-      type(binary_file_t) :: file
-      integer :: k
+      type(head_t) :: head
+      real(dp) :: row(history%n_columns()), values(3)
+      character(len=:), allocatable :: path
+      character(len=256) :: reason
+      integer :: lun, stat, k
 
-      self%waiting = .false.
       numbers = 0.0_dp
-      associate (head => self%head)
-         call file%open(self%newest())
-         call pass_head(file, head)
-         call pass_body(file, transient, numbers)
-         call file%seal()
-         call file%close(status)
-         if (status%failed()) return
-         transient%step = head%step
-         call file%open(self%prefix//trim(series_files(1)))
-         do k = 1, head%step
-            call pass_row(file, k, history, transient)
+      call open_sealed(self%path, "read", lun, status)
+      if (status%failed()) return
+      call read_head(lun, head, stat)
+      transient%step = head%step
+      associate (t => transient)
+         if (stat == 0) read (lun, iostat=stat, iomsg=reason) &
+            t%skipped, t%time, t%time_step, t%residual, t%cycles, t%total_cycles, t%total_sweeps, t%policy%coarsening, &
+            t%policy%changed_at, t%h00_before, t%friction_smooth, t%mass_content, t%p_before, t%predictor%weights, &
+            t%accuracy%rise, t%accuracy%sensitivity, t%accuracy%largest, t%film_mark, t%extremes%found, numbers
+         do k = 1, t%step
+            if (stat == 0) read (lun, iostat=stat, iomsg=reason) row, values
+            if (stat /= 0) exit
+            call history%append(row)
+            call t%mean%append(values(1), values(2), values(3))
          end do
-         call file%close(status)
-         if (status%failed() .or. head%frames == 0) return
-         call file%open(self%prefix//trim(series_files(2)))
-         do k = 1, head%frames
-            call pass_frame(file, k, frames, grid, status)
-         end do
-         call file%close(status)
       end associate
+      call end_reading(lun, self%path, stat, reason, status)
+      do k = 1, head%frames
+         path = frame_path(self%prefix, k)
+         if (.not. status%failed()) call frames%add(grid, status)
+         if (.not. status%failed()) call open_sealed(path, "read", lun, status)
+         if (status%failed()) return
+         read (lun, iostat=stat, iomsg=reason) frames%times(k), frames%p(k)%values, frames%h(k)%values
+         call end_reading(lun, path, stat, reason, status)
+      end do
    end subroutine read_state
 
    !> Step of the state in a file if all of it is there as it was written, else what is wrong
-   integer function what_is(prefix, name)
+   integer function what_is(prefix, name, head)
       character(len=*), intent(in) :: prefix, name
-      type(head_t) :: head
+      type(head_t), intent(out) :: head
+      integer :: lun, stat, k
       type(status_t) :: status
+      character(len=len(magic)) :: version
 
       what_is = missing
       if (.not. file_exists(prefix//name)) return
       what_is = damaged
-      if (.not. is_sealed(prefix//name)) return
-      call read_head(prefix//name, head, status)
-      if (head%version /= magic .and. index(head%version, family) == 1) what_is = other_version
+      call open_sealed(prefix//name, "read", lun, status)
       if (status%failed()) return
-      if (.not. begins_with(prefix//trim(series_files(1)), head%rows)) return
-      if (begins_with(prefix//trim(series_files(2)), head%pictures)) what_is = head%step
+      read (lun, iostat=stat) version
+      if (stat == 0 .and. version /= magic .and. index(version, family) == 1) what_is = other_version
+      close (lun)
+      ! what is damaged may tell any length
+      if (what_is == other_version) return
+      if (.not. is_sealed(prefix//name)) return
+      call open_sealed(prefix//name, "read", lun, status)
+      if (status%failed()) return
+      call read_head(lun, head, stat)
+      close (lun)
+      do k = 1, head%frames
+         if (.not. is_sealed(frame_path(prefix, k))) return
+      end do
+      if (stat == 0) what_is = head%step
    end function what_is
 
    !> What a state begins with
-   subroutine read_head(path, head, status)
-      character(len=*), intent(in) :: path
-      type(head_t), intent(inout) :: head
-      type(status_t), intent(inout) :: status
-      type(binary_file_t) :: file
+   subroutine read_head(lun, head, stat)
+      integer, intent(in) :: lun
+      type(head_t), intent(out) :: head
+      integer, intent(out) :: stat
+      character(len=len(magic)) :: version
+      integer :: length
 
-      call file%open(path)
-      call pass_head(file, head)
-      call file%close(status)
+      read (lun, iostat=stat) version, head%step, head%frames, length
+      if (stat /= 0) return
+      allocate (character(len=length) :: head%text)
+      read (lun, iostat=stat) head%text
    end subroutine read_head
+
+   !> File of frame k
+   pure function frame_path(prefix, k) result(path)
+      character(len=*), intent(in) :: prefix
+      integer, intent(in) :: k
+      character(len=:), allocatable :: path
+      path = prefix//frame_file//to_text(k)
+   end function frame_path
 
    !> Where two cases differ for the first time
    function first_difference(theirs, ours) result(text)
