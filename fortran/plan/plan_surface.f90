@@ -5,15 +5,12 @@ module ehl_plan_surface
    use ehl_case, only: case_t, is_feature, surface_case_t
    use ehl_contact, only: contact_t
    use ehl_feature, only: feature_t, new_feature
-   use ehl_files, only: file_bytes
    use ehl_fractal, only: fractal_t, make_fractal
    use ehl_grid, only: grid_t
    use ehl_harmonic, only: harmonic_t, new_harmonic
    use ehl_height_map, only: height_map_t
    use ehl_kinds, only: dp
    use ehl_map_file, only: check_heights, read_map
-   use ehl_map_needs, only: map_needs
-   use ehl_memory, only: check_memory
    use ehl_status, only: ehl_bad_input, ehl_no_memory, status_t
    use ehl_surface, only: aliased_below, surface_t
    use ehl_text, only: to_text
@@ -108,11 +105,6 @@ contains
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: why, what
 
-      if (s%kind == "map" .and. index(s%file, ".npy", back=.true.) /= len_trim(s%file) - 3) then
-         ! a line may be as long as the file
-         call check_memory(trim(s%file)//": a file of this length", real(file_bytes(trim(s%file)), dp), status)
-         if (status%failed()) return
-      end if
       why = map_needs(s)
       what = trim(s%file)
       if (s%kind == "fractal") what = "surface.kind = 'fractal'"
@@ -125,6 +117,37 @@ contains
                           "expected: surface.length_x and surface.length_y [m]")
       end if
    end subroutine check_map
+
+   !> Why pyehl has to prepare a map, for a message; empty when the solver can read it
+   function map_needs(s) result(why)
+      type(surface_case_t), intent(in) :: s
+      character(len=:), allocatable :: why
+      real(dp) :: moved
+
+      why = ""
+      if (s%kind /= "map") then
+         if (abs(s%track) > 0.0_dp) why = "surface.track"
+         return
+      end if
+      moved = abs(s%crop_x_min) + abs(s%crop_x_max) + abs(s%crop_y_min) + abs(s%crop_y_max)
+      if (s%detrend /= "auto" .and. s%detrend /= "none") then
+         why = "surface.detrend = '"//trim(s%detrend)//"'"
+      else if (s%edges /= "auto" .and. s%edges /= "periodic") then
+         why = "surface.edges = '"//trim(s%edges)//"'"
+      else if (moved > 0.0_dp) then
+         why = "surface.crop_x_min, crop_x_max, crop_y_min or crop_y_max"
+      else if (s%outliers > 0.0_dp) then
+         why = "surface.outliers"
+      else if (abs(s%rotate) > 0.0_dp) then
+         why = "surface.rotate"
+      else if (s%sign /= 1) then
+         why = "surface.sign"
+      else if (abs(s%track) > 0.0_dp) then
+         why = "surface.track"
+      else if (index(s%file, ".npy", back=.true.) /= len_trim(s%file) - 3) then
+         why = "it is no .npy array"
+      end if
+   end function map_needs
 
    !> A tile of heights [m]
    subroutine make_map(s, contact, heights, surface, status)

@@ -30,7 +30,7 @@ PIXEL_BAND = (1e-10, 1e-3)
 
 TEXT_SUFFIXES = (".txt", ".csv", ".dat", ".asc", "")
 # Headers of text exports that name sizes or units: Gwyddion, in each of its languages, SPIP and the
-# like, and Wyko; for the program ehl fortran/case/map_needs.f90 tells the same
+# like, and Wyko
 EXPORT = re.compile(
     r"(width|šířka|breite|anchura|largeur|larghezza|幅|폭|largura|ширина|"
     r"value units|jednotky hodnot|einheiten|unités|unità valore|値の単位|값 단위|"
@@ -218,9 +218,9 @@ def _check_pixel(scan: Scan) -> None:
 
 
 def plain_array(path: str) -> bool:
-    """Whether a file is one that the solver reads itself: text, or little-endian float64."""
+    """Whether a file is one that the solver reads itself: ``.npy`` of little-endian float64."""
     if not path.endswith(".npy"):
-        return True
+        return False
     return bool(np.load(path, mmap_mode="r", allow_pickle=False).dtype.str == "<f8")
 
 
