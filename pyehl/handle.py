@@ -201,10 +201,6 @@ class SolverHandle(Closing):
         check(status, message)
         return Work(done, earliest, latest)
 
-    def skipped(self) -> str:
-        """Tell what a transient run that has ended did not have to do; '' for every other run."""
-        return self._text(ehl.skipped)
-
     def describe(self) -> str:
         """Tell the plan: what will be solved and how, with a table of the levels."""
         return self._text(ehl.describe)

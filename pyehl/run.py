@@ -217,8 +217,6 @@ def _drive(
                 solver.advance()
                 _keep_state(solver, observer, at_once=False)
             observer.advanced(solver)
-        if solver.skipped():
-            observer.say(solver.skipped())
         observer.say(solver.conclusion())
         has_state = not solver.converged and _keep_state(solver, observer, at_once=True)
         solver.write(folder, force=force, inputs=sources)

@@ -114,7 +114,6 @@ contains
          end if
       end do
       call say(solver%progress())
-      if (solver%skipped() /= "") call say(solver%skipped())
       call say(solver%conclusion())
    end subroutine advance_to_the_end
 

@@ -18,7 +18,7 @@ module ehl_f2py_solver
    use ehl_status, only: ehl_bad_input, status_t
    implicit none (type, external)
    private
-   public :: open_case, close_case, advance, interrupt, describe, progress, work, skipped, summary, conclusion, take_prediction
+   public :: open_case, close_case, advance, interrupt, describe, progress, work, summary, conclusion, take_prediction
    public :: grid_shape, axes, field, write_output
 
 contains
@@ -141,21 +141,6 @@ contains
       if (.not. status%failed()) call run%solver%work(done, earliest, latest)
       call reply(status, stat, message)
    end subroutine work
-
-   !> What a transient run that has ended did not have to do; empty for every other run
-   subroutine skipped(handle, text, stat, message)
-      integer(c_int), intent(in) :: handle
-      character(len=4096), intent(out) :: text
-      integer(c_int), intent(out) :: stat
-      character(len=4096), intent(out) :: message
-      type(run_t), pointer :: run
-      type(status_t) :: status
-
-      text = ""
-      call run_of(handle, run, status)
-      if (.not. status%failed()) text = run%solver%skipped()
-      call reply(status, stat, message)
-   end subroutine skipped
 
    !> What a run that has ended gave, in a few lines
    subroutine conclusion(handle, text, stat, message)

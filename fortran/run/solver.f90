@@ -39,8 +39,8 @@ module ehl_solver
       logical, private :: in_steps = .false., resting = .false.
       !> How the transient run stands
       integer, private :: outcome = outcome_running
-      !> Seconds spent on time steps, and on the smooth contact; those that zeros save in a deflection
-      real(dp), private :: step_seconds = 0.0_dp, smooth_seconds = 0.0_dp, zeros_seconds = 0.0_dp
+      !> Seconds spent on time steps
+      real(dp), private :: step_seconds = 0.0_dp
       !> A surface that was made already
       class(surface_t), allocatable, private :: surface
       type(case_t), private :: input
@@ -76,7 +76,6 @@ module ehl_solver
       procedure :: work
       procedure :: summary
       procedure :: conclusion
-      procedure :: skipped
       procedure :: field
       procedure :: field_names
       procedure, private :: level
@@ -155,13 +154,6 @@ module ehl_solver
          class(solver_t), intent(in) :: self
          character(len=:), allocatable :: text
       end function conclusion
-
-      !> What a transient run that has ended did not have to do, one line each, with the seconds that saved; empty for
-      !> every other run
-      module function skipped(self) result(text)
-         class(solver_t), intent(in) :: self
-         character(len=:), allocatable :: text
-      end function skipped
 
       !> Names of the fields there are: P and H; in a transient run also those of the smooth contact, the roughness
       !> RR and the deformed roughness A_d = H_smooth - H

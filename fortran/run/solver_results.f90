@@ -10,7 +10,7 @@ submodule (ehl_solver) ehl_solver_results
    use ehl_report_friction, only: report_friction
    use ehl_report_passage, only: report_passage
    use ehl_report_smooth, only: report_smooth
-   use ehl_skipped_work, only: find_skips, report_skips, skip_lines, skip_t
+   use ehl_skipped_work, only: skipped_work
    use ehl_status, only: ehl_bad_input, ehl_no_memory
    use ehl_text, only: newline
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
@@ -53,7 +53,7 @@ contains
       if (self%resting) call report_rest(record, self%plan, self%rest, self%converged(), ratio, stop_error)
       if (allocated(self%plan%surface)) call report_ratio(self, record, ratio, stop_error)
       call summarise_friction(self, record, good)
-      if (self%in_steps .and. self%done()) call report_skips(record, skips_of(self))
+      if (self%in_steps .and. self%done()) call record%set("skips", skipped_work(self%plan, self%transient, self%converged()))
       bytes = real(self%hierarchy%bytes(), dp)
       if (allocated(self%plan%surface)) bytes = bytes + self%plan%surface%bytes()
       call record%set("bytes", bytes)
@@ -179,23 +179,6 @@ contains
          end associate
       end if
    end subroutine summarise_friction
-
-   module function skipped(self) result(text)
-      class(solver_t), intent(in) :: self
-      character(len=:), allocatable :: text
-
-      text = ""
-      if (self%in_steps .and. self%done()) text = skip_lines(skips_of(self))
-   end function skipped
-
-   !> What the transient run did not have to do
-   function skips_of(self) result(skips)
-      class(solver_t), intent(in) :: self
-      type(skip_t), allocatable :: skips(:)
-
-      call find_skips(self%plan, self%transient, self%converged(), self%step_seconds, &
-                      self%smooth_seconds, self%zeros_seconds, skips)
-   end function skips_of
 
    module subroutine field_names(self, names)
       class(solver_t), intent(in) :: self

@@ -7,7 +7,6 @@ submodule (ehl_solver) ehl_solver_run
    use ehl_plan_surface, only: check_carried
    use ehl_outcome, only: outcome_cycle_limit, outcome_diverged, outcome_failed, outcome_negative_film
    use ehl_status, only: ehl_no_memory
-   use ehl_skipped_work, only: seconds_saved_by_zeros
    use ehl_status, only: ehl_bad_input
    use ehl_text, only: to_text
    implicit none (type, external)
@@ -40,13 +39,10 @@ contains
    subroutine advance_cycle(self, status)
       type(solver_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
-      type(clock_t) :: clock
       integer :: n
 
-      clock = start_clock()
       n = self%steady%n
       call self%steady%advance(self%hierarchy, status)
-      self%smooth_seconds = self%smooth_seconds + clock%seconds()
       if (status%failed()) return
       self%grid = self%hierarchy%levels(n)%grid
       if (allocated(self%plan%surface)) return
@@ -74,7 +70,6 @@ contains
       if (status%failed()) return
       call self%hierarchy%prepare_steps(n, self%plan%scheme, self%transient%time_step, status)
       if (status%failed()) return
-      self%zeros_seconds = seconds_saved_by_zeros(self%hierarchy%levels(n))
       self%in_steps = .true.
       call self%frames%start()
       if (self%checkpoint%found()) call take_state(self, status)

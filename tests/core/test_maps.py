@@ -125,7 +125,7 @@ def test_program_refuses_exports(tmp_path: Path, drive):
     size = f"length_x = {LENGTH} length_y = {LENGTH}"
     refused = drive("ehl", write_case(tmp_path / "case.nml", "map.txt", size), "-o", "none")
     assert refused.returncode == 2
-    assert "file of an instrument" in refused.stderr
+    assert "it is no .npy array" in refused.stderr
 
 
 def test_neutral_arrays_have_the_same_bits(tmp_path: Path, drive):
