@@ -21,8 +21,7 @@ module ehl_record
    contains
       !> call record%set(name, value): real(dp), integer, logical or character, or a list of
       !> real(dp) or character; a name that is there already gets the new value
-      generic :: set => set_real, set_integer, set_logical, set_text, set_reals, set_texts
-      procedure, private :: set_reals
+      generic :: set => set_real, set_integer, set_logical, set_text, set_texts
       procedure, private :: set_texts
       procedure, private :: set_real
       procedure, private :: set_integer
@@ -46,22 +45,6 @@ contains
       real(dp), intent(in) :: value
       call self%put(name, json_real(value))
    end subroutine set_real
-
-   !> Set a list of real values
-   subroutine set_reals(self, name, values)
-      class(record_t), intent(inout) :: self
-      character(len=*), intent(in) :: name
-      real(dp), intent(in) :: values(:)
-      character(len=:), allocatable :: list
-      integer :: k
-
-      list = ""
-      do k = 1, size(values)
-         if (k > 1) list = list // ", "
-         list = list // json_real(values(k))
-      end do
-      call self%put(name, "[" // list // "]")
-   end subroutine set_reals
 
    !> Set a list of texts; trailing blanks are dropped
    subroutine set_texts(self, name, values)

@@ -10,14 +10,6 @@ module ehl_key_finder
    private
    public :: group_position, find_key, join, hint
 
-   !> Keys that there were, and what to give in their place
-   character(len=48), parameter :: moved(2, 5) = reshape([character(len=48) :: &
-      "psd.slide_to_roll", "contact.slide_to_roll", &
-      "psd.friction", "lubricant.shear_law", &
-      "psd.eyring_stress", "lubricant.eyring_stress", &
-      "psd.limiting_coefficient", "lubricant.limiting_coefficient", &
-      "psd.phase_lag", "psd.reduction = 'response', whose lag is physics"], [2, 5])
-
 contains
 
    !> Position of a name in a list; 0 when it is not there
@@ -49,12 +41,6 @@ contains
          end if
          return
       end if
-      do k = 1, size(moved, 2)
-         if (moved(1, k) /= group // "." // lower_case(name%text)) cycle
-         call status%fail(ehl_bad_input, point_at(source, name%first, name%last, &
-                                                  trim(moved(1, k)) // " is a key no more", trim(moved(2, k))))
-         return
-      end do
       what = "unknown key '" // name%text // "' in &" // group
       expected = "one of the keys " // join(schema%names_of(group), ", ") &
                  // hint(name%text, schema%names_of(group), "")

@@ -13,8 +13,6 @@ module ehl_schema
    !> All keys, bound to one case
    type :: schema_t
       type(key_t), allocatable :: keys(:)
-      !> Keys so far, while the table is made
-      integer, private :: made = 0
    contains
       procedure :: bind => bind_case
       procedure :: find
@@ -70,8 +68,7 @@ contains
       type(case_t), intent(inout), target :: input
 
       if (allocated(self%keys)) deallocate (self%keys)
-      allocate (self%keys(64))
-      self%made = 0
+      allocate (self%keys(0))
       call self%add_contact_keys(input)
       call self%add_lubricant_keys(input)
       call self%add_grid_keys(input)
@@ -83,7 +80,6 @@ contains
                       "time between frames of P and H that a transient run keeps; 0: none")
       call self%reals("output", "checkpoint_interval", input%output%checkpoint_interval, "s", "[0, 1e6]", &
                       "wall time between states of a transient run kept on disk; 0: none")
-      self%keys = self%keys(:self%made)
    end subroutine bind_case
 
    subroutine add_grid_keys(self, input)
@@ -206,15 +202,8 @@ contains
    subroutine add(self, key)
       class(schema_t), intent(inout) :: self
       type(key_t), intent(in) :: key
-      type(key_t), allocatable :: longer(:)
 
-      if (self%made == size(self%keys)) then
-         allocate (longer(2*self%made))
-         longer(:self%made) = self%keys
-         call move_alloc(longer, self%keys)
-      end if
-      self%made = self%made + 1
-      self%keys(self%made) = key
+      self%keys = [self%keys, key]
    end subroutine add
 
    subroutine reals(self, group, name, value, unit, allowed, meaning)

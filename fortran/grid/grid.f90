@@ -24,13 +24,13 @@ module ehl_grid
       procedure :: x => x_of
       procedure :: y => y_of
       procedure :: columns
-      procedure :: can_coarsen
       procedure :: coarser
       procedure :: finer
       procedure :: weight
       procedure :: cell
       procedure, nopass :: south
       procedure :: first_inner
+      procedure :: is_border
       procedure :: full_ny
       procedure :: unfold
    end type grid_t
@@ -96,13 +96,6 @@ contains
       x = self%x([(i, i=1, self%nx)])
    end function columns
 
-   !> Whether every second node in both directions makes a grid of the same extent
-   pure logical function can_coarsen(self)
-      class(grid_t), intent(in) :: self
-      can_coarsen = mod(self%nx, 2) == 1 .and. mod(self%ny, 2) == 1 &
-                    .and. self%nx >= 5 .and. self%ny >= 5
-   end function can_coarsen
-
    !> The grid of every second node
    pure function coarser(self) result(grid)
       class(grid_t), intent(in) :: self
@@ -159,6 +152,13 @@ contains
       class(grid_t), intent(in) :: self
       first_inner = merge(1, 2, self%mirror)
    end function first_inner
+
+   !> Whether row j is a border, where P = 0
+   elemental logical function is_border(self, j)
+      class(grid_t), intent(in) :: self
+      integer, intent(in) :: j
+      is_border = j < self%first_inner() .or. j == self%ny
+   end function is_border
 
    !> Rows of the unfolded grid
    pure integer function full_ny(self)

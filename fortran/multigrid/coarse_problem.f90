@@ -77,7 +77,7 @@ contains
       nx = coarse%nx
       l = 2*j - 1
       values = fine(::2, l)
-      if (j == coarse%ny .or. (j == 1 .and. .not. coarse%mirror)) return
+      if (coarse%is_border(j)) return
       across = 0.25_dp*(fine(:, coarse%south(l)) + fine(:, l + 1)) + 0.5_dp*fine(:, l)
       do i = 2, nx - 1
          values(i) = 0.25_dp*(across(2*i - 2) + across(2*i)) + 0.5_dp*across(2*i - 1)

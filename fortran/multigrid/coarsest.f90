@@ -3,7 +3,7 @@
 module ehl_coarsest
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_dense_lu, only: back_substitute, factor
-   use ehl_film, only: pressure_sum, reynolds_operator, update_coefficients, update_film
+   use ehl_film, only: pressure_sum, refresh, reynolds_operator
    use ehl_grid, only: grid_t
    use ehl_kernel, only: fill_kernel
    use ehl_kinds, only: dp
@@ -110,7 +110,7 @@ contains
       integer :: step
       logical :: fresh
 
-      call refresh_film(level)
+      call refresh(level)
       call self%find_residual(level, norm_start)
       norm = norm_start
       do step = 1, max_steps
@@ -129,7 +129,7 @@ contains
             ! the old factors no longer serve: take the step back and factor anew
             level%p = self%p_before
             level%h00 = self%h00_before
-            call refresh_film(level)
+            call refresh(level)
             call self%find_residual(level, norm)
             self%factored = .false.
             ! new ones did not either: the matrix is singular, or not a number was in it
@@ -161,20 +161,12 @@ contains
             end do
          end do
          level%h00 = self%h00_before + damping*self%direction(self%n + 1)
-         call refresh_film(level)
+         call refresh(level)
          if (minval(level%h) > 0.0_dp) exit
          damping = 0.5_dp*damping
       end do
       call self%find_residual(level, norm)
    end subroutine move
-
-   !> Film and coefficients for the present pressure
-   subroutine refresh_film(level)
-      type(level_t), intent(inout) :: level
-
-      call update_film(level)
-      call update_coefficients(level)
-   end subroutine refresh_film
 
    !> Right-hand side of the Newton step, and its norm; cavitated nodes count only when they
    !> ask for pressure

@@ -3,7 +3,7 @@
 module ehl_cycle
    use ehl_coarse_problem, only: coarsening_alcouffe, coarsening_classical, correct, restrict_problem
    use ehl_coarsest, only: coarsest_t
-   use ehl_film, only: update_coefficients, update_film, update_residual
+   use ehl_film, only: refresh, update_coefficients, update_residual
    use ehl_galerkin, only: coarsening_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
@@ -11,7 +11,7 @@ module ehl_cycle
    use ehl_workspace, only: workspace_t
    implicit none (type, external)
    private
-   public :: cycle_options_t, finest_cycle, refresh, prolong_solution
+   public :: cycle_options_t, finest_cycle, prolong_solution
    public :: coarsening_classical, coarsening_alcouffe
 
    !> Residual reduction wanted on the coarsest level, and the most Newton steps to get it
@@ -36,13 +36,6 @@ module ehl_cycle
    end type cycle_options_t
 
 contains
-
-   !> Bring film and coefficients up to date with the pressure
-   subroutine refresh(level)
-      type(level_t), intent(inout) :: level
-      call update_film(level)
-      call update_coefficients(level)
-   end subroutine refresh
 
    !> One cycle with level n as the finest. Film and coefficients are up to date before and after.
    subroutine finest_cycle(levels, spaces, coarsenings, n, coarsest, options, residual, sweeps)

@@ -52,7 +52,7 @@ module ehl_plan
       character(len=1) :: cycle_letter = "F", step_cycle_letter = "V"
       !> Algebraic error wanted as a share of the discretisation error
       real(dp) :: accuracy = 0.1_dp
-      integer :: max_cycles = 30
+      integer :: max_cycles = 0
       integer :: threads = 1
       !> Relative error of H_c wanted; 0: none, solve on the finest grid
       real(dp) :: target_error = 0.0_dp

@@ -6,9 +6,16 @@ module ehl_film
    use ehl_level, only: level_t
    implicit none (type, external)
    private
-   public :: balance_load, film_residual, update_film, update_coefficients, reynolds_operator, update_residual, pressure_sum
+   public :: balance_load, film_residual, pressure_sum, refresh, reynolds_operator, update_coefficients, update_residual
 
 contains
+
+   !> Bring film and coefficients up to date with the pressure
+   subroutine refresh(level)
+      type(level_t), intent(inout) :: level
+      call update_film(level)
+      call update_coefficients(level)
+   end subroutine refresh
 
    !> Deflection and film for the present pressure: H = H00 + geometry + K P
    subroutine update_film(level)
@@ -40,8 +47,7 @@ contains
       end do
       !$omp end parallel do
       level%h00 = level%h00 + (factor - factor**2)*sum(deflection)/level%load
-      call update_film(level)
-      call update_coefficients(level)
+      call refresh(level)
    end subroutine balance_load
 
    !> Density and conductance eps = rho H^3/(eta lambda_bar) for the present pressure and film; a level whose
@@ -91,7 +97,7 @@ contains
       nx = level%grid%nx
       values(1) = 0.0_dp
       values(nx) = 0.0_dp
-      if (j == level%grid%ny .or. (j == 1 .and. .not. level%grid%mirror)) then
+      if (level%grid%is_border(j)) then
          values(2:nx - 1) = 0.0_dp
          return
       end if
@@ -117,7 +123,7 @@ contains
             level%residual(i, j) = level%rhs(i, j) - row(i)
             if (level%p(i, j) <= 0.0_dp .and. level%residual(i, j) > 0.0_dp) level%residual(i, j) = 0.0_dp
          end do
-         if (j == level%grid%ny .or. (j == 1 .and. .not. level%grid%mirror)) level%residual(:, j) = 0.0_dp
+         if (level%grid%is_border(j)) level%residual(:, j) = 0.0_dp
          sums(j) = sum(level%residual(:, j)**2)*level%grid%weight(j)/(level%grid%hx*level%grid%hy)
       end do
       !$omp end parallel do

@@ -3,7 +3,8 @@
 !> the smooth solution on the same grid. Where the film would be negative then, the roughness grows in steps.
 module ehl_stationary_roughness
    use ehl_contact, only: contact_t
-   use ehl_cycle, only: cycle_options_t, refresh
+   use ehl_cycle, only: cycle_options_t
+   use ehl_film, only: refresh
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
@@ -42,7 +43,7 @@ module ehl_stationary_roughness
       real(dp) :: algebraic = 0.0_dp, change = 0.0_dp
       !> Friction integral of the smooth contact
       real(dp) :: friction_smooth = 1.0_dp
-      integer :: max_cycles = 30
+      integer :: max_cycles = 0
       real(dp) :: tolerance = 1.0e-4_dp
       !> The roughness [a^2/R], pressure of the smooth contact and of the last share solved, (nx, ny)
       real(dp), allocatable :: rr(:, :), p_done(:, :)

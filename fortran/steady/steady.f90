@@ -2,8 +2,8 @@
 !> The smooth, steady solution by full multigrid (nested iteration), one cycle at a time
 module ehl_steady
    use ehl_contact, only: contact_t
-   use ehl_cycle, only: cycle_options_t, prolong_solution, refresh
-   use ehl_film, only: balance_load, film_residual, update_residual
+   use ehl_cycle, only: cycle_options_t, prolong_solution
+   use ehl_film, only: balance_load, film_residual, refresh, update_residual
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
@@ -103,8 +103,7 @@ contains
       self%entered = .false.
       self%outcome = outcome_running
       self%restarts = 0
-      if (allocated(self%results)) deallocate (self%results)
-      allocate (self%results(levels))
+      self%results = spread(level_result_t(), 1, levels)
    end subroutine start
 
    !> One cycle on the present level, the step to the next level when this one is done
@@ -152,20 +151,17 @@ contains
       class(steady_t), intent(inout) :: self
       type(hierarchy_t), intent(inout) :: hierarchy
       type(status_t), intent(inout) :: status
-      logical :: have_coarse
       integer :: j
 
       call hierarchy%grow(self%n, status)
       if (status%failed()) return
-      have_coarse = .false.
-      if (self%n > 1) have_coarse = self%results(self%n - 1)%solved
       associate (level => hierarchy%levels(self%n), grid => hierarchy%levels(self%n)%grid)
          do j = 1, grid%ny
             call self%contact%gap_row(grid%columns(), grid%y(j), level%geometry(:, j))
          end do
          level%rhs = 0.0_dp
          level%load = self%contact%load()
-         if (have_coarse) then
+         if (has_coarser(self)) then
             call prolong_solution(hierarchy%levels(self%n - 1), level)
             self%results(self%n)%m = self%results(self%n - 1)%m
          else
@@ -295,6 +291,7 @@ contains
       self%entered = .false.
    end subroutine fail_level
 
+   !> Whether the level begins from a coarser one
    pure logical function has_coarser(self)
       class(steady_t), intent(in) :: self
       has_coarser = .false.

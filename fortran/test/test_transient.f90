@@ -4,8 +4,7 @@ module test_transient
    use check, only: is_close, is_equal, is_true
    use ehl_case, only: case_t
    use ehl_case_reader, only: read_case
-   use ehl_cycle, only: refresh
-   use ehl_film, only: update_residual
+   use ehl_film, only: refresh, update_residual
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_level_result, only: friction_error

@@ -2,9 +2,9 @@
 !> The transient run of a rough surface through the contact, one time step at a time
 module ehl_transient
    use ehl_contact, only: contact_t
-   use ehl_cycle, only: coarsening_alcouffe, refresh
+   use ehl_cycle, only: coarsening_alcouffe
    use ehl_extremes, only: extremes_t
-   use ehl_film, only: balance_load, pressure_sum, update_residual
+   use ehl_film, only: balance_load, pressure_sum, refresh, update_residual
    use ehl_friction_mean, only: friction_mean_t, periods_compared
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp

@@ -19,10 +19,8 @@ MARK = "§"
 FAULTS: list[tuple[str, str, list[str], list[str]]] = [
     ("unknown key", "&grid\n  §pionts = 65\n/\n", [], ["'pionts'", "'points'", "&grid"]),
     ("unknown key, nothing near", "&grid §qqq = 1 /", [], ["'qqq'", "points, x_inlet"]),
-    ("moved key", "&psd §slide_to_roll = 0.01 /", [], ["contact.slide_to_roll", "no more"]),
-    ("moved word", "&psd §friction = 'eyring' /", [], ["lubricant.shear_law"]),
-    ("moved stress", "&psd §eyring_stress = 5e6 /", [], ["lubricant.eyring_stress"]),
-    ("moved limit", "", ["psd.limiting_coefficient=0.1"], ["lubricant.limiting_coefficient"]),
+    ("key of another group", "&psd §slide_to_roll = 0.01 /", [], ["belongs to &contact"]),
+    ("its option", "", ["psd.limiting_coefficient=0.1"], ["belongs to &lubricant"]),
     (
         "two velocities",
         "&contact slide_to_roll = 0.1 / &surface §velocity_ratio = 1.01 /",

@@ -154,12 +154,6 @@ def test_options_of_the_paper_alone(settings):
         of_case.predict(settings)
 
 
-def test_phase_lag_is_refused_with_its_reason():
-    with pytest.raises(pyehl.InputError, match="a key no more") as refused:
-        pyehl.Case.from_text("&psd\n phase_lag = 40.0\n/\n")
-    assert "psd.reduction" in str(refused.value)
-
-
 def test_smooth_contact_from_a_result_folder(tmp_path):
     """A folder of the smooth contact gives what is solved on the spot; another contact does not."""
     case = pyehl.Case.read("cases/table1.nml", "surface.kind=smooth", "grid.points=257")
