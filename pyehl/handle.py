@@ -9,7 +9,6 @@ from __future__ import annotations
 import json
 import os
 import threading
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -192,7 +191,7 @@ class SolverHandle(Closing):
 
     def progress(self) -> str:
         """Tell the state in one line."""
-        return self._text(ehl.progress)
+        return self._text("progress")
 
     def work(self) -> Work:
         """Tell how much of a transient run is done, and how much there is."""
@@ -203,15 +202,15 @@ class SolverHandle(Closing):
 
     def describe(self) -> str:
         """Tell the plan: what will be solved and how, with a table of the levels."""
-        return self._text(ehl.describe)
+        return self._text("plan")
 
     def conclusion(self) -> str:
         """Tell the results of a run that has ended, with their errors, in a few lines."""
-        return self._text(ehl.conclusion)
+        return self._text("conclusion")
 
     def summary(self) -> dict[str, Any]:
         """Give the scalar results as in ``summary.json``; None for a number that does not exist."""
-        values: dict[str, Any] = json.loads(self._text(ehl.summary))
+        values: dict[str, Any] = json.loads(self._text("summary"))
         return values
 
     @property
@@ -261,8 +260,8 @@ class SolverHandle(Closing):
         with self._lock:
             check(*ehl.write_output(self._handle, os.fsencode(folder)))
 
-    def _text(self, call: Callable[[int], tuple[bytes, int, bytes]]) -> str:
+    def _text(self, what: str) -> str:
         with self._lock:
-            text, status, message = call(self._handle)
+            text, status, message = ehl.describe(self._handle, what.encode())
         check(status, message)
         return returned(text)

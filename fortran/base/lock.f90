@@ -30,7 +30,7 @@ module ehl_lock
 
 contains
 
-   !> Wait until the lock is open, and close it. After a failure, an earlier one too, the caller does not hold it.
+   !> Wait until the lock is free, and take it. After a failure, also an earlier one, the caller does not hold it.
    subroutine lock(self, status)
       type(lock_t), intent(inout) :: self
       type(status_t), intent(inout) :: status

@@ -95,9 +95,11 @@ contains
       checksum = nothing
       open (newunit=lun, file=path, status="old", action="read", access="stream", form="unformatted", iostat=stat)
       left = bytes
-      do while (left > 0 .and. stat == 0)
+      if (stat /= 0) return
+      do while (left > 0)
          n = int(min(left, size(piece, kind=int64)))
          read (lun, iostat=stat) piece(:n)
+         if (stat /= 0) exit
          do k = 1, n
             checksum = ieor(ishftc(checksum, turn), int(piece(k), int64))
          end do

@@ -18,7 +18,7 @@ module ehl_f2py_solver
    use ehl_status, only: ehl_bad_input, status_t
    implicit none (type, external)
    private
-   public :: open_case, close_case, advance, interrupt, describe, progress, work, summary, conclusion, take_prediction
+   public :: open_case, close_case, advance, interrupt, describe, work, take_prediction
    public :: grid_shape, axes, field, write_output
 
 contains
@@ -94,35 +94,34 @@ contains
       call reply(status, stat, message)
    end subroutine interrupt
 
-   !> The plan in a few lines
-   subroutine describe(handle, text, stat, message)
+   !> The "plan" in a few lines, one line of "progress", the "conclusion" of a run that has ended, or the "summary" as JSON
+   subroutine describe(handle, what, text, stat, message)
       integer(c_int), intent(in) :: handle
+      character(len=*), intent(in) :: what
       character(len=32768), intent(out) :: text
       integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message
       type(run_t), pointer :: run
+      type(record_t) :: record
       type(status_t) :: status
 
       text = ""
       call run_of(handle, run, status)
-      if (.not. status%failed()) text = run%solver%describe()
+      if (.not. status%failed()) then
+         select case (what)
+         case ("plan")
+            text = run%solver%describe()
+         case ("progress")
+            text = run%solver%progress()
+         case ("conclusion")
+            text = run%solver%conclusion()
+         case default
+            record = run%solver%summary()
+            text = record%to_json()
+         end select
+      end if
       call reply(status, stat, message)
    end subroutine describe
-
-   !> One line about the state
-   subroutine progress(handle, text, stat, message)
-      integer(c_int), intent(in) :: handle
-      character(len=4096), intent(out) :: text
-      integer(c_int), intent(out) :: stat
-      character(len=4096), intent(out) :: message
-      type(run_t), pointer :: run
-      type(status_t) :: status
-
-      text = ""
-      call run_of(handle, run, status)
-      if (.not. status%failed()) text = run%solver%progress()
-      call reply(status, stat, message)
-   end subroutine progress
 
    !> How much of a transient run is done, and how much there is until its earliest and its latest end, in time
    !> steps; both are 0 where it is not known
@@ -142,21 +141,6 @@ contains
       call reply(status, stat, message)
    end subroutine work
 
-   !> What a run that has ended gave, in a few lines
-   subroutine conclusion(handle, text, stat, message)
-      integer(c_int), intent(in) :: handle
-      character(len=4096), intent(out) :: text
-      integer(c_int), intent(out) :: stat
-      character(len=4096), intent(out) :: message
-      type(run_t), pointer :: run
-      type(status_t) :: status
-
-      text = ""
-      call run_of(handle, run, status)
-      if (.not. status%failed()) text = run%solver%conclusion()
-      call reply(status, stat, message)
-   end subroutine conclusion
-
    !> Hand over what is predicted of mu_ratio: its parts in waves that the grid leaves out, and in those that it does not
    !> resolve; NaN where there is no prediction, and why
    subroutine take_prediction(handle, left_out, unresolved, why, stat, message)
@@ -172,25 +156,6 @@ contains
       if (.not. status%failed()) run%solver%waves = waves_t(.true., left_out, unresolved, why)
       call reply(status, stat, message)
    end subroutine take_prediction
-
-   !> The scalar results as JSON
-   subroutine summary(handle, text, stat, message)
-      integer(c_int), intent(in) :: handle
-      character(len=32768), intent(out) :: text
-      integer(c_int), intent(out) :: stat
-      character(len=4096), intent(out) :: message
-      type(run_t), pointer :: run
-      type(record_t) :: record
-      type(status_t) :: status
-
-      text = ""
-      call run_of(handle, run, status)
-      if (.not. status%failed()) then
-         record = run%solver%summary()
-         text = record%to_json()
-      end if
-      call reply(status, stat, message)
-   end subroutine summary
 
    !> Nodes of the whole (unfolded) finest grid
    subroutine grid_shape(handle, nx, ny, stat, message)

@@ -45,7 +45,7 @@ contains
       if (.not. status%failed()) call check_time(schema, input, sources, status)
    end subroutine check_case
 
-   !> Give values to keys that follow from others; what cannot be meant is left to check_case
+   !> Give values to keys that follow from others; check_case tells what contradicts
    subroutine complete_case(schema, input, sources)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(inout) :: input

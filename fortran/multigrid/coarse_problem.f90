@@ -16,9 +16,8 @@ module ehl_coarse_problem
    !> Bilinear transfers and rediscretised coarse operators, or operator-dependent transfers and
    !> Galerkin operators for the Poiseuille term
    integer, parameter :: coarsening_classical = 1, coarsening_alcouffe = 2
-   !> The operator decides on the interpolation where conductance/mesh-size^2 in the neighbourhood is
-   !> above this; elsewhere the deflection has its say, of which the operator knows nothing, and
-   !> interpolation is bilinear
+   !> Interpolation follows the operator where conductance/mesh-size^2 in the neighbourhood is above this;
+   !> elsewhere the deflection matters, which is not in the operator, and interpolation is bilinear
    real(dp), parameter :: dependent_from = 10.0_dp
    !> Slack of a coarse node that neither asks for pressure nor refuses it (the wedge term is of order 1)
    real(dp), parameter :: least_slack = 1.0e-8_dp

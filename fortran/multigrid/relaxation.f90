@@ -34,7 +34,7 @@ module ehl_relaxation
    real(dp), parameter :: weak = 0.6_dp
    !> What is around a node: so many columns on each side, and a row
    integer, parameter :: around = 2
-   !> Smaller shares are none
+   !> Smaller shares count as 0
    real(dp), parameter :: least_share = 0.01_dp
    !> Weights of the mean that is the smooth part, along X and along Y. Narrower means take away from what
    !> sweeps are there for.

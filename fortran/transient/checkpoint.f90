@@ -240,6 +240,7 @@ contains
       if (stat /= 0) return
       allocate (character(len=length) :: head%text)
       read (lun, iostat=stat) head%text
+      if (stat /= 0) head%text = ""
    end subroutine read_head
 
    !> File of frame k

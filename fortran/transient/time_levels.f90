@@ -9,8 +9,8 @@ module ehl_time_levels
    private
    public :: set_geometry, set_history, keep
 
-   !> Of a change of pressure, the film stores a part and the rest flows away. What is left unsolved is handed on by
-   !> half where so many times more flows than is stored.
+   !> A residual is answered partly by the squeeze of the film, partly by the Poiseuille flow. Half of it is passed on to
+   !> the next step where the flow is so many times the squeeze.
    real(dp), parameter :: flows_away = 1.0e4_dp
 
 contains
