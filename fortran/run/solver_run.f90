@@ -116,9 +116,6 @@ contains
       type is (feature_t)
          waviness%amplitude = amplitude
       end select
-      ! what the coarser run starts from
-      self%input%surface%amplitude = amplitude
-      self%input%surface%amplitude_given = .true.
    end subroutine set_amplitude
 
    !> Extrapolated central film of the smooth contact; 0 where its grid error is too large for that
@@ -230,6 +227,16 @@ contains
       input%grid%points = (self%grid%nx + 1)/2
       input%grid%target_error = 0.0_dp
       input%time%estimate_error = .false.
+      if (self%plan%amplitude_over_film > 0.0_dp) then
+         ! the same roughness, not the same share of another film
+         input%surface%amplitude_given = .true.
+         select type (waviness => self%plan%surface)
+         type is (harmonic_t)
+            input%surface%amplitude = waviness%amplitude
+         type is (feature_t)
+            input%surface%amplitude = waviness%amplitude
+         end select
+      end if
       allocate (self%coarse, stat=stat)
       if (stat /= 0) then
          call status%fail(ehl_no_memory, "no memory for another solver")

@@ -14,7 +14,7 @@ import pytest
 
 import pyehl
 
-SMALL = "grid.points=33"
+SMALL = "grid.points=65"
 WHOLE_TEXT = "the text of a case"
 
 

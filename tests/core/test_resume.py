@@ -21,7 +21,8 @@ from pyehl.case import Case
 from pyehl.solver import Solver
 
 WAVE = (
-    "&contact moes_m = 200.0 /\n&grid points = {points} x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+    "&contact moes_m = 200.0 /\n"
+    "&grid points = {points} x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
     "&surface kind = 'harmonic' {extra} /\n&output frame_interval = 0.5 /\n"
 )
 FRACTAL = (
