@@ -87,7 +87,7 @@ def solve(
     >>> ds.P.shape, ds.attrs["status"]
     ((65, 65), 'converged')
     >>> round(ds.attrs["H_c"], 3)
-    0.071
+    0.059
     """
     inputs = () if isinstance(case, Case) else (case,)
     case = Case.of(case, *options)

@@ -214,6 +214,11 @@ contains
       input%grid%points = (self%grid%nx + 1)/2
       input%grid%target_error = 0.0_dp
       input%time%estimate_error = .false.
+      ! the same roughness, not the same share of another film
+      if (self%plan%amplitude_over_film > 0.0_dp) then
+         input%surface%amplitude_given = .true.
+         input%surface%amplitude = self%plan%surface%amplitude
+      end if
       allocate (self%coarse, stat=stat)
       if (stat /= 0) then
          call status%fail(ehl_no_memory, "no memory for another solver")

@@ -75,7 +75,9 @@ def test_drivers(drivers, tmp_path: Path, scene: dict[str, object]):
         np.save(tile, 2e-8 * rng.standard_normal((8, 8)))
         settings |= {"surface.kind": "map", "surface.file": f"'{tile}'"} | SIZE
     options = [part for key, value in settings.items() for part in ("--set", f"{key}={value}")]
-    (tmp_path / "case.nml").write_text("&contact load = 20.0 /\n")
+    (tmp_path / "case.nml").write_text(
+        "&contact load = 20.0 /\n&grid x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+    )
     for driver, words in drivers.items():
         done = subprocess.run(
             [*words, "case.nml", "-o", driver, *options],

@@ -14,7 +14,7 @@ import pytest
 
 import pyehl
 
-SMALL = "grid.points=33"
+SMALL = "grid.points=65"
 WHOLE_TEXT = "the text of a case"
 
 
@@ -90,9 +90,9 @@ def test_one_option_is_one_option(quick: str):
         pyehl.Case.from_text("", [SMALL]),
         pyehl.Case.from_text("").with_options([SMALL]),
         pyehl.Case.read(quick, (SMALL,)),
-        pyehl.Case(f"&grid points = {33} /"),
+        pyehl.Case(f"&grid points = {65} /"),
     ):
-        assert case.resolve()["grid"]["points"] == 33
+        assert case.resolve()["grid"]["points"] == 65
     ds = pyehl.sweep(quick, {"contact.moes_m": 100.0}, SMALL, outputs="H_c", jobs=1)
     assert "H_c" in ds
     assert "H_min" not in ds

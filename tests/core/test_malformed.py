@@ -284,7 +284,7 @@ def test_bad_command_line(drive, tmp_path: Path, driver, words, part):
 def test_option_replaces_a_value_that_is_not_acceptable(drive, tmp_path: Path):
     text = "&contact moes_m = -3 moes_l = 'x' /\n&grid points = 66 /\n&surface kind = 'smoth' /\n"
     (tmp_path / "case.nml").write_text(text)
-    values = ("contact.moes_m=200", "contact.moes_l=10", "grid.points=33", "surface.kind=smooth")
+    values = ("contact.moes_m=200", "contact.moes_l=10", "grid.points=65", "surface.kind=smooth")
     options = [word for value in values for word in ("--set", value)]
     for driver in ("ehl", "pyehl"):
         assert drive(driver, "case.nml", "-o", driver, *options).returncode == 0

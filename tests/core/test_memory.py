@@ -17,7 +17,8 @@ from pyehl.bench.faults_resources import limited
 from pyehl.errors import NoMemoryError
 
 WAVE = (
-    "&contact moes_m = 100.0 moes_l = 6.0 /\n&grid points = 33 /\n"
+    "&contact moes_m = 100.0 moes_l = 6.0 /\n"
+    "&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
     "&surface kind = 'harmonic' amplitude_over_film = 0.1 wavelength = 1.0 /\n"
     "&time steps = 5 /\n"
 )

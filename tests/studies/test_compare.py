@@ -111,14 +111,14 @@ def test_a_single_result(cases: Path, tmp_path: Path):
         tmp_path / "t.csv",
         "# a comment",
         "contact.moes_m,grid.points,surface.kind,H_c,H_c_atol,note",
-        f"200,33,smooth,{value + 1e-4},2e-4,here",
-        "200,65,smooth,0.1,1,elsewhere",
+        f"200,65,smooth,{value + 1e-4},2e-4,here",
+        "200,129,smooth,0.1,1,elsewhere",
     )
     found = compare(read_results(tmp_path / "one"), read_reference(table))
     (deviation,) = found.deviations
     assert deviation.passed
     assert deviation.difference == pytest.approx(-1e-4)
-    assert [row.keys["grid.points"] for row in found.missing] == [65.0]
+    assert [row.keys["grid.points"] for row in found.missing] == [129.0]
     assert main(["compare", str(tmp_path / "one"), str(table)]) == 0
 
 
