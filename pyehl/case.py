@@ -6,12 +6,15 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from pyehl import display, library, namelist
 from pyehl.given import Option, check_kind, path_of
 
-__all__ = ["Case"]
+if TYPE_CHECKING:
+    from pyehl.surfaces import Surface, Topography
+
+__all__ = ["Case", "with_surface"]
 
 
 @dataclass(frozen=True, slots=True, repr=False, init=False)
@@ -141,3 +144,18 @@ class Case:
         values; amplitude or amplitude_over_film.
         """
         return namelist.values(self.text)
+
+
+def with_surface(case: Case, surface: Surface) -> tuple[Case, Topography]:
+    """Give a case with a surface in memory in place of its own, and that surface as a tile.
+
+    Raises
+    ------
+    InputError
+        If it is none of heights, or the case does not say its size.
+    """
+    # surfaces take long to import, and most cases have none in memory
+    from pyehl.surfaces import as_map, in_memory  # noqa: PLC0415
+
+    tile = in_memory(surface, case.resolve()["surface"])
+    return case.with_options(as_map(tile)), tile
