@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from pyehl.case import Case
 from pyehl.destination import Destination
-from pyehl.export import write_netcdf
+from pyehl.netcdf import write_netcdf
 from pyehl.prediction.smooth import solve_contact, zone_of
 from pyehl.studies.response import with_tiers
 from pyehl.studies.response_table import dataset, shipped_response, write_table

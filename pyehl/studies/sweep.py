@@ -14,8 +14,8 @@ import xarray as xr
 from pyehl.case import Case
 from pyehl.destination import Destination
 from pyehl.errors import InputError
-from pyehl.export import write_netcdf
 from pyehl.given import Option, check_kind, options_of, path_of
+from pyehl.netcdf import write_netcdf
 from pyehl.studies import table
 from pyehl.studies.gather import Outcome, Watcher, gather
 from pyehl.studies.journal import NAME

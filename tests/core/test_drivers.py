@@ -17,7 +17,7 @@ import xarray as xr
 
 import pyehl
 from pyehl import cli, results
-from pyehl.export import export
+from pyehl.netcdf import export
 
 SMALL = "&contact moes_m = 100.0 moes_l = 5.0 /\n&grid points = 65 /\n"
 SMALL_SI = "&contact load = 20.0 /\n&grid points = 65 /\n"
