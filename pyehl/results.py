@@ -28,7 +28,7 @@ from pyehl.given import path_of
 from pyehl.schema import QUANTITIES
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["load", "prediction_dataset", "settings_of", "unit_of"]
+__all__ = ["load", "prediction_dataset", "scalars", "settings_of", "unit_of"]
 
 Array = NDArray[np.float64]
 Settings = Mapping[str, Mapping[str, Any]]
@@ -120,7 +120,7 @@ def _attributes(summary: Mapping[str, Any], case: str) -> dict[str, Any]:
     return scalars | {"case": case}
 
 
-def _scalars(summary: Mapping[str, Any]) -> dict[str, xr.Variable]:
+def scalars(summary: Mapping[str, Any]) -> dict[str, xr.Variable]:
     """Numbers of a summary as variables without a dimension; NaN for one that does not exist."""
     found = {}
     for name, value in summary.items():
@@ -162,7 +162,7 @@ def _solution_dataset(
         if point is not None:
             scaled = values * field.scale(point)
             place[field.si_name] = _variable(field.dims, scaled, field.si_unit, field.meaning)
-    variables |= _tables(tables) | _scalars(summary)
+    variables |= _tables(tables) | scalars(summary)
     return xr.Dataset(variables, coords, _attributes(summary, case))
 
 
@@ -192,7 +192,7 @@ def prediction_dataset(
             coords[name] = _variable((name,), arrays[file], unit, meaning)
         else:
             variables[name] = _variable(("x_m", "y_m"), arrays[file], unit, meaning)
-    variables |= _tables(tables) | _scalars(summary)
+    variables |= _tables(tables) | scalars(summary)
     return xr.Dataset(variables, coords, _attributes(summary, case))
 
 
@@ -245,7 +245,7 @@ def load(folder: str | os.PathLike[str]) -> xr.Dataset:
     >>> solved = pyehl.solve("cases/quick.nml", "grid.points=65", output="out/example")
     >>> data = pyehl.load("out/example")
     >>> data.P.shape, data.attrs["status"], round(float(data.H_c), 3)
-    ((65, 65), 'converged', 0.071)
+    ((65, 65), 'converged', 0.059)
     """
     folder = Path(path_of(folder, "folder"))
     if not (folder / "summary.json").is_file():
