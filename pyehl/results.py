@@ -91,6 +91,7 @@ SUFFIXES = {
     "_m": "m",
     "_s": "s",
     "_deg": "deg",
+    "seconds": "s",
 }
 
 

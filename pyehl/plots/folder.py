@@ -106,10 +106,10 @@ def plot(
         raise InputError(f"--dpi {dpi}: 10 ... 2400 dots per inch were expected")
     folder = "the Dataset" if isinstance(results, xr.Dataset) else path_of(results, "results")
     data = results if isinstance(results, xr.Dataset) else load(folder)
-    kind = data.attrs.get("kind")
-    if kind not in ("solution", "prediction"):
-        raise InputError(f"{folder}: expected a result of solve, run or predict")
-    figures = prediction_figures(data) if kind == "prediction" else solution_figures(data, units)
+    if "case" not in data.attrs:
+        raise InputError(f"{folder}: expected a result of solve, load or predict")
+    prediction = data.attrs.get("kind") == "prediction"
+    figures = prediction_figures(data) if prediction else solution_figures(data, units)
     if not figures:
         raise InputError(
             f"{folder}: there are no fields to draw: the case has output.fields = .false.\n"
