@@ -198,15 +198,15 @@ def test_holes_are_no_heights():
 
 
 def test_predict_writes_as_the_command(fractal: Path, tmp_path: Path, capsys):
-    p = pyehl.predict(fractal, tracks=3, output=tmp_path / "python")
-    words = ["predict", str(fractal), "--tracks", "3", "-o", str(tmp_path / "command")]
+    p = pyehl.predict(fractal, tracks=3, output=tmp_path / "python", plots=False)
+    words = ["predict", str(fractal), "--tracks", "3", "--no-plots", "-o", str(tmp_path / "command")]
     assert cli.main(words) == 0
     capsys.readouterr()
     one, other = (
         {path.name: path.read_bytes() for path in (tmp_path / name).iterdir()}
         for name in ("python", "command")
     )
-    assert set(one) == set(other) >= {"passage.png", "summary.json", "case.nml"}
+    assert set(one) == set(other) >= {"passage.csv", "summary.json", "case.nml"}
     assert all(one[name] == other[name] for name in one if name.endswith((".npy", ".csv", ".nml")))
     assert p.track_count == 3
     same(p.data, pyehl.load(tmp_path / "python"))
