@@ -14,7 +14,7 @@ from pathlib import Path
 from pyehl.case import Case
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.destination import check_files, made_by, mark, new_file
-from pyehl.errors import InputError
+from pyehl.errors import FileError, InputError
 from pyehl.surfaces import FEATURES, Topography, from_settings
 from pyehl.surfaces.areal import AREAL_NAMES, areal_numbers
 from pyehl.surfaces.in_memory import READY
@@ -82,7 +82,7 @@ def execute(args: argparse.Namespace) -> int:
     lubricant = Lubricant.from_settings(settings, str(settings["psd"]["viscosity_law"]))
     try:
         surface = from_settings(settings, operating, central_film(operating, lubricant))
-    except (ValueError, OSError) as error:
+    except (InputError, FileError) as error:
         raise InputError(f"{args.case}: {error}") from error
     print("\n".join([*_lines(surface), *numbers(surface)]))
     if args.output is not None:

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import pyehl
+from pyehl import cli
 
 SMALL = "grid.points=33"
 WHOLE_TEXT = "the text of a case"
@@ -147,6 +148,17 @@ def test_faults_of_the_package_stay_what_they_are(cases: Path, monkeypatch):
     with pytest.raises(ValueError, match="a fault") as caught:
         pyehl.predict(cases / "table1.nml")
     assert not isinstance(caught.value, pyehl.EhlError)
+    # neither by a function nor by a command is it called bad input
+    for name, words in (
+        ("prediction.of_case.predict", ["predict", "-o", "out"]),
+        ("prediction.film_sheet.sheet", ["film"]),
+        ("studies.stribeck.central_film", ["stribeck", "--speed", "1", "-o", "out"]),
+        ("commands.surface.from_settings", ["surface"]),
+    ):
+        monkeypatch.setattr(f"pyehl.{name}", broken)
+        with pytest.raises(ValueError, match="a fault") as caught:
+            cli.main([words[0], str(cases / "table1.nml"), *words[1:]])
+        assert not isinstance(caught.value, pyehl.EhlError)
     monkeypatch.setattr("pyehl.solver.for_solver", broken)
     with pytest.raises(ValueError, match="a fault") as caught:
         pyehl.Solver(cases / "quick.nml")
