@@ -6,9 +6,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any
-
-import xarray as xr
+from typing import TYPE_CHECKING, Any
 
 from pyehl.case import Case, with_surface
 from pyehl.errors import InputError, NotConverged
@@ -17,10 +15,12 @@ from pyehl.prediction import film_sheet, folder, of_case
 from pyehl.prediction.friction import TRACKS
 from pyehl.prediction.result import Prediction
 from pyehl.progress import ProgressBar
-from pyehl.results import load
 from pyehl.run import Observer, run
 from pyehl.solver import Solver
 from pyehl.surfaces import Surface
+
+if TYPE_CHECKING:
+    import xarray
 
 __all__ = ["check", "film", "predict", "solve"]
 
@@ -62,7 +62,7 @@ def solve(
     force: bool = False,
     check: bool = True,
     progress: Progress = False,
-) -> xr.Dataset:
+) -> xarray.Dataset:
     """Solve a case.
 
     Parameters
@@ -126,6 +126,9 @@ def solve(
         outcome = run(case, output, listener, force=force, inputs=inputs, surface=surface)
         if outcome.interrupted:
             raise KeyboardInterrupt
+        # xarray takes long to import, and most functions do without it
+        from pyehl.results import load  # noqa: PLC0415
+
         data = load(output)
     status = data.attrs["status"]
     if check and status != "converged":

@@ -101,7 +101,7 @@ def sweep(
     vary
         Values by key ``group.key``: a sequence, or a text as behind ``pyehl sweep --vary``.
     *options
-        Texts ``group.key=value`` that hold for all cases.
+        Values that hold for all cases: dicts, or texts ``group.key=value``.
     zip
         True: all keys move together; else lists of the keys that do. Otherwise every value of a
         key meets every value of the others.
