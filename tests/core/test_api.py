@@ -199,7 +199,15 @@ def test_holes_are_no_heights():
 
 def test_predict_writes_as_the_command(fractal: Path, tmp_path: Path, capsys):
     p = pyehl.predict(fractal, tracks=3, output=tmp_path / "python", plots=False)
-    words = ["predict", str(fractal), "--tracks", "3", "--no-plots", "-o", str(tmp_path / "command")]
+    words = [
+        "predict",
+        str(fractal),
+        "--tracks",
+        "3",
+        "--no-plots",
+        "-o",
+        str(tmp_path / "command"),
+    ]
     assert cli.main(words) == 0
     capsys.readouterr()
     one, other = (
