@@ -6,8 +6,9 @@ library and write the same result folder::
 
     import pyehl
 
-    ds = pyehl.solve("case.nml", "grid.points=257")  # xarray.Dataset
-    p = pyehl.predict("case.nml", "surface.seed=3")  # p.mu_ratio
+    case = pyehl.Case(contact={"moes_m": 200.0, "moes_l": 10.0}, grid={"points": 65})
+    ds = pyehl.solve(case)  # xarray.Dataset; float(ds.H_c)
+    p = pyehl.predict("case.nml", {"surface.seed": 3})  # p.mu_ratio
     with pyehl.Solver("case.nml") as solver:
         for step in solver:
             print(step)
@@ -21,25 +22,41 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from pyehl.api import predict, solve
+    from pyehl.api import check, film, predict, solve
     from pyehl.case import Case
     from pyehl.errors import EhlError, FileError, InputError, NotConverged
+    from pyehl.netcdf import export
+    from pyehl.plots.folder import plot
     from pyehl.prediction.result import Prediction
     from pyehl.results import load
     from pyehl.solver import Solver
+    from pyehl.studies.curve_run import stribeck
+    from pyehl.studies.response_folder import response
     from pyehl.studies.sweep import sweep
+    from pyehl.surfaces.tile import Topography
+    from pyehl.theory.lubricant import Lubricant
+    from pyehl.theory.operating import OperatingPoint
 
 __all__ = [
     "Case",
     "EhlError",
     "FileError",
     "InputError",
+    "Lubricant",
     "NotConverged",
+    "OperatingPoint",
     "Prediction",
     "Solver",
+    "Topography",
+    "check",
+    "export",
+    "film",
     "load",
+    "plot",
     "predict",
+    "response",
     "solve",
+    "stribeck",
     "sweep",
 ]
 _HOMES = {
@@ -47,12 +64,21 @@ _HOMES = {
     "EhlError": "errors",
     "FileError": "errors",
     "InputError": "errors",
+    "Lubricant": "theory.lubricant",
     "NotConverged": "errors",
+    "OperatingPoint": "theory.operating",
     "Prediction": "prediction.result",
     "Solver": "solver",
+    "Topography": "surfaces.tile",
+    "check": "api",
+    "export": "netcdf",
+    "film": "api",
     "load": "results",
+    "plot": "plots.folder",
     "predict": "api",
+    "response": "studies.response_folder",
     "solve": "api",
+    "stribeck": "studies.curve_run",
     "sweep": "studies.sweep",
 }
 

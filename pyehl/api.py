@@ -1,24 +1,28 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What people type: solve and predict in one call."""
+"""What people type: subcommands as functions, each in one call."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
 
-import xarray as xr
-
-from pyehl.case import Case
-from pyehl.errors import NotConverged
+from pyehl.case import Case, with_surface
+from pyehl.errors import InputError, NotConverged
 from pyehl.given import Option, check_kind, path_of
-from pyehl.prediction import of_case
+from pyehl.prediction import film_sheet, folder, of_case
+from pyehl.prediction.friction import TRACKS
 from pyehl.prediction.result import Prediction
 from pyehl.progress import ProgressBar
-from pyehl.results import load
 from pyehl.run import Observer, run
 from pyehl.solver import Solver
+from pyehl.surfaces import Surface
 
-__all__ = ["predict", "solve"]
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["check", "film", "predict", "solve"]
 
 Progress = bool | Callable[[Solver], object]
 
@@ -39,14 +43,26 @@ class _Listener(Observer):
             self._bar.close()
 
 
+@contextmanager
+def _named(name: str) -> Iterator[None]:
+    """Put the name of the case file before what is wrong with the case."""
+    try:
+        yield
+    except InputError as error:
+        if not name:
+            raise
+        raise InputError(f"{name}: {error}") from error
+
+
 def solve(
     case: Case | str | os.PathLike[str],
     *options: Option,
+    surface: Surface | None = None,
     output: str | os.PathLike[str] | None = None,
     force: bool = False,
     check: bool = True,
     progress: Progress = False,
-) -> xr.Dataset:
+) -> xarray.Dataset:
     """Solve a case.
 
     Parameters
@@ -54,7 +70,11 @@ def solve(
     case
         A case, or the path of a case file.
     *options
-        Texts ``group.key=value`` that replace values.
+        Values that replace those of the case: dicts, or texts ``group.key=value``.
+    surface
+        Rough surface in place of that of the case: a `Topography`, or an array of heights [m] of
+        shape (nx, ny), peaks positive, with the size that the case says. Keys that prepare a map do
+        not apply to it. It is written beside the results.
     output
         Result folder, as ``pyehl run -o`` writes it, with checkpoints of a transient run beside
         it; None: nothing is kept on disk.
@@ -83,11 +103,11 @@ def solve(
     Examples
     --------
     >>> import pyehl
-    >>> ds = pyehl.solve("cases/quick.nml", "grid.points=65")
+    >>> ds = pyehl.solve("cases/quick.nml", {"grid.points": 65})
     >>> ds.P.shape, ds.attrs["status"]
     ((65, 65), 'converged')
-    >>> round(ds.attrs["H_c"], 3)
-    0.059
+    >>> round(float(ds.H_c), 3), ds.hertz_pressure_Pa.attrs["units"]
+    (0.059, 'Pa')
     """
     inputs = () if isinstance(case, Case) else (case,)
     case = Case.of(case, *options)
@@ -96,16 +116,19 @@ def solve(
         check_kind(progress, bool, "progress", "True, False or a function")
     listener = _Listener(progress)
     if output is None:
-        with Solver(case) as solver:
+        with Solver(case, surface=surface) as solver:
             while not solver.done:
                 solver.advance()
                 listener.advanced(solver)
             data = solver.dataset()
     else:
         output = path_of(output, "output")
-        outcome = run(case, output, listener, force=force, inputs=inputs)
+        outcome = run(case, output, listener, force=force, inputs=inputs, surface=surface)
         if outcome.interrupted:
             raise KeyboardInterrupt
+        # xarray takes long to import, and most functions do without it
+        from pyehl.results import load  # noqa: PLC0415
+
         data = load(output)
     status = data.attrs["status"]
     if check and status != "converged":
@@ -116,7 +139,12 @@ def solve(
 def predict(
     case: Case | str | os.PathLike[str],
     *options: Option,
+    surface: Surface | None = None,
     smooth: str | os.PathLike[str] | None = None,
+    tracks: int = TRACKS,
+    output: str | os.PathLike[str] | None = None,
+    force: bool = False,
+    plots: bool = True,
 ) -> Prediction:
     """Predict the relative friction of a rough contact from the spectrum of its surface.
 
@@ -125,10 +153,20 @@ def predict(
     case
         A case, or the path of a case file.
     *options
-        Texts ``group.key=value`` that replace values.
+        Values that replace those of the case: dicts, or texts ``group.key=value``.
+    surface
+        As of `solve`.
     smooth
         Result folder with the smooth contact (of `solve`, or under a transient run); without it the
         contact is solved on the spot.
+    tracks
+        Tracks across the surface, for mean and spread of mu_r/mu_s.
+    output
+        Result folder, as ``pyehl predict -o`` writes it; None: nothing is kept on disk.
+    force
+        Other files may be in the result folder; they stay.
+    plots
+        Whether the folder gets the pictures.
 
     Returns
     -------
@@ -138,18 +176,102 @@ def predict(
     Raises
     ------
     InputError
-        If the case is not acceptable, or has no rough surface.
+        If the case is not acceptable, or has no rough surface, or `output` holds something else
+        than a prediction.
     FileError
-        If a height map cannot be read.
+        If a height map cannot be read, or the folder cannot be written.
 
     Examples
     --------
     >>> import pyehl
-    >>> p = pyehl.predict("cases/table1.nml", "surface.seed=3")
+    >>> p = pyehl.predict("cases/table1.nml", {"surface.seed": 3})
     >>> p
     Prediction(mu_ratio=1..., 'predicted')
     """
-    case = Case.of(case, *options)
+    inputs, name = ([], "") if isinstance(case, Case) else ([case], path_of(case, "case"))
+    case, tile = Case.of(case, *options), None
+    inputs.append(str(case.resolve()["surface"].get("file", "")))
+    if surface is not None:
+        case, tile = with_surface(case, surface)
+    check_kind(tracks, int, "tracks", "a whole number")
     if smooth is not None:
         smooth = path_of(smooth, "smooth")
-    return of_case.predict(case.resolve(), case.text, smooth=smooth)
+    place = None
+    if output is not None:
+        place = folder.destination(path_of(output, "output"), inputs=inputs, force=force)
+        place.check()
+    settings = case.resolve()
+    with _named(name):
+        found = of_case.predict(settings, case.text, tracks=tracks, smooth=smooth, surface=tile)
+    if place is not None:
+        folder.write(found, place, plots=plots)
+    return found
+
+
+def film(case: Case | str | os.PathLike[str], *options: Option) -> dict[str, Any]:
+    """Compute the film thickness of a case by closed formulas.
+
+    Parameters
+    ----------
+    case
+        A case, or the path of a case file.
+    *options
+        Values that replace those of the case: dicts, or texts ``group.key=value``.
+
+    Returns
+    -------
+    dict
+        What ``pyehl film --json`` prints: conditions, Moes and Hertz numbers, in ``formulas`` one
+        dict for each formula with h_c_m and h_min_m [m], and of a rough surface its rms height and
+        film ratio.
+
+    Raises
+    ------
+    InputError
+        If the case or its surface is not acceptable.
+
+    Examples
+    --------
+    >>> import pyehl
+    >>> sheet = pyehl.film("cases/table1.nml", {"contact.mean_velocity": 0.5})
+    >>> for formula in sheet["formulas"]:
+    ...     print(f"{formula['name']}: {formula['h_c_m'] * 1e9:.0f} nm")
+    Nijenbanning-Venner-Moes: 164 nm
+    Hamrock-Dowson: 181 nm
+    Chittenden et al.: 171 nm
+    """
+    name = "" if isinstance(case, Case) else path_of(case, "case")
+    settings = Case.of(case, *options).resolve()
+    with _named(name):
+        return film_sheet.sheet(settings)
+
+
+def check(case: Case | str | os.PathLike[str], *options: Option) -> str:
+    """Tell a case with every value, and how it would be solved; solves nothing.
+
+    Parameters
+    ----------
+    case
+        A case, or the path of a case file.
+    *options
+        Values that replace those of the case: dicts, or texts ``group.key=value``.
+
+    Returns
+    -------
+    str
+        What ``pyehl check`` prints.
+
+    Raises
+    ------
+    InputError
+        If the case cannot be solved.
+
+    Examples
+    --------
+    >>> import pyehl
+    >>> "&grid" in pyehl.check("cases/quick.nml", {"grid.points": 65})
+    True
+    """
+    case = Case.of(case, *options)
+    with Solver(case) as solver:
+        return f"{case.text}\n{solver.describe(predict=False)}"

@@ -4,24 +4,32 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from pyehl import display, library, namelist
-from pyehl.given import Option, path_of
+from pyehl.given import Option, check_kind, path_of
 
-__all__ = ["Case"]
+if TYPE_CHECKING:
+    from pyehl.surfaces import Surface, Topography
+
+__all__ = ["Case", "with_surface"]
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, repr=False, init=False)
 class Case:
     """A case that can be solved: checked, with every value spelled out.
+
+    Options are everywhere the same: a dict with values by ``group.key``, or texts
+    ``group.key=value``.
 
     Parameters
     ----------
     text
         Namelist text; '' is the case of all defaults.
+    **groups
+        Values by key of the groups of a case file, in place of those of `text`.
 
     Attributes
     ----------
@@ -36,18 +44,23 @@ class Case:
     Examples
     --------
     >>> import pyehl
-    >>> case = pyehl.Case.read("cases/quick.nml", "grid.points=65")
+    >>> case = pyehl.Case(contact={"moes_m": 200.0, "moes_l": 10.0}, grid={"points": 65})
     >>> case
     Case(M=200, L=10, smooth, 65 points)
-    >>> case.with_options("grid.points=129").resolve()["grid"]["points"]
+    >>> case.with_options({"grid.points": 129}).resolve()["grid"]["points"]
     129
+    >>> pyehl.Case.read("cases/quick.nml", {"grid.points": 65})
+    Case(M=200, L=10, smooth, 65 points)
     """
 
     text: str
 
-    def __post_init__(self) -> None:
-        """Check and resolve the text."""
-        object.__setattr__(self, "text", library.resolve(self.text, "text of the case"))
+    def __init__(self, text: str = "", **groups: Mapping[str, Any]) -> None:
+        values: dict[str, Any] = {}
+        for group, keys in groups.items():
+            check_kind(keys, Mapping, group, "values by key, as {'points': 65}")
+            values |= {f"{group}.{key}": value for key, value in keys.items()}
+        object.__setattr__(self, "text", library.resolve(text, "text of the case", values))
 
     @classmethod
     def resolved(cls, text: str) -> Self:
@@ -58,7 +71,7 @@ class Case:
 
     @classmethod
     def read(cls, path: str | os.PathLike[str], *options: Option) -> Self:
-        """Read a case file; `options` are texts ``group.key=value`` that replace its values.
+        """Read a case file; `options` replace its values.
 
         Raises
         ------
@@ -131,3 +144,18 @@ class Case:
         values; amplitude or amplitude_over_film.
         """
         return namelist.values(self.text)
+
+
+def with_surface(case: Case, surface: Surface) -> tuple[Case, Topography]:
+    """Give a case with a surface in memory in place of its own, and that surface as a tile.
+
+    Raises
+    ------
+    InputError
+        If it is none of heights, or the case does not say its size.
+    """
+    # surfaces take long to import, and most cases have none in memory
+    from pyehl.surfaces import as_map, in_memory  # noqa: PLC0415
+
+    tile = in_memory(surface, case.resolve()["surface"])
+    return case.with_options(as_map(tile)), tile

@@ -13,12 +13,23 @@ from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import InputError
 
-__all__ = ["Option", "check_kind", "heights_of", "options_of", "path_of", "text_of"]
+__all__ = [
+    "Option",
+    "Value",
+    "check_kind",
+    "heights_of",
+    "option",
+    "options_of",
+    "path_of",
+    "plain",
+    "text_of",
+]
 
-Option = str | Iterable[str]
-"""One text ``group.key=value``, or several."""
+Option = str | Mapping[str, Any] | Iterable[str | Mapping[str, Any]]
+"""A text ``group.key=value``, a dict with values by ``group.key``, or several of these."""
+Value = float | int | bool | str
 
-EXPECTED = "texts group.key=value"
+EXPECTED = "texts group.key=value or a dict of values by group.key"
 
 
 def check_kind(value: object, kinds: type | tuple[type, ...], name: str, expected: str) -> None:
@@ -66,22 +77,58 @@ def text_of(value: Any, name: str) -> bytes:  # noqa: ANN401
         raise InputError(f"{name} = {reprlib.repr(value)}: no text: {error.reason}") from None
 
 
+def plain(value: object) -> Value:
+    """Give a value of Python, NumPy or TOML as one of the four types of a case file.
+
+    Raises
+    ------
+    ValueError
+        If it is none of them.
+    """
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, os.PathLike):
+        value = os.fsdecode(value)
+    if isinstance(value, bool | int | float | str):
+        return value
+    raise ValueError(f"{value!r} is neither a number nor a word")
+
+
+def option(key: str, value: Value) -> str:
+    """Text ``group.key=value`` that the reader of cases takes."""
+    if isinstance(value, bool):
+        return f"{key}={'.true.' if value else '.false.'}"
+    return f"{key}={value!r}" if isinstance(value, float) else f"{key}={value}"
+
+
 def options_of(options: Any) -> list[str]:  # noqa: ANN401
-    """Options one by one, also where they come as one text or in lists.
+    """Options one by one as texts, also where they come as one, in lists or in dicts.
 
     Raises
     ------
     InputError
-        If one is no text of one line.
+        If one is no text of one line, or a value is no number, truth value or word.
     """
     if isinstance(options, str):
         if "\n" in options:
             raise InputError("--set: more than one line\nexpected: group.key=value")
         return [options]
-    kind = (type(None), bytes, Mapping)
-    if isinstance(options, kind) or not isinstance(options, Iterable):
+    if isinstance(options, Mapping):
+        return [text for item in options.items() for text in options_of(_option_of(*item))]
+    if isinstance(options, bytes | None) or not isinstance(options, Iterable):
         check_kind(options, (), "options", EXPECTED)
     return [text for option in options for text in options_of(option)]
+
+
+def _option_of(key: Any, value: Any) -> str:  # noqa: ANN401
+    check_kind(key, str, "options", EXPECTED)
+    try:
+        return option(key, plain(value))
+    except ValueError:
+        raise InputError(
+            f"{key} = {reprlib.repr(value)}: expected a number, a truth value or a word, not "
+            f"{type(value).__name__}"
+        ) from None
 
 
 def heights_of(heights: ArrayLike) -> NDArray[np.float64]:

@@ -64,7 +64,7 @@ def resolve(
     origin
         Name of the file, for messages and for names of maps.
     options
-        Texts ``group.key=value`` that replace values.
+        Values that replace those of the case.
     from_file
         Read the file `origin`.
 

@@ -25,9 +25,10 @@ from pyehl import namelist
 from pyehl.arrays import read_array
 from pyehl.errors import FileError, InputError
 from pyehl.given import path_of
+from pyehl.schema import QUANTITIES
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["load", "prediction_dataset", "settings_of", "unit_of"]
+__all__ = ["load", "prediction_dataset", "scalars", "settings_of", "unit_of"]
 
 Array = NDArray[np.float64]
 Settings = Mapping[str, Mapping[str, Any]]
@@ -90,7 +91,13 @@ SUFFIXES = {
     "_m": "m",
     "_s": "s",
     "_deg": "deg",
+    "seconds": "s",
 }
+
+
+# What is a number has a unit in the schema; T, the time at the end, has the name of a coordinate
+SCALARS = {q.name: q for q in QUANTITIES if q.unit and q.name not in {f.name for f in SOLUTION}}
+SI = {"s", "m", "Pa", "N", "K", "Pa s", "1/s", "1/Pa", "m/s", "byte"}
 
 
 def settings_of(data: xr.Dataset) -> dict[str, dict[str, Any]]:
@@ -99,7 +106,9 @@ def settings_of(data: xr.Dataset) -> dict[str, dict[str, Any]]:
 
 
 def unit_of(name: str) -> str:
-    """Give the unit that the end of a name says; '1' where it says none."""
+    """Give the unit of a quantity, or that the end of a name says; '1' where there is none."""
+    if name in SCALARS:
+        return SCALARS[name].unit if SCALARS[name].unit in SI else "1"
     return next((unit for end, unit in SUFFIXES.items() if name.endswith(end)), "1")
 
 
@@ -110,6 +119,19 @@ def _variable(dims: tuple[str, ...], values: Array, unit: str, meaning: str) -> 
 def _attributes(summary: Mapping[str, Any], case: str) -> dict[str, Any]:
     scalars = {k: v for k, v in summary.items() if isinstance(v, str | int | float)}
     return scalars | {"case": case}
+
+
+def scalars(summary: Mapping[str, Any]) -> dict[str, xr.Variable]:
+    """Numbers of a summary as variables without a dimension; NaN for one that does not exist."""
+    found = {}
+    for name, value in summary.items():
+        if name in SCALARS and (value is None or isinstance(value, int | float)):
+            number = np.array(np.nan if value is None else value, dtype=np.float64)
+            unit = SCALARS[name].unit
+            scaled = "" if unit == "-" or unit in SI else f", in {unit}"
+            meaning = f"{SCALARS[name].meaning}{scaled}"
+            found[name] = _variable((), number, unit_of(name), meaning)
+    return found
 
 
 def _tables(tables: Mapping[str, Mapping[str, Array]]) -> dict[str, xr.Variable]:
@@ -141,7 +163,8 @@ def _solution_dataset(
         if point is not None:
             scaled = values * field.scale(point)
             place[field.si_name] = _variable(field.dims, scaled, field.si_unit, field.meaning)
-    return xr.Dataset(variables | _tables(tables), coords, _attributes(summary, case))
+    variables |= _tables(tables) | scalars(summary)
+    return xr.Dataset(variables, coords, _attributes(summary, case))
 
 
 def prediction_dataset(
@@ -170,7 +193,8 @@ def prediction_dataset(
             coords[name] = _variable((name,), arrays[file], unit, meaning)
         else:
             variables[name] = _variable(("x_m", "y_m"), arrays[file], unit, meaning)
-    return xr.Dataset(variables | _tables(tables), coords, _attributes(summary, case))
+    variables |= _tables(tables) | scalars(summary)
+    return xr.Dataset(variables, coords, _attributes(summary, case))
 
 
 def _table(path: Path) -> dict[str, Array]:
@@ -192,9 +216,11 @@ def load(folder: str | os.PathLike[str]) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        Each variable has ``units`` and ``long_name``; the scalars of the summary (see
-        `pyehl.schema`) are attributes, without those that do not exist, and ``case`` is the
-        resolved case.
+        Each variable has ``units`` and ``long_name``. The numbers of the summary (see
+        `pyehl.schema`) are variables without a dimension, NaN where they do not exist:
+        ``float(ds.H_c)``. All scalars, words and truth values too, are attributes as well, without
+        those that do not exist, and ``case`` is the resolved case. The time at the end, ``T``, is
+        an attribute alone: its name is that of a coordinate.
 
         Of a solution: X, Y, P, H [Hertz units], P and H of shape (nx, ny), and x_m, y_m, p_Pa,
         h_m when the case was given in SI units. A transient run also has P_smooth, H_smooth (the
@@ -219,8 +245,8 @@ def load(folder: str | os.PathLike[str]) -> xr.Dataset:
     >>> import pyehl
     >>> solved = pyehl.solve("cases/quick.nml", "grid.points=65", output="out/example")
     >>> data = pyehl.load("out/example")
-    >>> data.P.shape, data.attrs["status"]
-    ((65, 65), 'converged')
+    >>> data.P.shape, data.attrs["status"], round(float(data.H_c), 3)
+    ((65, 65), 'converged', 0.059)
     """
     folder = Path(path_of(folder, "folder"))
     if not (folder / "summary.json").is_file():

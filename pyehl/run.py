@@ -23,7 +23,7 @@ from pyehl.case import Case
 from pyehl.destination import Destination
 from pyehl.errors import FileError, InputError
 from pyehl.solver import Solver
-from pyehl.surfaces import for_solver
+from pyehl.surfaces import Surface, for_solver
 
 __all__ = ["Observer", "Outcome", "resume", "run"]
 
@@ -91,6 +91,7 @@ def run(
     *,
     force: bool = False,
     inputs: Iterable[AnyPath] = (),
+    surface: Surface | None = None,
 ) -> Outcome:
     """Solve a case and write the result folder, however the run ends.
 
@@ -106,6 +107,8 @@ def run(
         Other files may be in the folder; they stay.
     inputs
         Files that the case was read from: the folder of one of them is not replaced.
+    surface
+        As of `pyehl.Solver`.
 
     Raises
     ------
@@ -114,7 +117,9 @@ def run(
     EhlError
         If the solver failed; nothing is written then.
     """
-    return _drive(case, folder, "", observer or Observer(), force=force, inputs=inputs)
+    return _drive(
+        case, folder, "", observer or Observer(), force=force, inputs=inputs, surface=surface
+    )
 
 
 def resume(
@@ -160,11 +165,11 @@ def resume(
     return _drive(case, place, results, observer or Observer(), force=force, inputs=inputs)
 
 
-def _open(case: Case, resumed: str | os.PathLike[str]) -> Solver:
+def _open(case: Case, resumed: AnyPath, surface: Surface | None) -> Solver:
     """Open a solver on a case, with the surface that was kept if the run is resumed."""
     place = library.checkpoint_case(resumed) if os.fspath(resumed) else None
     if place is None or not place.with_name("surface.npy").is_file():
-        return Solver.open(case)
+        return Solver(case, surface=surface)
     kept = read_array(place.with_name("surface.npy"))
     old = Case.read(place).resolve()["surface"]
     size = [f"surface.{key}={old[key]!r}" for key in ("tile_x", "tile_y") if old[key]]
@@ -198,11 +203,12 @@ def _drive(
     *,
     force: bool,
     inputs: Iterable[AnyPath],
+    surface: Surface | None = None,
 ) -> Outcome:
     """Solve a case, from its beginning or from the state of a run with the results `resumed`."""
     sources = (*inputs, str(case.resolve()["surface"].get("file", "")))
     Destination(folder, "solution", inputs=sources, force=force).check()
-    with stop_on_signals() as request, _open(case, resumed) as solver:
+    with stop_on_signals() as request, _open(case, resumed, surface) as solver:
         observer.say(solver.describe())
         if os.fspath(resumed):
             begins = "there is no state yet: the run begins at its beginning"

@@ -20,13 +20,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pyehl import display
-from pyehl.case import Case
+from pyehl.case import Case, with_surface
 from pyehl.destination import Destination
 from pyehl.errors import EhlError, InputError
 from pyehl.given import Option, heights_of, path_of
 from pyehl.handle import SolverHandle, Work
 from pyehl.prediction.resolution import Resolution, resolution
-from pyehl.surfaces import Record, Topography, for_solver, given
+from pyehl.surfaces import Record, Surface, Topography, for_solver, given, keep_beside, moved
 
 if TYPE_CHECKING:
     import xarray
@@ -79,7 +79,10 @@ class Solver(SolverHandle):
     case
         A case, or the path of a case file.
     *options
-        Texts ``group.key=value`` that replace values.
+        Values that replace those of the case: dicts, or texts ``group.key=value``.
+    surface
+        Rough surface in place of that of the case: a `pyehl.Topography`, or an array of heights
+        [m] with the size that the case says. Keys that prepare a map do not apply to it.
 
     Raises
     ------
@@ -100,8 +103,18 @@ class Solver(SolverHandle):
     (True, (65, 65))
     """
 
-    def __init__(self, case: Case | str | os.PathLike[str], *options: Option) -> None:
-        self._start(Case.of(case, *options), None)
+    def __init__(
+        self,
+        case: Case | str | os.PathLike[str],
+        *options: Option,
+        surface: Surface | None = None,
+    ) -> None:
+        case = Case.of(case, *options)
+        if surface is None:
+            self._start(case, None)
+            return
+        case, tile = with_surface(case, surface)
+        self._start(case, moved(tile, case.resolve()["surface"]).heights, tile)
 
     @classmethod
     def open(cls, case: Case | str | os.PathLike[str], heights: ArrayLike | None = None) -> Self:
@@ -125,27 +138,32 @@ class Solver(SolverHandle):
         solver._start(Case.of(case), None if heights is None else heights_of(heights))
         return solver
 
-    def _start(self, case: Case, heights: ArrayLike | None) -> None:
+    def _start(
+        self, case: Case, heights: ArrayLike | None, surface: Topography | None = None
+    ) -> None:
         self._case = case
-        self.preparation: Record | None = None
+        made = surface.preparation if surface else None
+        self.preparation: Record | None = made.record if made else None
         # what a prediction is made with, where it is not the surface of the case
         self.tile: Topography | None = None
+        # one that was in memory alone
+        self._surface = surface
         self._resolution: Resolution | str | None = None
         self._predicted = self._told = False
         if heights is None:
-            made = for_solver(case.resolve())
-            self.preparation, self.tile = made.preparation, made.part
-            text = case.with_options(*made.options).text if made.options else case.text
-            super().__init__(text, made.heights)
+            own = for_solver(case.resolve())
+            self.preparation, self.tile = own.preparation, own.part
+            text = case.with_options(*own.options).text if own.options else case.text
+            super().__init__(text, own.heights)
         else:
-            surface = case.resolve()["surface"]
-            if surface["kind"] not in ("map", "fractal"):
+            group = case.resolve()["surface"]
+            if group["kind"] not in ("map", "fractal"):
                 raise InputError(
                     "heights are given, and the surface of the case is none of heights\n"
                     "expected: surface.kind = 'map' or 'fractal'"
                 )
             super().__init__(case.text, heights)
-            self.tile = given(np.asarray(heights, dtype=np.float64), surface)
+            self.tile = given(np.asarray(heights, dtype=np.float64), group)
 
     def __repr__(self) -> str:
         """Give the case and the state in one line."""
@@ -262,14 +280,18 @@ class Solver(SolverHandle):
         """Write all files into an empty folder, with what the library does not know."""
         self._tell()
         self._write(folder)
-        if not self._lines():
+        if self._lines():
+            plan = folder / "plan.txt"
+            told = plan.read_text(encoding="utf-8").rstrip("\n")
+            plan.write_text("\n".join([told, *self._lines(), ""]), encoding="utf-8")
+        if not self.preparation and self._surface is None:
             return
-        plan = folder / "plan.txt"
-        told = plan.read_text(encoding="utf-8").rstrip("\n")
-        plan.write_text("\n".join([told, *self._lines(), ""]), encoding="utf-8")
+        summary = folder / "summary.json"
+        values = json.loads(summary.read_text(encoding="utf-8"))
         if self.preparation:
-            summary = folder / "summary.json"
-            values = json.loads(summary.read_text(encoding="utf-8"))
             values["surface_preparation"] = self.preparation.summary()
-            text = json.dumps(values, indent=2, allow_nan=False) + "\n"
-            summary.write_text(text, encoding="utf-8")
+        if self._surface is not None:
+            name = keep_beside(self._surface, folder / "case.nml")
+            values["files"] = sorted([*values["files"], name])
+        text = json.dumps(values, indent=2, allow_nan=False) + "\n"
+        summary.write_text(text, encoding="utf-8")

@@ -15,7 +15,7 @@ from pyehl.plots import contact
 from pyehl.plots.figures import headline
 
 ds = pyehl.solve("../../cases/quick.nml")
-ds.attrs["status"], ds.attrs["H_c"], ds.attrs["H_min"]
+ds.attrs["status"], float(ds.H_c), float(ds.H_min)
 
 # %%
 # The result is an :class:`xarray.Dataset`: its variables have coordinates, units and names.

@@ -12,10 +12,10 @@ import matplotlib.pyplot as plt
 import pyehl
 
 grids = [65, 129, 257]
-runs = [pyehl.solve("../../cases/quick.nml", f"grid.points={n}") for n in grids]
-film = [ds.attrs["H_c"] for ds in runs]
-error = [ds.attrs["H_c_error"] for ds in runs]
-better = [ds.attrs["H_c_extrapolated"] for ds in runs]
+runs = [pyehl.solve("../../cases/quick.nml", {"grid.points": n}) for n in grids]
+film = [float(ds.H_c) for ds in runs]
+error = [float(ds.H_c_error) for ds in runs]
+better = [float(ds.H_c_extrapolated) for ds in runs]
 
 # %%
 # The error falls by four when the mesh size is halved: the discretisation is of second order.

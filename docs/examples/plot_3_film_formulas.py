@@ -16,8 +16,7 @@ formulas = pyehl.sweep(CASE, {"contact.mean_velocity": "0.1:3:25log"}, run="film
 solved = pyehl.sweep(
     CASE,
     {"contact.mean_velocity": [0.5, 1.2, 3.0]},
-    "surface.kind=smooth",
-    "grid.points=257",
+    {"surface.kind": "smooth", "grid.points": 257},
     jobs=1,
 )
 sorted(name for name in formulas.data_vars if name.startswith("h_c_m"))

@@ -16,19 +16,21 @@ from pyehl.plots.figures import headline, solution_figures
 
 ds = pyehl.solve(
     "../../cases/quick.nml",
-    "surface.kind=harmonic",
-    "surface.amplitude_over_film=0.3",
-    "surface.wavelength=0.8",
-    "surface.velocity_ratio=1.2",
-    "time.estimate_error=.false.",
-    "output.frame_interval=0.2",
+    {
+        "surface.kind": "harmonic",
+        "surface.amplitude_over_film": 0.3,
+        "surface.wavelength": 0.8,
+        "surface.velocity_ratio": 1.2,
+        "time.estimate_error": False,
+        "output.frame_interval": 0.2,
+    },
 )
 
 # %%
 # The film at four instants while a wave goes from the inlet to the outlet, all in the same light.
 
 x, y = ds.X.values, ds.Y.values
-light = contact.fringe_spacings(float(ds.H_smooth.sel(X=0.0, Y=0.0)), None)
+light = contact.fringe_spacings(float(ds.H_smooth.sel(X=0.0, Y=0.0, method="nearest")), None)
 figure, panels = plt.subplots(1, 4, figsize=(11.0, 3.9), sharey=True, layout="constrained")
 for ax, k in zip(panels, np.arange(-4, 0), strict=True):
     contact.interferogram(x, y, ds.frame_H.isel(T=k).values, fringes=light, ax=ax)
@@ -44,8 +46,8 @@ figure, ax = plt.subplots(figsize=(6.4, 3.6), layout="constrained")
 transient.friction_history(
     ds.history_T.values,
     ds.history_mu_ratio.values,
-    period=ds.attrs["T_mean"],
-    mean=ds.attrs["mu_ratio"],
+    period=float(ds.T_mean),
+    mean=float(ds.mu_ratio),
     ax=ax,
 )
 plt.show()

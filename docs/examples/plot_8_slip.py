@@ -16,7 +16,7 @@ ratios = [0.8, 0.9, 0.95, 0.97, 0.985, 1.0, 1.015, 1.03, 1.05, 1.1, 1.2]
 table = pyehl.sweep(
     "../../cases/table1.nml",
     {"surface.velocity_ratio": ratios, "surface.seed": [1, 2]},
-    "grid.points=129",
+    {"grid.points": 129},
     run="predict",
     jobs=1,
 )

@@ -12,14 +12,11 @@ import matplotlib.pyplot as plt
 
 import pyehl
 
-SPEEDS = "0.4:4:6log"
 tables = {
-    law: pyehl.sweep(
+    law: pyehl.stribeck(
         "../../cases/table1.nml",
-        {"contact.mean_velocity": SPEEDS},
-        f"lubricant.shear_law={law}",
-        "grid.points=129",
-        run="predict",
+        {"lubricant.shear_law": law, "grid.points": 129},
+        speed="0.4:4:6log",
         jobs=1,
     )
     for law in ("newtonian", "eyring")

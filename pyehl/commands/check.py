@@ -5,9 +5,8 @@ from __future__ import annotations
 
 import argparse
 
-from pyehl.case import Case
+from pyehl.api import check
 from pyehl.commands.arguments import add_case_arguments
-from pyehl.solver import Solver
 
 __all__ = ["add_arguments", "execute"]
 
@@ -20,8 +19,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl check``."""
-    case = Case.read(args.case, args.overrides)
-    print(case.text)
-    with Solver(case) as solver:
-        print(solver.describe(predict=False))
+    print(check(args.case, args.overrides))
     return 0

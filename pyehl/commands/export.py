@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import argparse
 
-from pyehl.export import export
+from pyehl.netcdf import export
 
 __all__ = ["add_arguments", "execute"]
 

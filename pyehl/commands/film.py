@@ -5,13 +5,11 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 from collections.abc import Mapping
 from typing import Any
 
-from pyehl.case import Case
+from pyehl.api import film
 from pyehl.commands.arguments import add_case_arguments
-from pyehl.prediction.film_sheet import sheet
 
 __all__ = ["add_arguments", "execute", "report"]
 
@@ -27,7 +25,7 @@ def _heat(v: Mapping[str, Any]) -> list[str]:
 
 
 def report(values: Mapping[str, Any]) -> str:
-    """Return the page that ``pyehl film`` prints, from a :func:`sheet`."""
+    """Return the page that ``pyehl film`` prints, from a :func:`pyehl.film`."""
     v = values
     origin = "" if v["si"] else "  (made from M and L with the radius and modulus of a steel ball)"
     lines = [
@@ -91,12 +89,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl film``; 0 when well, 2 for bad input."""
-    settings = Case.read(args.case, args.overrides).resolve()
-    try:
-        values = sheet(settings)
-    except (ValueError, OSError) as error:
-        print(f"{args.case}: {error}", file=sys.stderr)
-        return 2
+    """Run ``pyehl film``."""
+    values = film(args.case, args.overrides)
     print(json.dumps(values, indent=2) if args.json else report(values))
     return 0

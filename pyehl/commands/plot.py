@@ -6,10 +6,11 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from pyehl.errors import EhlError, InputError
-from pyehl.plots.folder import FORMATS, plot_folder
-from pyehl.plots.movie import SUFFIXES
+from pyehl.errors import InputError
+from pyehl.plots.folder import FORMATS, UNITS, made, plot
+from pyehl.plots.movie import SUFFIXES, movie
 from pyehl.plots.style import DPI
+from pyehl.results import load
 
 __all__ = ["add_arguments", "execute"]
 
@@ -24,7 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--units",
-        choices=("auto", "si", "hertz"),
+        choices=UNITS,
         default="auto",
         help="of the EHL fields (default: SI when the case was given in SI)",
     )
@@ -43,22 +44,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl plot``; 0 when drawn, 1 when a file cannot be written, 2 for bad input."""
-    if not 10 <= args.dpi <= 2400:
-        raise InputError(f"--dpi {args.dpi}: 10 ... 2400 dots per inch were expected")
     target: Path = args.output or args.folder
-    try:
-        written = plot_folder(
-            args.folder,
-            target,
-            units=args.units,
-            dpi=args.dpi,
-            suffix=args.format,
-            moving=args.movie,
-        )
-    except EhlError:
-        raise
-    except ValueError as error:
-        raise InputError(f"{args.folder}: {error}") from error
+    if args.movie:
+        data = load(args.folder)
+        if data.attrs.get("kind") == "prediction":
+            raise InputError(f"{args.folder}: a prediction has no frames to make a movie of")
+        written = [movie(data, made(target), args.movie, args.units)]
+    else:
+        words = {"units": args.units, "format": args.format, "dpi": args.dpi}
+        written = [target / f"{name}.{args.format}" for name in plot(args.folder, target, **words)]
     for path in written:
         print(path)
     return 0

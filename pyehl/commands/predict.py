@@ -7,15 +7,12 @@ import argparse
 import math
 from pathlib import Path
 
-from pyehl.case import Case
+from pyehl.api import predict
 from pyehl.commands.arguments import add_case_arguments, add_force
-from pyehl.errors import InputError
-from pyehl.prediction.folder import destination, write
 from pyehl.prediction.friction import TRACKS
-from pyehl.prediction.of_case import predict
 from pyehl.prediction.result import Prediction
 
-__all__ = ["add_arguments", "draw", "execute", "report"]
+__all__ = ["add_arguments", "execute", "report"]
 
 
 def report(prediction: Prediction) -> str:
@@ -91,15 +88,6 @@ def _model(prediction: Prediction) -> str:
     return ", ".join(words)
 
 
-def draw(prediction: Prediction, folder: Path) -> None:
-    """Write the pictures of a prediction into a folder."""
-    # matplotlib takes longer to import than the prediction takes to compute
-    from pyehl.plots.figures import prediction_figures  # noqa: PLC0415
-    from pyehl.plots.folder import save_all  # noqa: PLC0415
-
-    save_all(prediction_figures(prediction.data), folder)
-
-
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of ``pyehl predict``."""
     add_case_arguments(parser)
@@ -127,16 +115,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl predict``; 0 predicted, 1 no prediction is possible, 2 bad input."""
-    case = Case.read(args.case, args.overrides)
-    settings = case.resolve()
-    inputs = (args.case, str(settings["surface"].get("file", "")))
-    place = destination(args.output, inputs=inputs, force=args.force)
-    place.check()
-    try:
-        prediction = predict(settings, case.text, tracks=args.tracks, smooth=args.smooth)
-    except (ValueError, OSError) as error:
-        raise InputError(f"{args.case}: {error}") from error
-    write(prediction, place, draw=draw if args.plots else None)
+    prediction = predict(
+        args.case,
+        args.overrides,
+        smooth=args.smooth,
+        tracks=args.tracks,
+        output=args.output,
+        force=args.force,
+        plots=args.plots,
+    )
     print(report(prediction))
     print(f"results     {args.output}")
     return 0 if prediction.friction.status == "predicted" else 1

@@ -8,13 +8,11 @@ import sys
 import time
 from pathlib import Path
 
-import xarray as xr
 from tqdm import tqdm
 
 from pyehl.case import Case
 from pyehl.commands.arguments import add_case_arguments, add_force
-from pyehl.studies.response import measure
-from pyehl.studies.response_folder import beside_shipped, destination, write
+from pyehl.studies.response_folder import response
 from pyehl.studies.tiers import TIERS, Tier
 
 __all__ = ["add_arguments", "execute"]
@@ -75,28 +73,25 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _draw(case: Case, data: xr.Dataset, path: Path) -> None:
-    """Draw a measured response beside the shipped one."""
-    # matplotlib takes long to import
-    from pyehl.plots.response import response_figure  # noqa: PLC0415
-    from pyehl.plots.style import save  # noqa: PLC0415
-
-    save(response_figure(*beside_shipped(case.resolve(), data)), path)
-
-
 def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl response``."""
     case = Case.read(args.case, args.overrides)
     tiers = TIERS[:-1] if args.quick else TIERS
     ratio = float(case.resolve()["surface"]["velocity_ratio"])
     began = time.perf_counter()
-    place = destination(args.output, inputs=(args.case,), force=args.force)
     bar = Bar(tiers, max(ratio, 1e-3))
     try:
-        found = measure(case, place, tiers=tiers, jobs=args.jobs, progress=bar.update)
+        summary = response(
+            args.case,
+            args.overrides,
+            output=args.output,
+            force=args.force,
+            jobs=args.jobs,
+            quick=args.quick,
+            progress=bar.update,
+        ).attrs
     finally:
         bar.close()
-    summary = write(case, found, place, lambda data, path: _draw(case, data, path))
     print(
         f"response    {summary['waves']} waves at M = {summary['moes_m']:.4g}, "
         f"L = {summary['moes_l']:.4g}, velocity ratio {ratio:g}   "

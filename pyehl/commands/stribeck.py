@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -20,30 +19,23 @@ from pyehl.commands.watching import (
     jobs_of,
     tell_lost,
 )
-from pyehl.destination import Destination
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
-from pyehl.export import write_netcdf
 from pyehl.studies.curve import (
     BREAKDOWN,
     FULL_FILM,
     OUTSIDE,
     UNSOLVED,
-    curve_rows,
     full_film_ends,
     no_coefficient,
 )
-from pyehl.studies.curve_table import Measured, curve_dataset, read_measured, write_csv
-from pyehl.studies.gather import gather
-from pyehl.studies.journal import NAME
+from pyehl.studies.curve_run import CSV, NETCDF, PICTURE, axes_of, perform
+from pyehl.studies.curve_table import Measured, read_measured
 from pyehl.studies.stribeck import KEYS, CurvePlan, plan_curve
-from pyehl.studies.vary import axis
 
 __all__ = ["add_arguments", "execute"]
 
 Row = Mapping[str, Any]
 Array = NDArray[np.float64]
-
-CSV, NETCDF, PICTURE = "stribeck.csv", "stribeck.nc", "stribeck.png"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -74,11 +66,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _plan(args: argparse.Namespace) -> CurvePlan:
-    given = {key: getattr(args, name.replace("-", "_")) for name, key in KEYS.items()}
-    axes = [axis(key, values) for key, values in given.items() if values is not None]
-    if not axes:
-        options = ", ".join(f"--{name}" for name in KEYS)
-        raise InputError(f"pyehl stribeck: expected at least one of {options}")
+    axes = axes_of({name: getattr(args, name.replace("-", "_")) for name in KEYS})
     return plan_curve(args.case, axes, options=args.overrides, ehl=args.ehl, seeds=args.surfaces)
 
 
@@ -214,28 +202,20 @@ def execute(args: argparse.Namespace) -> int:
     jobs = jobs_of(args)
     measured = None if args.measured is None else _measured(args.measured, plan)
     folder = Path(args.output)
-    files = (CSV, NETCDF, PICTURE)
     inputs = tuple(word for word in (args.case, args.measured) if word is not None)
-    if {os.path.realpath(folder / name) for name in files} & set(map(os.path.realpath, inputs)):
-        raise InputError(
-            f"{folder}: error: this command reads a file of it\nexpected: another folder"
-        )
     watcher = Terminal(lambda done: plan.text(jobs, done), quiet=args.quiet)
     try:
-        outcome = gather(
-            plan.tasks,
+        outcome, rows = perform(
+            plan,
             folder,
-            plan.identity(),
+            inputs=inputs,
             jobs=jobs,
             scheduler=args.scheduler,
-            place=Destination(folder, "stribeck", (NAME, *files), inputs, force=args.force),
+            force=args.force,
             watcher=watcher,
-            write=lambda rows: write_csv(folder / CSV, plan, curve_rows(plan, rows)),
         )
     finally:
         watcher.close()
-    rows = curve_rows(plan, outcome.rows)
-    write_netcdf(folder / NETCDF, curve_dataset(plan, rows))
     if outcome.interrupted:
         watcher.goes_on(folder)
         return EXIT_INTERRUPTED

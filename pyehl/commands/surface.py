@@ -14,9 +14,10 @@ from pathlib import Path
 from pyehl.case import Case
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.destination import check_files, made_by, mark, new_file
-from pyehl.errors import InputError
+from pyehl.errors import FileError, InputError
 from pyehl.surfaces import FEATURES, Topography, from_settings
 from pyehl.surfaces.areal import AREAL_NAMES, areal_numbers
+from pyehl.surfaces.in_memory import READY
 from pyehl.surfaces.writing import SUFFIXES, write_map
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
@@ -26,26 +27,13 @@ __all__ = ["add_arguments", "execute", "numbers"]
 
 MADE = f"! {mark('surface')}\n! A tile in the contact that it was made for\n"
 
-# Keys of a tile that is ready: nothing is left to do
-READY = (
-    "kind='map'",
-    "channel=''",
-    "detrend='none'",
-    "edges='periodic'",
-    "outliers=0.0",
-    "rotate=0.0",
-    "sign=1",
-    "track=0.0",
-    "crop_x_min=0.0",
-    "crop_x_max=0.0",
-    "crop_y_min=0.0",
-    "crop_y_max=0.0",
-    "tile_x=0.0",
-    "tile_y=0.0",
-    "tile_mirrored=.false.",
-    "shortest_wavelength=0.0",
-    "longest_wavelength=0.0",
-)
+# Keys of a tile that is on its track and whose spectrum is cut
+READY_IN_PLACE = {
+    **READY,
+    "surface.track": 0.0,
+    "surface.shortest_wavelength": 0.0,
+    "surface.longest_wavelength": 0.0,
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -94,7 +82,7 @@ def execute(args: argparse.Namespace) -> int:
     lubricant = Lubricant.from_settings(settings, str(settings["psd"]["viscosity_law"]))
     try:
         surface = from_settings(settings, operating, central_film(operating, lubricant))
-    except (ValueError, OSError) as error:
+    except (InputError, FileError) as error:
         raise InputError(f"{args.case}: {error}") from error
     print("\n".join([*_lines(surface), *numbers(surface)]))
     if args.output is not None:
@@ -173,11 +161,9 @@ def _write(
     """Write the tile, a case for it, and the picture; returns their names."""
     beside, picture = _beside(path)
     written = [write_map(surface, path), beside]
-    options = [f"surface.{option}" for option in READY]
-    options += [f"surface.length_x={surface.length_x!r}"]
-    options += [f"surface.length_y={surface.length_y!r}"]
+    size = {"surface.length_x": surface.length_x, "surface.length_y": surface.length_y}
     name = str(path.absolute()).replace("'", "''")
-    text = case.with_options(*options, f"surface.file='{name}'").text
+    text = case.with_options(READY_IN_PLACE, size, f"surface.file='{name}'").text
     # beside it: the folder may be moved
     text = text.replace(f"'{name}'", "'" + path.name.replace("'", "''") + "'")
     with new_file(beside) as fresh:

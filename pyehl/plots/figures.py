@@ -221,7 +221,7 @@ def prediction_figures(data: xr.Dataset) -> dict[str, Figure]:
     about = data.attrs
     title = headline(about)
     tile = Topography(
-        data.surface_m.values, about["length_x_m"], about["length_y_m"], about["surface"]
+        data.surface_m.values, (about["length_x_m"], about["length_y_m"]), about["surface"]
     )
     names = ("hertz_radius_m", "moes_m", "moes_l", "wavelength_convention")
     radius, m, ell, convention = (about[name] for name in names)
@@ -247,7 +247,7 @@ def prediction_figures(data: xr.Dataset) -> dict[str, Figure]:
 def _flattened(data: xr.Dataset) -> np.ndarray:
     """Return what pressure flattens of a tile [m]: delta p over E'|q|/4 of the half-space."""
     about = data.attrs
-    tile = Topography(data.delta_p_Pa.values, about["length_x_m"], about["length_y_m"])
+    tile = Topography(data.delta_p_Pa.values, (about["length_x_m"], about["length_y_m"]))
     stiff = stiffness(np.hypot(*wavenumbers(tile)) * about["hertz_radius_m"])
     # the mean is not flattened
     stiff[0, 0] = np.inf

@@ -1,23 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The pictures of a result folder, as files."""
+"""The pictures of a result, and as files."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from pathlib import Path
 
+import xarray as xr
 from matplotlib.figure import Figure
 
-from pyehl import results
 from pyehl.destination import check_files
 from pyehl.errors import InputError
+from pyehl.given import check_kind, path_of
 from pyehl.plots.figures import prediction_figures, solution_figures
-from pyehl.plots.movie import movie
 from pyehl.plots.style import DPI, save
+from pyehl.results import load
 
-__all__ = ["FORMATS", "plot_folder", "save_all"]
+__all__ = ["FORMATS", "UNITS", "made", "plot", "save_all"]
 
 FORMATS = ("png", "pdf", "svg")
+UNITS = ("auto", "si", "hertz")
 
 
 def save_all(
@@ -35,59 +38,83 @@ def save_all(
     return [save(figure, paths[name], dpi) for name, figure in figures.items()]
 
 
-def _make(target: Path) -> None:
+def made(folder: str | os.PathLike[str]) -> Path:
+    """Give a folder for pictures, which is made where it is not there.
+
+    Raises
+    ------
+    InputError
+        If it cannot be made.
+    """
+    target = Path(folder)
     try:
         target.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(
             f"{target}: error: this folder cannot be made\nexpected: another folder"
         ) from error
+    return target
 
 
-def plot_folder(
-    folder: Path,
-    target: Path,
+def plot(
+    results: xr.Dataset | str | os.PathLike[str],
+    output: str | os.PathLike[str] | None = None,
     *,
     units: str = "auto",
+    format: str = "png",
     dpi: int = DPI,
-    suffix: str = "png",
-    moving: str = "",
-) -> list[Path]:
-    """Write the pictures of a result folder into another; returns their paths.
+) -> dict[str, Figure]:
+    """Draw the pictures of a result, and write them if a folder is given.
 
     Parameters
     ----------
-    folder, target
-        Result folder, and where the pictures go.
+    results
+        What `pyehl.solve` and `pyehl.load` give, ``data`` of a prediction, or a result folder.
+    output
+        Folder for the pictures; None: nothing is kept on disk.
     units
         Of the fields of a solution: 'si', 'hertz', or 'auto' for SI when the case was given in SI.
+    format
+        One of :data:`FORMATS`.
     dpi
         Dots per inch.
-    suffix
-        One of :data:`FORMATS`.
-    moving
-        'gif' or 'mp4': a movie of the frames instead; '': the pictures.
+
+    Returns
+    -------
+    dict
+        Figures of matplotlib by the names of their files.
 
     Raises
     ------
     InputError
-        If the folder is not a result folder, or has nothing to draw, or another file has the name
-        of a picture.
+        If it is no result, or has nothing to draw, or another file has the name of a picture.
     FileError
         If a picture cannot be written.
+
+    Examples
+    --------
+    >>> import pyehl
+    >>> ds = pyehl.solve("cases/quick.nml", {"grid.points": 65})
+    >>> sorted(pyehl.plot(ds))
+    ['centre_lines', 'film']
     """
-    data = results.load(folder)
+    for name, value, known in (("units", units, UNITS), ("format", format, FORMATS)):
+        if value not in known:
+            raise InputError(f"--{name} {value}: expected one of {', '.join(known)}")
+    check_kind(dpi, int, "dpi", "a whole number")
+    if not 10 <= dpi <= 2400:
+        raise InputError(f"--dpi {dpi}: 10 ... 2400 dots per inch were expected")
+    folder = "the Dataset" if isinstance(results, xr.Dataset) else path_of(results, "results")
+    data = results if isinstance(results, xr.Dataset) else load(folder)
+    if "case" not in data.attrs:
+        raise InputError(f"{folder}: expected a result of solve, load or predict")
     prediction = data.attrs.get("kind") == "prediction"
-    if moving:
-        if prediction:
-            raise InputError(f"{folder}: a prediction has no frames to make a movie of")
-        _make(target)
-        return [movie(data, target, moving, units)]
     figures = prediction_figures(data) if prediction else solution_figures(data, units)
     if not figures:
         raise InputError(
             f"{folder}: there are no fields to draw: the case has output.fields = .false.\n"
             "expected: a result folder with P.npy and H.npy"
         )
-    _make(target)
-    return save_all(figures, target, suffix, dpi)
+    if output is not None:
+        save_all(figures, made(path_of(output, "output")), format, dpi)
+    return figures

@@ -63,7 +63,7 @@ def _size(made: Preparation) -> tuple[float, float]:
 def _as_measured(made: Preparation) -> Topography:
     """Map as read, as if it were a tile, its holes closed by what is next to them."""
     z = nearest(made.scan.heights)
-    return Topography(z - z.mean(), *_size(made))
+    return Topography(z - z.mean(), _size(made))
 
 
 def _map(ax: Axes, heights: Array, size: tuple[float, float], title: str) -> None:

@@ -130,7 +130,7 @@ def spectrum_line(
     twin = ax.twinx()
     if deformed is not None and flattening is not None:
         for values, style, label in ((deformed, "-", "$|T|$"), (flattening, "--", "$|1 - T|$")):
-            part = Topography(values, topography.length_x, topography.length_y)
+            part = Topography(values, topography.size)
             share = np.sqrt(psd_isotropic(part)[1][shown] / c_iso[shown])
             twin.plot(q[shown], share, style, color=VERMILLION, lw=1.4, label=label)
         twin.set_ylabel("response at the centre (rms)", color=VERMILLION)

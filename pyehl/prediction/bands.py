@@ -139,4 +139,4 @@ def _filtered(
     topography: Topography, heights: NDArray[np.complex128], keep: NDArray[np.bool_]
 ) -> Topography:
     z = scipy.fft.irfft2(heights * keep, s=topography.shape)
-    return Topography(np.asarray(z), topography.length_x, topography.length_y, topography.origin)
+    return Topography(np.asarray(z), topography.size, topography.origin)

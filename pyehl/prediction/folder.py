@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Callable, Iterable, Sequence
+import os
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +23,10 @@ PICTURES = ("surface_spectrum", "roughness", "passage")
 
 
 def destination(
-    folder: str | Path, *, inputs: Iterable[str | Path] = (), force: bool = False
+    folder: str | os.PathLike[str],
+    *,
+    inputs: Iterable[str | os.PathLike[str]] = (),
+    force: bool = False,
 ) -> Destination:
     """Give the place of the result of a prediction, to check it before there is one."""
     names = [f"{name}.csv" for name in TABLES] + [f"{name}.npy" for name in ARRAYS]
@@ -34,14 +38,13 @@ def write(
     prediction: Prediction,
     place: Destination,
     *,
-    draw: Callable[[Prediction, Path], None] | None = None,
+    plots: bool = False,
 ) -> None:
     """Write the result folder, whole or not at all.
 
     Files: ``case.nml`` (resolved), ``summary.json``, ``passage.csv``, ``spectrum.csv``,
     ``bands.csv`` and, first index along x: ``x.npy`` (nx,), ``y.npy`` (ny,), ``surface.npy``,
-    ``deformed.npy`` [m], ``delta_p.npy`` [Pa], (nx, ny); `draw` may add pictures
-    to the folder.
+    ``deformed.npy`` [m], ``delta_p.npy`` [Pa], (nx, ny); with `plots` the pictures.
 
     Raises
     ------
@@ -58,8 +61,12 @@ def write(
             _write_csv(folder / f"{name}.csv", tuple(columns), rows)
         for name, values in prediction.arrays.items():
             np.save(folder / f"{name}.npy", values)
-        if draw is not None:
-            draw(prediction, folder)
+        if plots:
+            # matplotlib takes longer to import than the prediction takes to compute
+            from pyehl.plots.figures import prediction_figures  # noqa: PLC0415
+            from pyehl.plots.folder import save_all  # noqa: PLC0415
+
+            save_all(prediction_figures(prediction.data), folder)
         files = sorted(["summary.json", *(path.name for path in folder.iterdir())])
         text = json.dumps(prediction.summary | {"files": files}, indent=2, allow_nan=False)
         (folder / "summary.json").write_text(text + "\n", encoding="utf-8")

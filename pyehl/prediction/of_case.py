@@ -9,7 +9,7 @@ import time
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,9 +34,6 @@ from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-if TYPE_CHECKING:
-    pass
-
 __all__ = ["predict"]
 
 Array = NDArray[np.float64]
@@ -50,6 +47,7 @@ def predict(
     *,
     tracks: int = TRACKS,
     smooth: str | os.PathLike[str] | None = None,
+    surface: surfaces.Topography | None = None,
     brief: bool = False,
 ) -> Prediction:
     """Predict the relative friction of a resolved case.
@@ -64,6 +62,8 @@ def predict(
         Number of tracks across the surface, for mean and spread: 1 to `MAX_TRACKS`.
     smooth
         Result folder with the smooth contact, in place of a solution on the spot.
+    surface
+        The surface, before its spectrum is cut and off its track; None: made as the case says.
     brief
         mu_r/mu_s and its errors, bit for bit the same, but no tracks, of the bands the shortest
         alone, and no search for what would carry where there is no ratio.
@@ -99,7 +99,10 @@ def predict(
     else:
         contact = read_contact(Path(smooth), operating)
     film = contact.central_film * operating.film_scale
-    surface = surfaces.from_settings(settings, operating, film)
+    if surface is None:
+        surface = surfaces.from_settings(settings, operating, film)
+    else:
+        surface = surfaces.finished(surface, settings["surface"])
     passage = RoughPassage(surface, contact, operating, lubricant, options, velocity_ratio)
     if options.as_in_paper:
         friction = predict_friction(surface, operating, lubricant, film, options)

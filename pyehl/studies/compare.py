@@ -18,10 +18,10 @@ from pyehl import namelist
 from pyehl.case import Case
 from pyehl.destination import check_files, made_by, new_file
 from pyehl.errors import InputError, did_you_mean
+from pyehl.given import Value, option
 from pyehl.studies.journal import read_header
 from pyehl.studies.reference_table import Expected, Key, ReferenceRow, ReferenceTable
 from pyehl.studies.table import cell
-from pyehl.studies.vary import Value, option
 
 __all__ = ["Comparison", "Deviation", "Results", "compare", "read_results", "write_deviations"]
 

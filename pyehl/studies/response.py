@@ -35,7 +35,7 @@ from pyehl.theory.operating import OperatingPoint
 __all__ = ["measure", "with_tiers"]
 
 Array = NDArray[np.float64]
-Progress = Callable[[str, int, int], None]
+Progress = Callable[[str, int, int], object]
 
 
 def _identity(settings: Mapping[str, Mapping[str, Any]], velocity_ratio: float, tier: Tier) -> str:

@@ -4,8 +4,9 @@
 from __future__ import annotations
 
 import json
+import os
+import tempfile
 from collections.abc import Callable, Iterable, Mapping
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,9 +15,11 @@ from numpy.typing import NDArray
 
 from pyehl.case import Case
 from pyehl.destination import Destination
-from pyehl.export import write_netcdf
+from pyehl.given import Option, check_kind, path_of
+from pyehl.netcdf import write_netcdf
 from pyehl.prediction.smooth import solve_contact, zone_of
-from pyehl.studies.response import with_tiers
+from pyehl.results import scalars
+from pyehl.studies.response import measure, with_tiers
 from pyehl.studies.response_table import dataset, shipped_response, write_table
 from pyehl.studies.tiers import TIERS
 from pyehl.theory.lubricant import Lubricant
@@ -24,7 +27,7 @@ from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import fitted_range
 from pyehl.theory.transport import Zone
 
-__all__ = ["beside_shipped", "destination", "write"]
+__all__ = ["destination", "response"]
 
 Settings = Mapping[str, Mapping[str, Any]]
 Array = NDArray[np.float64]
@@ -42,42 +45,91 @@ def _zone(settings: Settings, operating: OperatingPoint) -> Zone:
 
 
 def destination(
-    folder: str | Path, *, inputs: Iterable[str | Path] = (), force: bool = False
+    folder: str | os.PathLike[str],
+    *,
+    inputs: Iterable[str | os.PathLike[str]] = (),
+    force: bool = False,
 ) -> Destination:
     """Give the place of a measured response."""
     names = (*FILES, *(f"tier_{tier.name}.npz" for tier in TIERS))
     return Destination(folder, "response", names, tuple(inputs), force=force)
 
 
-def write(
-    case: Case,
-    found: Mapping[str, Mapping[str, Any]],
-    place: Destination,
-    draw: Callable[[xr.Dataset, Path], object],
-) -> dict[str, Any]:
-    """Write table, Dataset, picture, summary and case of a measured response, whole or not at all.
+def response(
+    case: Case | str | os.PathLike[str],
+    *options: Option,
+    output: str | os.PathLike[str] | None = None,
+    force: bool = False,
+    jobs: int = 1,
+    quick: bool = False,
+    progress: Callable[[str, int, int], object] | None = None,
+) -> xr.Dataset:
+    """Measure what the contact of a case makes of small waves of roughness; takes minutes.
 
     Parameters
     ----------
     case
-        What was measured.
-    found
-        As :func:`pyehl.studies.response.measure` returns it.
-    place
-        Where to, with the tiers in it.
-    draw
-        Draws the waves, as :func:`pyehl.studies.response_table.dataset` gives them, into a file.
+        A case, or the path of a case file: its contact, lubricant and `surface.velocity_ratio`.
+    *options
+        Values that replace those of the case: dicts, or texts ``group.key=value``.
+    output
+        Result folder, as ``pyehl response -o`` writes it; runs that are there already are not made
+        again. None: nothing is kept on disk.
+    force
+        Other files may be in the folder; they stay.
+    jobs
+        Runs side by side, each with its threads.
+    quick
+        Waves down to a/16 only, in a third of the time.
+    progress
+        Called with the name of a run, its steps done and its steps in all.
 
     Returns
     -------
-    dict
-        The summary.
+    xarray.Dataset
+        All waves, the longest first, each variable with its units; the numbers of the summary as
+        variables without a dimension, the whole summary as attributes.
 
     Raises
     ------
-    InputError, FileError
-        If the folder holds something else, or cannot be written.
+    InputError
+        If the case is not acceptable, or the folder holds something else.
+    FileError
+        If the folder cannot be written.
+
+    Examples
+    --------
+    >>> import pyehl
+    >>> try:
+    ...     pyehl.response("cases/table1.nml", {"surface.velocity_ratio": 0.0})
+    ... except pyehl.InputError as error:
+    ...     print(str(error).partition(";")[0])
+    surface.velocity_ratio = 0: a surface at rest makes no waves in time
     """
+    check_kind(jobs, int, "jobs", "a number of runs")
+    inputs = () if isinstance(case, Case) else (case,)
+    case = Case.of(case, *options)
+    tiers = TIERS[:-1] if quick else TIERS
+    with tempfile.TemporaryDirectory(prefix="pyehl-") as nothing:
+        folder = nothing if output is None else path_of(output, "output")
+        place = destination(folder, inputs=inputs, force=force)
+        found = measure(case, place, tiers=tiers, jobs=jobs, progress=progress or _silent)
+        return _write(case, found, place)
+
+
+def _silent(name: str, done: int, total: int) -> None:
+    """Take the steps of a run."""
+
+
+def _write(case: Case, found: Mapping[str, Mapping[str, Any]], place: Destination) -> xr.Dataset:
+    """Write table, Dataset, picture, summary and case of a measured response, whole or not at all.
+
+    `found` is what :func:`pyehl.studies.response.measure` returns.
+    """
+    # matplotlib takes long to import
+    from pyehl.plots.response import response_figure  # noqa: PLC0415
+    from pyehl.plots.style import save  # noqa: PLC0415
+
     settings = case.resolve()
     ratio = float(settings["surface"]["velocity_ratio"])
     operating = OperatingPoint.from_settings(settings)
@@ -99,14 +151,14 @@ def write(
     with with_tiers(place).fresh() as folder:
         write_table(data, folder / "response.csv")
         write_netcdf(folder / "response.nc", data)
-        draw(data, folder / PICTURE)
+        save(response_figure(*_beside_shipped(settings, data)), folder / PICTURE)
         (folder / "case.nml").write_text(case.text, encoding="utf-8")
         text = json.dumps(summary, indent=2, allow_nan=False) + "\n"
         (folder / "summary.json").write_text(text, encoding="utf-8")
-    return summary
+    return data.assign(scalars(summary)).assign_attrs(summary)
 
 
-def beside_shipped(
+def _beside_shipped(
     settings: Settings, data: xr.Dataset
 ) -> tuple[dict[str, Array], dict[float, tuple[Array, Complex]], str]:
     """Give the measured waves at X = 0 and the shipped response, to draw.

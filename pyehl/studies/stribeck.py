@@ -11,7 +11,6 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 from pyehl import surfaces
@@ -213,6 +212,5 @@ def _check(study: Study, point: Point, settings: Settings, seeds: int, ehl: int)
         Options.from_settings(settings)
         if kind == "map":
             surfaces.from_settings(settings, operating, film)
-            Path(str(settings["surface"]["file"])).stat()
-    except (EhlError, ValueError, OSError) as error:
+    except EhlError as error:
         raise InputError(f"point {point.number + 1} of {study.size} ({point}):\n{error}") from error

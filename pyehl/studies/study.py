@@ -15,8 +15,9 @@ import numpy as np
 
 from pyehl.case import Case
 from pyehl.errors import InputError, did_you_mean
+from pyehl.given import Value, option
 from pyehl.studies.outputs import TRACKS, checked
-from pyehl.studies.vary import Axis, Value, option
+from pyehl.studies.vary import Axis
 
 __all__ = ["MAX_CASES", "RUNS", "Point", "Study", "make"]
 

@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from pyehl.errors import InputError, did_you_mean
-from pyehl.studies.vary import axis, option
+from pyehl.given import option
+from pyehl.studies.vary import axis
 
 __all__ = ["read_study"]
 

@@ -14,8 +14,8 @@ import xarray as xr
 from pyehl.case import Case
 from pyehl.destination import Destination
 from pyehl.errors import InputError
-from pyehl.export import write_netcdf
 from pyehl.given import Option, check_kind, options_of, path_of
+from pyehl.netcdf import write_netcdf
 from pyehl.studies import table
 from pyehl.studies.gather import Outcome, Watcher, gather
 from pyehl.studies.journal import NAME
@@ -101,7 +101,7 @@ def sweep(
     vary
         Values by key ``group.key``: a sequence, or a text as behind ``pyehl sweep --vary``.
     *options
-        Texts ``group.key=value`` that hold for all cases.
+        Values that hold for all cases: dicts, or texts ``group.key=value``.
     zip
         True: all keys move together; else lists of the keys that do. Otherwise every value of a
         key meets every value of the others.

@@ -92,7 +92,8 @@ def dataset(study: Study, points: Sequence[Point], rows: Mapping[int, Row]) -> x
             attributes = {}
         else:
             values = np.array([np.nan if v is None else float(v) for v in found])
-            attributes = {"units": unit_of(name)}
+            film = name.startswith(("h_c_m_", "h_min_m_"))
+            attributes = {"units": "m" if film else unit_of(name)}
         variables[name] = xr.Variable(names, values.reshape(study.shape), attributes)
     attributes = {"title": "study of pyehl", "run": study.run}
     attributes |= {"set": "\n".join(study.options)} if study.options else {}

@@ -11,10 +11,9 @@ from typing import Any
 import numpy as np
 
 from pyehl.errors import InputError
+from pyehl.given import Value, option, plain
 
-__all__ = ["Axis", "Value", "axis", "option", "parse_axis"]
-
-Value = float | int | bool | str
+__all__ = ["Axis", "Value", "axis", "parse_axis"]
 
 FORMS = (
     "start:stop:count, start:stop:countlog (geometric spacing), start:stop (whole numbers), "
@@ -42,13 +41,6 @@ class Axis:
     def options(self) -> list[str]:
         """Texts ``group.key=value``, one for each value."""
         return [option(self.key, value) for value in self.values]
-
-
-def option(key: str, value: Value) -> str:
-    """Text ``group.key=value`` that the reader of cases takes."""
-    if isinstance(value, bool):
-        return f"{key}={'.true.' if value else '.false.'}"
-    return f"{key}={value!r}" if isinstance(value, float) else f"{key}={value}"
 
 
 def parse_axis(text: str) -> Axis:
@@ -87,9 +79,9 @@ def axis(key: str, values: str | Iterable[Any] | Value) -> Axis:
         if isinstance(values, str):
             found = _spaced(values) if ":" in values else _listed(values)
         elif isinstance(values, Iterable):
-            found = [_plain(value) for value in islice(values, MAX_VALUES + 1)]
+            found = [plain(value) for value in islice(values, MAX_VALUES + 1)]
         else:
-            found = [_plain(values)]
+            found = [plain(values)]
     except ValueError as error:
         raise InputError(f"{key} = {values!r}: {error}; expected {FORMS}") from error
     if not found:
@@ -156,12 +148,3 @@ def _word(word: str) -> Value:
     if word[0] in "'\"" and word[-1] == word[0] and len(word) > 1:
         word = word[1:-1]
     return word
-
-
-def _plain(value: object) -> Value:
-    """Value of Python, NumPy or TOML as one of the four types."""
-    if isinstance(value, np.generic):
-        value = value.item()
-    if isinstance(value, bool | int | float | str):
-        return value
-    raise ValueError(f"{value!r} is neither a number nor a word")

@@ -9,12 +9,14 @@ y = j length_y/ny. Spectra are those of Jacobs, Junge & Pastewka 2017, in m^4.
 from pyehl.surfaces.features import FEATURES, feature
 from pyehl.surfaces.filters import filtered
 from pyehl.surfaces.generators import fractal, harmonic
+from pyehl.surfaces.in_memory import Surface, as_map, in_memory, keep_beside
 from pyehl.surfaces.interpolation import resampled, shifted
 from pyehl.surfaces.maps import read_map, tile_of
 from pyehl.surfaces.of_case import (
     finished,
     from_settings,
     harmonic_amplitude,
+    moved,
     track_offsets,
     without_spikes,
 )
@@ -41,7 +43,9 @@ __all__ = [
     "Record",
     "Scan",
     "SolverSurface",
+    "Surface",
     "Topography",
+    "as_map",
     "feature",
     "filtered",
     "finished",
@@ -51,6 +55,9 @@ __all__ = [
     "given",
     "harmonic",
     "harmonic_amplitude",
+    "in_memory",
+    "keep_beside",
+    "moved",
     "part_of",
     "prepare",
     "psd_2d",

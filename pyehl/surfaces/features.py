@@ -95,4 +95,4 @@ def feature(
         length,
         angle,
     )
-    return Topography(np.ascontiguousarray(z), sides[0], sides[1], f"single {kind}")
+    return Topography(np.ascontiguousarray(z), (sides[0], sides[1]), f"single {kind}")

@@ -99,7 +99,7 @@ def fractal(
     )
     check(status, message)
     origin = f"fractal, hurst {hurst:g}, seed {seed}, {modulus} modulus"
-    return Topography(z, length_x, length_y, origin, seed)
+    return Topography(z, (length_x, length_y), origin, seed)
 
 
 def harmonic(
@@ -119,4 +119,4 @@ def harmonic(
     nx, ny = pixels
     x = np.cos(2.0 * np.pi * np.arange(nx) / nx)
     y = np.cos(2.0 * np.pi * np.arange(ny) / ny)
-    return Topography(amplitude * np.outer(x, y), wavelength_x, wavelength_y, "harmonic")
+    return Topography(amplitude * np.outer(x, y), (wavelength_x, wavelength_y), "harmonic")

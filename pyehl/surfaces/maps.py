@@ -16,7 +16,7 @@ __all__ = ["read_map", "tile_of"]
 def tile_of(scan: Scan, options: Options = NEUTRAL) -> Topography:
     """Prepare a map, see :func:`pyehl.surfaces.prepare.prepare`; the tile carries the record."""
     made = prepare(scan, options)
-    return Topography(made.tile, *made.lengths, scan.origin, None, made)
+    return Topography(made.tile, made.lengths, scan.origin, None, made)
 
 
 def read_map(

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from pyehl.errors import InputError
+from pyehl.errors import FileError, InputError
 from pyehl.kept import Kept
 from pyehl.surfaces.features import FEATURES, feature
 from pyehl.surfaces.filters import filtered
@@ -146,7 +146,10 @@ def _feature(
 def _map(surface: Mapping[str, Any]) -> Topography:
     """Tile of a map; that of a file of a usual size is kept for as long as the file is the same."""
     options = Options.from_settings(surface)
-    state = Path(str(surface["file"])).stat()
+    try:
+        state = Path(str(surface["file"])).stat()
+    except OSError as error:
+        raise FileError(f"{surface['file']}: cannot read: {error.strerror}") from error
     name = (*(surface.get(key) for key in SCAN), state.st_mtime_ns, state.st_size, options)
     if state.st_size > 8 * KEPT_PIXELS:
         return tile_of(scan_of(surface), options)

@@ -49,7 +49,7 @@ def part_of(
     tile = mirrored(heights[i : i + nx, j : j + ny])
     tile -= tile.mean()
     name = f"{origin}, {nx} x {ny} pixels in its middle"
-    return Topography(tile, 2 * nx * pixel[0], 2 * ny * pixel[1], name)
+    return Topography(tile, (2 * nx * pixel[0], 2 * ny * pixel[1]), name)
 
 
 def given(heights: NDArray[np.float64], surface: Mapping[str, Any]) -> Topography:
@@ -63,4 +63,4 @@ def given(heights: NDArray[np.float64], surface: Mapping[str, Any]) -> Topograph
     if images:
         pixel = (0.5 * pixel[0], 0.5 * pixel[1])
     part = part_of(heights, pixel, "the heights", images=images)
-    return part or Topography(mirrored(heights) if images else heights, x, y)
+    return part or Topography(mirrored(heights) if images else heights, (x, y))

@@ -27,9 +27,9 @@ class Topography:
     Attributes
     ----------
     heights
-        (nx, ny) [m], peaks positive.
-    length_x, length_y
-        Size of the tile [m].
+        (nx, ny) [m], first index along the motion, peaks positive.
+    size
+        Length of the tile along x and y [m].
     origin
         Where it came from, in words.
     seed
@@ -41,33 +41,67 @@ class Topography:
     ------
     InputError
         If the heights are not a finite matrix of at least 2 x 2 or a length is not positive.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import pyehl
+    >>> x = np.arange(64) / 64
+    >>> ridges = 1e-8 * np.cos(2.0 * np.pi * x)[:, None] * np.ones(32)
+    >>> tile = pyehl.Topography(ridges, size=(2e-4, 1e-4))
+    >>> tile.shape, float(round(tile.rms_height * 1e9, 3))
+    ((64, 32), 7.071)
     """
 
     heights: Array
-    length_x: float
-    length_y: float
+    size: tuple[float, float]
     origin: str = ""
     seed: int | None = None
     preparation: Preparation | None = None
 
     def __post_init__(self) -> None:
         """Check shape, numbers and size."""
-        z = self.heights
+        what = self.origin or "surface"
+        try:
+            # a hole of a masked array is no height
+            z = np.asarray(np.ma.filled(self.heights, np.nan), dtype=np.float64)
+        except (TypeError, ValueError) as error:
+            raise InputError(
+                f"{what}: heights: expected a matrix of numbers [m]: {error}"
+            ) from None
+        object.__setattr__(self, "heights", z)
         if z.ndim != 2 or min(z.shape) < 2:
             raise InputError(
-                f"{self.origin or 'surface'}: heights must be a matrix (nx, ny) of at least 2 x 2, "
+                f"{what}: heights must be a matrix (nx, ny) of at least 2 x 2, "
                 f"not of shape {z.shape}"
             )
         bad = int(z.size - np.count_nonzero(np.isfinite(z)))
         if bad:
             i, j = np.argwhere(~np.isfinite(z))[0]
             raise InputError(
-                f"{self.origin or 'surface'}: {bad} of {z.size} heights are not finite, the first "
+                f"{what}: {bad} of {z.size} heights are not finite, the first "
                 f"at row {i}, column {j}; fill the holes of the map first"
             )
-        for name, value in (("length_x", self.length_x), ("length_y", self.length_y)):
+        try:
+            length_x, length_y = map(float, self.size)
+        except (TypeError, ValueError):
+            raise InputError(
+                f"{what}: size = {self.size!r}: expected the two lengths of the tile [m]"
+            ) from None
+        for name, value in (("length_x", length_x), ("length_y", length_y)):
             if not (math.isfinite(value) and value > 0.0):
-                raise InputError(f"{name} must be positive [m], not {value!r}")
+                raise InputError(f"{what}: {name} must be positive [m], not {value!r}")
+        object.__setattr__(self, "size", (length_x, length_y))
+
+    @property
+    def length_x(self) -> float:
+        """Length of the tile along x [m]."""
+        return self.size[0]
+
+    @property
+    def length_y(self) -> float:
+        """Length of the tile along y [m]."""
+        return self.size[1]
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -79,6 +79,13 @@ class Lubricant:
     ------
     InputError
         For an unknown law or a number out of range.
+
+    Examples
+    --------
+    >>> import pyehl
+    >>> oil = pyehl.Lubricant(viscosity=0.04, pressure_viscosity=2.2e-8)
+    >>> round(float(oil.log_viscosity_ratio(1e9)), 2), round(float(oil.density_ratio(1e9)), 3)
+    (15.16, 1.214)
     """
 
     viscosity: float = 0.04

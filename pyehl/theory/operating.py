@@ -57,6 +57,16 @@ class OperatingPoint:
     ------
     InputError
         For a number that is not positive or not finite.
+
+    Examples
+    --------
+    >>> import pyehl
+    >>> point = pyehl.OperatingPoint(load=600.0, mean_velocity=0.84)
+    >>> round(point.moes_m), round(point.moes_l, 1), round(point.hertz_pressure / 1e9, 2)
+    (1000, 10.0, 1.66)
+    >>> case = pyehl.Case(contact={"load": 300.0})
+    >>> pyehl.OperatingPoint.from_settings(case.resolve()).load
+    300.0
     """
 
     load: float = 600.0

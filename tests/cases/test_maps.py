@@ -150,7 +150,7 @@ def test_cut_is_that_of_python(solve, tmp_path: Path, kind: str):
     """The solver's own cut, and a map that was cut before."""
     z = rough((64, 64))
     lengths = (2.7e-4, 2.7e-4)
-    cut = surfaces.filtered(Topography(z - z.mean(), *lengths), 2.2e-5, 1.6e-4, kind)
+    cut = surfaces.filtered(Topography(z - z.mean(), lengths), 2.2e-5, 1.6e-4, kind)
     np.save(tmp_path / "z.npy", z)
     np.save(tmp_path / "cut.npy", cut.heights)
     keys = {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What people type in Python: solve, predict, Case, Solver, load."""
+"""What people type in Python: cases, subcommands as functions, results."""
 
 from __future__ import annotations
 
@@ -18,6 +18,8 @@ import pytest
 import xarray as xr
 
 import pyehl
+from pyehl import cli
+from pyehl.studies import tiers
 
 SMOOTH = (
     "&contact moes_m = 100.0 moes_l = 5.0 /\n"
@@ -46,9 +48,10 @@ def fractal(tmp_path: Path) -> Path:
 
 def same(one: xr.Dataset, other: xr.Dataset) -> None:
     """The same but for the times that the runs took."""
-    one, other = one.copy(), other.copy()
+    times = ("wall_seconds", "seconds_per_step")
+    one, other = (data.drop_vars(times, errors="ignore") for data in (one, other))
     for data in (one, other):
-        for name in ("wall_seconds", "seconds_per_step"):
+        for name in times:
             data.attrs.pop(name, None)
     xr.testing.assert_identical(one, other)
 
@@ -79,6 +82,191 @@ def test_transient_results_are_the_same_in_memory(fractal: Path, tmp_path: Path)
     same(inside, written)
     assert {"RR", "A_d", "frame_P", "P_smooth"} <= set(inside.variables)
     assert float(np.abs(inside.RR).max()) > 0.0
+
+
+def test_a_case_by_its_values():
+    """Checked at once; options are a dict or texts, everywhere."""
+    case = pyehl.Case(contact={"moes_m": 100.0, "moes_l": 5.0}, grid={"points": np.int64(33)})
+    assert case == pyehl.Case("&contact moes_m = 100.0 moes_l = 5.0 /\n&grid points = 33 /\n")
+    assert pyehl.Case("&grid points = 33 /", contact={"moes_m": 100.0, "moes_l": 5.0}) == case
+    values = {"grid.points": 65, "output.fields": False, "surface.kind": "fractal"}
+    texts = ["grid.points=65", "output.fields=.false.", "surface.kind=fractal"]
+    assert case.with_options(values) == case.with_options(*texts) == case.with_options(texts)
+    assert case.with_options(values, "surface.seed=3").resolve()["surface"]["seed"] == 3
+    with pytest.raises(pyehl.InputError, match=r"(?s)contact\.laod.*'load'"):
+        pyehl.Case(contact={"laod": 3.0})
+
+
+@pytest.mark.parametrize("values", [{"grid.points": 66}, {"gird.points": 65}])
+def test_python_and_command_say_the_same(smooth: Path, values: dict[str, int], capsys):
+    (text,) = (f"{key}={value}" for key, value in values.items())
+    for call in (pyehl.solve, pyehl.predict, pyehl.film, pyehl.check):
+        with pytest.raises(pyehl.InputError) as caught:
+            call(smooth, values)
+        words = {"solve": ["run"]}.get(call.__name__, [call.__name__])
+        output = ["-o", "out"] if call in (pyehl.solve, pyehl.predict) else []
+        assert cli.main([*words, str(smooth), *output, "--set", text]) == 2
+        assert capsys.readouterr().err == f"{caught.value}\n"
+
+
+def test_scalars_have_units(fractal: Path, tmp_path: Path):
+    """Numbers of the summary are variables after solve, load, predict and sweep, and attributes."""
+    solved = pyehl.solve(fractal, output=tmp_path / "out", check=False)
+    for data in (solved, pyehl.load(tmp_path / "out"), pyehl.predict(fractal).data):
+        numbers = [name for name in data.attrs if name in data]
+        assert len(numbers) > 30
+        for name in numbers:
+            assert float(data[name]) == data.attrs[name]
+            assert data[name].dims == ()
+            assert data[name].attrs["units"]
+            assert data[name].attrs["long_name"]
+        assert data.h_c_m.attrs["units"] == "m"
+        assert data.hertz_pressure_Pa.attrs["units"] == "Pa"
+        assert data.moes_m.attrs["units"] == "1"
+        names = [str(name).lower() for name in data.variables]
+        assert len(names) == len(set(names))
+    # what is not known is NaN, and no attribute
+    assert np.isnan(float(solved.mu_ratio))
+    assert "mu_ratio" not in solved.attrs
+    assert {"status", "converged", "case"} <= set(solved.attrs) - set(solved.variables)
+    swept = pyehl.sweep(fractal, {"surface.seed": [1]}, run="film", jobs=1)
+    assert swept.h_c_m.attrs["units"] == swept.h_c_m_hamrock_dowson.attrs["units"] == "m"
+    assert (swept.moes_m.attrs["units"], swept.seconds.attrs["units"]) == ("1", "s")
+
+
+WAVES = 1e-9 * np.random.default_rng(1).normal(size=(16, 12)) + 3e-7
+
+
+def test_surface_in_memory_is_that_of_its_file(fractal: Path, tmp_path: Path):
+    """Given as a tile or as an array, the results are those of the height map, bit for bit."""
+    np.save(tmp_path / "map.npy", WAVES - WAVES.mean())
+    size = {"surface.length_x": 1e-4, "surface.length_y": 8e-5}
+    file = {"surface.kind": "map", "surface.file": tmp_path / "map.npy"} | size
+    by_file = pyehl.solve(fractal, file, check=False)
+    tile = pyehl.Topography(WAVES, size=(1e-4, 8e-5))
+    # whatever the surface of the case is
+    smooth = {"surface.kind": "smooth"}
+    by_tile = pyehl.solve(fractal, smooth, surface=tile, check=False, output=tmp_path / "out")
+    by_array = pyehl.solve(fractal, size, surface=WAVES, check=False)
+    for data in (by_tile, by_array):
+        for name in ("P", "H", "RR", "history_mu_ratio"):
+            assert np.array_equal(data[name].values, by_file[name].values), name
+    # the folder has the surface, and its case can be solved again
+    again = pyehl.solve(tmp_path / "out" / "case.nml", check=False)
+    assert np.array_equal(again.P.values, by_tile.P.values)
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert sorted(summary["files"]) == sorted(p.name for p in (tmp_path / "out").iterdir())
+    mean = pyehl.predict(fractal, file).mu_ratio
+    assert pyehl.predict(fractal, smooth, surface=tile).mu_ratio == mean
+    assert pyehl.predict(fractal, size, surface=WAVES).mu_ratio == mean
+
+
+def test_surface_in_memory_keeps_track_and_cut(fractal: Path, tmp_path: Path):
+    tile = pyehl.predict(fractal).surface
+    place = {"surface.track": 2e-5, "surface.shortest_wavelength": 2e-5}
+    by_case = pyehl.solve(fractal, place, check=False)
+    by_tile = pyehl.solve(fractal, place, surface=tile, check=False)
+    assert by_tile.P.values == pytest.approx(by_case.P.values, abs=1e-9)
+    assert np.abs(by_tile.P - pyehl.solve(fractal, check=False).P).max() > 1e-4
+    found = pyehl.predict(fractal, place, surface=tile).mu_ratio
+    assert found == pytest.approx(pyehl.predict(fractal, place).mu_ratio, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("surface", "part"),
+    [
+        (WAVES, "pyehl.Topography(heights, size)"),
+        ("abc", "a matrix of numbers"),
+        (np.where(WAVES > 3e-7, np.nan, WAVES), "finite"),
+    ],
+)
+def test_no_surface(smooth: Path, surface: object, part: str):
+    for call in (pyehl.solve, pyehl.predict, pyehl.Solver):
+        with pytest.raises(pyehl.InputError, match=re.escape(part)):
+            call(smooth, surface=surface)
+
+
+@pytest.mark.parametrize("size", [3.0, (1e-4,), (1e-4, 0.0), (1e-4, "x"), None])
+def test_no_size(size: object):
+    with pytest.raises(pyehl.InputError, match="length"):
+        pyehl.Topography(WAVES, size)
+
+
+def test_holes_are_no_heights():
+    with pytest.raises(pyehl.InputError, match="not finite"):
+        pyehl.Topography(np.ma.masked_less(WAVES, 3e-7), (1e-4, 1e-4))
+
+
+def test_predict_writes_as_the_command(fractal: Path, tmp_path: Path, capsys):
+    p = pyehl.predict(fractal, tracks=3, output=tmp_path / "python", plots=False)
+    words = [
+        "predict",
+        str(fractal),
+        "--tracks",
+        "3",
+        "--no-plots",
+        "-o",
+        str(tmp_path / "command"),
+    ]
+    assert cli.main(words) == 0
+    capsys.readouterr()
+    one, other = (
+        {path.name: path.read_bytes() for path in (tmp_path / name).iterdir()}
+        for name in ("python", "command")
+    )
+    assert set(one) == set(other) >= {"passage.csv", "summary.json", "case.nml"}
+    assert all(one[name] == other[name] for name in one if name.endswith((".npy", ".csv", ".nml")))
+    assert p.track_count == 3
+    same(p.data, pyehl.load(tmp_path / "python"))
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "notes.txt").write_text("mine")
+    with pytest.raises(pyehl.InputError, match=r"notes\.txt"):
+        pyehl.predict(fractal, output=tmp_path / "mine")
+
+
+def test_subcommands_print_what_functions_return(fractal: Path, capsys):
+    assert cli.main(["check", str(fractal), "--set", "grid.points=33"]) == 0
+    assert capsys.readouterr().out == pyehl.check(fractal, {"grid.points": 33}) + "\n"
+    assert cli.main(["film", str(fractal), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out) == json.loads(json.dumps(pyehl.film(fractal)))
+
+
+def test_plot(fractal: Path, tmp_path: Path):
+    p = pyehl.predict(fractal)
+    figures = pyehl.plot(p.data, tmp_path / "new", format="svg")
+    assert {path.name for path in (tmp_path / "new").iterdir()} == {f"{n}.svg" for n in figures}
+    for words in ({"dpi": 1}, {"dpi": 1e3}, {"units": "m"}, {"format": "bmp"}):
+        with pytest.raises(pyehl.InputError):
+            pyehl.plot(p.data, **words)
+    with pytest.raises(pyehl.InputError, match="expected a result"):
+        pyehl.plot(xr.Dataset())
+
+
+def test_stribeck_is_that_of_the_command(fractal: Path, tmp_path: Path, capsys):
+    ds = pyehl.stribeck(fractal, speed=[0.5, 1.0], load=30.0, surfaces=2, jobs=1)
+    words = ["--speed", "0.5,1", "--load", "30", "--surfaces", "2", "--jobs", "1", "-q"]
+    assert cli.main(["stribeck", str(fractal), *words, "-o", str(tmp_path / "out")]) == 0
+    capsys.readouterr()
+    with xr.open_dataset(tmp_path / "out" / "stribeck.nc", engine="scipy") as written:
+        assert np.array_equal(written.mu_ratio.values, ds.mu_ratio.values)
+    assert ds.mu_ratio.shape == (2, 1)
+    with pytest.raises(pyehl.InputError, match="at least one of --speed"):
+        pyehl.stribeck(fractal)
+
+
+def test_response_is_read_as_it_was_written(tmp_path: Path, monkeypatch):
+    tiny = (tiers.Tier("long", 2.0, 65, 2.0, 0.5),)
+    for module in ("studies.response", "studies.response_folder"):
+        monkeypatch.setattr(f"pyehl.{module}.TIERS", tiny)
+    case = pyehl.Case(contact={"moes_m": 100.0, "moes_l": 5.0})
+    seen = []
+    ds = pyehl.response(case, output=tmp_path / "out", progress=lambda *now: seen.append(now))
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert int(ds.waves) == summary["waves"] == ds.sizes["wave"]
+    assert ds.attrs["tiers"] == summary["tiers"]
+    assert seen[-1][0] == "long"
+    # made again without a run
+    xr.testing.assert_identical(pyehl.response(case, output=tmp_path / "out"), ds)
 
 
 def test_no_solution_raises_with_what_there_is(fractal: Path, tmp_path: Path):

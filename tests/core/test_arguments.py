@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import pyehl
+from pyehl import cli
 
 SMALL = "grid.points=65"
 WHOLE_TEXT = "the text of a case"
@@ -38,8 +39,21 @@ CALLS: dict[str, tuple[Callable[[str], Any], str]] = {
     "origin": (lambda q: pyehl.Case.from_text("", [], 3), "expected a path"),
     "read None": (lambda q: pyehl.Case.read(None), "expected a path, not NoneType"),
     "read zero byte": (lambda q: pyehl.Case.read("a\0b"), "zero byte"),
-    "read number": (lambda q: pyehl.Case.read(q, 65), "expected texts group.key=value, not int"),
-    "read dict": (lambda q: pyehl.Case.read(q, {"grid.points": 65}), "not dict"),
+    "read number": (
+        lambda q: pyehl.Case.read(q, 65),
+        "or a dict of values by group.key, not int",
+    ),
+    "read dict": (lambda q: pyehl.Case.read(q, {"grid.pionts": 65}), "'points'"),
+    "read nested": (
+        lambda q: pyehl.Case.read(q, {"grid": {"points": 65}}),
+        "grid = {'points': 65}",
+    ),
+    "read key": (lambda q: pyehl.Case.read(q, {3: 65}), "options = 3"),
+    "read array": (lambda q: pyehl.Case.read(q, {"grid.points": np.ones(2)}), "not ndarray"),
+    "case group": (lambda q: pyehl.Case(gird={"points": 65}), "did you mean 'grid'"),
+    "case key": (lambda q: pyehl.Case(contact={"laod": 65.0}), "did you mean 'load'"),
+    "case value": (lambda q: pyehl.Case(grid={"points": None}), "grid.points = None"),
+    "case number": (lambda q: pyehl.Case(grid=65), "grid = 65: expected values by key"),
     "read list": (lambda q: pyehl.Case.read(q, [SMALL, 3]), "options = 3"),
     "read bytes": (lambda q: pyehl.Case.read(q, b"grid.points=65"), "not bytes"),
     "read lines": (lambda q: pyehl.Case.read(q, f"{SMALL}\n"), "more than one line"),
@@ -134,6 +148,17 @@ def test_faults_of_the_package_stay_what_they_are(cases: Path, monkeypatch):
     with pytest.raises(ValueError, match="a fault") as caught:
         pyehl.predict(cases / "table1.nml")
     assert not isinstance(caught.value, pyehl.EhlError)
+    # neither by a function nor by a command is it called bad input
+    for name, words in (
+        ("prediction.of_case.predict", ["predict", "-o", "out"]),
+        ("prediction.film_sheet.sheet", ["film"]),
+        ("studies.stribeck.central_film", ["stribeck", "--speed", "1", "-o", "out"]),
+        ("commands.surface.from_settings", ["surface"]),
+    ):
+        monkeypatch.setattr(f"pyehl.{name}", broken)
+        with pytest.raises(ValueError, match="a fault") as caught:
+            cli.main([words[0], str(cases / "table1.nml"), *words[1:]])
+        assert not isinstance(caught.value, pyehl.EhlError)
     monkeypatch.setattr("pyehl.solver.for_solver", broken)
     with pytest.raises(ValueError, match="a fault") as caught:
         pyehl.Solver(cases / "quick.nml")

@@ -22,7 +22,7 @@ LAYERS = [
     ["handle"],
     ["results"],
     ["plots"],
-    ["prediction", "export"],
+    ["prediction", "netcdf"],
     ["solver", "progress"],
     ["run"],
     ["api"],

@@ -13,7 +13,7 @@ from PIL import Image
 
 import pyehl
 from pyehl import cli, results
-from pyehl.export import export
+from pyehl.netcdf import export
 from pyehl.plots import transient
 from pyehl.plots.figures import solution_figures
 from pyehl.plots.style import new_figure

@@ -91,6 +91,6 @@ def wave():
     def make(height, wavelength, n=32):
         x = np.arange(n) / n
         z = np.outer(height * np.cos(2 * np.pi * x), np.ones(n))
-        return surfaces.Topography(z, wavelength, wavelength)
+        return surfaces.Topography(z, (wavelength, wavelength))
 
     return make

@@ -64,7 +64,7 @@ def wave(length, amplitude):
 def test_cut_off_that_carries_is_found():
     """Two waves: the long one fits into the film, the short one does not."""
     short = LENGTH / 32
-    tile = Topography(wave(LENGTH / 4, 0.5) + wave(short, 1.0), LENGTH, LENGTH)
+    tile = Topography(wave(LENGTH / 4, 0.5) + wave(short, 1.0), (LENGTH, LENGTH))
 
     def carries(other):
         return np.abs(other.heights).max() < 0.8
@@ -81,7 +81,7 @@ def test_threshold_that_carries_is_found():
     away[3, 4], away[5, 6], away[7, 8] = 1000.0, 300.0, 40.0
 
     def without(threshold):
-        return Topography(np.where(away > threshold, 0.0, away), 1e-4, 1e-4)
+        return Topography(np.where(away > threshold, 0.0, away), (1e-4, 1e-4))
 
     found = carrying_outliers(away, without, lambda tile: tile.heights.max() < 100.0)
     assert found is not None
@@ -143,7 +143,7 @@ def test_film_breakdown_says_where_and_what_would_carry(scan):
 def test_what_would_carry_has_a_known_error():
     """A film that is full is not enough, where the friction over it is beyond the model."""
     z = np.zeros((8, 8))
-    tile = Topography(z, LENGTH, LENGTH)
+    tile = Topography(z, (LENGTH, LENGTH))
     asked = []
 
     def advice(limit):
@@ -152,7 +152,7 @@ def test_what_would_carry_has_a_known_error():
             lambda other: other.heights - other.length_x,
             1e-4,
             flat(1e-7),
-            lambda other, shortest: Topography(other.heights, shortest, LENGTH),
+            lambda other, shortest: Topography(other.heights, (shortest, LENGTH)),
             known=lambda other: asked.append(other.length_x) or other.length_x > limit,
         )
 
@@ -203,7 +203,7 @@ def test_track_is_the_line_that_passes_the_centre(settings):
 
 @pytest.mark.parametrize("kind", ["sharp", "gaussian"])
 def test_filter_halves_or_cuts(kind):
-    tile = Topography(wave(LENGTH / 8, 1.0) + wave(LENGTH / 64, 1.0), LENGTH, LENGTH)
+    tile = Topography(wave(LENGTH / 8, 1.0) + wave(LENGTH / 64, 1.0), (LENGTH, LENGTH))
     at = LENGTH / 16
     left = np.abs(surfaces.spectrum(filtered(tile, at, 0.0, kind)))[[8, 64], 0] * 2
     right = np.abs(surfaces.spectrum(filtered(tile, 0.0, at, kind)))[[8, 64], 0] * 2

@@ -71,7 +71,7 @@ def test_large_surface_keeps_its_seed():
 
 def tile(seed: int = 3, pixels: tuple[int, int] = (48, 35)) -> Topography:
     z = np.random.default_rng(seed).standard_normal(pixels)
-    return Topography(z - z.mean(), *LENGTH)
+    return Topography(z - z.mean(), LENGTH)
 
 
 def transmitted(before: Topography, after: Topography) -> tuple[np.ndarray, np.ndarray]:
@@ -114,7 +114,7 @@ def test_gaussian_cut_is_that_of_iso_16610(shortest: float, longest: float):
 
 def test_half_passes_at_the_cut_off():
     x = np.arange(64) / 64
-    wave = Topography(np.outer(np.cos(2.0 * np.pi * 4 * x), np.ones(16)), 1e-3, 1e-3)
+    wave = Topography(np.outer(np.cos(2.0 * np.pi * 4 * x), np.ones(16)), (1e-3, 1e-3))
     for limits in ((2.5e-4, 0.0), (0.0, 2.5e-4)):
         after = surfaces.filtered(wave, *limits, "gaussian")
         assert after.heights == pytest.approx(0.5 * wave.heights, abs=1e-14)

@@ -137,7 +137,7 @@ def test_eyring_friction_of_table_1():
         assert solver.run()
         s = solver.summary()
     # a semi-ellipse of pressure and a uniform film: the rim is thinner, the inlet carries too
-    flat = Topography(np.zeros((64, 64)), 8.29e-4, 8.29e-4)
+    flat = Topography(np.zeros((64, 64)), (8.29e-4, 8.29e-4))
     oil = Lubricant(shear=ShearLaw("eyring"))
     uniform = predict_friction(flat, OperatingPoint(), oil, s["h_c_m"])
     assert s["mu"] == pytest.approx(uniform.mu_smooth, rel=0.02)

@@ -10,7 +10,6 @@ import pytest
 from matplotlib import pyplot
 
 from pyehl import cli, reference
-from pyehl.commands.predict import draw
 from pyehl.plots import contact, figures, folder, style, surface, transient
 from pyehl.prediction.folder import destination, write
 from pyehl.prediction.of_case import predict
@@ -220,7 +219,7 @@ def test_subcommand_at_other_resolutions_and_formats(settings, tmp_path, capsys)
 
 def test_subcommand_on_a_prediction_that_failed(settings, tmp_path):
     settings["psd"]["film_thickness"] = 1e-8
-    write(predict(settings), destination(tmp_path / "out"), draw=draw)
+    write(predict(settings), destination(tmp_path / "out"), plots=True)
     assert run_subcommand(tmp_path / "out") == 0
     assert not (tmp_path / "out" / "passage.png").exists()
 

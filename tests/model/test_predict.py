@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from pyehl import InputError
+from pyehl import FileError, InputError
 from pyehl.commands import film as film_command
 from pyehl.commands import predict as predict_command
 from pyehl.prediction.folder import destination, write
@@ -73,7 +73,7 @@ def test_harmonic_amplitude_is_a_share_of_the_film(settings):
 @pytest.fixture
 def folder(settings, tmp_path):
     target = tmp_path / "deep" / "out"
-    write(predict(settings), destination(target), draw=predict_command.draw)
+    write(predict(settings), destination(target), plots=True)
     return target
 
 
@@ -107,6 +107,7 @@ def test_folder_holds_the_data(folder, settings):
     assert data.bands_rise.dims == ("bands",)
     times = [one.attrs.pop("wall_seconds") for one in (data, again)]
     assert all(time > 0.0 for time in times)
+    data, again = (one.drop_vars("wall_seconds") for one in (data, again))
     xr.testing.assert_identical(data, again)
 
 
@@ -127,14 +128,15 @@ def test_other_folders_are_left_alone(settings, tmp_path):
     assert [p.name for p in tmp_path.iterdir()] == ["thesis.tex"]
 
 
-def test_failed_write_leaves_the_old_result(folder, settings):
+def test_failed_write_leaves_the_old_result(folder, settings, monkeypatch):
     before = (folder / "summary.json").read_text()
 
     def fail(*_):
         raise OSError("disk full")
 
+    monkeypatch.setattr("pyehl.plots.folder.save_all", fail)
     with pytest.raises(OSError, match="disk full"):
-        write(predict(settings), destination(folder), draw=fail)
+        write(predict(settings), destination(folder), plots=True)
     assert (folder / "summary.json").read_text() == before
     assert [p.name for p in folder.parent.iterdir()] == ["out"]
 
@@ -147,14 +149,13 @@ def command(settings, monkeypatch, tmp_path):
         text = "&surface\n kind = 'fractal'\n/\n"
 
         @classmethod
-        def read(cls, path, options=()):
+        def of(cls, case, *options):
             return cls()
 
         def resolve(self):
             return settings
 
-    for module in (predict_command, film_command):
-        monkeypatch.setattr(module, "Case", Case)
+    monkeypatch.setattr("pyehl.api.Case", Case)
 
     def run(execute, **arguments):
         defaults = {
@@ -182,7 +183,7 @@ def test_subcommand_reports_bad_input(command, settings, tmp_path):
     with pytest.raises(InputError, match=r"a\.nml: surface\.kind"):
         command(predict_command.execute)
     settings["surface"] |= {"kind": "map", "file": str(tmp_path / "none.npy")}
-    with pytest.raises(InputError, match=r"none\.npy"):
+    with pytest.raises(FileError, match=r"none\.npy"):
         command(predict_command.execute)
     assert not (tmp_path / "out").exists()
 
@@ -201,4 +202,5 @@ def test_film_command(command, capsys, settings):
     assert command(film_command.execute, json=True) == 0
     assert json.loads(capsys.readouterr().out)["moes_m"] == pytest.approx(1000.0, rel=1e-4)
     settings["surface"] |= {"kind": "map", "file": "none.npy"}
-    assert command(film_command.execute, json=True) == 2
+    with pytest.raises(FileError, match=r"none\.npy"):
+        command(film_command.execute, json=True)

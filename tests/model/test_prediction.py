@@ -45,7 +45,7 @@ def test_smooth_contact_is_that_of_a_fine_grid(contact):
 
 
 def test_no_roughness_no_change(contact, table_1):
-    flat = Topography(1e-9 * table_1(pixels=64).heights, 8.29e-4, 8.29e-4)
+    flat = Topography(1e-9 * table_1(pixels=64).heights, (8.29e-4, 8.29e-4))
     friction, tracks, bands = passage(contact, flat).run()
     assert friction.mu_ratio == pytest.approx(1.0, abs=1e-7)
     assert tracks[0] == pytest.approx(1.0, abs=1e-7)
@@ -98,8 +98,8 @@ def test_slip_turns_the_free_wave(contact, table_1):
 def test_a_surface_in_motion_and_its_mirror_image(contact, table_1):
     """A contact is symmetric in Y."""
     z = table_1(seed=3).heights
-    mirrored = Topography(np.roll(z[:, ::-1], 1, axis=1), 8.29e-4, 8.29e-4)
-    both = [passage(contact, Topography(h, 8.29e-4, 8.29e-4)).run(1)[0].mu_ratio for h in (z,)]
+    mirrored = Topography(np.roll(z[:, ::-1], 1, axis=1), (8.29e-4, 8.29e-4))
+    both = [passage(contact, Topography(h, (8.29e-4, 8.29e-4))).run(1)[0].mu_ratio for h in (z,)]
     both.append(passage(contact, mirrored).run(1)[0].mu_ratio)
     assert both[0] == pytest.approx(both[1], rel=1e-5)
 
@@ -115,7 +115,7 @@ def test_table_is_fine_enough(contact, table_1, monkeypatch):
 
 
 def test_film_breakdown_has_no_ratio(contact, table_1):
-    high = Topography(12.0 * table_1().heights, 8.29e-4, 8.29e-4)
+    high = Topography(12.0 * table_1().heights, (8.29e-4, 8.29e-4))
     friction, tracks, bands = passage(contact, high).run()
     assert friction.status == "film breakdown"
     assert np.isnan(friction.mu_ratio)

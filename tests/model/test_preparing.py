@@ -191,7 +191,7 @@ def test_mirroring_lets_the_spectrum_fall():
     x, _ = axes((64, 64))
     above = []
     for tile in (x, mirrored(x)):
-        q, c = surfaces.psd_isotropic(Topography(1e-6 * (tile - tile.mean()), 1e-4, 1e-4))
+        q, c = surfaces.psd_isotropic(Topography(1e-6 * (tile - tile.mean()), (1e-4, 1e-4)))
         above.append(c[q > q[-1] / 4].sum())
     assert above[1] < 0.05 * above[0]
 
@@ -329,7 +329,7 @@ def test_extent_leaves_out_what_is_missing():
 def test_written_tiles_are_read_as_they_are(tmp_path, suffix):
     if suffix == ".nc":
         pytest.importorskip("SurfaceTopography")
-    tile = Topography(rough(), 64e-6, 48e-6, "made here")
+    tile = Topography(rough(), (64e-6, 48e-6), "made here")
     path = write_map(tile, tmp_path / f"tile{suffix}")
     sizes = (64e-6, 48e-6) if suffix == ".npy" else (None, None)
     back = surfaces.read_map(path, *sizes)
@@ -342,7 +342,7 @@ def test_written_tiles_are_read_as_they_are(tmp_path, suffix):
 def test_netcdf_for_xarray(tmp_path):
     import xarray as xr
 
-    tile = Topography(rough(), 64e-6, 48e-6, "made here")
+    tile = Topography(rough(), (64e-6, 48e-6), "made here")
     data = xr.load_dataset(write_map(tile, tmp_path / "tile.nc"), engine="scipy")
     assert data.heights.dims == ("x", "y")
     assert np.array_equal(data.heights.values, tile.heights)
@@ -352,5 +352,5 @@ def test_netcdf_for_xarray(tmp_path):
 
 def test_unknown_suffix(tmp_path):
     with pytest.raises(ValueError, match=r"\.npy, \.txt, \.nc"):
-        write_map(Topography(rough(), 1e-4, 1e-4), tmp_path / "tile.x3p")
+        write_map(Topography(rough(), (1e-4, 1e-4)), tmp_path / "tile.x3p")
     assert not list(tmp_path.iterdir())

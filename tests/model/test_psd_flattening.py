@@ -127,7 +127,7 @@ def test_response_keeps_phases(table_1):
 
 def test_response_is_linear_and_without_mean(table_1):
     a, b = table_1(1, 64), table_1(2, 64)
-    both = Topography(a.heights - 2 * b.heights + 3e-7, LENGTH, LENGTH)
+    both = Topography(a.heights - 2 * b.heights + 3e-7, (LENGTH, LENGTH))
     expected = response(a, POINT).pressure - 2 * response(b, POINT).pressure
     assert response(both, POINT).pressure == pytest.approx(expected, abs=1e-2)
     assert abs(response(both, POINT).deformed.mean()) < 1e-20

@@ -24,7 +24,7 @@ LENGTH = 8.29e-4
 
 
 def test_smooth_surface_changes_nothing():
-    flat = Topography(np.zeros((32, 32)), LENGTH, LENGTH)
+    flat = Topography(np.zeros((32, 32)), (LENGTH, LENGTH))
     result = predict_friction(flat, POINT, ROELANDS, FILM)
     assert result.status == "predicted"
     assert (result.mu_ratio, result.mu_ratio_min, result.mu_ratio_max) == pytest.approx((1, 1, 1))
@@ -51,7 +51,7 @@ def test_waves_along_the_motion_against_quadrature(wave):
     """They do not change as they pass; Roelands, integrated by a routine of its own."""
     wavelength, height = 1e-4, 2e-8
     z = wave(height, wavelength, 64).heights.T.copy()
-    rough = Topography(z, wavelength, wavelength)
+    rough = Topography(z, (wavelength, wavelength))
     field = response(rough, POINT)
     dp, ad = field.pressure.max(), field.deformed.max()
     a, k = POINT.hertz_radius, 2 * math.pi / wavelength
@@ -168,7 +168,7 @@ def test_load_balance_follows_hertz():
     n, side = 128, 40 * POINT.hertz_radius
     x = np.arange(n) / n
     hill = np.outer(np.cos(2 * np.pi * x), np.cos(2 * np.pi * x)) * 4e-6
-    rough = Topography(hill, side, side)
+    rough = Topography(hill, (side, side))
     options = Options(load_balance=True, positions=8)
     held = predict_friction(rough, POINT, ROELANDS, FILM, options)
     field = response(rough, POINT, options)

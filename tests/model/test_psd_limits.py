@@ -29,7 +29,7 @@ def test_film_breakdown_is_said(wave):
 
 
 def test_cavitation_is_counted(table_1):
-    rough = Topography(4 * table_1().heights, LENGTH, LENGTH)
+    rough = Topography(4 * table_1().heights, (LENGTH, LENGTH))
     result = predict_friction(rough, POINT, ROELANDS, 4 * FILM)
     assert result.status == "predicted"
     assert 1e-4 < result.cavitated_share < 0.2
@@ -48,7 +48,7 @@ def test_lost_load_is_said():
     n, side = 64, 40 * POINT.hertz_radius
     x = np.arange(n) / n
     hill = np.outer(np.cos(2 * np.pi * x), np.cos(2 * np.pi * x)) * 2e-4
-    rough = Topography(hill, side, side)
+    rough = Topography(hill, (side, side))
     result = predict_friction(rough, POINT, ROELANDS, 1e-3, Options(load_balance=True))
     assert result.status == "load lost"
     assert math.isnan(result.mu_ratio)

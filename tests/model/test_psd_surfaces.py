@@ -81,7 +81,7 @@ def test_rise_over_all_tracks_is_quadratic_in_the_height(table_1):
     z = table_1(pixels=128).heights
     means, spreads = zip(
         *(
-            over_tracks(Topography(scale * z, LENGTH, LENGTH), POINT, ROELANDS, FILM)
+            over_tracks(Topography(scale * z, (LENGTH, LENGTH)), POINT, ROELANDS, FILM)
             for scale in (0.05, 0.1)
         ),
         strict=True,

@@ -81,7 +81,7 @@ SEED_1 = [53.317731223836276, 70.71845534031979, 61.23745140304537, 66.338933557
 @pytest.mark.parametrize("pixels", [(32, 32), (33, 31), (20, 45)])
 def test_parseval_in_square_metres(pixels):
     z = np.random.default_rng(7).normal(3e-8, 2e-8, pixels)
-    rough = Topography(z, 1e-4, 3e-4)
+    rough = Topography(z, (1e-4, 3e-4))
     _, _, c2d = surfaces.psd_2d(rough)
     mean_square = np.mean((z - z.mean()) ** 2)
     assert c2d.sum() / (1e-4 * 3e-4) == pytest.approx(mean_square, rel=1e-13)
@@ -100,7 +100,7 @@ def test_psd_of_one_cosine():
     nx, amplitude, length = 32, 2e-8, 1e-3
     x = np.arange(nx) / nx
     z = np.outer(amplitude * np.cos(2 * np.pi * 3 * x), np.ones(nx))
-    qx, qy, c2d = surfaces.psd_2d(Topography(z, length, length))
+    qx, qy, c2d = surfaces.psd_2d(Topography(z, (length, length)))
     i, j = np.unravel_index(np.argmax(c2d), c2d.shape)
     assert abs(qx[i]) == pytest.approx(3 * 2 * np.pi / length)
     assert qy[j] == 0.0
@@ -143,7 +143,7 @@ def test_shift_of_a_wave_is_analytic(s):
     x = np.arange(n) * length / n
     k = 2 * np.pi / length
     z = np.outer(np.cos(3 * k * x), np.sin(2 * k * x))
-    moved = surfaces.shifted(Topography(z, length, length), s, 2 * s).heights
+    moved = surfaces.shifted(Topography(z, (length, length)), s, 2 * s).heights
     expected = np.outer(np.cos(3 * k * (x - s)), np.sin(2 * k * (x - 2 * s)))
     assert moved == pytest.approx(expected, abs=1e-12)
 
@@ -152,7 +152,7 @@ def test_nyquist_component_stands():
     n, length = 8, 1.0
     z = np.outer((-1.0) ** np.arange(n), np.ones(n))
     for fraction in (0.25, 0.5):
-        moved = surfaces.shifted(Topography(z, length, length), fraction * length / n).heights
+        moved = surfaces.shifted(Topography(z, (length, length)), fraction * length / n).heights
         assert moved == pytest.approx(z * np.cos(np.pi * fraction), abs=1e-14)
 
 
@@ -172,7 +172,7 @@ def test_resampled_passes_through_the_heights(shape, finer):
 def test_resampled_wave_is_analytic():
     n, m = 12, 31
     z = np.outer(np.cos(2 * np.pi * 2 * np.arange(n) / n), np.ones(n))
-    fine = surfaces.resampled(Topography(z, 1.0, 1.0), (m, n)).heights
+    fine = surfaces.resampled(Topography(z, (1.0, 1.0)), (m, n)).heights
     assert fine[:, 0] == pytest.approx(np.cos(2 * np.pi * 2 * np.arange(m) / m), abs=1e-13)
 
 
@@ -305,4 +305,4 @@ def test_fractal_refuses(changes, message):
 
 def test_topography_refuses():
     with pytest.raises(ValueError, match="length_y"):
-        Topography(np.zeros((4, 4)), 1.0, 0.0)
+        Topography(np.zeros((4, 4)), (1.0, 0.0))

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from pyehl import InputError
+from pyehl.given import option
 from pyehl.studies.study import Study, make
 from pyehl.studies.study_file import read_study
-from pyehl.studies.vary import axis, option, parse_axis
+from pyehl.studies.vary import axis, parse_axis
 
 
 @pytest.mark.parametrize(

@@ -41,7 +41,7 @@ def surface(row: dict[str, Any]) -> Topography:
     qx, qy = wavenumbers(tile)
     keep = np.hypot(qx, qy) * row["shortest_wavelength"] <= 2.0 * np.pi * (1.0 + 1e-9)
     heights = scipy.fft.irfft2(scipy.fft.rfft2(tile.heights) * keep, s=tile.shape)
-    return Topography(np.asarray(heights), tile.length_x, tile.length_y)
+    return Topography(np.asarray(heights), tile.size)
 
 
 def case(row: dict[str, Any]) -> pyehl.Case:

@@ -14,6 +14,7 @@ import xarray as xr
 
 from pyehl import results
 from pyehl.destination import check_files, mark, new_file
+from pyehl.given import path_of
 
 __all__ = ["export", "write_netcdf"]
 
@@ -42,9 +43,20 @@ def export(folder: str | os.PathLike[str], path: str | os.PathLike[str] | None =
         If `folder` is not a result folder, or another file is in the way.
     FileError
         If the file cannot be written.
+
+    Examples
+    --------
+    >>> import pyehl
+    >>> solved = pyehl.solve("cases/quick.nml", {"grid.points": 65}, output="out/exported")
+    >>> pyehl.export("out/exported").name
+    'results.nc'
     """
     data = results.load(folder)
-    path = Path(folder) / "results.nc" if path is None else Path(path)
+    path = (
+        Path(path_of(folder, "folder")) / "results.nc"
+        if path is None
+        else Path(path_of(path, "path"))
+    )
     check_files([path], "export")
     data = data.drop_vars([name for name in data.variables if data[name].size == 0])
     data = data.transpose(*reversed(list(data.dims)))

@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Run the tasks of a Stribeck curve and write its table."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from pyehl.case import Case
+from pyehl.destination import Destination
+from pyehl.errors import InputError
+from pyehl.given import Option, check_kind, options_of, path_of
+from pyehl.netcdf import write_netcdf
+from pyehl.studies.curve import curve_rows
+from pyehl.studies.curve_table import curve_dataset, write_csv
+from pyehl.studies.gather import Outcome, Watcher, gather
+from pyehl.studies.journal import NAME
+from pyehl.studies.stribeck import KEYS, CurvePlan, plan_curve
+from pyehl.studies.vary import Axis, axis
+
+__all__ = ["CSV", "NETCDF", "PICTURE", "axes_of", "perform", "stribeck"]
+
+CSV, NETCDF, PICTURE = "stribeck.csv", "stribeck.nc", "stribeck.png"
+FILES = (CSV, NETCDF, PICTURE)
+
+
+def axes_of(values: Mapping[str, Any]) -> list[Axis]:
+    """Give what a curve goes over, from values by the names of `KEYS`; None for what it does not.
+
+    Raises
+    ------
+    InputError
+        If there is nothing, or values are no numbers.
+    """
+    axes = [axis(key, values[name]) for name, key in KEYS.items() if values[name] is not None]
+    if not axes:
+        options = ", ".join(f"--{name}" for name in KEYS)
+        raise InputError(f"pyehl stribeck: expected at least one of {options}")
+    return axes
+
+
+def perform(
+    plan: CurvePlan,
+    folder: str | os.PathLike[str],
+    *,
+    inputs: Iterable[str | os.PathLike[str]] = (),
+    jobs: int = 0,
+    scheduler: str = "",
+    force: bool = False,
+    watcher: Watcher | None = None,
+) -> tuple[Outcome, list[dict[str, Any]]]:
+    """Run what is missing of a curve, and write its table; returns its rows, too.
+
+    Parameters
+    ----------
+    plan
+        The curve.
+    folder
+        Gets ``journal.jsonl``, ``stribeck.csv`` and ``stribeck.nc``.
+    inputs
+        Files that the curve is made of, which must not be replaced.
+    jobs, scheduler, watcher
+        As `gather`.
+    force
+        Other files may be in the folder; they stay.
+
+    Raises
+    ------
+    InputError
+        If the folder holds another curve or something else, or is in use.
+    FileError
+        If it cannot be written.
+    """
+    folder, inputs = Path(folder), tuple(inputs)
+    if {os.path.realpath(folder / name) for name in FILES} & set(map(os.path.realpath, inputs)):
+        raise InputError(
+            f"{folder}: error: this command reads a file of it\nexpected: another folder"
+        )
+    outcome = gather(
+        plan.tasks,
+        folder,
+        plan.identity(),
+        jobs=jobs,
+        scheduler=scheduler,
+        place=Destination(folder, "stribeck", (NAME, *FILES), inputs, force=force),
+        watcher=watcher,
+        write=lambda rows: write_csv(folder / CSV, plan, curve_rows(plan, rows)),
+    )
+    rows = curve_rows(plan, outcome.rows)
+    write_netcdf(folder / NETCDF, curve_dataset(plan, rows))
+    return outcome, rows
+
+
+def stribeck(
+    case: Case | str | os.PathLike[str],
+    *options: Option,
+    speed: Any = None,  # noqa: ANN401
+    viscosity: Any = None,  # noqa: ANN401
+    load: Any = None,  # noqa: ANN401
+    temperature: Any = None,  # noqa: ANN401
+    slide_to_roll: Any = None,  # noqa: ANN401
+    ehl: int = 0,
+    surfaces: int = 1,
+    output: str | os.PathLike[str] | None = None,
+    force: bool = False,
+    jobs: int = 0,
+    scheduler: str = "",
+) -> xr.Dataset:
+    """Compute friction over speed, viscosity, load, temperature or slide-to-roll ratio.
+
+    At each point the smooth contact is solved and the friction of the roughness predicted.
+
+    Parameters
+    ----------
+    case
+        A case in SI units, or the path of a case file.
+    *options
+        Values that replace those of the case: dicts, or texts ``group.key=value``.
+    speed, viscosity, load, temperature, slide_to_roll
+        Values of contact.mean_velocity [m/s], lubricant.viscosity [Pa s], contact.load [N],
+        lubricant.temperature [degC], contact.slide_to_roll [-]: a sequence, or a text as behind
+        ``pyehl stribeck --speed``. Every value of one meets those of the others.
+    ehl
+        Points at which the passage of the surface is solved in full.
+    surfaces
+        Surfaces at each point: of the seed of the case and those that follow.
+    output
+        Folder for journal and table, from which an interrupted curve is resumed; None: nothing is
+        kept on disk.
+    force
+        Other files may be in that folder; they stay.
+    jobs
+        Worker processes; 0: as many as processors.
+    scheduler
+        Address of a dask scheduler (extra ``cluster``), whose workers are used instead.
+
+    Returns
+    -------
+    xarray.Dataset
+        Its dimensions are what the curve goes over; columns as in ``stribeck.csv`` with units,
+        NaN where there is no number; ``status`` says what holds at each point.
+
+    Raises
+    ------
+    InputError
+        If any case is not acceptable (nothing runs then), or `output` holds something else.
+    KeyboardInterrupt
+        If it was interrupted; `output` has all that was finished.
+
+    Examples
+    --------
+    >>> import pyehl
+    >>> ds = pyehl.stribeck("cases/table1.nml", {"grid.points": 129}, speed=[0.6, 1.2], jobs=1)
+    >>> ds.mu_ratio.dims, ds.status.values.tolist()
+    (('contact.mean_velocity',), ['full film', 'full film'])
+    >>> bool(ds.h_c_m[0] < ds.h_c_m[1]), ds.h_c_m.attrs["units"]
+    (True, 'm')
+    """
+    for name, count in (("ehl", ehl), ("surfaces", surfaces), ("jobs", jobs)):
+        check_kind(count, int, name, "a whole number")
+    if jobs < 0:
+        raise InputError(f"jobs = {jobs}: expected a number of worker processes")
+    values = {
+        "speed": speed,
+        "viscosity": viscosity,
+        "load": load,
+        "temperature": temperature,
+        "slide-to-roll": slide_to_roll,
+    }
+    given = options_of(options)
+    plan = plan_curve(case, axes_of(values), options=given, ehl=ehl, seeds=surfaces)
+    inputs = () if isinstance(case, Case) else (path_of(case, "case"),)
+    with tempfile.TemporaryDirectory(prefix="pyehl-") as place:
+        folder = place if output is None else path_of(output, "output")
+        outcome, rows = perform(
+            plan, folder, inputs=inputs, jobs=jobs, scheduler=scheduler, force=force
+        )
+    if outcome.interrupted:
+        raise KeyboardInterrupt
+    return curve_dataset(plan, rows)

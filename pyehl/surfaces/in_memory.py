@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A surface that a caller has in memory, in place of that of a case."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from pyehl.errors import InputError
+from pyehl.given import heights_of
+from pyehl.surfaces.tile import Topography
+
+__all__ = ["READY", "Surface", "as_map", "in_memory", "keep_beside"]
+
+Surface = Topography | ArrayLike
+"""A tile, or heights [m] of shape (nx, ny) that have the size that the case says."""
+
+IN_MEMORY = "heights in memory"
+READY: Mapping[str, Any] = {
+    "surface.kind": "map",
+    "surface.channel": "''",
+    "surface.detrend": "none",
+    "surface.edges": "periodic",
+    "surface.outliers": 0.0,
+    "surface.rotate": 0.0,
+    "surface.sign": 1,
+    "surface.crop_x_min": 0.0,
+    "surface.crop_x_max": 0.0,
+    "surface.crop_y_min": 0.0,
+    "surface.crop_y_max": 0.0,
+    "surface.tile_x": 0.0,
+    "surface.tile_y": 0.0,
+    "surface.tile_mirrored": False,
+}
+"""Options of a tile that is ready: nothing is left to prepare."""
+
+
+def in_memory(surface: Surface, group: Mapping[str, Any]) -> Topography:
+    """Give a surface about its mean, of an array with the size in the group ``surface``.
+
+    Raises
+    ------
+    InputError
+        If it is none of heights, or the case does not say its size.
+    """
+    if not isinstance(surface, Topography):
+        heights = heights_of(surface)
+        size = tuple(float(group.get(f"tile_{k}") or group.get(f"length_{k}") or 0.0) for k in "xy")
+        if group["kind"] not in ("map", "fractal") or not all(size):
+            raise InputError(
+                "heights are given, and the case does not say their size\n"
+                "expected: surface.kind = 'map' or 'fractal' with surface.length_x and length_y, "
+                "or pyehl.Topography(heights, size)"
+            )
+        surface = Topography(heights, (size[0], size[1]))
+    heights = surface.heights - surface.heights.mean()
+    return replace(surface, heights=heights, origin=surface.origin or IN_MEMORY)
+
+
+def as_map(tile: Topography) -> dict[str, Any]:
+    """Options of a case with a tile in memory; they leave its track and the cut of its spectrum."""
+    length_x, length_y = tile.size
+    return {
+        **READY,
+        "surface.file": IN_MEMORY,
+        "surface.tile_x": length_x,
+        "surface.tile_y": length_y,
+        "surface.length_x": length_x,
+        "surface.length_y": length_y,
+    }
+
+
+def keep_beside(tile: Topography, case: Path) -> str:
+    """Write a tile beside a resolved case, which then names it; returns the name of the file."""
+    name = "surface.npy"
+    np.save(case.with_name(name), tile.heights)
+    text = case.read_text(encoding="utf-8")
+    changed = re.sub(rf"^(\s*file = )'.*{IN_MEMORY}'", rf"\1'{name}'", text, flags=re.MULTILINE)
+    case.write_text(changed, encoding="utf-8")
+    return name
