@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The domain that an operating point gets, and what it costs."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import pytest
+
+from pyehl import Case, Solver
+
+PAPER = {"x_inlet": -2.5, "x_outlet": 1.5, "y_extent": 2.0}
+
+
+def case_of(moes_m: float, moes_l: float, points: int, **domain: float) -> Case:
+    values = {"contact.moes_m": moes_m, "contact.moes_l": moes_l, "grid.points": points}
+    return Case.from_text("", values | {f"grid.{key}": value for key, value in domain.items()})
+
+
+def domain_of(case: Case) -> dict[str, float]:
+    return {key: case.resolve()["grid"][key] for key in PAPER}
+
+
+def solved(case: Case) -> dict:
+    with Solver(case) as solver:
+        assert solver.run(), solver.summary()["status"]
+        return solver.summary()
+
+
+@pytest.mark.parametrize(
+    ("moes_m", "moes_l", "points"),
+    [
+        *((0.3, 5.0, 65), (1.0, 0.0, 65), (3.0, 10.0, 129), (12.0, 5.0, 129), (20.0, 10.0, 129)),
+        *((20.0, 25.0, 129), (60.0, 0.0, 129), (150.0, 20.0, 129), (350.0, 12.0, 129)),
+        *((450.0, 10.0, 129), (500.0, 10.0, 129), (1500.0, 15.0, 257)),
+    ],
+)
+def test_stated_error_covers_a_domain_twice_as_large(moes_m: float, moes_l: float, points: int):
+    """On the same meshes, so that the grid error is the same."""
+    case = case_of(moes_m, moes_l, points)
+    doubled = {key: 2.0 * value for key, value in domain_of(case).items()}
+    here, wide = solved(case), solved(case_of(moes_m, moes_l, 2 * points - 1, **doubled))
+    for name in ("H_c", "H_min"):
+        assert abs(here[name] - wide[name]) <= here[f"{name}_error"]
+        parts = here[f"{name}_error_grid"] + here[f"{name}_error_domain"]
+        assert here[f"{name}_error"] == pytest.approx(parts, rel=1e-12)
+    assert abs(here["H_c"] - wide["H_c"]) <= here["H_c_error_domain"]
+    if 10.0 <= moes_m <= 400.0:
+        assert 1.0 - here["H_c"] / wide["H_c"] <= 0.002
+
+
+def test_from_500_on_it_is_that_of_the_paper():
+    for moes_m, moes_l in ((500.0, 0.0), (500.0, 25.0), (5000.0, 10.0)):
+        assert domain_of(case_of(moes_m, moes_l, 65)) == PAPER
+    assert domain_of(case_of(499.9, 25.0, 65))["x_inlet"] > -3.0
+    # and below it grows steadily
+    inlets = [domain_of(case_of(m, 10.0, 65))["x_inlet"] for m in (5, 20, 80, 200, 380, 420, 480)]
+    assert inlets == sorted(inlets)
+    # X = 0 is a node of the coarse grids
+    for moes_m in (0.2, 5.0, 20.0, 80.0, 200.0, 450.0):
+        found = domain_of(case_of(moes_m, 10.0, 65))
+        width = found["x_outlet"] - found["x_inlet"]
+        assert width == pytest.approx(2.0 * found["y_extent"])
+        assert 32.0 * found["x_inlet"] / width == pytest.approx(
+            round(32.0 * found["x_inlet"] / width)
+        )
+
+
+def test_a_key_overrides_its_border_alone():
+    usual = domain_of(case_of(100.0, 10.0, 65))
+    assert domain_of(case_of(100.0, 10.0, 65, x_inlet=-3.0)) == usual | {"x_inlet": -3.0}
+
+
+def test_starved_domain_says_so():
+    """At (20, 10) the domain of the paper takes 6 % of the film; the plan and the error know."""
+    starved = solved(case_of(20.0, 10.0, 257, **PAPER))
+    flooded = solved(case_of(20.0, 10.0, 257))
+    assert flooded["H_c_extrapolated"] == pytest.approx(0.4368, rel=3e-3)
+    missing = flooded["H_c_extrapolated"] - starved["H_c_extrapolated"]
+    assert missing > 0.05 * flooded["H_c_extrapolated"]
+    assert missing < starved["H_c_error_domain"] < 2.0 * missing
+    with Solver(case_of(20.0, 10.0, 257, **PAPER)) as solver:
+        assert "-2.5000 <= X <= 1.5000" in solver.describe()
+        assert " % of the film of a fully flooded contact" in solver.describe()
+
+
+def test_evidence_is_what_this_build_gives(root: Path):
+    """Three rows of docs/evidence/errors/smooth.csv, made anew."""
+    path = root / "docs" / "evidence" / "errors" / "smooth.csv"
+    with path.open(encoding="utf-8", newline="") as stream:
+        rows = [row for row in csv.DictReader(stream) if row["points"] in ("65", "129", "65.0")]
+    for row in (rows[0], rows[len(rows) // 2], rows[-1]):
+        found = solved(
+            case_of(float(row["moes_m"]), float(row["moes_l"]), int(float(row["points"])))
+        )
+        for name in ("H_c", "H_c_error", "H_min_error"):
+            # instructions of other processors round differently
+            assert found[name] == pytest.approx(float(row[name]), rel=1e-6)
