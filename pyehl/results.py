@@ -249,8 +249,9 @@ def load(folder: str | os.PathLike[str]) -> xr.Dataset:
     ((65, 65), 'converged', 0.059)
     """
     folder = Path(path_of(folder, "folder"))
-    if not (folder / "summary.json").is_file():
-        raise InputError(f"{folder}: not a result folder (there is no summary.json)")
+    for name in ("summary.json", "case.nml"):
+        if not (folder / name).is_file():
+            raise InputError(f"{folder}: not a result folder (there is no {name})")
     try:
         summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
         case = (folder / "case.nml").read_text(encoding="utf-8")

@@ -14,7 +14,7 @@ import pyehl
 grids = [65, 129, 257]
 runs = [pyehl.solve("../../cases/quick.nml", {"grid.points": n}) for n in grids]
 film = [float(ds.H_c) for ds in runs]
-error = [float(ds.H_c_error) for ds in runs]
+error = [float(ds.H_c_error_grid) for ds in runs]
 better = [float(ds.H_c_extrapolated) for ds in runs]
 
 # %%

@@ -92,11 +92,9 @@ contains
       type(steady_t), intent(in) :: steady
       integer, intent(in) :: n
       logical, intent(in) :: good
-      character(len=5), parameter :: names(2) = [character(len=5) :: "P_max", "F"]
       character(len=80) :: note
       real(dp) :: error(2)
       logical :: known(2)
-      integer :: k
 
       error = 0.0_dp
       note = "there is no solution"
@@ -115,13 +113,10 @@ contains
       associate (m => steady%results(n)%m)
          error = error + [m%pressure_maximum, m%friction]*plan%domain_cost(1) + [0.0_dp, friction_beyond]
       end associate
-      do k = 1, 2
-         if (known(k)) then
-            call record%set(trim(names(k))//"_error", error(k))
-         else
-            call record%set(trim(names(k))//"_error", ieee_value(error(k), ieee_quiet_nan))
-            call record%set(trim(names(k))//"_error_note", trim(note))
-         end if
-      end do
+      where (.not. known) error = ieee_value(error, ieee_quiet_nan)
+      call record%set("P_max_error", error(1))
+      if (.not. known(1)) call record%set("P_max_error_note", trim(note))
+      call record%set("F_error", error(2))
+      if (.not. known(2)) call record%set("F_error_note", trim(note))
    end subroutine report_limits
 end module ehl_report_smooth

@@ -83,7 +83,7 @@ def smooth_scene(points: int, repeats: int) -> list[Row]:
 
     def estimated() -> Values:
         values = solve(grid)
-        error = values["H_c_error"] - values["H_c_algebraic_error"]
+        error = values["H_c_error_grid"] - values["H_c_algebraic_error"]
         return values | {"coarser H_c": values["H_c"] - 3.0 * error}
 
     def coarser() -> Values:

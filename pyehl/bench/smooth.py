@@ -115,7 +115,7 @@ def smooth_rows(
                         "units": seconds / unit,
                         "unit_seconds": unit,
                         "H_c": summary["H_c"],
-                        "estimated_error": _over(summary["H_c_error"], summary["H_c"]),
+                        "estimated_error": _over(summary["H_c_error_grid"], summary["H_c"]),
                         "algebraic_error": _over(summary["H_c_algebraic_error"], summary["H_c"]),
                         "peak_megabytes": max(answer["peak_megabytes"] for answer in answers),
                     }

@@ -33,10 +33,10 @@ HIGHEST = 1.0
 UNKNOWN_ERROR = 0.03
 """Difference allowed where a result comes without an estimate of its error."""
 # What a result is, by the kind of scene, and the estimate of its error
-RESULTS = {"smooth": ("H_c", "H_c_error")}
+RESULTS = {"smooth": ("H_c", "H_c_error_grid")}
 KEPT = (
     *("status", "points", "restarts", "steps", "cycles_per_step", "cycles", "rough_cycles"),
-    *("amplitude", "H_c", "H_c_error", "H_min", "mu_ratio", "mu_ratio_error", "last_mu_ratio"),
+    *("amplitude", "H_c", "H_c_error_grid", "H_min", "mu_ratio", "mu_ratio_error", "last_mu_ratio"),
     *("mu_ratio_min", "mu_ratio_max", "T_mean", "coarsening_changed_at", "seconds", "message"),
     *("points_suggested",),
 )

@@ -36,6 +36,7 @@ def tiny(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[str]:
     """Words of a command that takes seconds."""
     monkeypatch.setattr(response, "TIERS", TINY)
     monkeypatch.setattr("pyehl.commands.response.TIERS", TINY)
+    monkeypatch.setattr("pyehl.studies.response_folder.TIERS", TINY)
     (tmp_path / "case.nml").write_text(CASE)
     return ["response", str(tmp_path / "case.nml"), "-o", str(tmp_path / "out")]
 

@@ -31,7 +31,8 @@ def test_skips_change_nothing(tmp_path: Path, capsys, monkeypatch):
     """Rows on small grids; the exit status says that nothing differs."""
     monkeypatch.setattr(skips, "LEAST", 65)
     point = ("contact.moes_m=100.0", "contact.moes_l=6.0", "surface.velocity_ratio=1.01")
-    wave = (*point, "surface.kind=harmonic", "surface.amplitude_over_film=0.2")
+    domain = ("grid.x_inlet=-2.5", "grid.x_outlet=1.5", "grid.y_extent=2.0")
+    wave = (*point, *domain, "surface.kind=harmonic", "surface.amplitude_over_film=0.2")
     monkeypatch.setattr(skips, "WAVE", wave)
     words = ["bench", "skips", "--scenes", "wave,predict", "--points", "65"]
     assert main([*words, "-o", str(tmp_path / "skips.json")]) == 0
