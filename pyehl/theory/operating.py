@@ -176,7 +176,7 @@ class OperatingPoint:
 
     @property
     def sliding_speed(self) -> float:
-        """Sliding speed |u1 - u2| [m/s]."""
+        """Sliding speed abs(u1 - u2) [m/s]."""
         return abs(self.slide_to_roll) * self.mean_velocity
 
     @property

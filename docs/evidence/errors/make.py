@@ -1,7 +1,7 @@
 """Measure whether the errors that runs state hold: smooth contacts and rough ones at random points.
 
     python docs/evidence/errors/make.py smooth     # smooth.csv, ten minutes
-    python docs/evidence/errors/make.py rough      # rough.csv, half an hour or more
+    python docs/evidence/errors/make.py rough      # rough.csv, a quarter of an hour
     python docs/evidence/errors/make.py show       # what holds, from the two tables
 
 Operating points and surfaces are drawn from a seed that was not used to choose any estimate.
@@ -114,10 +114,10 @@ def rough_rows(case: Row) -> list[Row]:
     """Run a rough contact on three grids with default settings, and on a finer one."""
     grid = domain_of({k: v for k, v in case.items() if k.startswith("contact.")})
     first = grids_of(case["contact.moes_m"], grid["x_outlet"] - grid["x_inlet"])[0]
-    # three eighths of the mesh size of the second of them, and twice that: for the limit
-    grids = [first, 2 * first - 1, 3 * (first - 1) + 1]
+    # the finest of the three, and one of half its mesh size, give the limit
+    grids = [first, 3 * (first - 1) // 2 + 1, 2 * first - 1]
     rows = []
-    for points in [*grids, 6 * (first - 1) + 1]:
+    for points in [*grids, 4 * first - 3]:
         reference = {"time.estimate_error": False} if points not in grids else {}
         found = run(case | {"grid.points": points} | reference)
         row = {key.partition(".")[2]: value for key, value in case.items()}
