@@ -31,7 +31,7 @@ Row = dict[str, Any]
 
 COLUMNS = (("campaign", "s"), ("trials", "d"), ("wrong", "d"), ("outcomes", "s"))
 CASE = """&contact moes_m = 100.0 moes_l = 6.0 /
-&grid points = 65 /
+&grid points = 65 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /
 &surface kind = 'harmonic' amplitude_over_film = 0.2 wavelength = 1.0 /
 &output checkpoint_interval = 0.01 frame_interval = 0.5 /
 """
