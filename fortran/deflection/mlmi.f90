@@ -38,6 +38,9 @@ module ehl_mlmi
    integer, parameter :: most_stages = 64
    !> Accuracies beyond which the estimate of the error holds no more
    real(dp), parameter :: coarse_limit = 2.0e-4_dp, fine_limit = 1.0e-10_dp
+   !> Accuracy from which on corrections are left out in proportion to it: that of meshes above a quarter of a, which only
+   !> thick films have. By the limit above a patch would be wider than `reach` there.
+   real(dp), parameter :: loose = 2.4e-3_dp
    !> Corrections left out on the finest grid, in units of the accuracy, and their ratio from
    !> one grid to the next, the kernel and the sources being those of that grid
    real(dp), parameter :: share = 2.5_dp, ratio = 0.5_dp**1.5_dp
@@ -67,12 +70,13 @@ contains
       real(dp), intent(in) :: accuracy
       integer, intent(in) :: threads
       type(status_t), intent(inout) :: status
-      real(dp) :: goal
+      real(dp) :: goal, tolerance
       integer :: s, n, axis, step(2), extent(2), low(2), high(2), longest, stat
       logical :: met
 
       self%threads = max(1, threads)
       goal = min(accuracy, coarse_limit)
+      tolerance = share*goal*max(1.0_dp, accuracy/loose)
       self%omega = transfer_weights(half_points(goal))
       n = count_halvings(grid)
       if (allocated(self%stages)) deallocate (self%stages)
@@ -91,9 +95,7 @@ contains
             axis = next_axis(grid, step)
             extent = high - low + 2*size(self%omega)
             if (grid%mirror) extent(2) = extent(2) + high(2)
-            ! meshes of a quarter of a and more, under thick films, need no more than their own error
-            call stage%stencil%make(axis, step, extent, grid%hx, grid%hy, self%omega, &
-                                    share*goal*ratio**(s - 1)*max(1.0_dp, 4.0_dp*grid%hx, 4.0_dp*grid%hy)**1.35_dp, met)
+            call stage%stencil%make(axis, step, extent, grid%hx, grid%hy, self%omega, tolerance*ratio**(s - 1), met)
             if (goal < fine_limit .or. .not. met) then
                call refuse(accuracy, status)
                return
