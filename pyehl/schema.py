@@ -63,12 +63,14 @@ s | threads | - | OpenMP threads
 s | H_c | a^2/R | central film
 s | H_c_extrapolated | a^2/R | central film extrapolated to fine grids
 s | H_c_error | a^2/R | estimate of the error of H_c: grid and domain
+s | H_c_error_note | | why it is not known
 s | H_c_error_grid | a^2/R | part of it from the grid and from cycles not made
 s | H_c_error_domain | a^2/R | part of it from the borders of the domain, also in H_c_extrapolated
 s | H_c_algebraic_error | a^2/R | part of the error that more cycles would take away
 s | H_min | a^2/R | minimum film
 s | H_min_extrapolated | a^2/R | minimum film extrapolated to fine grids
 s | H_min_error | a^2/R | estimate of the error of H_min
+s | H_min_error_note | | why it is not known
 s | H_min_error_grid | a^2/R | part of it from the grid
 s | H_min_error_domain | a^2/R | part of it from the borders of the domain
 s | H_min_algebraic_error | a^2/R | part of the error that more cycles would take away

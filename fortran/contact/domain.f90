@@ -6,21 +6,24 @@
 !> distance x from the centre it has gained the share q(x) = Q(x)/Q(1) of all, Q(x) = int_x^inf g/(H_c + g)^3 dX, and
 !> the film falls by a fixed multiple of what is cut off. In thick films the pressure beyond the border carries load
 !> too: a share of about lambda_bar/x, which the film feels as it feels load. The factors were fitted to contacts on
-!> domains of 4 a to 16 a, 8 <= M <= 2000, 0 <= L <= 25 (docs/accuracy.md).
+!> domains of 4 a to 16 a, 8 <= M <= 2000, 0 <= L <= 25 (docs/evidence/errors).
 module ehl_domain
    use ehl_contact, only: contact_t
    use ehl_kinds, only: dp, pi
    use ehl_moes, only: operating_t
    implicit none (type, external)
    private
-   public :: domain_t, needed_domain, domain_cost, ratio_cost
+   public :: domain_t, needed_domain, domain_cost, ratio_cost, too_small
+
+   !> Why an error has no part from the domain, where its cost is 1 or more
+   character(len=*), parameter :: too_small = "the domain is so small that the film of a flooded contact cannot be told from it"
 
    !> inlet <= X <= outlet, -side <= Y <= side [a]
    type :: domain_t
       real(dp) :: inlet = -2.5_dp, outlet = 1.5_dp, side = 2.0_dp
    end type domain_t
 
-   !> Relative cost of H_c that a domain may have
+   !> Relative cost of H_c that a domain may have by the upper estimate; the true cost is two thirds of it
    real(dp), parameter :: tolerance = 0.0022_dp
    !> From the second M on the domain is that of Zhang et al. 2019, up to the first one that of the tolerance
    real(dp), parameter :: last_needed = 400.0_dp, first_usual = 500.0_dp
@@ -82,7 +85,8 @@ contains
       end function cost_of
    end function needed_domain
 
-   !> Shares of H_c and H_min of the flooded contact that a domain takes away, as an upper estimate
+   !> Shares of H_c and H_min of the flooded contact that a domain takes away, as an upper estimate; 1 and more: nothing
+   !> can be said
    pure function domain_cost(contact, point, domain) result(cost)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
@@ -98,11 +102,10 @@ contains
       cost(1) = of_inlet*max(1.0_dp, (thin_film/film)**thin_power)*inlet + of_sides*sides &
                 + load*max(sensitivity(contact, point), least_sensitivity*min(1.0_dp, (dented_below/point%moes_m)**6))
       cost(2) = cost(1) + of_sides_at_minimum*sides
-      cost = min(cost, 1.0_dp)
    end function domain_cost
 
    !> What a cost of H_c makes of a friction ratio: waves of a height of their own rise as the film falls, with about the
-   !> square of their height over it, and exponentially where they raise the pressure by much (docs/accuracy.md)
+   !> square of their height over it, and exponentially where they raise the pressure by much (docs/evidence/errors)
    pure real(dp) function ratio_cost(cost, ratio)
       real(dp), intent(in) :: cost, ratio
       ratio_cost = 2.0_dp*cost*abs(ratio - 1.0_dp)*max(1.0_dp, log(max(ratio, 1.0_dp)))

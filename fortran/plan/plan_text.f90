@@ -8,7 +8,7 @@ module ehl_plan_text
    use ehl_plan, only: plan_t
    use ehl_plan_need, only: need_lines
    use ehl_steady, only: largest_error
-   use ehl_text, only: to_text
+   use ehl_text, only: fixed, to_text
    use ehl_wedge, only: wedge_narrow
    implicit none (type, external)
    private
@@ -106,11 +106,20 @@ contains
       character(len=160) :: line
 
       associate (grid => plan%coarsest)
-         write (line, "(a,g0.5,a,g0.5,a,g0.5,a,f0.2,a)") "domain     ", grid%x0, " <= X <= ", grid%x(grid%nx), &
-            ", |Y| <= ", grid%y(grid%ny), "; it takes away at most ", 100.0_dp*plan%domain_cost(1), &
-            " % of the film of a fully flooded contact"
-         text = trim(line)//new_line("a")//"           the whole of it is solved"//new_line("a")
-         if (grid%mirror) text = trim(line)//new_line("a")//"           symmetric in Y: the half Y >= 0 is solved"//new_line("a")
+         write (line, "(a,g0.5,a,g0.5,a,g0.5)") "domain     ", grid%x0, " <= X <= ", grid%x(grid%nx), ", |Y| <= ", grid%y(grid%ny)
+         text = trim(line)
+         if (plan%domain_cost(1) < 1.0_dp) then
+            text = text//"; it takes away at most "//fixed(100.0_dp*plan%domain_cost(1), "f9.2")// &
+                   " % of the film of a fully flooded contact"
+         else
+            text = text//"; it is far too small for a flooded contact"
+         end if
+         text = text//new_line("a")//"           "
+         if (grid%mirror) then
+            text = text//"symmetric in Y: the half Y >= 0 is solved"//new_line("a")
+         else
+            text = text//"the whole of it is solved"//new_line("a")
+         end if
       end associate
    end function domain_lines
 

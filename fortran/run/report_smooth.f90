@@ -2,7 +2,8 @@
 !> Results of the smooth contact by name, each with the error that its grids and its domain leave
 module ehl_report_smooth
    use ehl_contact_results, only: contact_results_t
-   use ehl_kinds, only: dp
+   use ehl_domain, only: too_small
+   use ehl_kinds, only: dp, pi
    use ehl_level_result, only: discretisation_error, extrapolated, limit_error
    use ehl_plan, only: plan_t, relative_wedge_error
    use ehl_record, only: record_t
@@ -14,7 +15,7 @@ module ehl_report_smooth
 
    !> What a domain of twice the size would add to F, int 2/r^2 dA = 4 pi ln 2 over a gap of r^2/2 and the viscosity of
    !> the inlet. It counts for lubricants whose viscosity hardly rises with pressure.
-   real(dp), parameter :: friction_beyond = 8.71_dp
+   real(dp), parameter :: friction_beyond = 4.0_dp*pi*log(2.0_dp)
 
 contains
 
@@ -53,7 +54,6 @@ contains
          ! one grid alone: what such grids have been found to miss; H_min misses about twice as much
          error = relative_wedge_error(plan%point, plan%finest)*[m%film_central, 2.0_dp*m%film_minimum]
       end if
-      ! what is left of the flooded film, less than nothing by the estimate: not known
       domain = nothing
       where (plan%domain_cost < 1.0_dp) domain = m%films()*plan%domain_cost/(1.0_dp - plan%domain_cost)
       call record%set("H_c", m%film_central)
@@ -68,6 +68,8 @@ contains
       call record%set("H_min_error", error(2) + domain(2))
       call record%set("H_min_error_grid", error(2))
       call record%set("H_min_error_domain", domain(2))
+      if (good .and. .not. plan%domain_cost(1) < 1.0_dp) call record%set("H_c_error_note", too_small)
+      if (good .and. .not. plan%domain_cost(2) < 1.0_dp) call record%set("H_min_error_note", too_small)
       call record%set("error_estimate", trim(merge("two grids", "a priori ", coarser)))
       call report_limits(record, plan, steady, n, good)
       call record%set("H_c_algebraic_error", steady%results(n)%algebraic(1))
@@ -92,7 +94,7 @@ contains
       type(steady_t), intent(in) :: steady
       integer, intent(in) :: n
       logical, intent(in) :: good
-      character(len=80) :: note
+      character(len=len(too_small)) :: note
       real(dp) :: error(2)
       logical :: known(2)
 
@@ -109,6 +111,10 @@ contains
             known = [error(1) >= 0.0_dp, all(error >= 0.0_dp)]
             note = "the change from grid to grid does not fall: no limit is in sight"
          end if
+      end if
+      if (.not. plan%domain_cost(1) < 1.0_dp) then
+         known = .false.
+         if (good) note = too_small
       end if
       associate (m => steady%results(n)%m)
          error = error + [m%pressure_maximum, m%friction]*plan%domain_cost(1) + [0.0_dp, friction_beyond]

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The plan in words, results and fields of a run
 submodule (ehl_solver) ehl_solver_results
-   use ehl_domain, only: ratio_cost
+   use ehl_domain, only: ratio_cost, too_small
    use ehl_outcome, only: outcome_names, outcome_target_missed
    use ehl_plan_text, only: plan_text
    use ehl_conclusion, only: conclusion_of => conclusion
@@ -73,7 +73,7 @@ contains
       real(dp), intent(in) :: ratio, stop_error
       type(ratio_error_t) :: error
       type(waves_t) :: waves
-      real(dp) :: nothing, limit, grid
+      real(dp) :: nothing, limit, grid, domain
       character(len=:), allocatable :: why
 
       nothing = ieee_value(nothing, ieee_quiet_nan)
@@ -96,7 +96,13 @@ contains
       call error%add(record, "mu_ratio_error_grid", grid, why)
       call error%add(record, "mu_ratio_error_stop", stop_error, why)
       call error%add(record, "mu_ratio_error_left_out", waves%left_out, waves%why)
-      call error%add(record, "mu_ratio_error_domain", ratio_cost(self%plan%domain_cost(1), ratio), why)
+      domain = nothing
+      if (self%plan%domain_cost(1) < 1.0_dp) then
+         domain = ratio_cost(self%plan%domain_cost(1), ratio)
+      else if (ieee_is_finite(ratio)) then
+         why = too_small
+      end if
+      call error%add(record, "mu_ratio_error_domain", domain, why)
       call error%report(record)
    end subroutine report_ratio
 
