@@ -27,15 +27,18 @@ SMOOTH, ROUGH = 80, 48
 # Nodes a side of the largest doubled domain
 FINEST = 1025
 QUANTITIES = ("H_c", "H_min", "P_max", "F")
+ROUGH_NAMES = (
+    *("moes_m", "moes_l", "kind", "wavelength", "width"),
+    *("amplitude_over_film", "velocity_ratio"),
+)
 Row = dict[str, Any]
 
 
 def run(options: dict[str, Any]) -> Row:
     """Solve a case and give its summary."""
-    case = pyehl.Case.from_text("", [f"{key}={value}" for key, value in options.items()])
-    with pyehl.Solver(case) as solver:
+    with pyehl.Solver(pyehl.Case.from_text("", options)) as solver:
         solver.run()
-        return solver.summary() | {"domain": case.resolve()["grid"]}
+        return solver.summary()
 
 
 def grids_of(moes_m: float, width: float) -> list[int]:
@@ -49,8 +52,7 @@ def grids_of(moes_m: float, width: float) -> list[int]:
 
 def domain_of(point: Row) -> Row:
     """Give the default domain of an operating point."""
-    case = pyehl.Case.from_text("", [f"{key}={value}" for key, value in point.items()])
-    return case.resolve()["grid"]
+    return pyehl.Case.from_text("", point).resolve()["grid"]
 
 
 def smooth_rows(point: Row) -> list[Row]:
@@ -130,11 +132,6 @@ def rough_rows(case: Row) -> list[Row]:
     for row in rows:
         row["mu_ratio_limit"] = (4.0 * fine - middle) / 3.0 if known else None
     return rows
-
-
-ROUGH_NAMES = (
-    *("moes_m", "moes_l", "kind", "wavelength", "width", "amplitude_over_film", "velocity_ratio"),
-)
 
 
 def numbers(name: str) -> list[Row]:
