@@ -11,12 +11,16 @@ module ehl_cycle
    use ehl_workspace, only: workspace_t
    implicit none (type, external)
    private
-   public :: cycle_options_t, finest_cycle, prolong_solution
+   public :: careful_cycle, cycle_options_t, finest_cycle, prolong_solution
    public :: coarsening_classical, coarsening_alcouffe
 
    !> Residual reduction wanted on the coarsest level, and the most Newton steps to get it
    real(dp), parameter :: coarsest_reduction = 0.05_dp
    integer, parameter :: coarsest_steps = 12
+
+   !> A careful cycle: largest change of the logarithm of a node's conductance, shares of the changes that are made. Where
+   !> the pressure spike is a few nodes wide (L = 25 on 513 x 513 nodes) F cycles throw it about; docs/design.md.
+   real(dp), parameter :: careful_trust = full_trust/3.0_dp, careful_share = 0.6_dp
 
    !> How a cycle is made
    type :: cycle_options_t
@@ -27,7 +31,7 @@ module ehl_cycle
       integer :: pre = 2, post = 1
       !> Residual (rms) of the finest level that needs no more of the sweeps after the correction
       real(dp) :: enough = 0.0_dp
-      !> Largest change of the logarithm of a node's conductance in a sweep, for time steps
+      !> Largest change of the logarithm of a node's conductance in a sweep, for time steps and careful cycles
       real(dp) :: trust = full_trust
       !> Shares of the changes of a sweep and of a coarse grid that are made
       real(dp) :: sweep_share = 1.0_dp, correction_share = 1.0_dp
@@ -36,6 +40,19 @@ module ehl_cycle
    end type cycle_options_t
 
 contains
+
+   !> The W cycle that changes less, for what another one failed on
+   pure function careful_cycle(options) result(careful)
+      type(cycle_options_t), intent(in) :: options
+      type(cycle_options_t) :: careful
+
+      careful = options
+      careful%gamma = 2
+      careful%full = .false.
+      careful%trust = careful_trust
+      careful%sweep_share = careful_share
+      careful%correction_share = careful_share
+   end function careful_cycle
 
    !> One cycle with level n as the finest. Film and coefficients are up to date before and after.
    subroutine finest_cycle(levels, spaces, coarsenings, n, coarsest, options, residual, sweeps)

@@ -48,7 +48,7 @@ contains
    subroutine relax(level, space, trust, part)
       type(level_t), intent(inout) :: level
       type(workspace_t), intent(inout) :: space
-      !> Largest change of the logarithm of a node's conductance, for time steps
+      !> Largest change of the logarithm of a node's conductance; for time steps, or where it is below `full_trust`
       real(dp), intent(in) :: trust
       !> Share of the changes that is made
       real(dp), intent(in) :: part
@@ -153,7 +153,7 @@ contains
       scale = 1.0_dp/(strong*min(level%grid%hx, level%grid%hy)**2)
       time_step = level%wedge%squeeze > 0.0_dp
       ! a Galerkin operator does not change with the pressure
-      limited = time_step .and. .not. level%poiseuille%frozen
+      limited = (time_step .or. trust < full_trust) .and. .not. level%poiseuille%frozen
       omega = merge(omega_step, omega_line, time_step)
       omega_far = merge(omega_step, omega_dipole, time_step)
       associate (work => space%lines(thread))
