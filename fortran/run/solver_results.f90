@@ -18,6 +18,9 @@ submodule (ehl_solver) ehl_solver_results
 
    !> Shares of a variance below this one are rounding
    real(dp), parameter :: rounding = 1.0e-14_dp
+   !> Largest change of mu_ratio from grid to grid, over mu_ratio, that tells of a limit; and largest rise with a single
+   !> wave or feature, which is the same on both grids: what rises more are peaks of pressure that no grid yet resolves
+   real(dp), parameter :: most_change = 0.5_dp, most_rise = 0.05_dp
 
 contains
 
@@ -81,11 +84,13 @@ contains
       grid = nothing
       if (self%coarse_outcome == outcome_converged .and. ieee_is_finite(ratio)) then
          ! order 2 (Richardson), if both grids resolve the surface
-         grid = (ratio - self%coarse_mean)/3.0_dp
-         if (self%plan%extrapolates) limit = ratio + grid
+         if (self%plan%extrapolates) limit = ratio + (ratio - self%coarse_mean)/3.0_dp
+         ! two grids do not show that they have reached it: the error of order 1 (Roache 1994: three times that of order 2)
+         if (has_limit(self%coarse_mean, ratio, self%plan%surface%amplitude > 0.0_dp)) grid = ratio - self%coarse_mean
       end if
       waves = waves_of(self)
       why = why_no_grid_error(self)
+      if (why == "" .and. .not. ieee_is_finite(grid)) why = "mu_ratio changes so much from grid to grid that no limit is in sight"
       if (.not. ieee_is_finite(ratio)) then
          why = "there is no mu_ratio"
          waves = waves_t(.true., nothing, nothing, why)
@@ -105,6 +110,14 @@ contains
       call error%add(record, "mu_ratio_error_domain", domain, why)
       call error%report(record)
    end subroutine report_ratio
+
+   !> Whether two grids tell of a limit
+   pure logical function has_limit(coarse, fine, single)
+      real(dp), intent(in) :: coarse, fine
+      !> Whether the surface is a single wave or feature
+      logical, intent(in) :: single
+      has_limit = abs(fine - coarse) <= most_change*fine .and. (fine - coarse <= most_rise*fine .or. .not. single)
+   end function has_limit
 
    !> What is known of the waves that the grid does not resolve. Only tiles have waves that are left out: what there is
    !> of a single wave or a feature is on the grid.
