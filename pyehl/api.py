@@ -107,7 +107,7 @@ def solve(
     >>> ds.P.shape, ds.attrs["status"]
     ((65, 65), 'converged')
     >>> round(float(ds.H_c), 3), ds.hertz_pressure_Pa.attrs["units"]
-    (0.059, 'Pa')
+    (0.072, 'Pa')
     """
     inputs = () if isinstance(case, Case) else (case,)
     case = Case.of(case, *options)

@@ -246,7 +246,7 @@ def load(folder: str | os.PathLike[str]) -> xr.Dataset:
     >>> solved = pyehl.solve("cases/quick.nml", "grid.points=65", output="out/example")
     >>> data = pyehl.load("out/example")
     >>> data.P.shape, data.attrs["status"], round(float(data.H_c), 3)
-    ((65, 65), 'converged', 0.059)
+    ((65, 65), 'converged', 0.072)
     """
     folder = Path(path_of(folder, "folder"))
     for name in ("summary.json", "case.nml"):

@@ -91,6 +91,7 @@ sp | h_c_m | m | central film of the smooth contact
 p | h_c_source | | where it is from
 sp | h_min_m | m | minimum film of the smooth contact
 s | p_max_Pa | Pa | largest pressure
+s | load_beyond | - | share of the load that the pressure beyond the border carries
 sp | load_error | - | relative error of the force balance
 s | cycles | - | cycles on the finest grid
 s | total_cycles | - | cycles on all grids

@@ -3,7 +3,7 @@
 module ehl_case_contact
    use ehl_case, only: case_t
    use ehl_circular, only: circular_from_si, circular_t
-   use ehl_domain, only: domain_t, needed_domain
+   use ehl_domain, only: domain_t, is_flooded, needed_domain
    use ehl_kinds, only: dp
    use ehl_moes, only: operating_from_moes, operating_from_si, operating_t
    use ehl_refusal, only: contradict, first_given, is_before, refuse, short
@@ -107,7 +107,7 @@ contains
       type(domain_t) :: domain
 
       call find_point(input, contact, point)
-      domain = needed_domain(contact, point)
+      domain = needed_domain(contact, point, is_flooded(input%grid%border, point))
       if (.not. schema%given("grid", "x_inlet")) input%grid%x_inlet = domain%inlet
       if (.not. schema%given("grid", "x_outlet")) input%grid%x_outlet = domain%outlet
       if (.not. schema%given("grid", "y_extent")) input%grid%y_extent = domain%side

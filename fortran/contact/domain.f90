@@ -1,19 +1,23 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The domain that a contact needs, and what a domain costs. P = 0 at its border takes away the pressure that a fully
-!> flooded inlet would have there, so that the film is too thin.
+!> The domain that a contact needs, and what a domain costs.
 !>
-!> Pressure rises in the inlet by dP/dX ~ (H - H_c)/H^3, H = H_c + g, with the gap g of the dry contact. Up to a
-!> distance x from the centre it has gained the share q(x) = Q(x)/Q(1) of all, Q(x) = int_x^inf g/(H_c + g)^3 dX, and
-!> the film falls by a fixed multiple of what is cut off. In thick films the pressure beyond the border carries load
-!> too: a share of about lambda_bar/x, which the film feels as it feels load. The factors were fitted to contacts on
-!> domains of 4 a to 16 a, 8 <= M <= 2000, 0 <= L <= 25 (docs/evidence/errors).
+!> Either the border has the pressure that a fully flooded contact has there (ehl_far_field). What that leaves out falls
+!> with the third power of the distance in thick films, whose load is then slightly wrong, and with the fifth in thin ones,
+!> whose inlet is.
+!>
+!> Or P = 0, which takes away the pressure that a flooded inlet would have: it rises by dP/dX ~ (H - H_c)/H^3, H = H_c + g,
+!> with the gap g of the dry contact. Up to a distance x from the centre it has gained the share q(x) = Q(x)/Q(1) of all,
+!> Q(x) = int_x^inf g/(H_c + g)^3 dX, and the film falls by a fixed multiple of what is cut off. In thick films the
+!> pressure beyond the border carries load too: a share of about lambda_bar/x, which the film feels as it feels load.
+!>
+!> What the factors were fitted to: docs/evidence/errors.
 module ehl_domain
    use ehl_contact, only: contact_t
    use ehl_kinds, only: dp, pi
    use ehl_moes, only: operating_t
    implicit none (type, external)
    private
-   public :: domain_t, needed_domain, domain_cost, ratio_cost, too_small
+   public :: domain_t, is_flooded, needed_domain, domain_cost, ratio_cost, too_small
 
    !> Why an error has no part from the domain, where its cost is 1 or more
    character(len=*), parameter :: too_small = "the domain is so small that the film of a flooded contact cannot be told from it"
@@ -23,85 +27,86 @@ module ehl_domain
       real(dp) :: inlet = -2.5_dp, outlet = 1.5_dp, side = 2.0_dp
    end type domain_t
 
-   !> Relative cost of H_c that a domain may have by the upper estimate; the true cost is two thirds of it
-   real(dp), parameter :: tolerance = 0.0022_dp
-   !> From the second M on the domain is that of Zhang et al. 2019, up to the first one that of the tolerance
-   real(dp), parameter :: last_needed = 400.0_dp, first_usual = 500.0_dp
-   !> Largest width: in lengths of a thick film, (2 H_c)^(1/2), on wider ones cycles do not converge; and in a
-   real(dp), parameter :: widest_in_films = 12.0_dp, widest = 12.0_dp
-   !> What inlet and sides cost H_c, and what the sides cost H_min beside that, over q; films below which the inlet
-   !> costs more, with the power of that
+   !> Relative cost of H_c that a default domain may have
+   real(dp), parameter :: tolerance = 0.002_dp
+   !> From that M on border and domain are those of Zhang et al. 2019, unless the case says otherwise
+   real(dp), parameter :: first_usual = 500.0_dp
+   !> With a flooded border. Thick films: load that is wrong by sides and inlet, over lambda_bar s^2/r^3 with the length
+   !> s = (2 H_c)^(1/2); most and least change of the film by load, and the M where it is half of the most. Thin films: what
+   !> an inlet of 2.5 a costs, its power of s, and up to which s. H_min over H_c.
+   real(dp), parameter :: load_by_sides = 0.025_dp, load_by_inlet = 0.05_dp, by_load = 2.0_dp, least_by_load = 0.5_dp, &
+                          half_by_load = 8.0_dp, by_inlet = 0.0042_dp, inlet_power = 1.3_dp, thin = 0.75_dp, &
+                          minimum_over_central = 1.5_dp
+   !> With P = 0: what inlet and sides cost H_c, and what the sides cost H_min beside that, over q; films below which the
+   !> inlet costs more, with the power of that
    real(dp), parameter :: of_inlet = 0.46_dp, of_sides = 0.06_dp, of_sides_at_minimum = 0.15_dp, &
                           thin_film = 0.06_dp, thin_power = 0.25_dp
-   !> Load beyond inlet and sides, over lambda_bar
-   real(dp), parameter :: load_beyond_inlet = 1.0_dp, load_beyond_sides = 0.25_dp
-   !> Least sensitivity of the film to load around M = 5, where the film formula has none and the elastic dent counts
-   real(dp), parameter :: least_sensitivity = 0.5_dp, dented_below = 5.5_dp
+   !> Load beyond inlet and sides, over lambda_bar; least sensitivity of the film to load around M = 5, where the film
+   !> formula has none and the elastic dent counts
+   real(dp), parameter :: load_beyond_inlet = 1.0_dp, load_beyond_sides = 0.25_dp, least_sensitivity = 0.5_dp, &
+                          dented_below = 5.5_dp
    !> Points of an integral
    integer, parameter :: points = 100
 
 contains
 
-   !> The domain of a contact: cells are square, and X = 0 is a node of every grid of 32 n + 1 nodes
-   pure function needed_domain(contact, point) result(domain)
+   !> Whether the border has the pressure of a flooded contact, else 0
+   pure logical function is_flooded(border, point)
+      !> Of the case: 'auto', 'flooded' or 'zero'
+      character(len=*), intent(in) :: border
+      type(operating_t), intent(in) :: point
+      is_flooded = border == "flooded" .or. (border == "auto" .and. point%moes_m < first_usual)
+   end function is_flooded
+
+   !> The domain of a contact: that of Zhang et al. 2019, or with a flooded border one of its shape that is larger as the
+   !> film is thick. Cells are square, and X = 0 is a node of every grid of 32 n + 1 nodes.
+   pure function needed_domain(contact, point, flooded) result(domain)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
+      logical, intent(in) :: flooded
       type(domain_t) :: domain
-      real(dp) :: outlet, low, high, width, unit, film
+      real(dp) :: cost(2), wanted, unit, width
 
-      if (point%moes_m >= first_usual) return
-      film = sqrt(2.0_dp*contact%film_formula(point%moes_m, point%moes_l))
-      outlet = max(domain%outlet, 1.5_dp*film)
-      low = max(domain%outlet - domain%inlet, outlet + 1.1_dp)
-      high = max(widest, widest_in_films*film)
-      if (cost_of(low) <= tolerance) then
-         high = low
-      else if (cost_of(high) <= tolerance) then
-         do while (high > 1.01_dp*low)
-            width = sqrt(low*high)
-            if (cost_of(width) > tolerance) then
-               low = width
-            else
-               high = width
-            end if
-         end do
-      end if
-      width = domain%outlet - domain%inlet
-      if (high <= width) return
-      if (point%moes_m > last_needed) high = width + (high - width)*log(first_usual/point%moes_m)/log(first_usual/last_needed)
-      unit = 0.32_dp*10.0_dp**max(0, floor(log10(high/width)))
-      width = unit*ceiling(high/unit)
-      domain%side = 0.5_dp*width
-      domain%outlet = width*ceiling(32.0_dp*outlet/width)/32.0_dp
-      domain%inlet = domain%outlet - width
-
-   contains
-
-      pure real(dp) function cost_of(w)
-         real(dp), intent(in) :: w
-         real(dp) :: cost(2)
-         cost = domain_cost(contact, point, domain_t(outlet - w, outlet, 0.5_dp*w))
-         cost_of = cost(1)
-      end function cost_of
+      if (.not. flooded) return
+      wanted = 4.0_dp
+      do
+         cost = domain_cost(contact, point, domain, flooded)
+         if (.not. cost(1) > tolerance) return
+         wanted = 1.02_dp*wanted
+         unit = 0.32_dp*10.0_dp**max(0, floor(log10(0.25_dp*wanted)))
+         width = unit*ceiling(wanted/unit)
+         domain = domain_t(-0.625_dp*width, 0.375_dp*width, 0.5_dp*width)
+      end do
    end function needed_domain
 
-   !> Shares of H_c and H_min of the flooded contact that a domain takes away, as an upper estimate; 1 and more: nothing
+   !> Shares of H_c and H_min of the flooded contact that a domain changes, as an upper estimate; 1 and more: nothing
    !> can be said
-   pure function domain_cost(contact, point, domain) result(cost)
+   pure function domain_cost(contact, point, domain, flooded) result(cost)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
       type(domain_t), intent(in) :: domain
+      logical, intent(in) :: flooded
       real(dp) :: cost(2)
-      real(dp) :: film, whole, inlet, sides, load
+      real(dp) :: film, length, whole, inlet, load, sides
 
       film = contact%film_formula(point%moes_m, point%moes_l)
-      whole = pressure_gain(1.0_dp, film)
-      inlet = pressure_gain(-domain%inlet, film)/whole
-      sides = pressure_gain(domain%side, film)/whole
-      load = point%speed_parameter*(load_beyond_inlet/abs(domain%inlet) + load_beyond_sides/domain%side)
-      cost(1) = of_inlet*max(1.0_dp, (thin_film/film)**thin_power)*inlet + of_sides*sides &
-                + load*max(sensitivity(contact, point), least_sensitivity*min(1.0_dp, (dented_below/point%moes_m)**6))
-      cost(2) = cost(1) + of_sides_at_minimum*sides
+      associate (lambda_bar => point%speed_parameter)
+         if (flooded) then
+            length = sqrt(2.0_dp*film)
+            load = lambda_bar*length**2*(load_by_sides/domain%side**3 + load_by_inlet/abs(domain%inlet)**3)
+            cost(1) = load*max(least_by_load, by_load/(1.0_dp + (point%moes_m/half_by_load)**2)) &
+                      + by_inlet*min(length, thin)**inlet_power*(2.5_dp/abs(domain%inlet))**5
+            cost(2) = minimum_over_central*cost(1)
+         else
+            whole = pressure_gain(1.0_dp, film)
+            inlet = pressure_gain(-domain%inlet, film)/whole
+            sides = pressure_gain(domain%side, film)/whole
+            load = lambda_bar*(load_beyond_inlet/abs(domain%inlet) + load_beyond_sides/domain%side)
+            cost(1) = of_inlet*max(1.0_dp, (thin_film/film)**thin_power)*inlet + of_sides*sides &
+                      + load*max(sensitivity(contact, point), least_sensitivity*min(1.0_dp, (dented_below/point%moes_m)**6))
+            cost(2) = cost(1) + of_sides_at_minimum*sides
+         end if
+      end associate
    end function domain_cost
 
    !> What a cost of H_c makes of a friction ratio: waves of a height of their own rise as the film falls, with about the

@@ -153,7 +153,7 @@ contains
       first_inner = merge(1, 2, self%mirror)
    end function first_inner
 
-   !> Whether row j is a border, where P = 0
+   !> Whether row j is a border, where P is given
    elemental logical function is_border(self, j)
       class(grid_t), intent(in) :: self
       integer, intent(in) :: j

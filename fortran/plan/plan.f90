@@ -5,7 +5,7 @@ module ehl_plan
    use ehl_circular, only: circular_from_si, circular_t
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
-   use ehl_domain, only: domain_cost, domain_t
+   use ehl_domain, only: domain_cost, domain_t, is_flooded
    use ehl_grid, only: coarsest_most, find_levels, grid_t, new_grid
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
@@ -39,7 +39,9 @@ module ehl_plan
       type(sliding_t) :: sliding
       !> Coarsest and finest grid
       type(grid_t) :: coarsest, finest
-      !> Shares of H_c and H_min of the flooded contact that the domain takes away
+      !> Whether the border has the pressure of a flooded contact, else 0
+      logical :: flooded = .false.
+      !> Shares of H_c and H_min of the flooded contact that the domain changes
       real(dp) :: domain_cost(2) = 0.0_dp
       !> Levels, and the one nested iteration starts on
       integer :: levels = 0, start = 0
@@ -101,6 +103,7 @@ contains
       real(dp) :: rho(1), slope(1)
 
       call pick_contact(input, plan)
+      plan%flooded = is_flooded(input%grid%border, plan%point)
       plan%lubricant = plan_lubricant(input, plan%point, plan%contact)
       call plan%lubricant%density([1.0_dp], rho, slope)
       plan%film_expected = plan%contact%film_formula(plan%point%moes_m, plan%point%moes_l)/rho(1)
@@ -274,7 +277,8 @@ contains
       end if
       associate (g => input%grid)
          plan%coarsest = new_grid(intervals + 1, g%x_inlet, g%x_outlet, g%y_extent, mirror)
-         plan%domain_cost = domain_cost(plan%contact, plan%point, domain_t(g%x_inlet, g%x_outlet, g%y_extent))
+         plan%domain_cost = domain_cost(plan%contact, plan%point, domain_t(g%x_inlet, g%x_outlet, g%y_extent), &
+                                        plan%flooded)
       end associate
       grid = plan%coarsest
       plan%start = 0

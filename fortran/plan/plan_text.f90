@@ -109,12 +109,16 @@ contains
          write (line, "(a,g0.5,a,g0.5,a,g0.5)") "domain     ", grid%x0, " <= X <= ", grid%x(grid%nx), ", |Y| <= ", grid%y(grid%ny)
          text = trim(line)
          if (plan%domain_cost(1) < 1.0_dp) then
-            text = text//"; it takes away at most "//fixed(100.0_dp*plan%domain_cost(1), "f9.2")// &
-                   " % of the film of a fully flooded contact"
+            text = text//"; it costs at most "//fixed(100.0_dp*plan%domain_cost(1), "f9.2")//" % of the flooded film"
          else
             text = text//"; it is far too small for a flooded contact"
          end if
-         text = text//new_line("a")//"           "
+         text = text//new_line("a")//"           at its border "
+         if (plan%flooded) then
+            text = text//"the pressure of a fully flooded contact; "
+         else
+            text = text//"P = 0; "
+         end if
          if (grid%mirror) then
             text = text//"symmetric in Y: the half Y >= 0 is solved"//new_line("a")
          else

@@ -21,7 +21,8 @@ module ehl_contact_results
       real(dp) :: friction = 0.0_dp
       !> The same of a Newtonian lubricant, whatever the shear law
       real(dp) :: friction_newtonian = 0.0_dp
-      !> Relative error of the force balance
+      !> Load that the nodes are to carry, and the relative error of that
+      real(dp) :: load = 0.0_dp
       real(dp) :: load_error = 0.0_dp
       !> Whether every number is finite, and every film positive
       logical :: finite = .false., positive = .false.
@@ -57,6 +58,7 @@ contains
       m%pressure_maximum = maxval(largest)
       m%friction = sum(friction)
       m%friction_newtonian = sum(newtonian)
+      m%load = level%load
       m%load_error = pressure_sum(level, level%p)/level%load - 1.0_dp
       m%film_central = central_value(level%grid, level%h)
       ! a NaN fails every comparison

@@ -30,20 +30,21 @@ contains
       !$omp end parallel do
    end subroutine update_film
 
-   !> Take a small relative error of the force balance away by scaling the pressure; H00 keeps the mean film under it.
-   !> Film and coefficients are up to date before and after.
+   !> Take a small relative error of the force balance away by scaling the pressure within the border; H00 keeps the mean
+   !> film under it. Film and coefficients are up to date before and after.
    subroutine balance_load(level, load_error)
       type(level_t), intent(inout) :: level
       real(dp), intent(in) :: load_error
       real(dp) :: factor, deflection(level%grid%ny)
-      integer :: j
+      integer :: j, nx
 
-      factor = 1.0_dp/(1.0_dp + load_error)
-      !$omp parallel do default(none) shared(level, factor, deflection) &
+      nx = level%grid%nx
+      factor = 1.0_dp/(1.0_dp + load_error/(1.0_dp - border_load(level)/level%load))
+      !$omp parallel do default(none) shared(level, factor, deflection, nx) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
          deflection(j) = sum(level%p(:, j)*(level%h(:, j) - level%h00 - level%geometry(:, j)))*level%grid%weight(j)
-         level%p(:, j) = factor*level%p(:, j)
+         if (.not. level%grid%is_border(j)) level%p(2:nx - 1, j) = factor*level%p(2:nx - 1, j)
       end do
       !$omp end parallel do
       level%h00 = level%h00 + (factor - factor**2)*sum(deflection)/level%load
@@ -151,6 +152,21 @@ contains
          film_residual = sqrt(sum(sums)/(real(grid%nx, dp)*grid%full_ny()))
       end associate
    end function film_residual
+
+   !> What of the load the pressure at the border carries
+   pure real(dp) function border_load(level)
+      type(level_t), intent(in) :: level
+      integer :: j
+
+      border_load = 0.0_dp
+      do j = 1, level%grid%ny
+         if (level%grid%is_border(j)) then
+            border_load = border_load + sum(level%p(:, j))*level%grid%weight(j)
+         else
+            border_load = border_load + (level%p(1, j) + level%p(level%grid%nx, j))*level%grid%weight(j)
+         end if
+      end do
+   end function border_load
 
    !> hx hy sum P over the whole contact
    real(dp) function pressure_sum(level, p)

@@ -74,6 +74,7 @@ contains
       call report_limits(record, plan, steady, n, good)
       call record%set("H_c_algebraic_error", steady%results(n)%algebraic(1))
       call record%set("H_min_algebraic_error", steady%results(n)%algebraic(2))
+      call record%set("load_beyond", 1.0_dp - m%load/plan%contact%load())
       call record%set("load_error", m%load_error)
       if (plan%contact%has_size()) then
          call record%set("h_c_m", m%film_central*plan%contact%film_scale)

@@ -198,7 +198,7 @@ contains
          call self%hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, &
                                    plan%engine, plan%threads, status)
          call self%steady%start(plan%contact, plan%film_expected, plan%start, plan%levels, plan%cycle, &
-                                plan%second_cycle, plan%accuracy, plan%target_error, plan%max_cycles)
+                                plan%second_cycle, plan%accuracy, plan%target_error, plan%max_cycles, plan%flooded)
       end associate
       call self%hierarchy%grow(self%steady%n, status)
       if (status%failed()) return

@@ -2,11 +2,12 @@
 !> The smooth, steady solution by full multigrid (nested iteration), one cycle at a time
 module ehl_steady
    use ehl_contact, only: contact_t
-   use ehl_cycle, only: cycle_options_t, prolong_solution
-   use ehl_film, only: balance_load, film_residual, refresh, update_residual
+   use ehl_cycle, only: careful_cycle, cycle_options_t
+   use ehl_far_field, only: set_far_field
+   use ehl_film, only: balance_load, film_residual, update_residual
+   use ehl_first_approximation, only: begin_level
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
    use ehl_contact_results, only: load_tolerance, measure, contact_results_t
    use ehl_level_result, only: discretisation_error, level_result_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, &
@@ -50,12 +51,15 @@ module ehl_steady
       !> Levels; central film expected [a^2/R]; algebraic error as a share of the discretisation error; relative
       !> error of H_c at which to stop, 0: on the finest grid; most cycles on a level
       integer :: levels = 0, max_cycles = 0
+      !> Whether the border has the pressure of a flooded contact
+      logical :: flooded = .false.
       real(dp) :: film_expected = 0.0_dp, accuracy = 0.0_dp, target_error = 0.0_dp
-      !> Present level
+      !> Level to begin on, present level
+      integer :: first = 0
       integer, public :: n = 0
-      logical :: entered = .false.
+      logical :: entered = .false., careful = .false.
       integer, public :: outcome = outcome_running
-      !> Restarts on a finer grid after a failure on a coarse one
+      !> Restarts: on a finer grid after a failure on a coarse one, with care after one on the finest
       integer, public :: restarts = 0
       type(level_result_t), allocatable, public :: results(:)
       !> Changes of H_c and H_min in the last cycle
@@ -76,7 +80,8 @@ module ehl_steady
 contains
 
    !> Ready for the first cycle
-   subroutine start(self, contact, film_expected, first, levels, cycle, second_cycle, accuracy, target_error, max_cycles)
+   subroutine start(self, contact, film_expected, first, levels, cycle, second_cycle, accuracy, target_error, max_cycles, &
+                    flooded)
       class(steady_t), intent(inout) :: self
       class(contact_t), intent(in) :: contact
       !> Central film of the first guess [a^2/R]
@@ -90,6 +95,8 @@ contains
       real(dp), intent(in) :: accuracy, target_error
       !> Most cycles on a level
       integer, intent(in) :: max_cycles
+      !> Whether the border has the pressure of a flooded contact, else 0
+      logical, intent(in) :: flooded
 
       self%contact = contact
       self%film_expected = film_expected
@@ -99,8 +106,11 @@ contains
       self%accuracy = accuracy
       self%target_error = target_error
       self%max_cycles = max_cycles
+      self%flooded = flooded
+      self%first = first
       self%n = first
       self%entered = .false.
+      self%careful = .false.
       self%outcome = outcome_running
       self%restarts = 0
       self%results = spread(level_result_t(), 1, levels)
@@ -119,6 +129,7 @@ contains
       if (status%failed()) return
       associate (result => self%results(self%n), level => hierarchy%levels(self%n))
          before = result%m
+         if (self%flooded) call set_far_field(level, self%contact%load())
          call hierarchy%cycle(self%n, self%next_cycle(), residual)
          result%cycles = result%cycles + 1
          result%m = measure(level)
@@ -146,46 +157,24 @@ contains
       call self%decide()
    end subroutine advance
 
-   !> First approximation on the present level
+   !> Begin on the present level
    subroutine enter_level(self, hierarchy, status)
       class(steady_t), intent(inout) :: self
       type(hierarchy_t), intent(inout) :: hierarchy
       type(status_t), intent(inout) :: status
-      integer :: j
 
       call hierarchy%grow(self%n, status)
       if (status%failed()) return
-      associate (level => hierarchy%levels(self%n), grid => hierarchy%levels(self%n)%grid)
-         do j = 1, grid%ny
-            call self%contact%gap_row(grid%columns(), grid%y(j), level%geometry(:, j))
-         end do
-         level%rhs = 0.0_dp
-         level%load = self%contact%load()
-         if (has_coarser(self)) then
-            call prolong_solution(hierarchy%levels(self%n - 1), level)
-            self%results(self%n)%m = self%results(self%n - 1)%m
-         else
-            call guess(level, self%contact, self%film_expected)
-            call refresh(level)
-            self%results(self%n)%m = measure(level)
-         end if
-         self%results(self%n)%cycles = 0
-      end associate
+      if (self%careful) call hierarchy%forget()
+      call begin_level(hierarchy%levels, self%n, self%contact, self%film_expected, has_coarser(self))
+      if (has_coarser(self)) then
+         self%results(self%n)%m = self%results(self%n - 1)%m
+      else
+         self%results(self%n)%m = measure(hierarchy%levels(self%n))
+      end if
+      self%results(self%n)%cycles = 0
       self%entered = .true.
    end subroutine enter_level
-
-   !> Hertz pressure and the film of the formula
-   subroutine guess(level, contact, film)
-      type(level_t), intent(inout) :: level
-      class(contact_t), intent(in) :: contact
-      real(dp), intent(in) :: film
-      integer :: j
-
-      do j = 1, level%grid%ny
-         call contact%pressure_row(level%grid%columns(), level%grid%y(j), level%p(:, j))
-      end do
-      level%h00 = film + contact%dry_separation()
-   end subroutine guess
 
    !> Whether the level is solved, and what to do then
    subroutine decide(self)
@@ -206,8 +195,8 @@ contains
             end if
          end if
          if (finest) then
-            self%outcome = merge(outcome_converged, outcome_cycle_limit, met)
-            if (met .and. self%target_error > 0.0_dp) self%outcome = outcome_target_missed
+            if (.not. met) call self%fail_level(outcome_cycle_limit)
+            if (met) self%outcome = merge(outcome_target_missed, outcome_converged, self%target_error > 0.0_dp)
          else
             self%n = self%n + 1
             self%entered = .false.
@@ -223,7 +212,8 @@ contains
       logical :: first
 
       options = self%cycle
-      if (self%second_cycle%full .eqv. self%cycle%full) return
+      if (self%careful) options = careful_cycle(options)
+      if (self%careful .or. self%second_cycle%full .eqv. self%cycle%full) return
       associate (result => self%results(self%n))
          if (.not. has_coarser(self) .or. result%cycles /= 1) return
          if (any(self%wanted() < light_error*result%m%films())) return
@@ -276,19 +266,21 @@ contains
       end associate
    end function wanted
 
-   !> Failure on a level: begin anew on the next finer one, where the discrete problem is better posed
+   !> Failure on a level: begin anew on the next finer one, where the discrete problem is better posed; on the finest one
+   !> from the first level on with care
    subroutine fail_level(self, outcome)
       class(steady_t), intent(inout) :: self
       integer, intent(in) :: outcome
 
-      if (self%n == self%levels) then
+      if (self%n == self%levels .and. self%careful) then
          self%outcome = outcome
          return
       end if
       self%results%solved = .false.
       self%restarts = self%restarts + 1
-      self%n = self%n + 1
       self%entered = .false.
+      self%careful = self%n == self%levels
+      self%n = merge(self%first, self%n + 1, self%careful)
    end subroutine fail_level
 
    !> Whether the level begins from a coarser one

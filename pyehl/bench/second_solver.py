@@ -18,6 +18,8 @@ from numpy.typing import NDArray
 from scipy import linalg, sparse
 from scipy.sparse.linalg import LinearOperator, gmres
 
+from pyehl.bench.far_field import far_field
+
 __all__ = ["START", "VELOCITY", "X_MATTERS", "NotSolvedError", "SecondSolver", "Wave", "Z"]
 
 Array = NDArray[np.float64]
@@ -31,6 +33,8 @@ VELOCITY = 1.01
 X_MATTERS = -1.25
 # Residual (rms) and error of the load of a solution
 ENOUGH, LOAD_ENOUGH = 1e-8, 1e-9
+# Relative change of the border of a flooded contact at its end
+FLOODED_ENOUGH = 1e-6
 # More products with the matrix than this, and its factors are made anew
 PATIENCE = 30
 
@@ -62,7 +66,8 @@ class Wave:
 class SecondSolver:
     """A contact on the half Y >= 0 of the grid, all nodes in one vector, X first.
 
-    The domain is as wide as it is long; `borders` are inlet and outlet [a].
+    The domain is as wide as it is long; `borders` are inlet and outlet [a]. At the border P = 0
+    or, `flooded`, the pressure of a fully flooded contact.
     """
 
     def __init__(
@@ -73,7 +78,9 @@ class SecondSolver:
         *,
         narrow: bool = True,
         borders: tuple[float, float] = (X_INLET, X_OUTLET),
+        flooded: bool = False,
     ) -> None:
+        self.flooded = flooded
         self.start = borders[0]
         self.h = (borders[1] - borders[0]) / (points - 1)
         self.points, self.rows = points, (points + 1) // 2
@@ -92,6 +99,7 @@ class SecondSolver:
         wrapped[1 - points :, :points] = self.cells[:0:-1]
         wrapped[:, 1 - points :] = wrapped[:, points - 1 : 0 : -1]
         self.transform = scipy.fft.rfft2(wrapped)
+        self.border, self.load = np.zeros(self.x.size), 2.0 * np.pi / 3.0
         self.inside = (self.x > x[0]) & (self.x < x[-1]) & (self.y < y[-1])
         self.first = np.isclose(self.x, x[1])
         self.neighbours = [self.at(*move) for move in ((1, 0), (-1, 0), (0, 1), (0, -1))]
@@ -177,7 +185,9 @@ class SecondSolver:
             by_p = by_p - slope @ sparse.diags_array(eps * (d_rho / rho - d_eta))
             diagonal = by_p.diagonal() + by_film.multiply(self.near).sum(axis=1)
             fixed = ~self.inside | (p - residual / np.abs(diagonal) <= 0.0)
-            rest = np.append(np.where(fixed, p, residual), self.weight @ p - 2.0 * np.pi / 3.0)
+            rest = np.append(
+                np.where(fixed, p - self.border, residual), self.weight @ p - self.load
+            )
             error = np.sqrt(np.mean(rest[:n] ** 2))
             if error < ENOUGH and abs(rest[n]) < LOAD_ENOUGH:
                 return p, h00, film
@@ -255,7 +265,16 @@ class SecondSolver:
         """Solve the steady contact."""
         p = np.sqrt(np.maximum(0.0, 1.0 - self.x**2 - self.y**2))
         shape = 0.5 * (self.x**2 + self.y**2)
-        return self.solve(p, -0.9, shape, self.upstream(), np.zeros_like(p))
+        p, h00, film = self.solve(p, -0.9, shape, self.upstream(), np.zeros_like(p))
+        while self.flooded:
+            before = self.border
+            pressure, beyond = far_field(self.x, self.y, film, self.h)
+            self.border = np.where(self.inside, 0.0, self.speed * pressure)
+            self.load = 2.0 * np.pi / 3.0 - self.speed * beyond
+            p, h00, film = self.solve(p, h00, shape, self.upstream(), np.zeros_like(p))
+            if np.abs(self.border - before).max() < FLOODED_ENOUGH * self.border.max():
+                break
+        return p, h00, film
 
     def steps(self, wave: Wave) -> Iterator[tuple[float, Array]]:
         """mu_r/mu_s and the film of one step after the other, the step being the mesh size."""

@@ -15,6 +15,8 @@ import pytest
 from numpy.typing import NDArray
 from scipy import fft
 
+from pyehl.bench.far_field import far_field
+
 Array = NDArray[np.float64]
 
 ALPHA, P_0, Z = 2.2e-8, 1.96e8, 0.6684
@@ -99,8 +101,21 @@ def test_smooth(solve, moes_m: float, points: int, engine: str):
     done = solve((moes_m, 10.0), points, settings, fields=True)
     state = State(done)
     assert state.p.min() >= 0.0
-    assert not state.p[[0, -1]].any()
-    assert not state.p[:, [0, -1]].any()
+    border = np.ones_like(state.p, dtype=bool)
+    border[1:-1, 1:-1] = False
+    wanted = 2.0 * np.pi / 3.0
+    if moes_m < 500.0:
+        # those of a flooded contact under the film before the last cycle
+        upper = state.y >= 0.0
+        x, y = (a.ravel() for a in np.meshgrid(state.x, state.y[upper], indexing="ij"))
+        expected, beyond = far_field(x, y, state.film[:, upper].ravel(), state.h)
+        speed = (128.0 * np.pi**3 / (3.0 * moes_m**4)) ** (1.0 / 3.0)
+        expected = speed * expected.reshape(-1, upper.sum())
+        edge = border[:, upper]
+        assert state.p[:, upper][edge] == pytest.approx(expected[edge], rel=2e-3)
+        wanted -= speed * beyond
+    else:
+        assert not state.p[border].any()
     # Exact sums to rounding; mlmi to a tenth of the discretisation error of H_c at most
     separation = state.rigid_separation()
     exact = 1e-12 if engine == "fft" else 0.1 * done["H_c_error"]
@@ -111,8 +126,8 @@ def test_smooth(solve, moes_m: float, points: int, engine: str):
     share = own / (own + 4.0 * state.eps / state.h**2)
     residual = rms(share * state.residual(state.couette()))
     assert residual == pytest.approx(done["residual"], rel=1e-6)
-    load = state.p.sum() * state.h**2 / (2.0 * np.pi / 3.0) - 1.0
-    assert load == pytest.approx(done["load_error"], abs=1e-13)
+    load = state.p.sum() * state.h**2 / wanted - 1.0
+    assert load == pytest.approx(done["load_error"], abs=1e-13 if moes_m >= 500.0 else 1e-5)
     friction = (state.eta / state.film).sum() * state.h**2
     assert friction == pytest.approx(done["F"], rel=1e-12)
 

@@ -30,6 +30,7 @@ def run(solve, row: SmoothRow, points: int) -> Any:
         "lubricant.roelands_z": row.roelands_z,
         "grid.x_inlet": row.x_inlet,
         "grid.y_extent": row.y_extent,
+        "grid.border": "zero",
     }
     return solve((row.moes_m, row.moes_l), points, settings)
 

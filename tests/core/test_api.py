@@ -153,7 +153,8 @@ def test_surface_in_memory_is_that_of_its_file(fractal: Path, tmp_path: Path):
             assert np.array_equal(data[name].values, by_file[name].values), name
     # the folder has the surface, and its case can be solved again
     again = pyehl.solve(tmp_path / "out" / "case.nml", check=False)
-    assert np.array_equal(again.P.values, by_tile.P.values)
+    # but for the mean, which is rounding and taken off once more
+    assert again.P.values == pytest.approx(by_tile.P.values, abs=1e-12)
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert sorted(summary["files"]) == sorted(p.name for p in (tmp_path / "out").iterdir())
     mean = pyehl.predict(fractal, file).mu_ratio
