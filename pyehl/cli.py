@@ -8,7 +8,7 @@ import logging
 import os
 import sys
 from collections.abc import Sequence
-from importlib import import_module, metadata
+from importlib import import_module
 
 from pyehl.errors import (
     EXIT_FAILED,
@@ -92,7 +92,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     if words[:1] == ["help"]:
         words[0] = "--help"
     if words == ["--version"]:
-        print(f"pyehl {metadata.version('pyehl')}")
+        print(f"pyehl {import_module('pyehl').__version__}")
         return EXIT_OK
     chosen = words[0] if words else ""
     _listen(quiet=not {"-q", "--quiet"}.isdisjoint(words))

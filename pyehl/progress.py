@@ -4,11 +4,14 @@
 from __future__ import annotations
 
 import time
-
-from tqdm import tqdm
+from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from pyehl.handle import Work
 from pyehl.solver import Solver
+
+if TYPE_CHECKING:
+    from tqdm import tqdm
 
 __all__ = ["ProgressBar"]
 
@@ -26,18 +29,22 @@ class ProgressBar:
     """
 
     def __init__(self, *, disable: bool = False) -> None:
-        # without a total, tqdm would draw an empty line at once
-        self._bar = tqdm(bar_format=STEADY, disable=disable, delay=1e-9)
+        self._bar: tqdm | None = None
+        if not disable:
+            from tqdm import tqdm  # noqa: PLC0415 (most runs show no bar)
+
+            # without a total, tqdm would draw an empty line at once
+            self._bar = tqdm(bar_format=STEADY, delay=1e-9)
         self._begin: tuple[float, float] | None = None
 
     @property
     def disabled(self) -> bool:
         """Whether nothing is shown."""
-        return bool(self._bar.disable)
+        return self._bar is None
 
     def show(self, solver: Solver) -> None:
         """Show the state of a solver."""
-        if self._bar.disable:
+        if self._bar is None:
             return
         work, text = solver.work(), solver.progress()
         if work.earliest > 0.0:
@@ -45,10 +52,10 @@ class ProgressBar:
             self._bar.total, self._bar.n = work.earliest, work.done
             # in front of the state: a narrow terminal cuts the end of the line
             state = text.rpartition(", ")[0] if text.endswith(" s left") else text
-            text = f" {self._left(work)} | {state}"
+            text = f" {self._left(work, self._bar.format_interval)} | {state}"
         self._bar.set_description_str(text)
 
-    def _left(self, work: Work) -> str:
+    def _left(self, work: Work, interval: Callable[[float], str]) -> str:
         """Tell the time left, by the steps since the first call."""
         now = time.monotonic()
         if self._begin is None:
@@ -58,9 +65,10 @@ class ProgressBar:
             return "?"
         rate = (now - began) / (work.done - done)
         if work.earliest > work.done:
-            return f"{tqdm.format_interval((work.earliest - work.done) * rate)} left"
-        return f"at most {tqdm.format_interval((work.latest - work.done) * rate)} left"
+            return f"{interval((work.earliest - work.done) * rate)} left"
+        return f"at most {interval((work.latest - work.done) * rate)} left"
 
     def close(self) -> None:
         """End the line."""
-        self._bar.close()
+        if self._bar is not None:
+            self._bar.close()

@@ -11,7 +11,6 @@ theory and its evidence.
 import matplotlib.pyplot as plt
 
 import pyehl
-from pyehl.plots.figures import prediction_figures
 
 p = pyehl.predict("../../cases/table1.nml", {"surface.seed": 3})
 print(f"mu_r/mu_s = {p.mu_ratio:.3f} +- {float(p.data.mu_ratio_model_error):.3f}")
@@ -20,7 +19,7 @@ print(f"mu_r/mu_s = {p.mu_ratio:.3f} +- {float(p.data.mu_ratio_model_error):.3f}
 # Over one passage of the surface the friction varies, because the contact holds few of the long
 # waves. On the right what each octave of wavelengths adds.
 
-figures = prediction_figures(p.data)
+figures = pyehl.plot(p.data)
 figures["passage"]
 
 # %%

@@ -10,11 +10,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import scipy
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.patches import Circle
 from numpy.typing import NDArray
-from scipy.ndimage import zoom
 
 from pyehl.plots.style import (
     BLUE,
@@ -191,7 +191,7 @@ def interferogram(
     inner_x, inner_y = np.abs(x) <= VIEW, np.abs(y) <= VIEW
     view = h[np.ix_(inner_x, inner_y)]
     factor = max(1, math.ceil(1200 / max(view.shape)))
-    fine = zoom(view, factor, order=1, grid_mode=True, mode="nearest")
+    fine = scipy.ndimage.zoom(view, factor, order=1, grid_mode=True, mode="nearest")
     extent = extent_of(x[inner_x], y[inner_y], unit)
     colours = fringe_colours(fine, red, green).transpose(1, 0, 2)
     ax.imshow(colours, origin="lower", extent=extent, interpolation="antialiased")

@@ -4,14 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import scipy.fft
-import xarray as xr
+import scipy
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
-from pyehl import results
+from pyehl import namelist
 from pyehl.plots import contact, surface, transient
 from pyehl.plots.style import (
     BLUE,
@@ -27,7 +27,15 @@ from pyehl.surfaces import Topography, wavenumbers
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.transport import stiffness
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 __all__ = ["headline", "prediction_figures", "scales_of", "solution_figures", "surface_figures"]
+
+Array = NDArray[np.float64]
+
+# Room below and above a row of panels [in]
+BELOW, ABOVE = 0.52, 0.57
 
 
 def headline(summary: Mapping[str, Any], scales: Scales | None = None) -> str:
@@ -57,14 +65,34 @@ def headline(summary: Mapping[str, Any], scales: Scales | None = None) -> str:
 
 def scales_of(data: xr.Dataset, units: str = "auto") -> Scales | None:
     """Scales of a solution for `units`: 'si', 'hertz', or 'auto' for SI when the case has them."""
-    operating = OperatingPoint.from_settings(results.settings_of(data))
+    operating = OperatingPoint.from_settings(namelist.values(data.attrs["case"]))
     if units == "si" or (units == "auto" and operating.si):
         return Scales(operating.hertz_radius, operating.hertz_pressure, operating.film_scale)
     return None
 
 
-def _row(count: int, size: tuple[float, float], title: str, *, sharey: bool = False) -> Figure:
-    figure = new_figure(*size)
+def _row(
+    count: int,
+    size: tuple[float, float],
+    title: str,
+    *,
+    sharey: bool = False,
+    room: tuple[float, float, float] | None = None,
+) -> Figure:
+    """Make a figure with panels side by side.
+
+    `room`: left of, between and right of the panels in inches, where it is known. Then nothing is
+    measured, which takes as long as to draw.
+    """
+    if room is None:
+        figure = new_figure(*size)
+    else:
+        (width, height), (left, between, right) = size, room
+        panel = (width - left - right - (count - 1) * between) / count
+        figure = Figure(figsize=size)
+        figure.subplots_adjust(
+            left / width, BELOW / height, 1.0 - right / width, 1.0 - ABOVE / height, between / panel
+        )
     letter(list(figure.subplots(1, count, sharey=sharey, squeeze=False)[0]))
     figure.suptitle(title, fontsize="medium")
     return figure
@@ -155,7 +183,7 @@ def _rough_and_smooth(data: xr.Dataset, scales: Scales | None, title: str) -> Fi
 
 def _friction(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
     figure = _row(1, (6.4, 3.6), title)
-    settings = results.settings_of(data)
+    settings = namelist.values(data.attrs["case"])
     transient.friction_history(
         data.history_T.values,
         data.history_mu_ratio.values,
@@ -190,7 +218,7 @@ def surface_figures(
 
     `waves`: deformed roughness and what is flattened of it, where they were predicted.
     """
-    figure = _row(3, (10.6, 3.2), title)
+    figure = _row(3, (11.6, 3.2), title, room=(0.8, 1.9, 0.8))
     first, second, third = figure.axes
     third.set_box_aspect(1.0)
     surface.heights(tile, ax=first)
@@ -210,29 +238,33 @@ def surface_figures(
     return {"surface_spectrum": figure}
 
 
-def prediction_figures(data: xr.Dataset) -> dict[str, Figure]:
+def prediction_figures(
+    about: Mapping[str, Any],
+    arrays: Mapping[str, Array],
+    tables: Mapping[str, Mapping[str, Array]],
+) -> dict[str, Figure]:
     """All figures of a prediction, by the names of their files.
 
     Parameters
     ----------
-    data
-        ``data`` of a prediction, or what `pyehl.load` gives of its folder.
+    about
+        Its summary.
+    arrays, tables
+        As the prediction has them; of the tables ``passage`` and ``bands``.
     """
-    about = data.attrs
     title = headline(about)
-    tile = Topography(
-        data.surface_m.values, (about["length_x_m"], about["length_y_m"]), about["surface"]
-    )
+    size = about["length_x_m"], about["length_y_m"]
+    tile = Topography(arrays["surface"], size, about["surface"])
     names = ("hertz_radius_m", "moes_m", "moes_l", "wavelength_convention")
     radius, m, ell, convention = (about[name] for name in names)
     waves = None
     if about["reduction"] == "response":
-        waves = data.deformed_m.values, _flattened(data)
+        waves = arrays["deformed"], _flattened(about, Topography(arrays["delta_p"], size))
     figures = surface_figures(tile, radius, m, ell, convention, title, waves)
-    figure = _row(2, (8.0, 3.4), title, sharey=True)
+    figure = _row(2, (8.0, 3.4), title, sharey=True, room=(0.75, 1.35, 1.05))
     for ax, values, name in zip(
         list(figure.axes),
-        (tile.heights, data.deformed_m.values),
+        (tile.heights, arrays["deformed"]),
         ("(a) undeformed,", "(b) deformed,"),
         strict=True,
     ):
@@ -240,14 +272,12 @@ def prediction_figures(data: xr.Dataset) -> dict[str, Figure]:
     figure.axes[1].set_ylabel("")
     figures["roughness"] = figure
     if about["status"] == "predicted":
-        figures["passage"] = _passage(data, title)
+        figures["passage"] = _passage(tables, about["length_x_m"], title)
     return figures
 
 
-def _flattened(data: xr.Dataset) -> np.ndarray:
-    """Return what pressure flattens of a tile [m]: delta p over E'|q|/4 of the half-space."""
-    about = data.attrs
-    tile = Topography(data.delta_p_Pa.values, (about["length_x_m"], about["length_y_m"]))
+def _flattened(about: Mapping[str, Any], tile: Topography) -> Array:
+    """Return what pressure [Pa] flattens of a tile [m]: it over E'|q|/4 of the half-space."""
     stiff = stiffness(np.hypot(*wavenumbers(tile)) * about["hertz_radius_m"])
     # the mean is not flattened
     stiff[0, 0] = np.inf
@@ -256,12 +286,11 @@ def _flattened(data: xr.Dataset) -> np.ndarray:
     return np.asarray(scipy.fft.irfft2(part, s=tile.shape))
 
 
-def _passage(data: xr.Dataset, title: str) -> Figure:
-    figure = _row(2, (7.6, 3.2), title)
+def _passage(tables: Mapping[str, Mapping[str, Array]], length: float, title: str) -> Figure:
+    figure = _row(2, (7.6, 3.2), title, room=(0.9, 1.05, 0.15))
     left, right = figure.axes
-    shift, ratio = data.passage_shift_m.values, data.passage_mu_ratio.values
-    surface.passage(shift, ratio, data.attrs["length_x_m"], ax=left)
-    columns = [data[f"bands_{name}"].values for name in ("longest_m", "shortest_m", "rise")]
+    surface.passage(tables["passage"]["shift_m"], tables["passage"]["mu_ratio"], length, ax=left)
+    columns = [tables["bands"][name] for name in ("longest_m", "shortest_m", "rise")]
     surface.octaves(
         [(float(a), float(b), float(c)) for a, b, c in zip(*columns, strict=True)], ax=right
     )

@@ -6,21 +6,27 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import xarray as xr
+import numpy as np
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from pyehl.destination import check_files
 from pyehl.errors import InputError
 from pyehl.given import check_kind, path_of
 from pyehl.plots.figures import prediction_figures, solution_figures
 from pyehl.plots.style import DPI, save
-from pyehl.results import load
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 __all__ = ["FORMATS", "UNITS", "made", "plot", "save_all"]
 
 FORMATS = ("png", "pdf", "svg")
 UNITS = ("auto", "si", "hertz")
+# Arrays of a prediction that are drawn, with their units
+PREDICTED = {"surface": "m", "deformed": "m", "delta_p": "Pa"}
 
 
 def save_all(
@@ -104,12 +110,19 @@ def plot(
     check_kind(dpi, int, "dpi", "a whole number")
     if not 10 <= dpi <= 2400:
         raise InputError(f"--dpi {dpi}: 10 ... 2400 dots per inch were expected")
+    # a prediction draws without them
+    import xarray as xr  # noqa: PLC0415
+
+    from pyehl.results import load  # noqa: PLC0415
+
     folder = "the Dataset" if isinstance(results, xr.Dataset) else path_of(results, "results")
     data = results if isinstance(results, xr.Dataset) else load(folder)
     if "case" not in data.attrs:
         raise InputError(f"{folder}: expected a result of solve, load or predict")
-    prediction = data.attrs.get("kind") == "prediction"
-    figures = prediction_figures(data) if prediction else solution_figures(data, units)
+    if data.attrs.get("kind") == "prediction":
+        figures = _of_prediction(data)
+    else:
+        figures = solution_figures(data, units)
     if not figures:
         raise InputError(
             f"{folder}: there are no fields to draw: the case has output.fields = .false.\n"
@@ -118,3 +131,13 @@ def plot(
     if output is not None:
         save_all(figures, made(path_of(output, "output")), format, dpi)
     return figures
+
+
+def _of_prediction(data: xr.Dataset) -> dict[str, Figure]:
+    arrays = {name: data[f"{name}_{unit}"].values for name, unit in PREDICTED.items()}
+    tables: dict[str, dict[str, NDArray[np.float64]]] = {"passage": {}, "bands": {}}
+    for name, values in data.variables.items():
+        table, _, column = str(name).partition("_")
+        if table in tables:
+            tables[table][column] = values.values
+    return prediction_figures(data.attrs, arrays, tables)

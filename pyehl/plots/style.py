@@ -7,13 +7,13 @@ else in Hertz units.
 
 from __future__ import annotations
 
+import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib import pyplot
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.figure import Figure
@@ -52,6 +52,8 @@ __all__ = [
 Array = NDArray[np.float64]
 
 DPI = 300
+# For PNG files: twice as fast as the usual way, and as small
+COMPRESSION = {"compress_type": zlib.Z_RLE}
 # Okabe & Ito: told apart by everybody
 BLUE, VERMILLION, GREEN, GREY = "#0072B2", "#D55E00", "#009E73", "#666666"
 SEQUENTIAL, DIVERGING = "viridis", "PuOr_r"
@@ -74,15 +76,16 @@ def new_figure(width: float, height: float) -> Figure:
 def axes_or_new(ax: Axes | None, width: float, height: float) -> Axes:
     """Give the axes back, or those of a new pyplot figure of a size in inches."""
     if ax is None:
+        from matplotlib import pyplot  # noqa: PLC0415 (heavy, and no file needs it)
+
         _, ax = pyplot.subplots(figsize=(width, height), layout="constrained")
     return ax
 
 
-def colour_bar(
-    image: ScalarMappable, ax: Axes, label: str, *, shrink: float = 1.0, fraction: float = 0.15
-) -> None:
-    """Put a colour bar beside axes, so much shorter than they are, with a share of their room."""
-    ax.figure.colorbar(image, ax=ax, shrink=shrink, fraction=fraction).set_label(label)
+def colour_bar(image: ScalarMappable, ax: Axes, label: str, *, shrink: float = 1.0) -> None:
+    """Put a colour bar beside axes, so much shorter than they are."""
+    beside = ax.inset_axes((1.04, 0.5 - 0.5 * shrink, 0.05, shrink))
+    ax.figure.colorbar(image, cax=beside).set_label(label)
 
 
 def contact_heights(
@@ -152,9 +155,11 @@ def save(figure: Figure, path: str | Path, dpi: int = DPI, command: str = "plot"
         If it cannot be written.
     """
     path = Path(path)
-    key = "Software" if path.suffix == ".png" else "Creator"
+    options: dict[str, Any] = {"metadata": {"Creator": mark(command)}}
+    if path.suffix == ".png":
+        options = {"metadata": {"Software": mark(command)}, "pil_kwargs": COMPRESSION}
     with new_file(path) as partial:
-        figure.savefig(partial, dpi=dpi, metadata={key: mark(command)})
+        figure.savefig(partial, dpi=dpi, **options)
     return path
 
 

@@ -38,6 +38,8 @@ Array = NDArray[np.float64]
 
 # Least spectral density that is drawn, as a share of the largest
 FLOOR = 1e-10
+# Powers of ten beyond which they stand above an axis, so that its numbers are short
+SHORT = (-3, 4)
 
 
 def heights(topography: Topography, *, ax: Axes | None = None) -> Axes:
@@ -58,7 +60,7 @@ def heights(topography: Topography, *, ax: Axes | None = None) -> Axes:
     image = ax.imshow(
         z.T * unit, origin="lower", extent=extent, cmap=DIVERGING, vmin=-top, vmax=top
     )
-    colour_bar(image, ax, f"height [{name}]", fraction=0.046)
+    colour_bar(image, ax, f"height [{name}]")
     ax.set_xlabel("$x$ [mm]")
     ax.set_ylabel("$y$ [mm]")
     return ax
@@ -82,7 +84,7 @@ def spectrum_map(topography: Topography, *, ax: Axes | None = None) -> Axes:
         np.maximum(c2d, FLOOR * most).T, origin="lower", extent=extent, cmap=SEQUENTIAL,
         norm=LogNorm(vmin=FLOOR * most, vmax=most),
     )  # fmt: skip
-    colour_bar(image, ax, r"$C^{2D}$ [m$^4$]", fraction=0.046)
+    colour_bar(image, ax, r"$C^{2D}$ [m$^4$]")
     ax.set_xlabel(r"$q_x$ [rad/$\mu$m]")
     ax.set_ylabel(r"$q_y$ [rad/$\mu$m]")
     return ax
@@ -223,6 +225,7 @@ def passage(shift: Array, ratio: Array, length: float, *, ax: Axes | None = None
     ax.set_xlim(0.0, length * 1e3)
     ax.set_xlabel("displacement of the surface [mm]")
     ax.set_ylabel(r"$\mu_r/\mu_s$")
+    ax.ticklabel_format(axis="y", scilimits=SHORT)
     ax.legend(loc="best", fontsize="small")
     return ax
 
@@ -251,5 +254,6 @@ def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = No
     ax.set_xscale("log")
     ax.set_xlabel(r"wavelength of the component [$\mu$m]")
     ax.set_ylabel(r"contribution to $\mu_r/\mu_s - 1$")
+    ax.ticklabel_format(axis="y", scilimits=SHORT)
     ax.legend(fontsize="small", frameon=False)
     return ax

@@ -66,7 +66,8 @@ def write(
             from pyehl.plots.figures import prediction_figures  # noqa: PLC0415
             from pyehl.plots.folder import save_all  # noqa: PLC0415
 
-            save_all(prediction_figures(prediction.data), folder)
+            made = prediction_figures(prediction.summary, prediction.arrays, prediction.tables)
+            save_all(made, folder)
         files = sorted(["summary.json", *(path.name for path in folder.iterdir())])
         text = json.dumps(prediction.summary | {"files": files}, indent=2, allow_nan=False)
         (folder / "summary.json").write_text(text + "\n", encoding="utf-8")

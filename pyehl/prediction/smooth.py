@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.ndimage import map_coordinates
 
 from pyehl import namelist
 from pyehl.arrays import read_array
@@ -85,8 +85,9 @@ class SmoothContact:
             (values - axis[0]) / (axis[1] - axis[0]) for values, axis in ((x, self.x), (y, self.y))
         ]
         grid = np.meshgrid(*places, indexing="ij")
-        pressure = map_coordinates(self.pressure, grid, order=1, mode="constant")
-        film = map_coordinates(self.film, grid, order=1, mode="nearest")
+        interpolated = scipy.ndimage.map_coordinates
+        pressure = interpolated(self.pressure, grid, order=1, mode="constant")
+        film = interpolated(self.film, grid, order=1, mode="nearest")
         return np.asarray(pressure), np.asarray(film)
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, cast
 
 import numpy as np
-import scipy.fft
+import scipy
 from numpy.typing import NDArray
 
 __all__ = ["Spectrum"]

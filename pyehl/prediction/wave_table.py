@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import sparse
 
 from pyehl.prediction.spectrum import Spectrum
 
@@ -102,7 +102,7 @@ class WaveTable:
         return found
 
 
-def _weights(row: Array, column: Array) -> sparse.csr_array:
+def _weights(row: Array, column: Array) -> scipy.sparse.csr_array:
     """Matrix of the bilinear interpolation in a table, (n, m)."""
     i, j = (
         np.minimum(place.astype(np.int32), size - 2)
@@ -114,6 +114,6 @@ def _weights(row: Array, column: Array) -> sparse.csr_array:
     index = np.stack([at, at + 1, at + TABLE[1], at + TABLE[1] + 1], axis=-1)
     weight = np.stack([(1.0 - u) * (1.0 - v), (1.0 - u) * v, u * (1.0 - v), u * v], axis=-1)
     ends = np.arange(0, 4 * at.size + 1, 4, dtype=np.int32)
-    return sparse.csr_array(
+    return scipy.sparse.csr_array(
         (weight.ravel(), index.ravel(), ends), shape=(at.size, TABLE[0] * TABLE[1])
     )

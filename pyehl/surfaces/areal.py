@@ -7,8 +7,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.fft
-import scipy.ndimage
+import scipy
 from numpy.typing import NDArray
 
 __all__ = ["AREAL_NAMES", "Extent", "areal_numbers", "extent", "texture_aspect_ratio"]

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import scipy.ndimage
+import scipy
 from numpy.typing import NDArray
 
 from pyehl.errors import InputError

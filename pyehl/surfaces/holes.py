@@ -4,9 +4,7 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy.ndimage
-import scipy.sparse
-import scipy.sparse.linalg
+import scipy
 from numpy.typing import NDArray
 
 from pyehl.errors import InputError

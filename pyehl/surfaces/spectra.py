@@ -12,7 +12,7 @@ import math
 from typing import cast
 
 import numpy as np
-import scipy.fft
+import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from pyehl.surfaces.tile import Topography

@@ -8,7 +8,7 @@ slopes and specks of dirt. Their heights are not those of the surface, and one o
 from __future__ import annotations
 
 import numpy as np
-import scipy.ndimage
+import scipy
 from numpy.typing import NDArray
 
 from pyehl.errors import InputError

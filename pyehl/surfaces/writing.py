@@ -6,7 +6,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from scipy.io import netcdf_file
+import scipy
 
 from pyehl.destination import new_file
 from pyehl.errors import InputError
@@ -65,7 +65,7 @@ def _write_text(tile: Topography, path: Path) -> None:
 
 
 def _write_netcdf(tile: Topography, path: Path) -> None:
-    with netcdf_file(path, "w", version=2) as file:
+    with scipy.io.netcdf_file(path, "w", version=2) as file:
         file.Conventions = "CF-1.8"
         file.title = tile.origin or "tile of heights"
         lengths = (tile.length_x, tile.length_y)

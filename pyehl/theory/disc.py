@@ -21,8 +21,8 @@ from functools import lru_cache
 from typing import cast
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.special import gammaln, lpmv, spherical_jn
 
 __all__ = ["LARGEST", "disc_correction", "disc_pressure", "monomials"]
 
@@ -76,7 +76,7 @@ def _radial(z: Array, last: int) -> list[tuple[range, Array]]:
     found = []
     for m in range(last + 1):
         orders = range(m or 2, last + 1, 2)
-        values = [_weight(n, m) * lpmv(m, n, z) / z for n in orders]
+        values = [_weight(n, m) * scipy.special.lpmv(m, n, z) / z for n in orders]
         if values:
             found.append((orders, np.stack(values, axis=-1)))
     return found
@@ -85,7 +85,7 @@ def _radial(z: Array, last: int) -> list[tuple[range, Array]]:
 def _series(qx: Array, qy: Array, theta: Array, radial: list[tuple[range, Array]]) -> Complex:
     """Sum the series at the angles (n,) that the radial parts (n, number of l) belong to."""
     q, phi = np.hypot(qx, qy), np.arctan2(qy, qx)
-    bessel = [(2 * n + 1) * spherical_jn(n, q) for n in range(radial[0][0].stop)]
+    bessel = [(2 * n + 1) * scipy.special.spherical_jn(n, q) for n in range(radial[0][0].stop)]
     total = np.zeros((theta.size, q.size), dtype=complex)
     for m, (orders, values) in enumerate(radial):
         part = values @ np.stack([(-1) ** ((n - m) // 2) * bessel[n] for n in orders])
@@ -99,9 +99,11 @@ def _series(qx: Array, qy: Array, theta: Array, radial: list[tuple[range, Array]
 
 def _weight(n: int, m: int) -> float:
     """Pressure per deflection of Y_nm, times its share in a plane wave."""
+    gammaln = scipy.special.gammaln
     inverse = gammaln((n + m + 2) / 2) + gammaln((n - m + 2) / 2)
     inverse -= gammaln((n + m + 1) / 2) + gammaln((n - m + 1) / 2)
-    share = math.exp(inverse + gammaln(n - m + 1) - gammaln(n + m + 1)) * lpmv(m, n, 0.0)
+    share = math.exp(inverse + gammaln(n - m + 1) - gammaln(n + m + 1))
+    share *= scipy.special.lpmv(m, n, 0.0)
     return float(share * (2.0 if m else 1.0) * math.pi / 2.0)
 
 

@@ -8,6 +8,7 @@ import f90nml
 import numpy as np
 import pytest
 from matplotlib import pyplot
+from matplotlib.transforms import Bbox
 
 from pyehl import cli, reference
 from pyehl.plots import contact, figures, folder, style, surface, transient
@@ -162,6 +163,44 @@ def test_roughness_shares_one_scale(settings):
     assert shown[centre] == pytest.approx(deformed[0, 0] * 1e9)
     # rows of the picture are y
     assert shown[centre[0] + 3, centre[1]] == pytest.approx(deformed[0, 3] * 1e9)
+
+
+@pytest.mark.parametrize(
+    ("rms", "length", "reduction"),
+    [
+        (5e-8, 8e-4, "response"),
+        (1e-10, 3e-5, "response"),
+        (1e-9, 3e-5, "response"),
+        (1e-9, 5e-3, "response"),
+        (2e-11, 8e-4, "response"),
+        (5e-8, 8e-4, "amplitude"),
+    ],
+)
+def test_writing_in_the_pictures_of_a_prediction_is_whole(settings, rms, length, reduction):
+    """Every panel with its labels is inside of the picture, and none covers another."""
+    settings["surface"] |= {"rms_height": rms, "length_x": length, "length_y": length}
+    settings["psd"] |= {"reduction": reduction}
+    result = predict(settings)
+    made = figures.prediction_figures(result.summary, result.arrays, result.tables)
+    assert len(made) == 3
+    for figure in made.values():
+        figure.canvas.draw()
+        title = figure.get_suptitle()
+        assert "motion" in title
+        panels = [ax for ax in figure.axes if ax.get_subplotspec() is not None]
+        boxes = {}
+        for ax in panels:
+            place = ax.get_subplotspec().num1
+            boxes.setdefault(place, []).append(ax.get_tightbbox())
+        boxes = [Bbox.union(parts) for _, parts in sorted(boxes.items())]
+        texts = [text.get_window_extent() for text in figure.texts]
+        for box in [*boxes, *texts]:
+            assert figure.bbox.x0 <= box.x0
+            assert box.x1 <= figure.bbox.x1
+            assert figure.bbox.y0 <= box.y0
+            assert box.y1 <= figure.bbox.y1
+        for k, box in enumerate(boxes):
+            assert not any(box.overlaps(other) for other in [*boxes[k + 1 :], *texts])
 
 
 def test_passage_closes():
