@@ -96,8 +96,9 @@ def _one(family: str, generator: np.random.Generator, grids: Sequence[int]) -> S
 def _wave(case: StressCase, generator: np.random.Generator, *, at_rest: bool) -> dict[str, Value]:
     velocity = 0.0 if at_rest else float(generator.choice(VELOCITIES))
     # the grid carries waves of more than two nodes, in time too
-    along = [w for w in WAVELENGTHS if w > 2.2 * case.mesh * max(1.0, velocity)]
-    across = [w for w in WAVELENGTHS if w > 2.2 * case.mesh]
+    least = 2.2 * case.mesh
+    along = [w for w in WAVELENGTHS if w > least * max(1.0, velocity)]
+    across = [w for w in WAVELENGTHS if w > least]
     wave_x = float(generator.choice([*along, LONGEST_X]))
     wave_y = float(generator.choice([*across, LONGEST_Y]))
     return {
@@ -128,7 +129,8 @@ def _fractal(case: StressCase, generator: np.random.Generator) -> dict[str, Valu
 
 def _feature(case: StressCase, generator: np.random.Generator) -> dict[str, Value]:
     velocity = float(generator.choice(VELOCITIES))
-    wide = [w for w in WAVELENGTHS if 4.0 * case.mesh <= w <= 2.0]
+    least = 4.0 * case.mesh
+    wide = [w for w in WAVELENGTHS if least <= w <= 2.0]
     return {
         "surface.kind": str(generator.choice(("dent", "bump", "ridge", "groove"))),
         "surface.amplitude_over_film": float(f"{generator.uniform(0.0, 1.2):.3g}"),

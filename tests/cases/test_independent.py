@@ -39,7 +39,7 @@ def test_second_solver_deflects_by_the_kernel():
     [
         ((100.0, 6.0), 33, 0.03, 1.0, "narrow"),
         ((500.0, 5.0), 65, 0.012, 0.5, "narrow"),
-        ((500.0, 5.0), 65, 0.012, 0.5, "paper"),
+        pytest.param((500.0, 5.0), 65, 0.012, 0.5, "paper", marks=pytest.mark.long),
         pytest.param((700.0, 12.0), 65, 0.012, 0.7, "narrow", marks=pytest.mark.slow),
     ],
 )
@@ -83,7 +83,11 @@ def test_same_friction_by_default_settings(
 
 
 @pytest.mark.parametrize(
-    ("point", "over_film", "wavelength"), [((500.0, 5.0), 1.0, 0.5), ((500.0, 15.0), 0.667, 0.25)]
+    ("point", "over_film", "wavelength"),
+    [
+        ((500.0, 5.0), 1.0, 0.5),
+        pytest.param((500.0, 15.0), 0.667, 0.25, marks=pytest.mark.long),
+    ],
 )
 def test_negative_film_is_that_of_the_equations(
     solve, point: tuple[float, float], over_film: float, wavelength: float

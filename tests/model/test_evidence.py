@@ -67,6 +67,7 @@ def test_waves_that_a_coarse_grid_leaves_out_are_in_its_error(evidence):
     assert missed == 6
 
 
+@pytest.mark.long
 def test_deviations(table):
     """1 % without short waves and up to 1.3; with the grid error 2 % up to 1.5, 3 % to 2.5, 4 %.
 
@@ -85,15 +86,20 @@ def test_deviations(table):
 def test_stated_error_covers_nine_of_ten(table):
     known = [row for row in table.values() if row["prediction"] <= KNOWN_RATIO]
     assert len(known) == len(table)
-    assert sum(row["covered"] for row in known) >= 0.9 * len(known)
+    errors = [
+        abs(row["prediction"] - row["mu_ratio"]) / model_error(row["prediction"]) for row in known
+    ]
+    assert sum(error <= 1.0 for error in errors) >= 0.9 * len(known)
 
 
+@pytest.mark.long
 def test_better_than_the_model_of_the_paper(table):
     for name, row in table.items():
         if row["mu_ratio"] > 1.02:
             assert abs(row["deviation_percent"]) < 0.5 * abs(row["paper_deviation_percent"]), name
 
 
+@pytest.mark.long
 def test_page_of_the_theory_prints_the_table(root, table):
     """The example of docs/theory/prediction.md, and the summary of all cases."""
     text = (root / "docs" / "theory" / "prediction.md").read_text().replace("−", "-")

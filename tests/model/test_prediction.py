@@ -130,7 +130,7 @@ def test_transfer_is_interpolated_from_its_table(contact):
     zone = zone_of(contact, POINT, OIL)
     coarse = Transfer.of(spectrum, zone, (1000.0, 10.0), 1.02)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("pyehl.prediction.wave_table.TABLE", (401, 153))
+        patch.setattr("pyehl.prediction.wave_table.TABLE", (217, 73))
         fine = Transfer.of(spectrum, zone, (1000.0, 10.0), 1.02)
     for a, b in zip(coarse.driven + coarse.free, fine.driven + fine.free, strict=True):
         assert np.abs(a - b)[spectrum.q > 0].max() < 2e-3

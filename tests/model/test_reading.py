@@ -140,17 +140,6 @@ def test_array_axes(tmp_path):
             read_scan(tmp_path / name)
 
 
-def test_long_lines_of_text(tmp_path):
-    """A line of more than a megabyte is a line."""
-    z = np.zeros((4, 100_000))
-    z[:, -1] = 1e-8
-    np.savetxt(tmp_path / "long.txt", z, fmt="%.10e")
-    assert (tmp_path / "long.txt").stat().st_size > 4 * 2**20
-    scan = read_scan(tmp_path / "long.txt", 1e-5, 1e-4)
-    assert scan.heights.shape == (4, 100_000)
-    assert np.all(scan.heights[:, -1] == 1e-8)
-
-
 def test_unreadable_instrument_file(tmp_path):
     (tmp_path / "scan.x3p").write_bytes(b"PK\x03\x04 and nothing else")
     with pytest.raises(ValueError, match=r"scan\.x3p: cannot be read as a height map"):

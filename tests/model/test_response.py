@@ -228,6 +228,7 @@ def evidence(script: Callable[[str], ModuleType]) -> ModuleType:
     return script("docs/evidence/response/fit.py")
 
 
+@pytest.mark.long
 def test_coefficients_are_the_fit_to_the_measured_waves(
     evidence: ModuleType, root: Path, monkeypatch: pytest.MonkeyPatch
 ):

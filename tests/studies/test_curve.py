@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.image import imread
 
 import pyehl
 from pyehl.cli import main
@@ -126,7 +127,7 @@ def test_smooth_surfaces_have_the_ratio_one(cases: Path, tmp_path: Path):
         assert float(b["mu"]) == pytest.approx(float(b["mu_ratio"]) * float(a["mu"]), rel=1e-12)
     # more slip, more shear stress
     assert [float(r["mu"]) for r in smooth[1::2]] > [float(r["mu"]) for r in smooth[::2]]
-    assert (tmp_path / "s" / "stribeck.png").stat().st_size > 10_000
+    assert imread(tmp_path / "s" / "stribeck.png").std() > 0.1
 
 
 def test_temperature_and_load(cases: Path, tmp_path: Path):
@@ -188,7 +189,7 @@ def test_files_and_words(wave: tuple[Path, str]):
         assert data.h_c_m.attrs["units"] == "m"
         assert data[KEY].attrs["units"] == "m/s"
         assert float(data.h_c_m[0]) == float(table(folder)[0]["h_c_m"])
-    assert (folder / "stribeck.png").stat().st_size > 20_000
+    assert imread(folder / "stribeck.png").std() > 0.1
 
 
 def test_mean_over_surfaces_and_the_end_of_full_film(cases: Path, tmp_path: Path):

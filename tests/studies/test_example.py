@@ -9,6 +9,8 @@ from types import ModuleType
 
 import pytest
 
+pytestmark = pytest.mark.long
+
 SMOOTH, TABLE, SHORT = "smooth", "table 1", "short waves x 10"
 FULL, BROKEN = "full film", "film breakdown"
 Row = dict[str, str]

@@ -147,6 +147,7 @@ def unbroken(cases: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.long
 def test_ctrl_c_keeps_everything(cases: Path, tmp_path: Path, unbroken: Path):
     folder = tmp_path / "out"
     process = begin(folder, cases / "quick.nml")

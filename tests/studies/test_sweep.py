@@ -208,6 +208,7 @@ def test_plan_counts_what_is_shared(cases: Path):
     assert len({task.shares for task in todo.tasks}) == 2
 
 
+@pytest.mark.long
 def test_benchmark(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     words = ["bench", "sweep", "--scenes", "film", "--threads", "1,2"]
     assert main([*words, "-o", str(tmp_path / "b.json")]) == 0
