@@ -185,7 +185,7 @@ def test_rms_height_is_that_before_the_cut(solve):
 
 def test_long_text_lines(tmp_path: Path):
     """One row of more than a mebibyte, in any of the usual separators."""
-    z = rough((2, 45000))
+    z = rough((4, 45000))
     texts = {"blank.txt": " ", "comma.csv": ",", "semicolon.csv": ";", "tab.txt": "\t"}
     for name, separator in texts.items():
         lines = [separator.join(f"{v:.17e}" for v in row) for row in z]
