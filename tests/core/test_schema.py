@@ -48,7 +48,7 @@ SOLUTIONS = {
     "smooth": MOES,
     "domain far too small": (
         "&contact moes_m = 5.0 moes_l = 5.0 /\n"
-        "&grid points = 33 x_inlet = -1.2 x_outlet = 1.2 y_extent = 1.2 /\n"
+        "&grid points = 33 x_inlet = -1.2 x_outlet = 1.2 y_extent = 1.2 border = 'zero' /\n"
     ),
     "no solution": f"{MOES}&solver max_cycles = 1 /\n",
     "heated": SI + HEATED,
