@@ -2,6 +2,7 @@
 !> The plan in words, results and fields of a run
 submodule (ehl_solver) ehl_solver_results
    use ehl_domain, only: ratio_cost, too_small
+   use ehl_level_result, only: discretisation_error, spike_grows
    use ehl_outcome, only: outcome_names, outcome_target_missed
    use ehl_plan_text, only: plan_text
    use ehl_conclusion, only: conclusion_of => conclusion
@@ -85,12 +86,11 @@ contains
       if (self%coarse_outcome == outcome_converged .and. ieee_is_finite(ratio)) then
          ! order 2 (Richardson), if both grids resolve the surface
          if (self%plan%extrapolates) limit = ratio + (ratio - self%coarse_mean)/3.0_dp
-         ! two grids do not show that they have reached it: the error of order 1 (Roache 1994: three times that of order 2)
-         if (has_limit(self%coarse_mean, ratio, self%plan%surface%amplitude > 0.0_dp)) grid = ratio - self%coarse_mean
+         if (has_limit(self, ratio)) grid = grid_error(self, ratio)
       end if
       waves = waves_of(self)
       why = why_no_grid_error(self)
-      if (why == "" .and. .not. ieee_is_finite(grid)) why = "mu_ratio changes so much from grid to grid that no limit is in sight"
+      if (why == "" .and. .not. ieee_is_finite(grid)) why = "pressures change so much from grid to grid that no limit is in sight"
       if (.not. ieee_is_finite(ratio)) then
          why = "there is no mu_ratio"
          waves = waves_t(.true., nothing, nothing, why)
@@ -111,13 +111,32 @@ contains
       call error%report(record)
    end subroutine report_ratio
 
-   !> Whether two grids tell of a limit
-   pure logical function has_limit(coarse, fine, single)
-      real(dp), intent(in) :: coarse, fine
-      !> Whether the surface is a single wave or feature
-      logical, intent(in) :: single
-      has_limit = abs(fine - coarse) <= most_change*fine .and. (fine - coarse <= most_rise*fine .or. .not. single)
+   !> Whether two grids tell of a limit of the friction ratio, and three of one of the smooth contact
+   logical function has_limit(self, ratio)
+      type(solver_t), intent(in) :: self
+      real(dp), intent(in) :: ratio
+      real(dp) :: change
+
+      change = (ratio - self%coarse_mean)/ratio
+      has_limit = abs(change) <= most_change .and. .not. spike_grows(self%steady%results, self%steady%n)
+      if (self%plan%surface%amplitude > 0.0_dp) has_limit = has_limit .and. change <= most_rise
    end function has_limit
+
+   !> Error of the friction ratio by its grid: two grids do not show that they have reached order 2, so that of order 1
+   !> (Roache 1994: three times that of order 2); and no less than the error of the smooth film makes of it
+   real(dp) function grid_error(self, ratio)
+      type(solver_t), intent(in) :: self
+      real(dp), intent(in) :: ratio
+      real(dp) :: error(2)
+
+      grid_error = abs(ratio - self%coarse_mean)
+      associate (results => self%steady%results, n => self%steady%n)
+         if (n == 1) return
+         if (.not. results(n - 1)%solved) return
+         error = discretisation_error(results, n)/results(n)%m%films()
+      end associate
+      grid_error = max(grid_error, ratio_cost(error(1), ratio))
+   end function grid_error
 
    !> What is known of the waves that the grid does not resolve. Only tiles have waves that are left out: what there is
    !> of a single wave or a feature is on the grid.

@@ -5,7 +5,7 @@ module ehl_level_result
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: level_result_t, discretisation_error, extrapolated, friction_error, limit_error
+   public :: level_result_t, discretisation_error, extrapolated, friction_error, limit_error, spike_grows
 
    !> What is known of the solution on one level
    type :: level_result_t
@@ -54,6 +54,19 @@ contains
                                              /(3.0_dp*fine%m%friction_newtonian)
       end associate
    end function friction_error
+
+   !> Whether largest pressure or friction integral on level n and the two coarser ones show no limit: there is a spike of
+   !> pressure that these grids do not resolve
+   pure logical function spike_grows(results, n)
+      type(level_result_t), intent(in) :: results(:)
+      integer, intent(in) :: n
+
+      spike_grows = .false.
+      if (n < 3) return
+      associate (r => results(n - 2:n))
+         if (all(r%solved)) spike_grows = limit_error(r%m%pressure_maximum) < 0.0_dp .or. limit_error(r%m%friction) < 0.0_dp
+      end associate
+   end function spike_grows
 
    !> H_c and H_min extrapolated from levels n and n-1, order 2
    pure function extrapolated(results, n) result(values)

@@ -73,8 +73,8 @@ def test_the_error_is_one_number(everywhere):
     assert (first["mu_ratio_error_left_out"] > 0.0) == left_out
     assert first["mu_ratio_error"] == sum(first[part] for part in PARTS)
     if left_out:
-        # what the grid leaves out is most of it here
-        assert first["mu_ratio_error_left_out"] > 0.5 * first["mu_ratio_error"]
+        # what the grid leaves out counts here
+        assert first["mu_ratio_error_left_out"] > 0.1 * first["mu_ratio_error"]
     for way, values in found.items():
         for name in ("mu_ratio", "mu_ratio_error", "mu_ratio_unresolved", *PARTS):
             assert values[name] == first[name], (way, name)
@@ -268,6 +268,25 @@ def test_film_and_lambda_mean_the_same_everywhere(tmp_path: Path):
     )
 
 
+def test_no_error_where_no_limit_is_in_sight():
+    """A spike of pressure that grows with each grid: 1.164, 1.199 and 1.410 on finer ones."""
+    ridge = {
+        **{"contact.moes_m": 59.92, "contact.moes_l": 17.2, "grid.points": 129},
+        **{"surface.kind": "ridge", "surface.width": 0.96, "surface.velocity_ratio": 0.9},
+        "surface.amplitude_over_film": 0.123,
+    }
+    for values, known in (({}, False), ({"contact.moes_l": 2.0}, True)):
+        with Solver(Case.from_text("", ridge | values)) as solver:
+            assert solver.run()
+            found = solver.summary()
+        assert (found["mu_ratio_error"] is not None) == known
+        assert ("no limit is in sight" in found["mu_ratio_error_note"]) != known
+        if known:
+            # what the error of the film makes of the rise
+            film = found["H_c_error_grid"] / found["H_c"]
+            assert found["mu_ratio_error_grid"] >= 1.99 * film * abs(found["mu_ratio"] - 1.0)
+
+
 def test_what_is_read_while_another_thread_advances_is_a_state():
     """No field, summary or line is a mixture of two states; without locks one in four is."""
     text = WAVE.format(65, 0.2)
@@ -281,7 +300,7 @@ def test_what_is_read_while_another_thread_advances_is_a_state():
         states.add(solver.field("P").tobytes())
         times.add(solver.summary().get("T"))
     reads = 0
-    while reads < 200:
+    while reads < 1000:
         with Solver(Case.from_text(text, options)) as solver:
             thread = threading.Thread(target=solver.run)
             thread.start()
