@@ -53,6 +53,8 @@ module ehl_steady
       integer :: levels = 0, max_cycles = 0
       !> Whether the border has the pressure of a flooded contact
       logical :: flooded = .false.
+      !> Whether what fails on the finest level may begin again with care
+      logical :: may_restart = .false.
       real(dp) :: film_expected = 0.0_dp, accuracy = 0.0_dp, target_error = 0.0_dp
       !> Level to begin on, present level
       integer :: first = 0
@@ -81,7 +83,7 @@ contains
 
    !> Ready for the first cycle
    subroutine start(self, contact, film_expected, first, levels, cycle, second_cycle, accuracy, target_error, max_cycles, &
-                    flooded)
+                    flooded, may_restart)
       class(steady_t), intent(inout) :: self
       class(contact_t), intent(in) :: contact
       !> Central film of the first guess [a^2/R]
@@ -97,6 +99,8 @@ contains
       integer, intent(in) :: max_cycles
       !> Whether the border has the pressure of a flooded contact, else 0
       logical, intent(in) :: flooded
+      !> Whether what fails on the finest level may begin again with care
+      logical, intent(in) :: may_restart
 
       self%contact = contact
       self%film_expected = film_expected
@@ -107,6 +111,7 @@ contains
       self%target_error = target_error
       self%max_cycles = max_cycles
       self%flooded = flooded
+      self%may_restart = may_restart
       self%first = first
       self%n = first
       self%entered = .false.
@@ -267,12 +272,12 @@ contains
    end function wanted
 
    !> Failure on a level: begin anew on the next finer one, where the discrete problem is better posed; on the finest one
-   !> from the first level on with care
+   !> from the first level on with care, unless the film is negative: then there is hardly a solution
    subroutine fail_level(self, outcome)
       class(steady_t), intent(inout) :: self
       integer, intent(in) :: outcome
 
-      if (self%n == self%levels .and. self%careful) then
+      if (self%n == self%levels .and. (self%careful .or. .not. self%may_restart .or. outcome == outcome_negative_film)) then
          self%outcome = outcome
          return
       end if
