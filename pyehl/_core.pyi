@@ -72,28 +72,6 @@ class _Functions:
         threads: int,
         repeats: int,
     ) -> tuple[float, float, int, bytes]: ...
-    def viscosity(
-        self,
-        law: bytes,
-        p: _Array,
-        values: _Array,
-        slopes: _Array,
-        alpha_bar: float,
-        hertz_pressure: float,
-        z: float,
-        p0: float,
-    ) -> tuple[int, bytes]: ...
-    def shear(
-        self,
-        law: bytes,
-        newtonian: _Array,
-        pressure: _Array,
-        values: _Array,
-        stress: float,
-        coefficient: float,
-        exponent: float,
-    ) -> tuple[int, bytes]: ...
-    def density(self, p: _Array, values: _Array, slopes: _Array, hertz_pressure: float) -> None: ...
 
 class _Surfaces:
     def making(self, pixels: int) -> bytes: ...

@@ -30,15 +30,12 @@ __all__ = [
     "checkpoint_case",
     "checkpoints",
     "deflection",
-    "density",
     "ehl",
     "free_bytes",
     "functions",
     "keys",
-    "log_viscosity",
     "resolve",
     "returned",
-    "shear_stress",
     "surface_functions",
     "version",
     "waves",
@@ -195,94 +192,3 @@ def deflection(
     )
     check(status, message)
     return Deflection(w, seconds, size)
-
-
-def log_viscosity(
-    pressure: ArrayLike,
-    law: str,
-    *,
-    alpha_bar: float,
-    hertz_pressure: float,
-    roelands_z: float,
-    roelands_p0: float,
-) -> tuple[Array, Array]:
-    """ln(eta/eta0) of the solver and its slope in P at P = p/p_h, both shape (n,).
-
-    Parameters
-    ----------
-    pressure
-        P, shape (n,).
-    law
-        'roelands' or 'barus'.
-    alpha_bar
-        alpha p_h [-].
-    hertz_pressure, roelands_p0
-        p_h and p_0 [Pa].
-    roelands_z
-        Exponent z [-].
-
-    Raises
-    ------
-    InputError
-        If the law does not exist.
-    """
-    p = np.ascontiguousarray(pressure, dtype=np.float64)
-    values, slopes = np.empty(p.shape), np.empty(p.shape)
-    check(
-        *functions.viscosity(
-            law.encode(), p, values, slopes, alpha_bar, hertz_pressure, roelands_z, roelands_p0
-        )
-    )
-    return values, slopes
-
-
-def density(pressure: ArrayLike, hertz_pressure: float) -> tuple[Array, Array]:
-    """Dowson-Higginson rho/rho0 and its slope d(rho/rho0)/dP [-], both shape (n,).
-
-    Parameters
-    ----------
-    pressure
-        P = p/p_h, shape (n,).
-    hertz_pressure
-        p_h [Pa].
-    """
-    p = np.ascontiguousarray(pressure, dtype=np.float64)
-    values, slopes = np.empty(p.shape), np.empty(p.shape)
-    functions.density(p, values, slopes, hertz_pressure)
-    return values, slopes
-
-
-def shear_stress(
-    newtonian: ArrayLike,
-    pressure: ArrayLike,
-    law: str,
-    *,
-    stress: float = 0.0,
-    coefficient: float = 0.0,
-    exponent: float = 1.0,
-) -> Array:
-    """Shear stress of the solver [Pa], shape (n,); see :func:`pyehl.theory.shear.shear_stress`.
-
-    Parameters
-    ----------
-    newtonian, pressure
-        Stress that a Newtonian lubricant would have, and pressure [Pa], both shape (n,).
-    law
-        'newtonian', 'eyring', 'limiting' or 'carreau'.
-    stress
-        Eyring stress, limiting stress (0: `coefficient` times pressure) or Carreau stress [Pa].
-    coefficient
-        Limiting stress over pressure [-].
-    exponent
-        Power-law exponent of Carreau [-].
-
-    Raises
-    ------
-    InputError
-        If the law does not exist.
-    """
-    tau = np.ascontiguousarray(newtonian, dtype=np.float64)
-    p = np.ascontiguousarray(pressure, dtype=np.float64)
-    values = np.empty(tau.shape)
-    check(*functions.shear(law.encode(), tau, p, values, stress, coefficient, exponent))
-    return values

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Namelist text to values, for text that the Fortran reader has resolved.
+"""Values as namelist text and back, for text as the Fortran writer and this module make it.
 
-f90nml never sees what a user wrote: it takes ``0,84`` as two values and a unit as a string, where
-the Fortran reader says what is wrong.
+What a user wrote is read by Fortran alone, which says what is wrong with it.
 """
 
 from __future__ import annotations
@@ -12,18 +11,24 @@ from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
 
-import f90nml
+from pyehl.errors import InputError
 
 __all__ = ["text_of", "values"]
 
 END = "\n/\n"
-WORD = r"'(?:[^']|'')*'|\.true\.|\.false\.|-?\d+[\d.]*(?:e-?\d+)?"
+WORD = r"'(?:[^']|'')*'|\.true\.|\.false\.|-?\d+[\d.]*(?:e[+-]?\d+)?"
 LINE = re.compile(rf"\s*(\w+) = ({WORD})\s*(?:!.*)?")
 LOGICAL = {".true.": True, ".false.": False}
 
 
 def values(resolved: str) -> dict[str, dict[str, Any]]:
-    """Read groups and their values of resolved namelist text."""
+    """Read groups and their values of resolved namelist text.
+
+    Raises
+    ------
+    InputError
+        For a line that neither writer makes.
+    """
     groups: dict[str, dict[str, Any]] = {}
     for block in resolved.split(END):
         if block.strip():
@@ -46,23 +51,20 @@ def _word(value: bool | int | float | str) -> str:
     return "'" + value.replace("'", "''") + "'" if isinstance(value, str) else repr(value)
 
 
-# The cases of a study differ in one key or two, and f90nml reads a group in some milliseconds
+# The cases of a study differ in one key or two
 @lru_cache(maxsize=128)
 def _group(text: str) -> dict[str, dict[str, Any]]:
     name, *lines = text.removesuffix(END).strip().splitlines()
-    keys = [_line(line) for line in lines]
-    if name[:1] == "&" and None not in keys:
-        return {name[1:].strip(): dict(key for key in keys if key is not None)}
-    # a Namelist looks every key up by a slow way
-    return {group: dict(found) for group, found in f90nml.reads(text).items()}
+    if name[:1] != "&":
+        raise InputError(f"{name!r}: expected a group of a resolved case, as '&contact'")
+    return {name[1:].strip(): dict(map(_line, lines))}
 
 
 @lru_cache(maxsize=2048)
-def _line(line: str) -> tuple[str, Any] | None:
-    """Key and value of a line as the Fortran writer makes it; None for another."""
+def _line(line: str) -> tuple[str, Any]:
     match = LINE.fullmatch(line)
     if match is None:
-        return None
+        raise InputError(f"{line.strip()!r}: expected a line of a resolved case, 'key = value'")
     key, value = match.groups()
     if value[0] == "'":
         return key, value[1:-1].replace("''", "'")

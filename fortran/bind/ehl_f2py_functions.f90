@@ -9,16 +9,13 @@ module ehl_f2py_functions
    use ehl_deflection, only: deflection_t
    use ehl_deflection_factory, only: new_deflection
    use ehl_grid, only: grid_t
-   use ehl_lubricant, only: density_constant, density_dowson_higginson, new_lubricant, &
-                            solver_lubricant_t => lubricant_t, viscosity_barus, viscosity_roelands
    use ehl_memory, only: check_memory, free_bytes
    use ehl_reply, only: reply
-   use ehl_shear, only: shear_carreau, shear_eyring, shear_law_t, shear_limiting, shear_newtonian, shear_stress
-   use ehl_status, only: ehl_bad_input, status_t
+   use ehl_status, only: status_t
    use ehl_version, only: build_text, version
    implicit none (type, external)
    private
-   public :: resolve, needs_memory, memory_left, keys, about, deflection, viscosity, density, shear
+   public :: resolve, needs_memory, memory_left, keys, about, deflection
 
 contains
 
@@ -111,67 +108,4 @@ contains
       end if
       call reply(status, stat, message)
    end subroutine deflection
-
-   !> ln(eta/eta0) and its slope at pressures p, scaled by the Hertz pressure [Pa]
-   subroutine viscosity(law, n, p, values, slopes, alpha_bar, hertz_pressure, z, p0, stat, message)
-      character(len=*), intent(in) :: law
-      integer(c_int), intent(in) :: n
-      real(c_double), intent(inout) :: p(n), values(n), slopes(n)
-      real(c_double), intent(in) :: alpha_bar, hertz_pressure, z, p0
-      integer(c_int), intent(out) :: stat
-      character(len=4096), intent(out) :: message
-      type(solver_lubricant_t) :: lubricant
-      type(status_t) :: status
-      integer :: number
-
-      number = 0
-      if (law == "barus") number = viscosity_barus
-      if (law == "roelands") number = viscosity_roelands
-      if (number == 0) then
-         call status%fail(ehl_bad_input, "unknown viscosity law '" // law // "'")
-      else
-         lubricant = new_lubricant(number, density_constant, alpha_bar, hertz_pressure, z, p0)
-         call lubricant%log_viscosity(p, values, slopes)
-      end if
-      call reply(status, stat, message)
-   end subroutine viscosity
-
-   !> Dowson-Higginson density rho/rho0 at pressures p, scaled by the Hertz pressure [Pa]
-   subroutine density(n, p, values, slopes, hertz_pressure)
-      integer(c_int), intent(in) :: n
-      real(c_double), intent(inout) :: p(n), values(n), slopes(n)
-      real(c_double), intent(in) :: hertz_pressure
-      type(solver_lubricant_t) :: lubricant
-
-      lubricant = new_lubricant(viscosity_barus, density_dowson_higginson, 1.0_c_double, &
-                                hertz_pressure, 1.0_c_double, 1.0_c_double)
-      call lubricant%density(p, values, slopes)
-   end subroutine density
-
-   !> Shear stress [Pa] at Newtonian stresses and pressures [Pa]; see shear_law_t for the parameters
-   subroutine shear(law, n, newtonian, pressure, values, stress, coefficient, exponent, stat, message)
-      character(len=*), intent(in) :: law
-      integer(c_int), intent(in) :: n
-      real(c_double), intent(inout) :: newtonian(n), pressure(n), values(n)
-      real(c_double), intent(in) :: stress, coefficient, exponent
-      integer(c_int), intent(out) :: stat
-      character(len=4096), intent(out) :: message
-      type(shear_law_t) :: own
-      type(status_t) :: status
-
-      own%law = 0
-      if (law == "newtonian") own%law = shear_newtonian
-      if (law == "eyring") own%law = shear_eyring
-      if (law == "limiting") own%law = shear_limiting
-      if (law == "carreau") own%law = shear_carreau
-      own%stress = stress
-      own%coefficient = coefficient
-      own%exponent = exponent
-      if (own%law == 0) then
-         call status%fail(ehl_bad_input, "unknown shear law '" // law // "'")
-      else
-         call shear_stress(own, newtonian, pressure, values)
-      end if
-      call reply(status, stat, message)
-   end subroutine shear
 end module ehl_f2py_functions

@@ -8,11 +8,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import f90nml
 import numpy as np
 from numpy.typing import NDArray
 
-from pyehl import display, surfaces
+from pyehl import display, namelist, surfaces
 from pyehl.prediction.bands import Band
 from pyehl.prediction.breakdown import Advice, BelowZero
 from pyehl.prediction.errors import cutoff_error, model_error, outside_range
@@ -151,7 +150,7 @@ class Prediction:
         """The resolved case as namelist text."""
         if self.text:
             return self.text
-        return f"{f90nml.Namelist({group: dict(keys) for group, keys in self.settings.items()})}\n"
+        return namelist.text_of(self.settings)
 
     @property
     def arrays(self) -> dict[str, Array]:

@@ -19,10 +19,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-import f90nml
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl import namelist
 from pyehl.case import Case
 from pyehl.errors import EhlError
 from pyehl.solver import Solver
@@ -178,7 +178,7 @@ def transient_case(
         "solver": {"accuracy": ACCURACY, **solver},
         "time": {"steps": 100000, "estimate_error": False},
     }
-    return Case.from_text(str(f90nml.Namelist(groups)) + "\n", origin="response")
+    return Case.from_text(namelist.text_of(groups), origin="response")
 
 
 def superpose(

@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+import reference
+from reference import SMOOTH, SmoothRow
 
-from pyehl import reference
-from pyehl.reference import SMOOTH, SmoothRow
 from pyehl.theory.film import nijenbanning_venner_moes
 
 # Independent programs agree with one another within this on the same grid

@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-
-from pyehl.reference import FIG_2, WAVINESS, WavinessRow
+from reference import FIG_2, WAVINESS, WavinessRow
 
 # The period means agree with an independent program within this on the same grid and scheme
 AGREEMENT = 5e-3

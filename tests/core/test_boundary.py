@@ -177,26 +177,3 @@ def test_deflection_of_the_hertz_pressure():
     assert np.abs(answers["direct"] - answers["fft"]).max() < 1e-13
     with pytest.raises(errors.InputError, match="fem"):
         library.deflection(pressure, h, h, "fem")
-
-
-def test_viscosity_and_density_laws():
-    p = np.linspace(0.0, 1.5, 7)
-    p_h, alpha, z, p_0 = 1.5e9, 2.2e-8, 0.68, 1.96e8
-    values, slopes = library.log_viscosity(
-        p, "roelands", alpha_bar=alpha * p_h, hertz_pressure=p_h, roelands_z=z, roelands_p0=p_0
-    )
-    expected = alpha * p_0 / z * ((1.0 + p * p_h / p_0) ** z - 1.0)
-    assert values == pytest.approx(expected, rel=1e-13)
-    assert slopes == pytest.approx(alpha * p_h * (1.0 + p * p_h / p_0) ** (z - 1.0), rel=1e-13)
-    barus, _ = library.log_viscosity(
-        p, "barus", alpha_bar=alpha * p_h, hertz_pressure=p_h, roelands_z=z, roelands_p0=p_0
-    )
-    assert barus == pytest.approx(alpha * p * p_h, rel=1e-14)
-    rho, slope = library.density(p, p_h)
-    pressure = p * p_h
-    assert rho == pytest.approx((5.9e8 + 1.34 * pressure) / (5.9e8 + pressure), rel=1e-13)
-    assert slope == pytest.approx(0.34 * 5.9e8 * p_h / (5.9e8 + pressure) ** 2, rel=1e-13)
-    with pytest.raises(errors.InputError, match="tait"):
-        library.log_viscosity(
-            p, "tait", alpha_bar=1.0, hertz_pressure=p_h, roelands_z=z, roelands_p0=p_0
-        )

@@ -12,7 +12,7 @@ import pytest
 # A module imports only from its own layer or from a layer to the left. Imports inside functions
 # and those for typing alone count too.
 LAYERS = [
-    ["errors", "closing", "display", "kept", "schema", "reference"],
+    ["errors", "closing", "display", "kept", "schema"],
     ["processor", "namelist", "given"],
     ["extension"],
     ["library", "program", "destination"],
@@ -130,11 +130,6 @@ def test_who_imports_what(root: Path, what: str, where: set[str]):
                 users.add(top(name))
     assert users
     assert users <= where
-
-
-def test_reference_is_a_leaf(graph: dict[str, set[str]]):
-    assert not graph["reference"]
-    assert not [name for name, others in graph.items() if "reference" in others]
 
 
 def test_every_module_is_installed(root: Path):

@@ -4,8 +4,8 @@
 import copy
 
 import pytest
+import reference
 
-from pyehl import reference
 from pyehl.commands import film as film_command
 from pyehl.prediction import film_sheet
 from pyehl.theory import film

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from reference import TABLE_1
 
-from pyehl.reference import TABLE_1
 from pyehl.theory.lubricant import Lubricant, default_roelands_z
 from pyehl.theory.operating import OperatingPoint
 

@@ -4,14 +4,14 @@
 import json
 import struct
 
-import f90nml
 import numpy as np
 import pytest
+import reference
 from matplotlib import pyplot
 from matplotlib.image import imread
 from matplotlib.transforms import Bbox
 
-from pyehl import cli, reference
+from pyehl import cli, namelist
 from pyehl.plots import contact, figures, folder, style, surface, transient
 from pyehl.prediction.folder import destination, write
 from pyehl.prediction.of_case import predict
@@ -271,7 +271,7 @@ SUMMARY = {
 
 def test_subcommand_on_a_run(settings, fields, tmp_path):
     (tmp_path / "summary.json").write_text(json.dumps(SUMMARY))
-    (tmp_path / "case.nml").write_text(str(f90nml.Namelist(settings)) + "\n")
+    (tmp_path / "case.nml").write_text(namelist.text_of(settings))
     for name, values in zip("XYPH", fields, strict=True):
         np.save(tmp_path / f"{name}.npy", np.asfortranarray(values))
     assert run_subcommand(tmp_path) == 0
@@ -281,7 +281,7 @@ def test_subcommand_on_a_run(settings, fields, tmp_path):
 
 def test_subcommand_without_fields_says_so(settings, tmp_path, capsys):
     (tmp_path / "summary.json").write_text(json.dumps(SUMMARY))
-    (tmp_path / "case.nml").write_text(str(f90nml.Namelist(settings)) + "\n")
+    (tmp_path / "case.nml").write_text(namelist.text_of(settings))
     assert run_subcommand(tmp_path, tmp_path / "new") == 2
     assert "output.fields" in capsys.readouterr().err
     assert not (tmp_path / "new").exists()

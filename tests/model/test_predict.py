@@ -5,12 +5,11 @@ import argparse
 import csv
 import json
 
-import f90nml
 import numpy as np
 import pytest
 import xarray as xr
 
-from pyehl import FileError, InputError
+from pyehl import FileError, InputError, namelist
 from pyehl.commands import film as film_command
 from pyehl.commands import predict as predict_command
 from pyehl.prediction.folder import destination, write
@@ -85,9 +84,9 @@ def test_folder(folder, settings):
         "surface_spectrum.png", "roughness.png", "passage.png",
     }  # fmt: skip
     assert [p.name for p in folder.parent.iterdir()] == ["out"]  # nothing left behind
-    case = f90nml.read(folder / "case.nml").todict()
+    case = namelist.values((folder / "case.nml").read_text())
     assert case["psd"]["film_thickness"] == 0.2333e-6
-    again = predict({group: dict(keys) for group, keys in case.items()})
+    again = predict(case)
     summary = json.loads((folder / "summary.json").read_text())
     assert again.friction.mu_ratio == summary["mu_ratio"]
     z = np.load(folder / "surface.npy", allow_pickle=False)

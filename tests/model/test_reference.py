@@ -7,9 +7,8 @@ import math
 
 import numpy as np
 import pytest
+import reference
 from scipy.integrate import dblquad, quad
-
-from pyehl import reference
 
 
 def test_load_of_the_hertz_pressure():

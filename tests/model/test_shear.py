@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Shear laws: closed forms, limits, and the same numbers in Fortran and in numpy."""
+"""Shear laws: closed forms and limits; `cases/test_kinematics.py` has them in whole runs."""
 
 import math
 
 import numpy as np
 import pytest
 
-from pyehl import library
 from pyehl.theory.shear import ShearLaw, shear_stress
 
 LAWS = [
@@ -16,24 +15,6 @@ LAWS = [
     ShearLaw("limiting", limiting_stress=8e7),
     ShearLaw("carreau", carreau_stress=7e6, carreau_exponent=0.46),
 ]
-
-
-@pytest.mark.parametrize("law", LAWS, ids=lambda law: law.law)
-def test_fortran_and_numpy_agree(law):
-    newtonian, pressure = (
-        v.ravel() for v in np.meshgrid(np.r_[0.0, np.logspace(-3, 18, 85)], [0.0, 1e5, 3e8, 2e9])
-    )
-    expected = shear_stress(newtonian, pressure, law)
-    stress = {"eyring": law.eyring_stress, "carreau": law.carreau_stress}
-    values = library.shear_stress(
-        newtonian,
-        pressure,
-        law.law,
-        stress=stress.get(law.law, law.limiting_stress),
-        coefficient=law.limiting_coefficient,
-        exponent=law.carreau_exponent,
-    )
-    assert values == pytest.approx(expected, rel=1e-14, abs=0.0)
 
 
 @pytest.mark.parametrize("law", LAWS, ids=lambda law: law.law)

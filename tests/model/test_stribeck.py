@@ -3,8 +3,8 @@
 
 import numpy as np
 import pytest
+import reference
 
-from pyehl import reference
 from pyehl.theory import stribeck
 
 
