@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import reprlib
 from collections.abc import Iterable, Mapping
@@ -22,6 +23,7 @@ __all__ = [
     "options_of",
     "path_of",
     "plain",
+    "positive",
     "text_of",
 ]
 
@@ -44,6 +46,20 @@ def check_kind(value: object, kinds: type | tuple[type, ...], name: str, expecte
         raise InputError(
             f"{name} = {reprlib.repr(value)}: expected {expected}, not {type(value).__name__}"
         )
+
+
+def positive(name: str, value: float, unit: str) -> float:
+    """Return the value as a float.
+
+    Raises
+    ------
+    InputError
+        If it is not positive or not finite; the message names it and its unit.
+    """
+    value = float(value)
+    if not (math.isfinite(value) and value > 0.0):
+        raise InputError(f"{name} must be a positive number [{unit}], not {value!r}")
+    return value
 
 
 def path_of(value: Any, name: str) -> str:  # noqa: ANN401

@@ -9,12 +9,11 @@ from __future__ import annotations
 import json
 import os
 import threading
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pyehl.closing import Closing
 from pyehl.errors import check
 from pyehl.given import path_of, text_of
 from pyehl.library import checkpoints, ehl, returned
@@ -48,7 +47,7 @@ class Work(NamedTuple):
     latest: float
 
 
-class SolverHandle(Closing):
+class SolverHandle:
     """A solver that was opened, and is closed at the end of a ``with`` block.
 
     Every method may be called from every thread. What is read while another thread advances is the
@@ -88,6 +87,12 @@ class SolverHandle(Closing):
         )
         check(status, message)
         self._handle = handle
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.close()
 
     def close(self) -> None:
         """Free the memory; the solver cannot be used afterwards."""

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-__all__ = ["markdown", "table"]
+__all__ = ["table"]
 
 Columns = Sequence[tuple[str, str]]
 
@@ -24,13 +24,3 @@ def table(rows: Sequence[Mapping[str, Any]], columns: Columns) -> str:
         "  ".join(text.rjust(width) for text, width in zip(line, widths, strict=True))
         for line in lines
     )
-
-
-def markdown(rows: Sequence[Mapping[str, Any]], columns: Columns) -> str:
-    """Give the same as a table in Markdown."""
-    lines = ["| " + " | ".join(name.replace("_", " ") for name, _ in columns) + " |"]
-    lines.append("|" + "---|" * len(columns))
-    lines += [
-        "| " + " | ".join(_cell(row[name], form) for name, form in columns) + " |" for row in rows
-    ]
-    return "\n".join(lines)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from pyehl.reproduce.piece import Check, Result, write_table
 from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Runs
 from pyehl.reproduce.surface_runs import SEED, tile
-from pyehl.surfaces import Topography, psd_2d, psd_isotropic, rms_from_psd
+from pyehl.surfaces import Topography, psd_2d, psd_isotropic
 
 __all__ = ["NAME", "TITLE", "Spectrum", "run", "show"]
 
@@ -42,7 +43,7 @@ def run(runs: Runs, level: Level) -> Spectrum:
     # the first annuli are wide against their wavenumber
     straight = (q > 4.0 * q[0]) & (c_iso > 0.0)
     slope = np.polyfit(np.log(q[straight]), np.log(c_iso[straight]), 1)[0]
-    rms = rms_from_psd(c2d, surface.length_x, surface.length_y)
+    rms = math.sqrt(c2d.sum() / (surface.length_x * surface.length_y))
     return Spectrum(surface, q, c_iso, rms, float(-0.5 * slope - 1.0))
 
 

@@ -17,9 +17,8 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, Self
 
-from pyehl.closing import Closing
 from pyehl.destination import Destination
 from pyehl.errors import FileError, InputError
 
@@ -97,7 +96,7 @@ def _short(value: object) -> str:
     return text if len(text) <= 100 else f"{text[:60]} ... {text[-30:]}"
 
 
-class Journal(Closing):
+class Journal:
     """The journal of one study in one folder; a context manager that holds a lock on it.
 
     Parameters
@@ -207,6 +206,12 @@ class Journal(Closing):
             with suppress(OSError):
                 self._file.close()
             raise
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.close()
 
     def append(self, rows: Sequence[tuple[int, Row]]) -> None:
         """Add finished cases; they are on the disk when this returns.

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from pyehl.errors import InputError
-from pyehl.given import Value, option, plain
+from pyehl.given import Value, plain
 
 __all__ = ["Axis", "Value", "axis", "parse_axis"]
 
@@ -37,10 +37,6 @@ class Axis:
 
     key: str
     values: tuple[Value, ...]
-
-    def options(self) -> list[str]:
-        """Texts ``group.key=value``, one for each value."""
-        return [option(self.key, value) for value in self.values]
 
 
 def parse_axis(text: str) -> Axis:

@@ -11,12 +11,12 @@ from pyehl.surfaces.filters import filtered
 from pyehl.surfaces.generators import fractal, harmonic
 from pyehl.surfaces.in_memory import Surface, as_map, in_memory, keep_beside
 from pyehl.surfaces.interpolation import resampled, shifted
-from pyehl.surfaces.maps import read_map, tile_of
 from pyehl.surfaces.of_case import (
     finished,
     from_settings,
     harmonic_amplitude,
     moved,
+    tile_of,
     track_offsets,
     without_spikes,
 )
@@ -26,13 +26,7 @@ from pyehl.surfaces.prepare import Preparation, prepare
 from pyehl.surfaces.reading import Scan, read_scan
 from pyehl.surfaces.record import Record
 from pyehl.surfaces.solver_surface import SolverSurface, for_solver
-from pyehl.surfaces.spectra import (
-    psd_2d,
-    psd_isotropic,
-    rms_from_psd,
-    spectrum,
-    wavenumbers,
-)
+from pyehl.surfaces.spectra import psd_2d, psd_isotropic, wavenumbers
 from pyehl.surfaces.tile import MAX_PIXELS, Topography
 
 __all__ = [
@@ -62,12 +56,9 @@ __all__ = [
     "prepare",
     "psd_2d",
     "psd_isotropic",
-    "read_map",
     "read_scan",
     "resampled",
-    "rms_from_psd",
     "shifted",
-    "spectrum",
     "tile_of",
     "track_offsets",
     "wavenumbers",

@@ -102,9 +102,6 @@ def extent(heights: Array, pixel: tuple[float, float]) -> Extent:
 def areal_numbers(heights: Array, pixel: tuple[float, float]) -> dict[str, float]:
     """Sq, Sa, Sz, Ssk, Sku, Sdq and Str of a map, about its mean plane z = mean.
 
-    Sq and Sdq are those of SurfaceTopography where it is installed; without it the same formulas
-    in numpy give the same numbers to rounding.
-
     Parameters
     ----------
     heights
@@ -120,14 +117,6 @@ def areal_numbers(heights: Array, pixel: tuple[float, float]) -> dict[str, float
     z = heights - heights.mean()
     spread = extent(heights, pixel)
     sq, sdq = spread.rms, spread.slope
-    try:
-        from SurfaceTopography import Topography  # noqa: PLC0415 (heavy, and optional)
-    except ImportError:
-        pass
-    else:
-        sizes = tuple(n * p for n, p in zip(heights.shape, pixel, strict=True))
-        scan = Topography(z, sizes, unit="m", periodic=False)
-        sq, sdq = float(scan.Sq()), float(scan.rms_gradient())
     cube, fourth = float(np.mean(z**3)), float(np.mean(z**4))
     return {
         "Sq": sq,

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 
-__all__ = ["DEGREES", "fit", "level", "levelled"]
+__all__ = ["level"]
 
 Array = NDArray[np.float64]
 
@@ -19,36 +19,10 @@ LINES = 64
 """Lines of a map that are levelled together."""
 
 
-def fit(heights: Array, degree: int, valid: NDArray[np.bool_] | None = None) -> Array:
-    """Polynomial of a total degree in x and y nearest to a map.
-
-    Parameters
-    ----------
-    heights
-        (nx, ny) [m].
-    degree
-        0: mean; 1: plane; 2: with x^2, x y and y^2.
-    valid
-        (nx, ny) points that count; default: those that are numbers.
-
-    Returns
-    -------
-    Array
-        The polynomial at all points, (nx, ny) [m].
-
-    Raises
-    ------
-    InputError
-        If too few points are left to tell the polynomial.
-    """
-    x, coefficient, y = _factors(heights, degree, valid)
-    return np.asarray(x @ coefficient @ y.T)
-
-
 def _factors(
     heights: Array, degree: int, valid: NDArray[np.bool_] | None
 ) -> tuple[Array, Array, Array]:
-    """Give the polynomial of `fit` as a product: powers of x, coefficients, powers of y."""
+    """Give the polynomial nearest to a map as a product: powers of x, coefficients, powers of y."""
     nx, ny = heights.shape
     good = valid
     if valid is None and np.isfinite(heights.sum()):
@@ -79,20 +53,17 @@ def _factors(
     return x[:, : degree + 1], coefficient, y[:, : degree + 1]
 
 
-def levelled(heights: Array, what: str, valid: NDArray[np.bool_] | None = None) -> Array:
-    """Map without its mean ('centre'), plane ('tilt') or curvature; 'none': as it is.
-
-    The least-squares polynomial of :func:`fit` is subtracted; missing points stay missing.
-    """
-    if what == "none":
-        return heights
-    work = heights.copy()
-    level(work, what, valid)
-    return work
-
-
 def level(heights: Array, what: str, valid: NDArray[np.bool_] | None = None) -> None:
-    """Do what :func:`levelled` does in place, a few lines at a time."""
+    """Take the mean (`centre`), plane (`tilt`) or `curvature` off a map in place.
+
+    A least-squares polynomial over the points that count (`valid`; default: all that are numbers);
+    missing points stay missing.
+
+    Raises
+    ------
+    InputError
+        If too few points are left to tell the polynomial.
+    """
     # the large parts go first, so that rounding is that of what remains
     for degree in sorted({0, DEGREES[what]}):
         x, coefficient, y = _factors(heights, degree, valid)

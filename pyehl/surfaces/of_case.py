@@ -15,9 +15,9 @@ from pyehl.surfaces.features import FEATURES, feature
 from pyehl.surfaces.filters import filtered
 from pyehl.surfaces.generators import fractal, harmonic
 from pyehl.surfaces.interpolation import shift_across
-from pyehl.surfaces.maps import tile_of
 from pyehl.surfaces.memory import PREDICTION_COPIES, check_pixels
-from pyehl.surfaces.options import Options
+from pyehl.surfaces.options import NEUTRAL, Options
+from pyehl.surfaces.prepare import prepare
 from pyehl.surfaces.reading import Scan, read_scan
 from pyehl.surfaces.tile import Topography
 from pyehl.theory.operating import OperatingPoint
@@ -28,6 +28,7 @@ __all__ = [
     "harmonic_amplitude",
     "moved",
     "scan_of",
+    "tile_of",
     "track_offsets",
     "whole",
     "without_spikes",
@@ -188,6 +189,12 @@ def scan_of(surface: Mapping[str, Any]) -> Scan:
         float(surface.get("length_y", 0.0)) or None,
         str(surface.get("channel", "")),
     )
+
+
+def tile_of(scan: Scan, options: Options = NEUTRAL) -> Topography:
+    """Prepare a map, see :func:`pyehl.surfaces.prepare.prepare`; the tile carries the record."""
+    made = prepare(scan, options)
+    return Topography(made.tile, made.lengths, scan.origin, None, made)
 
 
 def moved(tile: Topography, surface: Mapping[str, Any]) -> Topography:

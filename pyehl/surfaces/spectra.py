@@ -8,16 +8,13 @@ its mean over annuli of |q|.
 
 from __future__ import annotations
 
-import math
-from typing import cast
-
 import numpy as np
 import scipy
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from pyehl.surfaces.tile import Topography
 
-__all__ = ["psd_2d", "psd_isotropic", "rms_from_psd", "spectrum", "wavenumbers"]
+__all__ = ["psd_2d", "psd_isotropic", "wavenumbers"]
 
 Array = NDArray[np.float64]
 
@@ -29,16 +26,6 @@ def wavenumbers(topography: Topography) -> tuple[Array, Array]:
     qx = 2.0 * np.pi * scipy.fft.fftfreq(nx, dx)
     qy = 2.0 * np.pi * scipy.fft.rfftfreq(ny, dy)
     return qx[:, np.newaxis], qy[np.newaxis, :]
-
-
-def spectrum(topography: Topography) -> NDArray[np.complex128]:
-    """Amplitude of each Fourier component, (nx, ny//2 + 1) [m]: the half spectrum of z over nx ny.
-
-    z[i, j] = sum over the full spectrum of amplitude exp(i (q_x x + q_y y)); no factor 4, a real
-    cosine of amplitude A shows as two components of A/2.
-    """
-    z = scipy.fft.rfft2(topography.heights, norm="forward")
-    return cast("NDArray[np.complex128]", z)
 
 
 def psd_2d(topography: Topography) -> tuple[Array, Array, Array]:
@@ -87,8 +74,3 @@ def psd_isotropic(topography: Topography) -> tuple[Array, Array]:
     mean_q = np.bincount(ring[keep], q[keep])[filled] / count[filled]
     mean_c = np.bincount(ring[keep], c2d[keep])[filled] / count[filled]
     return mean_q, mean_c
-
-
-def rms_from_psd(c2d: ArrayLike, length_x: float, length_y: float) -> float:
-    """Rms height [m] of a spectrum C2D [m^4] of a tile: sqrt(sum C2D/(Lx Ly))."""
-    return math.sqrt(float(np.sum(c2d)) / (length_x * length_y))

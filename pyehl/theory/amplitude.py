@@ -46,9 +46,6 @@ Array = NDArray[np.float64]
 CONVENTIONS = ("components", "wavevector", "pattern")
 """Names of the ways to give a Fourier component a wavelength, the default first."""
 
-# 1/(1 + c1 x + c2 x^2): point contacts (Venner & Lubrecht 1999), line contacts (Lubrecht & Venner)
-_COEFFICIENTS = {"point": (0.15, 0.015), "line": (0.17, 0.03)}
-
 
 def anisotropy_factor(ratio: ArrayLike) -> Array:
     """f(r) for r = wavelength_x/wavelength_y >= 0, infinity allowed [-], any shape."""
@@ -58,59 +55,36 @@ def anisotropy_factor(ratio: ArrayLike) -> Array:
 
 
 def wavelength_parameter(
-    wavelength: ArrayLike,
-    moes_m: float,
-    moes_l: float,
-    ratio: ArrayLike = 1.0,
-    *,
-    contact: str = "point",
+    wavelength: ArrayLike, moes_m: float, moes_l: float, ratio: ArrayLike = 1.0
 ) -> Array:
-    """Dimensionless wavelength parameter x (nabla_2 in the literature) [-].
+    """Wavelength parameter x = f(r) (wavelength/a) sqrt(M/L) [-], nabla_2 in the literature.
 
     Parameters
     ----------
     wavelength
-        The shorter of the two wavelengths over the Hertz radius a (point) or half width b (line).
+        The shorter of the two wavelengths over the Hertz radius a.
     moes_m, moes_l
-        Moes numbers. M of a line contact is W (2U)^(-1/2), not the point contact's.
+        Moes numbers of the point contact.
     ratio
-        r = wavelength_x/wavelength_y; must be 1 for a line contact, whose waves are transverse.
-    contact
-        ``"point"``: f(r) (wavelength/a) sqrt(M/L); ``"line"``: (wavelength/b) M^(3/4)/L^(1/2).
+        r = wavelength_x/wavelength_y.
 
     Raises
     ------
     InputError
-        If M or L is not positive (the theory is one of piezoviscous contacts) or the kind of
-        contact is unknown.
+        If M or L is not positive: the theory is one of piezoviscous contacts.
     """
     if not (moes_m > 0.0 and moes_l > 0.0):
         raise InputError(
             f"amplitude reduction needs positive Moes numbers, not M = {moes_m:g}, L = {moes_l:g}"
         )
     lam = np.asarray(wavelength, dtype=float)
-    if contact == "point":
-        return cast(Array, anisotropy_factor(ratio) * lam * np.sqrt(moes_m / moes_l))
-    if contact == "line":
-        if not np.all(np.asarray(ratio) == 1.0):
-            raise InputError("the line contact formula has no ratio of wavelengths")
-        return np.asarray(lam * moes_m**0.75 / moes_l**0.5)
-    raise InputError(f"contact {contact!r}: expected 'point' or 'line'")
+    return cast(Array, anisotropy_factor(ratio) * lam * np.sqrt(moes_m / moes_l))
 
 
-def amplitude_ratio(parameter: ArrayLike, *, contact: str = "point") -> Array:
-    """A_d/A_i [-] for a wavelength parameter x >= 0 of any shape; 1 at 0, 0 at infinity.
-
-    Raises
-    ------
-    InputError
-        If the kind of contact is unknown.
-    """
-    if contact not in _COEFFICIENTS:
-        raise InputError(f"contact {contact!r}: expected 'point' or 'line'")
-    c1, c2 = _COEFFICIENTS[contact]
+def amplitude_ratio(parameter: ArrayLike) -> Array:
+    """A_d/A_i [-] for a wavelength parameter x >= 0 of any shape; 1 at 0, 0 at infinity."""
     x = np.asarray(parameter, dtype=float)
-    return np.asarray(1.0 / (1.0 + c1 * x + c2 * x * x))
+    return np.asarray(1.0 / (1.0 + 0.15 * x + 0.015 * x * x))
 
 
 def component_wavelength(

@@ -24,7 +24,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-__all__ = ["LARGEST", "disc_correction", "disc_pressure", "monomials"]
+__all__ = ["LARGEST", "disc_correction", "monomials"]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -49,26 +49,6 @@ def monomials(x: Array, y: Array, axis: int = -1) -> Array:
     for out, (i, j) in zip(terms, pairs, strict=True):
         np.multiply(powers[0][i], powers[1][j], out=out)
     return np.moveaxis(terms, 0, axis)
-
-
-def disc_pressure(qx: Array, qy: Array, x: Array, y: Array) -> Complex:
-    """Pressure on the unit disc that deflects it by exp(i q x) less its mean part, at zero load.
-
-    Parameters
-    ----------
-    qx, qy
-        Wavenumbers (m,) [1/a].
-    x, y
-        Places (n,) inside the disc [a].
-
-    Returns
-    -------
-    ndarray
-        (n, m) [p_h per a^2/R]. The deflection is (2/pi^2) iint P dX' dY'/r.
-    """
-    # the series converges like that of exp(i q): a few terms more than the largest q
-    last = math.ceil(float(np.hypot(qx, qy).max())) + 12
-    return _series(qx, qy, np.arctan2(y, x), _radial(np.sqrt(1.0 - x * x - y * y), last))
 
 
 def _radial(z: Array, last: int) -> list[tuple[range, Array]]:

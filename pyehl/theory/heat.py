@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Temperature: oil by its data sheet, shear heating of the inlet, flash temperature.
+"""Temperature: shear heating of the inlet, flash temperature.
 
 The same formulas as in ``fortran/physics/heat.f90``, which the solver uses.
 """
@@ -8,38 +8,7 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
-__all__ = ["flash_temperature", "kinematic_viscosity", "thermal_loading", "thermal_reduction"]
-
-Array = NDArray[np.float64]
-
-# 0 degC in kelvin, and the temperatures of data sheets [degC]
-FREEZING = 273.15
-SHEET = np.array([40.0, 100.0])
-
-
-def kinematic_viscosity(temperature: ArrayLike, at_40: float, at_100: float) -> Array:
-    """Kinematic viscosity [mm^2/s] of an oil from its data sheet.
-
-    log log Z(nu) = A - B log T through both points, with Z of ASTM D341 (Walther 1931: nu + 0.7),
-    valid above 0.21 mm^2/s.
-
-    Parameters
-    ----------
-    temperature
-        [degC], any shape.
-    at_40, at_100
-        Kinematic viscosities at 40 and 100 degC [mm^2/s].
-    """
-    nu = np.array([at_40, at_100])
-    double_log = np.log(np.log(nu + 0.7 + np.exp(-1.47 - 1.84 * nu - 0.51 * nu**2)))
-    log_t = np.log(SHEET + FREEZING)
-    slope = (double_log[1] - double_log[0]) / (log_t[1] - log_t[0])
-    log_at = np.log(np.asarray(temperature, dtype=float) + FREEZING)
-    z = np.exp(np.exp(double_log[0] + slope * (log_at - log_t[0]))) - 0.7
-    return np.asarray(z - np.exp(-0.7487 - 3.295 * z + 0.6119 * z**2 - 0.3193 * z**3))
+__all__ = ["flash_temperature", "thermal_loading", "thermal_reduction"]
 
 
 def thermal_loading(

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import InputError
-from pyehl.theory.numbers import positive
+from pyehl.given import positive
 from pyehl.theory.shear import ShearLaw
 
 __all__ = ["Lubricant", "default_roelands_z"]

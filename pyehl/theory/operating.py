@@ -13,9 +13,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from pyehl.errors import InputError
+from pyehl.given import positive
 from pyehl.theory.heat import thermal_loading, thermal_reduction
 from pyehl.theory.moes_film import inlet_viscosity_ratio
-from pyehl.theory.numbers import positive
 
 __all__ = ["OperatingPoint"]
 

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import InputError
 
-__all__ = ["RANGE", "in_range", "relative_friction", "theta_2", "theta_2_at"]
+__all__ = ["RANGE", "in_range", "relative_friction", "theta_2"]
 
 Array = NDArray[np.float64]
 
@@ -56,21 +56,6 @@ def relative_friction(theta: ArrayLike) -> Array:
     if not np.all(t > 0.0):
         raise InputError("theta_2 must be positive")
     return np.asarray(1.0 + 0.546 * t**-2 + 0.219 * t**-4)
-
-
-def theta_2_at(ratio: ArrayLike) -> Array:
-    """theta_2 at which eq. 16 gives a relative friction `ratio` > 1 [-]: its inverse.
-
-    Raises
-    ------
-    InputError
-        If a ratio is not above one.
-    """
-    r = np.asarray(ratio, dtype=float)
-    if not np.all(r > 1.0):
-        raise InputError("eq. 16 only gives ratios above 1")
-    s = (-0.546 + np.sqrt(0.546**2 + 4.0 * 0.219 * (r - 1.0))) / (2.0 * 0.219)
-    return np.asarray(1.0 / np.sqrt(s))
 
 
 def in_range(

@@ -12,7 +12,7 @@ import pytest
 # A module imports only from its own layer or from a layer to the left. Imports inside functions
 # and those for typing alone count too.
 LAYERS = [
-    ["errors", "closing", "display", "kept", "schema"],
+    ["errors", "display", "kept", "schema"],
     ["processor", "namelist", "given"],
     ["extension"],
     ["library", "program", "destination"],

@@ -27,11 +27,6 @@ def test_by_hand():
     x = amplitude.wavelength_parameter(0.5, 1000.0, 10.0)
     assert float(x) == pytest.approx(5.0)
     assert float(amplitude.amplitude_ratio(x)) == pytest.approx(1 / 2.125)
-    line = amplitude.wavelength_parameter(0.5, 16.0, 4.0, contact="line")
-    assert float(line) == pytest.approx(0.5 * 8 / 2)
-    assert float(amplitude.amplitude_ratio(line, contact="line")) == pytest.approx(
-        1 / (1 + 0.17 * 2 + 0.03 * 4)
-    )
 
 
 def test_decreases_with_the_wavelength():
@@ -78,11 +73,5 @@ def test_mean_height_is_flattened(convention):
 def test_refuses():
     with pytest.raises(ValueError, match="positive Moes"):
         amplitude.wavelength_parameter(0.5, 1000.0, 0.0)
-    with pytest.raises(ValueError, match="'line'"):
-        amplitude.wavelength_parameter(0.5, 1000.0, 10.0, contact="ring")
-    with pytest.raises(ValueError, match="'line'"):
-        amplitude.amplitude_ratio(1.0, contact="ring")
-    with pytest.raises(ValueError, match="no ratio"):
-        amplitude.wavelength_parameter(0.5, 1000.0, 10.0, 2.0, contact="line")
     with pytest.raises(ValueError, match="pattern"):
         amplitude.component_wavelength(1.0, 1.0, "crest")

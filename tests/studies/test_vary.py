@@ -78,7 +78,6 @@ def test_options_are_as_a_case_file_has_them():
     assert option("a.b", True) == "a.b=.true."
     assert option("a.b", 1e-5) == "a.b=1e-05"
     assert option("a.b", 0.1 + 0.2) == "a.b=0.30000000000000004"
-    assert axis("a.b", ["x"]).options() == ["a.b=x"]
 
 
 def study(*texts: str, zipped: bool | list[list[str]] = False) -> Study:
