@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 import signal
 import threading
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from types import FrameType
@@ -25,42 +25,42 @@ from pyehl.errors import FileError, InputError
 from pyehl.solver import Solver
 from pyehl.surfaces import Surface, for_solver
 
-__all__ = ["Observer", "Outcome", "resume", "run"]
+__all__ = ["Observer", "Outcome", "resume", "run", "signals_to"]
 
 AnyPath = str | os.PathLike[str]
 
 
-class StopRequest:
-    """Whether somebody wants the run to stop."""
-
-    def __init__(self) -> None:
-        self.wanted = False
+SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
 @contextmanager
-def stop_on_signals() -> Iterator[StopRequest]:
-    """SIGINT and SIGTERM ask for a stop after the cycle at hand; a second one acts at once.
+def signals_to(take: Callable[[int, FrameType | None], None]) -> Iterator[None]:
+    """Give SIGINT and SIGTERM to a function.
 
     Signals belong to the main thread: in another one nothing asks for a stop.
     """
-    request = StopRequest()
     if threading.current_thread() is not threading.main_thread():
-        yield request
+        yield
         return
-    previous: dict[int, signal._HANDLER] = {}
-    numbers: tuple[int, ...] = (signal.SIGINT, signal.SIGTERM)
-
-    def note(number: int, frame: FrameType | None) -> None:
-        request.wanted = True
-        signal.signal(number, previous[number])
-
-    for number in numbers:
-        previous[number] = signal.signal(number, note)
+    before = {number: signal.signal(number, take) for number in SIGNALS}
     try:
-        yield request
+        yield
     finally:
-        for number, handler in previous.items():
+        for number, handler in before.items():
             signal.signal(number, handler)
+
+
+class StopRequest:
+    """Whether somebody wants the run to stop; a second signal acts at once."""
+
+    def __init__(self) -> None:
+        self.wanted = False
+        self._before = {number: signal.getsignal(number) for number in SIGNALS}
+
+    def take(self, number: int, frame: FrameType | None) -> None:
+        """Take a signal."""
+        self.wanted = True
+        signal.signal(number, self._before[signal.Signals(number)])
 
 
 class Observer:
@@ -208,7 +208,8 @@ def _drive(
     """Solve a case, from its beginning or from the state of a run with the results `resumed`."""
     sources = (*inputs, str(case.resolve()["surface"].get("file", "")))
     Destination(folder, "solution", inputs=sources, force=force).check()
-    with stop_on_signals() as request, _open(case, resumed, surface) as solver:
+    request = StopRequest()
+    with signals_to(request.take), _open(case, resumed, surface) as solver:
         observer.say(solver.describe())
         if os.fspath(resumed):
             begins = "there is no state yet: the run begins at its beginning"

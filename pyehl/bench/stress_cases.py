@@ -14,6 +14,7 @@ from pyehl.bench.second_solver import Z
 from pyehl.case import Case
 from pyehl.studies.study import Study, make
 from pyehl.studies.vary import Axis, Value
+from pyehl.theory.operating import OperatingPoint
 
 __all__ = ["BOUNDS", "FAMILIES", "GRIDS", "StressCase", "draw", "study_of"]
 
@@ -28,8 +29,6 @@ MATTERS, FILLED = -1.25, 1.05
 LONGEST_X, LONGEST_Y = 100.0, 1e6
 WAVELENGTHS = tuple(0.125 * 2.0 ** (k / 2.0) for k in range(11))
 VELOCITIES = (0.1, 0.25, 0.5, 0.75, 0.9, 1.0, 1.01, 1.1, 1.25, 1.5, 2.0)
-# A contact in SI units that has the wanted M and L
-RADIUS, MODULUS, ALPHA, VISCOSITY = 0.018, 2.26e11, 2.2e-8, 0.04
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +85,7 @@ def _one(family: str, generator: np.random.Generator, grids: Sequence[int]) -> S
         values |= {"contact.moes_m": moes_m, "contact.moes_l": moes_l}
         values |= _wave(case, generator, at_rest=family == "rest")
     elif family == "fractal":
-        values |= _si(moes_m, moes_l) | _fractal(case, generator)
+        values |= _si(case) | _fractal(case, generator)
     else:
         values |= {"contact.moes_m": moes_m, "contact.moes_l": moes_l}
         values |= _feature(case, generator)
@@ -114,12 +113,13 @@ def _wave(case: StressCase, generator: np.random.Generator, *, at_rest: bool) ->
 
 def _fractal(case: StressCase, generator: np.random.Generator) -> dict[str, Value]:
     velocity = float(generator.choice(VELOCITIES[2:]))
-    film = _film(case)
+    point = _point(case)
+    film = _film(case) * point.film_scale
     return {
-        "surface.rms_height": float(f"{generator.uniform(0.02, 0.4) * film * _scale(case):.4g}"),
+        "surface.rms_height": float(f"{generator.uniform(0.02, 0.4) * film:.4g}"),
         "surface.hurst": float(f"{generator.uniform(0.4, 1.0):.3g}"),
-        "surface.length_x": float(f"{2.0 * _radius(case):.5g}"),
-        "surface.length_y": float(f"{2.0 * _radius(case):.5g}"),
+        "surface.length_x": float(f"{2.0 * point.hertz_radius:.5g}"),
+        "surface.length_y": float(f"{2.0 * point.hertz_radius:.5g}"),
         "surface.seed": int(generator.integers(1, 1000)),
         "surface.velocity_ratio": velocity,
         "time.scheme": str(generator.choice(("narrow", "narrow", "paper"))),
@@ -156,30 +156,15 @@ def _film(case: StressCase) -> float:
     return float(piezo * (1.5 * case.moes_m) ** (-2.0 / 3.0))
 
 
-def _si(moes_m: float, moes_l: float) -> dict[str, Value]:
-    speed = 0.5 * (moes_l / (ALPHA * MODULUS)) ** 4
-    return {
-        "contact.mean_velocity": speed * MODULUS * RADIUS / VISCOSITY,
-        "contact.load": _load(moes_m, moes_l),
-        "contact.radius": RADIUS,
-        "contact.reduced_modulus": MODULUS,
-    }
+def _point(case: StressCase) -> OperatingPoint:
+    """Give a contact in SI units that has the wanted M and L."""
+    return OperatingPoint.from_moes(case.moes_m, case.moes_l)
 
 
-def _load(moes_m: float, moes_l: float) -> float:
-    speed = 0.5 * (moes_l / (ALPHA * MODULUS)) ** 4
-    return moes_m * (2.0 * speed) ** 0.75 * MODULUS * RADIUS**2
-
-
-def _radius(case: StressCase) -> float:
-    """Hertz radius [m]."""
-    load = _load(case.moes_m, case.moes_l)
-    return float((1.5 * load * RADIUS / MODULUS) ** (1.0 / 3.0))
-
-
-def _scale(case: StressCase) -> float:
-    """Give the unit of films, a^2/R [m]."""
-    return _radius(case) ** 2 / RADIUS
+def _si(case: StressCase) -> dict[str, Value]:
+    point = _point(case)
+    names = ("mean_velocity", "load", "radius", "reduced_modulus")
+    return {f"contact.{name}": getattr(point, name) for name in names}
 
 
 def study_of(

@@ -135,5 +135,5 @@ def execute(args: argparse.Namespace) -> int:
         for watcher in watchers:
             watcher.close()
     if not args.quiet:
-        print(f"report     {folder / 'report.html'}, {folder / 'report.md'}")
+        print(f"report     {folder / 'report.html'}")
     return EXIT_OK if all(r.passed for r in results) else EXIT_FAILED

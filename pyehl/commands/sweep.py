@@ -84,10 +84,9 @@ def report(outcome: Outcome, folder: Path, workers: int) -> str:
     lines = [f"cases      {len(outcome.rows)} in the table: {counts or 'none'}"]
     if outcome.ran and outcome.wall > 0.0:
         share = outcome.busy / (outcome.wall * workers)
-        saved = f"; shared parts saved {duration(outcome.saved)}" if outcome.saved > 0.0 else ""
         lines.append(
             f"           {outcome.ran} ran now in {duration(outcome.wall)}, "
-            f"the workers {100.0 * min(share, 1.0):.0f} % busy{saved}"
+            f"the workers {100.0 * min(share, 1.0):.0f} % busy"
         )
     lines.append(f"results    {folder / CSV}, {folder / NETCDF}")
     return "\n".join(lines)

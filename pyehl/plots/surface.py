@@ -29,7 +29,7 @@ from pyehl.plots.style import (
     height_unit,
     hertz_ticks,
 )
-from pyehl.surfaces import Topography, psd_2d, psd_isotropic
+from pyehl.surfaces import Topography, interpolated, psd_2d, psd_isotropic
 from pyehl.theory import amplitude
 
 __all__ = ["heights", "octaves", "passage", "roughness", "spectrum_line", "spectrum_map"]
@@ -211,12 +211,8 @@ def passage(shift: Array, ratio: Array, length: float, *, ax: Axes | None = None
         Where to draw; None: a new figure.
     """
     ax = axes_or_new(ax, 3.8, 2.9)
-    n = ratio.size
-    half = np.fft.rfft(ratio)
-    if n % 2 == 0:
-        half[-1] *= 0.5
-    fine = np.fft.irfft(half, 16 * n) * 16.0
-    at = np.arange(16 * n + 1) * length / (16 * n)
+    fine = interpolated(ratio, 16)
+    at = np.arange(fine.size + 1) * length / fine.size
     mean = float(ratio.mean())
     ax.plot(at * 1e3, np.append(fine, fine[0]), color=BLUE, lw=1.4)
     ax.plot(shift * 1e3, ratio, "o", ms=3.0, color=BLUE)

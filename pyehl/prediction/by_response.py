@@ -23,18 +23,13 @@ from pyehl.prediction.errors import KNOWN_RATIO
 from pyehl.prediction.flattening import Response
 from pyehl.prediction.friction import RoughFriction
 from pyehl.prediction.options import Options
-from pyehl.prediction.passage import (
-    RADIUS_PIXELS,
-    friction_along,
-    interpolated,
-    working_grid,
-)
+from pyehl.prediction.passage import RADIUS_PIXELS, friction_along, working_grid
 from pyehl.prediction.rough_contact import Edge, RoughContact
 from pyehl.prediction.smooth import SmoothContact, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.prediction.waves import Waves
-from pyehl.surfaces import Topography, filtered, track_offsets
+from pyehl.surfaces import Topography, filtered, interpolated, track_offsets
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint

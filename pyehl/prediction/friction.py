@@ -14,8 +14,8 @@ from pyehl.errors import InputError
 from pyehl.prediction.contact import Contact
 from pyehl.prediction.flattening import Response, response
 from pyehl.prediction.options import Options
-from pyehl.prediction.passage import friction_along, interpolated, working_grid
-from pyehl.surfaces import Topography, shifted, track_offsets
+from pyehl.prediction.passage import friction_along, working_grid
+from pyehl.surfaces import Topography, interpolated, shifted, track_offsets
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 from pyehl.prediction.options import MAX_POSITIONS
-from pyehl.surfaces import MAX_PIXELS, Topography, resampled
+from pyehl.surfaces import MAX_PIXELS, Topography, interpolated, resampled
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["RADIUS_PIXELS", "friction_along", "interpolated", "working_grid"]
+__all__ = ["RADIUS_PIXELS", "friction_along", "working_grid"]
 
 Array = NDArray[np.float64]
 
@@ -79,15 +79,6 @@ def friction_along(
         n *= 2
         steps, ratios = np.arange(n) * spacing, merged
     return steps, ratios, math.nan
-
-
-def interpolated(values: Array, times: int) -> Array:
-    """Trigonometric interpolant of a periodic sequence on so many times as many points."""
-    n = values.size
-    half = np.fft.rfft(values)
-    if n % 2 == 0:
-        half[-1] *= 0.5
-    return np.asarray(np.fft.irfft(half, times * n) * times)
 
 
 def _undecided(values: Array) -> float:

@@ -7,6 +7,7 @@ import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,6 @@ from pyehl.arrays import read_array
 from pyehl.case import Case
 from pyehl.errors import EhlError, InputError
 from pyehl.handle import SolverHandle
-from pyehl.kept import Kept
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.transport import Zone
@@ -91,8 +91,6 @@ class SmoothContact:
         return np.asarray(pressure), np.asarray(film)
 
 
-_KEPT: Kept[SmoothContact] = Kept(4)
-
 # Keys that pressure and film of a smooth contact do not know; those of the first line they do where
 # the inlet is heated by shear
 OF_SLIP = ("slide_to_roll", "rough_surface", "thermal_conductivity", "thermal_diffusivity")
@@ -131,15 +129,15 @@ def solve_contact(settings: Mapping[str, Mapping[str, Any]]) -> SmoothContact:
     EhlError
         If it does not converge on any grid up to FINEST.
     """
-    text = smooth_case(settings)
-    return _KEPT.get(text, lambda: _solved(text))
+    return _solved(smooth_case(settings))
 
 
 def forget() -> None:
     """Solve anew what was kept, as `pyehl bench skips` does to see what keeping saves."""
-    _KEPT.clear()
+    _solved.cache_clear()
 
 
+@lru_cache(maxsize=4)
 def _solved(text: str) -> SmoothContact:
     points, best = POINTS, None
     while points <= FINEST:

@@ -62,7 +62,7 @@ def reproduce(
     level
         How much is computed.
     folder
-        Gets ``report.html``, ``report.md``, a folder for each piece and ``studies``; what is
+        Gets ``report.html``, a folder for each piece and ``studies``; what is
         there of the same level is not computed again.
     jobs
         Worker processes; 0: as many as processors.
@@ -89,7 +89,7 @@ def reproduce(
     for name in names:
         if name not in PIECES:
             raise InputError(f"'{name}' is no piece of the paper; expected {', '.join(PIECES)}")
-    names_of_all = ("report.md", "report.html", "studies", *map(_folder_of, PIECES))
+    names_of_all = ("report.html", "studies", *map(_folder_of, PIECES))
     Destination(folder, "reproduce", names_of_all, force=force).claim({"level": level.name})
     runs = Runs(folder / "studies", jobs, watch)
     results = []

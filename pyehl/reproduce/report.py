@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One page of all pieces: ``report.md``, and ``report.html`` with the pictures in it."""
+"""One page of all pieces, ``report.html``, with the pictures in it."""
 
 from __future__ import annotations
 
@@ -69,34 +69,6 @@ def _head(results: Sequence[Result], level: Level, machine: Sequence[str]) -> li
     ]
 
 
-def _markdown(folder: Path, results: Sequence[Result], level: Level, machine: Sequence[str]) -> str:
-    first, second, *rest = _head(results, level, machine)
-    lines = ["# The paper redone", "", PAPER, "", first, "", second, "", "```text", *rest, "```"]
-    findings = [f for r in results for f in r.findings]
-    lines += ["", "| piece | | verdict |", "|---|---|---|"]
-    lines += [f"| {r.name} | {r.title} | {r.line()} |" for r in results]
-    if findings:
-        lines += ["", "## Where the paper is not reproduced, and why", ""]
-        lines += [f"- **{f.title}.** {f.text}" for f in findings]
-    for r in results:
-        lines += ["", f"## {r.name.capitalize()}: {r.title}", "", r.line(), ""]
-        lines += [
-            f"![{caption}]({_relative(p, folder)})\n\n{caption}\n" for p, caption in r.pictures
-        ]
-        if r.checks:
-            lines += ["| " + " | ".join(HEAD) + " |", "|" + "---|" * len(HEAD)]
-            lines += ["| " + " | ".join(row) + " |" for row in _rows(r)]
-            lines.append("")
-        lines += [f"- {note}" for note in r.notes]
-        if r.table is not None:
-            lines += [
-                "",
-                f"Numbers: [{r.table.name}]({_relative(r.table, folder)}). Runs: "
-                f"{', '.join(f'studies/{s}' for s in r.studies) or 'none'}. {_seconds(r)}.",
-            ]
-    return "\n".join(lines) + "\n"
-
-
 def _html(folder: Path, results: Sequence[Result], level: Level, machine: Sequence[str]) -> str:
     text = html.escape
     first, second, *rest = _head(results, level, machine)
@@ -156,13 +128,13 @@ def _relative(path: Path, folder: Path) -> str:
 
 def write_report(
     folder: Path, results: Sequence[Result], level: Level, machine: Sequence[str]
-) -> tuple[Path, Path]:
-    """Write both pages, each whole or not at all; returns their paths.
+) -> Path:
+    """Write the page, whole or not at all; returns its path.
 
     Parameters
     ----------
     folder
-        Where they go, above the pictures and tables.
+        Where it goes, above the pictures and tables.
     results
         The pieces in their order.
     level
@@ -173,10 +145,9 @@ def write_report(
     Raises
     ------
     FileError
-        If they cannot be written.
+        If it cannot be written.
     """
-    pages = folder / "report.md", folder / "report.html"
-    for path, text in zip(pages, (_markdown, _html), strict=True):
-        with new_file(path) as partial:
-            partial.write_text(text(folder, results, level, machine), encoding="utf-8")
-    return pages
+    page = folder / "report.html"
+    with new_file(page) as partial:
+        partial.write_text(_html(folder, results, level, machine), encoding="utf-8")
+    return page

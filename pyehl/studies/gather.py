@@ -4,8 +4,6 @@
 from __future__ import annotations
 
 import os
-import signal
-import threading
 import time
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager
@@ -14,9 +12,10 @@ from types import FrameType
 from typing import Any
 
 from pyehl.destination import Destination
+from pyehl.run import signals_to
 from pyehl.studies import cluster, pool
 from pyehl.studies.journal import Journal
-from pyehl.studies.tasks import FAILED, SAVED, Task
+from pyehl.studies.tasks import FAILED, Task
 
 __all__ = ["Outcome", "Watcher", "gather"]
 
@@ -48,8 +47,6 @@ class Outcome:
         Tasks that were done now.
     interrupted
         Whether somebody stopped it.
-    saved
-        Seconds that shared parts saved.
     busy
         Seconds that these tasks took, all workers together.
     wall
@@ -59,7 +56,6 @@ class Outcome:
     rows: dict[int, Row]
     ran: int = 0
     interrupted: bool = False
-    saved: float = 0.0
     busy: float = 0.0
     wall: float = 0.0
 
@@ -78,7 +74,7 @@ class _Stop:
     def __init__(self) -> None:
         self._held = self._wanted = False
 
-    def note(self, number: int, frame: FrameType | None) -> None:
+    def take(self, number: int, frame: FrameType | None) -> None:
         """Take a signal."""
         if not self._held:
             raise KeyboardInterrupt
@@ -94,21 +90,6 @@ class _Stop:
             self._held = False
         if self._wanted:
             raise KeyboardInterrupt
-
-
-@contextmanager
-def _stopped_by_signals() -> Iterator[_Stop]:
-    """Signals belong to the main thread: in another one nothing asks for a stop."""
-    stop = _Stop()
-    if threading.current_thread() is not threading.main_thread():
-        yield stop
-        return
-    before = {n: signal.signal(n, stop.note) for n in (signal.SIGINT, signal.SIGTERM)}
-    try:
-        yield stop
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
 
 
 def gather(
@@ -160,12 +141,12 @@ def gather(
         watcher.began(tasks, sorted(journal.rows), journal.damaged)
         outcome = Outcome(journal.rows)
         left = [task for task in tasks if task.number not in journal.rows]
+        stop = _Stop()
         began = written = time.monotonic()
         try:
-            with _stopped_by_signals() as stop, closing(_source(left, jobs, scheduler)) as source:
+            with signals_to(stop.take), closing(_source(left, jobs, scheduler)) as source:
                 for rows in source:
                     with stop.held():
-                        outcome.saved += sum(row.pop(SAVED, 0.0) for _, row in rows)
                         journal.append(rows)
                         outcome.ran += len(rows)
                         outcome.busy += sum(row.get("seconds") or 0.0 for _, row in rows)

@@ -17,16 +17,13 @@ from typing import Any
 
 from pyehl.case import Case
 from pyehl.errors import EhlError
-from pyehl.kept import saved_seconds
 from pyehl.prediction import film_sheet, folder, of_case
 from pyehl.run import run
 from pyehl.solver import Solver
 from pyehl.studies.outputs import NOT_IN_A_TABLE, TRACKS, film_columns
 
-__all__ = ["FAILED", "SAVED", "Task", "execute", "why_none"]
+__all__ = ["FAILED", "Task", "execute", "why_none"]
 
-SAVED = "saved_seconds"
-"""What shared parts saved; it goes with a row but is not a column."""
 FAILED = "failed"
 """Status of a case that ended with an exception."""
 INSIDE, OUTSIDE = "inside all ranges", "outside the range of a formula"
@@ -83,7 +80,7 @@ def execute(task: Task) -> Row:
 
     `seconds` is the time of the case itself [s].
     """
-    began, saved = time.perf_counter(), saved_seconds()
+    began = time.perf_counter()
     try:
         row = RUNNERS[task.run](task)
     except Exception as error:
@@ -92,7 +89,6 @@ def execute(task: Task) -> Row:
             # no fault of the case: the journal keeps where it was raised
             row["traceback"] = traceback.format_exc()
     row["seconds"] = round(time.perf_counter() - began, 6)
-    row[SAVED] = round(saved_seconds() - saved, 6)
     return row
 
 

@@ -10,7 +10,7 @@ from pyehl.surfaces.features import FEATURES, feature
 from pyehl.surfaces.filters import filtered
 from pyehl.surfaces.generators import fractal, harmonic
 from pyehl.surfaces.in_memory import Surface, as_map, in_memory, keep_beside
-from pyehl.surfaces.interpolation import resampled, shifted
+from pyehl.surfaces.interpolation import interpolated, resampled, shifted
 from pyehl.surfaces.of_case import (
     finished,
     from_settings,
@@ -50,6 +50,7 @@ __all__ = [
     "harmonic",
     "harmonic_amplitude",
     "in_memory",
+    "interpolated",
     "keep_beside",
     "moved",
     "part_of",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tiles moved, or on a finer grid, by their Fourier interpolant."""
+"""Tiles and periodic sequences moved, or on a finer grid, by their Fourier interpolant."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from pyehl.errors import InputError
 from pyehl.surfaces.spectra import wavenumbers
 from pyehl.surfaces.tile import Topography
 
-__all__ = ["resampled", "shift_across", "shifted"]
+__all__ = ["interpolated", "resampled", "shift_across", "shifted"]
 
 Array = NDArray[np.float64]
 
@@ -91,3 +91,12 @@ def resampled(topography: Topography, pixels: tuple[int, int]) -> Topography:
             values[tuple(index)] *= 0.5
         z = scipy.fft.irfft(values, n=new, axis=axis, norm="forward")
     return replace(topography, heights=np.ascontiguousarray(z))
+
+
+def interpolated(values: Array, times: int) -> Array:
+    """Trigonometric interpolant of a periodic sequence on so many times as many points."""
+    n = values.size
+    half = np.fft.rfft(values)
+    if n % 2 == 0:
+        half[-1] *= 0.5
+    return np.asarray(np.fft.irfft(half, times * n) * times)

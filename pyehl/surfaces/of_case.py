@@ -6,11 +6,11 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 from pyehl.errors import FileError, InputError
-from pyehl.kept import Kept
 from pyehl.surfaces.features import FEATURES, feature
 from pyehl.surfaces.filters import filtered
 from pyehl.surfaces.generators import fractal, harmonic
@@ -40,7 +40,6 @@ HARMONIC_PIXELS = 32
 RADIUS_PIXELS = 64
 # Fractal tiles and maps up to so many pixels are kept, a few of them
 KEPT_PIXELS = 2**20
-_KEPT: Kept[Topography] = Kept(4)
 # What a map is read by, and what a fractal tile follows from
 SCAN = ("file", "length_x", "length_y", "channel")
 FRACTAL = (
@@ -104,7 +103,7 @@ def whole(
     if kind == "fractal":
         if int(surface["pixels"]) ** 2 > KEPT_PIXELS:
             return _fractal(surface)
-        return _KEPT.get(tuple(surface[key] for key in FRACTAL), lambda: _fractal(surface))
+        return _kept_fractal(*(surface[key] for key in FRACTAL))
     if kind == "harmonic":
         shares = (float(surface["wavelength_x"]), float(surface["wavelength_y"]))
         # a long wave is sampled as finely as the contact needs, not only as it needs itself
@@ -151,16 +150,29 @@ def _map(surface: Mapping[str, Any]) -> Topography:
         state = Path(str(surface["file"])).stat()
     except OSError as error:
         raise FileError(f"{surface['file']}: cannot read: {error.strerror}") from error
-    name = (*(surface.get(key) for key in SCAN), state.st_mtime_ns, state.st_size, options)
     if state.st_size > 8 * KEPT_PIXELS:
         return tile_of(scan_of(surface), options)
-    return _KEPT.get(name, lambda: _read_only(tile_of(scan_of(surface), options)))
+    place = tuple((key, surface[key]) for key in SCAN if key in surface)
+    return _kept_map(place, state.st_mtime_ns, state.st_size, options)
+
+
+@lru_cache(maxsize=4)
+def _kept_map(
+    place: tuple[tuple[str, Any], ...], changed: int, size: int, options: Options
+) -> Topography:
+    """Tile of a map by where it is, the state of its file and what is done to it."""
+    return _read_only(tile_of(scan_of(dict(place)), options))
 
 
 def _read_only(made: Topography) -> Topography:
     """Refuse changes of what several cases share."""
     made.heights.flags.writeable = False
     return made
+
+
+@lru_cache(maxsize=4)
+def _kept_fractal(*values: Any) -> Topography:  # noqa: ANN401
+    return _fractal(dict(zip(FRACTAL, values, strict=True)))
 
 
 def _fractal(surface: Mapping[str, Any]) -> Topography:

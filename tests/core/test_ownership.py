@@ -129,7 +129,7 @@ def test_a_name_that_the_result_needs(call: Call, tmp_path: Path, name: str):
     needed = {
         "sweep": "results.csv",
         "stribeck": "stribeck.png",
-        "reproduce": "report.md",
+        "reproduce": "report.html",
         "response": "case.nml",
         "stress": "stress.json",
     }.get(name, "case.nml")
