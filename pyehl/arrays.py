@@ -1,17 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arrays of a result folder."""
+"""Arrays and tables of a result folder."""
 
 from __future__ import annotations
 
+import csv
+import math
+import os
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pyehl import library
+from pyehl.destination import new_file
 from pyehl.errors import EhlError, FileError, NoMemoryError
 
-__all__ = ["read_array"]
+__all__ = ["read_array", "write_csv"]
 
 
 def read_array(path: Path) -> NDArray[np.float64]:
@@ -36,3 +41,27 @@ def read_array(path: Path) -> NDArray[np.float64]:
     except Exception as error:
         # a damaged header makes numpy raise whatever the parser of Python does
         raise FileError(f"{path}: damaged: {error}") from error
+
+
+def write_csv(
+    path: str | os.PathLike[str], names: Sequence[str], rows: Iterable[Iterable[object]]
+) -> None:
+    """Write a table, whole or not at all; numbers with all digits, none as an empty cell.
+
+    Raises
+    ------
+    FileError
+        If it cannot be written.
+    """
+    with new_file(path) as fresh, fresh.open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(names)
+        writer.writerows([_cell(value) for value in row] for row in rows)
+
+
+def _cell(value: object) -> str:
+    if value is None or (isinstance(value, float) and math.isnan(value)):
+        return ""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return repr(float(value)) if isinstance(value, float) else " ".join(str(value).split())

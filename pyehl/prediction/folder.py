@@ -3,15 +3,13 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import os
-from collections.abc import Iterable, Sequence
-from pathlib import Path
+from collections.abc import Iterable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from pyehl.arrays import write_csv
 from pyehl.destination import Destination
 from pyehl.prediction.result import Prediction
 
@@ -58,7 +56,7 @@ def write(
         (folder / "case.nml").write_text(text, encoding="utf-8")
         for name, columns in prediction.tables.items():
             rows = zip(*columns.values(), strict=True)
-            _write_csv(folder / f"{name}.csv", tuple(columns), rows)
+            write_csv(folder / f"{name}.csv", tuple(columns), rows)
         for name, values in prediction.arrays.items():
             np.save(folder / f"{name}.npy", values)
         if plots:
@@ -71,12 +69,3 @@ def write(
         files = sorted(["summary.json", *(path.name for path in folder.iterdir())])
         text = json.dumps(prediction.summary | {"files": files}, indent=2, allow_nan=False)
         (folder / "summary.json").write_text(text + "\n", encoding="utf-8")
-
-
-def _write_csv(
-    path: Path, names: Sequence[str], rows: Iterable[Sequence[float] | NDArray[np.float64]]
-) -> None:
-    with path.open("w", newline="", encoding="utf-8") as stream:
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(names)
-        writer.writerows([repr(float(value)) for value in row] for row in rows)

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import scipy.fft
 
+from pyehl.arrays import write_csv
 from pyehl.case import Case
 from pyehl.plots import paper_surfaces
 from pyehl.plots.paper_surfaces import Step
@@ -16,7 +17,7 @@ from pyehl.plots.style import save
 from pyehl.prediction import of_case
 from pyehl.prediction.result import Prediction
 from pyehl.reproduce.level import Level
-from pyehl.reproduce.piece import Check, Result, write_table
+from pyehl.reproduce.piece import Check, Result
 from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Runs
 from pyehl.reproduce.surface_runs import CASE, MODELS, SEED
@@ -99,8 +100,9 @@ def show(data: Flow, references: References, folder: Path, level: Level) -> Resu
         f"passage, {data.ours.mu_ratio:.3f} by ours, whose $A_d/A_i$ is complex and knows the slip"
     )
     picture = save(paper_surfaces.flow(steps, result), folder / "figure1.png", paper_surfaces.DPI)
-    table = write_table(
-        folder / "figure1.csv",
+    table = folder / "figure1.csv"
+    write_csv(
+        table,
         ("model", "mu_ratio", "rms_height_m", "rms_deformed_m", "rms_pressure_Pa"),
         [
             (name, p.mu_ratio, p.surface.rms_height, float(np.std(p.friction.response.deformed)),

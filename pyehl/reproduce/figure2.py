@@ -10,10 +10,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.arrays import write_csv
 from pyehl.plots import paper
 from pyehl.plots.style import save
 from pyehl.reproduce.level import Level
-from pyehl.reproduce.piece import Check, Result, write_table
+from pyehl.reproduce.piece import Check, Result
 from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Made, Runs
 from pyehl.reproduce.waves import SCHEMES
@@ -109,8 +110,9 @@ def show(data: list[Wave], references: References, folder: Path, level: Level) -
     ]
     made = data[0].made
     checks += [check for wave in data for check in _independent(wave)]
-    table = write_table(
-        folder / "figure2.csv",
+    table = folder / "figure2.csv"
+    write_csv(
+        table,
         ("points", "scheme", "T", "mu_ratio"),
         [(w.points, w.scheme, t, r) for w in data for t, r in zip(w.time, w.ratio, strict=True)],
     )

@@ -7,10 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
+from pyehl.arrays import write_csv
 from pyehl.plots import paper
 from pyehl.plots.style import save
 from pyehl.reproduce.level import Level
-from pyehl.reproduce.piece import Result, write_table
+from pyehl.reproduce.piece import Result
 from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Runs
 from pyehl.reproduce.waves import SCHEMES, WaveSet, smooth_films, waves
@@ -64,8 +65,9 @@ def show(data: list[WaveSet], references: References, folder: Path, level: Level
         [(f"scheme '{found.scheme}', {grid}", series(found, found.ratio)) for found in data]
     )
     picture = save(figure, folder / "figure3.png", paper.DPI)
-    table = write_table(
-        folder / "figure3.csv",
+    table = folder / "figure3.csv"
+    write_csv(
+        table,
         ("scheme", "moes_m", "moes_l", "wavelength", "film_over_amplitude", "amplitude",
          "mu_ratio", "status"),
         [

@@ -10,13 +10,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.arrays import write_csv
 from pyehl.plots import paper
 from pyehl.plots.style import save
 from pyehl.reproduce.figure3 import series, without_result
 from pyehl.reproduce.fit import Fit, evaluate, fit, scatter
 from pyehl.reproduce.level import Level
 from pyehl.reproduce.parameter import SMALL_WAVES, response_parameter
-from pyehl.reproduce.piece import Check, Finding, Result, write_table
+from pyehl.reproduce.piece import Check, Finding, Result
 from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Runs
 from pyehl.reproduce.waves import SCHEMES, VELOCITY_RATIO, WaveSet, waves
@@ -115,8 +116,9 @@ def show(data: list[Collapsed], references: References, folder: Path, level: Lev
             for k in range(c.theta_2.size)
         ]  # fmt: skip
     picture = save(paper.collapses(panels), folder / "figure4.png", paper.DPI)
-    table = write_table(
-        folder / "figure4.csv",
+    table = folder / "figure4.csv"
+    write_csv(
+        table,
         ("scheme", "moes_m", "moes_l", "wavelength", "film_over_amplitude", "theta_2", "theta_r",
          "mu_ratio", "mu_ratio_eq_16", "status"),
         rows,

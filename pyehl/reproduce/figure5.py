@@ -9,10 +9,11 @@ from pathlib import Path
 
 import numpy as np
 
+from pyehl.arrays import write_csv
 from pyehl.plots import paper_surfaces
 from pyehl.plots.style import save
 from pyehl.reproduce.level import Level
-from pyehl.reproduce.piece import Check, Result, write_table
+from pyehl.reproduce.piece import Check, Result
 from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Runs
 from pyehl.reproduce.surface_runs import SEED, tile
@@ -63,9 +64,8 @@ def show(data: Spectrum, references: References, folder: Path, level: Level) -> 
     picture = save(
         paper_surfaces.spectrum(data.surface), folder / "figure5.png", paper_surfaces.DPI
     )
-    table = write_table(
-        folder / "figure5.csv", ("q_rad_per_m", "c_iso_m4"), zip(data.q, data.c_iso, strict=True)
-    )
+    table = folder / "figure5.csv"
+    write_csv(table, ("q_rad_per_m", "c_iso_m4"), zip(data.q, data.c_iso, strict=True))
     notes = [
         f"Seed {SEED}. The paper's own surface is not published: the same inputs give another one."
     ]

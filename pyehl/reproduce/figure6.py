@@ -10,11 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl import results
+from pyehl.arrays import write_csv
 from pyehl.plots import paper_surfaces
 from pyehl.plots.style import save
 from pyehl.prediction.smooth import solve_contact, zone_of
 from pyehl.reproduce.level import Level
-from pyehl.reproduce.piece import Check, Finding, Result, write_table
+from pyehl.reproduce.piece import Check, Finding, Result
 from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Made, Runs
 from pyehl.reproduce.surface_runs import SEED, deformed_run, tile
@@ -175,8 +176,9 @@ def show(data: Deformed, references: References, folder: Path, level: Level) -> 
     centred = {name: field - field[inside].mean() for name, field in fields.items()}
     figure = paper_surfaces.deformed(data.x, data.y, inside, centred)
     picture = save(figure, folder / "figure6.png", paper_surfaces.DPI)
-    table = write_table(
-        folder / "figure6.csv",
+    table = folder / "figure6.csv"
+    write_csv(
+        table,
         ("X", "Y", "undeformed_m", "simulated_m", "response_m", "paper_m"),
         [
             (data.x[i], data.y[j], *(float(field[i, j]) for field in fields.values()))

@@ -9,11 +9,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.arrays import write_csv
 from pyehl.plots import paper_surfaces
 from pyehl.plots.style import save
 from pyehl.prediction.flattening import stiffness
 from pyehl.reproduce.level import Level
-from pyehl.reproduce.piece import Check, Finding, Result, write_table
+from pyehl.reproduce.piece import Check, Finding, Result
 from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Made, Runs, friction_of
 from pyehl.reproduce.surface_runs import (
@@ -104,8 +105,9 @@ def show(data: Surfaces, references: References, folder: Path, level: Level) -> 
     picture = save(figure, folder / "figure7.png", paper_surfaces.DPI)
     names = ["seed", "simulated"]
     names += [f"{word}_{model}" for word in ("predicted", "deviation") for model in MODELS]
-    table = write_table(
-        folder / "figure7.csv",
+    table = folder / "figure7.csv"
+    write_csv(
+        table,
         names,
         [
             (int(seeds[k]), data.simulated[k], *(data.predicted[m][k] for m in MODELS),

@@ -3,19 +3,17 @@
 
 from __future__ import annotations
 
-import csv
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
 
-from pyehl.destination import new_file
 from pyehl.reproduce.level import Level
 from pyehl.reproduce.references import Reference, References
 from pyehl.reproduce.runs import Runs
 
-__all__ = ["Check", "Finding", "Piece", "Result", "write_table"]
+__all__ = ["Check", "Finding", "Piece", "Result"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,17 +186,3 @@ class Piece(Protocol):
         level: Level,
     ) -> Result:
         """Write picture and table into a folder, and compare."""
-
-
-def write_table(path: Path, names: Sequence[str], rows: Iterable[Sequence[Any]]) -> Path:
-    """Write a CSV table; numbers with all digits, None as an empty cell."""
-    with new_file(path) as fresh, fresh.open("w", newline="", encoding="utf-8") as stream:
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(names)
-        for row in rows:
-            writer.writerow(["" if _absent(value) else value for value in row])
-    return path
-
-
-def _absent(value: object) -> bool:
-    return value is None or (isinstance(value, float) and math.isnan(value))

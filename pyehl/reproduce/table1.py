@@ -6,9 +6,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from pyehl import surfaces
+from pyehl.arrays import write_csv
 from pyehl.case import Case
 from pyehl.reproduce.level import Level
-from pyehl.reproduce.piece import Check, Result, write_table
+from pyehl.reproduce.piece import Check, Result
 from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Runs
 from pyehl.theory.lubricant import Lubricant
@@ -62,8 +63,9 @@ def run(runs: Runs, level: Level) -> dict[str, float]:
 def show(data: dict[str, float], references: References, folder: Path, level: Level) -> Result:
     """Compare with what is printed, and with what follows from it by hand."""
     checks = [Check.of(name, value, references[f"table1.{name}"]) for name, value in data.items()]
-    table = write_table(
-        folder / "table1.csv",
+    table = folder / "table1.csv"
+    write_csv(
+        table,
         ("name", "ours", "paper", "unit", "deviation"),
         [
             (name, value, references[f"table1.{name}"].value, references[f"table1.{name}"].unit,

@@ -7,8 +7,9 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
+from pyehl.arrays import write_csv
 from pyehl.reproduce.level import Level
-from pyehl.reproduce.piece import Check, Finding, Result, write_table
+from pyehl.reproduce.piece import Check, Finding, Result
 from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Made, Runs, friction_of
 from pyehl.reproduce.surface_runs import (
@@ -104,9 +105,8 @@ def show(data: Meshes, references: References, folder: Path, level: Level) -> Re
     for model in ("response", "paper"):
         value = data.value(last, f"prediction, {model}")
         checks.append(Check.of(f"prediction, {model}", value, references["table2.prediction"]))
-    table = write_table(
-        folder / "table2.csv", ("points", "method", "mu_ratio", "seconds"), data.rows
-    )
+    table = folder / "table2.csv"
+    write_csv(table, ("points", "method", "mu_ratio", "seconds"), data.rows)
     notes = [
         f"{mesh} x {mesh}, {method}: mu_r/mu_s {value:.4f}, {seconds:.1f} s"
         for mesh, method, value, seconds in data.rows

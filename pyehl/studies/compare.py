@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import csv
-import io
 import json
 import math
 import os
@@ -15,13 +14,13 @@ from pathlib import Path
 from typing import Any
 
 from pyehl import namelist
+from pyehl.arrays import write_csv
 from pyehl.case import Case
-from pyehl.destination import check_files, made_by, new_file
+from pyehl.destination import check_files, made_by
 from pyehl.errors import InputError, did_you_mean
 from pyehl.given import Value, option
 from pyehl.studies.journal import read_header
 from pyehl.studies.reference_table import Expected, Key, ReferenceRow, ReferenceTable
-from pyehl.studies.table import cell
 
 __all__ = ["Comparison", "Deviation", "Results", "compare", "read_results", "write_deviations"]
 
@@ -276,12 +275,9 @@ def write_deviations(path: str | os.PathLike[str], deviations: Sequence[Deviatio
         If it cannot be written.
     """
     check_files([path], "compare", known=lambda there: made_by(there, COLUMNS))
-    text = io.StringIO(newline="")
-    text.write(f"{COLUMNS}\n")
-    writer = csv.writer(text, lineterminator="\n")
-    for d in deviations:
-        difference = None if d.found is None else d.difference
-        cells = (d.line, d.case, d.name, d.expected.value, d.expected.tolerance, d.found)
-        writer.writerow([cell(v) for v in (*cells, difference, "pass" if d.passed else "fail")])
-    with new_file(path) as partial:
-        partial.write_text(text.getvalue(), encoding="utf-8", newline="")
+    rows = (
+        (d.line, d.case, d.name, d.expected.value, d.expected.tolerance, d.found, d.difference,
+         "pass" if d.passed else "fail")
+        for d in deviations
+    )  # fmt: skip
+    write_csv(path, COLUMNS.split(","), rows)

@@ -15,14 +15,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from pyehl import library
-from pyehl.destination import new_file
+from pyehl import arrays, library
 from pyehl.errors import InputError
 from pyehl.studies.curve import UNITS
 from pyehl.studies.stribeck import CurvePlan
-from pyehl.studies.table import cell
 
-__all__ = ["Measured", "curve_csv", "curve_dataset", "read_measured", "write_csv"]
+__all__ = ["Measured", "curve_dataset", "read_measured", "write_csv"]
 
 Array = NDArray[np.float64]
 Row = Mapping[str, Any]
@@ -30,27 +28,23 @@ Row = Mapping[str, Any]
 WORDS = ("status", "message")
 
 
-def curve_csv(plan: CurvePlan, rows: Sequence[Row]) -> str:
-    """Give the table of a curve as CSV: what was varied, `UNITS`, status, message."""
-    text = io.StringIO(newline="")
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([*plan.study.keys, *UNITS, *WORDS])
-    for point, row in zip(plan.points, rows, strict=True):
-        cells = [*point.point.values.values(), *(row[name] for name in (*UNITS, *WORDS))]
-        writer.writerow([cell(value) for value in cells])
-    return text.getvalue()
-
-
 def write_csv(path: Path, plan: CurvePlan, rows: Sequence[Row]) -> None:
-    """Write the table of a curve, whole or not at all.
+    """Write the table of a curve, whole or not at all: what was varied, `UNITS`, status, message.
 
     Raises
     ------
     FileError
         If it cannot be written.
     """
-    with new_file(path) as partial:
-        partial.write_text(curve_csv(plan, rows), encoding="utf-8", newline="")
+    names = (*UNITS, *WORDS)
+    arrays.write_csv(
+        path,
+        [*plan.study.keys, *names],
+        (
+            [*point.point.values.values(), *(row[name] for name in names)]
+            for point, row in zip(plan.points, rows, strict=True)
+        ),
+    )
 
 
 def curve_dataset(plan: CurvePlan, rows: Sequence[Row]) -> xr.Dataset:

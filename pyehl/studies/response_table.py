@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -12,6 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from pyehl.arrays import write_csv
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_transfer
 from pyehl.theory.transport import Zone, stiffness, transport
@@ -166,8 +166,9 @@ def write_table(data: xr.Dataset, path: Path) -> None:
             (f"{name}_{where}", data[name].values[:, i])
             for i, where in enumerate(("upstream", "centre", "downstream"))
         ]
-    with path.open("w", newline="", encoding="utf-8") as stream:
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow([name for name, _ in columns])
-        for row in zip(*(values for _, values in columns), strict=True):
-            writer.writerow([v if isinstance(v, str) else f"{float(v):.6g}" for v in row])
+    rows = zip(*(values for _, values in columns), strict=True)
+    write_csv(
+        path,
+        [name for name, _ in columns],
+        ([v if isinstance(v, str) else f"{v:.6g}" for v in row] for row in rows),
+    )

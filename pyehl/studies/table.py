@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -12,13 +10,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from pyehl import library
-from pyehl.destination import new_file
+from pyehl import arrays, library
 from pyehl.results import unit_of
 from pyehl.studies.outputs import LAST
 from pyehl.studies.study import Point, Study
 
-__all__ = ["cell", "columns", "dataset", "write_csv"]
+__all__ = ["columns", "dataset", "write_csv"]
 
 Row = Mapping[str, Any]
 
@@ -50,25 +47,15 @@ def write_csv(path: Path, study: Study, points: Sequence[Point], rows: Mapping[i
         If it cannot be written.
     """
     names = columns(study, rows)
-    text = io.StringIO(newline="")
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([*study.keys, *names])
-    for point in points:
-        row = rows.get(point.number)
-        if row is not None:
-            cells = [*point.values.values(), *(row.get(name) for name in names)]
-            writer.writerow([cell(value) for value in cells])
-    with new_file(path) as partial:
-        partial.write_text(text.getvalue(), encoding="utf-8", newline="")
-
-
-def cell(value: object) -> str:
-    """Give the text of a value in a table; empty for one that does not exist."""
-    if value is None:
-        return ""
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    return repr(value) if isinstance(value, float) else " ".join(str(value).split())
+    arrays.write_csv(
+        path,
+        [*study.keys, *names],
+        (
+            [*point.values.values(), *(rows[point.number].get(name) for name in names)]
+            for point in points
+            if point.number in rows
+        ),
+    )
 
 
 def dataset(study: Study, points: Sequence[Point], rows: Mapping[int, Row]) -> xr.Dataset:
