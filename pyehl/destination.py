@@ -41,30 +41,15 @@ def _lines(items: Iterable[AnyPath]) -> bytes:
 
 @dataclass(frozen=True, slots=True)
 class Destination:
-    """A folder for a result.
+    """A folder for a result."""
 
-    Attributes
-    ----------
-    folder
-        Where it goes.
-    kind
-        'solution', 'prediction', ...: the ``kind`` of its summary, which also lists its ``files``.
-    names
-        Names that the result may need.
-    inputs
-        What the command reads.
-    kept
-        Other names in the folder that belong to this kind, and stay.
-    force
-        Other files may be in the folder; they stay.
-    """
-
-    folder: AnyPath
+    folder: AnyPath  # where it goes
+    # 'solution', 'prediction', ...: the ``kind`` of its summary, which also lists its ``files``
     kind: str
-    names: tuple[str, ...] = ()
-    inputs: tuple[AnyPath, ...] = ()
-    kept: tuple[str, ...] = ()
-    force: bool = False
+    names: tuple[str, ...] = ()  # names that the result may need
+    inputs: tuple[AnyPath, ...] = ()  # what the command reads
+    kept: tuple[str, ...] = ()  # other names in the folder that belong to this kind, and stay
+    force: bool = False  # other files may be in the folder; they stay
 
     def _step(self, step: bytes, made: str = "") -> str:
         lists = (_lines(self.names), _lines(self.inputs), _lines(self.kept))

@@ -33,22 +33,14 @@ VELOCITIES = (0.1, 0.25, 0.5, 0.75, 0.9, 1.0, 1.01, 1.1, 1.25, 1.5, 2.0)
 
 @dataclass(frozen=True, slots=True)
 class StressCase:
-    """One case.
+    """One case."""
 
-    Attributes
-    ----------
-    family
-        One of `FAMILIES`.
-    moes_m, moes_l, points
-        Operating point and grid.
-    values
-        All keys of its case file that are given.
-    """
-
-    family: str
+    family: str  # one of `FAMILIES`
+    # Operating point and grid
     moes_m: float
     moes_l: float
     points: int
+    # All keys of its case file that are given
     values: Mapping[str, Value] = field(default_factory=dict)
 
     @property

@@ -44,21 +44,13 @@ MEANING = (
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """What a study is made of.
+    """What a study is made of."""
 
-    Attributes
-    ----------
-    name, run
-        Its name, and what is done with each case.
-    cases
-        Number of cases for each process.
-    options
-        Texts ``group.key=value``. The mean velocity is varied, or a key that stands alone.
-    """
-
+    # Its name, and what is done with each case
     name: str
     run: str
-    cases: int
+    cases: int  # number of cases for each process
+    # Texts ``group.key=value``. The mean velocity is varied, or a key that stands alone
     options: tuple[str, ...]
 
 

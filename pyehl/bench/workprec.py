@@ -46,27 +46,14 @@ WAVE = (
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """What is solved.
-
-    Attributes
-    ----------
-    name
-        What it is called.
-    options
-        Its case, as texts ``group.key=value``.
-    quantities
-        What the error is of.
-    grids
-        Nodes per side; the last one with ``--full`` alone, for the reference: default setting only.
-    rough
-        Whether schemes, coarsenings and the prediction belong to it.
-    """
+    """What is solved."""
 
     name: str
-    options: tuple[str, ...]
-    quantities: tuple[str, ...]
+    options: tuple[str, ...]  # its case, as texts ``group.key=value``
+    quantities: tuple[str, ...]  # what the error is of
+    # Nodes per side; the last one with ``--full`` alone, for the reference: default setting only
     grids: tuple[int, ...]
-    rough: bool = True
+    rough: bool = True  # whether schemes, coarsenings and the prediction belong to it
 
 
 RATIO = ("mu_ratio",)

@@ -102,21 +102,12 @@ def _logarithmic(ax: Axes) -> None:
 
 @dataclass(frozen=True, slots=True)
 class Collapse:
-    """One panel of Fig. 4.
-
-    Attributes
-    ----------
-    title, abscissa
-        Of the panel.
-    series
-        The points.
-    curves
-        Label, format, abscissa (m,) and mu_r/mu_s (m,) of lines through them.
-    """
+    """One panel of Fig. 4."""
 
     title: str
     abscissa: str
     series: Sequence[Series]
+    # Label, format, abscissa (m,) and mu_r/mu_s (m,) of lines through them
     curves: Sequence[tuple[str, str, Array, Array]]
 
 

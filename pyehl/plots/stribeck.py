@@ -45,36 +45,16 @@ class Points:
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """One curve.
+    """One curve."""
 
-    Attributes
-    ----------
-    label
-        Its name in the legend; '' for the only one.
-    places
-        Values by abscissa, each (n,), NaN where there is none.
-    friction
-        Prediction (n,) [-].
-    error
-        Error of the model (n,) [-], NaN for none.
-    spread
-        Standard deviation over the surfaces (n,) [-], NaN for none.
-    full
-        The full simulation.
-    broken
-        (n,) whether the film breaks down there.
-    ends
-        Where full film ends, in words.
-    """
-
-    label: str
-    places: Mapping[str, Array]
-    friction: Array
-    error: Array
-    spread: Array
+    label: str  # its name in the legend; '' for the only one
+    places: Mapping[str, Array]  # values by abscissa, each (n,), NaN where there is none
+    friction: Array  # prediction (n,) [-]
+    error: Array  # error of the model (n,) [-], NaN for none
+    spread: Array  # standard deviation over the surfaces (n,) [-], NaN for none
     full: Points
-    broken: NDArray[np.bool_]
-    ends: str = field(default="")
+    broken: NDArray[np.bool_]  # (n,) whether the film breaks down there
+    ends: str = field(default="")  # where full film ends, in words
 
 
 def draw_stribeck(

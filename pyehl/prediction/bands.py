@@ -28,28 +28,16 @@ ROUNDING = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Band:
-    """What a band of wavelengths adds.
+    """What a band of wavelengths adds."""
 
-    Attributes
-    ----------
-    longest, shortest
-        The band of wavelengths 2 pi/|q| [m].
-    rms_height
-        Of the undeformed roughness in the band [m].
-    rms_deformed
-        Of the deformed roughness in the band [m].
-    rms_pressure
-        Of delta p in the band [Pa].
-    rise
-        How much mu_r/mu_s grows when this band joins all the longer ones [-]; NaN where the model
-        does not hold.
-    """
-
+    # The band of wavelengths 2 pi/|q| [m]
     longest: float
     shortest: float
-    rms_height: float
-    rms_deformed: float
-    rms_pressure: float
+    rms_height: float  # of the undeformed roughness in the band [m]
+    rms_deformed: float  # of the deformed roughness in the band [m]
+    rms_pressure: float  # of delta p in the band [Pa]
+    # How much mu_r/mu_s grows when this band joins all the longer ones [-]; NaN where the model
+    # does not hold
     rise: float
 
 

@@ -41,24 +41,13 @@ STATIONS = 64
 
 @dataclass(frozen=True, slots=True)
 class BelowZero:
-    """Where the film of a tile is below zero.
+    """Where the film of a tile is below zero."""
 
-    Attributes
-    ----------
-    share
-        Mean share of the Hertz area with a film below zero, over a whole passage of the tile [-].
-    deepest
-        Least film [m], not positive where the film ends.
-    pixel
-        (i, j) of the tile where it is.
-    pixels
-        Pixels of the tile with a film below zero that pass through the contact.
-    """
-
+    # Mean share of the Hertz area with a film below zero, over a whole passage of the tile [-]
     share: float
-    deepest: float
-    pixel: tuple[int, int]
-    pixels: int
+    deepest: float  # least film [m], not positive where the film ends
+    pixel: tuple[int, int]  # (i, j) of the tile where it is
+    pixels: int  # pixels of the tile with a film below zero that pass through the contact
 
 
 def below_zero(
@@ -116,27 +105,18 @@ def below_zero(
 
 @dataclass(frozen=True, slots=True)
 class Advice:
-    """Where the film of a surface ends, and what would carry.
+    """Where the film of a surface ends, and what would carry."""
 
-    Attributes
-    ----------
-    below
-        Where the film is below zero.
-    x, y
-        Place of the deepest point on the surface [m]; of a prepared map from the corner of what
-        was left of it after cropping and turning.
-    wavelength
-        `surface.shortest_wavelength` [m] with which the film is full, and the error of the
-        predicted friction known; None: there is none.
-    outliers, outlier_points
-        `surface.outliers` with which both hold, and how many points that removes; None: the
-        surface is no map, or more than a few points would have to go.
-    """
-
-    below: BelowZero
+    below: BelowZero  # where the film is below zero
+    # Place of the deepest point on the surface [m]; of a prepared map from the corner of what was
+    # left of it after cropping and turning
     x: float
     y: float
+    # `surface.shortest_wavelength` [m] with which the film is full, and the error of the predicted
+    # friction known; None: there is none
     wavelength: float | None
+    # `surface.outliers` with which both hold, and how many points that removes; None: the surface
+    # is no map, or more than a few points would have to go
     outliers: float | None
     outlier_points: int | None
 

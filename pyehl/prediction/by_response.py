@@ -49,26 +49,16 @@ FEW_POSITIONS = 8
 
 @dataclass(frozen=True, slots=True)
 class RoughPassage:
-    """A rough tile in a contact: what is common to its passage, its tracks and its bands.
+    """A rough tile in a contact: what is common to its passage, its tracks and its bands."""
 
-    Attributes
-    ----------
-    topography
-        The tile; its pixel [0, 0] starts at the centre of the contact and moves along x.
-    contact
-        The smooth contact.
-    operating, lubricant, options
-        Operating point, lubricant with its shear law, and how the model is read.
-    velocity_ratio
-        Velocity of the rough surface over the mean velocity [-].
-    """
-
+    # The tile; its pixel [0, 0] starts at the centre of the contact and moves along x
     topography: Topography
     contact: SmoothContact
+    # Operating point, lubricant with its shear law, and how the model is read
     operating: OperatingPoint
     lubricant: Lubricant
     options: Options
-    velocity_ratio: float
+    velocity_ratio: float  # velocity of the rough surface over the mean velocity [-]
 
     def _spectrum(self, tile: Topography) -> Spectrum:
         o = self.operating

@@ -35,18 +35,10 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Response:
-    """What a loaded contact makes of a rough tile, before it is anywhere in the contact.
+    """What a loaded contact makes of a rough tile, before it is anywhere in the contact."""
 
-    Attributes
-    ----------
-    pressure
-        delta p (nx, ny) [Pa], mean zero.
-    deformed
-        Deformed roughness rr_d (nx, ny) [m], mean zero, peaks thin the film.
-    """
-
-    pressure: Array
-    deformed: Array
+    pressure: Array  # delta p (nx, ny) [Pa], mean zero
+    deformed: Array  # deformed roughness rr_d (nx, ny) [m], mean zero, peaks thin the film
 
 
 def stiffness(qx: Array, qy: Array, reduced_modulus: float, kind: str = "exact") -> Array:

@@ -29,58 +29,32 @@ TRACKS = 8
 
 @dataclass(frozen=True, slots=True)
 class RoughFriction:
-    """Friction over one passage of the tile.
+    """Friction over one passage of the tile."""
 
-    Attributes
-    ----------
-    status
-        ``"predicted"``, ``"film breakdown"``, ``"beyond linear response"``, ``"overflow"`` or
-        ``"load lost"``. Unless
-        ``"predicted"`` the ratios are NaN.
-    message
-        The status in a sentence.
-    mu_ratio, mu_ratio_min, mu_ratio_max
-        mean, least and greatest mu_r/mu_s over the passage [-]; the extremes of the trigonometric
-        interpolant through the positions.
-    position_error
-        What half as many positions would miss at the others, relative to the mean: an upper
-        estimate of what the positions leave undecided. NaN for an odd number of them.
-    shift
-        (n,) how far the tile has moved [m], equally spaced over its length.
-    passage
-        (n,) mu_r/mu_s there [-].
-    mu_smooth
-        Friction coefficient of the smooth contact at the slide-to-roll ratio [-]; without meaning
-        for a Newtonian lubricant.
-    film_min
-        Least h_c - rr_d of the tile [m].
-    cavitated_share
-        Mean share of the contact where p_s + delta p <= 0 [-].
-    cavitated_friction
-        Bound of the share of the friction that comes from there [-].
-    load_error
-        Greatest |integral of delta p|/w over the passage [-], before any load balance.
-    response
-        delta p and deformed roughness on the grid of the given tile.
-    seconds
-        Wall time of the prediction.
-    """
-
+    # ``"predicted"``, ``"film breakdown"``, ``"beyond linear response"``, ``"overflow"`` or ``"load
+    # lost"``. Unless ``"predicted"`` the ratios are NaN
     status: str
-    message: str
+    message: str  # the status in a sentence
+    # mean, least and greatest mu_r/mu_s over the passage [-]; the extremes of the trigonometric
+    # interpolant through the positions
     mu_ratio: float
     mu_ratio_min: float
     mu_ratio_max: float
+    # What half as many positions would miss at the others, relative to the mean: an upper estimate
+    # of what the positions leave undecided. NaN for an odd number of them
     position_error: float
-    shift: Array
-    passage: Array
+    shift: Array  # (n,) how far the tile has moved [m], equally spaced over its length
+    passage: Array  # (n,) mu_r/mu_s there [-]
+    # Friction coefficient of the smooth contact at the slide-to-roll ratio [-]; without meaning for
+    # a Newtonian lubricant
     mu_smooth: float
-    film_min: float
-    cavitated_share: float
-    cavitated_friction: float
+    film_min: float  # least h_c - rr_d of the tile [m]
+    cavitated_share: float  # mean share of the contact where p_s + delta p <= 0 [-]
+    cavitated_friction: float  # bound of the share of the friction that comes from there [-]
+    # Greatest |integral of delta p|/w over the passage [-], before any load balance
     load_error: float
-    response: Response
-    seconds: float
+    response: Response  # delta p and deformed roughness on the grid of the given tile
+    seconds: float  # wall time of the prediction
 
 
 def predict_friction(

@@ -37,35 +37,24 @@ def unpredictable(kind: str) -> str:
 class Options:
     """How the model is read.
 
-    Attributes
-    ----------
-    reduction
-        What is left of a wave in the contact: ``"response"``, the complex response of
-        :mod:`pyehl.theory.response`, or ``"amplitude"``, the real ratio of the paper.
-    smooth
-        Pressure and film under the roughness: ``"solved"``, of the smooth contact, or ``"hertz"``,
-        semi-ellipse and uniform film, as in the paper.
-    wavelength_convention
-        One of :data:`pyehl.theory.amplitude.CONVENTIONS`.
-    stiffness
-        ``"exact"``: E'|q|/4; ``"paper"``: eq. 11 with wavelength 2 pi/|q|.
-    load_balance
-        Whether the semi-ellipse gives up the load that delta p carries inside the contact: a
-        Hertz contact under the remaining load, p_h and a scaled by its cube root.
-    positions
-        Positions of the surface over one passage; 0: doubled until mu_r/mu_s is resolved.
-
     Raises
     ------
     InputError
         For an unknown word or a number out of range.
     """
 
+    # What is left of a wave in the contact: ``"response"``, the complex response of
+    # :mod:`pyehl.theory.response`, or ``"amplitude"``, the real ratio of the paper
     reduction: str = "response"
+    # Pressure and film under the roughness: ``"solved"``, of the smooth contact, or ``"hertz"``,
+    # semi-ellipse and uniform film, as in the paper
     smooth: str = "solved"
-    wavelength_convention: str = "components"
-    stiffness: str = "exact"
+    wavelength_convention: str = "components"  # one of :data:`pyehl.theory.amplitude.CONVENTIONS`
+    stiffness: str = "exact"  # ``"exact"``: E'|q|/4; ``"paper"``: eq. 11 with wavelength 2 pi/|q|
+    # Whether the semi-ellipse gives up the load that delta p carries inside the contact: a Hertz
+    # contact under the remaining load, p_h and a scaled by its cube root
     load_balance: bool = False
+    # Positions of the surface over one passage; 0: doubled until mu_r/mu_s is resolved
     positions: int = 0
 
     def __post_init__(self) -> None:

@@ -29,25 +29,14 @@ TOLERANCE = 0.01
 
 @dataclass(frozen=True, slots=True)
 class Resolution:
-    """How much of a predicted mu_r/mu_s a grid resolves.
+    """How much of a predicted mu_r/mu_s a grid resolves."""
 
-    Attributes
-    ----------
-    mu_ratio
-        Predicted with all waves [-].
-    resolved, carried
-        The same without the waves that have fewer than NODES, or CARRIED nodes [-].
-    shortest
-        Wavelength that has NODES nodes [m].
-    part
-        Which part of a large surface it was predicted with; empty: the whole.
-    """
-
-    mu_ratio: float
+    mu_ratio: float  # predicted with all waves [-]
+    # The same without the waves that have fewer than NODES, or CARRIED nodes [-]
     resolved: float
     carried: float
-    shortest: float
-    part: str = ""
+    shortest: float  # wavelength that has NODES nodes [m]
+    part: str = ""  # which part of a large surface it was predicted with; empty: the whole
 
     @property
     def matters(self) -> bool:

@@ -47,37 +47,18 @@ of a contact under a high load is steep (M above 2000 or so)."""
 
 @dataclass(frozen=True, slots=True)
 class SmoothContact:
-    """Pressure and film of the smooth contact.
+    """Pressure and film of the smooth contact."""
 
-    Attributes
-    ----------
-    x, y
-        Ascending and equidistant [a], (nx,) and (ny,).
-    pressure
-        P (nx, ny) [p_h].
-    film
-        H (nx, ny) [a^2/R].
-    central_film
-        H_c, extrapolated [a^2/R].
-    central_film_error
-        Its estimated error [a^2/R]; NaN for none.
-    source
-        Where it is from, in words.
-    minimum_film
-        H_min, extrapolated as H_c [a^2/R]; NaN where it is not known.
-    extrapolated
-        Whether `central_film` is.
-    """
-
+    # Ascending and equidistant [a], (nx,) and (ny,)
     x: Array
     y: Array
-    pressure: Array
-    film: Array
-    central_film: float
-    central_film_error: float
-    source: str
-    minimum_film: float = math.nan
-    extrapolated: bool = False
+    pressure: Array  # P (nx, ny) [p_h]
+    film: Array  # H (nx, ny) [a^2/R]
+    central_film: float  # H_c, extrapolated [a^2/R]
+    central_film_error: float  # its estimated error [a^2/R]; NaN for none
+    source: str  # where it is from, in words
+    minimum_film: float = math.nan  # H_min, extrapolated as H_c [a^2/R]; NaN where it is not known
+    extrapolated: bool = False  # whether `central_film` is
 
     def at(self, x: Array, y: Array) -> tuple[Array, Array]:
         """P and H on the grid of places x (m,) and y (n,), both (m, n); outside P is zero."""

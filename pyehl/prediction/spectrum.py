@@ -22,25 +22,14 @@ Indices = NDArray[np.int_]
 
 @dataclass(frozen=True, slots=True)
 class Spectrum:
-    """The Fourier components of a tile with qx >= 0.
+    """The Fourier components of a tile with qx >= 0."""
 
-    Attributes
-    ----------
-    values
-        (nx//2 + 1, ny) [a^2/R], of the transform without factors, the mean left out.
-    qx, qy
-        (nx//2 + 1,) and (ny,) [1/a].
-    shape
-        (nx, ny).
-    q
-        |q| (nx//2 + 1, ny) [1/a].
-    """
-
-    values: Complex
+    values: Complex  # (nx//2 + 1, ny) [a^2/R], of the transform without factors, the mean left out
+    # (nx//2 + 1,) and (ny,) [1/a]
     qx: Array
     qy: Array
-    shape: tuple[int, int]
-    q: Array = field(init=False, repr=False)
+    shape: tuple[int, int]  # (nx, ny)
+    q: Array = field(init=False, repr=False)  # |q| (nx//2 + 1, ny) [1/a]
 
     @classmethod
     def of(cls, heights: Array, length_x: float, length_y: float) -> Spectrum:

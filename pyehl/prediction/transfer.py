@@ -69,28 +69,18 @@ def _at_amplitude(zone: Zone, variance: float) -> Zone:
 
 @dataclass(frozen=True, slots=True)
 class Transfer:
-    """T of every component of a tile: driven and free part at the stations.
+    """T of every component of a tile: driven and free part at the stations."""
 
-    Attributes
-    ----------
-    driven
-        Per station, shape of the spectrum.
-    free
-        Empty without free waves; per station on the centre line, without the phase that slip adds
-        on the way from X = -1.
-    off_centre
-        What the distance OFF_CENTRE from the centre line adds to the free part at X = 0.
-    bent
-        Whether the phase that slip loses by the curved inlet is left out of `off_centre`: the
-        free waves are then to be read line by line.
-    second
-        The pressure of second order; None where the waves move with the roughness as they are.
-    """
-
-    driven: list[Complex]
+    driven: list[Complex]  # per station, shape of the spectrum
+    # Empty without free waves; per station on the centre line, without the phase that slip adds on
+    # the way from X = -1
     free: list[Complex]
+    # What the distance OFF_CENTRE from the centre line adds to the free part at X = 0
     off_centre: Complex | None
+    # Whether the phase that slip loses by the curved inlet is left out of `off_centre`: the free
+    # waves are then to be read line by line
     bent: bool
+    # The pressure of second order; None where the waves move with the roughness as they are
     second: SecondOrder | None = None
 
     @classmethod

@@ -33,27 +33,14 @@ REFINEMENT = 4
 
 @dataclass(frozen=True, slots=True)
 class Waves:
-    """Film (less by) and pressure (more by) of driven and free waves as tiles, single precision.
+    """Film (less by) and pressure (more by) of driven and free waves as tiles, single precision."""
 
-    Attributes
-    ----------
-    driven
-        Over station (n, nx, ny/stride, 2): film, pressure.
-    free
-        The same (n, REFINEMENT nx, ny/stride, 2); None without free waves.
-    off_centre
-        What OFF_CENTRE adds to the free waves (1, REFINEMENT nx, ny/stride, 2).
-    stride
-        Every so many-th column of the tile is there.
-    bent
-        As in :class:`Transfer`.
-    """
-
-    driven: Single
-    free: Single | None
+    driven: Single  # over station (n, nx, ny/stride, 2): film, pressure
+    free: Single | None  # the same (n, REFINEMENT nx, ny/stride, 2); None without free waves
+    # What OFF_CENTRE adds to the free waves (1, REFINEMENT nx, ny/stride, 2)
     off_centre: Single | None
-    stride: int
-    bent: bool
+    stride: int  # every so many-th column of the tile is there
+    bent: bool  # as in :class:`Transfer`
 
     @classmethod
     def of(

@@ -41,26 +41,17 @@ LINES = np.linspace(0.0, 0.9, 5)
 
 @dataclass(frozen=True, slots=True)
 class Deformed:
-    """Fields on the nodes around the contact, (nx, ny) [m].
+    """Fields on the nodes around the contact, (nx, ny) [m]."""
 
-    Attributes
-    ----------
-    x, y
-        Places [a], (nx,) and (ny,).
-    undeformed, simulated, response, paper
-        Roughness before, and deformed: by simulation, by our prediction, by the paper's model.
-    at_node
-        Rms difference of the roughness put together here from that of the solver, over its rms.
-    made
-        The study.
-    """
-
+    # Places [a], (nx,) and (ny,)
     x: Array
     y: Array
+    # Roughness before, and deformed: by simulation, by our prediction, by the paper's model
     undeformed: Array
     simulated: Array
     response: Array
     paper: Array
+    # Rms difference of the roughness put together here from that of the solver, over its rms
     at_node: float
     made: Made
 

@@ -40,28 +40,15 @@ SLIP = "Slip is missing in the paper's prediction"
 
 @dataclass(frozen=True, slots=True)
 class Surfaces:
-    """mu_r/mu_s by seed (n,).
+    """mu_r/mu_s by seed (n,)."""
 
-    Attributes
-    ----------
-    simulated
-        By simulation.
-    predicted
-        By model, see `MODELS`.
-    slip
-        Of the first seed by simulation and by our prediction, at `VELOCITY_RATIOS`; the paper's
-        model has no slip.
-    slip_grid
-        Nodes per side of that.
-    studies
-        What it rests on.
-    """
-
-    simulated: Array
-    predicted: dict[str, Array]
+    simulated: Array  # by simulation
+    predicted: dict[str, Array]  # by model, see `MODELS`
+    # Of the first seed by simulation and by our prediction, at `VELOCITY_RATIOS`; the paper's model
+    # has no slip
     slip: tuple[Array, Array]
-    slip_grid: int
-    studies: list[Made]
+    slip_grid: int  # nodes per side of that
+    studies: list[Made]  # what it rests on
 
 
 def run(runs: Runs, level: Level) -> Surfaces:

@@ -10,36 +10,17 @@ __all__ = ["FULL", "LEVELS", "QUICK", "Level"]
 
 @dataclass(frozen=True, slots=True)
 class Level:
-    """How much of the paper is computed.
+    """How much of the paper is computed."""
 
-    Attributes
-    ----------
-    name
-        Of the level.
-    wave_grids
-        Nodes per side of Fig. 2, the coarsest first; the last is compared with the paper.
-    collapse_grid
-        Nodes per side of the waves of Figs 3 and 4.
-    film_grid
-        Nodes per side of the smooth contacts whose film amplitudes are a share of.
-    surface_grid
-        Nodes per side of the surfaces of Figs 6 and 7.
-    meshes
-        Nodes per side of Table 2.
-    surfaces
-        Number of surfaces of Fig. 7.
-    leaves_out
-        What the level leaves out, in words.
-    """
-
-    name: str
+    name: str  # of the level
+    # Nodes per side of Fig. 2, the coarsest first; the last is compared with the paper
     wave_grids: tuple[int, ...]
-    collapse_grid: int
-    film_grid: int
-    surface_grid: int
-    meshes: tuple[int, ...]
-    surfaces: int
-    leaves_out: str
+    collapse_grid: int  # nodes per side of the waves of Figs 3 and 4
+    film_grid: int  # nodes per side of the smooth contacts whose film amplitudes are a share of
+    surface_grid: int  # nodes per side of the surfaces of Figs 6 and 7
+    meshes: tuple[int, ...]  # nodes per side of Table 2
+    surfaces: int  # number of surfaces of Fig. 7
+    leaves_out: str  # what the level leaves out, in words
 
 
 QUICK = Level(

@@ -18,32 +18,15 @@ __all__ = ["Check", "Finding", "Piece", "Result"]
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """A number of ours beside one of the paper, or of another program.
+    """A number of ours beside one of the paper, or of another program."""
 
-    Attributes
-    ----------
-    name
-        What it is, in words.
-    found
-        Ours; NaN where there is none.
-    expected
-        Theirs.
-    tolerance
-        Allowed deviation; None: told, not judged.
-    why
-        What the tolerance is, or why there is none.
-    source
-        Where theirs is from.
-    finding
-        Title of the `Finding` that shows why the paper is not reproduced, should it not be.
-    """
-
-    name: str
-    found: float
-    expected: float
-    tolerance: float | None
-    why: str
-    source: str
+    name: str  # what it is, in words
+    found: float  # ours; NaN where there is none
+    expected: float  # theirs
+    tolerance: float | None  # allowed deviation; None: told, not judged
+    why: str  # what the tolerance is, or why there is none
+    source: str  # where theirs is from
+    # Title of the `Finding` that shows why the paper is not reproduced, should it not be
     finding: str = ""
 
     @classmethod
@@ -106,44 +89,21 @@ class Finding:
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """A piece of the paper, redone.
+    """A piece of the paper, redone."""
 
-    Attributes
-    ----------
-    name, title
-        'figure 2', and what it shows.
-    checks
-        Deviations.
-    pictures
-        File and caption.
-    table
-        File with the numbers of the picture; None where a run has failed.
-    notes
-        What else is to be said, a sentence or two each.
-    findings
-        Where the paper is not reproduced.
-    studies
-        Names of the studies that it rests on.
-    seconds
-        Processor time of these [s].
-    paper_seconds
-        The time that the paper states, in words; '' for none.
-    failed
-        Which run has no result, so that the piece has none; '' for none.
-    """
-
+    # 'figure 2', and what it shows
     name: str
     title: str
-    checks: Sequence[Check]
-    pictures: Sequence[tuple[Path, str]]
-    table: Path | None
-    notes: Sequence[str] = ()
-    findings: Sequence[Finding] = ()
-    studies: Sequence[str] = ()
-    seconds: float = 0.0
-    paper_seconds: str = ""
+    checks: Sequence[Check]  # deviations
+    pictures: Sequence[tuple[Path, str]]  # file and caption
+    table: Path | None  # file with the numbers of the picture; None where a run has failed
+    notes: Sequence[str] = ()  # what else is to be said, a sentence or two each
+    findings: Sequence[Finding] = ()  # where the paper is not reproduced
+    studies: Sequence[str] = ()  # names of the studies that it rests on
+    seconds: float = 0.0  # processor time of these [s]
+    paper_seconds: str = ""  # the time that the paper states, in words; '' for none
     wall: float = field(default=0.0)
-    failed: str = ""
+    failed: str = ""  # which run has no result, so that the piece has none; '' for none
 
     @property
     def passed(self) -> bool:

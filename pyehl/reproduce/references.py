@@ -22,33 +22,20 @@ FILE = "zhang2019.csv"
 
 @dataclass(frozen=True, slots=True)
 class Reference:
-    """One number of the paper.
+    """One number of the paper."""
 
-    Attributes
-    ----------
-    name
-        Of the number.
-    value, unit
-        As printed.
-    page, where, how
-        Where it stands, and how it was read: 'text', 'table', 'derived', 'digitised'.
-    reading
-        Uncertainty of the reading, in its unit.
-    tolerance
-        Allowed deviation, in its unit; None: not compared, and `why` says why.
-    why
-        What the tolerance is.
-    """
-
-    name: str
+    name: str  # of the number
+    # As printed
     value: float
     unit: str
+    # Where it stands, and how it was read: 'text', 'table', 'derived', 'digitised'
     page: str
     where: str
     how: str
-    reading: float
+    reading: float  # uncertainty of the reading, in its unit
+    # Allowed deviation, in its unit; None: not compared, and `why` says why
     tolerance: float | None
-    why: str
+    why: str  # what the tolerance is
 
 
 References = Mapping[str, Reference]

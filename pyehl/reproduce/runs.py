@@ -34,22 +34,14 @@ class RunFailed(EhlError):  # noqa: N818 (what happened)
 
 @dataclass(frozen=True, slots=True)
 class Made:
-    """A finished study.
+    """A finished study."""
 
-    Attributes
-    ----------
-    name, folder
-        Of the study.
-    rows
-        Results by their names in ``summary.json`` with what was varied, in the order asked for.
-    kept
-        Result folders of the cases; empty where none were kept.
-    """
-
+    # Of the study
     name: str
     folder: Path
+    # Results by their names in ``summary.json`` with what was varied, in the order asked for
     rows: tuple[Row, ...]
-    kept: tuple[Path, ...] = ()
+    kept: tuple[Path, ...] = ()  # result folders of the cases; empty where none were kept
 
     def solved(self, place: int) -> Row:
         """Row of a case without which there is no figure.
@@ -72,24 +64,13 @@ class Made:
 
 @dataclass(slots=True)
 class Runs:
-    """Makes studies in a folder.
+    """Makes studies in a folder."""
 
-    Attributes
-    ----------
-    folder
-        Where they go.
-    jobs
-        Worker processes; 0: as many as processors.
-    watch
-        Gives the watcher of a study, from its name and plan; None: nobody looks.
-    made
-        The studies that were asked for, by name.
-    """
-
-    folder: Path
-    jobs: int = 0
+    folder: Path  # where they go
+    jobs: int = 0  # worker processes; 0: as many as processors
+    # Gives the watcher of a study, from its name and plan; None: nobody looks
     watch: Callable[[str, Plan], Watcher] | None = None
-    made: dict[str, Made] = field(default_factory=dict)
+    made: dict[str, Made] = field(default_factory=dict)  # the studies that were asked for, by name
 
     def study(
         self,

@@ -62,32 +62,17 @@ def smooth_films(runs: Runs, level: Level) -> dict[tuple[float, float], float]:
 
 @dataclass(frozen=True, slots=True)
 class WaveSet:
-    """Waves under one scheme; arrays (n,).
+    """Waves under one scheme; arrays (n,)."""
 
-    Attributes
-    ----------
-    scheme
-        As ``time.scheme``.
-    moes_m, moes_l, wavelength, ratio
-        M, L, wavelength [a], H_c/A_i.
-    amplitude
-        A_i [a^2/R].
-    friction
-        mu_r/mu_s; NaN where there is none.
-    status
-        Of the runs.
-    made
-        The study.
-    """
-
-    scheme: str
+    scheme: str  # as ``time.scheme``
+    # M, L, wavelength [a], H_c/A_i
     moes_m: Array
     moes_l: Array
     wavelength: Array
     ratio: Array
-    amplitude: Array
-    friction: Array
-    status: tuple[str, ...]
+    amplitude: Array  # A_i [a^2/R]
+    friction: Array  # mu_r/mu_s; NaN where there is none
+    status: tuple[str, ...]  # of the runs
     made: Made
 
     @property

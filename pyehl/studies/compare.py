@@ -35,30 +35,14 @@ COLUMNS = "line,case,name,reference,tolerance,result,deviation,verdict"
 
 @dataclass(frozen=True, slots=True)
 class Deviation:
-    """A result beside a reference value.
+    """A result beside a reference value."""
 
-    Attributes
-    ----------
-    line
-        Of the table of references.
-    case
-        Keys of the row, in words.
-    name
-        Of the result.
-    expected
-        Reference value and tolerance.
-    found
-        The result; None where there is none.
-    why
-        Why there is none; '' where there is one.
-    """
-
-    line: int
-    case: str
-    name: str
-    expected: Expected
-    found: float | None
-    why: str = ""
+    line: int  # of the table of references
+    case: str  # keys of the row, in words
+    name: str  # of the result
+    expected: Expected  # reference value and tolerance
+    found: float | None  # the result; None where there is none
+    why: str = ""  # why there is none; '' where there is one
 
     @property
     def difference(self) -> float:
@@ -98,27 +82,14 @@ class Comparison:
 
 @dataclass(frozen=True, slots=True)
 class Results:
-    """Results to compare: one folder, or the rows of a table.
+    """Results to compare: one folder, or the rows of a table."""
 
-    Attributes
-    ----------
-    name
-        Folder or file.
-    rows
-        Results by name; keys of the case that were varied are among them.
-    study
-        Case, options and what is varied of a study, as its journal says; None: not known.
-    many
-        Whether it is a table.
-    case
-        Resolved text of the case of one result; '' for a table.
-    """
-
-    name: str
-    rows: tuple[Row, ...]
+    name: str  # folder or file
+    rows: tuple[Row, ...]  # results by name; keys of the case that were varied are among them
+    # Case, options and what is varied of a study, as its journal says; None: not known
     study: Mapping[str, Any] | None
-    many: bool
-    case: str = ""
+    many: bool  # whether it is a table
+    case: str = ""  # resolved text of the case of one result; '' for a table
 
     def key(self, number: int, name: str) -> object:
         """Give the value of a key for a row; None where the case does not have it.

@@ -69,23 +69,12 @@ def curve_dataset(plan: CurvePlan, rows: Sequence[Row]) -> xr.Dataset:
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """Measured friction.
+    """Measured friction."""
 
-    Attributes
-    ----------
-    abscissa
-        Name of the column of the curve that it is given over.
-    places
-        Values of it, (n,).
-    ordinate
-        'mu' or 'mu_ratio'.
-    friction, error
-        Values and their error (n,); zeros where none is given [-].
-    """
-
-    abscissa: str
-    places: Array
-    ordinate: str
+    abscissa: str  # name of the column of the curve that it is given over
+    places: Array  # values of it, (n,)
+    ordinate: str  # 'mu' or 'mu_ratio'
+    # Values and their error (n,); zeros where none is given [-]
     friction: Array
     error: Array
 

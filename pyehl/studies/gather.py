@@ -37,27 +37,13 @@ class Watcher:
 
 @dataclass(slots=True)
 class Outcome:
-    """How a study ended.
+    """How a study ended."""
 
-    Attributes
-    ----------
-    rows
-        Results by the number of the task.
-    ran
-        Tasks that were done now.
-    interrupted
-        Whether somebody stopped it.
-    busy
-        Seconds that these tasks took, all workers together.
-    wall
-        Seconds from the first task to the last row.
-    """
-
-    rows: dict[int, Row]
-    ran: int = 0
-    interrupted: bool = False
-    busy: float = 0.0
-    wall: float = 0.0
+    rows: dict[int, Row]  # results by the number of the task
+    ran: int = 0  # tasks that were done now
+    interrupted: bool = False  # whether somebody stopped it
+    busy: float = 0.0  # seconds that these tasks took, all workers together
+    wall: float = 0.0  # seconds from the first task to the last row
 
     def statuses(self) -> dict[str, int]:
         """How many rows have each status."""

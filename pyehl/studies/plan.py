@@ -38,29 +38,17 @@ GROUPS = ("grid", "surface", "time", "solver")
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """Cases of a study, checked, with what can be told before they run.
-
-    Attributes
-    ----------
-    study
-        The study.
-    points, tasks
-        Its cases in the order of the table; of a large study that is not to run, some of them.
-    contacts, surfaces
-        Smooth contacts and rough surfaces that differ.
-    maps
-        Files of their height maps.
-    check_seconds
-        Time that the checks took [s].
-    """
+    """Cases of a study, checked, with what can be told before they run."""
 
     study: Study
+    # Its cases in the order of the table; of a large study that is not to run, some of them
     points: tuple[Point, ...]
     tasks: tuple[Task, ...]
+    # Smooth contacts and rough surfaces that differ
     contacts: int
     surfaces: int
-    maps: tuple[str, ...]
-    check_seconds: float
+    maps: tuple[str, ...]  # files of their height maps
+    check_seconds: float  # time that the checks took [s]
 
     def identity(self) -> dict[str, Any]:
         """Give what makes this study another one than others, as values of JSON."""

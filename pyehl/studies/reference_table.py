@@ -51,25 +51,14 @@ class ReferenceRow:
 
 @dataclass(frozen=True, slots=True)
 class ReferenceTable:
-    """A table of references.
+    """A table of references."""
 
-    Attributes
-    ----------
-    name
-        Of the file.
-    notes
-        Its comment lines, which say where the values are from.
-    keys, values
-        Names of the columns.
-    rows
-        At least one.
-    """
-
-    name: str
-    notes: tuple[str, ...]
+    name: str  # of the file
+    notes: tuple[str, ...]  # its comment lines, which say where the values are from
+    # Names of the columns
     keys: tuple[str, ...]
     values: tuple[str, ...]
-    rows: tuple[ReferenceRow, ...]
+    rows: tuple[ReferenceRow, ...]  # at least one
 
 
 def read_reference(

@@ -44,49 +44,24 @@ MAX_SURFACES = 1000
 
 @dataclass(frozen=True, slots=True)
 class CurvePoint:
-    """One point of a curve and its tasks.
+    """One point of a curve and its tasks."""
 
-    Attributes
-    ----------
-    point
-        Its place and what is varied.
-    settings
-        The resolved case.
-    smooth
-        Number of the task that solves the smooth contact.
-    predictions
-        Numbers of the tasks that predict, one for each surface; none for a smooth one.
-    full
-        Number of the task that solves the passage of the surface; None for none.
-    """
-
-    point: Point
-    settings: Settings
-    smooth: int
+    point: Point  # its place and what is varied
+    settings: Settings  # the resolved case
+    smooth: int  # number of the task that solves the smooth contact
+    # Numbers of the tasks that predict, one for each surface; none for a smooth one
     predictions: tuple[int, ...]
-    full: int | None
+    full: int | None  # number of the task that solves the passage of the surface; None for none
 
 
 @dataclass(frozen=True, slots=True)
 class CurvePlan:
-    """A curve before it is computed.
+    """A curve before it is computed."""
 
-    Attributes
-    ----------
-    study
-        What is varied.
-    points
-        Points in the order of the table.
-    tasks
-        All tasks.
-    surfaces
-        Surfaces at each point.
-    """
-
-    study: Study
-    points: tuple[CurvePoint, ...]
-    tasks: tuple[Task, ...]
-    surfaces: int
+    study: Study  # what is varied
+    points: tuple[CurvePoint, ...]  # points in the order of the table
+    tasks: tuple[Task, ...]  # all tasks
+    surfaces: int  # surfaces at each point
 
     def identity(self) -> dict[str, Any]:
         """Give what makes this curve another one than others, as values of JSON."""

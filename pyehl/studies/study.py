@@ -28,21 +28,11 @@ MAX_CASES = 1_000_000
 
 @dataclass(frozen=True, slots=True)
 class Point:
-    """One case of a study.
+    """One case of a study."""
 
-    Attributes
-    ----------
-    number
-        Its place in the table, from 0.
-    index
-        Its place along each dimension of the study.
-    values
-        What is varied, by key.
-    """
-
-    number: int
-    index: tuple[int, ...]
-    values: dict[str, Value]
+    number: int  # its place in the table, from 0
+    index: tuple[int, ...]  # its place along each dimension of the study
+    values: dict[str, Value]  # what is varied, by key
 
     def __str__(self) -> str:
         """Give what is varied, in one line."""
@@ -51,28 +41,15 @@ class Point:
 
 @dataclass(frozen=True, slots=True)
 class Study:
-    """A case and what is varied in it.
+    """A case and what is varied in it."""
 
-    Attributes
-    ----------
-    case
-        A case, or the path of a case file.
-    options
-        Texts ``group.key=value`` that hold for all cases.
-    dimensions
-        What is varied: the keys of one dimension move together. The last dimension is the
-        fastest in the table.
-    run
-        One of `RUNS`.
-    outputs
-        Names of results wanted in the table; empty: all numbers.
-    """
-
-    case: Case | str
-    options: tuple[str, ...]
+    case: Case | str  # a case, or the path of a case file
+    options: tuple[str, ...]  # Texts ``group.key=value`` that hold for all cases
+    # What is varied: the keys of one dimension move together. The last dimension is the fastest in
+    # the table
     dimensions: tuple[tuple[Axis, ...], ...]
-    run: str
-    outputs: tuple[str, ...] = ()
+    run: str  # one of `RUNS`
+    outputs: tuple[str, ...] = ()  # names of results wanted in the table; empty: all numbers
 
     @property
     def shape(self) -> tuple[int, ...]:

@@ -55,23 +55,14 @@ FRONT = -2.5
 
 @dataclass(frozen=True, slots=True)
 class WaveSet:
-    """Waves on a square tile.
+    """Waves on a square tile."""
 
-    Attributes
-    ----------
-    tile
-        Its side [a].
-    along, across
-        Wavelengths per tile along and across the motion, (m,); those along are all different and
-        not 0.
-    phase
-        (m,) [rad].
-    """
-
-    tile: float
+    tile: float  # its side [a]
+    # Wavelengths per tile along and across the motion, (m,); those along are all different and not
+    # 0
     along: NDArray[np.int64]
     across: NDArray[np.int64]
-    phase: Array
+    phase: Array  # (m,) [rad]
 
     def __post_init__(self) -> None:
         """Check that the frequencies can be told apart."""
@@ -98,34 +89,18 @@ class WaveSet:
 
 @dataclass(frozen=True, slots=True)
 class Superposition:
-    """Response of a contact to the waves of a tile, on Y = 0.
+    """Response of a contact to the waves of a tile, on Y = 0."""
 
-    Attributes
-    ----------
-    x
-        Places within REACH (n,) [a].
-    film, pressure
-        Means over a period, H [a^2/R] and P [p_h], (n,).
-    response
-        T, (m, n).
-    stiffness
-        Pi: pressure [p_h] per roughness [a^2/R], (m, n).
-    residual
-        rms of what the fit leaves of the film, over the amplitude of each wave, (m, n).
-    spacing
-        Grid spacing [a].
-    central_film
-        H_c of the smooth contact on this grid [a^2/R].
-    """
-
-    x: Array
+    x: Array  # places within REACH (n,) [a]
+    # Means over a period, H [a^2/R] and P [p_h], (n,)
     film: Array
     pressure: Array
-    response: Complex
-    stiffness: Complex
+    response: Complex  # T, (m, n)
+    stiffness: Complex  # pi: pressure [p_h] per roughness [a^2/R], (m, n)
+    # rms of what the fit leaves of the film, over the amplitude of each wave, (m, n)
     residual: Array
-    spacing: float
-    central_film: float
+    spacing: float  # grid spacing [a]
+    central_film: float  # H_c of the smooth contact on this grid [a^2/R]
 
 
 def linear_surface(waves: WaveSet, slope: float = SLOPE) -> tuple[Array, Array]:

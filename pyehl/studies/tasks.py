@@ -35,32 +35,15 @@ Row = dict[str, Any]
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """One case to be done.
+    """One case to be done."""
 
-    Attributes
-    ----------
-    number
-        Place in the table.
-    text
-        The resolved case.
-    run
-        'solve', 'predict' or 'film'.
-    folder
-        Where its results go; '' for nowhere.
-    seconds
-        How long it may take, by estimate.
-    shares
-        What it has in common with others; those go to one worker where possible.
-    full
-        A prediction with its tracks, bands and what would carry; else mu_r/mu_s and its errors.
-    """
-
-    number: int
-    text: str
-    run: str
-    folder: str = ""
-    seconds: float = 0.0
-    shares: str = ""
+    number: int  # place in the table
+    text: str  # the resolved case
+    run: str  # 'solve', 'predict' or 'film'
+    folder: str = ""  # where its results go; '' for nowhere
+    seconds: float = 0.0  # how long it may take, by estimate
+    shares: str = ""  # what it has in common with others; those go to one worker where possible
+    # A prediction with its tracks, bands and what would carry; else mu_r/mu_s and its errors
     full: bool = False
 
     def message(self) -> dict[str, Any]:

@@ -20,27 +20,15 @@ NODES = 8
 
 @dataclass(frozen=True, slots=True)
 class Tier:
-    """One run.
+    """One run."""
 
-    Attributes
-    ----------
-    name
-        Of the tier and of its file.
-    tile
-        Side of the tile [a].
-    points
-        Nodes per side of the domain, 4 a by 4 a.
-    longest, shortest
-        Wavelengths along the motion, and shortest of all [a]. Of ridges: across it.
-    ridges
-        Steady solutions with ridges along the motion (:mod:`pyehl.studies.ridges`).
-    """
-
-    name: str
-    tile: float
-    points: int
+    name: str  # of the tier and of its file
+    tile: float  # side of the tile [a]
+    points: int  # nodes per side of the domain, 4 a by 4 a
+    # Wavelengths along the motion, and shortest of all [a]. Of ridges: across it
     longest: float
     shortest: float
+    # Steady solutions with ridges along the motion (:mod:`pyehl.studies.ridges`)
     ridges: bool = False
 
     def steps(self, velocity_ratio: float) -> int:

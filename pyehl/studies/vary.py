@@ -25,18 +25,10 @@ LOGICAL = {".true.": True, ".false.": False}
 
 @dataclass(frozen=True, slots=True)
 class Axis:
-    """One key ``group.name`` of a case file and its values.
+    """One key ``group.name`` of a case file and its values."""
 
-    Attributes
-    ----------
-    key
-        ``group.name``.
-    values
-        All of one type: float, int, bool or str.
-    """
-
-    key: str
-    values: tuple[Value, ...]
+    key: str  # ``group.name``
+    values: tuple[Value, ...]  # all of one type: float, int, bool or str
 
 
 def parse_axis(text: str) -> Axis:

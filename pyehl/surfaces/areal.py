@@ -36,21 +36,11 @@ BLOCK = 2**16
 
 @dataclass(frozen=True, slots=True)
 class Extent:
-    """How rough a map is, in three numbers.
+    """How rough a map is, in three numbers."""
 
-    Attributes
-    ----------
-    rms
-        Of the heights about their mean [m].
-    peak
-        Largest distance of a height from the mean [m].
-    slope
-        Rms gradient, from differences of neighbours [-].
-    """
-
-    rms: float
-    peak: float
-    slope: float
+    rms: float  # of the heights about their mean [m]
+    peak: float  # largest distance of a height from the mean [m]
+    slope: float  # rms gradient, from differences of neighbours [-]
 
 
 def extent(heights: Array, pixel: tuple[float, float]) -> Extent:

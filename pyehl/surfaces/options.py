@@ -14,33 +14,17 @@ __all__ = ["NEUTRAL", "Options", "defaults"]
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """What to do with a map; each attribute is a key of ``&surface``.
+    """What to do with a map; each attribute is a key of ``&surface``."""
 
-    Attributes
-    ----------
-    detrend
-        ``"none"``, ``"centre"``, ``"tilt"``, ``"curvature"`` or ``"auto"``.
-    fill
-        ``"harmonic"`` or ``"none"``, which refuses maps with missing points.
-    outliers
-        Threshold, see :func:`pyehl.surfaces.spikes.prominence`; 0: none are removed.
-    edges
-        ``"mirror"``, ``"window"``, ``"periodic"`` or ``"auto"``.
-    crop
-        (x_min, x_max, y_min, y_max) [m], a maximum of 0 being the far edge.
-    rotate
-        Counter-clockwise [degrees].
-    sign
-        1, or -1 for a map whose valleys are positive.
-    """
-
-    detrend: str = "auto"
-    fill: str = "harmonic"
+    detrend: str = "auto"  # ``"none"``, ``"centre"``, ``"tilt"``, ``"curvature"`` or ``"auto"``
+    fill: str = "harmonic"  # ``"harmonic"`` or ``"none"``, which refuses maps with missing points
+    # Threshold, see :func:`pyehl.surfaces.spikes.prominence`; 0: none are removed
     outliers: float = 0.0
-    edges: str = "auto"
+    edges: str = "auto"  # ``"mirror"``, ``"window"``, ``"periodic"`` or ``"auto"``
+    # (x_min, x_max, y_min, y_max) [m], a maximum of 0 being the far edge
     crop: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
-    rotate: float = 0.0
-    sign: int = 1
+    rotate: float = 0.0  # counter-clockwise [degrees]
+    sign: int = 1  # 1, or -1 for a map whose valleys are positive
 
     @classmethod
     def from_settings(cls, surface: Mapping[str, Any]) -> Options:

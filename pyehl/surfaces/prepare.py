@@ -41,29 +41,14 @@ JUMP = 3.0
 
 @dataclass(frozen=True, slots=True)
 class Preparation:
-    """How a tile came about.
-
-    Attributes
-    ----------
-    scan
-        The map as read.
-    options
-        What was done, every 'auto' resolved.
-    record
-        The same in numbers, step by step.
-    prepared
-        (nx, ny) [m] map before its edges were joined.
-    pixel
-        Of it and of the tile [m].
-    tile
-        The tile, mean zero: (nx, ny), or (2 nx, 2 ny) if mirrored [m].
-    """
+    """How a tile came about."""
 
     scan: Scan = field(repr=False)
-    options: Options
-    record: Record
-    prepared: Array = field(repr=False)
-    pixel: tuple[float, float]
+    options: Options  # what was done, every 'auto' resolved
+    record: Record  # the same in numbers, step by step
+    prepared: Array = field(repr=False)  # (nx, ny) [m] map before its edges were joined
+    pixel: tuple[float, float]  # of it and of the tile [m]
+    # The tile, mean zero: (nx, ny), or (2 nx, 2 ny) if mirrored [m]
     tile: Array = field(repr=False)
 
     @property

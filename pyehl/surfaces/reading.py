@@ -47,39 +47,23 @@ LEAST_PIXELS = 4
 
 @dataclass(frozen=True, slots=True)
 class Scan:
-    """A height map as a file has it.
+    """A height map as a file has it."""
 
-    Attributes
-    ----------
-    heights
-        (nx, ny) [m], peaks positive, NaN where the instrument saw nothing. Pixel [i, j] lies at
-        x = i length_x/nx, y = j length_y/ny.
-    length_x, length_y
-        Size [m].
-    origin
-        Name of the file.
-    is_array
-        Whether it is an array (`.npy`, text), with no word about how it came about, or a file of
-        an instrument.
-    is_periodic
-        Whether the file says that the map can be repeated without a seam.
-    channel
-        Name of the channel or data set; empty for arrays.
-    size_from
-        Where the size is from: 'the file' or 'surface.length_x, surface.length_y'.
-    note
-        What a person should know besides; mostly empty.
-    """
-
+    # (nx, ny) [m], peaks positive, NaN where the instrument saw nothing. Pixel [i, j] lies at x = i
+    # length_x/nx, y = j length_y/ny
     heights: Array
+    # Size [m]
     length_x: float
     length_y: float
-    origin: str
+    origin: str  # name of the file
+    # Whether it is an array (`.npy`, text), with no word about how it came about, or a file of an
+    # instrument
     is_array: bool = True
-    is_periodic: bool = False
-    channel: str = ""
+    is_periodic: bool = False  # whether the file says that the map can be repeated without a seam
+    channel: str = ""  # name of the channel or data set; empty for arrays
+    # Where the size is from: 'the file' or 'surface.length_x, surface.length_y'
     size_from: str = "surface.length_x, surface.length_y"
-    note: str = ""
+    note: str = ""  # what a person should know besides; mostly empty
 
 
 def is_array_file(path: str | Path) -> bool:

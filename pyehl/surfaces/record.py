@@ -55,41 +55,25 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class Record:
-    """What a map was and what became of it, without its heights.
+    """What a map was and what became of it, without its heights."""
 
-    Attributes
-    ----------
-    file, channel
-        Where it came from.
-    is_array
-        Whether it is an array, and no file of an instrument.
-    pixels, size, size_from
-        Of the map as read, along x and y, [m], and where the size is from.
-    missing
-        Points without a height.
-    note
-        What a person should know of the file besides; mostly empty.
-    detrend, edges
-        What these keys were, 'auto' resolved.
-    tile_pixels, tile_size
-        Of the tile, along x and y, [m].
-    steps
-        The steps that did something, in order.
-    """
-
+    # Where it came from
     file: str
     channel: str
-    is_array: bool
+    is_array: bool  # whether it is an array, and no file of an instrument
+    # Of the map as read, along x and y, [m], and where the size is from
     pixels: tuple[int, int]
     size: tuple[float, float]
     size_from: str
-    missing: int
-    note: str
+    missing: int  # points without a height
+    note: str  # what a person should know of the file besides; mostly empty
+    # What these keys were, 'auto' resolved
     detrend: str
     edges: str
+    # Of the tile, along x and y, [m]
     tile_pixels: tuple[int, int]
     tile_size: tuple[float, float]
-    steps: tuple[Step, ...]
+    steps: tuple[Step, ...]  # the steps that did something, in order
 
     def summary(self) -> dict[str, Any]:
         """Return what ``summary.json`` holds of it: SI units."""

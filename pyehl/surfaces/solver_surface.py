@@ -30,24 +30,16 @@ LOG = logging.getLogger(__name__)
 
 @dataclass(frozen=True, slots=True)
 class SolverSurface:
-    """What the solver needs from Python for the surface of a case.
+    """What the solver needs from Python for the surface of a case."""
 
-    Attributes
-    ----------
-    heights
-        (nx, ny) [m], Fortran order; None where the solver makes or reads the surface itself.
-    options
-        Texts ``group.key=value`` to set in its case: the size of a prepared tile, and whether it
-        is the heights with their mirror images.
-    preparation
-        How a map became a tile, or that it was taken as it is; else None.
-    part
-        Of a large map a part, see :func:`part_of`; its spectrum is not cut. Else None.
-    """
-
+    # (nx, ny) [m], Fortran order; None where the solver makes or reads the surface itself
     heights: NDArray[np.float64] | None = None
+    # Texts ``group.key=value`` to set in its case: the size of a prepared tile, and whether it is
+    # the heights with their mirror images
     options: tuple[str, ...] = ()
+    # How a map became a tile, or that it was taken as it is; else None
     preparation: Record | None = None
+    # Of a large map a part, see :func:`part_of`; its spectrum is not cut. Else None
     part: Topography | None = None
 
 

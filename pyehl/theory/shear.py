@@ -28,29 +28,17 @@ LAWS = ("newtonian", "eyring", "limiting", "carreau")
 class ShearLaw:
     """A shear law with its parameters; those of other laws are not looked at.
 
-    Attributes
-    ----------
-    law
-        One of :data:`LAWS`.
-    eyring_stress
-        tau_0 [Pa].
-    limiting_stress
-        tau_L [Pa]; 0: `limiting_coefficient` times pressure.
-    limiting_coefficient
-        tau_L/p [-].
-    carreau_stress, carreau_exponent
-        Stress G at which thinning begins [Pa] and power-law exponent n [-] of Carreau; no defaults.
-
     Raises
     ------
     InputError
         For an unknown law or a number out of range.
     """
 
-    law: str = "newtonian"
-    eyring_stress: float = 5e6
-    limiting_stress: float = 0.0
-    limiting_coefficient: float = 0.06
+    law: str = "newtonian"  # one of :data:`LAWS`
+    eyring_stress: float = 5e6  # tau_0 [Pa]
+    limiting_stress: float = 0.0  # tau_L [Pa]; 0: `limiting_coefficient` times pressure
+    limiting_coefficient: float = 0.06  # tau_L/p [-]
+    # Stress G at which thinning begins [Pa] and power-law exponent n [-] of Carreau; no defaults
     carreau_stress: float = 0.0
     carreau_exponent: float = 0.0
 

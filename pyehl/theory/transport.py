@@ -62,36 +62,16 @@ OUTLET = 0.6
 
 @dataclass(frozen=True, slots=True)
 class Zone:
-    """The smooth contact on its centre line, and what of the lubricant enters a wave.
+    """The smooth contact on its centre line, and what of the lubricant enters a wave."""
 
-    Attributes
-    ----------
-    x
-        Ascending [a], (n,).
-    pressure
-        P [p_h].
-    film
-        H [a^2/R].
-    density
-        rho/rho0 [-].
-    compressibility
-        d ln rho/dP [-].
-    curvature
-        (d^2 rho/dP^2)/rho [-].
-    thickening
-        d ln eta/dP [-].
-    conductance
-        eps = rho H^3/(eta lambda) [-].
-    """
-
-    x: Array
-    pressure: Array
-    film: Array
-    density: Array
-    compressibility: Array
-    curvature: Array
-    thickening: Array
-    conductance: Array
+    x: Array  # ascending [a], (n,)
+    pressure: Array  # P [p_h]
+    film: Array  # H [a^2/R]
+    density: Array  # rho/rho0 [-]
+    compressibility: Array  # d ln rho/dP [-]
+    curvature: Array  # (d^2 rho/dP^2)/rho [-]
+    thickening: Array  # d ln eta/dP [-]
+    conductance: Array  # eps = rho H^3/(eta lambda) [-]
 
 
 class _Flow:
