@@ -20,14 +20,10 @@ __all__ = ["read_array", "write_csv"]
 
 
 def read_array(path: Path) -> NDArray[np.float64]:
-    """Read an array that pyehl has written, if it fits into the memory.
+    """Read an array that pyehl has written.
 
-    Raises
-    ------
-    NoMemoryError
-        If it does not fit; nothing is read then.
-    FileError
-        If it cannot be read, or is damaged.
+    NoMemoryError if it does not fit into the memory, nothing is read then; FileError if it cannot
+    be read, or is damaged.
     """
     try:
         library.check_memory(f"{path}: an array of this length", path.stat().st_size)
@@ -48,10 +44,7 @@ def write_csv(
 ) -> None:
     """Write a table, whole or not at all; numbers with all digits, none as an empty cell.
 
-    Raises
-    ------
-    FileError
-        If it cannot be written.
+    FileError if it cannot be written.
     """
     with new_file(path) as fresh, fresh.open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, lineterminator="\n")

@@ -149,10 +149,7 @@ class Case:
 def with_surface(case: Case, surface: Surface) -> tuple[Case, Topography]:
     """Give a case with a surface in memory in place of its own, and that surface as a tile.
 
-    Raises
-    ------
-    InputError
-        If it is none of heights, or the case does not say its size.
+    InputError if it is none of heights, or the case does not say its size.
     """
     # surfaces take long to import, and most cases have none in memory
     from pyehl.surfaces import as_map, in_memory  # noqa: PLC0415

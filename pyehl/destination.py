@@ -63,15 +63,8 @@ class Destination:
     def check(self, *, resumes: bool = False) -> None:
         """Refuse a folder that must not be touched, or cannot be written.
 
-        Parameters
-        ----------
-        resumes
-            An earlier result is not replaced, but completed.
-
-        Raises
-        ------
-        InputError
-            With the file in the way, and the way out.
+        `resumes`: an earlier result is not replaced, but completed. InputError with the file in
+        the way, and the way out.
         """
         self._step(b"resume" if resumes else b"check")
 
@@ -79,12 +72,7 @@ class Destination:
     def fresh(self) -> Iterator[Path]:
         """Give an empty folder for the files; at the end of the block it takes its place.
 
-        Raises
-        ------
-        InputError
-            As `check`.
-        FileError
-            If the folder cannot be written.
+        InputError as `check`; FileError if the folder cannot be written.
         """
         fresh = Path(self._step(b"begin"))
         try:
@@ -101,12 +89,7 @@ class Destination:
     def claim(self, values: Mapping[str, object]) -> None:
         """Make the folder, or resume in it; its summary says whose it is from the start.
 
-        Raises
-        ------
-        InputError
-            As `check`.
-        FileError
-            If the folder cannot be written.
+        InputError as `check`; FileError if the folder cannot be written.
         """
         self.check(resumes=True)
         folder = Path(self.folder)
@@ -135,23 +118,10 @@ def check_files(
     *,
     known: Callable[[Path], bool] | None = None,
 ) -> None:
-    """Refuse files that must not be written by a command.
+    """Refuse files that must not be written by a command, such as 'plot', which reads `inputs`.
 
-    Parameters
-    ----------
-    paths
-        What it would write.
-    command
-        Such as 'plot'.
-    inputs
-        What it reads.
-    known
-        Tells whether the command wrote a file that is there; default: the file has its `mark`.
-
-    Raises
-    ------
-    InputError
-        With the file in the way, and the way out.
+    `known` tells whether the command wrote a file that is there; default: the file has its `mark`.
+    InputError with the file in the way, and the way out.
     """
     sources = {os.path.realpath(source) for source in inputs}
     for path in map(Path, paths):
@@ -179,10 +149,7 @@ def check_files(
 def new_file(path: AnyPath) -> Iterator[Path]:
     """Give a name beside a file to write; at the end of the block it takes its place, whole.
 
-    Raises
-    ------
-    FileError
-        If it cannot be written; the file is as it was.
+    FileError if it cannot be written; the file is as it was.
     """
     place = Path(os.path.realpath(path))
     # with the suffix that the caller sees: it may say the format

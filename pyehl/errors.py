@@ -117,13 +117,7 @@ CLASSES: dict[int, type[EhlError]] = {
 
 
 def check(status: int, message: bytes) -> None:
-    """Raise what a status says.
-
-    Raises
-    ------
-    EhlError
-        The class that belongs to `status`, unless that is 0.
-    """
+    """Raise what a status says: the class of EhlError that belongs to it, unless it is 0."""
     if status != 0:
         raise CLASSES.get(status, InternalError)(message.decode(errors="replace").rstrip())
 

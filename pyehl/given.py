@@ -37,10 +37,7 @@ EXPECTED = "texts group.key=value or a dict of values by group.key"
 def check_kind(value: object, kinds: type | tuple[type, ...], name: str, expected: str) -> None:
     """Refuse an argument that is of none of some kinds.
 
-    Raises
-    ------
-    InputError
-        With the value, what was expected, and what there is.
+    InputError with the value, what was expected, and what there is.
     """
     if not isinstance(value, kinds):
         raise InputError(
@@ -51,10 +48,7 @@ def check_kind(value: object, kinds: type | tuple[type, ...], name: str, expecte
 def positive(name: str, value: float, unit: str) -> float:
     """Return the value as a float.
 
-    Raises
-    ------
-    InputError
-        If it is not positive or not finite; the message names it and its unit.
+    InputError, with name and unit, if it is not positive and finite.
     """
     value = float(value)
     if not (math.isfinite(value) and value > 0.0):
@@ -63,13 +57,7 @@ def positive(name: str, value: float, unit: str) -> float:
 
 
 def path_of(value: Any, name: str) -> str:  # noqa: ANN401
-    """Give a path as text.
-
-    Raises
-    ------
-    InputError
-        If it is none.
-    """
+    """Give a path as text; InputError if it is none."""
     check_kind(value, (str, bytes, os.PathLike), name, "a path")
     path = os.fsdecode(value)
     if "\0" in path:
@@ -80,10 +68,7 @@ def path_of(value: Any, name: str) -> str:  # noqa: ANN401
 def text_of(value: Any, name: str) -> bytes:  # noqa: ANN401
     """Give a text as the library takes it.
 
-    Raises
-    ------
-    InputError
-        If it is no text, or has characters that are none.
+    InputError if it is none, or not all of it is characters.
     """
     check_kind(value, str, name, "a text")
     try:
@@ -96,10 +81,7 @@ def text_of(value: Any, name: str) -> bytes:  # noqa: ANN401
 def plain(value: object) -> Value:
     """Give a value of Python, NumPy or TOML as one of the four types of a case file.
 
-    Raises
-    ------
-    ValueError
-        If it is none of them.
+    ValueError if it is none of them.
     """
     if isinstance(value, np.generic):
         value = value.item()
@@ -120,10 +102,7 @@ def option(key: str, value: Value) -> str:
 def options_of(options: Any) -> list[str]:  # noqa: ANN401
     """Options one by one as texts, also where they come as one, in lists or in dicts.
 
-    Raises
-    ------
-    InputError
-        If one is no text of one line, or a value is no number, truth value or word.
+    InputError if one is no text of one line, or a value is no number, truth value or word.
     """
     if isinstance(options, str):
         if "\n" in options:
@@ -148,13 +127,7 @@ def _option_of(key: Any, value: Any) -> str:  # noqa: ANN401
 
 
 def heights_of(heights: ArrayLike) -> NDArray[np.float64]:
-    """Heights of a surface in Fortran order.
-
-    Raises
-    ------
-    InputError
-        If they are no matrix of finite numbers.
-    """
+    """Heights of a surface in Fortran order; InputError if they are no matrix of finite numbers."""
     try:
         values = np.asfortranarray(heights, dtype=np.float64)
     except (TypeError, ValueError) as error:

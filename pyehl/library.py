@@ -54,21 +54,9 @@ def resolve(
 ) -> str:
     """Resolve a case: check it, and spell out every value of it as namelist text.
 
-    Parameters
-    ----------
-    text
-        Namelist text; not used with `from_file`.
-    origin
-        Name of the file, for messages and for names of maps.
-    options
-        Values that replace those of the case.
-    from_file
-        Read the file `origin`.
-
-    Raises
-    ------
-    InputError
-        With file, line and column, what was expected, and the nearest name.
+    The text of a file called `origin`, for messages and for names of maps, or `from_file` that
+    file itself; `options` replace values. InputError with file, line and column, what was
+    expected, and the nearest name.
     """
     resolved, status, message = functions.resolve(
         text_of(text, "the text of a case"),
@@ -84,11 +72,7 @@ def check_memory(what: str, size: float) -> None:
     """Refuse what would not fit into the memory that is free, before it is taken.
 
     What the machine, the control groups of the process and its address space leave counts.
-
-    Raises
-    ------
-    NoMemoryError
-        With the bytes needed and free.
+    NoMemoryError with the bytes needed and free.
     """
     check(*functions.needs_memory(what.encode(errors="replace"), size))
 
@@ -101,12 +85,8 @@ def free_bytes(root: str = "") -> float:
 def checkpoint_case(results: str | os.PathLike[str]) -> Path:
     """Case file of the transient run that was to write into a folder, to resume it.
 
-    Beside it lies ``surface.npy`` when the surface of the run came from Python.
-
-    Raises
-    ------
-    InputError
-        If no state was kept.
+    Beside it lies ``surface.npy`` when the surface of the run came from Python. InputError if no
+    state was kept.
     """
     path, status, message = checkpoints.checkpoint_case(os.fsencode(results))
     check(status, message)

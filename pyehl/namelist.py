@@ -24,10 +24,7 @@ LOGICAL = {".true.": True, ".false.": False}
 def values(resolved: str) -> dict[str, dict[str, Any]]:
     """Read groups and their values of resolved namelist text.
 
-    Raises
-    ------
-    InputError
-        For a line that neither writer makes.
+    InputError for a line that neither writer makes.
     """
     groups: dict[str, dict[str, Any]] = {}
     for block in resolved.split(END):

@@ -72,12 +72,6 @@ def export(folder: str | os.PathLike[str], path: str | os.PathLike[str] | None =
 
 
 def write_netcdf(path: Path, data: xr.Dataset) -> None:
-    """Write a Dataset as netCDF-3, whole or not at all.
-
-    Raises
-    ------
-    FileError
-        If it cannot be written.
-    """
+    """Write a Dataset as netCDF-3, whole or not at all; FileError if it cannot be written."""
     with new_file(path) as partial:
         data.to_netcdf(partial, format="NETCDF3_64BIT", engine="scipy")

@@ -38,26 +38,11 @@ def processor_flags(path: Path = Path("/proc/cpuinfo")) -> set[str]:
 
 
 def choose(wanted: str, has_v3: bool, flags: set[str]) -> str:
-    """Choose a build.
+    """Choose a build: the suffix of its extension and of its program, '' or '_v3'.
 
-    Parameters
-    ----------
-    wanted
-        The value of ``PYEHL_CPU``; '' leaves the choice to the processor.
-    has_v3
-        Whether there is a build for x86-64-v3 besides the other one.
-    flags
-        Features of the processor.
-
-    Returns
-    -------
-    str
-        The suffix of its extension and of its program: '' or '_v3'.
-
-    Raises
-    ------
-    InputError
-        If the wanted build does not exist, or the processor cannot run it.
+    `wanted` is the value of ``PYEHL_CPU``, '' leaves the choice to the processor with such
+    features; `has_v3`: there is a build for x86-64-v3 besides the other one. InputError if the
+    wanted build does not exist, or the processor cannot run it.
     """
     if wanted not in ("", BASELINE, V3):
         raise InputError(f"{VARIABLE}={wanted}: '{BASELINE}' or '{V3}' was expected")

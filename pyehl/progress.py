@@ -20,13 +20,7 @@ TRANSIENT = "{percentage:3.0f}%|{bar:10}|{desc} [{elapsed}]"
 
 
 class ProgressBar:
-    """A line on stderr: the state of a solver; in a transient run a bar and the time left.
-
-    Parameters
-    ----------
-    disable
-        Show nothing.
-    """
+    """A line on stderr: the state of a solver; in a transient run a bar and the time left."""
 
     def __init__(self, *, disable: bool = False) -> None:
         self._bar: tqdm | None = None

@@ -175,16 +175,9 @@ def prediction_dataset(
 ) -> xr.Dataset:
     """Dataset of a prediction.
 
-    Parameters
-    ----------
-    summary
-        Scalars, see `pyehl.schema`; what is no number, text or truth value is left out.
-    case
-        Resolved namelist text.
-    arrays
-        x (nx,), y (ny,) [m] and, of shape (nx, ny), surface, deformed [m], delta_p [Pa].
-    tables
-        Columns by name of ``passage``, ``spectrum`` and ``bands``.
+    Of the scalars in `pyehl.schema`, the resolved namelist text, the arrays x (nx,), y (ny,) [m]
+    and, of shape (nx, ny), surface, deformed [m], delta_p [Pa], and the columns by name of the
+    tables ``passage``, ``spectrum`` and ``bands``.
     """
     coords: dict[str, xr.Variable] = {}
     variables: dict[str, xr.Variable] = {}

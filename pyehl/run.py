@@ -95,27 +95,10 @@ def run(
 ) -> Outcome:
     """Solve a case and write the result folder, however the run ends.
 
-    Parameters
-    ----------
-    case
-        What to solve.
-    folder
-        A new or empty folder, or one with results of an earlier run, which are replaced.
-    observer
-        Who is told what happens.
-    force
-        Other files may be in the folder; they stay.
-    inputs
-        Files that the case was read from: the folder of one of them is not replaced.
-    surface
-        As of `pyehl.Solver`.
-
-    Raises
-    ------
-    InputError
-        If the folder holds something else than results, or cannot be written.
-    EhlError
-        If the solver failed; nothing is written then.
+    The folder is new or empty, or has results of an earlier run, which are replaced; `force`:
+    other files in it stay. The folder of one of the `inputs`, which the case was read from, is not
+    replaced. InputError if the folder holds something else than results, or cannot be written;
+    EhlError if the solver failed: nothing is written then.
     """
     return _drive(
         case, folder, "", observer or Observer(), force=force, inputs=inputs, surface=surface
@@ -134,29 +117,11 @@ def resume(
 ) -> Outcome:
     """Resume a transient run that was stopped; the results are those of an unbroken run.
 
-    Parameters
-    ----------
-    results
-        The folder that the run was to write into; its state is beside it, in
-        ``RESULTS.checkpoint``.
-    folder
-        Where the results go now; default `results`.
-    case
-        The case; default: as it was. It may differ in threads, in when to stop and in what
-        to write.
-    observer
-        Who is told what happens.
-    options
-        Texts ``group.key=value`` that replace values of the case as it was.
-    force, inputs
-        As `run`.
-
-    Raises
-    ------
-    InputError
-        If nothing was kept, if all of it is damaged, or if it belongs to another case.
-    EhlError
-        As `run`.
+    `results` is the folder that the run was to write into, with its state beside it in
+    ``RESULTS.checkpoint``; the results go to `folder`, by default the same. The case, by default
+    as it was, or `options` on it, may differ in threads, in when to stop and in what to write.
+    InputError if nothing was kept, if all of it is damaged, or if it belongs to another case;
+    EhlError as `run`.
     """
     kept = library.checkpoint_case(results)
     if case is None:

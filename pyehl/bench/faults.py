@@ -56,25 +56,11 @@ def campaign(
     inputs: int = 2000,
     tell: Callable[[str], None] = lambda text: None,
 ) -> list[Row]:
-    """Do all of it.
+    """Do all of it in an empty folder; rows with `COLUMNS`, and `bad`, a list of what must not be.
 
-    Parameters
-    ----------
-    folder
-        An empty folder to work in.
-    seed
-        Of the instants, the bytes and the inputs.
-    kills
-        Processes killed: six in ten solve, three make a sweep, one exports.
-    inputs
-        Mutated case files, study files and height maps.
-    tell
-        Takes a line about what is done.
-
-    Returns
-    -------
-    list of dict
-        `COLUMNS`, and `bad`, a list of what must not be.
+    `seed` is that of the instants, the bytes and the inputs. Of the processes killed six in ten
+    solve, three make a sweep, one exports; `inputs` is the number of mutated case files, study
+    files and height maps; `tell` takes a line about what is done.
     """
     generator = np.random.default_rng(seed)
     (folder / "case.nml").write_text(CASE, encoding="utf-8")

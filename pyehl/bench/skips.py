@@ -241,19 +241,8 @@ SCENES: dict[str, Callable[[int, int], list[Row]]] = {
 def skip_rows(scenes: Sequence[str], points: int, repeats: int = 1) -> list[Row]:
     """Seconds with and without what is skipped, and the difference in the result.
 
-    Parameters
-    ----------
-    scenes
-        Names of `SCENES`.
-    points
-        Nodes per side of what is solved.
-    repeats
-        How often each is made.
-
-    Raises
-    ------
-    InputError
-        If there is no such scene.
+    Of scenes by their names in `SCENES`, on so many nodes per side, each made `repeats` times.
+    InputError if there is no such scene.
     """
     for name in scenes:
         if name not in SCENES:

@@ -154,22 +154,8 @@ def step_rows(
 ) -> list[dict[str, Any]]:
     """Seconds and cycles of a step (means), per grid, case and number of threads.
 
-    The speed-up is the median over the steps of the ratio to the first number of threads.
-
-    Parameters
-    ----------
-    grids
-        Nodes per side.
-    threads
-        Numbers of threads.
-    scenes
-        What is run.
-    scheme
-        'narrow' or 'paper'.
-    front
-        The steps measured follow those in which the front of the roughness comes to this X.
-    steps
-        Steps measured.
+    The speed-up is the median over the steps of the ratio to the first number of threads. Measured
+    are the steps that follow those in which the front of the roughness comes to X = `front`.
     """
     rows: list[dict[str, Any]] = []
     line = Line()

@@ -72,27 +72,12 @@ def campaign(
     sample: int = 20,
     tell: Callable[[str], None] = lambda text: None,
 ) -> list[Row]:
-    """Run the cases of a seed and check what they say.
+    """Run so many cases of a seed and check what they say; a row for each.
 
-    Parameters
-    ----------
-    cases, seed
-        How many, and from what they are drawn.
-    folder
-        Gets the journals of the runs, so that a campaign that was stopped is resumed.
-    jobs
-        Worker processes.
-    grids
-        Nodes per side; each has half as many cases as the one before.
-    sample
-        Converged cases that the second solver solves too; it tries four times as many failed ones.
-    tell
-        Takes a line about what is done.
-
-    Returns
-    -------
-    list of dict
-        A row for each case: what it is, what its run said, `outcome`, `difference` and `allowed`.
+    A row is the case, what its run said, `outcome`, `difference` and `allowed`. The folder gets
+    the journals of the runs, so that a campaign that was stopped is resumed. Each grid has half as
+    many cases as the one before. The second solver solves `sample` converged cases too, and tries
+    four times as many failed ones.
     """
     rows: list[Row] = []
     drawn = draw(cases, seed, grids)

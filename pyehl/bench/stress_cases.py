@@ -162,16 +162,9 @@ def _si(case: StressCase) -> dict[str, Value]:
 def study_of(
     family: str, cases: Sequence[StressCase], values: Sequence[Mapping[str, Any]] = ()
 ) -> Study:
-    """Give the study of cases of one family, for the machinery of ``pyehl sweep``.
+    """Give the study of cases of one family, at least one, for the machinery of ``pyehl sweep``.
 
-    Parameters
-    ----------
-    family
-        One of `FAMILIES`.
-    cases
-        Cases of that family, at least one.
-    values
-        Keys of each case in place of its own; None takes a key away.
+    `values` are keys of each case in place of its own; None takes a key away.
     """
     kinds = {"wave": "harmonic", "rest": "harmonic"}
     more = values or [{}] * len(cases)

@@ -89,31 +89,12 @@ def work_rows(
     full: bool = False,
     tell: Callable[[str], None] = lambda text: None,
 ) -> list[Row]:
-    """Run all settings of scenes.
+    """Run all settings of scenes, by their names in `SCENES`.
 
-    Parameters
-    ----------
-    scenes
-        Names of `SCENES`.
-    grids
-        Nodes per side, where not those of the scene.
-    threads
-        Numbers of threads; those after the first with the default setting alone.
-    full
-        With the finest grid of each scene.
-    tell
-        Takes a line about what is done.
-
-    Returns
-    -------
-    list of dict
-        `COLUMNS` and `unit_seconds`; `error` is relative to the reference, `bar` the error of that,
-        `estimate` what the run says of its own error.
-
-    Raises
-    ------
-    InputError
-        If there is no such scene.
+    `grids`: nodes per side, where not those of the scene; `full`: with the finest of these, too.
+    Of the numbers of threads those after the first are for the default setting alone. Rows have
+    `COLUMNS` and `unit_seconds`; `error` is relative to the reference, `bar` the error of that,
+    `estimate` what the run says of its own error. InputError if there is no such scene.
     """
     known = {scene.name: scene for scene in SCENES}
     rows: list[Row] = []
@@ -216,11 +197,8 @@ def _predicted(scene: Scene, unit: float) -> list[Row]:
 def share_of_deflection(points: int = 129) -> Row:
     """Measure what multi-integration adds to the error of a short wave that slides.
 
-    Returns
-    -------
-    dict
-        `difference`, relative, of mu_r/mu_s by multi-integration and by FFT; `grid_error` of it, by
-        the next finer grid; `share`, their ratio.
+    `difference`, relative, of mu_r/mu_s by multi-integration and by FFT; `grid_error` of it, by
+    the next finer grid; `share`, their ratio.
     """
     options = [
         *POINT,

@@ -65,13 +65,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _names(args: argparse.Namespace) -> list[str]:
-    """Names of the pieces that are asked for.
-
-    Raises
-    ------
-    InputError
-        If one is not in the paper.
-    """
+    """Names of the pieces that are asked for; InputError if one is not in the paper."""
     wanted = [
         f"{kind} {number}"
         for kind in ("figure", "table")

@@ -71,13 +71,7 @@ def _plan(args: argparse.Namespace) -> CurvePlan:
 
 
 def _measured(path: str, plan: CurvePlan) -> Measured:
-    """Read measured friction that fits a curve.
-
-    Raises
-    ------
-    InputError
-        If it does not.
-    """
+    """Read measured friction; InputError if it does not fit the curve."""
     keys = plan.study.keys
     if len(keys) > 1:
         raise InputError("--measured: expected one curve, over one of the options")

@@ -115,13 +115,7 @@ def tell_lost(lost: Sequence[str], table: Path) -> None:
 
 
 def jobs_of(args: argparse.Namespace) -> int:
-    """Give the number of worker processes.
-
-    Raises
-    ------
-    InputError
-        If it is negative.
-    """
+    """Give the number of worker processes; InputError if it is negative."""
     if args.jobs < 0:
         raise InputError(f"--jobs {args.jobs}: expected a number of worker processes")
     return int(args.jobs) or processors()

@@ -41,15 +41,7 @@ def _kind(row: Row) -> str:
 
 
 def stress(rows: Sequence[Row], path: Path) -> None:
-    """Draw outcomes over M and L, a panel for smooth contacts and one for each grid of rough ones.
-
-    Parameters
-    ----------
-    rows
-        Those of `pyehl.bench.stress.campaign`.
-    path
-        File that is written.
-    """
+    """Draw outcomes of a stress campaign over M and L: smooth contacts, and rough ones by grid."""
     grids = sorted({row["values"]["grid.points"] for row in rows})
     panels: list[tuple[str, list[Row]]] = [
         ("smooth, all grids", [row for row in rows if row["family"] == "smooth"])
@@ -78,15 +70,7 @@ def stress(rows: Sequence[Row], path: Path) -> None:
 
 
 def work(rows: Sequence[Row], path: Path) -> None:
-    """Draw error over processor seconds, a panel for each scene and quantity.
-
-    Parameters
-    ----------
-    rows
-        Those of `pyehl.bench.workprec.work_rows`.
-    path
-        File that is written.
-    """
+    """Draw error over processor seconds, a panel for each scene and quantity."""
     scenes = list(dict.fromkeys((row["scene"], row["quantity"]) for row in rows))
     settings = list(dict.fromkeys(row["setting"] for row in rows))
     figure = style.new_figure(3.0 * len(scenes), 3.6)

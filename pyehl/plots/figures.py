@@ -41,12 +41,7 @@ BELOW, ABOVE = 0.52, 0.57
 def headline(summary: Mapping[str, Any], scales: Scales | None = None) -> str:
     """M, L, p_h, film and direction of motion in one line; the status unless it is a good one.
 
-    Parameters
-    ----------
-    summary
-        Scalars of a solution or a prediction.
-    scales
-        For the film in SI units; None for Hertz units.
+    Of the scalars of a solution or a prediction, with scales in SI units, else in Hertz units.
     """
     parts = [f"$M$ = {summary['moes_m']:.4g}", f"$L$ = {summary['moes_l']:.4g}"]
     parts.append(f"$p_h$ = {summary['hertz_pressure_Pa'] * 1e-9:.3g} GPa")
@@ -101,12 +96,7 @@ def _row(
 def solution_figures(data: xr.Dataset, units: str = "auto") -> dict[str, Figure]:
     """All figures of a solution, by the names of their files.
 
-    Parameters
-    ----------
-    data
-        What `pyehl.solve` and `pyehl.load` give.
-    units
-        'si', 'hertz', or 'auto' for SI when the case was given in SI.
+    `units`: 'si', 'hertz', or 'auto' for SI when the case was given in SI.
     """
     scales = scales_of(data, units)
     title = headline(data.attrs, scales)
@@ -245,12 +235,7 @@ def prediction_figures(
 ) -> dict[str, Figure]:
     """All figures of a prediction, by the names of their files.
 
-    Parameters
-    ----------
-    about
-        Its summary.
-    arrays, tables
-        As the prediction has them; of the tables ``passage`` and ``bands``.
+    `about` is its summary; of the `tables` ``passage`` and ``bands`` are shown.
     """
     title = headline(about)
     size = about["length_x_m"], about["length_y_m"]

@@ -34,10 +34,7 @@ def save_all(
 ) -> list[Path]:
     """Write figures into a folder under their names; returns their paths.
 
-    Raises
-    ------
-    InputError
-        If another file has one of the names; nothing is written then.
+    InputError if another file has one of the names; nothing is written then.
     """
     paths = {name: target / f"{name}.{suffix}" for name in figures}
     check_files(paths.values(), "plot")
@@ -45,13 +42,7 @@ def save_all(
 
 
 def made(folder: str | os.PathLike[str]) -> Path:
-    """Give a folder for pictures, which is made where it is not there.
-
-    Raises
-    ------
-    InputError
-        If it cannot be made.
-    """
+    """Give a folder for pictures, made where it is not there; InputError if it cannot be made."""
     target = Path(folder)
     try:
         target.mkdir(parents=True, exist_ok=True)

@@ -26,23 +26,8 @@ def movie(
 ) -> Path:
     """Write the frames of a transient run as ``movie.gif`` or ``movie.mp4`` into a folder.
 
-    Parameters
-    ----------
-    data
-        What `pyehl.solve` and `pyehl.load` give of a run with ``output.frame_interval`` above 0.
-    target
-        Folder to write into.
-    suffix
-        'gif', or 'mp4', which needs the program ffmpeg.
-    units
-        'si', 'hertz', or 'auto' for SI when the case was given in SI.
-    dpi
-        Dots per inch.
-
-    Raises
-    ------
-    InputError
-        If there are no frames, or no ffmpeg for 'mp4', or another file has the name.
+    `data` is of a run with ``output.frame_interval`` above 0. InputError if there are no frames,
+    or no program ffmpeg for 'mp4', or another file has the name.
     """
     if "frame_H" not in data or data.sizes["T"] == 0:
         raise InputError(

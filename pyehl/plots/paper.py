@@ -24,14 +24,9 @@ MARKERS = "osD^vP*"
 
 
 def wave_history(runs: Sequence[tuple[str, Array, Array]], mean: float) -> Figure:
-    """Draw mu_r/mu_s over time (Fig. 2).
+    """Draw mu_r/mu_s over time (Fig. 2), with the mean that the paper prints.
 
-    Parameters
-    ----------
-    runs
-        Label, times (n,) [a/u] and mu_r/mu_s (n,) of each.
-    mean
-        The mean that the paper prints.
+    `runs`: label, times (n,) [a/u] and mu_r/mu_s (n,) of each.
     """
     figure = new_figure(6.4, 3.8)
     ax = figure.subplots()

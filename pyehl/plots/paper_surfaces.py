@@ -90,14 +90,8 @@ def spectrum(topography: Topography) -> Figure:
 def deformed(x: Array, y: Array, inside: NDArray[np.bool_], fields: Mapping[str, Array]) -> Figure:
     """Draw roughness fields on one scale, their height distributions and centre lines (Fig. 6).
 
-    Parameters
-    ----------
-    x, y
-        Places (nx,), (ny,) [a].
-    inside
-        What is shown (nx, ny).
-    fields
-        Heights (nx, ny) [m] by name: the undeformed ones first, then the simulation.
+    At places (nx,), (ny,) [a], where `inside` (nx, ny); heights (nx, ny) [m] by name, the
+    undeformed ones first, then the simulation.
     """
     figure = new_figure(13.0, 6.6)
     grid = figure.add_gridspec(2, len(fields))

@@ -29,13 +29,8 @@ def before_and_after(
 ) -> Figure:
     """Draw a surface as it was and as it is, and its isotropic spectrum.
 
-    Parameters
-    ----------
-    surface
-        The tile; if it was prepared from a map, that is drawn before it.
-    conditions
-        a [m], M, L and the wavelength convention, at which the amplitude reduction A_d/A_i is drawn
-        over the spectrum, for waves along x; None: it is not.
+    With conditions, which are a [m], M, L and the wavelength convention, the amplitude reduction
+    A_d/A_i is drawn over the spectrum, for waves along x.
     """
     made = surface.preparation
     figure = new_figure(10.2 if made else 7.0, 2.9)

@@ -27,14 +27,8 @@ def response_figure(
 ) -> Figure:
     """Draw |T| and the phase of T at X = 0 over nabla_2.
 
-    Parameters
-    ----------
-    waves
-        nabla_2, direction [deg], amplitude and lag [deg] of the measured waves, (m,).
-    lines
-        By direction [deg] the shipped response: nabla_2 (n,) and T (n,).
-    label
-        What was measured, for the title.
+    `waves`: nabla_2, direction [deg], amplitude and lag [deg] of the measured waves, (m,);
+    `lines`: by direction [deg] the shipped response, nabla_2 (n,) and T (n,).
     """
     figure = new_figure(9.0, 4.0)
     axes: Any = figure.subplots(1, 2, sharex=True)

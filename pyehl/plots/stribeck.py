@@ -65,20 +65,10 @@ def draw_stribeck(
     measured: Points | None = None,
     eq_16: bool = True,
 ) -> Figure:
-    """Draw friction over all abscissae.
+    """Draw friction over all abscissae, a coefficient where `absolute`, else a ratio mu_r/mu_s.
 
-    Parameters
-    ----------
-    curves
-        One or several.
-    absolute
-        Whether the friction is a coefficient, else a ratio mu_r/mu_s.
-    surface
-        What the surface is, in a few words.
-    measured
-        Measured friction, laid over.
-    eq_16
-        Draw the curve of Zhang et al. 2019 over theta_2.
+    `surface` says what the surface is in a few words; measured friction is laid over; `eq_16`:
+    with the curve of Zhang et al. 2019 over theta_2.
     """
     # smooth surfaces have neither Lambda nor theta_2
     shown = {

@@ -100,20 +100,8 @@ def contact_heights(
 ) -> None:
     """Draw heights inside the Hertz circle with a colour bar; the title gives their rms.
 
-    Parameters
-    ----------
-    heights
-        (nx, ny) in `unit`, NaN outside of the circle.
-    extent, radius
-        Outer edges of the map, and the Hertz radius, in the unit of the axes.
-    top
-        Largest height of the scale, in `unit`.
-    unit
-        Of the heights, as it is written.
-    name
-        What the field is called in the title.
-    ax
-        Where to draw.
+    Heights (nx, ny) are in `unit`, NaN outside of the circle, `top` is the largest of the scale;
+    outer edges of the map and Hertz radius in the unit of the axes.
     """
     image = ax.imshow(
         heights.T, origin="lower", extent=extent, cmap=DIVERGING, vmin=-top, vmax=top,
@@ -138,21 +126,7 @@ def extent_of(
 def save(figure: Figure, path: str | Path, dpi: int = DPI, command: str = "plot") -> Path:
     """Write a figure as PNG (or what the suffix says), whole or not at all; returns the path.
 
-    Parameters
-    ----------
-    figure
-        What to write.
-    path
-        Where; replaced when it is there.
-    dpi
-        Dots per inch.
-    command
-        Whose picture it says that it is.
-
-    Raises
-    ------
-    FileError
-        If it cannot be written.
+    It says whose picture it is (`command`). FileError if it cannot be written.
     """
     path = Path(path)
     options: dict[str, Any] = {"metadata": {"Creator": mark(command)}}

@@ -44,23 +44,12 @@ class Band:
 def octaves(
     q: Array, power: Array, *, share: float = 1e-20, only: int = 0
 ) -> Iterator[tuple[float, NDArray[np.bool_], bool]]:
-    """Octaves of wavelengths that hold roughness, longest first.
+    """Octaves of wavelengths that hold roughness, longest first; `only` the last so many, 0: all.
 
-    Parameters
-    ----------
-    q
-        |q| of the components, any shape and unit.
-    power
-        What each adds to the mean square height; at most `share` of the largest counts for none
-        (a harmonic pattern has rounding errors in all octaves but its own).
-    only
-        The last so many alone; 0: all.
-
-    Yields
-    ------
-    longest, inside, last
-        The longest wavelength 2 pi/|q| of the octave, which components are in it, and whether it is
-        the last one.
+    `q` is |q| of the components, of any shape and unit, `power` what each adds to the mean square
+    height; at most `share` of the largest counts for none (a harmonic pattern has rounding errors
+    in all octaves but its own). Yields the longest wavelength 2 pi/|q| of the octave, which
+    components are in it, and whether it is the last one.
     """
     lowest = float(q[q > 0.0].min())
     octave = np.full(q.shape, -1)
@@ -82,18 +71,9 @@ def contributions(
 ) -> list[Band]:
     """Which wavelengths the friction comes from, octave by octave from the longest.
 
-    Parameters as :func:`predict_friction`; `brief`: the shortest octave alone.
-
-    Returns
-    -------
-    list of Band
-        Longest waves first; octaves without any roughness are left out. The rises add up to the
-        whole mu_r/mu_s - 1.
-
-    Raises
-    ------
-    InputError
-        As :func:`predict_friction`.
+    Parameters as :func:`predict_friction`; `brief`: the shortest octave alone. Octaves without any
+    roughness are left out; the rises add up to the whole mu_r/mu_s - 1. InputError as
+    :func:`predict_friction`.
     """
     options = options or Options()
     qx, qy = wavenumbers(topography)

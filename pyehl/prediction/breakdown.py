@@ -53,27 +53,13 @@ class BelowZero:
 def below_zero(
     deformed: Array, pixel: tuple[float, float], hertz_radius: float, smooth_film: SmoothFilm
 ) -> BelowZero:
-    """Find where the film over a tile is below zero.
+    """Find where the film over a tile is below zero, in the strip that passes through the contact.
 
-    Every pixel of the tile within a of the track passes through the contact at some time, along its
-    row, and meets the thinnest smooth film of that row. The share is the mean over the passage.
-    The deformed roughness is taken to be that at the centre on the whole way.
-
-    Parameters
-    ----------
-    deformed
-        (nx, ny) deformed roughness [m]; row 0 passes through the centre.
-    pixel
-        Pixel size along x and y [m].
-    hertz_radius
-        a [m].
-    smooth_film
-        Takes x (m,) and y (n,) [m] from the centre and returns the smooth film there, (m, n) [m].
-
-    Returns
-    -------
-    BelowZero
-        Of the strip of the tile that passes through the contact.
+    Every pixel of the tile within a of the track passes through the contact at some time, along
+    its row, and meets the thinnest smooth film of that row. The share is the mean over the
+    passage. The deformed roughness (nx, ny) [m], row 0 through the centre, is taken to be that at
+    the centre on the whole way. Pixel size and a in m; `smooth_film` is a function, see
+    `SmoothFilm`.
     """
     ny = deformed.shape[1]
     reach = int(hertz_radius / pixel[1])
@@ -164,26 +150,12 @@ def advise(
     without_spikes: Callable[[float], Topography] | None = None,
     known: Carries | None = None,
 ) -> Advice:
-    """Say where the film of a tile ends, and find what would carry.
+    """Say where the film of a tile, which is not full, ends, and find what would carry.
 
-    Parameters
-    ----------
-    tile
-        The tile, whose film is not full.
-    deformed_of
-        The prediction of its deformed roughness.
-    hertz_radius
-        a [m].
-    smooth_film
-        The smooth film, see :func:`below_zero`.
-    without_shorter
-        Takes a tile and a wavelength [m] and returns the tile without shorter waves.
-    without_spikes
-        Takes a threshold of `surface.outliers` and returns the tile without them; None: the
-        surface is no map.
-    known
-        Whether the error of the predicted friction of a tile with a full film is known: what would
-        carry must be worth a prediction, too. None: that is not asked.
+    `without_shorter` takes a tile and a wavelength [m] and returns the tile without shorter waves,
+    `without_spikes` a threshold of `surface.outliers` and returns the tile without them; None: the
+    surface is no map. `known` tells whether the error of the predicted friction of a tile with a
+    full film is known: what would carry must be worth a prediction, too.
     """
 
     def film(other: Topography) -> BelowZero:

@@ -32,26 +32,12 @@ def carrying_wavelength(
     *,
     tolerance: float = 0.05,
 ) -> float | None:
-    """Find the cut-off at which the film of a tile is full: waves shorter than it are taken off.
+    """Find the cut-off [m] at which the film of a tile is full: shorter waves are taken off.
 
-    Bisection in the logarithm of the wavelength, between two pixels and the length of the tile;
-    the film need not be full for every longer cut-off, but it is for the one returned.
-
-    Parameters
-    ----------
-    tile
-        The tile, whose film is not full.
-    without_shorter
-        Takes a tile and a wavelength [m] and returns the tile without shorter waves.
-    carries
-        Whether the film of a tile is full.
-    tolerance
-        Relative, of the wavelength.
-
-    Returns
-    -------
-    float or None
-        [m]; None if even the longest waves break the film.
+    Bisection in the logarithm of the wavelength to a relative `tolerance`, between two pixels and
+    the length of the tile; the film need not be full for every longer cut-off, but it is for the
+    one returned. `without_shorter` takes a tile and a wavelength [m]. None if even the longest
+    waves break the film.
     """
     low = math.log(2.0 * min(tile.pixel))
     high = math.log(max(tile.length_x, tile.length_y))
@@ -76,24 +62,10 @@ def carrying_outliers(
 ) -> tuple[float, int] | None:
     """Find the threshold of spikes at which the film is full, if a few points are what breaks it.
 
-    Parameters
-    ----------
-    prominence
-        (nx, ny) distance of each point from the median around it over its spread, see
-        :func:`pyehl.surfaces.spikes.prominence`.
-    without_spikes
-        Takes a threshold and returns the tile without the points beyond it.
-    carries
-        Whether the film of a tile is full.
-    few
-        Largest share of the points that may be removed.
-    tolerance
-        Relative, of the threshold.
-
-    Returns
-    -------
-    (float, int) or None
-        Threshold and number of points beyond it; None if the film needs more than a few removed.
+    `prominence` is (nx, ny), see :func:`pyehl.surfaces.spikes.prominence`; `without_spikes` takes
+    a threshold, `few` is the largest share of the points that may be removed, `tolerance` that of
+    the threshold, relative. Threshold and number of points beyond it; None if more than a few have
+    to go.
     """
     allowed = float(np.quantile(prominence, 1.0 - few))
     low = max(LEAST_THRESHOLD, allowed)

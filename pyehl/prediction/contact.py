@@ -25,25 +25,13 @@ MIN_SAMPLES = 128
 class Contact:
     """The pixels of the Hertz circle and the shear stress integrals over them.
 
-    Attributes
-    ----------
-    sliding
-        Sliding speed |u1 - u2| [m/s].
-    thins
-        Whether the shear stress is another than the Newtonian one; without sliding it is not.
-    area
-        Of the tile that one pixel of the circle stands for [m^2].
-    index
-        (n,) the pixels of the circle as places in the flattened tile.
-    thinnest
-        Least h_c - rr_d of all that passes through the contact [m].
-    smooth
-        Sum of the shear stress of the smooth contact over the pixels [Pa]; of a Newtonian oil
-        divided by eta0 and the sliding speed.
-    cavitated, count
-        Pixels where p_s + delta p <= 0, and positions, so far.
-    imbalance
-        Greatest share of the load that delta p has carried or taken off so far [-].
+    `sliding` is |u1 - u2| [m/s]; `thins`: the shear stress is another than the Newtonian one,
+    which it is not without sliding. One pixel of the circle stands for `area` of the tile [m^2];
+    `index` (n,) are their places in the flattened tile. `thinnest` is the least h_c - rr_d of all
+    that passes through the contact [m]; `smooth` the sum of the shear stress of the smooth contact
+    over the pixels [Pa], of a Newtonian oil divided by eta0 and the sliding speed. So far
+    `cavitated` pixels had p_s + delta p <= 0 at `count` positions, and delta p has carried or
+    taken off at most the share `imbalance` of the load.
     """
 
     def __init__(

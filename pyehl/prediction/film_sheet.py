@@ -16,18 +16,10 @@ __all__ = ["sheet"]
 
 
 def sheet(settings: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
-    """All that ``pyehl film`` says, as plain numbers in SI units.
+    """All that ``pyehl film`` says of a resolved case, as plain numbers in SI units.
 
-    Parameters
-    ----------
-    settings
-        A resolved case: mapping of groups to mappings of keys to values.
-
-    Returns
-    -------
-    dict
-        Inputs, Moes and Hertz numbers, one record per formula, and for a rough surface the
-        Lambda ratio and (harmonic only) theta_2 with eq. 16.
+    Inputs, Moes and Hertz numbers, one record per formula, and for a rough surface the Lambda
+    ratio and (harmonic only) theta_2 with eq. 16.
     """
     operating = OperatingPoint.from_settings(settings)
     lubricant = Lubricant.from_settings(settings)

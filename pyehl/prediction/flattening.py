@@ -70,21 +70,9 @@ def stiffness(qx: Array, qy: Array, reduced_modulus: float, kind: str = "exact")
 def response(
     topography: Topography, operating: OperatingPoint, options: Options | None = None
 ) -> Response:
-    """Pressure and deformed roughness of a tile (eqs 9 to 12).
+    """Pressure and deformed roughness of a tile (nx, ny) (eqs 9 to 12).
 
-    Parameters
-    ----------
-    topography
-        The tile (nx, ny).
-    operating
-        Gives a, E', M, L.
-    options
-        How the model is read: its convention and stiffness.
-
-    Raises
-    ------
-    InputError
-        If the conditions have no amplitude reduction (L = 0).
+    InputError if the conditions have no amplitude reduction (L = 0).
     """
     options = options or Options()
     qx, qy = wavenumbers(topography)

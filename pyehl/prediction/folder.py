@@ -42,14 +42,8 @@ def write(
 
     Files: ``case.nml`` (resolved), ``summary.json``, ``passage.csv``, ``spectrum.csv``,
     ``bands.csv`` and, first index along x: ``x.npy`` (nx,), ``y.npy`` (ny,), ``surface.npy``,
-    ``deformed.npy`` [m], ``delta_p.npy`` [Pa], (nx, ny); with `plots` the pictures.
-
-    Raises
-    ------
-    InputError
-        If the folder holds something other than an earlier prediction.
-    FileError
-        If it cannot be written.
+    ``deformed.npy`` [m], ``delta_p.npy`` [Pa], (nx, ny); with `plots` the pictures. InputError if
+    the folder holds something other than an earlier prediction; FileError if it cannot be written.
     """
     with place.fresh() as folder:
         text = prediction.case_text.rstrip() + "\n"

@@ -66,38 +66,18 @@ def predict_friction(
 ) -> RoughFriction:
     """mu_r/mu_s over one passage of a rough tile through a contact.
 
-    Parameters
-    ----------
-    topography
-        The tile; its pixel [0, 0] starts at the centre of the contact and moves along x.
-    operating
-        Gives p_h, a, E', M, L.
-    lubricant
-        Gives the viscosity; the law is the one it carries.
-    film
-        Smooth central film h_c [m], taken to be the film everywhere in the contact.
-    options
-        How the model is read.
+    The pixel [0, 0] of the tile starts at the centre of the contact and moves along x; `film` is
+    the smooth central film h_c [m], taken to be the film everywhere in the contact. The status is
+    ``"predicted"`` unless the model does not hold, see :mod:`pyehl.prediction`. InputError if the
+    film is not positive, or the conditions have no amplitude reduction (L = 0).
 
-    Returns
-    -------
-    RoughFriction
-        With status ``"predicted"`` unless the model does not hold, see :mod:`pyehl.prediction`.
-
-    Raises
-    ------
-    InputError
-        If the film is not positive, or the conditions have no amplitude reduction (L = 0).
-
-    Notes
-    -----
     delta p and rr_d belong to the tile and are computed once; only the semi-ellipse and the film
     are met anew at each position, inside the circle alone. Positions are whole pixels of the
-    working grid, so that moving the tile is a copy. The ratio along the passage is smooth,
-    because the viscosity confines the friction to the middle of the contact (for table 1 a
-    Gaussian of standard deviation 0.24 a): its mean over 8 positions of a tile of 2 a is right to
-    1e-7. A tile much shorter than the contact is visited at a stride. A coarse map, or one whose
-    pixels do not divide into positions, is first interpolated by its Fourier series.
+    working grid, so that moving the tile is a copy. The ratio along the passage is smooth, because
+    the viscosity confines the friction to the middle of the contact (for table 1 a Gaussian of
+    standard deviation 0.24 a): its mean over 8 positions of a tile of 2 a is right to 1e-7. A tile
+    much shorter than the contact is visited at a stride. A coarse map, or one whose pixels do not
+    divide into positions, is first interpolated by its Fourier series.
     """
     start = time.perf_counter()
     options = options or Options()
@@ -186,11 +166,7 @@ def over_tracks(
 
     Parameters as :func:`predict_friction`; the tile is moved across the motion to `tracks` equally
     spaced tracks, see :func:`pyehl.surfaces.track_offsets`. NaN where one of them has no ratio.
-
-    Raises
-    ------
-    InputError
-        As :func:`predict_friction`, and for less than one track.
+    InputError as :func:`predict_friction`, and for less than one track.
     """
     if tracks < 1:
         raise InputError(f"tracks must be positive, not {tracks!r}")

@@ -50,31 +50,16 @@ def predict(
     surface: surfaces.Topography | None = None,
     brief: bool = False,
 ) -> Prediction:
-    """Predict the relative friction of a resolved case.
+    """Predict the relative friction of a resolved case, `text` being the same as namelist text.
 
-    Parameters
-    ----------
-    settings
-        Mapping of groups to mappings of keys to values, every key present.
-    text
-        The same as namelist text, for the result folder.
-    tracks
-        Number of tracks across the surface, for mean and spread: 1 to `MAX_TRACKS`.
-    smooth
-        Result folder with the smooth contact, in place of a solution on the spot.
-    surface
-        The surface, before its spectrum is cut and off its track; None: made as the case says.
-    brief
-        mu_r/mu_s and its errors, bit for bit the same, but no tracks, of the bands the shortest
-        alone, and no search for what would carry where there is no ratio.
+    `tracks` across the surface, 1 to `MAX_TRACKS`, are for mean and spread; `smooth` is a result
+    folder with the smooth contact, in place of a solution on the spot; `surface` is the surface
+    before its spectrum is cut and off its track, by default made as the case says. `brief`:
+    mu_r/mu_s and its errors, bit for bit the same, but no tracks, of the bands the shortest alone,
+    and no search for what would carry where there is no ratio.
 
-    Raises
-    ------
-    InputError
-        If the surface is smooth or a single feature, a map is not usable, the conditions are
-        outside the model, or there are too many tracks.
-    OSError
-        If a map cannot be opened.
+    InputError if the surface is smooth or a single feature, a map is not usable, the conditions
+    are outside the model, or there are too many tracks; OSError if a map cannot be opened.
     """
     start = time.perf_counter()
     if not 1 <= tracks <= MAX_TRACKS:

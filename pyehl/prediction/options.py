@@ -35,13 +35,7 @@ def unpredictable(kind: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """How the model is read.
-
-    Raises
-    ------
-    InputError
-        For an unknown word or a number out of range.
-    """
+    """How the model is read; InputError for an unknown word or a number out of range."""
 
     # What is left of a wave in the contact: ``"response"``, the complex response of
     # :mod:`pyehl.theory.response`, or ``"amplitude"``, the real ratio of the paper
@@ -77,13 +71,7 @@ class Options:
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Mapping[str, Any]]) -> Options:
-        """From the group ``psd`` of a resolved case.
-
-        Raises
-        ------
-        InputError
-            For a value out of range.
-        """
+        """From the group ``psd`` of a resolved case."""
         group = settings["psd"]
         return cls(
             reduction=str(group["reduction"]),

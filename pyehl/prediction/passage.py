@@ -29,10 +29,7 @@ RADIUS_PIXELS = 48
 def working_grid(topography: Topography, operating: OperatingPoint, positions: int) -> Topography:
     """Return the tile on a grid that resolves the contact and has room for the positions.
 
-    Raises
-    ------
-    InputError
-        If that takes too many pixels.
+    InputError if that takes too many pixels.
     """
     nx, ny = topography.shape
     finest = operating.hertz_radius / RADIUS_PIXELS

@@ -81,22 +81,10 @@ def resolution(case: Case, tile: Topography | None = None) -> Resolution | None:
     """Predict what the grid of a case resolves.
 
     None for surfaces that are no tile of heights on the move, and for those without waves that the
-    grid does not resolve.
-
-    Parameters
-    ----------
-    case
-        Its grid is that of the run.
-    tile
-        Its surface on its track, of a large one a part, before the spectrum is cut; None: made as
-        the case says, of a large one the part of :func:`pyehl.surfaces.part_of`.
-
-    Raises
-    ------
-    EhlError
-        If the smooth contact has no solution, or the prediction gives no ratio.
-    InputError, FileError
-        If the surface is not usable.
+    grid does not resolve. `tile` is the surface on its track, of a large one a part, before the
+    spectrum is cut; None: made as the case says, of a large one the part of
+    :func:`pyehl.surfaces.part_of`. EhlError if the smooth contact has no solution, or the
+    prediction gives no ratio; InputError or FileError if the surface is not usable.
     """
     settings = case.resolve()
     ratio = float(settings["surface"]["velocity_ratio"])

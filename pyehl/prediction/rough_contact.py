@@ -41,12 +41,8 @@ FARTHEST = 0.75
 class Edge:
     """What the edge of the contact does to the pressure of the long waves of a tile.
 
-    Attributes
-    ----------
-    coefficients
-        (28, m) of :func:`pyehl.theory.disc.monomials` for the waves of the tile [p_h].
-    qx, qy
-        Their wavenumbers (m,) [1/a], qx >= 0.
+    `coefficients` (28, m) of :func:`pyehl.theory.disc.monomials` [p_h] for the waves of the tile
+    with wavenumbers qx >= 0, qy (m,) [1/a].
     """
 
     def __init__(self, qx: Array, qy: Array, coefficients: Complex) -> None:
@@ -81,21 +77,11 @@ class Edge:
 class RoughContact:
     """Points of the contact, and the shear stress integrals over them.
 
-    Attributes
-    ----------
-    area
-        That one point stands for [m^2].
-    points
-        Points within the contact.
-    smooth
-        Sum of the shear stress of the smooth contact over the points [Pa]; of a Newtonian oil
-        divided by eta0 and the sliding speed.
-    thinnest
-        Least film that any position had so far [a^2/R].
-    cavitated, count
-        Points where the pressure is not positive, and positions, so far.
-    imbalance
-        Greatest share of the load that delta P has carried or taken off so far [-].
+    One of the `points` within the contact stands for `area` [m^2]; `smooth` is the sum of the
+    shear stress of the smooth contact over them [Pa], of a Newtonian oil divided by eta0 and the
+    sliding speed. So far: `thinnest`, the least film of any position [a^2/R]; `cavitated` points
+    where the pressure is not positive at `count` positions; `imbalance`, the greatest share of the
+    load that delta P has carried or taken off [-].
     """
 
     def __init__(
@@ -159,11 +145,8 @@ class RoughContact:
     def change(self, shift: int, track: int = 0) -> Array:
         """Loss of film [a^2/R] and gain of pressure [p_h] at the points, (m, n, 2).
 
-        Parameters
-        ----------
-        shift, track
-            Pixels that the tile has moved along and across the motion; `track` is a multiple of
-            the stride of the waves.
+        The tile has moved by `shift` and `track` pixels along and across the motion; `track` is a
+        multiple of the stride of the waves.
         """
         waves = self.waves
         columns = (self.columns - track) // waves.stride % waves.driven.shape[2]

@@ -38,18 +38,8 @@ COARSER = 2
 class SecondOrder:
     """gamma and s^2 of any surface on a tile, from the response of the contact to its waves.
 
-    Parameters
-    ----------
-    zone
-        The smooth contact.
-    stations
-        Ascending X (n,) [a].
-    table
-        Of the tile.
-    ratios
-        T of the waves of the table at the stations (n, m).
-    pressures
-        Their pressure over roughness (n, m) [p_h R/a^2].
+    At ascending stations X (n,) [a] of the smooth contact `zone`: T of the waves of the table of
+    the tile (n, m), and their pressure over roughness (n, m) [p_h R/a^2].
     """
 
     def __init__(
@@ -78,10 +68,8 @@ class SecondOrder:
     def of(self, power: Array) -> tuple[Array, Array]:
         """Give gamma [1/p_h] and s^2 [p_h^2] at the stations, (n,) each.
 
-        Parameters
-        ----------
-        power
-            Mean square of each component of the surface, shape of the spectrum [a^4/R^2].
+        `power` is the mean square of each component of the surface, shape of the spectrum
+        [a^4/R^2].
         """
         few = self._table.gathered(power, COARSER)
         squared, source = few * self._squared, few * self._source

@@ -103,12 +103,8 @@ def smooth_case(settings: Mapping[str, Mapping[str, Any]]) -> str:
 def solve_contact(settings: Mapping[str, Mapping[str, Any]]) -> SmoothContact:
     """Solve the smooth contact of a resolved case on POINTS x POINTS nodes, or on a finer grid.
 
-    The last few are kept, see `smooth_case`.
-
-    Raises
-    ------
-    EhlError
-        If it does not converge on any grid up to FINEST.
+    The last few are kept, see `smooth_case`. EhlError if it does not converge on any grid up to
+    FINEST.
     """
     return _solved(smooth_case(settings))
 
@@ -164,10 +160,7 @@ def _on_grid(text: str, points: int) -> tuple[SmoothContact | None, str]:
 def read_contact(folder: str | Path, operating: OperatingPoint) -> SmoothContact:
     """Pressure and film from a result folder, of a smooth contact or under a transient run.
 
-    Raises
-    ------
-    InputError
-        If it is not the folder of a converged solution at the same M and L.
+    InputError if it is not the folder of a converged solution at the same M and L.
     """
     folder = Path(folder)
     try:

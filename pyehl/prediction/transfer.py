@@ -52,15 +52,9 @@ def _at_amplitude(zone: Zone, variance: float) -> Zone:
     """Return a contact that leaks as waves of finite pressure do, for their friction.
 
     The leak is div(rho H^3/(eta lambda) grad P): it is slow where the waves raise the pressure and
-    the viscosity, and friction comes from there. For a Gaussian delta P the leak lowers the mean of
-    exp(b delta P), b = d ln eta/dP, at the rate of small waves over that mean, exp(b^2 s^2/2).
-
-    Parameters
-    ----------
-    zone
-        The contact; its thickening is b.
-    variance
-        s^2 of delta P [p_h^2].
+    the viscosity, and friction comes from there. For a Gaussian delta P of `variance` s^2 [p_h^2]
+    the leak lowers the mean of exp(b delta P), b = d ln eta/dP the thickening, at the rate of
+    small waves over that mean, exp(b^2 s^2/2).
     """
     with np.errstate(over="ignore"):
         gain = np.exp(0.5 * variance * np.square(zone.thickening))
@@ -93,21 +87,10 @@ class Transfer:
         *,
         at_amplitude: bool = False,
     ) -> Transfer:
-        """Of a tile in a contact, from a table over |q| and direction.
+        """Of a tile in a contact, from a table over |q| and direction; `moes` are M, L.
 
-        Parameters
-        ----------
-        spectrum
-            Of the tile.
-        zone
-            The smooth contact.
-        moes
-            M, L.
-        velocity_ratio
-            U.
-        at_amplitude
-            Whether the waves leak as those of the amplitude of the tile (:func:`_at_amplitude`), or
-            as small ones.
+        `at_amplitude`: the waves leak as those of the amplitude of the tile
+        (:func:`_at_amplitude`), not as small ones.
         """
         bent = _bends(spectrum, velocity_ratio)
         table = WaveTable(spectrum)

@@ -32,13 +32,7 @@ def coarsened(values: NDArray[Any], times: int) -> NDArray[Any]:
 
 
 class WaveTable:
-    """Wavenumbers and directions at which a response is taken, and the way from there to a tile.
-
-    Attributes
-    ----------
-    kx, ky
-        Wavenumbers of the table (m,) [1/a].
-    """
+    """Wavenumbers at which a response is taken, kx, ky (m,) [1/a], and the way to a tile."""
 
     def __init__(self, spectrum: Spectrum) -> None:
         rows, ny = spectrum.qx.size, spectrum.qy.size

@@ -53,38 +53,14 @@ def reproduce(
     done: Callable[[Result], None] | None = None,
     references: References | None = None,
 ) -> list[Result]:
-    """Redo pieces of the paper.
+    """Redo pieces of the paper, by their names in `PIECES`, in the order there.
 
-    Parameters
-    ----------
-    names
-        Of pieces, see `PIECES`; they are done in the order there.
-    level
-        How much is computed.
-    folder
-        Gets ``report.html``, a folder for each piece and ``studies``; what is
-        there of the same level is not computed again.
-    jobs
-        Worker processes; 0: as many as processors.
-    force
-        Other files may be in the folder; they stay.
-    machine
-        Lines of the report that name versions, machine and settings.
-    watch
-        Gives the watcher of a study.
-    done
-        Told each piece.
-    references
-        Numbers to compare with; None: those of the paper.
-
-    Raises
-    ------
-    InputError
-        If there is no such piece, or the folder holds something else.
-    FileError
-        If something cannot be written.
-    KeyboardInterrupt
-        If somebody stopped it; what was finished is kept.
+    The folder gets ``report.html``, a folder for each piece and ``studies``; what is there of the
+    same level is not computed again. `machine` are lines of the report, `watch` gives the watcher
+    of a study, `done` is told each piece, `references` are compared with in place of those of the
+    paper. InputError if there is no such piece, or the folder holds something else; FileError if
+    something cannot be written; KeyboardInterrupt if somebody stopped it: what was finished is
+    kept.
     """
     for name in names:
         if name not in PIECES:

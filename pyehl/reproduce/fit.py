@@ -59,19 +59,10 @@ def scatter(friction: Array, curve: Array) -> float:
 
 
 def fit(theta: Array, friction: Array, curve: NDArray[np.int_]) -> Fit:
-    """Fit the form of eq. 16.
+    """Fit the form of eq. 16 to parameter and mu_r/mu_s of waves (n,), finite.
 
-    Parameters
-    ----------
-    theta, friction
-        Parameter and mu_r/mu_s of the waves (n,), finite.
-    curve
-        Number of the curve that a wave belongs to (n,).
-
-    Raises
-    ------
-    ValueError
-        If there are fewer than three curves.
+    `curve` (n,) is the number of the curve that a wave belongs to; ValueError for fewer than
+    three.
     """
     members = [np.flatnonzero(curve == k) for k in np.unique(curve)]
     if len(members) < 3:

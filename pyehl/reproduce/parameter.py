@@ -40,17 +40,8 @@ def response_parameter(
 ) -> Array:
     """theta_r [-] of waves cos cos with equal wavelengths along X and Y.
 
-    Parameters
-    ----------
-    moes_m, moes_l, wavelength, amplitude
-        M, L, wavelength [a] and A_i [a^2/R] (n,).
-    velocity_ratio
-        U.
-
-    Raises
-    ------
-    EhlError
-        If a smooth contact does not converge.
+    M, L, wavelength [a] and A_i [a^2/R], (n,) each. EhlError if a smooth contact does not
+    converge.
     """
     found = np.empty(amplitude.shape)
     for m, ell in sorted(set(zip(moes_m.tolist(), moes_l.tolist(), strict=True))):

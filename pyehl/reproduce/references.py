@@ -42,17 +42,9 @@ References = Mapping[str, Reference]
 
 
 def read_references(path: str | os.PathLike[str] | None = None) -> dict[str, Reference]:
-    """Read the numbers of the paper.
+    """Read the numbers of the paper, or of another file.
 
-    Parameters
-    ----------
-    path
-        Another file in place of that of the package.
-
-    Raises
-    ------
-    InputError
-        If it is not such a table.
+    InputError if it is not such a table.
     """
     file = resources.files("pyehl").joinpath("reproduce", "data", FILE)
     text = (file if path is None else Path(path)).read_text(encoding="utf-8")

@@ -129,23 +129,9 @@ def _relative(path: Path, folder: Path) -> str:
 def write_report(
     folder: Path, results: Sequence[Result], level: Level, machine: Sequence[str]
 ) -> Path:
-    """Write the page, whole or not at all; returns its path.
+    """Write the page above the pictures and tables, whole or not at all; returns its path.
 
-    Parameters
-    ----------
-    folder
-        Where it goes, above the pictures and tables.
-    results
-        The pieces in their order.
-    level
-        What was computed.
-    machine
-        Lines that name versions, machine and settings.
-
-    Raises
-    ------
-    FileError
-        If it cannot be written.
+    `machine` names versions, machine and settings. FileError if it cannot be written.
     """
     page = folder / "report.html"
     with new_file(page) as partial:

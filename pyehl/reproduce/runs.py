@@ -44,13 +44,7 @@ class Made:
     kept: tuple[Path, ...] = ()  # result folders of the cases; empty where none were kept
 
     def solved(self, place: int) -> Row:
-        """Row of a case without which there is no figure.
-
-        Raises
-        ------
-        RunFailed
-            If it has no result.
-        """
+        """Row of a case without which there is no figure; RunFailed if it has no result."""
         row = self.rows[place]
         if why := why_none(row):
             raise RunFailed(f"case {place + 1} of the study '{self.name}': {why}")
@@ -84,27 +78,10 @@ class Runs:
     ) -> Made:
         """Run what is missing of a study, and give its rows.
 
-        Parameters
-        ----------
-        name
-            Of the study, and of its folder.
-        case
-            Namelist text of what all cases share.
-        vary
-            Values by key; all keys move together.
-        options
-            Texts ``group.key=value`` that hold for all cases.
-        run
-            'solve' or 'predict'.
-        keep
-            Whether each case keeps its result folder.
-
-        Raises
-        ------
-        InputError
-            If the folder holds another study of that name, or a case is not acceptable.
-        KeyboardInterrupt
-            If somebody stopped it; what was finished is kept.
+        The cases share a namelist text and options; all keys of `vary` move together. `keep`: each
+        case keeps its result folder. InputError if the folder holds another study of that name, or
+        a case is not acceptable; KeyboardInterrupt if somebody stopped it: what was finished is
+        kept.
         """
         if name in self.made:
             return self.made[name]

@@ -30,14 +30,8 @@ def _execute(message: dict[str, Any]) -> Row:
 def rows(tasks: Sequence[Task], address: str) -> Generator[list[tuple[int, Row]]]:
     """Do tasks with the workers of a scheduler; yields what has been finished, some at a time.
 
-    When the caller stops early, what has not begun is taken back.
-
-    Raises
-    ------
-    InputError
-        If dask.distributed is not installed.
-    EhlError
-        If the scheduler does not answer.
+    When the caller stops early, what has not begun is taken back. InputError if dask.distributed
+    is not installed; EhlError if the scheduler does not answer.
     """
     try:
         from distributed import Client, as_completed  # noqa: PLC0415 (an optional extra)

@@ -94,10 +94,7 @@ class Results:
     def key(self, number: int, name: str) -> object:
         """Give the value of a key for a row; None where the case does not have it.
 
-        Raises
-        ------
-        InputError
-            If nothing is known of the key.
+        InputError if nothing is known of the key.
         """
         row = self.rows[number]
         if name in row:
@@ -130,10 +127,7 @@ def _settings(
 def read_results(path: str | os.PathLike[str]) -> Results:
     """Open results: a folder of one run, of a study (``pyehl sweep``, ``stribeck``), or a CSV file.
 
-    Raises
-    ------
-    InputError
-        If it is none of these.
+    InputError if it is none of these.
     """
     folder = Path(path)
     if folder.is_dir() and (folder / "summary.json").is_file():
@@ -186,10 +180,7 @@ def _same(wanted: Key, found: object) -> bool:
 def compare(results: Results, table: ReferenceTable) -> Comparison:
     """Compare results with the rows of a table whose keys they have.
 
-    Raises
-    ------
-    InputError
-        If no row of the table belongs to a result, or no result has a column of the table.
+    InputError if no row of the table belongs to a result, or no result has a column of the table.
     """
     for name in table.values:
         if not any(name in row for row in results.rows):
@@ -238,12 +229,7 @@ def _told(value: Key) -> str:
 def write_deviations(path: str | os.PathLike[str], deviations: Sequence[Deviation]) -> None:
     """Write deviations as CSV, whole or not at all.
 
-    Raises
-    ------
-    InputError
-        If there is another file.
-    FileError
-        If it cannot be written.
+    InputError if there is another file; FileError if it cannot be written.
     """
     check_files([path], "compare", known=lambda there: made_by(there, COLUMNS))
     rows = (

@@ -84,16 +84,9 @@ SMOOTH = Pattern(0.0, math.inf)
 
 
 def pattern(settings: Settings, operating: OperatingPoint, film: float) -> Pattern:
-    """Give the pattern that theta_2 is taken for.
+    """Give the pattern that theta_2 is taken for, of a resolved case with a rough surface.
 
-    Parameters
-    ----------
-    settings
-        A resolved case with a rough surface.
-    operating
-        Gives the scales.
-    film
-        Central film [m], of which the amplitude of harmonic roughness may be a share.
+    `film` is the central film [m], of which the amplitude of harmonic roughness may be a share.
     """
     if settings["surface"]["kind"] == "harmonic":
         lengths = [float(settings["surface"][f"wavelength_{axis}"]) for axis in "xy"]
@@ -265,16 +258,9 @@ def _joined(values: Row, text: str) -> str:
 def full_film_ends(
     key: str, places: Sequence[float] | NDArray[np.float64], rows: Sequence[Row]
 ) -> tuple[str, tuple[int, ...]]:
-    """Say where full film ends along a curve, and give the points without it.
+    """Say where full film ends along a curve over `key`, and give the points without it.
 
-    Parameters
-    ----------
-    key
-        What the curve goes over.
-    places
-        Its values, ascending or descending.
-    rows
-        Columns of the curve at these.
+    `places` are its values, ascending or descending, with the columns of the curve at these.
     """
     broken = tuple(k for k, row in enumerate(rows) if row["status"] == BREAKDOWN)
     known = [k for k, row in enumerate(rows) if row["status"] in (FULL_FILM, OUTSIDE)]

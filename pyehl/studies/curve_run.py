@@ -32,10 +32,7 @@ FILES = (CSV, NETCDF, PICTURE)
 def axes_of(values: Mapping[str, Any]) -> list[Axis]:
     """Give what a curve goes over, from values by the names of `KEYS`; None for what it does not.
 
-    Raises
-    ------
-    InputError
-        If there is nothing, or values are no numbers.
+    InputError if there is nothing, or values are no numbers.
     """
     axes = [axis(key, values[name]) for name, key in KEYS.items() if values[name] is not None]
     if not axes:
@@ -56,25 +53,9 @@ def perform(
 ) -> tuple[Outcome, list[dict[str, Any]]]:
     """Run what is missing of a curve, and write its table; returns its rows, too.
 
-    Parameters
-    ----------
-    plan
-        The curve.
-    folder
-        Gets ``journal.jsonl``, ``stribeck.csv`` and ``stribeck.nc``.
-    inputs
-        Files that the curve is made of, which must not be replaced.
-    jobs, scheduler, watcher
-        As `gather`.
-    force
-        Other files may be in the folder; they stay.
-
-    Raises
-    ------
-    InputError
-        If the folder holds another curve or something else, or is in use.
-    FileError
-        If it cannot be written.
+    The folder gets ``journal.jsonl``, ``stribeck.csv`` and ``stribeck.nc``; `inputs` are files
+    that must not be replaced; the rest is as of `gather`. InputError if the folder holds another
+    curve or something else, or is in use; FileError if it cannot be written.
     """
     folder, inputs = Path(folder), tuple(inputs)
     if {os.path.realpath(folder / name) for name in FILES} & set(map(os.path.realpath, inputs)):

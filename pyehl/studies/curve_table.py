@@ -31,10 +31,7 @@ WORDS = ("status", "message")
 def write_csv(path: Path, plan: CurvePlan, rows: Sequence[Row]) -> None:
     """Write the table of a curve, whole or not at all: what was varied, `UNITS`, status, message.
 
-    Raises
-    ------
-    FileError
-        If it cannot be written.
+    FileError if it cannot be written.
     """
     names = (*UNITS, *WORDS)
     arrays.write_csv(
@@ -112,20 +109,11 @@ def _column(name: str, key: str, places: Array, rows: Sequence[Row]) -> Array:
 
 
 def read_measured(path: str | os.PathLike[str], key: str) -> Measured:
-    """Read measured friction: CSV with a line of names.
+    """Read measured friction over a curve that goes over `key`: CSV with a line of names.
 
-    Parameters
-    ----------
-    path
-        The file. One column is `key`, ``hersey``, ``lambda_ratio`` or ``theta_2``; another ``mu``
-        or ``mu_ratio``; a third, which may be missing, ``error``.
-    key
-        What the curve goes over.
-
-    Raises
-    ------
-    InputError
-        With the file and the line, and what was expected.
+    One column is `key`, ``hersey``, ``lambda_ratio`` or ``theta_2``; another ``mu`` or
+    ``mu_ratio``; a third, which may be missing, ``error``. InputError with the file and the line,
+    and what was expected.
     """
     name = os.fspath(path)
     try:

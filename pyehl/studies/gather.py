@@ -92,33 +92,11 @@ def gather(
 ) -> Outcome:
     """Do the tasks that are not in the journal of a folder.
 
-    Parameters
-    ----------
-    tasks
-        All of them.
-    folder
-        Gets ``journal.jsonl``.
-    identity
-        What makes them another study than others.
-    jobs
-        Worker processes; 0: as many as processors.
-    scheduler
-        Address of a dask scheduler; '': workers on this machine.
-    retry
-        Do tasks again that failed.
-    place
-        The folder with the names of its tables; None: those of the journal alone.
-    watcher
-        Who is told what happens.
-    write
-        Writes tables of the rows; called now and then, and at the end.
-
-    Raises
-    ------
-    InputError
-        If the folder holds another study or something else, or is in use.
-    FileError
-        If it cannot be written.
+    `identity` is what makes them another study than others; `jobs` worker processes do them (0: as
+    many as processors), or those of a dask scheduler; `retry`: those that failed are done again.
+    `place` is the folder with the names of its tables; `write` writes tables of the rows, now and
+    then and at the end. InputError if the folder holds another study or something else, or is in
+    use; FileError if it cannot be written.
     """
     watcher = watcher or Watcher()
     with Journal(folder, identity, place) as journal:

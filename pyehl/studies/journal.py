@@ -99,29 +99,12 @@ def _short(value: object) -> str:
 class Journal:
     """The journal of one study in one folder; a context manager that holds a lock on it.
 
-    Parameters
-    ----------
-    folder
-        Where the study is; made when it is not there.
-    study
-        What the study is, as values of JSON. Two studies are the same when these are.
-    place
-        The folder with the names that the study may need; None: those of the journal alone.
+    The folder is made when it is not there. Two studies are the same when their values (of JSON)
+    are. `place` has the names that the study may need, by default those of the journal alone.
+    `rows` are the finished cases by their number, `damaged` counts lines that could not be read.
 
-    Attributes
-    ----------
-    rows
-        Finished cases by their number.
-    damaged
-        Lines that could not be read.
-
-    Raises
-    ------
-    InputError
-        If the folder holds another study (with the difference), or something else, or another
-        process works on it.
-    FileError
-        If it cannot be written.
+    InputError if the folder holds another study (with the difference), or something else, or
+    another process works on it; FileError if it cannot be written.
     """
 
     def __init__(
@@ -216,10 +199,7 @@ class Journal:
     def append(self, rows: Sequence[tuple[int, Row]]) -> None:
         """Add finished cases; they are on the disk when this returns.
 
-        Raises
-        ------
-        FileError
-            If they cannot be written.
+        FileError if they cannot be written.
         """
         if not rows:
             return
@@ -240,10 +220,7 @@ class Journal:
     def close(self) -> None:
         """Close the file, which gives the lock back.
 
-        Raises
-        ------
-        FileError
-            If what was added last cannot be written.
+        FileError if what was added last cannot be written.
         """
         try:
             self._file.close()

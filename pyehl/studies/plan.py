@@ -101,10 +101,7 @@ def duration(seconds: float) -> str:
 def check_memory(cases: int) -> None:
     """Refuse more cases than can wait in memory.
 
-    Raises
-    ------
-    InputError
-        With the memory that they need, and that there is.
+    InputError with the memory that they need, and that there is.
     """
     need, have = CASE_BYTES * cases, library.free_bytes()
     if need > have:
@@ -117,21 +114,10 @@ def check_memory(cases: int) -> None:
 def plan(study: Study, keep: str | os.PathLike[str] | None = None, *, brief: bool = False) -> Plan:
     """Resolve and check all cases of a study.
 
-    Parameters
-    ----------
-    study
-        What to do.
-    keep
-        Folder for a result folder of each case; None: none is kept.
-    brief
-        For a plan that is not to run: of a study with more than `MOST` cases, as many as
-        `PATIENCE` allows.
-
-    Raises
-    ------
-    InputError
-        If a case is not acceptable; the message names the case and what is wrong with it. If
-        there are more cases than fit into memory.
+    `keep` is the folder for a result folder of each case. `brief`: a plan that is not to run has,
+    of a study with more than `MOST` cases, as many as `PATIENCE` allows. InputError if a case is
+    not acceptable, with the case and what is wrong with it, or if there are more than fit into
+    memory.
     """
     brief = brief and study.size > MOST
     if not brief:

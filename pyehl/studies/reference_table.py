@@ -64,21 +64,11 @@ class ReferenceTable:
 def read_reference(
     path: str | os.PathLike[str], *, keys: Iterable[str] = (), rtol: float | None = None
 ) -> ReferenceTable:
-    """Read a table of references.
+    """Read a table of references, a file or one of `SHIPPED`.
 
-    Parameters
-    ----------
-    path
-        The file, or one of `SHIPPED`.
-    keys
-        Columns without a dot that are keys all the same: the result has to have these values.
-    rtol
-        Relative tolerance of values that have none in the table; None: they must have one.
-
-    Raises
-    ------
-    InputError
-        With file, line, column and what was expected.
+    `keys` are columns without a dot that are keys all the same; `rtol` is the relative tolerance
+    of values that have none in the table, else they must have one. InputError with file, line,
+    column and what was expected.
     """
     name, text = _text(path)
     lines = text.splitlines()

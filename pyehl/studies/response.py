@@ -164,34 +164,14 @@ def measure(
 ) -> dict[str, dict[str, Any]]:
     """Measure the response at the operating point and velocity ratio of a case.
 
-    Parameters
-    ----------
-    case
-        Its groups contact and lubricant and `surface.velocity_ratio` are used.
-    place
-        Where the tiers are kept (`pyehl.studies.response_folder.destination`); those that are
-        there are not run again.
-    tiers
-        What to run.
-    jobs
-        Processes at a time; the processors are shared among them.
-    progress
-        Called with the name of a tier, its steps done and its steps in all.
+    Its groups contact and lubricant and `surface.velocity_ratio` are used. Tiers that are in the
+    folder are not run again; `jobs` run at a time and share the processors. `progress` is called
+    with the name of a tier, its steps done and its steps in all.
 
-    Returns
-    -------
-    dict
-        By the name of the tier what :class:`pyehl.studies.superposition.Superposition` has, with
-        tile [a], along, across, phase [rad] and seconds.
-
-    Raises
-    ------
-    InputError
-        If the velocity ratio is not positive, or the folder holds something else.
-    FileError
-        If the folder cannot be made.
-    EhlError
-        If a tier fails; those that have ended stay.
+    By the name of the tier what :class:`pyehl.studies.superposition.Superposition` has, with tile
+    [a], along, across, phase [rad] and seconds. InputError if the velocity ratio is not positive,
+    or the folder holds something else; FileError if it cannot be made; EhlError if a tier fails:
+    those that have ended stay.
     """
     settings = case.resolve()
     ratio = float(settings["surface"]["velocity_ratio"])

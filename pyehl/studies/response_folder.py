@@ -163,10 +163,7 @@ def _beside_shipped(
 ) -> tuple[dict[str, Array], dict[float, tuple[Array, Complex]], str]:
     """Give the measured waves at X = 0 and the shipped response, to draw.
 
-    Returns
-    -------
-    tuple
-        The arguments of :func:`pyehl.plots.response.response_figure`.
+    The arguments of :func:`pyehl.plots.response.response_figure`.
     """
     operating = OperatingPoint.from_settings(settings)
     zone, ratio = _zone(settings, operating), float(data.attrs["velocity_ratio"])

@@ -120,19 +120,9 @@ def dataset(
 ) -> xr.Dataset:
     """Give all waves of a measurement, the longest first.
 
-    Parameters
-    ----------
-    tiers
-        As :func:`pyehl.studies.response.measure` returns them.
-    zone
-        The smooth contact that the shipped response goes through.
-    operating, velocity_ratio
-        Of the case.
-
-    Returns
-    -------
-    xarray.Dataset
-        Over wave (m,), and over wave and X (m, 3) at the STATIONS; each variable has units.
+    `tiers` are as :func:`pyehl.studies.response.measure` returns them; `zone` is the smooth
+    contact that the shipped response goes through. Over wave (m,), and over wave and X (m, 3) at
+    the STATIONS; each variable has units.
     """
     parts = [_tier(tier, zone, operating, velocity_ratio) for tier in tiers.values()]
     joined = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}

@@ -41,31 +41,13 @@ def ridges(
     solver: Mapping[str, Any] | None = None,
     progress: Callable[[int, int], None] = lambda done, total: None,
 ) -> dict[str, Array]:
-    """Solve the contact of a resolved case with ridges, one wavelength after the other.
+    """Solve the contact of a resolved case with ridges, one wavelength [a] after the other.
 
-    Parameters
-    ----------
-    settings
-        A resolved case: operating point and lubricant are taken from it.
-    wavelengths
-        (m,) [a].
-    points
-        Nodes per side; the domain is 4 a by 4 a.
-    solver
-        Keys of the group ``solver``.
-    progress
-        Called with the solutions done and the solutions in all.
-
-    Returns
-    -------
-    dict
-        What :class:`pyehl.studies.superposition.Superposition` has, with along (0), across (1 over
-        the wavelength) and phase (0) of the waves, (m,), on a tile of side 1 [a].
-
-    Raises
-    ------
-    EhlError
-        If a contact has no solution.
+    The domain is 4 a by 4 a with so many nodes per side; `solver` are keys of that group;
+    `progress` is called with the solutions done and in all. What
+    :class:`pyehl.studies.superposition.Superposition` has, with along (0), across (1 over the
+    wavelength) and phase (0) of the waves, (m,), on a tile of side 1 [a]. EhlError if a contact
+    has no solution.
     """
     keys = {"accuracy": ACCURACY, **(solver or {})}
 

@@ -101,25 +101,12 @@ def plan_curve(
     ehl: int = 0,
     seeds: int = 1,
 ) -> CurvePlan:
-    """Resolve and check all points of a curve.
+    """Resolve and check all points of a curve. Smooth surfaces have mu_r/mu_s = 1.
 
-    Parameters
-    ----------
-    case
-        A case, or the path of a case file. Smooth surfaces have mu_r/mu_s = 1.
-    axes
-        What the curve goes over, keys of `KEYS`; every value of one meets those of the others.
-    options
-        Texts ``group.key=value`` that hold for all points.
-    ehl
-        Points at which the passage of the surface is solved in full, spread over the curve.
-    seeds
-        Surfaces at each point: with the seed of the case and those that follow.
-
-    Raises
-    ------
-    InputError
-        If a case is not acceptable; the message names it. If there are too many.
+    Every value of an axis, keys of `KEYS`, meets those of the others. The passage of the surface
+    is solved in full at `ehl` points, spread over the curve; at each point there are `seeds`
+    surfaces, of the seed of the case and those that follow. InputError if a case is not
+    acceptable, which it names, or if there are too many.
     """
     study = make(case, axes, options=options, run="predict")
     size = study.size

@@ -101,10 +101,7 @@ class Study:
     def resolved(self, point: Point, *more: str) -> Case:
         """Give the case of a point, checked and complete, with `more` options.
 
-        Raises
-        ------
-        InputError
-            If it is not acceptable; the message names the case.
+        InputError if it is not acceptable; the message names the case.
         """
         texts = [*self.options, *(option(key, value) for key, value in point.values.items())]
         texts += more
@@ -118,17 +115,8 @@ class Study:
     def identity(self, first: str, maps: Collection[str]) -> dict[str, Any]:
         """Give what makes this study another one than others, as values of JSON.
 
-        Parameters
-        ----------
-        first
-            The first case, resolved.
-        maps
-            Files of the height maps of all cases.
-
-        Raises
-        ------
-        InputError
-            If a map cannot be read.
+        `first` is the first case, resolved; `maps` are files of the height maps of all cases,
+        InputError if one cannot be read.
         """
         found: dict[str, Any] = {
             "pyehl version": metadata.version("pyehl"),
@@ -168,28 +156,11 @@ def make(
 ) -> Study:
     """Put a study together.
 
-    Parameters
-    ----------
-    case
-        A case, or the path of a case file.
-    axes
-        What is varied.
-    options
-        Texts ``group.key=value`` that hold for all cases.
-    zipped
-        True: all keys move together; else lists of the keys that move together.
-    run
-        One of `RUNS`.
-    outputs
-        Names of results wanted in the table; none: all numbers.
-    origin
-        Where the study stands, for messages.
-
-    Raises
-    ------
-    InputError
-        If a key is varied twice, keys that move together have not as many values, a value (of keys
-        that move together: all their values) is there twice, or there is no such output.
+    `zipped`: True, all keys move together; else lists of the keys that do. `outputs` are the
+    results wanted in the table, none: all numbers. `origin` is where the study stands, for
+    messages. InputError if a key is varied twice, keys that move together have not as many values,
+    a value (of keys that move together: all their values) is there twice, or there is no such
+    output.
     """
     if run not in RUNS:
         raise InputError(

@@ -23,11 +23,7 @@ def read_study(path: str | os.PathLike[str]) -> dict[str, Any]:
 
     Its keys are ``case`` (a path from the folder of the file), ``run``, ``zip`` (true, or lists of
     keys), ``outputs`` (a list of names), and the tables ``set`` and ``vary`` of ``group.key``.
-
-    Raises
-    ------
-    InputError
-        With the file, the key and what was expected.
+    InputError with the file, the key and what was expected.
     """
     name = os.fspath(path)
     try:

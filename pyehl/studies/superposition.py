@@ -169,29 +169,10 @@ def superpose(
 ) -> Superposition:
     """Run a tile of waves through the contact of a resolved case.
 
-    Parameters
-    ----------
-    settings
-        A resolved case: operating point and lubricant are taken from it.
-    waves
-        What is on the tile.
-    points
-        Nodes per side; the domain is 4 a by 4 a.
-    velocity_ratio
-        U, positive.
-    solver
-        Keys of the group ``solver`` of the run, `threads` for one; accuracy is ACCURACY.
-    slope
-        Amplitude times wavenumber [a/R].
-    filling
-        Way of the slowest wave before the period that is fitted begins [a].
-    progress
-        Called with the steps done and the steps in all.
-
-    Raises
-    ------
-    EhlError
-        If the run ends before its time.
+    The domain is 4 a by 4 a with so many nodes per side; `velocity_ratio` is positive; `solver`
+    are keys of that group, `slope` is amplitude times wavenumber [a/R], `filling` the way of the
+    slowest wave before the period that is fitted begins [a]; `progress` is called with the steps
+    done and in all. EhlError if the run ends before its time.
     """
     case = transient_case(
         settings,

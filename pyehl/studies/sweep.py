@@ -42,23 +42,9 @@ def perform(
 ) -> Outcome:
     """Run what is missing of a study, and write its table.
 
-    Parameters
-    ----------
-    todo
-        The plan.
-    folder
-        Gets ``journal.jsonl``, ``results.csv`` and ``results.nc``.
-    jobs, scheduler, retry, watcher
-        As `gather`.
-    force
-        Other files may be in the folder; they stay.
-
-    Raises
-    ------
-    InputError
-        If the folder holds another study or something else, or is in use.
-    FileError
-        If it cannot be written.
+    The folder gets ``journal.jsonl``, ``results.csv`` and ``results.nc``; the rest is as of
+    `gather`. InputError if the folder holds another study or something else, or is in use;
+    FileError if it cannot be written.
     """
     folder = Path(folder)
 

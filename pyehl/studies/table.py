@@ -41,10 +41,7 @@ def columns(study: Study, rows: Mapping[int, Row]) -> list[str]:
 def write_csv(path: Path, study: Study, points: Sequence[Point], rows: Mapping[int, Row]) -> None:
     """Write the table of all finished cases, whole or not at all.
 
-    Raises
-    ------
-    FileError
-        If it cannot be written.
+    FileError if it cannot be written.
     """
     names = columns(study, rows)
     arrays.write_csv(

@@ -56,10 +56,7 @@ def ridge_wavelengths(tier: Tier) -> list[float]:
 def tier_waves(tier: Tier) -> WaveSet:
     """Waves of a tier: all wavelengths it can tell apart, up to 24, in scattered directions.
 
-    Raises
-    ------
-    ValueError
-        If the grid has fewer than NODES nodes for the shortest wave.
+    ValueError if the grid has fewer than NODES nodes for the shortest wave.
     """
     nodes = tier.shortest * (tier.points - 1) / 4.0
     if nodes < NODES - 1e-9:

@@ -57,10 +57,7 @@ def parse_axis(text: str) -> Axis:
 def axis(key: str, values: str | Iterable[Any] | Value) -> Axis:
     """Give the axis of a key from a text as behind ``--vary``, a sequence or one value.
 
-    Raises
-    ------
-    InputError
-        If there are no values, or they are not numbers, truth values or words.
+    InputError if there are no values, or they are not numbers, truth values or words.
     """
     key = key.strip().lower()
     try:

@@ -46,12 +46,7 @@ class Extent:
 def extent(heights: Array, pixel: tuple[float, float]) -> Extent:
     """Rms, peak and slope of the points of a map that are not missing; NaN if all are.
 
-    Parameters
-    ----------
-    heights
-        (nx, ny) [m], NaN where missing.
-    pixel
-        Pixel size along x and y [m].
+    Heights (nx, ny) [m], NaN where missing; pixel size along x and y [m].
     """
     # a few lines at a time: a map may be large
     lines = max(1, BLOCK // heights.shape[1])
@@ -92,17 +87,8 @@ def extent(heights: Array, pixel: tuple[float, float]) -> Extent:
 def areal_numbers(heights: Array, pixel: tuple[float, float]) -> dict[str, float]:
     """Sq, Sa, Sz, Ssk, Sku, Sdq and Str of a map, about its mean plane z = mean.
 
-    Parameters
-    ----------
-    heights
-        (nx, ny) [m], none missing, levelled.
-    pixel
-        Pixel size along x and y [m].
-
-    Returns
-    -------
-    dict
-        In the units of `AREAL_NAMES`.
+    Heights (nx, ny) [m], none missing, levelled; pixel size along x and y [m]. In the units of
+    `AREAL_NAMES`.
     """
     z = heights - heights.mean()
     spread = extent(heights, pixel)
@@ -124,14 +110,8 @@ def texture_aspect_ratio(heights: Array, pixel: tuple[float, float]) -> float:
 
     The autocorrelation is that of the map about its mean, each lag over the points that overlap,
     up to half of the map. A direction in which it never falls to 0.2 counts with the length to
-    which it is known, so that the Str of a perfect lay is a bound and not zero.
-
-    Parameters
-    ----------
-    heights
-        (nx, ny) [m], none missing.
-    pixel
-        Pixel size along x and y [m].
+    which it is known, so that the Str of a perfect lay is a bound and not zero. Heights (nx, ny)
+    [m], none missing; pixel size along x and y [m].
     """
     nx, ny = heights.shape
     z = heights - heights.mean()

@@ -29,21 +29,10 @@ def cropped(
     pixel: tuple[float, float],
     bounds: tuple[float, float, float, float],
 ) -> Array:
-    """Part of a map.
+    """Part of a map (nx, ny) with a pixel size along x and y [m].
 
-    Parameters
-    ----------
-    heights
-        (nx, ny).
-    pixel
-        Pixel size along x and y [m].
-    bounds
-        (x_min, x_max, y_min, y_max) [m], rounded to whole pixels; a maximum of 0 is the far edge.
-
-    Raises
-    ------
-    InputError
-        If the part reaches beyond the map, or less than 4 x 4 pixels are left.
+    `bounds` are (x_min, x_max, y_min, y_max) [m], rounded to whole pixels; a maximum of 0 is the
+    far edge. InputError if the part reaches beyond the map, or less than 4 x 4 pixels are left.
     """
     cuts = []
     for axis, name in enumerate("xy"):
@@ -67,27 +56,13 @@ def cropped(
 def rotated(
     heights: Array, pixel: tuple[float, float], angle: float
 ) -> tuple[Array, tuple[float, float]]:
-    """Map turned about its middle, counter-clockwise seen from above.
+    """Map (nx, ny), none missing, turned about its middle, counter-clockwise seen from above.
 
-    What pointed along x points in the direction `angle` afterwards: a lay along x turned by 90
-    degrees lies across the motion. Quarter turns move pixels and change nothing else; any other
-    angle interpolates (cubic splines) and keeps the largest upright rectangle inside the turned
-    map, so that nothing is made up at its corners.
-
-    Parameters
-    ----------
-    heights
-        (nx, ny), none missing.
-    pixel
-        Pixel size along x and y [m].
-    angle
-        [degrees].
-
-    Returns
-    -------
-    heights, pixel
-        Of the turned map; its pixels are square, the smaller of the two sizes, unless turned by
-        quarters.
+    What pointed along x points in the direction `angle` [degrees] afterwards: a lay along x turned
+    by 90 degrees lies across the motion. Quarter turns move pixels and change nothing else; any
+    other angle interpolates (cubic splines) and keeps the largest upright rectangle inside the
+    turned map, so that nothing is made up at its corners. Its pixels [m] are then square, the
+    smaller of the two sizes.
     """
     quarters = round(angle / 90.0)
     if abs(angle - 90.0 * quarters) < 1e-9:

@@ -24,19 +24,9 @@ def filled(heights: Array, pixel: tuple[float, float]) -> Array:
     """Map whose missing points are harmonic: Laplace z = 0, z given on the rim of each hole.
 
     Five-point differences; at the edge of the map the slope across it is zero. A plane is
-    harmonic, so a hole in a plane is filled exactly (where it does not touch the edge).
-
-    Parameters
-    ----------
-    heights
-        (nx, ny) [m], NaN where missing.
-    pixel
-        Pixel size along x and y [m].
-
-    Raises
-    ------
-    InputError
-        If more than a share of `MAX_MISSING` is missing.
+    harmonic, so a hole in a plane is filled exactly (where it does not touch the edge). Heights
+    (nx, ny) [m], NaN where missing; pixel size along x and y [m]. InputError if more than a share
+    of `MAX_MISSING` is missing.
     """
     missing = ~np.isfinite(heights)
     count = int(np.count_nonzero(missing))

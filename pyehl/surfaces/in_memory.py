@@ -44,10 +44,7 @@ READY: Mapping[str, Any] = {
 def in_memory(surface: Surface, group: Mapping[str, Any]) -> Topography:
     """Give a surface about its mean, of an array with the size in the group ``surface``.
 
-    Raises
-    ------
-    InputError
-        If it is none of heights, or the case does not say its size.
+    InputError if it is none of heights, or the case does not say its size.
     """
     if not isinstance(surface, Topography):
         heights = heights_of(surface)

@@ -23,36 +23,17 @@ Sizes = tuple[float | None, float | None]
 def read_instrument(
     path: Path, channel: str = "", lengths: Sizes = (None, None)
 ) -> tuple[NDArray[np.float64], Sizes, bool, str, str]:
-    """Heights of one channel of an instrument file.
+    """Heights (nx, ny) [m] of one channel of an instrument file, NaN where missing.
 
-    Parameters
-    ----------
-    path
-        Of the file; its format is known by its content.
-    channel
-        Name, or number from 1; empty: the file's first height channel.
-    lengths
-        What the caller knows of the size along x and y [m], which a file without one needs.
+    The channel is a name, or a number from 1; empty: the file's first height channel. `lengths`
+    are what the caller knows of the size along x and y [m], which a file without one needs. Also
+    the size of the file [m] or (None, None), whether it says that the map is periodic, the name of
+    the channel, and a note that heights were taken in m, for a file that names neither a size nor
+    a unit.
 
-    Returns
-    -------
-    heights
-        (nx, ny) [m], NaN where missing.
-    size
-        (length_x, length_y) [m]; (None, None) where the file has none.
-    is_periodic
-        Whether the file says so.
-    name
-        Of the channel.
-    note
-        That its heights were taken in m, for a file that names neither a size nor a unit; else
-        empty.
-
-    Raises
-    ------
-    InputError
-        If the package is missing, the file is of no kind that it knows, has no such channel, is a
-        profile along a line, has no size and the caller knows none, or has a size without a unit.
+    InputError if the package is missing, the file is of no kind that it knows, has no such
+    channel, is a profile along a line, has no size and the caller knows none, or has a size
+    without a unit.
     """
     try:
         from SurfaceTopography.IO import open_topography  # noqa: PLC0415 (heavy, and optional)

@@ -47,15 +47,7 @@ def shifted(topography: Topography, distance_x: float, distance_y: float = 0.0) 
 
 
 def shift_across(heights: Array, length_y: float, distance: float) -> None:
-    """Move a tile (nx, ny) along y in place, as :func:`shifted` does, a few lines at a time.
-
-    Parameters
-    ----------
-    heights
-        (nx, ny) [m].
-    length_y, distance
-        Size of the tile along y, and how far [m].
-    """
+    """Move a tile (nx, ny) along y by a distance [m] in place, as :func:`shifted` does."""
     ny = heights.shape[1]
     q = 2.0 * np.pi * scipy.fft.rfftfreq(ny, length_y / ny)
     factor = _shift_factor(q, distance, None if ny % 2 else ny // 2)
@@ -69,10 +61,7 @@ def shift_across(heights: Array, length_y: float, distance: float) -> None:
 def resampled(topography: Topography, pixels: tuple[int, int]) -> Topography:
     """Return the tile on a finer grid by its Fourier interpolant, (nx, ny) = `pixels`.
 
-    Raises
-    ------
-    InputError
-        If the new grid has fewer pixels in a direction.
+    InputError if the new grid has fewer pixels in a direction.
     """
     if pixels == topography.shape:
         return topography

@@ -57,12 +57,7 @@ def level(heights: Array, what: str, valid: NDArray[np.bool_] | None = None) -> 
     """Take the mean (`centre`), plane (`tilt`) or `curvature` off a map in place.
 
     A least-squares polynomial over the points that count (`valid`; default: all that are numbers);
-    missing points stay missing.
-
-    Raises
-    ------
-    InputError
-        If too few points are left to tell the polynomial.
+    missing points stay missing. InputError if too few points are left to tell the polynomial.
     """
     # the large parts go first, so that rounding is that of what remains
     for degree in sorted({0, DEGREES[what]}):

@@ -29,23 +29,9 @@ def check_pixels(
 ) -> None:
     """Refuse a surface that the memory that is free cannot hold while it is worked on.
 
-    Parameters
-    ----------
-    origin
-        Name of the map, for the message.
-    pixels
-        (nx, ny) of the map.
-    tiles
-        How many times as many pixels the tile has (4: mirrored).
-    copies
-        Arrays of that size that are held at once.
-    way
-        What would do, for the message.
-
-    Raises
-    ------
-    NoMemoryError
-        With the bytes needed and free.
+    A map (nx, ny), called `origin`, of which a tile has `tiles` times as many pixels (4:
+    mirrored), and so many copies are held at once; `way` says what would do. NoMemoryError with
+    the bytes needed and free.
     """
     need = 8.0 * pixels[0] * pixels[1] * tiles * copies
     images = " with their mirror images" if tiles > 1 else ""

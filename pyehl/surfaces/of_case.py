@@ -75,21 +75,9 @@ def from_settings(
 ) -> Topography:
     """Make or read the surface of a resolved case.
 
-    Parameters
-    ----------
-    settings
-        A resolved case; the group ``surface`` is read.
-    operating
-        Gives the scales of a harmonic pattern.
-    film
-        Central film h_c [m], of which the amplitude of a harmonic pattern may be a share.
-
-    Raises
-    ------
-    InputError
-        If the surface is smooth or the map is not usable.
-    OSError
-        If the map cannot be opened.
+    `film` is the central film h_c [m], of which the amplitude of a harmonic pattern may be a
+    share. InputError if the surface is smooth or the map is not usable; OSError if it cannot be
+    opened.
     """
     return finished(whole(settings, operating, film), settings["surface"])
 
@@ -231,21 +219,9 @@ def finished(tile: Topography, surface: Mapping[str, Any]) -> Topography:
 
 
 def without_spikes(surface: Topography, threshold: float, group: Mapping[str, Any]) -> Topography:
-    """Make the tile of a map anew, with a threshold of `surface.outliers`.
+    """Make the tile of a map anew, with a threshold of `surface.outliers` (`spikes.prominence`).
 
-    Parameters
-    ----------
-    surface
-        The tile, which was prepared from a map.
-    threshold
-        See :func:`pyehl.surfaces.spikes.prominence`.
-    group
-        The group ``surface`` of the case.
-
-    Raises
-    ------
-    InputError
-        If it was not, or cannot be.
+    InputError if it was not prepared from a map, or cannot be.
     """
     made = surface.preparation
     if made is None:

@@ -23,21 +23,9 @@ def part_of(
 ) -> Topography | None:
     """Middle of a large surface, with its mirror images; None for one that is not large.
 
-    Parameters
-    ----------
-    heights
-        (nx, ny) [m].
-    pixel
-        Pixel size along x and y [m].
-    origin
-        Name of the surface.
-    images
-        Whether its tile is it with its mirror images, four times as many pixels.
-
-    Returns
-    -------
-    Topography
-        A tile of at most `PART_PIXELS` pixels, square where the surface is wide enough.
+    Heights (nx, ny) [m], pixel size along x and y [m]. `images`: the tile of the surface is it
+    with its mirror images, four times as many pixels. The part has at most `PART_PIXELS` pixels,
+    square where the surface is wide enough.
     """
     if heights.size * (4 if images else 1) <= LARGE_PIXELS:
         return None

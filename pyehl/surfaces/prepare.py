@@ -77,20 +77,10 @@ class Preparation:
 
 
 def prepare(scan: Scan, options: Options = NEUTRAL) -> Preparation:
-    """Make a tile of a map.
+    """Make a tile of a map as read.
 
-    Parameters
-    ----------
-    scan
-        The map as read.
-    options
-        What to do.
-
-    Raises
-    ------
-    InputError
-        If a step cannot be done, the map is larger than the memory, or the rms height is so
-        large or small that the unit must be wrong.
+    InputError if a step cannot be done, the map is larger than the memory, or the rms height is so
+    large or small that the unit must be wrong.
     """
     work, options, why = _prepared(scan, options, keep=True)
     prepared = work.z
@@ -100,23 +90,10 @@ def prepare(scan: Scan, options: Options = NEUTRAL) -> Preparation:
 
 
 def consume(scan: Scan, options: Options = NEUTRAL) -> tuple[Array, Record]:
-    """Make a tile of a map in its own memory: the heights of `scan` are lost.
+    """Make a tile [m] of a map in its own memory, with its record: the heights of `scan` are lost.
 
-    Parameters
-    ----------
-    scan, options
-        As in :func:`prepare`.
-
-    Returns
-    -------
-    tuple
-        The tile [m], and what was done, as in :class:`Preparation`. A map that is mirrored is left
-        as it is, (nx, ny): its mirror images take four times its memory.
-
-    Raises
-    ------
-    InputError
-        As :func:`prepare`.
+    A map that is mirrored is left as it is, (nx, ny): its mirror images take four times its
+    memory. InputError as :func:`prepare`.
     """
     work, options, why = _prepared(scan, options, keep=False)
     _join(work, options, why)

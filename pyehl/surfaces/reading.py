@@ -71,11 +71,7 @@ def is_array_file(path: str | Path) -> bool:
 
     Text counts as an array unless it begins with words, or its header is that of an instrument's
     program and names a size or a unit; such exports have their lines along x, as images have.
-
-    Raises
-    ------
-    OSError
-        If the file cannot be opened.
+    OSError if the file cannot be opened.
     """
     path = Path(path)
     suffix = path.suffix.lower()
@@ -100,29 +96,18 @@ def read_scan(
     length_y: float | None = None,
     channel: str = "",
 ) -> Scan:
-    """Read a height map with its size.
+    """Read a height map with its size [m]: needed where the file has none, else in place of it.
 
-    Parameters
-    ----------
-    path
-        ``.npy`` (never pickled) or text (``.txt``, ``.csv``, ``.dat``, ``.asc``: one x per line, y
-        along the line, separated by blanks, commas or semicolons), heights in m, NaN where they
-        are missing; any other file must be one that SurfaceTopography reads. Where such a file
-        names neither size nor unit (MATLAB, HDF5), its heights are taken in m, too.
-    length_x, length_y
-        Size [m]. Needed where the file has none; replaces that of the file.
-    channel
-        Name of a channel of an instrument file, or its number, counted from 1; empty: the one
-        that the file calls its first height channel.
+    ``.npy`` (never pickled) or text (``.txt``, ``.csv``, ``.dat``, ``.asc``: one x per line, y
+    along the line, separated by blanks, commas or semicolons), heights in m, NaN where they are
+    missing; any other file must be one that SurfaceTopography reads. Where such a file names
+    neither size nor unit (MATLAB, HDF5), its heights are taken in m, too. `channel` is the name of
+    a channel of an instrument file, or its number, counted from 1; empty: the one that the file
+    calls its first height channel.
 
-    Raises
-    ------
-    FileError
-        If the file cannot be opened.
-    NoMemoryError
-        If it is larger than the memory.
-    InputError
-        If it is no matrix of numbers, has no size, has no such channel or its size cannot be meant.
+    FileError if the file cannot be opened; NoMemoryError if it is larger than the memory;
+    InputError if it is no matrix of numbers, has no size, has no such channel or its size cannot
+    be meant.
     """
     path = Path(path)
     if not path.is_file():

@@ -22,26 +22,16 @@ RIM = 0.1
 
 
 def mirrored(heights: Array) -> Array:
-    """Tile of twice the size on each side: the map and its mirror images.
+    """Tile (2 nx, 2 ny) of twice the size on each side: the map (nx, ny) and its mirror images.
 
     Reflected about the middle between two pixels (the symmetry of a cosine transform), so that
-    every height occurs four times: mean, rms and every other number of the height distribution
-    are those of the map. Heights are continuous across every seam. The slope across a seam keeps
-    its magnitude and changes its sign, with one step of zero between: a fold, no jump. Its
-    spectrum falls with the fourth power of the wavenumber, no slower than that of a rough
-    surface, that of a jump with the second.
+    every height occurs four times: mean, rms and every other number of the height distribution are
+    those of the map. Heights are continuous across every seam. The slope across a seam keeps its
+    magnitude and changes its sign, with one step of zero between: a fold, no jump. Its spectrum
+    falls with the fourth power of the wavenumber, no slower than that of a rough surface, that of
+    a jump with the second.
 
     The middle of the map lies on the tile's row 0, so that it passes the centre of the contact.
-
-    Parameters
-    ----------
-    heights
-        (nx, ny).
-
-    Returns
-    -------
-    Array
-        (2 nx, 2 ny).
     """
     nx, ny = heights.shape
     half = ny // 2
@@ -64,11 +54,6 @@ def windowed(heights: Array) -> Array:
     """Map brought down to its mean along its rim by a raised cosine over a tenth of each side.
 
     Inside nothing changes; the rim loses roughness, so that the rms falls.
-
-    Parameters
-    ----------
-    heights
-        (nx, ny).
     """
     half = heights.shape[1] // 2
     mean = float(heights.mean())

@@ -48,14 +48,8 @@ def for_solver(settings: Mapping[str, Mapping[str, Any]]) -> SolverSurface:
 
     The solver makes harmonic patterns and fractal surfaces, reads arrays that need no preparation,
     and cuts their spectra itself: so these give the same bits by the program `ehl`. Only what it
-    cannot read or prepare comes from here, before its spectrum is cut.
-
-    Raises
-    ------
-    InputError
-        If a map is not usable.
-    OSError
-        If it cannot be opened.
+    cannot read or prepare comes from here, before its spectrum is cut. InputError if a map is not
+    usable; OSError if it cannot be opened.
     """
     surface = settings["surface"]
     if surface["kind"] == "fractal" and surface.get("track"):

@@ -30,27 +30,16 @@ MAD_TO_SIGMA = 1.482602218505602
 
 
 def prominence(heights: Array) -> Array:
-    """Distance of each point from the median around it, over the spread of these distances.
+    """Distance (nx, ny) of each point from the median around it, over the spread of these.
+
+    Not negative.
 
     The high-passed map is z minus the median of the 5 x 5 points around, after tilt and curvature
     are taken off (on a plane each point is the median of those around); its spread is its median
     absolute deviation times 1.4826, the standard deviation if it were normal, which spikes do not
-    change. Of normal noise 6e-7 of all points lie beyond 5, 1e-15 beyond 8.
-
-    Parameters
-    ----------
-    heights
-        (nx, ny) [m], NaN where missing.
-
-    Returns
-    -------
-    Array
-        (nx, ny), dimensionless, not negative; 0 where missing.
-
-    Raises
-    ------
-    InputError
-        If more than half of the map equals its median: then there is no spread to compare with.
+    change. Of normal noise 6e-7 of all points lie beyond 5, 1e-15 beyond 8. Heights (nx, ny) [m],
+    NaN where missing: 0 there. InputError if more than half of the map equals its median: then
+    there is no spread to compare with.
     """
     missing = ~np.isfinite(heights)
     z = heights.copy()

@@ -31,26 +31,9 @@ def _largest(z: Array) -> float:
 class WorkingMap:
     """A map that is being prepared, with the record of the steps so far.
 
-    Parameters
-    ----------
-    scan
-        The map as read.
-    keep
-        Whether the heights of `scan` must stay as they are.
-
-    Attributes
-    ----------
-    z
-        Heights (nx, ny) [m]; NaN where there is none.
-    pixel
-        Its size along x and y [m].
-    missing
-        Number of heights that the map as read lacks.
-
-    Raises
-    ------
-    InputError
-        If a height cannot be one in metres.
+    Heights `z` (nx, ny) [m], NaN where there is none; `pixel` size along x and y [m]; the number
+    of heights that the map as read lacks is `missing`. `keep`: the heights of `scan` must stay as
+    they are. InputError if a height cannot be one in metres.
     """
 
     def __init__(self, scan: Scan, *, keep: bool) -> None:

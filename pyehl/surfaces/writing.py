@@ -19,26 +19,13 @@ SUFFIXES = (".npy", ".txt", ".nc")
 
 
 def write_map(tile: Topography, path: str | Path) -> Path:
-    """Write a tile, whole or not at all.
+    """Write a tile, whole or not at all; the suffix of the path says as what.
 
     ``.npy`` holds the heights alone, (nx, ny) in Fortran order. Text has one x per line and its
     size in the header, ``# length_x = ... m``. netCDF holds ``heights(x, y)`` with the coordinates
     of the pixels, their length, unit and that they are periodic, as xarray and SurfaceTopography
-    read it. Heights and lengths are in m.
-
-    Parameters
-    ----------
-    tile
-        What to write.
-    path
-        The suffix says which; replaced when it is there.
-
-    Raises
-    ------
-    InputError
-        For any other suffix.
-    FileError
-        If the file cannot be written.
+    read it. Heights and lengths are in m. InputError for any other suffix; FileError if it cannot
+    be written.
     """
     path = Path(path)
     writers = {".npy": _write_npy, ".txt": _write_text, ".nc": _write_netcdf}
