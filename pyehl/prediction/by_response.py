@@ -11,7 +11,6 @@ the real ratio of the paper takes the place of the response: it moves with the r
 from __future__ import annotations
 
 import math
-import time
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,7 +20,7 @@ from pyehl.prediction.bands import Band, octaves
 from pyehl.prediction.carrying import confirmed
 from pyehl.prediction.errors import KNOWN_RATIO
 from pyehl.prediction.flattening import Response
-from pyehl.prediction.friction import RoughFriction
+from pyehl.prediction.friction import RoughFriction, passed
 from pyehl.prediction.options import Options
 from pyehl.prediction.passage import RADIUS_PIXELS, friction_along, working_grid
 from pyehl.prediction.rough_contact import Edge, RoughContact
@@ -29,7 +28,7 @@ from pyehl.prediction.smooth import SmoothContact, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.prediction.waves import Waves
-from pyehl.surfaces import Topography, filtered, interpolated, track_offsets
+from pyehl.surfaces import Topography, filtered, track_offsets
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -132,12 +131,11 @@ class RoughPassage:
         `brief`: of the bands the shortest alone, and without a search for what would help where
         the linear response ends. No tracks: NaN for mean and spread.
         """
-        start = time.perf_counter()
         grid, spectrum, transfer, edge = self._parts()
         contact = self._contact(spectrum, transfer, edge)
         with np.errstate(over="ignore", invalid="ignore"):
             passage = friction_along(contact, grid.shape[0], self.options.positions, LARGEST_RATIO)
-            found = self._result(contact, grid, spectrum, transfer, passage, start, brief)
+            found = self._result(contact, grid, spectrum, transfer, passage, brief)
             if found.status != "predicted":
                 return found, (math.nan, math.nan), []
             ratios = np.array(
@@ -168,13 +166,11 @@ class RoughPassage:
         spectrum: Spectrum,
         transfer: Transfer,
         passage: tuple[NDArray[np.int_], Array, float],
-        start: float,
         brief: bool,
     ) -> RoughFriction:
-        steps, ratios, error = passage
+        ratios = passage[1]
         o = self.operating
         status, message = "predicted", "full film throughout the passage"
-        mean = least = greatest = math.nan
         if contact.thinnest <= 0.0:
             status = "film breakdown"
             depth = -contact.thinnest * o.film_scale
@@ -189,31 +185,13 @@ class RoughPassage:
             message = _beyond(float(ratios.mean()))
             if not brief:
                 message += self._carried(spectrum, transfer, contact.edge)
-        else:
-            fine = interpolated(ratios, 8)
-            mean, least, greatest = (float(v) for v in (ratios.mean(), fine.min(), fine.max()))
-        smooth = contact.smooth * contact.area / o.load
-        if not contact.thins:
-            smooth *= self.lubricant.viscosity * o.sliding_speed
-        points = contact.count * contact.points
-        return RoughFriction(
-            status=status,
-            message=message,
-            mu_ratio=mean,
-            mu_ratio_min=least,
-            mu_ratio_max=greatest,
-            position_error=error,
-            shift=np.asarray(steps * grid.pixel[0], dtype=np.float64),
-            passage=ratios,
-            mu_smooth=smooth,
-            film_min=contact.thinnest * o.film_scale,
-            cavitated_share=contact.cavitated / max(1, points),
-            cavitated_friction=contact.cavitated_bound(least)
-            if status == "predicted"
-            else math.nan,
-            load_error=contact.imbalance,
+        return passed(
+            contact,
+            (status, message),
+            passage,
+            pixel=grid.pixel[0],
+            film_unit=o.film_scale,
             response=self._tiles(spectrum, transfer, grid.shape == self.topography.shape),
-            seconds=time.perf_counter() - start,
         )
 
     def _carried(self, spectrum: Spectrum, transfer: Transfer, edge: Edge) -> str:

@@ -14,7 +14,7 @@ from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import shear_stress
 
-__all__ = ["Contact"]
+__all__ = ["Contact", "ShearedContact"]
 
 Array = NDArray[np.float64]
 
@@ -22,17 +22,51 @@ Array = NDArray[np.float64]
 MIN_SAMPLES = 128
 
 
-class Contact:
-    """The pixels of the Hertz circle and the shear stress integrals over them.
+class ShearedContact:
+    """Points of a contact, the shear stress integrals over them, and what was met so far."""
 
-    `sliding` is |u1 - u2| [m/s]; `thins`: the shear stress is another than the Newtonian one,
-    which it is not without sliding. One pixel of the circle stands for `area` of the tile [m^2];
-    `index` (n,) are their places in the flattened tile. `thinnest` is the least h_c - rr_d of all
-    that passes through the contact [m]; `smooth` the sum of the shear stress of the smooth contact
-    over the pixels [Pa], of a Newtonian oil divided by eta0 and the sliding speed. So far
-    `cavitated` pixels had p_s + delta p <= 0 at `count` positions, and delta p has carried or
-    taken off at most the share `imbalance` of the load.
-    """
+    thinnest: float  # least film, in the unit of films
+    smooth: float  # sum of the stress of the smooth contact over the points, as `stress`
+    points: int  # within the contact
+    area: float  # that one of them stands for [m^2]
+
+    def __init__(self, operating: OperatingPoint, lubricant: Lubricant) -> None:
+        self.operating, self.lubricant = operating, lubricant
+        # without sliding the shear stress is the Newtonian one
+        self.thins = lubricant.shear.law != "newtonian" and operating.sliding_speed > 0.0
+        self.cavitated = 0  # points where the pressure is not positive
+        self.count = 0  # positions
+        self.imbalance = 0.0  # greatest share of the load that delta p carries or takes off [-]
+
+    def stress(self, pressure: Array, film: Array) -> Array:
+        """Shear stress at a pressure [Pa] in a film [m].
+
+        [Pa]; of a Newtonian oil divided by eta0 and the sliding speed.
+        """
+        ratio = self.lubricant.viscosity_ratio(pressure) / film
+        if not self.thins:
+            return ratio
+        newtonian = ratio * (self.lubricant.viscosity * self.operating.sliding_speed)
+        return shear_stress(newtonian, pressure, self.lubricant.shear)
+
+    def mu_smooth(self) -> float:
+        """Coefficient of friction of the smooth contact [-]; NaN where it overflows."""
+        if not math.isfinite(self.smooth):
+            return math.nan
+        found = self.smooth * self.area / self.operating.load
+        newtonian = self.lubricant.viscosity * self.operating.sliding_speed
+        return found if self.thins else found * newtonian
+
+    def cavitated_bound(self, least: float) -> float:
+        """Bound of the share of friction where the pressure is zero, `least` the least ratio."""
+        if self.cavitated == 0:
+            return 0.0
+        stress = float(self.stress(np.array(0.0), np.array(self.thinnest)))
+        return self.cavitated * stress / (self.count * least * self.smooth)
+
+
+class Contact(ShearedContact):
+    """The pixels of the Hertz circle; `index` (n,) are their places in the flattened tile."""
 
     def __init__(
         self,
@@ -44,12 +78,10 @@ class Contact:
         film: float,
         options: Options,
     ) -> None:
-        self.lubricant, self.film, self.options = lubricant, film, options
-        self.load = operating.load
+        super().__init__(operating, lubricant)
+        self.film, self.options = film, options
         self.circle = math.pi * operating.hertz_radius**2
         self.hertz_pressure = operating.hertz_pressure
-        self.sliding = operating.sliding_speed
-        self.thins = lubricant.shear.law != "newtonian" and self.sliding > 0.0
         nx, ny = field.pressure.shape
         a = operating.hertz_radius
         i, stride_x = _lattice(a / pixel[0], nx)
@@ -59,25 +91,12 @@ class Contact:
         inside = square < 1.0
         self.radius_squared = square[inside]
         self.index = ((i % nx)[:, np.newaxis] * ny + j % ny)[inside]
+        self.points = self.index.size
         self.pressure, self.deformed = field.pressure, field.deformed
         # every height within |y| < a passes through the contact
         self.thinnest = film - float(field.deformed[:, np.unique(j % ny)].max())
         self.smooth_pressure = self.hertz_pressure * np.sqrt(1.0 - self.radius_squared)
-        self.smooth = float(self._stress(self.smooth_pressure, np.array(film)).sum())
-        self.cavitated = 0
-        self.imbalance = 0.0
-        self.count = 0
-
-    def _stress(self, pressure: Array, film: Array) -> Array:
-        """Shear stress at a pressure [Pa] in a film [m].
-
-        [Pa]; of a Newtonian oil divided by eta0 and the sliding speed.
-        """
-        ratio = self.lubricant.viscosity_ratio(pressure) / film
-        if not self.thins:
-            return ratio
-        newtonian = ratio * (self.lubricant.viscosity * self.sliding)
-        return shear_stress(newtonian, pressure, self.lubricant.shear)
+        self.smooth = float(self.stress(self.smooth_pressure, np.array(film)).sum())
 
     def friction(self, step: int) -> float:
         """Integral of the shear stress over that of the smooth contact, `step` pixels on."""
@@ -86,7 +105,7 @@ class Contact:
         delta = np.roll(self.pressure, step, axis=0).ravel().take(self.index)
         film = self.film - np.roll(self.deformed, step, axis=0).ravel().take(self.index)
         # times the area of the circle, not of its pixels
-        carried = float(delta.mean()) * self.circle / self.load
+        carried = float(delta.mean()) * self.circle / self.operating.load
         self.imbalance = max(self.imbalance, abs(carried))
         if self.options.load_balance:
             if carried >= 1.0:
@@ -103,14 +122,7 @@ class Contact:
             self.cavitated += lost
         self.count += 1
         with np.errstate(over="ignore"):
-            return float(self._stress(pressure, film).sum()) / self.smooth
-
-    def cavitated_bound(self, least: float) -> float:
-        """Bound of the share of friction at cavitated pixels, `least` the least F_r/F_s."""
-        if self.cavitated == 0:
-            return 0.0
-        stress = float(self._stress(np.array(0.0), np.array(self.thinnest)))
-        return self.cavitated * stress / (self.count * least * self.smooth)
+            return float(self.stress(pressure, film).sum()) / self.smooth
 
 
 def _lattice(radius: float, pixels: int) -> tuple[NDArray[np.int_], int]:

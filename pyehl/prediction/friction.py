@@ -4,14 +4,13 @@
 from __future__ import annotations
 
 import math
-import time
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pyehl.errors import InputError
-from pyehl.prediction.contact import Contact
+from pyehl.prediction.contact import Contact, ShearedContact
 from pyehl.prediction.flattening import Response, response
 from pyehl.prediction.options import Options
 from pyehl.prediction.passage import friction_along, working_grid
@@ -19,7 +18,7 @@ from pyehl.surfaces import Topography, interpolated, shifted, track_offsets
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["TRACKS", "RoughFriction", "broken", "over_tracks", "predict_friction"]
+__all__ = ["TRACKS", "RoughFriction", "broken", "over_tracks", "passed", "predict_friction"]
 
 Array = NDArray[np.float64]
 
@@ -54,7 +53,6 @@ class RoughFriction:
     # Greatest |integral of delta p|/w over the passage [-], before any load balance
     load_error: float
     response: Response  # delta p and deformed roughness on the grid of the given tile
-    seconds: float  # wall time of the prediction
 
 
 def predict_friction(
@@ -79,7 +77,6 @@ def predict_friction(
     much shorter than the contact is visited at a stride. A coarse map, or one whose pixels do not
     divide into positions, is first interpolated by its Fourier series.
     """
-    start = time.perf_counter()
     options = options or Options()
     if not (math.isfinite(film) and film > 0.0):
         raise InputError(f"film thickness must be positive [m], not {film!r}")
@@ -95,30 +92,44 @@ def predict_friction(
             film=film,
             options=options,
         )
-        steps, passage, error = friction_along(contact, grid.shape[0], options.positions)
+        passage = friction_along(contact, grid.shape[0], options.positions)
 
     status, message = "predicted", "full film throughout the passage"
-    mean = least = greatest = math.nan
     if contact.thinnest <= 0.0:
         status = "film breakdown"
         message = (
             f"deformed roughness reaches {film - contact.thinnest:.3g} m in a film of "
             f"{film:.3g} m: no full film, no ratio"
         )
-    elif not np.all(np.isfinite(passage)):
+    elif not np.all(np.isfinite(passage[1])):
         if options.load_balance and contact.imbalance >= 1.0:
             status, message = "load lost", "the roughness pressure exceeds the load"
         else:
             status, message = "overflow", "the viscosity at p_s + delta p is not a number"
-    else:
-        fine = interpolated(passage, 8)
-        mean = float(passage.mean())
-        least, greatest = float(fine.min()), float(fine.max())
-    smooth = math.nan
-    if math.isfinite(contact.smooth):
-        smooth = contact.smooth * contact.area / operating.load
-        if not contact.thins:
-            smooth *= lubricant.viscosity * contact.sliding
+    outcome = status, message
+    return passed(contact, outcome, passage, pixel=grid.pixel[0], film_unit=1.0, response=field)
+
+
+def passed(
+    contact: ShearedContact,
+    outcome: tuple[str, str],
+    passage: tuple[NDArray[np.int_], Array, float],
+    *,
+    pixel: float,
+    film_unit: float,
+    response: Response,
+) -> RoughFriction:
+    """Put together what a contact has met in a passage, with its status and message.
+
+    `passage` is what :func:`pyehl.prediction.passage.friction_along` gives; a pixel along the
+    motion and the unit of films are in m.
+    """
+    steps, ratios, error = passage
+    status, message = outcome
+    mean = least = greatest = math.nan
+    if status == "predicted":
+        fine = interpolated(ratios, 8)
+        mean, least, greatest = (float(v) for v in (ratios.mean(), fine.min(), fine.max()))
     return RoughFriction(
         status=status,
         message=message,
@@ -126,15 +137,14 @@ def predict_friction(
         mu_ratio_min=least,
         mu_ratio_max=greatest,
         position_error=error,
-        shift=np.asarray(steps * grid.pixel[0], dtype=np.float64),
-        passage=passage,
-        mu_smooth=smooth,
-        film_min=float(contact.thinnest),
-        cavitated_share=contact.cavitated / max(1, contact.count * contact.index.size),
+        shift=np.asarray(steps * pixel, dtype=np.float64),
+        passage=ratios,
+        mu_smooth=contact.mu_smooth(),
+        film_min=float(contact.thinnest) * film_unit,
+        cavitated_share=contact.cavitated / max(1, contact.count * contact.points),
         cavitated_friction=contact.cavitated_bound(least) if status == "predicted" else math.nan,
         load_error=contact.imbalance,
-        response=field,
-        seconds=time.perf_counter() - start,
+        response=response,
     )
 
 

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl import library
+from pyehl.prediction.contact import ShearedContact
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import OFF_CENTRE, STATIONS
@@ -23,7 +24,6 @@ from pyehl.prediction.waves import REFINEMENT, Waves
 from pyehl.theory.disc import LARGEST, disc_correction, monomials
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.shear import shear_stress
 
 __all__ = ["Edge", "RoughContact"]
 
@@ -74,15 +74,8 @@ class Edge:
         return np.asarray((self.coefficients @ phase).real)
 
 
-class RoughContact:
-    """Points of the contact, and the shear stress integrals over them.
-
-    One of the `points` within the contact stands for `area` [m^2]; `smooth` is the sum of the
-    shear stress of the smooth contact over them [Pa], of a Newtonian oil divided by eta0 and the
-    sliding speed. So far: `thinnest`, the least film of any position [a^2/R]; `cavitated` points
-    where the pressure is not positive at `count` positions; `imbalance`, the greatest share of the
-    load that delta P has carried or taken off [-].
-    """
+class RoughContact(ShearedContact):
+    """Points of a contact with waves: pressures in p_h, films in a^2/R."""
 
     def __init__(
         self,
@@ -97,9 +90,8 @@ class RoughContact:
         velocity_ratio: float,
         second: tuple[Array, Array] | None = None,
     ) -> None:
+        super().__init__(operating, lubricant)
         self.waves, self.edge, self.pixel = waves, edge, pixel
-        self.operating, self.lubricant = operating, lubricant
-        self.thins = lubricant.shear.law != "newtonian" and operating.sliding_speed > 0.0
         half = [int(REACH / (stride * p)) for p in pixel]
         self.rows, self.columns = (np.arange(-n, n + 1, dtype=np.int32) * stride for n in half)
         self.x = np.asarray(self.rows * pixel[0], dtype=float)
@@ -127,20 +119,13 @@ class RoughContact:
         # of the pressure of second order
         self.second = second and [np.interp(self.x, STATIONS, v)[:, np.newaxis] for v in second]
         self.area = stride**2 * pixel[0] * pixel[1] * operating.hertz_radius**2
-        self.smooth = float(self._stress(self.pressure, self.film)[self.inside].sum())
+        self.smooth = float(self.stress(self.pressure, self.film)[self.inside].sum())
         self.thinnest = float(self.film[self.inside].min())
-        self.cavitated = 0
-        self.count = 0
-        self.imbalance = 0.0
 
-    def _stress(self, pressure: Array, film: Array) -> Array:
+    def stress(self, pressure: Array, film: Array) -> Array:
         """Shear stress at P [p_h] in H [a^2/R]: [Pa], or of a Newtonian oil over eta0 and speed."""
-        p = pressure * self.operating.hertz_pressure
-        ratio = self.lubricant.viscosity_ratio(p) / (film * self.operating.film_scale)
-        if not self.thins:
-            return np.asarray(ratio)
-        newtonian = ratio * (self.lubricant.viscosity * self.operating.sliding_speed)
-        return np.asarray(shear_stress(newtonian, p, self.lubricant.shear))
+        o = self.operating
+        return super().stress(pressure * o.hertz_pressure, film * o.film_scale)
 
     def change(self, shift: int, track: int = 0) -> Array:
         """Loss of film [a^2/R] and gain of pressure [p_h] at the points, (m, n, 2).
@@ -179,13 +164,6 @@ class RoughContact:
             total[..., 1] += gain * (np.square(total[..., 1]) - variance)
         return np.asarray(total)
 
-    def cavitated_bound(self, least: float) -> float:
-        """Bound of the share of friction where P = 0, `least` the least ratio of all positions."""
-        if self.cavitated == 0:
-            return 0.0
-        stress = float(self._stress(np.array(0.0), np.array(self.thinnest)))
-        return self.cavitated * stress / (self.count * least * self.smooth)
-
     def friction(self, shift: int, track: int = 0) -> float:
         """Friction over that of the smooth contact; NaN where the film is not positive."""
         change = self.change(shift, track)
@@ -202,7 +180,7 @@ class RoughContact:
         film[~self.inside] = 1.0
         np.maximum(pressure, 0.0, out=pressure)
         with np.errstate(over="ignore"):
-            return float(self._stress(pressure, film).sum(where=self.inside)) / self.smooth
+            return float(self.stress(pressure, film).sum(where=self.inside)) / self.smooth
 
 
 def _pairs(values: NDArray[np.float32]) -> NDArray[np.complex64]:

@@ -2,6 +2,7 @@
 """Friction along a passage: shear stress over the contact, positions, load balance."""
 
 import math
+import timeit
 from dataclasses import replace
 
 import numpy as np
@@ -151,7 +152,6 @@ def test_fine_and_short_tiles_are_visited_at_a_stride(wave):
     assert a.mu_ratio == pytest.approx(expected, rel=1e-9)
     assert b.mu_ratio == pytest.approx(expected, rel=1e-9)
     assert a.mu_ratio_max - a.mu_ratio_min < 1e-4
-    assert a.seconds < 2.0
 
 
 def test_load_balance(table_1):
@@ -217,6 +217,6 @@ def test_stress_laws_are_newtonian_when_slow(table_1, law):
 
 def test_takes_milliseconds(table_1):
     rough = table_1()
-    best = min(predict_friction(rough, POINT, ROELANDS, FILM).seconds for _ in range(5))
+    best = min(timeit.repeat(lambda: predict_friction(rough, POINT, ROELANDS, FILM), number=1))
     # about 10 ms on one core of 2020; the bound leaves room for a busy machine
     assert best < 0.2
