@@ -12,7 +12,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-__all__ = ["LEVELS", "add_errors", "cheapest", "extrapolated"]
+__all__ = ["LEVELS", "add_errors", "cheapest", "extrapolated", "told"]
 
 Row = dict[str, Any]
 
@@ -93,3 +93,12 @@ def cheapest(rows: Sequence[Row]) -> list[Row]:
             best = min(good, key=lambda row: row["seconds"], default=None)
             found.append({"scene": scene, "quantity": quantity, "level": level, "best": best})
     return found
+
+
+def told(row: Row) -> str:
+    """Give a row of `cheapest` in a line."""
+    best, how = row["best"], "none of these"
+    if best is not None:
+        how = f"{best['setting']}, {best['points']} x {best['points']}, threads {best['threads']}: "
+        how += f"{best['seconds']:.3g} s, error {best['error']:.1e}"
+    return f"{row['scene']}, {row['quantity']} to {row['level']:.1%}: {how}"

@@ -42,8 +42,9 @@ def prediction_scene(points: int, repeats: int) -> list[Row]:
     ]
 
 
-def sweep_scene(points: int, repeats: int, cases: int = 20) -> list[Row]:
+def sweep_scene(points: int, repeats: int) -> list[Row]:
     """Sweep of predictions over surfaces."""
+    cases = 20
     seeds = [f"surface.seed={k + 1}" for k in range(cases)]
 
     def together() -> Values:

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-__all__ = ["table"]
+__all__ = ["Columns", "table"]
 
 Columns = Sequence[tuple[str, str]]
 

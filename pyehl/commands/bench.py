@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``pyehl bench``: time and error side by side, in one run on one machine.
-
-Every time stands beside its error. The unit of time is that of `pyehl.bench.unit`.
-"""
+"""``pyehl bench``: times beside their errors; the unit of time is that of `pyehl.bench.unit`."""
 
 from __future__ import annotations
 
@@ -25,7 +22,7 @@ from pyehl.bench import (
     sweep,
     workprec,
 )
-from pyehl.bench.text import table
+from pyehl.bench.text import Columns, table
 from pyehl.bench.unit import machine
 from pyehl.commands.arguments import add_force
 from pyehl.destination import Destination, check_files, mark, new_file
@@ -48,34 +45,35 @@ def _numbers(text: str) -> list[int]:
         raise argparse.ArgumentTypeError(f"'{text}' is not like 129,257") from error
 
 
-def _add_points(parser: argparse.ArgumentParser, default: Sequence[int], told: str = "") -> None:
+def _add_list(
+    parser: argparse.ArgumentParser, name: str, default: Sequence[Any], what: str, told: str = ""
+) -> None:
+    """Numbers or names with commas between."""
+    numbers = not any(isinstance(word, str) for word in default)
     parser.add_argument(
-        "--points",
-        type=_numbers,
+        f"--{name}",
+        type=_numbers if numbers else lambda text: text.split(","),
         default=list(default),
-        metavar="N,N,...",
-        help=f"nodes per side (default: {told or ','.join(map(str, default))})",
+        metavar="N,N,..." if numbers else "NAME,NAME,...",
+        help=f"{what} (default: {told or ','.join(map(str, default))})",
     )
+
+
+def _add_points(parser: argparse.ArgumentParser, default: Sequence[int], told: str = "") -> None:
+    _add_list(parser, "points", default, "nodes per side", told)
 
 
 def _add_threads(parser: argparse.ArgumentParser, what: str = "threads") -> None:
-    parser.add_argument(
-        "--threads",
-        type=_numbers,
-        default=[1, 2],
-        metavar="N,N,...",
-        help=f"numbers of {what} (default: 1,2)",
-    )
+    _add_list(parser, "threads", (1, 2), f"numbers of {what}")
 
 
 def _add_scenes(parser: argparse.ArgumentParser, names: Sequence[str]) -> None:
-    parser.add_argument(
-        "--scenes",
-        type=lambda text: text.split(","),
-        default=list(names),
-        metavar="NAME,NAME,...",
-        help=f"of {', '.join(names)} (default: all)",
-    )
+    _add_list(parser, "scenes", names, f"of {', '.join(names)}", "all")
+
+
+def _add_number(parser: argparse.ArgumentParser, name: str, default: float, what: str = "") -> None:
+    told = f"{what} (default: {default:g})" if what else f"default: {default:g}"
+    parser.add_argument(f"--{name}", type=type(default), default=default, help=told)
 
 
 def _add_deflection(parser: argparse.ArgumentParser) -> None:
@@ -86,34 +84,20 @@ def _add_deflection(parser: argparse.ArgumentParser) -> None:
 def _add_smooth(parser: argparse.ArgumentParser) -> None:
     _add_points(parser, GRIDS)
     _add_threads(parser)
-    parser.add_argument("--engines", default="mlmi,fft", help="default: mlmi,fft")
-    parser.add_argument("--moes-m", type=float, default=1000.0, help="default: 1000")
-    parser.add_argument("--moes-l", type=float, default=10.0, help="default: 10")
+    _add_list(parser, "engines", ("mlmi", "fft"), "of the deflection")
+    _add_number(parser, "moes-m", 1000.0)
+    _add_number(parser, "moes-l", 10.0)
 
 
 def _add_step(parser: argparse.ArgumentParser) -> None:
     _add_points(parser, STEP_GRIDS)
     _add_threads(parser)
     names = list(dict.fromkeys(scene.name for scene in step.CASES))
-    parser.add_argument(
-        "--cases",
-        type=lambda text: text.split(","),
-        default=names,
-        metavar="NAME,NAME",
-        help="wave: of Fig. 2, fractal: of Table 1 (default: both)",
-    )
+    _add_list(parser, "cases", names, "wave: of Fig. 2, fractal: of Table 1", "both")
     parser.add_argument("--scheme", choices=("narrow", "paper"), default="narrow")
-    parser.add_argument(
-        "--steps", type=int, default=step.STEPS, help="timed steps (default: %(default)s)"
-    )
-    parser.add_argument(
-        "--front",
-        type=float,
-        default=step.FILLED,
-        metavar="X",
-        help="X of the front of the roughness when the timed steps begin (default: %(default)s, "
-        "where the contact is full; that takes many steps on fine grids)",
-    )
+    _add_number(parser, "steps", step.STEPS, "timed steps")
+    front = "X of the front of the roughness when the timed steps begin; that takes many steps on "
+    _add_number(parser, "front", step.FILLED, f"{front}fine grids where the contact is to be full")
     parser.add_argument(
         "--error",
         action="store_true",
@@ -133,45 +117,42 @@ def _add_skips(parser: argparse.ArgumentParser) -> None:
 
 def _add_stress(parser: argparse.ArgumentParser) -> None:
     _add_points(parser, stress_cases.GRIDS)
-    parser.add_argument("--cases", type=int, default=500, help="how many (default: 500)")
-    parser.add_argument("--seed", type=int, default=1, help="default: 1")
-    parser.add_argument("--jobs", type=int, default=2, help="worker processes (default: 2)")
+    _add_number(parser, "cases", 500, "how many")
+    _add_number(parser, "seed", 1)
+    _add_number(parser, "jobs", 2, "worker processes")
 
 
 def _add_faults(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--seed", type=int, default=1, help="default: 1")
-    parser.add_argument("--kills", type=int, default=200, help="default: 200")
-    parser.add_argument("--inputs", type=int, default=2000, help="mutated ones (default: 2000)")
+    _add_number(parser, "seed", 1)
+    _add_number(parser, "kills", 200)
+    _add_number(parser, "inputs", 2000, "mutated ones")
 
 
 def _add_workprec(parser: argparse.ArgumentParser) -> None:
     _add_points(parser, (), "those of each scene")
     _add_threads(parser)
     _add_scenes(parser, [scene.name for scene in workprec.SCENES])
-    parser.add_argument(
-        "--full", action="store_true", help="the finest grids too, for the reference"
-    )
+    parser.add_argument("--full", action="store_true", help="the finest grids too, for reference")
+
+
+def _print(rows: Rows, columns: Columns, *notes: str) -> Rows:
+    print("\n".join([table(rows, columns), *notes]))
+    return rows
 
 
 def _deflection(args: argparse.Namespace, answer: Answer) -> Rows:
     rows = deflection.deflection_rows(args.points, args.threads)
-    print(table(rows, deflection.COLUMNS))
-    print(deflection.MEANING)
-    return rows
+    return _print(rows, deflection.COLUMNS, deflection.MEANING)
 
 
 def _smooth(args: argparse.Namespace, answer: Answer) -> Rows:
-    rows = smooth.smooth_rows(
-        args.points, args.threads, args.engines.split(","), args.moes_m, args.moes_l
-    )
+    rows = smooth.smooth_rows(args.points, args.threads, args.engines, args.moes_m, args.moes_l)
     answer["exponents"] = smooth.exponents(rows)
     answer["moes_m"], answer["moes_l"] = args.moes_m, args.moes_l
     print(f"smooth contact, M = {args.moes_m}, L = {args.moes_l}")
-    print(table(rows, smooth.COLUMNS))
-    for name, slope in answer["exponents"].items():
-        print(f"time grows with the number of nodes to the power {slope:.2f} ({name})")
-    print(smooth.MEANING)
-    return rows
+    grows = "time grows with the number of nodes to the power"
+    slopes = [f"{grows} {slope:.2f} ({name})" for name, slope in answer["exponents"].items()]
+    return _print(rows, smooth.COLUMNS, *slopes, smooth.MEANING)
 
 
 def _step(args: argparse.Namespace, answer: Answer) -> Rows:
@@ -194,11 +175,8 @@ def _step(args: argparse.Namespace, answer: Answer) -> Rows:
         errors = {(row["points"], row["case"]): row["error"] for row in whole}
         for row in rows:
             row["error"] = errors.get((row["points"], row["case"]))
-        print(table(whole, step.RUN_COLUMNS))
-        print()
-    print(table(rows, step.COLUMNS))
-    print(step.meaning(args.scheme, args.front, args.steps))
-    return rows
+        _print(whole, step.RUN_COLUMNS, "")
+    return _print(rows, step.COLUMNS, step.meaning(args.scheme, args.front, args.steps))
 
 
 def _sweep(args: argparse.Namespace, answer: Answer) -> Rows:
@@ -206,16 +184,12 @@ def _sweep(args: argparse.Namespace, answer: Answer) -> Rows:
     if not set(args.scenes) <= set(known):
         raise InputError(f"pyehl bench sweep: scenes must be of {', '.join(known)}")
     rows = sweep.sweep_rows([s for s in sweep.SCENES if s.name in args.scenes], args.threads)
-    print(table(rows, sweep.COLUMNS))
-    print(sweep.MEANING)
-    return rows
+    return _print(rows, sweep.COLUMNS, sweep.MEANING)
 
 
 def _skips(args: argparse.Namespace, answer: Answer) -> Rows:
     rows = skips.skip_rows(args.scenes, max(args.points))
-    print(table(rows, skips.COLUMNS))
-    print(skips.MEANING)
-    return rows
+    return _print(rows, skips.COLUMNS, skips.MEANING)
 
 
 def _stress(args: argparse.Namespace, answer: Answer) -> Rows:
@@ -229,8 +203,7 @@ def _stress(args: argparse.Namespace, answer: Answer) -> Rows:
     answer |= {"cases": args.cases, "seed": args.seed, "points": args.points}
     stress.write(rows, args.output, answer)
     figures.stress(rows, args.output / "stress.png")
-    print(table(stress.summary(rows), stress.COLUMNS))
-    print(stress.MEANING)
+    _print(stress.summary(rows), stress.COLUMNS, stress.MEANING)
     return rows
 
 
@@ -242,7 +215,7 @@ def _faults(args: argparse.Namespace, answer: Answer) -> Rows:
     rows = faults.campaign(
         args.output.resolve(), seed=args.seed, kills=args.kills, inputs=args.inputs, tell=_tell
     )
-    print(table(rows, faults.COLUMNS))
+    _print(rows, faults.COLUMNS)
     text = json.dumps({**answer, "seed": args.seed, "rows": rows}, indent=1) + "\n"
     with new_file(args.output / "faults.json") as path:
         path.write_text(text, encoding="utf-8")
@@ -256,15 +229,10 @@ def _workprec(args: argparse.Namespace, answer: Answer) -> Rows:
     rows = workprec.work_rows(
         args.scenes, grids=args.points, threads=args.threads, full=args.full, tell=_tell
     )
-    print(table(rows, workprec.COLUMNS))
+    _print(rows, workprec.COLUMNS)
     answer["cheapest"] = precision.cheapest(rows)
     for row in answer["cheapest"]:
-        found = row["best"]
-        how = "none of these"
-        if found is not None:
-            how = f"{found['setting']}, {found['points']} x {found['points']}, threads "
-            how += f"{found['threads']}: {found['seconds']:.3g} s, error {found['error']:.1e}"
-        print(f"{row['scene']}, {row['quantity']} to {row['level']:.1%}: {how}")
+        print(precision.told(row))
     if "wave" in args.scenes:
         share = answer["share_of_deflection"] = workprec.share_of_deflection()
         print(

@@ -4,49 +4,29 @@
 from __future__ import annotations
 
 import argparse
-import sys
 import time
+from collections.abc import Callable, Sequence
 from pathlib import Path
-
-from tqdm import tqdm
 
 from pyehl.case import Case
 from pyehl.commands.arguments import add_case_arguments, add_force
+from pyehl.commands.watching import Bar
 from pyehl.studies.response_folder import response
 from pyehl.studies.tiers import TIERS, Tier
 
 __all__ = ["add_arguments", "execute"]
 
-# Seconds between progress lines where the output is not a terminal
-PROGRESS_INTERVAL = 10.0
 
+def _watch(bar: Bar, tiers: Sequence[Tier]) -> Callable[[str, int, int], None]:
+    """Give what takes the steps of tiers; a step costs what its nodes do."""
+    done: dict[str, float] = {}
+    cost = {tier.name: tier.points**2 for tier in tiers}
 
-class Bar:
-    """One bar for all tiers, each step weighted by its nodes; lines where there is no terminal."""
+    def update(name: str, step: int, total: int) -> None:
+        done[name] = float(cost[name] * step)
+        bar.show(sum(done.values()), f"{name}: step {step} of {total}")
 
-    def __init__(self, tiers: tuple[Tier, ...], velocity_ratio: float) -> None:
-        self._cost = {tier.name: tier.points**2 / 1e6 for tier in tiers}
-        counts = {tier.name: tier.steps(velocity_ratio) for tier in tiers}
-        total = sum(self._cost[name] * count for name, count in counts.items())
-        self._terminal = sys.stderr.isatty()
-        form = "{desc} {percentage:3.0f}% |{bar}| {elapsed}<{remaining}"
-        self._bar = tqdm(total=total, bar_format=form, disable=not self._terminal)
-        self._done: dict[str, float] = {}
-        self._last = time.monotonic()
-
-    def update(self, name: str, done: int, total: int) -> None:
-        """Take the steps of a tier into account."""
-        self._done[name] = self._cost[name] * done
-        self._bar.set_description_str(f"{name} {done}/{total}", refresh=False)
-        self._bar.update(sum(self._done.values()) - self._bar.n)
-        now = time.monotonic()
-        if not self._terminal and now - self._last > PROGRESS_INTERVAL:
-            self._last = now
-            print(f"{name}: step {done} of {total}", flush=True)
-
-    def close(self) -> None:
-        """Leave the line."""
-        self._bar.close()
+    return update
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -79,7 +59,7 @@ def execute(args: argparse.Namespace) -> int:
     tiers = TIERS[:-1] if args.quick else TIERS
     ratio = float(case.resolve()["surface"]["velocity_ratio"])
     began = time.perf_counter()
-    bar = Bar(tiers, max(ratio, 1e-3))
+    bar = Bar(sum(tier.points**2 * tier.steps(max(ratio, 1e-3)) for tier in tiers))
     try:
         summary = response(
             args.case,
@@ -88,7 +68,7 @@ def execute(args: argparse.Namespace) -> int:
             force=args.force,
             jobs=args.jobs,
             quick=args.quick,
-            progress=bar.update,
+            progress=_watch(bar, tiers),
         ).attrs
     finally:
         bar.close()

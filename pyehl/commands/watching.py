@@ -20,6 +20,7 @@ from pyehl.studies.pool import processors
 from pyehl.studies.tasks import FAILED, Task
 
 __all__ = [
+    "Bar",
     "Terminal",
     "add_worker_arguments",
     "jobs_of",
@@ -31,15 +32,38 @@ MOST_MESSAGES = 100
 LINE_INTERVAL = 5.0
 
 
+class Bar:
+    """A bar that counts estimated costs; lines now and then where there is no terminal."""
+
+    def __init__(self, total: float) -> None:
+        self._total, self._last = total, time.monotonic()
+        self._start = self._last
+        form = "{percentage:3.0f}%|{bar}|{desc} [{elapsed}, left {remaining}]"
+        self._bar = tqdm(total=total or None, bar_format=form, disable=not sys.stderr.isatty())
+
+    def show(self, done: float, text: str) -> None:
+        """Show how much is done, and a text about it."""
+        self._bar.set_description_str(f" {text}", refresh=False)
+        self._bar.update(done - self._bar.n)
+        now = time.monotonic()
+        if self._bar.disable and now - self._last > LINE_INTERVAL and 0.0 < done < self._total:
+            self._last = now
+            left = (now - self._start) * (self._total / done - 1.0)
+            print(f"{text}, about {duration(left)} left", flush=True)
+
+    def close(self) -> None:
+        """End the bar."""
+        self._bar.close()
+
+
 class Terminal(Watcher):
-    """Prints the plan, then a bar that counts estimated seconds, or a line now and then."""
+    """Prints the plan, then shows a bar of estimated seconds."""
 
     def __init__(self, told: Callable[[Sequence[int]], str], *, quiet: bool = False) -> None:
         self._plan, self._quiet = told, quiet
         self._seconds: dict[int, float] = {}
         self._count = self._failed = self._size = 0
-        self._bar: tqdm | None = None
-        self._last = self._start = time.monotonic()
+        self._bar: Bar | None = None
         self._done = 0.0
 
     def began(self, tasks: Sequence[Task], done: Sequence[int], damaged: int) -> None:
@@ -53,28 +77,15 @@ class Terminal(Watcher):
         if damaged:
             print(f"note       {damaged} damaged rows of the journal run again", file=sys.stderr)
         print(self._plan(done), flush=True)
-        self._start = self._last = time.monotonic()
-        self._bar = tqdm(
-            total=sum(self._seconds.values()) or None,
-            bar_format="{percentage:3.0f}%|{bar}|{desc} [{elapsed}, left {remaining}]",
-            disable=not sys.stderr.isatty(),
-        )
+        self._bar = Bar(sum(self._seconds.values()))
 
     def finished(self, rows: Sequence[tuple[int, dict[str, Any]]]) -> None:
         """Show how far it is."""
         self._count += len(rows)
         self._failed += sum(row.get("status") == FAILED for _, row in rows)
-        seconds = sum(self._seconds[number] for number, _ in rows)
-        self._done += seconds
-        if self._bar is None:
-            return
-        if not self._bar.disable:
-            self._bar.set_description_str(f" {self._told()}", refresh=False)
-            self._bar.update(seconds)
-        elif time.monotonic() - self._last > LINE_INTERVAL and self._count < self._size:
-            self._last = time.monotonic()
-            left = (self._last - self._start) * (sum(self._seconds.values()) / self._done - 1.0)
-            print(f"{self._told()}, about {duration(max(left, 0.0))} left", flush=True)
+        self._done += sum(self._seconds[number] for number, _ in rows)
+        if self._bar is not None:
+            self._bar.show(self._done, self._told())
 
     def _told(self) -> str:
         failed = f", {self._failed} failed" if self._failed else ""

@@ -18,12 +18,10 @@ from pyehl.plots.style import film_unit, nearest, new_figure
 __all__ = ["movie"]
 
 SUFFIXES = ("gif", "mp4")
-FRAMES_PER_SECOND = 12
+FRAMES_PER_SECOND, DPI = 12, 100
 
 
-def movie(
-    data: xr.Dataset, target: Path, suffix: str = "gif", units: str = "auto", dpi: int = 100
-) -> Path:
+def movie(data: xr.Dataset, target: Path, suffix: str = "gif", units: str = "auto") -> Path:
     """Write the frames of a transient run as ``movie.gif`` or ``movie.mp4`` into a folder.
 
     `data` is of a run with ``output.frame_interval`` above 0. InputError if there are no frames,
@@ -65,7 +63,7 @@ def movie(
     else:
         writer = animation.PillowWriter(fps=FRAMES_PER_SECOND)
     with new_file(path) as partial:
-        moving.save(partial, writer=writer, dpi=dpi)
+        moving.save(partial, writer=writer, dpi=DPI)
         if suffix == "gif":
             # what follows the end of a GIF is passed over
             with partial.open("ab") as stream:

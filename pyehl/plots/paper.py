@@ -106,11 +106,11 @@ class Collapse:
     curves: Sequence[tuple[str, str, Array, Array]]
 
 
-def collapses(panels: Sequence[Collapse], columns: int = 2) -> Figure:
+def collapses(panels: Sequence[Collapse]) -> Figure:
     """Draw mu_r/mu_s over parameters that may bring all waves on one curve (Fig. 4)."""
-    rows = -(-len(panels) // columns)
-    figure = new_figure(5.0 * columns, 4.0 * rows)
-    axes = np.atleast_1d(figure.subplots(rows, columns, sharey=True)).ravel()
+    rows = -(-len(panels) // 2)
+    figure = new_figure(10.0, 4.0 * rows)
+    axes = np.atleast_1d(figure.subplots(rows, 2, sharey=True)).ravel()
     for mark, ax, panel in zip("abcdef", axes, panels, strict=False):
         _points(ax, panel.series, lines=False)
         for label, style, place, friction in panel.curves:

@@ -63,12 +63,11 @@ def draw_stribeck(
     absolute: bool,
     surface: str,
     measured: Points | None = None,
-    eq_16: bool = True,
 ) -> Figure:
     """Draw friction over all abscissae, a coefficient where `absolute`, else a ratio mu_r/mu_s.
 
-    `surface` says what the surface is in a few words; measured friction is laid over; `eq_16`:
-    with the curve of Zhang et al. 2019 over theta_2.
+    `surface` says what the surface is in a few words; measured friction is laid over, and over
+    theta_2 the curve of Zhang et al. 2019.
     """
     # smooth surfaces have neither Lambda nor theta_2
     shown = {
@@ -94,7 +93,7 @@ def draw_stribeck(
                 lw=0.8,
                 label="measured",
             )
-        if name == "theta_2" and eq_16 and not absolute:
+        if name == "theta_2" and not absolute:
             _draw_eq_16(ax)
         ax.set_xscale("log")
         label_log_ticks(ax)

@@ -24,6 +24,8 @@ Array = NDArray[np.float64]
 
 # A wave at the end of an octave begins the next one, whatever its last digits
 ROUNDING = 1e-9
+# Share of the largest mean square that counts for none
+NOTHING = 1e-20
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,19 +44,19 @@ class Band:
 
 
 def octaves(
-    q: Array, power: Array, *, share: float = 1e-20, only: int = 0
+    q: Array, power: Array, *, only: int = 0
 ) -> Iterator[tuple[float, NDArray[np.bool_], bool]]:
     """Octaves of wavelengths that hold roughness, longest first; `only` the last so many, 0: all.
 
     `q` is |q| of the components, of any shape and unit, `power` what each adds to the mean square
-    height; at most `share` of the largest counts for none (a harmonic pattern has rounding errors
+    height; at most `NOTHING` of the largest counts for none (a harmonic pattern has rounding errors
     in all octaves but its own). Yields the longest wavelength 2 pi/|q| of the octave, which
     components are in it, and whether it is the last one.
     """
     lowest = float(q[q > 0.0].min())
     octave = np.full(q.shape, -1)
     octave[q > 0.0] = np.floor(np.log2(q[q > 0.0] / lowest) + ROUNDING).astype(int)
-    present = power > share * power.max()
+    present = power > NOTHING * power.max()
     filled = [k for k in range(int(octave.max()) + 1) if (present & (octave == k)).any()]
     for k in filled[-only:]:
         yield 2.0 * math.pi / (lowest * 2.0**k), octave == k, k == filled[-1]

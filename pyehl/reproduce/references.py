@@ -7,13 +7,11 @@ Read by the driver alone, and handed to the pieces when their cases have run.
 from __future__ import annotations
 
 import csv
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import resources
-from pathlib import Path
 
-from pyehl.errors import InputError
+from pyehl.errors import InternalError
 
 __all__ = ["Reference", "References", "read_references"]
 
@@ -41,13 +39,10 @@ class Reference:
 References = Mapping[str, Reference]
 
 
-def read_references(path: str | os.PathLike[str] | None = None) -> dict[str, Reference]:
-    """Read the numbers of the paper, or of another file.
-
-    InputError if it is not such a table.
-    """
+def read_references() -> dict[str, Reference]:
+    """Read the numbers of the paper."""
     file = resources.files("pyehl").joinpath("reproduce", "data", FILE)
-    text = (file if path is None else Path(path)).read_text(encoding="utf-8")
+    text = file.read_text(encoding="utf-8")
     found = {}
     for row in csv.DictReader(x for x in text.splitlines() if not x.startswith("#")):
         try:
@@ -64,5 +59,5 @@ def read_references(path: str | os.PathLike[str] | None = None) -> dict[str, Ref
                 row["why"],
             )
         except (KeyError, TypeError, ValueError) as error:
-            raise InputError(f"{path or FILE}: a row is not complete: {row} ({error})") from error
+            raise InternalError(f"{FILE}: a row is not complete: {row} ({error})") from error
     return found
