@@ -139,31 +139,13 @@ def deflection(
     threads: int = 1,
     repeats: int = 1,
 ) -> Deflection:
-    """Elastic deflection W = (2/pi^2) iint P dX' dY'/r, P constant over cells.
+    """Elastic deflection W = (2/pi^2) iint P dX' dY'/r, P (nx, ny) constant over cells.
 
-    The integral of Zhang et al. 2019, eq. 2, in Hertz units: P by p_h, lengths by a, W by a^2/R.
-
-    Parameters
-    ----------
-    pressure
-        P, shape (nx, ny).
-    hx, hy
-        Mesh sizes [a].
-    engine
-        'mlmi', 'fft' or 'direct'.
-    mirror
-        The rows are those with Y >= 0 of a pressure that is symmetric in Y.
-    accuracy
-        Largest error of 'mlmi' relative to the largest deflection.
-    threads
-        OpenMP threads.
-    repeats
-        Applications, for timing.
-
-    Raises
-    ------
-    InputError
-        If the engine does not exist or cannot serve the grid.
+    The integral of Zhang et al. 2019, eq. 2, in Hertz units: P by p_h, lengths by a, W by a^2/R,
+    so the mesh sizes. The engine is 'mlmi', 'fft' or 'direct'; `mirror`: the rows are those with Y
+    >= 0 of a pressure that is symmetric in Y; `accuracy` is the largest error of 'mlmi' relative
+    to the largest deflection; `repeats` applications, for timing. InputError if the engine does
+    not exist or cannot serve the grid.
     """
     p = np.asfortranarray(pressure, dtype=np.float64)
     w = np.empty(p.shape, order="F")

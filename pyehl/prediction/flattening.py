@@ -44,20 +44,9 @@ class Response:
 def stiffness(qx: Array, qy: Array, reduced_modulus: float, kind: str = "exact") -> Array:
     """Pressure per height of flattening of a Fourier component [Pa/m], zero at q = 0.
 
-    Parameters
-    ----------
-    qx, qy
-        Wavenumbers [rad/m], broadcast together.
-    reduced_modulus
-        E' [Pa].
-    kind
-        ``"exact"``: E'|q|/4, the elastic half-space (Johnson 1985, Contact Mechanics, section
-        13.2); ``"paper"``: eq. 11 with wavelength 2 pi/|q|, sqrt 2 times as stiff.
-
-    Raises
-    ------
-    InputError
-        If the kind is unknown.
+    Wavenumbers [rad/m], broadcast together; E' [Pa]. ``"exact"``: E'|q|/4, the elastic half-space
+    (Johnson 1985, Contact Mechanics, section 13.2); ``"paper"``: eq. 11 with wavelength 2 pi/|q|,
+    sqrt 2 times as stiff. InputError if the kind is unknown.
     """
     q = np.hypot(qx, qy)
     if kind == "exact":

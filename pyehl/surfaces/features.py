@@ -40,31 +40,13 @@ def feature(
     *,
     end: float = 0.0,
 ) -> Topography:
-    """Make a window with a single feature in its middle.
+    """Make a window, as large as the feature, with a single feature in its middle.
 
-    Parameters
-    ----------
-    kind
-        One of :data:`FEATURES`; peaks are positive.
-    height
-        Height, or depth [m].
-    width, length
-        Size across and along it [m]. Length 0: that of a dent or bump is its width, a ridge or
-        groove has no ends.
-    angle
-        Counter-clockwise [degrees]; at 0 width is along x.
-    end
-        Half of the window along a ridge or groove without ends [m]; 0: twice the width.
-
-    Returns
-    -------
-    Topography
-        No tile of a rough surface: a window as large as the feature.
-
-    Raises
-    ------
-    InputError
-        For an unknown kind or a size that is not positive.
+    `kind` is one of :data:`FEATURES`, peaks positive, with height or depth [m] and the size across
+    and along it [m]; length 0: that of a dent or bump is its width, a ridge or groove has no ends.
+    Counter-clockwise angle [degrees], at 0 width is along x. `end` is half of the window along a
+    ridge or groove without ends [m]; 0: twice the width. InputError for an unknown kind or a size
+    that is not positive.
     """
     if kind not in FEATURES:
         raise InputError(f"kind {kind!r}: expected one of {FEATURES}")

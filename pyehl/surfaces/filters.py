@@ -21,32 +21,15 @@ def filtered(
     longest_wavelength: float = 0.0,
     kind: str = "sharp",
 ) -> Topography:
-    r"""Cut the spectrum of a periodic tile at a shortest and a longest wavelength.
+    r"""Cut the spectrum of a periodic tile at a shortest and a longest wavelength [m]; 0: none.
 
-    The wavelength of a component is 2 pi/\|q\|.
-
-    Parameters
-    ----------
-    topography
-        The tile; its mean height goes with `longest_wavelength`.
-    shortest_wavelength, longest_wavelength
-        Cut-offs [m]; 0: none. As ISO 25178 has them, the S-filter and the L-filter.
-    kind
-        ``"sharp"``: components between the cut-offs pass, those at them too, others do not;
-        ``"gaussian"``: the areal Gaussian filters of ISO 16610-61, of which half of the amplitude
-        passes at the cut-off: exp(-pi (alpha l_c/l)^2) for a shortest wavelength l_c, one less that
-        for a longest, alpha = sqrt(ln 2/pi).
-
-    Returns
-    -------
-    Topography
-        The tile without these waves.
-
-    Raises
-    ------
-    InputError
-        For a negative or infinite wavelength, a longest that is not above the shortest, or another
-        kind.
+    As ISO 25178 has them, the S-filter and the L-filter; the wavelength of a component is 2
+    pi/\|q\|, the mean height goes with `longest_wavelength`. ``"sharp"``: components between the
+    cut-offs pass, those at them too, others do not; ``"gaussian"``: the areal Gaussian filters of
+    ISO 16610-61, of which half of the amplitude passes at the cut-off: exp(-pi (alpha l_c/l)^2)
+    for a shortest wavelength l_c, one less that for a longest, alpha = sqrt(ln 2/pi). InputError
+    for a negative or infinite wavelength, a longest that is not above the shortest, or another
+    kind.
     """
     for name, value in (("shortest", shortest_wavelength), ("longest", longest_wavelength)):
         if not (math.isfinite(value) and value >= 0.0):

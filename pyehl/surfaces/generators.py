@@ -34,35 +34,13 @@ def fractal(
     """Self-affine surface with random phases.
 
     C2D is proportional to max(|q|, q_r)^(-2 - 2 hurst) up to the Nyquist wavenumbers of the tile,
-    zero at q = 0. The rms height is exact for each surface, the mean is zero, the tile is periodic.
-
-    Parameters
-    ----------
-    pixels
-        Per side, or (nx, ny).
-    length_x, length_y
-        Size of the tile [m].
-    rms_height
-        [m], positive.
-    hurst
-        Hurst exponent, 0 < hurst <= 1.
-    rolloff_wavenumber
-        q_r [rad/m] below which the spectrum is flat; 0: no roll-off.
-    seed
-        Not negative, of any size. The phases come from the raw words of PCG64, as NumPy seeds it.
-    modulus
-        ``"deterministic"``: each component lies exactly on the power law, only phases are random
-        (the usual generator); ``"gaussian"``: amplitudes of a Gaussian random field.
-
-    Returns
-    -------
-    Topography
-        Two surfaces of one seed and different pixels are not the same surface.
-
-    Raises
-    ------
-    InputError
-        For an argument out of range.
+    zero at q = 0; q_r = `rolloff_wavenumber` [rad/m], 0: no roll-off. The rms height [m] is exact
+    for each surface, the mean is zero, the tile is periodic. `pixels` per side, or (nx, ny); size
+    of the tile in m; 0 < hurst <= 1. Two surfaces of one seed and different pixels are not the
+    same surface; the seed is not negative, of any size, and the phases come from the raw words of
+    PCG64, as NumPy seeds it. Modulus ``"deterministic"``: each component lies exactly on the power
+    law, only phases are random (the usual generator); ``"gaussian"``: amplitudes of a Gaussian
+    random field. InputError for an argument out of range.
     """
     nx, ny = (pixels, pixels) if isinstance(pixels, int) else pixels
     if nx < 4 or ny < 4 or nx * ny > MAX_PIXELS:
@@ -107,14 +85,7 @@ def harmonic(
 ) -> Topography:
     """One tile of z = A cos(2 pi x/wavelength_x) cos(2 pi y/wavelength_y), eq. 15 behind the front.
 
-    Parameters
-    ----------
-    amplitude
-        A [m].
-    wavelength_x, wavelength_y
-        [m]; the size of the tile.
-    pixels
-        (nx, ny).
+    Amplitude A and wavelengths, which are the size of the tile, in m; `pixels` (nx, ny).
     """
     nx, ny = pixels
     x = np.cos(2.0 * np.pi * np.arange(nx) / nx)

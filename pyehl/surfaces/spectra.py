@@ -29,14 +29,10 @@ def wavenumbers(topography: Topography) -> tuple[Array, Array]:
 
 
 def psd_2d(topography: Topography) -> tuple[Array, Array, Array]:
-    """Power spectral density of a tile.
+    """Power spectral density of a tile: qx (nx,), qy (ny,) [rad/m] and C2D (nx, ny) [m^4].
 
-    Returns
-    -------
-    qx, qy
-        (nx,) and (ny,) [rad/m], ascending, zero at index nx//2 and ny//2.
-    c2d
-        (nx, ny) [m^4]; sum(c2d)/(Lx Ly) is the mean square height about the mean.
+    Wavenumbers ascend, zero at index nx//2 and ny//2; sum(C2D)/(Lx Ly) is the mean square height
+    about the mean.
     """
     nx, ny = topography.shape
     dx, dy = topography.pixel

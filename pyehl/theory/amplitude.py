@@ -59,19 +59,8 @@ def wavelength_parameter(
 ) -> Array:
     """Wavelength parameter x = f(r) (wavelength/a) sqrt(M/L) [-], nabla_2 in the literature.
 
-    Parameters
-    ----------
-    wavelength
-        The shorter of the two wavelengths over the Hertz radius a.
-    moes_m, moes_l
-        Moes numbers of the point contact.
-    ratio
-        r = wavelength_x/wavelength_y.
-
-    Raises
-    ------
-    InputError
-        If M or L is not positive: the theory is one of piezoviscous contacts.
+    `wavelength` is the shorter of the two over the Hertz radius a, `ratio` r = wavelength_x over
+    wavelength_y. InputError if M or L is not positive: the theory is one of piezoviscous contacts.
     """
     if not (moes_m > 0.0 and moes_l > 0.0):
         raise InputError(
@@ -92,12 +81,8 @@ def component_wavelength(
 ) -> tuple[Array, Array]:
     """Wavelength [m] and ratio r [-] of the Fourier components with wavenumbers qx, qy [rad/m].
 
-    The arguments are broadcast together; q = 0 has an infinite wavelength.
-
-    Raises
-    ------
-    InputError
-        If the convention is unknown.
+    The arguments are broadcast together; q = 0 has an infinite wavelength. InputError if the
+    convention is unknown.
     """
     x, y = np.broadcast_arrays(np.abs(qx), np.abs(qy))
     x, y = x.astype(float), y.astype(float)
@@ -121,23 +106,9 @@ def component_amplitude_ratio(
     *,
     convention: str = "components",
 ) -> Array:
-    """A_d/A_i [-] of the Fourier components with wavenumbers qx, qy [rad/m] in a point contact.
+    """A_d/A_i in [0, 1] of the Fourier components of a point contact, 0 at q = 0.
 
-    Parameters
-    ----------
-    qx, qy
-        Wavenumbers, broadcast together.
-    hertz_radius
-        a [m].
-    moes_m, moes_l
-        Moes numbers of the point contact.
-    convention
-        One of :data:`CONVENTIONS`.
-
-    Returns
-    -------
-    ndarray
-        In [0, 1]; 0 at q = 0.
+    Wavenumbers qx, qy [rad/m] are broadcast together; a in m; one of :data:`CONVENTIONS`.
     """
     wavelength, ratio = component_wavelength(qx, qy, convention)
     return amplitude_ratio(wavelength_parameter(wavelength / hertz_radius, moes_m, moes_l, ratio))

@@ -101,16 +101,8 @@ def _fit() -> tuple[Array, Array, list[tuple[range, Array]], Array]:
 def disc_correction(qx: Array, qy: Array) -> Complex:
     """Return what a wave on the disc has in pressure beyond the periodic wave, pi/4 |q|.
 
-    Parameters
-    ----------
-    qx, qy
-        Wavenumbers (m,) [1/a].
-
-    Returns
-    -------
-    ndarray
-        (28, m): coefficients of :func:`monomials` [p_h per a^2/R], right to 1.5 % of the pressure
-        of the wave within 0.75 of the radius, for |q| up to LARGEST.
+    Wavenumbers (m,) [1/a]; (28, m) coefficients of :func:`monomials` [p_h per a^2/R], right to 1.5
+    % of the pressure of the wave within 0.75 of the radius, for |q| up to LARGEST.
     """
     x, y, radial, inverse = _fit()
     local = 0.25 * math.pi * np.hypot(qx, qy) * np.exp(1j * (np.outer(x, qx) + np.outer(y, qy)))

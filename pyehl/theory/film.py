@@ -56,14 +56,9 @@ class FilmEstimate:
 
 
 def hamrock_dowson(speed: float, material: float, load_number: float) -> tuple[float, float]:
-    """h_c/R and h_min/R [-] of a circular contact.
+    """h_c/R and h_min/R [-] of a circular contact, from U, G, W2 as `OperatingPoint` has them.
 
     Hamrock & Dowson 1977, J. Lubr. Technol. 99, 264-276, ellipticity 1.
-
-    Parameters
-    ----------
-    speed, material, load_number
-        U = eta0 u/(E' R), G = alpha E', W2 = w/(E' R^2) [-], u the mean velocity.
     """
     # ellipticity k = 1
     h_c = 2.69 * speed**0.67 * material**0.53 * load_number**-0.067 * (1 - 0.61 * math.exp(-0.73))
@@ -72,14 +67,9 @@ def hamrock_dowson(speed: float, material: float, load_number: float) -> tuple[f
 
 
 def chittenden(speed: float, material: float, load_number: float) -> tuple[float, float]:
-    """h_c/R and h_min/R [-] of a circular contact.
+    """h_c/R and h_min/R [-] of a circular contact, from U, G, W2 as `OperatingPoint` has them.
 
     Chittenden, Dowson, Dunn & Taylor 1985, Proc. R. Soc. Lond. A 397, 245-269 and 271-294.
-
-    Parameters
-    ----------
-    speed, material, load_number
-        U = eta0 u/(E' R), G = alpha E', W2 = w/(E' R^2) [-], u the mean velocity.
     """
     common = speed**0.68 * material**0.49 * load_number**-0.073
     return 4.31 * common * (1 - math.exp(-1.23)), 3.68 * common * (1 - math.exp(-0.67))

@@ -26,23 +26,11 @@ def absolute_friction(
 ) -> dict[str, Any]:
     """Coefficients of friction and what stands beside them in ``summary.json``.
 
-    Parameters
-    ----------
-    operating, lubricant
-        Motion, load and solids; shear law.
-    film
-        Central film h_c [m], taken to be the film everywhere in the contact.
-    mu_smooth
-        Coefficient of friction of the smooth contact at the slide-to-roll ratio [-].
-    mu_ratio
-        Friction over that of the smooth contact [-].
-
-    Returns
-    -------
-    dict
-        ``mu``, ``mu_smooth``, ``shear_rate_mean_per_s``, ``shear_stress_max_Pa`` (of the smooth
-        contact), ``flash_temperature_K``, NaN where there is none, and ``mu_note``: why, or the
-        caveat. A Newtonian coefficient is given where the stress stays below the Eyring stress.
+    `film` is the central film h_c [m], taken to be the film everywhere in the contact; `mu_smooth`
+    the coefficient of the smooth contact at the slide-to-roll ratio, `mu_ratio` friction over that
+    [-]. ``mu``, ``mu_smooth``, ``shear_rate_mean_per_s``, ``shear_stress_max_Pa`` (of the smooth
+    contact), ``flash_temperature_K``, NaN where there is none, and ``mu_note``: why, or the
+    caveat. A Newtonian coefficient is given where the stress stays below the Eyring stress.
     """
     speed, law = operating.sliding_speed, lubricant.shear
     nothing = math.nan

@@ -16,12 +16,8 @@ def thermal_loading(
 ) -> float:
     """Thermal loading beta eta0 u^2/k [-].
 
-    Parameters
-    ----------
-    coefficient
-        beta = -(d eta/dT)/eta [1/K].
-    viscosity, velocity, conductivity
-        eta0 [Pa s], mean velocity u [m/s], thermal conductivity k of the oil [W/(m K)].
+    beta = -(d eta/dT)/eta [1/K], eta0 [Pa s], mean velocity u [m/s], thermal conductivity k of the
+    oil [W/(m K)].
     """
     return coefficient * viscosity * velocity**2 / conductivity
 
@@ -29,17 +25,8 @@ def thermal_loading(
 def thermal_reduction(loading: float, pressure: float, slide_to_roll: float) -> float:
     """Film with shear heating of the inlet over the isothermal one [-].
 
-    Gupta, Cheng, Zhu, Forster & Schrand 1992, Tribol. Trans. 35, 269. Not positive far outside its
-    range.
-
-    Parameters
-    ----------
-    loading
-        See :func:`thermal_loading` [-].
-    pressure
-        Hertz pressure over E' [-].
-    slide_to_roll
-        (u1 - u2)/u [-].
+    Gupta, Cheng, Zhu, Forster & Schrand 1992, Tribol. Trans. 35, 269, for a thermal loading, the
+    Hertz pressure over E' and (u1 - u2)/u [-]. Not positive far outside its range.
     """
     sliding = 1.0 + 2.23 * abs(slide_to_roll) ** 0.83
     return (1.0 - 13.2 * pressure * loading**0.42) / (1.0 + 0.213 * sliding * loading**0.64)
@@ -56,18 +43,8 @@ def flash_temperature(
 
     Heat in a semi-ellipse over the circle: Tian & Kennedy 1994, J. Tribol. 116, 167, for one
     surface, 2.32 q a/(k sqrt(pi (1.234 + Pe))), Pe = u a/(2 kappa). The heat is shared so that
-    both become as hot (Blok 1937).
-
-    Parameters
-    ----------
-    flux
-        Mean heat flux q over the circle [W/m^2].
-    radius
-        Hertz radius a [m].
-    speeds
-        Of the surfaces through the contact [m/s].
-    conductivity, diffusivity
-        Of the solids: k [W/(m K)], kappa [m^2/s].
+    both become as hot (Blok 1937). Mean heat flux q over the circle [W/m^2], Hertz radius a [m],
+    speeds of the surfaces through the contact [m/s], k [W/(m K)] and kappa [m^2/s] of the solids.
     """
     roots = sum(
         math.sqrt(math.pi * (1.234 + abs(u) * radius / (2.0 * diffusivity))) for u in speeds

@@ -29,21 +29,8 @@ def default_roelands_z(
 ) -> float:
     """Roelands exponent z = alpha p0 / (ln eta0 + 9.67) [-].
 
-    It makes d(ln eta)/dp at ambient pressure equal to alpha.
-
-    Parameters
-    ----------
-    viscosity
-        Viscosity at ambient pressure eta0 [Pa s].
-    pressure_viscosity
-        Pressure-viscosity coefficient alpha [1/Pa].
-    roelands_p0
-        Roelands pressure p0 [Pa].
-
-    Raises
-    ------
-    InputError
-        If the viscosity is so low that ln eta0 + 9.67 <= 0, where the law has no meaning.
+    It makes d(ln eta)/dp at ambient pressure equal to alpha [1/Pa], for eta0 [Pa s] and p0 [Pa].
+    InputError if the viscosity is so low that ln eta0 + 9.67 <= 0, where the law has no meaning.
     """
     denominator = math.log(positive("viscosity", viscosity, "Pa s")) + 9.67
     if denominator <= 0.0:

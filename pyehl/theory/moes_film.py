@@ -15,12 +15,8 @@ def nijenbanning_venner_moes(moes_m: float, moes_l: float) -> float:
 
     Nijenbanning, Venner & Moes 1994, Wear 176, 217-229, for R_x = R_y: the rigid-isoviscous,
     elastic-isoviscous, rigid-piezoviscous and elastic-piezoviscous asymptotes, joined. Divide by
-    the density ratio at p_h for a compressible lubricant.
-
-    Raises
-    ------
-    InputError
-        If M is not positive or L is negative.
+    the density ratio at p_h for a compressible lubricant. InputError if M is not positive or L is
+    negative.
     """
     if not (moes_m > 0.0 and moes_l >= 0.0):
         raise InputError(f"need M > 0 and L >= 0, not M = {moes_m:g}, L = {moes_l:g}")
@@ -42,14 +38,8 @@ def nijenbanning_venner_moes(moes_m: float, moes_l: float) -> float:
 def inlet_viscosity_ratio(moes_m: float, moes_l: float, share: float) -> float:
     """Viscosity over that of (M, L) [-] at which the formula gives `share` of the film.
 
-    The form in which shear heating of the inlet enters: the film is that of the warmer oil.
-
-    Parameters
-    ----------
-    moes_m, moes_l
-        M and L of the isothermal contact [-].
-    share
-        Film over the isothermal one [-], 0 < share <= 1.
+    The form in which shear heating of the inlet enters: the film is that of the warmer oil. M and
+    L are of the isothermal contact; 0 < share <= 1.
     """
     if share == 1.0:
         return 1.0

@@ -58,14 +58,8 @@ def edge_gain(
     or less, the largest 0.05. At M = 100, where little pressure is left to measure, it is wrong;
     for ridges of a/8 it is 2 % too low.
 
-    Parameters
-    ----------
-    qx, qy
-        Wavenumbers [1/a].
-    central_film
-        H_c [a^2/R].
-    constants
-        Factor and power of the film, weight of oblique waves, |q| at which it fades [1/a].
+    Wavenumbers [1/a], H_c [a^2/R]. The constants are factor and power of the film, weight of
+    oblique waves, |q| at which it fades [1/a].
     """
     kx, ky = np.asarray(qx, dtype=float), np.asarray(qy, dtype=float)
     q = np.hypot(kx, ky)
@@ -98,18 +92,9 @@ def inlet_transfer(
 ) -> Complex:
     """G = mu/rho at X = -0.8, turned back to X = -1 [-].
 
-    Parameters
-    ----------
-    zone
-        The smooth contact on the centre line.
-    qx, qy
-        Wavenumbers [1/a] of the same shape, qx >= 0; at qx = 0 the value is real.
-    moes
-        M, L.
-    velocity_ratio
-        U.
-    y
-        Distance from the centre line [a]; broadcast with the wavenumbers.
+    Of the smooth contact on the centre line, for wavenumbers [1/a] of the same shape, qx >= 0 (at
+    qx = 0 the value is real), M and L, U, and the distance from the centre line y [a], which is
+    broadcast.
     """
     base = inlet_base(zone, qx, qy, moes, velocity_ratio)
     return base * inlet_fit(qx, qy, moes, velocity_ratio, y)

@@ -26,12 +26,9 @@ LAWS = ("newtonian", "eyring", "limiting", "carreau")
 
 @dataclass(frozen=True, slots=True)
 class ShearLaw:
-    """A shear law with its parameters; those of other laws are not looked at.
+    """A shear law, one of :data:`LAWS`, with its parameters; those of others are not looked at.
 
-    Raises
-    ------
-    InputError
-        For an unknown law or a number out of range.
+    InputError for an unknown law or a number out of range.
     """
 
     law: str = "newtonian"  # one of :data:`LAWS`
@@ -79,14 +76,8 @@ def shear_stress(newtonian: ArrayLike, pressure: ArrayLike, law: ShearLaw) -> Ar
     Carreau: tau_N (1 + (tau_N/G)^2)^((n - 1)/2), single Newtonian plateau (Bair 2007,
     *High-Pressure Rheology for Quantitative Elastohydrodynamics*).
 
-    Parameters
-    ----------
-    newtonian
-        tau_N = eta |u1 - u2|/h [Pa], eta the viscosity at that pressure, any shape.
-    pressure
-        p [Pa], of a shape that broadcasts with it; only the limiting law looks at it.
-    law
-        The law.
+    tau_N = eta |u1 - u2|/h [Pa], eta the viscosity at that pressure, of any shape; p [Pa], at
+    which only the limiting law looks, of one that broadcasts with it.
     """
     tau = np.asarray(newtonian, dtype=float)
     if law.law == "eyring":

@@ -31,10 +31,7 @@ def theta_2(
 ) -> Array:
     """theta_2 = L^-1.1 M^0.33 (wavelength/a)^0.67 (H_c/A_i) [-], arguments broadcast together.
 
-    Raises
-    ------
-    InputError
-        If an argument is not positive.
+    InputError if an argument is not positive.
     """
     m, ell, lam, ratio = (
         np.asarray(v, dtype=float) for v in (moes_m, moes_l, wavelength, film_over_amplitude)
@@ -47,10 +44,7 @@ def theta_2(
 def relative_friction(theta: ArrayLike) -> Array:
     """mu_r/mu_s = 1 + 0.546 theta_2^-2 + 0.219 theta_2^-4 (eq. 16) [-].
 
-    Raises
-    ------
-    InputError
-        If a theta_2 is not positive.
+    InputError if a theta_2 is not positive.
     """
     t = np.asarray(theta, dtype=float)
     if not np.all(t > 0.0):

@@ -151,14 +151,7 @@ def wave_pressure(
 ) -> Complex:
     """Pressure over roughness [p_h R/a^2]: what is flattened of it, by the stiffness of each part.
 
-    Parameters
-    ----------
-    qx, qy
-        Wavenumbers of the roughness [1/a].
-    velocity_ratio
-        U.
-    driven, free
-        Parts of T [-].
+    Wavenumbers of the roughness [1/a], U, driven and free parts of T [-].
     """
     k, k_free = stiffness(np.hypot(qx, qy)), free_stiffness(qx, qy, velocity_ratio)
     return np.asarray(k * (1.0 - driven) - k_free * free)
@@ -169,23 +162,9 @@ def upstream(
 ) -> Complex:
     """Integrate the transport equation to INLET from where the wave follows the roughness.
 
-    For waves that are short beside the inlet; for longer ones its coefficients change too fast.
-
-    Parameters
-    ----------
-    zone
-        The smooth contact on the centre line.
-    qx, qy
-        Wavenumbers (m,) [1/a], qx >= 0.
-    velocity_ratio
-        U.
-    spacing
-        As in `transport`.
-
-    Returns
-    -------
-    complex array (m,)
-        mu/rho at INLET, turned back to X = -1 as a wave that does not leak [-].
+    mu/rho at INLET (m,), turned back to X = -1 as a wave that does not leak [-], of waves (m,)
+    [1/a], qx >= 0, that are short beside the inlet: for longer ones its coefficients change too
+    fast. `spacing` as in `transport`.
     """
     lengths = np.diff(APPROACH)
     flow = _Flow(zone, APPROACH[:-1] + 0.5 * lengths)
@@ -220,27 +199,12 @@ def transport(
     stations: Array,
     spacing: float = 0.0,
 ) -> list[tuple[Complex, Complex]]:
-    """Integrate the transport equation from the inlet to the stations.
+    """Integrate the transport equation from the inlet to the stations, ascending X (n,) [a].
 
-    Parameters
-    ----------
-    zone
-        The smooth contact on the centre line.
-    qx, qy
-        Wavenumbers (m,) [1/a], qx >= 0.
-    velocity_ratio
-        U.
-    stations
-        Ascending X (n,) [a], behind INLET.
-    spacing
-        Of the grid of a simulation to compare with [a]: on cells of constant pressure a wave is
-        stiffer by the mean of its cosine over a cell, and by differences it leaks less. 0: the
-        half-space and the equation themselves.
-
-    Returns
-    -------
-    list of (driven, free)
-        At each station T = driven + free G exp(i qx (U - 1)(X + 1)), both (m,).
+    At each station (driven, free), both (m,), with T = driven + free G exp(i qx (U - 1)(X + 1)),
+    for wavenumbers (m,) [1/a], qx >= 0. `spacing` is that of the grid of a simulation to compare
+    with [a]: on cells of constant pressure a wave is stiffer by the mean of its cosine over a
+    cell, and by differences it leaks less. 0: the half-space and the equation themselves.
     """
     starts = np.concatenate([[INLET], stations[:-1]])
     steps = np.ceil((stations - starts) / STEP - 1e-9).astype(int)

@@ -93,6 +93,28 @@ def test_no_circle(graph: dict[str, set[str]]):
         left = {name: others for name, others in left.items() if name not in free}
 
 
+@pytest.mark.parametrize("folder", ["bench", "reproduce"])
+def test_only_commands_import_benchmarks_and_the_paper(graph: dict[str, set[str]], folder: str):
+    users = {top(n) for n, others in graph.items() if folder in {top(other) for other in others}}
+    assert users == {folder, "commands"}
+
+
+@pytest.mark.parametrize("folder", ["bench", "reproduce"])
+def test_benchmarks_and_the_paper_use_what_is_public(root: Path, folder: str):
+    for name, (_, tree) in modules(root).items():
+        if top(name) != folder:
+            continue
+        taken = [a.name for n in ast.walk(tree) if isinstance(n, ast.ImportFrom) for a in n.names]
+        taken += [
+            node.attr
+            for node in ast.walk(tree)
+            if isinstance(node, ast.Attribute)
+            and not (isinstance(node.value, ast.Name) and node.value.id in ("self", "cls"))
+        ]
+        private = [word for word in taken if word.startswith("_") and not word.startswith("__")]
+        assert not private, f"{name} uses {private}"
+
+
 # What subcommands share
 SHARED = ("commands.arguments", "commands.watching")
 
