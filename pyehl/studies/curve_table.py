@@ -15,10 +15,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from pyehl import arrays, library
+from pyehl import arrays
 from pyehl.errors import InputError
 from pyehl.studies.curve import UNITS
 from pyehl.studies.stribeck import CurvePlan
+from pyehl.studies.table import over
 
 __all__ = ["Measured", "curve_dataset", "read_measured", "write_csv"]
 
@@ -46,22 +47,8 @@ def write_csv(path: Path, plan: CurvePlan, rows: Sequence[Row]) -> None:
 
 def curve_dataset(plan: CurvePlan, rows: Sequence[Row]) -> xr.Dataset:
     """Give a curve as a Dataset whose dimensions are what was varied."""
-    study = plan.study
-    names = tuple(axes[0].key for axes in study.dimensions)
-    units = {key.name: key.unit for key in library.keys()}
-    coords = {
-        a.key: xr.Variable((a.key,), np.array(a.values, dtype=float), {"units": units[a.key]})
-        for axes in study.dimensions
-        for a in axes
-    }
-    variables = {}
-    for name, unit in UNITS.items():
-        values = np.array([np.nan if row[name] is None else float(row[name]) for row in rows])
-        variables[name] = xr.Variable(names, values.reshape(study.shape), {"units": unit})
-    for name in WORDS:
-        words = np.array([str(row[name]) for row in rows])
-        variables[name] = xr.Variable(names, words.reshape(study.shape))
-    return xr.Dataset(variables, coords, {"title": "Stribeck curve of pyehl"})
+    found = {name: [row[name] for row in rows] for name in (*UNITS, *WORDS)}
+    return over(plan.study, found, UNITS, {"title": "Stribeck curve of pyehl"}, float)
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,7 @@ from pyehl.results import unit_of
 from pyehl.studies.outputs import LAST
 from pyehl.studies.study import Point, Study
 
-__all__ = ["columns", "dataset", "write_csv"]
+__all__ = ["columns", "dataset", "over", "write_csv"]
 
 Row = Mapping[str, Any]
 
@@ -56,29 +56,47 @@ def write_csv(path: Path, study: Study, points: Sequence[Point], rows: Mapping[i
 
 
 def dataset(study: Study, points: Sequence[Point], rows: Mapping[int, Row]) -> xr.Dataset:
-    """Give the results over what was varied.
+    """Give the results over what was varied."""
+    found = {
+        name: [rows.get(point.number, {}).get(name) for point in points]
+        for name in columns(study, rows)
+    }
+    films = ("h_c_m_", "h_min_m_")
+    units = {name: "m" if name.startswith(films) else unit_of(name) for name in found}
+    attributes = {"title": "study of pyehl", "run": study.run}
+    attributes |= {"set": "\n".join(study.options)} if study.options else {}
+    return over(study, found, units, attributes)
+
+
+def over(
+    study: Study,
+    found: Mapping[str, Sequence[Any]],
+    units: Mapping[str, str],
+    attributes: Mapping[str, str],
+    kind: type | None = None,
+) -> xr.Dataset:
+    """Give columns in the order of the table as a Dataset over what was varied.
 
     A dimension is called by its key; keys that move together are coordinates of the dimension of
-    the first of them. Where there is no number there is NaN, where there is no word ''.
+    the first of them, of a `kind` if it is given. Where there is no number there is NaN, where
+    there is no word ''.
     """
     names = tuple(axes[0].key for axes in study.dimensions)
-    units = {key.name: key.unit for key in library.keys()}
+    of_keys = {key.name: key.unit for key in library.keys()}
     coords = {
-        a.key: xr.Variable((axes[0].key,), np.array(a.values), {"units": units.get(a.key) or "1"})
+        a.key: xr.Variable(
+            (axes[0].key,), np.array(a.values, dtype=kind), {"units": of_keys.get(a.key) or "1"}
+        )
         for axes in study.dimensions
         for a in axes
     }
     variables = {}
-    for name in columns(study, rows):
-        found = [rows.get(point.number, {}).get(name) for point in points]
-        if any(isinstance(value, str) for value in found) or name in ("status", "message"):
-            values = np.array(["" if v is None else str(v) for v in found])
-            attributes = {}
+    for name, column in found.items():
+        if any(isinstance(value, str) for value in column) or name in ("status", "message"):
+            values = np.array(["" if v is None else str(v) for v in column])
+            unit = {}
         else:
-            values = np.array([np.nan if v is None else float(v) for v in found])
-            film = name.startswith(("h_c_m_", "h_min_m_"))
-            attributes = {"units": "m" if film else unit_of(name)}
-        variables[name] = xr.Variable(names, values.reshape(study.shape), attributes)
-    attributes = {"title": "study of pyehl", "run": study.run}
-    attributes |= {"set": "\n".join(study.options)} if study.options else {}
+            values = np.array([np.nan if v is None else float(v) for v in column])
+            unit = {"units": units[name]}
+        variables[name] = xr.Variable(names, values.reshape(study.shape), unit)
     return xr.Dataset(variables, coords, attributes)

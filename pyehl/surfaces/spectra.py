@@ -46,18 +46,11 @@ def psd_2d(topography: Topography) -> tuple[Array, Array, Array]:
 
 
 def psd_isotropic(topography: Topography) -> tuple[Array, Array]:
-    """Mean of C2D over annuli of |q|.
+    """Mean of C2D over annuli of |q|: mean wavenumber (n,) [rad/m], ascending; C_iso (n,) [m^4].
 
     The annuli are centred on the multiples of 2 pi/min(Lx, Ly) and as wide. What lies beyond the
     smaller Nyquist wavenumber, where the square no longer fills the circle, is left out, and so
     are empty annuli.
-
-    Returns
-    -------
-    q
-        (n,) mean wavenumber of each annulus [rad/m], ascending.
-    c_iso
-        (n,) [m^4].
     """
     qx, qy, c2d = psd_2d(topography)
     q = np.hypot(qx[:, np.newaxis], qy[np.newaxis, :])
