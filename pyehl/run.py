@@ -7,6 +7,7 @@ A transient run keeps its state in ``DIR.checkpoint`` as it goes: `resume` resum
 
 from __future__ import annotations
 
+import logging
 import os
 import signal
 import threading
@@ -28,6 +29,8 @@ from pyehl.surfaces import Surface, for_solver
 __all__ = ["Observer", "Outcome", "resume", "run", "signals_to"]
 
 AnyPath = str | os.PathLike[str]
+
+LOG = logging.getLogger(__name__)
 
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
@@ -68,9 +71,6 @@ class Observer:
 
     def say(self, text: str) -> None:
         """Take a message."""
-
-    def warn(self, text: str) -> None:
-        """Take the message of a failure that does not end the run."""
 
     def advanced(self, solver: Solver) -> None:
         """Take the state after a cycle or a step."""
@@ -151,12 +151,12 @@ def _open(case: Case, resumed: AnyPath, surface: Surface | None) -> Solver:
     return solver
 
 
-def _keep_state(solver: Solver, observer: Observer, *, at_once: bool) -> bool:
+def _keep_state(solver: Solver, *, at_once: bool) -> bool:
     """Save the state, now or if its time has come. A run does not end because that fails."""
     try:
         return solver.save_state(at_once=at_once)
     except FileError as error:
-        observer.warn(str(error))
+        LOG.warning(str(error))
         return False
 
 
@@ -187,10 +187,10 @@ def _drive(
                 solver.interrupt()
             else:
                 solver.advance()
-                _keep_state(solver, observer, at_once=False)
+                _keep_state(solver, at_once=False)
             observer.advanced(solver)
         observer.say(solver.conclusion())
-        has_state = not solver.converged and _keep_state(solver, observer, at_once=True)
+        has_state = not solver.converged and _keep_state(solver, at_once=True)
         solver.write(folder, force=force, inputs=sources)
         name = os.fspath(folder)
         observer.say(f"results: {name}")

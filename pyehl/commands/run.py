@@ -31,10 +31,6 @@ class Terminal(Observer):
         """Print a message."""
         print(text, flush=True)
 
-    def warn(self, text: str) -> None:
-        """Print the message of a failure."""
-        print(text, file=sys.stderr)
-
     def advanced(self, solver: Solver) -> None:
         """Show the state if it is time to, and at the end."""
         if solver.done:
@@ -49,14 +45,6 @@ class Terminal(Observer):
             self.say(solver.progress())
         else:
             self._bar.show(solver)
-
-
-class Quiet(Observer):
-    """Prints nothing but failures."""
-
-    def warn(self, text: str) -> None:
-        """Print the message of a failure."""
-        print(text, file=sys.stderr)
 
 
 def _status(outcome: Outcome) -> int:
@@ -81,7 +69,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl run``."""
-    observer = Quiet() if args.quiet else Terminal()
+    observer = Observer() if args.quiet else Terminal()
     if args.resume is not None:
         if args.resume == "":
             raise InputError("pyehl run: error: the folder behind --resume has no name")

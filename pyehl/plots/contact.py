@@ -65,8 +65,6 @@ def pressure_and_film(
         (n,) coordinate in Hertz radii.
     pressure, film
         P and H, (n,), in Hertz units.
-    scales
-        For SI units; None for Hertz units.
     name
         Of the coordinate, 'x' or 'y'.
     ax
@@ -99,8 +97,6 @@ def fringe_spacings(central: float, scales: Scales | None) -> tuple[float, float
     ----------
     central
         Central film, in um with scales and in Hertz units without.
-    scales
-        For SI units; None for Hertz units.
     """
     if scales is not None and THINNEST <= central * 1e-6 <= THICKEST:
         red, green = (1e6 * light / (2.0 * REFRACTIVE_INDEX) for light in (RED, GREEN))
@@ -175,8 +171,6 @@ def interferogram(
         is too thin or too thick for them. Else they are a share of the central film.
     fringes
         As `fringe_spacings` gives them, for several films in the same light; None: for this film.
-    ax
-        Where to draw; None: a new figure.
 
     Raises
     ------
@@ -220,10 +214,6 @@ def contours(
         (nx,), (ny,) in Hertz radii.
     film
         H (nx, ny) in Hertz units.
-    scales
-        For SI units; None for Hertz units.
-    ax
-        Where to draw; None: a new figure.
 
     Raises
     ------

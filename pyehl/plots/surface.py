@@ -49,8 +49,6 @@ def heights(topography: Topography, *, ax: Axes | None = None) -> Axes:
     ----------
     topography
         The tile.
-    ax
-        Where to draw; None: a new figure.
     """
     ax = axes_or_new(ax, 3.6, 3.0)
     z = topography.heights
@@ -73,8 +71,6 @@ def spectrum_map(topography: Topography, *, ax: Axes | None = None) -> Axes:
     ----------
     topography
         The tile.
-    ax
-        Where to draw; None: a new figure.
     """
     ax = axes_or_new(ax, 3.6, 3.0)
     qx, qy, c2d = psd_2d(topography)
@@ -119,8 +115,6 @@ def spectrum_line(
         Wavelength convention of A_d/A_i, see :mod:`pyehl.theory.amplitude`.
     deformed, flattening
         Deformed roughness and what is flattened of it [m], as the tile.
-    ax
-        Where to draw; None: a new figure.
     """
     ax = axes_or_new(ax, 3.8, 3.0)
     q, c_iso = psd_isotropic(topography)
@@ -177,8 +171,6 @@ def roughness(
         a [m].
     name
         What the field is called in the title, which also gives its rms.
-    ax
-        Where to draw; None: a new figure.
     """
     ax = axes_or_new(ax, 3.8, 3.1)
     nx, ny = topography.shape
@@ -207,8 +199,6 @@ def passage(shift: Array, ratio: Array, length: float, *, ax: Axes | None = None
         (n,) displacement of the tile [m], equally spaced from 0, and mu_r/mu_s there [-].
     length
         Of the tile along x [m].
-    ax
-        Where to draw; None: a new figure.
     """
     ax = axes_or_new(ax, 3.8, 2.9)
     fine = interpolated(ratio, 16)
@@ -233,8 +223,6 @@ def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = No
     ----------
     bands
         Longest and shortest wavelength [m] and rise [-] of each octave.
-    ax
-        Where to draw; None: a new figure.
     """
     ax = axes_or_new(ax, 3.8, 2.9)
     for longest, shortest, rise in bands:

@@ -94,8 +94,6 @@ def friction_history(
         mu_r/mu_s by eq. 16; None: not drawn.
     seconds
         a/u [s] for a second axis in SI units; 0: none.
-    ax
-        Where to draw; None: a new figure.
     """
     ax = axes_or_new(ax, 5.4, 3.4)
     end = float(time[-1])
@@ -148,8 +146,6 @@ def extremes_history(
         (n,) films in Hertz units by their labels.
     scales
         For SI units of pressure and film; None for Hertz units.
-    ax
-        Where to draw; None: a new figure.
     """
     ax = axes_or_new(ax, 5.4, 3.4)
     factor, label = pressure_unit(scales)
@@ -203,14 +199,10 @@ def roughness(
         (nx,), (ny,) in Hertz radii.
     heights
         RR or A_d = H_smooth - H, (nx, ny), in Hertz units.
-    scales
-        For SI units; None for Hertz units.
     top
         Largest height of the scale, in Hertz units; 0: that of the field.
     name
         What the field is called in the title, which also gives its rms.
-    ax
-        Where to draw; None: a new figure.
     """
     ax = axes_or_new(ax, 4.0, 3.4)
     at, circle = _inside(x, y)
@@ -257,8 +249,6 @@ def profiles(
         Factor to the unit of the values, and their label, see `pyehl.plots.style`.
     colour
         Of the rough line.
-    ax
-        Where to draw; None: a new figure.
     """
     ax = axes_or_new(ax, 3.8, 3.2)
     unit_x, label_x = axis_unit(scales, "x")
