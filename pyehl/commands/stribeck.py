@@ -21,7 +21,6 @@ from pyehl.commands.watching import (
 )
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
 from pyehl.studies.curve import (
-    BREAKDOWN,
     FULL_FILM,
     OUTSIDE,
     UNSOLVED,
@@ -106,10 +105,6 @@ def curves_of(plan: CurvePlan, rows: Sequence[Row]) -> list[tuple[str, Array, Se
     return [(name, np.array(places), those) for name, (places, those) in found.items()]
 
 
-def _numbers(rows: Sequence[Row], name: str) -> Array:
-    return np.array([np.nan if row[name] is None else row[name] for row in rows], dtype=float)
-
-
 def draw(
     plan: CurvePlan, rows: Sequence[Row], measured: Measured | None, path: Path, dpi: int
 ) -> None:
@@ -132,26 +127,7 @@ def draw(
     curves = []
     overlay = None
     for label, places, those in curves_of(plan, rows):
-        scale = _numbers(those, "mu_smooth") if absolute else np.ones(len(those))
-        full = _numbers(those, "mu_ratio_ehl") * scale
-        known = np.isfinite(full)
-        abscissae = {name: _numbers(those, name) for name in ABSCISSAE}
-        curves.append(
-            Curve(
-                label,
-                abscissae,
-                _numbers(those, "mu_ratio") * scale,
-                _numbers(those, "mu_ratio_model_error") * scale,
-                _numbers(those, "mu_ratio_spread") * scale,
-                Points(
-                    {name: values[known] for name, values in abscissae.items()},
-                    full[known],
-                    (_numbers(those, "mu_ratio_ehl_error") * scale)[known],
-                ),
-                np.array([row["status"] == BREAKDOWN for row in those]),
-                full_film_ends(key, places, those)[0],
-            )
-        )
+        curves.append(Curve(label, those, *full_film_ends(key, places, those), absolute))
         if measured is not None:
             if beyond := measured.outside(key, places, those):
                 words = f"{beyond} of {len(measured.places)} measured points are beyond the curve"
@@ -161,8 +137,7 @@ def draw(
     surface = plan.points[0].settings["surface"]
     count = f", {plan.surfaces} surfaces" if plan.surfaces > 1 else ""
     words = f"surface '{surface['kind']}'{count}"
-    figure = draw_stribeck(curves, absolute=absolute, surface=words, measured=overlay)
-    save(figure, path, dpi)
+    save(draw_stribeck(curves, words, overlay), path, dpi)
 
 
 def report(plan: CurvePlan, rows: Sequence[Row]) -> str:

@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -45,35 +46,35 @@ class Points:
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """One curve."""
+    """One curve; a number of its table that does not exist is NaN."""
 
     label: str  # its name in the legend; '' for the only one
-    places: Mapping[str, Array]  # values by abscissa, each (n,), NaN where there is none
-    friction: Array  # prediction (n,) [-]
-    error: Array  # error of the model (n,) [-], NaN for none
-    spread: Array  # standard deviation over the surfaces (n,) [-], NaN for none
-    full: Points
-    broken: NDArray[np.bool_]  # (n,) whether the film breaks down there
-    ends: str = field(default="")  # where full film ends, in words
+    rows: Sequence[Mapping[str, Any]]  # of its table
+    ends: str  # where full film ends, in words
+    broken: tuple[int, ...]  # rows where the film breaks down
+    absolute: bool  # whether friction is a coefficient, else a ratio
+
+    def column(self, name: str) -> Array:
+        """Give a column (n,)."""
+        return np.array([np.nan if r[name] is None else r[name] for r in self.rows], dtype=float)
+
+    def friction(self, name: str = "mu_ratio") -> Array:
+        """Give a column of ratios (n,), as coefficients where these are drawn."""
+        return self.column(name) * (self.column("mu_smooth") if self.absolute else 1.0)
 
 
-def draw_stribeck(
-    curves: Sequence[Curve],
-    *,
-    absolute: bool,
-    surface: str,
-    measured: Points | None = None,
-) -> Figure:
-    """Draw friction over all abscissae, a coefficient where `absolute`, else a ratio mu_r/mu_s.
+def draw_stribeck(curves: Sequence[Curve], surface: str, measured: Points | None = None) -> Figure:
+    """Draw friction over all abscissae, a coefficient or a ratio mu_r/mu_s.
 
     `surface` says what the surface is in a few words; measured friction is laid over, and over
     theta_2 the curve of Zhang et al. 2019.
     """
+    absolute = curves[0].absolute
     # smooth surfaces have neither Lambda nor theta_2
     shown = {
         name: label
         for name, label in ABSCISSAE.items()
-        if any(np.isfinite(curve.places[name]).any() for curve in curves)
+        if any(np.isfinite(curve.column(name)).any() for curve in curves)
     }
     figure = new_figure(11.5 if len(shown) > 1 else 7.0, 4.4)
     axes = figure.subplots(1, len(shown), sharey=True, squeeze=False)[0]
@@ -120,23 +121,25 @@ def _bars(error: Array) -> Array | None:
 
 
 def _draw_curve(ax: Axes, curve: Curve, name: str, colour: str) -> None:
-    x, y = curve.places[name], curve.friction
+    x, y = curve.column(name), curve.friction()
     known = np.isfinite(x) & np.isfinite(y)
     tail = f" ({curve.label})" if curve.label else ""
     ax.plot(x[known], y[known], "o-", ms=3, lw=1.2, color=colour, label=f"prediction{tail}")
     for width, alpha, label in (
-        (curve.spread, 0.15, "spread over the surfaces"),
-        (curve.error, 0.35, "error of the model"),
+        (curve.friction("mu_ratio_spread"), 0.15, "spread over the surfaces"),
+        (curve.friction("mu_ratio_model_error"), 0.35, "error of the model"),
     ):
         wide = known & np.isfinite(width)
         if wide.any():
             low, high = y[wide] - width[wide], y[wide] + width[wide]
             ax.fill_between(x[wide], low, high, color=colour, alpha=alpha, lw=0, label=label)
-    if curve.full.friction.size:
+    full = curve.friction("mu_ratio_ehl")
+    there = np.isfinite(full)
+    if there.any():
         ax.errorbar(
-            curve.full.places[name],
-            curve.full.friction,
-            _bars(curve.full.error),
+            x[there],
+            full[there],
+            _bars(curve.friction("mu_ratio_ehl_error")[there]),
             fmt="s",
             ms=5,
             mfc="white",
@@ -149,12 +152,13 @@ def _draw_curve(ax: Axes, curve: Curve, name: str, colour: str) -> None:
 def _shade(ax: Axes, curves: Sequence[Curve], name: str) -> None:
     """Shade where the film breaks down: up to half-way to the first point of full film."""
     for curve in curves:
-        x = curve.places[name]
-        broken = curve.broken & np.isfinite(x)
+        x = curve.column(name)
+        ends = np.isin(np.arange(x.size), curve.broken)
+        broken = ends & np.isfinite(x)
         if not broken.any():
             continue
         low, high = float(x[broken].min()), float(x[broken].max())
-        others = x[~curve.broken & np.isfinite(x) & np.isfinite(curve.friction)]
+        others = x[~ends & np.isfinite(x) & np.isfinite(curve.friction())]
         above = others[others > high]
         if above.size:
             high = float(np.sqrt(high * above.min()))
