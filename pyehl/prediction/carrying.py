@@ -49,7 +49,8 @@ def carrying_wavelength(
             high = middle
         else:
             low = middle
-    return _rounded_up(math.exp(high), lambda v: carries(without_shorter(tile, v)))
+    rounded = _two_digits(math.exp(high))
+    return rounded if carries(without_shorter(tile, rounded)) else math.exp(high)
 
 
 def carrying_outliers(
@@ -93,16 +94,14 @@ def confirmed(start: float, longest: float, good: Callable[[float], bool]) -> fl
     """
     value = start
     while value <= longest:
-        scale = 10.0 ** (math.floor(math.log10(value)) - 1)
-        rounded = float(f"{math.ceil(value / scale - 1e-9) * scale:.2g}")
+        rounded = _two_digits(value)
         if good(rounded):
             return rounded
         value = 1.1 * rounded
     return None
 
 
-def _rounded_up(value: float, good: Callable[[float], bool]) -> float:
-    """Two digits of a wavelength, rounded up, if that is good, too."""
+def _two_digits(value: float) -> float:
+    """Two digits of a wavelength, rounded up."""
     scale = 10.0 ** (math.floor(math.log10(value)) - 1)
-    rounded = float(f"{math.ceil(value / scale - 1e-9) * scale:.2g}")
-    return rounded if good(rounded) else value
+    return float(f"{math.ceil(value / scale - 1e-9) * scale:.2g}")

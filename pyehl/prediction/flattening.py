@@ -23,7 +23,7 @@ import scipy
 from numpy.typing import NDArray
 
 from pyehl.errors import InputError
-from pyehl.prediction.options import STIFFNESSES, Options
+from pyehl.prediction.options import Options
 from pyehl.surfaces import Topography, wavenumbers
 from pyehl.theory import amplitude
 from pyehl.theory.operating import OperatingPoint
@@ -53,7 +53,7 @@ def stiffness(qx: Array, qy: Array, reduced_modulus: float, kind: str = "exact")
         return np.asarray(0.25 * reduced_modulus * q)
     if kind == "paper":
         return np.asarray(reduced_modulus * q / (2.0 * math.sqrt(2.0)))
-    raise InputError(f"stiffness {kind!r}: expected one of {STIFFNESSES}")
+    raise InputError(f"stiffness {kind!r}: expected 'exact' or 'paper'")
 
 
 def response(

@@ -7,17 +7,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from pyehl.errors import InputError
 from pyehl.surfaces.features import FEATURES
-from pyehl.theory import amplitude
 
-__all__ = ["MAX_POSITIONS", "STIFFNESSES", "Options", "unpredictable"]
-
-REDUCTIONS = ("response", "amplitude")
-SMOOTH = ("solved", "hertz")
-STIFFNESSES = ("exact", "paper")
+__all__ = ["MAX_POSITIONS", "Options", "unpredictable"]
 
 MAX_POSITIONS = 4096
+"""Most positions of a passage, as the schema of cases has it."""
 
 
 def unpredictable(kind: str) -> str:
@@ -35,7 +30,7 @@ def unpredictable(kind: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """How the model is read; InputError for an unknown word or a number out of range."""
+    """How the model is read: the group ``psd`` of a case, whose schema has the allowed words."""
 
     # What is left of a wave in the contact: ``"response"``, the complex response of
     # :mod:`pyehl.theory.response`, or ``"amplitude"``, the real ratio of the paper
@@ -50,19 +45,6 @@ class Options:
     load_balance: bool = False
     # Positions of the surface over one passage; 0: doubled until mu_r/mu_s is resolved
     positions: int = 0
-
-    def __post_init__(self) -> None:
-        """Check the words and the numbers."""
-        for name, value, allowed in (
-            ("reduction", self.reduction, REDUCTIONS),
-            ("smooth", self.smooth, SMOOTH),
-            ("wavelength_convention", self.wavelength_convention, amplitude.CONVENTIONS),
-            ("stiffness", self.stiffness, STIFFNESSES),
-        ):
-            if value not in allowed:
-                raise InputError(f"{name} {value!r}: expected one of {allowed}")
-        if not 0 <= self.positions <= MAX_POSITIONS:
-            raise InputError(f"positions must be 0 ... {MAX_POSITIONS}, not {self.positions!r}")
 
     @property
     def as_in_paper(self) -> bool:

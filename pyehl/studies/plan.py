@@ -13,8 +13,8 @@ from typing import Any
 
 from pyehl import library, surfaces
 from pyehl.case import Case
-from pyehl.errors import EhlError, InputError
-from pyehl.prediction.options import Options, unpredictable
+from pyehl.errors import InputError
+from pyehl.prediction.options import unpredictable
 from pyehl.solver import Solver
 from pyehl.studies.estimate import seconds_of, shares_of, speed
 from pyehl.studies.study import Point, Study
@@ -23,7 +23,7 @@ from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["Plan", "check_memory", "duration", "plan"]
+__all__ = ["Plan", "check_memory", "duration", "formula_film", "plan"]
 
 Settings = Mapping[str, Mapping[str, Any]]
 
@@ -136,7 +136,8 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None, *, brief: boo
         point = study.point(number)
         case = study.resolved(point, *one_thread)
         settings = case.resolve()
-        _check(study, point, case, settings, seen["checked"])
+        with study.named(point):
+            _check(study, case, settings, seen["checked"])
         seen["surface"].add(json.dumps(settings["surface"], default=str))
         if settings["surface"]["kind"] == "map":
             maps[str(settings["surface"]["file"])] = None
@@ -161,26 +162,25 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None, *, brief: boo
     )
 
 
-def _check(study: Study, point: Point, case: Case, settings: Settings, checked: set[str]) -> None:
+def _check(study: Study, case: Case, settings: Settings, checked: set[str]) -> None:
     """Refuse a case that can be read but not done, as its run would do."""
-    try:
-        groups = json.dumps([settings[group] for group in GROUPS], default=str)
-        known = groups in checked
-        checked.add(groups)
-        if study.run == "solve":
-            if not known:
-                with Solver(case):
-                    pass
-            return
-        operating = OperatingPoint.from_settings(settings)
-        lubricant = Lubricant.from_settings(settings)
-        film = central_film(operating, lubricant)
-        why = unpredictable(str(settings["surface"]["kind"]))
-        if study.run == "predict":
-            Options.from_settings(settings)
-            if why:
-                raise InputError(why)
-        if settings["surface"]["kind"] == "map" and not known:
-            surfaces.from_settings(settings, operating, film)
-    except (EhlError, ValueError, OSError) as error:
-        raise InputError(f"case {point.number + 1} of {study.size} ({point}):\n{error}") from error
+    groups = json.dumps([settings[group] for group in GROUPS], default=str)
+    known = groups in checked
+    checked.add(groups)
+    if study.run == "solve":
+        if not known:
+            with Solver(case):
+                pass
+        return
+    why = unpredictable(str(settings["surface"]["kind"]))
+    if study.run == "predict" and why:
+        raise InputError(why)
+    film = formula_film(settings)
+    if settings["surface"]["kind"] == "map" and not known:
+        surfaces.from_settings(settings, *film)
+
+
+def formula_film(settings: Settings) -> tuple[OperatingPoint, float]:
+    """Give the operating point of a resolved case and its central film by formula [m]."""
+    operating = OperatingPoint.from_settings(settings)
+    return operating, central_film(operating, Lubricant.from_settings(settings))

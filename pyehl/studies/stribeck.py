@@ -15,16 +15,13 @@ from typing import Any
 
 from pyehl import surfaces
 from pyehl.case import Case
-from pyehl.errors import EhlError, InputError
-from pyehl.prediction.options import Options, unpredictable
+from pyehl.errors import InputError
+from pyehl.prediction.options import unpredictable
 from pyehl.studies.estimate import seconds_of, shares_of, speed
-from pyehl.studies.plan import check_memory, duration
+from pyehl.studies.plan import check_memory, duration, formula_film
 from pyehl.studies.study import MAX_CASES, Point, Study, make
 from pyehl.studies.tasks import Task
 from pyehl.studies.vary import Axis
-from pyehl.theory.film import central_film
-from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.operating import OperatingPoint
 
 __all__ = ["KEYS", "CurvePlan", "CurvePoint", "plan_curve"]
 
@@ -140,7 +137,8 @@ def plan_curve(
     for point in study.points():
         rough = study.resolved(point)
         settings = rough.resolve()
-        _check(study, point, settings, seeds, ehl)
+        with study.named(point):
+            _check(settings, seeds, ehl)
         first = int(settings["surface"]["seed"])
         varied = [rough, *(rough.with_options(f"{SEED}={first + k}") for k in range(1, seeds))]
         if settings["surface"]["kind"] == "smooth":
@@ -157,22 +155,17 @@ def plan_curve(
     return CurvePlan(study, tuple(points), tuple(tasks), seeds)
 
 
-def _check(study: Study, point: Point, settings: Settings, seeds: int, ehl: int) -> None:
+def _check(settings: Settings, seeds: int, ehl: int) -> None:
     """Refuse what no curve can be made of."""
     kind = settings["surface"]["kind"]
-    try:
-        if kind in surfaces.FEATURES:
-            raise InputError(unpredictable(str(kind)))
-        if kind == "smooth" and ehl:
-            raise InputError(f"--ehl {ehl}: surface.kind = 'smooth' has no passage to solve")
-        if seeds > 1 and kind != "fractal":
-            raise InputError(f"--surfaces {seeds}: surface.kind = '{kind}' has no seed")
-        if "load" not in settings["contact"]:
-            raise InputError("a Stribeck curve needs a contact in SI units (load, mean_velocity)")
-        operating = OperatingPoint.from_settings(settings)
-        film = central_film(operating, Lubricant.from_settings(settings))
-        Options.from_settings(settings)
-        if kind == "map":
-            surfaces.from_settings(settings, operating, film)
-    except EhlError as error:
-        raise InputError(f"point {point.number + 1} of {study.size} ({point}):\n{error}") from error
+    if kind in surfaces.FEATURES:
+        raise InputError(unpredictable(str(kind)))
+    if kind == "smooth" and ehl:
+        raise InputError(f"--ehl {ehl}: surface.kind = 'smooth' has no passage to solve")
+    if seeds > 1 and kind != "fractal":
+        raise InputError(f"--surfaces {seeds}: surface.kind = '{kind}' has no seed")
+    if "load" not in settings["contact"]:
+        raise InputError("a Stribeck curve needs a contact in SI units (load, mean_velocity)")
+    film = formula_film(settings)
+    if kind == "map":
+        surfaces.from_settings(settings, *film)

@@ -7,6 +7,7 @@ import hashlib
 import itertools
 import os
 from collections.abc import Collection, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib import metadata
 from typing import Any
@@ -14,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from pyehl.case import Case
-from pyehl.errors import InputError, did_you_mean
+from pyehl.errors import EhlError, InputError, did_you_mean
 from pyehl.given import Value, option
 from pyehl.studies.outputs import TRACKS, checked
 from pyehl.studies.vary import Axis
@@ -105,12 +106,17 @@ class Study:
         """
         texts = [*self.options, *(option(key, value) for key, value in point.values.items())]
         texts += more
-        try:
+        with self.named(point):
             return Case.of(self.case, texts)
-        except InputError as error:
-            raise InputError(
-                f"case {point.number + 1} of {self.size} ({point}):\n{error}"
-            ) from error
+
+    @contextmanager
+    def named(self, point: Point) -> Iterator[None]:
+        """Put a case before what is wrong with it, which is InputError then."""
+        try:
+            yield
+        except EhlError as error:
+            name = f"case {point.number + 1} of {self.size} ({point})"
+            raise InputError(f"{name}:\n{error}") from error
 
     def identity(self, first: str, maps: Collection[str]) -> dict[str, Any]:
         """Give what makes this study another one than others, as values of JSON.

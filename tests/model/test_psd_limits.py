@@ -54,22 +54,6 @@ def test_lost_load_is_said():
     assert math.isnan(result.mu_ratio)
 
 
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"wavelength_convention": "crest"}, "pattern"),
-        ({"stiffness": "soft"}, "exact"),
-        ({"reduction": "lag"}, "reduction"),
-        ({"smooth": "flat"}, "smooth"),
-        ({"positions": -1}, "positions"),
-        ({"positions": 10**6}, "positions"),
-    ],
-)
-def test_options_refuse(changes, message):
-    with pytest.raises(ValueError, match=message):
-        Options(**changes)
-
-
 def test_refuses(table_1):
     with pytest.raises(ValueError, match="film thickness"):
         predict_friction(table_1(pixels=16), POINT, ROELANDS, 0.0)
