@@ -22,10 +22,10 @@ from pyehl.bench import (
     sweep,
     workprec,
 )
-from pyehl.bench.text import Columns, table
 from pyehl.bench.unit import machine
 from pyehl.commands.arguments import add_force
 from pyehl.destination import Destination, check_files, mark, new_file
+from pyehl.display import Columns, text_table
 from pyehl.errors import InputError
 from pyehl.plots import bench as figures
 
@@ -136,7 +136,7 @@ def _add_workprec(parser: argparse.ArgumentParser) -> None:
 
 
 def _print(rows: Rows, columns: Columns, *notes: str) -> Rows:
-    print("\n".join([table(rows, columns), *notes]))
+    print("\n".join([text_table(rows, columns), *notes]))
     return rows
 
 
