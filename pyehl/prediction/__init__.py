@@ -30,13 +30,13 @@ What happens where the model ends
 
 A passage is one track of a surface. Ridges along the motion stay in their place of the contact
 during a passage: a track under a ridge rubs more, one under a valley less, and the mean over the
-tracks is a property of the spectrum (:func:`over_tracks`). The absolute friction coefficient of a
+tracks is a property of the spectrum. The absolute friction coefficient of a
 Newtonian lubricant at these pressures has no meaning.
 """
 
 from pyehl.prediction.bands import Band, contributions
 from pyehl.prediction.flattening import Response, response, stiffness
-from pyehl.prediction.friction import RoughFriction, over_tracks, predict_friction
+from pyehl.prediction.friction import RoughFriction, predict_friction
 from pyehl.prediction.options import Options
 
 __all__ = [
@@ -45,7 +45,6 @@ __all__ = [
     "Response",
     "RoughFriction",
     "contributions",
-    "over_tracks",
     "predict_friction",
     "response",
     "stiffness",

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from pyehl.prediction.bands import Band, octaves
 from pyehl.prediction.carrying import confirmed
-from pyehl.prediction.errors import KNOWN_RATIO
+from pyehl.prediction.errors import KNOWN_RATIO, model_error
 from pyehl.prediction.flattening import Response
 from pyehl.prediction.friction import RoughFriction, passed
 from pyehl.prediction.options import Options
@@ -122,6 +122,10 @@ class RoughPassage:
         contact = self._contact(spectrum, transfer, edge)
         with np.errstate(over="ignore", invalid="ignore"):
             return _mean(contact, grid.shape[0])
+
+    def known(self) -> bool:
+        """Whether the error of the ratio is."""
+        return math.isfinite(model_error(self.mean()))
 
     def run(
         self, tracks: int = 8, *, brief: bool = False

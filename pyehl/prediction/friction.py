@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""mu_r/mu_s over a passage of a tile, and over its tracks."""
+"""mu_r/mu_s over a passage of a tile."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from pyehl.prediction.contact import Contact, ShearedContact
 from pyehl.prediction.flattening import Response, response
 from pyehl.prediction.options import Options
 from pyehl.prediction.passage import friction_along, working_grid
-from pyehl.surfaces import Topography, interpolated, shifted, track_offsets
+from pyehl.surfaces import Topography, interpolated
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["TRACKS", "RoughFriction", "broken", "over_tracks", "passed", "predict_friction"]
+__all__ = ["TRACKS", "RoughFriction", "broken", "passed", "predict_friction"]
 
 Array = NDArray[np.float64]
 
@@ -161,35 +161,3 @@ def broken(friction: RoughFriction, film: float) -> RoughFriction:
         film_min=film,
         cavitated_friction=math.nan,
     )
-
-
-def over_tracks(
-    topography: Topography,
-    operating: OperatingPoint,
-    lubricant: Lubricant,
-    film: float,
-    options: Options | None = None,
-    *,
-    tracks: int = TRACKS,
-) -> tuple[float, float]:
-    """Mean and standard deviation of the passage mean of mu_r/mu_s over the tracks of a tile [-].
-
-    Parameters as :func:`predict_friction`; the tile is moved across the motion to `tracks` equally
-    spaced tracks, see :func:`pyehl.surfaces.track_offsets`. NaN where one of them has no ratio.
-    InputError as :func:`predict_friction`, and for less than one track.
-    """
-    if tracks < 1:
-        raise InputError(f"tracks must be positive, not {tracks!r}")
-    ratios = np.array(
-        [
-            predict_friction(
-                shifted(topography, 0.0, offset),
-                operating,
-                lubricant,
-                film,
-                options,
-            ).mu_ratio
-            for offset in track_offsets(topography, tracks)
-        ]
-    )
-    return float(ratios.mean()), float(ratios.std())

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 import os
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -16,17 +16,10 @@ from numpy.typing import NDArray
 
 from pyehl import surfaces
 from pyehl.errors import InputError
-from pyehl.prediction.bands import Band, contributions
 from pyehl.prediction.breakdown import advise, below_zero
 from pyehl.prediction.by_response import RoughPassage
-from pyehl.prediction.errors import model_error
-from pyehl.prediction.flattening import response
-from pyehl.prediction.friction import (
-    TRACKS,
-    broken,
-    over_tracks,
-    predict_friction,
-)
+from pyehl.prediction.friction import TRACKS, broken
+from pyehl.prediction.of_paper import PaperPassage
 from pyehl.prediction.options import Options, unpredictable
 from pyehl.prediction.result import Prediction
 from pyehl.prediction.smooth import SmoothContact, hertz_contact, read_contact, solve_contact
@@ -88,26 +81,12 @@ def predict(
         surface = surfaces.from_settings(settings, operating, film)
     else:
         surface = surfaces.finished(surface, settings["surface"])
-    passage = RoughPassage(surface, contact, operating, lubricant, options, velocity_ratio)
+    passage: RoughPassage | PaperPassage
     if options.as_in_paper:
-        friction = predict_friction(surface, operating, lubricant, film, options)
-        of_surface = surface, operating, lubricant, film, options
-        bands: Sequence[Band] = contributions(*of_surface, brief=brief)
-        over = (math.nan, math.nan) if brief else over_tracks(*of_surface, tracks=tracks)
+        passage = PaperPassage(surface, operating, lubricant, film, options)
     else:
-        friction, over, bands = passage.run(0 if brief else tracks, brief=brief)
-
-    def deformed_of(tile: surfaces.Topography) -> Array:
-        """Deformed roughness of another tile [m]."""
-        if options.as_in_paper:
-            return response(tile, operating, options).deformed
-        return replace(passage, topography=tile).deformed()
-
-    def known(tile: surfaces.Topography) -> bool:
-        """Whether the error of the ratio of another tile is known; that of the paper never is."""
-        if options.as_in_paper:
-            return True
-        return math.isfinite(model_error(replace(passage, topography=tile).mean()))
+        passage = RoughPassage(surface, contact, operating, lubricant, options, velocity_ratio)
+    friction, over, bands = passage.run(0 if brief else tracks, brief=brief)
 
     def smooth_film(x: Array, y: Array) -> Array:
         """Smooth film [m] at places [m]."""
@@ -125,12 +104,12 @@ def predict(
         kind = str(settings["surface"].get("filter", "sharp"))
         advice = advise(
             surface,
-            deformed_of,
+            lambda tile: replace(passage, topography=tile).deformed(),
             radius,
             smooth_film,
             lambda tile, shortest: surfaces.filtered(tile, shortest, kind=kind),
             lambda threshold: surfaces.without_spikes(surface, threshold, settings["surface"]),
-            known,
+            lambda tile: replace(passage, topography=tile).known(),
         )
     return Prediction(
         settings=settings,

@@ -72,8 +72,7 @@ class Prediction:
     bands
         What each octave of wavelengths adds.
     tracks
-        Mean and standard deviation of the passage mean over the tracks of the tile, see
-        :func:`pyehl.prediction.over_tracks`.
+        Mean and standard deviation of the passage mean over the tracks of the tile.
     seconds
         Wall time of the whole prediction, tracks and bands included.
     text

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from pyehl import surfaces
-from pyehl.prediction import Options, over_tracks, predict_friction, stiffness
+from pyehl.prediction import Options, predict_friction, stiffness
 from pyehl.surfaces import Topography
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -61,8 +61,6 @@ def test_refuses(table_1):
         predict_friction(table_1(pixels=16), OperatingPoint(pressure_viscosity=0.0), BARUS, FILM)
     with pytest.raises(ValueError, match="stiffness"):
         stiffness(np.ones(1), np.ones(1), 1.0, "soft")
-    with pytest.raises(ValueError, match="tracks"):
-        over_tracks(table_1(pixels=16), POINT, ROELANDS, FILM, tracks=0)
 
 
 def test_a_tile_too_large_for_its_pixels_is_refused():
