@@ -22,7 +22,15 @@ from pathlib import Path
 from pyehl.errors import FileError, InputError, check
 from pyehl.extension import destination
 
-__all__ = ["Destination", "check_files", "made_by", "mark", "new_file"]
+__all__ = [
+    "Destination",
+    "check_files",
+    "file_errors",
+    "made_by",
+    "mark",
+    "new_file",
+    "write_json",
+]
 
 AnyPath = str | os.PathLike[str]
 
@@ -37,6 +45,17 @@ def mark(command: str) -> str:
 
 def _lines(items: Iterable[AnyPath]) -> bytes:
     return b"".join(os.fsencode(item) + b"\n" for item in items)
+
+
+@contextmanager
+def file_errors(path: AnyPath, what: str = "cannot be written") -> Iterator[None]:
+    """Put the name of a file or folder before what the system says of it, as FileError."""
+    try:
+        yield
+    except FileError:
+        raise
+    except OSError as error:
+        raise FileError(f"{os.fspath(path)}: {what}: {error.strerror or error}") from error
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,13 +95,10 @@ class Destination:
         """
         fresh = Path(self._step(b"begin"))
         try:
-            yield fresh
-        except BaseException as error:
+            with file_errors(self.folder):
+                yield fresh
+        except BaseException:
             shutil.rmtree(fresh, ignore_errors=True)
-            if isinstance(error, OSError) and not isinstance(error, FileError):
-                raise FileError(
-                    f"{self.folder}: cannot be written: {error.strerror or error}"
-                ) from error
             raise
         self._step(b"finish", str(fresh))
 
@@ -94,12 +110,9 @@ class Destination:
         self.check(resumes=True)
         folder = Path(self.folder)
         summary = {"kind": self.kind, **values, "files": ["summary.json", *self.names]}
-        try:
+        with file_errors(folder, "cannot be made"):
             folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise FileError(f"{folder}: cannot be made: {error.strerror}") from error
-        with new_file(folder / "summary.json") as path:
-            path.write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
+        write_json(folder / "summary.json", summary)
 
 
 def made_by(path: Path, word: str) -> bool:
@@ -155,10 +168,16 @@ def new_file(path: AnyPath) -> Iterator[Path]:
     # with the suffix that the caller sees: it may say the format
     fresh = place.with_name(f".partial-{os.getpid()}-{Path(path).name}")
     try:
-        yield fresh
-        fresh.replace(place)
-    except BaseException as error:
+        with file_errors(path):
+            yield fresh
+            fresh.replace(place)
+    except BaseException:
         fresh.unlink(missing_ok=True)
-        if isinstance(error, OSError) and not isinstance(error, FileError):
-            raise FileError(f"{path}: cannot be written: {error.strerror or error}") from error
         raise
+
+
+def write_json(path: AnyPath, values: Mapping[str, object], *, allow_nan: bool = False) -> None:
+    """Write values as JSON, whole or not at all; FileError if they cannot be written."""
+    with new_file(path) as fresh:
+        text = json.dumps(values, indent=2, allow_nan=allow_nan)
+        fresh.write_text(text + "\n", encoding="utf-8")

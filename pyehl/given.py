@@ -7,6 +7,7 @@ import math
 import os
 import reprlib
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -24,6 +25,7 @@ __all__ = [
     "path_of",
     "plain",
     "positive",
+    "text_file",
     "text_of",
 ]
 
@@ -63,6 +65,16 @@ def path_of(value: Any, name: str) -> str:  # noqa: ANN401
     if "\0" in path:
         raise InputError(f"{name} = {path!r}: expected a path, without a zero byte")
     return path
+
+
+def text_file(path: str | os.PathLike[str], expected: str = "") -> str:
+    """Give the text of a file that a caller names; InputError if it cannot be read."""
+    try:
+        return Path(path).read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        why = getattr(error, "strerror", None) or error
+        hint = f"\nexpected: {expected}" if expected else ""
+        raise InputError(f"{os.fspath(path)}: cannot read: {why}{hint}") from error
 
 
 def text_of(value: Any, name: str) -> bytes:  # noqa: ANN401

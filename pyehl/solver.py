@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 
 from pyehl import display
 from pyehl.case import Case, with_surface
-from pyehl.destination import Destination
+from pyehl.destination import Destination, write_json
 from pyehl.errors import EhlError, InputError
 from pyehl.given import Option, heights_of, path_of
 from pyehl.handle import SolverHandle, Work
@@ -293,5 +293,4 @@ class Solver(SolverHandle):
         if self._surface is not None:
             name = keep_beside(self._surface, folder / "case.nml")
             values["files"] = sorted([*values["files"], name])
-        text = json.dumps(values, indent=2, allow_nan=False) + "\n"
-        summary.write_text(text, encoding="utf-8")
+        write_json(summary, values)

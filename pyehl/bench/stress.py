@@ -7,7 +7,6 @@ solved once more to a twentieth of the algebraic error, and a sample by the seco
 
 from __future__ import annotations
 
-import json
 import math
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
@@ -16,7 +15,7 @@ from typing import Any
 
 from pyehl.bench import stress_second
 from pyehl.bench.stress_cases import FAMILIES, StressCase, draw, study_of
-from pyehl.destination import new_file
+from pyehl.destination import write_json
 from pyehl.studies.plan import plan
 from pyehl.studies.sweep import perform
 
@@ -203,6 +202,5 @@ def summary(rows: Sequence[Row]) -> list[Row]:
 
 def write(rows: Sequence[Row], folder: Path, answer: Mapping[str, Any]) -> None:
     """Write ``stress.json`` into a folder."""
-    text = json.dumps({**answer, "summary": summary(rows), "rows": rows}, indent=1) + "\n"
-    with new_file(folder / "stress.json") as path:
-        path.write_text(text, encoding="utf-8")
+    values = {**answer, "summary": summary(rows), "rows": rows}
+    write_json(folder / "stress.json", values, allow_nan=True)

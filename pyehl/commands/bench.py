@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -24,7 +23,7 @@ from pyehl.bench import (
 )
 from pyehl.bench.unit import machine
 from pyehl.commands.arguments import add_force
-from pyehl.destination import Destination, check_files, mark, new_file
+from pyehl.destination import Destination, check_files, mark, write_json
 from pyehl.display import Columns, text_table
 from pyehl.errors import InputError
 from pyehl.plots import bench as figures
@@ -216,9 +215,9 @@ def _faults(args: argparse.Namespace, answer: Answer) -> Rows:
         args.output.resolve(), seed=args.seed, kills=args.kills, inputs=args.inputs, tell=_tell
     )
     _print(rows, faults.COLUMNS)
-    text = json.dumps({**answer, "seed": args.seed, "rows": rows}, indent=1) + "\n"
-    with new_file(args.output / "faults.json") as path:
-        path.write_text(text, encoding="utf-8")
+    write_json(
+        args.output / "faults.json", {**answer, "seed": args.seed, "rows": rows}, allow_nan=True
+    )
     for row in rows:
         for what in row["bad"]:
             print(f"{row['campaign']}: {what}", file=sys.stderr)
@@ -293,6 +292,5 @@ def execute(args: argparse.Namespace) -> int:
     rows = measure(args, answer)
     if args.what in FILES and args.output is not None:
         answer["rows"] = rows
-        with new_file(args.output) as path:
-            path.write_text(json.dumps(answer, indent=2) + "\n", encoding="utf-8")
+        write_json(args.output, answer, allow_nan=True)
     return 0 if all(row.get("same", True) and not row.get("wrong") for row in rows) else 1

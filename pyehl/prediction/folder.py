@@ -3,14 +3,13 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterable
 
 import numpy as np
 
 from pyehl.arrays import write_csv
-from pyehl.destination import Destination
+from pyehl.destination import Destination, write_json
 from pyehl.prediction.result import Prediction
 
 __all__ = ["destination", "write"]
@@ -61,5 +60,4 @@ def write(
             made = prediction_figures(prediction.summary, prediction.arrays, prediction.tables)
             save_all(made, folder)
         files = sorted(["summary.json", *(path.name for path in folder.iterdir())])
-        text = json.dumps(prediction.summary | {"files": files}, indent=2, allow_nan=False)
-        (folder / "summary.json").write_text(text + "\n", encoding="utf-8")
+        write_json(folder / "summary.json", prediction.summary | {"files": files})

@@ -12,8 +12,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import cast
 
-from pyehl.destination import Destination
-from pyehl.errors import FileError, InputError
+from pyehl.destination import Destination, file_errors
+from pyehl.errors import InputError
 from pyehl.reproduce import (
     figure1,
     figure2,
@@ -73,10 +73,8 @@ def reproduce(
         if name not in names:
             continue
         place = folder / _folder_of(name)
-        try:
+        with file_errors(place, "cannot be made"):
             place.mkdir(exist_ok=True)
-        except OSError as error:
-            raise FileError(f"{place}: cannot be made: {error.strerror}") from error
         began = time.perf_counter()
         try:
             data = piece.run(runs, level)

@@ -18,7 +18,7 @@ from pyehl.arrays import write_csv
 from pyehl.case import Case
 from pyehl.destination import check_files, made_by
 from pyehl.errors import InputError, did_you_mean
-from pyehl.given import Value, option
+from pyehl.given import Value, option, text_file
 from pyehl.studies.journal import read_header
 from pyehl.studies.reference_table import Expected, Key, ReferenceRow, ReferenceTable
 
@@ -145,11 +145,9 @@ def read_results(path: str | os.PathLike[str]) -> Results:
 
 
 def _rows(path: Path) -> tuple[Row, ...]:
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: cannot read: {error}") from error
-    lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
+    lines = [
+        line for line in text_file(path).splitlines() if line.strip() and not line.startswith("#")
+    ]
     rows = [{k: _value(v) for k, v in row.items()} for row in csv.DictReader(lines)]
     if not rows:
         raise InputError(f"{path}: there are no rows")

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from pyehl import arrays
 from pyehl.errors import InputError
+from pyehl.given import text_file
 from pyehl.studies.curve import UNITS
 from pyehl.studies.stribeck import CurvePlan
 from pyehl.studies.table import over
@@ -103,13 +104,7 @@ def read_measured(path: str | os.PathLike[str], key: str) -> Measured:
     and what was expected.
     """
     name = os.fspath(path)
-    try:
-        text = Path(path).read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise InputError(f"{name}: cannot read: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise InputError(f"{name}: cannot read: {error}") from error
-    lines = list(csv.reader(io.StringIO(text)))
+    lines = list(csv.reader(io.StringIO(text_file(path))))
     head = [word.strip() for word in lines[0]] if lines else []
     known = (key, "hersey", "lambda_ratio", "theta_2")
     abscissae = [word for word in head if word in known]

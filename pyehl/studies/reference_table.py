@@ -20,6 +20,7 @@ from pathlib import Path
 
 from pyehl import library
 from pyehl.errors import InputError, did_you_mean
+from pyehl.given import text_file
 from pyehl.studies.vary import LOGICAL
 
 __all__ = ["SHIPPED", "Expected", "ReferenceRow", "ReferenceTable", "read_reference"]
@@ -101,13 +102,7 @@ def _text(path: str | os.PathLike[str]) -> tuple[str, str]:
     if name in SHIPPED and not Path(name).exists():
         file = resources.files("pyehl").joinpath("reproduce", "data", f"{name}.csv")
         return f"{name}.csv", file.read_text(encoding="utf-8")
-    try:
-        return name, Path(path).read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        why = getattr(error, "strerror", None) or error
-        raise InputError(
-            f"{name}: cannot read: {why}\nexpected: a CSV file, or one of {', '.join(SHIPPED)}"
-        ) from error
+    return name, text_file(path, f"a CSV file, or one of {', '.join(SHIPPED)}")
 
 
 def _counts(line: str) -> bool:

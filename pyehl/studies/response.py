@@ -23,8 +23,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl.case import Case
-from pyehl.destination import Destination, new_file
-from pyehl.errors import EhlError, FileError, InputError
+from pyehl.destination import Destination, file_errors, new_file
+from pyehl.errors import EhlError, InputError
 from pyehl.studies.journal import difference
 from pyehl.studies.pool import processors
 from pyehl.studies.ridges import ridges
@@ -184,10 +184,8 @@ def measure(
         raise InputError(f"jobs = {jobs}; expected: 1 or more")
     folder = Path(place.folder)
     done = _check_folder(place, settings, ratio)
-    try:
+    with file_errors(folder, "cannot be made"):
         folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise FileError(f"{folder}: cannot be made: {error.strerror or error}") from error
     wanted = [tier for tier in tiers if tier not in done]
     _run_all(case.text, ratio, wanted, jobs, folder, progress)
     found = {}

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import tempfile
 from collections.abc import Callable, Iterable, Mapping
@@ -14,7 +13,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from pyehl.case import Case
-from pyehl.destination import Destination
+from pyehl.destination import Destination, write_json
 from pyehl.given import Option, check_kind, path_of
 from pyehl.netcdf import write_netcdf
 from pyehl.prediction.smooth import solve_contact, zone_of
@@ -153,8 +152,7 @@ def _write(case: Case, found: Mapping[str, Mapping[str, Any]], place: Destinatio
         write_netcdf(folder / "response.nc", data)
         save(response_figure(*_beside_shipped(settings, data)), folder / PICTURE)
         (folder / "case.nml").write_text(case.text, encoding="utf-8")
-        text = json.dumps(summary, indent=2, allow_nan=False) + "\n"
-        (folder / "summary.json").write_text(text, encoding="utf-8")
+        write_json(folder / "summary.json", summary)
     return data.assign(scalars(summary)).assign_attrs(summary)
 
 

@@ -6,11 +6,10 @@ from __future__ import annotations
 import os
 import tomllib
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 from pyehl.errors import InputError, did_you_mean
-from pyehl.given import option
+from pyehl.given import option, text_file
 from pyehl.studies.vary import axis
 
 __all__ = ["read_study"]
@@ -27,10 +26,8 @@ def read_study(path: str | os.PathLike[str]) -> dict[str, Any]:
     """
     name = os.fspath(path)
     try:
-        values = tomllib.loads(Path(path).read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"{name}: cannot read: {error.strerror}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        values = tomllib.loads(text_file(path))
+    except tomllib.TOMLDecodeError as error:
         raise InputError(f"{name}: error: {error}") from error
     for key in values:
         if key not in STUDY_KEYS:

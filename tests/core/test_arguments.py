@@ -152,7 +152,7 @@ def test_faults_of_the_package_stay_what_they_are(cases: Path, monkeypatch):
     for name, words in (
         ("prediction.of_case.predict", ["predict", "-o", "out"]),
         ("prediction.film_sheet.sheet", ["film"]),
-        ("studies.stribeck.central_film", ["stribeck", "--speed", "1", "-o", "out"]),
+        ("studies.plan.central_film", ["stribeck", "--speed", "1", "-o", "out"]),
         ("commands.surface.from_settings", ["surface"]),
     ):
         monkeypatch.setattr(f"pyehl.{name}", broken)
