@@ -277,8 +277,7 @@ contains
       end if
       associate (g => input%grid)
          plan%coarsest = new_grid(intervals + 1, g%x_inlet, g%x_outlet, g%y_extent, mirror)
-         plan%domain_cost = domain_cost(plan%contact, plan%point, domain_t(g%x_inlet, g%x_outlet, g%y_extent), &
-                                        plan%flooded)
+         plan%domain_cost = domain_cost(plan%contact, plan%point, domain_t(g%x_inlet, g%x_outlet, g%y_extent), plan%flooded)
       end associate
       grid = plan%coarsest
       plan%start = 0

@@ -80,8 +80,7 @@ class SecondSolver:
         borders: tuple[float, float] = (X_INLET, X_OUTLET),
         flooded: bool = False,
     ) -> None:
-        self.flooded = flooded
-        self.start = borders[0]
+        self.flooded, self.start = flooded, borders[0]
         self.h = (borders[1] - borders[0]) / (points - 1)
         self.points, self.rows = points, (points + 1) // 2
         self.narrow = narrow
