@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import csv
+import importlib
 import re
 from pathlib import Path
 
@@ -142,3 +143,22 @@ def test_theory_has_the_numbers_of_the_records(root: Path):
             paper = next(r for r in point if (r["x_inlet"], r["y_extent"]) == (-2.5, 2.0))
             change = 100.0 * (paper["H_c"] / wide["H_c"] - 1.0)
             assert line[column].replace("−", "-") == f"{change:.2f}"
+
+
+def test_accuracy_has_the_shares_of_the_records(root: Path, capsys, monkeypatch):
+    """What docs/accuracy.md says of random points is what make.py show prints."""
+    folder = root / "docs" / "evidence" / "errors"
+    monkeypatch.syspath_prepend(str(folder))
+    make = importlib.import_module("make")
+    make.show()
+    printed = capsys.readouterr().out
+    text = (root / "docs" / "accuracy.md").read_text(encoding="utf-8")
+    for name in ("H_c", "H_min", "P_max", "F"):
+        share = re.search(rf"^{name}: true error .*: (\d+ of \d+)$", printed, re.MULTILINE)
+        assert share is not None
+        assert f"{share[1]} of {name}" in text
+    good, known, cases = re.findall(r"(\d+) of (\d+) in (\d+) cases", printed)[0]
+    assert f"Of {known} random results" in text
+    assert f"in {cases} cases, {good} are within twice that error" in text
+    assert int(good) >= 0.9 * int(known)
+    assert int(cases) >= 40

@@ -23,7 +23,7 @@ import pyehl
 
 HERE = Path(__file__).parent
 SEED = 20261
-SMOOTH, ROUGH = 80, 48
+SMOOTH, ROUGH = 80, 60
 # Nodes a side of the largest doubled domain
 FINEST = 1025
 QUANTITIES = ("H_c", "H_min", "P_max", "F")
