@@ -272,20 +272,22 @@ contains
    end function wanted
 
    !> Failure on a level: begin anew on the next finer one, where the discrete problem is better posed; on the finest one
-   !> from the first level on with care, unless the film is negative: then there is hardly a solution
+   !> once from the first level on with care, unless the film is negative: then there is hardly a solution
    subroutine fail_level(self, outcome)
       class(steady_t), intent(inout) :: self
       integer, intent(in) :: outcome
+      logical :: finest
 
-      if (self%n == self%levels .and. (self%careful .or. .not. self%may_restart .or. outcome == outcome_negative_film)) then
+      finest = self%n == self%levels
+      if (finest .and. (self%careful .or. .not. self%may_restart .or. outcome == outcome_negative_film)) then
          self%outcome = outcome
          return
       end if
       self%results%solved = .false.
       self%restarts = self%restarts + 1
       self%entered = .false.
-      self%careful = self%n == self%levels
-      self%n = merge(self%first, self%n + 1, self%careful)
+      self%careful = self%careful .or. finest
+      self%n = merge(self%first, self%n + 1, finest)
    end subroutine fail_level
 
    !> Whether the level begins from a coarser one

@@ -114,6 +114,12 @@ def test_pressure_spike_of_few_nodes_converges():
     assert found["H_c"] / usual["H_c"] == pytest.approx((25.0 / 24.0) ** 0.6, rel=2e-3)
 
 
+def test_a_second_try_is_the_last():
+    """Here coarse levels fail with care, too; what is left is the finest one, with care."""
+    found = solved(case_of(600.0, 40.0, 129))
+    assert found["restarts"] == 2
+
+
 def test_evidence_is_what_this_build_gives(root: Path):
     """Three rows of docs/evidence/errors/smooth.csv, made anew."""
     path = root / "docs" / "evidence" / "errors" / "smooth.csv"
