@@ -200,7 +200,9 @@ def execute(args: argparse.Namespace) -> int:
     lost = [
         f"point {p.point.number + 1} of {len(rows)} ({p.point}): {row['status']}: {row['message']}"
         for p, row in zip(plan.points, rows, strict=True)
-        if row["status"] == UNSOLVED or (p.full is not None and row["mu_ratio_ehl"] is None)
+        if row["status"] == UNSOLVED
+        or row["h_c_m"] is None
+        or (p.full is not None and row["mu_ratio_ehl"] is None)
     ]
     tell_lost(lost, folder / CSV)
     return EXIT_OK if PICTURE in written and not lost else EXIT_FAILED

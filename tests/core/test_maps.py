@@ -199,8 +199,7 @@ def test_surface_of_every_kind(tmp_path: Path, kind: str):
     (tmp_path / "case.nml").write_text(f"&surface kind = '{kind}' pixels = 32 /\n")
     out = tmp_path / "map.txt"
     assert cli.main(["surface", str(tmp_path / "case.nml"), "-o", str(out), "--no-plots"]) == 0
-    tile = surfaces.read_map(out)
-    assert tile.shape == (32, 32)
+    assert surfaces.tile_of(surfaces.read_scan(out)).shape == (32, 32)
     assert not (tmp_path / "map.txt.png").exists()
 
 
