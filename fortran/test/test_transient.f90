@@ -244,7 +244,8 @@ contains
       call hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, plan%engine, &
                            plan%threads, status)
       call steady%start(plan%contact, plan%film_expected, plan%start, plan%levels, plan%cycle, &
-                        plan%second_cycle, plan%accuracy, plan%target_error, plan%max_cycles)
+                        plan%second_cycle, plan%accuracy, plan%target_error, plan%max_cycles, &
+                         plan%flooded, .false.)
       call hierarchy%grow(steady%n, status)
       do while (.not. status%failed() .and. steady%outcome == outcome_running)
          call steady%advance(hierarchy, status)
