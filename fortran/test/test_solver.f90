@@ -29,7 +29,7 @@ module test_solver
    public :: run_solver
 
    character(len=*), parameter :: moderate = "&contact moes_m = 20, moes_l = 10 / &lubricant roelands_z = 0.68 / "// &
-                                  "&grid points = 129, x_inlet = -4.5, x_outlet = 1.5, y_extent = 3 / "
+                                  "&grid points = 129, x_inlet = -4.5, x_outlet = 1.5, y_extent = 3, border = 'zero' / "
    character(len=*), parameter :: wavy = "&surface kind = 'harmonic', amplitude = 0.05, wavelength = 1, x_start = 0 / "// &
                                   "&time steps = 6 / "
 
