@@ -86,8 +86,8 @@ module ehl_case
       real(dp) :: x_outlet = 1.5_dp
       !> [a] the domain is -y_extent <= Y <= y_extent, default 2
       real(dp) :: y_extent = 2.0_dp
-      !> What is at the border: 'flooded', the pressure of a fully flooded contact; 'zero', P = 0; 'auto' (default)
-      character(len=word_length) :: border = "auto"
+      !> What is at the border: 'flooded', the pressure of a fully flooded contact, or 'zero', P = 0; default by M
+      character(len=word_length) :: border = "zero"
       !> [-] relative error of the central film wanted; 0 (default): use `points` as it is, else
       !> grids of the family of `points` are refined until the estimated error is below it
       real(dp) :: target_error = 0.0_dp

@@ -3,7 +3,7 @@
 module ehl_case_contact
    use ehl_case, only: case_t
    use ehl_circular, only: circular_from_si, circular_t
-   use ehl_domain, only: domain_t, is_flooded, needed_domain
+   use ehl_domain, only: domain_t, flooded_by_default, needed_domain
    use ehl_kinds, only: dp
    use ehl_moes, only: operating_from_moes, operating_from_si, operating_t
    use ehl_refusal, only: contradict, first_given, is_before, refuse, short
@@ -98,7 +98,7 @@ contains
       end associate
    end subroutine find_point
 
-   !> The domain follows from the operating point, border by border, unless it is given
+   !> Border and domain follow from the operating point, side by side, unless they are given
    subroutine complete_domain(schema, input)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(inout) :: input
@@ -107,7 +107,8 @@ contains
       type(domain_t) :: domain
 
       call find_point(input, contact, point)
-      domain = needed_domain(contact, point, is_flooded(input%grid%border, point))
+      if (.not. schema%given("grid", "border") .and. flooded_by_default(point)) input%grid%border = "flooded"
+      domain = needed_domain(contact, point, input%grid%border == "flooded")
       if (.not. schema%given("grid", "x_inlet")) input%grid%x_inlet = domain%inlet
       if (.not. schema%given("grid", "x_outlet")) input%grid%x_outlet = domain%outlet
       if (.not. schema%given("grid", "y_extent")) input%grid%y_extent = domain%side

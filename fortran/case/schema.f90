@@ -93,8 +93,8 @@ contains
          call self%reals("grid", "x_outlet", g%x_outlet, "a", "[1.05, 1e4]", "outlet boundary X; default by M and L")
          call self%reals("grid", "y_extent", g%y_extent, "a", "[1.05, 1e4]", &
                          "side boundaries Y = -y_extent and y_extent; default by M and L")
-         call self%words("grid", "border", g%border, "auto|flooded|zero", &
-                         "pressure of a flooded contact, or P = 0; auto: the former below M = 500")
+         call self%words("grid", "border", g%border, "flooded|zero", &
+                         "pressure of a flooded contact, or P = 0; default by M: the former below 500")
          call self%reals("grid", "target_error", g%target_error, "-", "0 or [1e-5, 0.1]", &
                          "relative error of H_c wanted; 0: solve on points as given")
          call self%integers("grid", "max_points", g%max_points, "[17, 8193]", &

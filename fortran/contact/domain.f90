@@ -17,7 +17,7 @@ module ehl_domain
    use ehl_moes, only: operating_t
    implicit none (type, external)
    private
-   public :: domain_t, is_flooded, needed_domain, domain_cost, ratio_cost, too_small
+   public :: domain_t, flooded_by_default, needed_domain, domain_cost, ratio_cost, too_small
 
    !> Why an error has no part from the domain, where its cost is 1 or more
    character(len=*), parameter :: too_small = "the domain is so small that the film of a flooded contact cannot be told from it"
@@ -50,13 +50,11 @@ module ehl_domain
 
 contains
 
-   !> Whether the border has the pressure of a flooded contact, else 0
-   pure logical function is_flooded(border, point)
-      !> Of the case: 'auto', 'flooded' or 'zero'
-      character(len=*), intent(in) :: border
+   !> Whether the border has the pressure of a flooded contact unless the case says otherwise
+   pure logical function flooded_by_default(point)
       type(operating_t), intent(in) :: point
-      is_flooded = border == "flooded" .or. (border == "auto" .and. point%moes_m < first_usual)
-   end function is_flooded
+      flooded_by_default = point%moes_m < first_usual
+   end function flooded_by_default
 
    !> The domain of a contact: that of Zhang et al. 2019, or with a flooded border one of its shape that is larger as the
    !> film is thick. Cells are square, and X = 0 is a node of every grid of 32 n + 1 nodes.

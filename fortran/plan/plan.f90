@@ -5,7 +5,7 @@ module ehl_plan
    use ehl_circular, only: circular_from_si, circular_t
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
-   use ehl_domain, only: domain_cost, domain_t, is_flooded
+   use ehl_domain, only: domain_cost, domain_t
    use ehl_grid, only: coarsest_most, find_levels, grid_t, new_grid
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
@@ -103,7 +103,7 @@ contains
       real(dp) :: rho(1), slope(1)
 
       call pick_contact(input, plan)
-      plan%flooded = is_flooded(input%grid%border, plan%point)
+      plan%flooded = input%grid%border == "flooded"
       plan%lubricant = plan_lubricant(input, plan%point, plan%contact)
       call plan%lubricant%density([1.0_dp], rho, slope)
       plan%film_expected = plan%contact%film_formula(plan%point%moes_m, plan%point%moes_l)/rho(1)

@@ -28,8 +28,6 @@ NO_SOLUTION, SAME, DIFFERS, UNSOLVED, SOLVABLE = (
     "not solved either",
     "has a solution",
 )
-FLOODED_BELOW = 500.0
-"""Moes M below which the border is that of a flooded contact by default."""
 LATER = 5
 """A film may end so many steps later than in the run: near its end the last digits decide."""
 AGREE = 1e-2
@@ -68,7 +66,7 @@ def solve_again(row: Row) -> str:
     narrow = values.get("time.scheme", "narrow") == "narrow"
     grid = Case.from_text("", [f"{key}={value}" for key, value in values.items()]).resolve()["grid"]
     borders = grid["x_inlet"], grid["x_outlet"]
-    flooded = row["moes_m"] < FLOODED_BELOW
+    flooded = grid["border"] == "flooded"
     solver = SecondSolver(
         row["moes_m"], row["moes_l"], POINTS, narrow=narrow, borders=borders, flooded=flooded
     )
