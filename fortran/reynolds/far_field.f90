@@ -60,7 +60,7 @@ contains
    pure real(dp) function load_beyond(grid, c)
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: c
-      real(dp) :: angle, inlet, outlet, side, last, u
+      real(dp) :: angle, inlet, outlet, side, last, u, along
       integer :: k, l
 
       inlet = -(grid%x0 - 0.5_dp*grid%hx)
@@ -70,10 +70,12 @@ contains
       do k = 1, angles
          angle = (k - 0.5_dp)/angles*rupture
          last = max(cos(angle)/inlet, sin(angle)/side, -cos(angle)/outlet)
+         along = 0.0_dp
          do l = 1, distances
             u = (l - 0.5_dp)/distances*last
-            load_beyond = load_beyond + around(angle)*last/(1.0_dp + 2.0_dp*c*u**2)**2
+            along = along + last/(1.0_dp + 2.0_dp*c*u**2)**2
          end do
+         load_beyond = load_beyond + around(angle)*along
       end do
       load_beyond = load_beyond*2.0_dp*rupture/(angles*distances)
    end function load_beyond
