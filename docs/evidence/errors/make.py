@@ -1,7 +1,7 @@
 """Measure whether the errors that runs state hold: smooth contacts and rough ones at random points.
 
-    python docs/evidence/errors/make.py smooth     # smooth.csv, ten minutes
-    python docs/evidence/errors/make.py rough      # rough.csv, a quarter of an hour
+    python docs/evidence/errors/make.py smooth     # smooth.csv, a minute
+    python docs/evidence/errors/make.py rough      # rough.csv, forty minutes
     python docs/evidence/errors/make.py show       # what holds, from the two tables
 
 Operating points and surfaces are drawn from a seed that was not used to choose any estimate.
