@@ -9,6 +9,7 @@ module ehl_f2py_functions
    use ehl_deflection, only: deflection_t
    use ehl_deflection_factory, only: new_deflection
    use ehl_grid, only: grid_t
+   use ehl_kinds, only: pi
    use ehl_memory, only: check_memory, free_bytes
    use ehl_reply, only: reply
    use ehl_status, only: status_t
@@ -97,7 +98,7 @@ contains
       bytes = 0.0_c_double
       grid = grid_t(nx=nx, ny=ny, hx=hx, hy=hy, mirror=mirror /= 0)
       call new_deflection(engine, solver, status)
-      if (.not. status%failed()) call solver%setup(grid, accuracy, threads, status)
+      if (.not. status%failed()) call solver%setup(grid, 2.0_c_double/pi**2, accuracy, threads, status)
       if (.not. status%failed()) then
          clock = start_clock()
          do k = 1, repeats

@@ -89,9 +89,9 @@ contains
    !> Whether a grid can be coarsened far enough
    pure logical function has_levels(points)
       integer, intent(in) :: points
-      integer :: levels, intervals
+      integer :: levels, intervals(2)
 
-      call find_levels(points, levels, intervals)
+      call find_levels(points, points, levels, intervals)
       has_levels = levels > 0
    end function has_levels
 

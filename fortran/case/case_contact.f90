@@ -2,18 +2,20 @@
 !> The contact of a case: Moes numbers or SI values, an operating point that can be meant, and the motion of the surfaces
 module ehl_case_contact
    use ehl_case, only: case_t
-   use ehl_circular, only: circular_from_si, circular_t
+   use ehl_contact, only: contact_t
+   use ehl_contact_factory, only: hertz_scales, new_contact
    use ehl_domain, only: domain_t, flooded_by_default, needed_domain
    use ehl_kinds, only: dp
    use ehl_moes, only: operating_from_moes, operating_from_si, operating_t
    use ehl_refusal, only: contradict, first_given, is_before, refuse, short
+   use ehl_scales, only: scales_t
    use ehl_schema, only: schema_t
    use ehl_source, only: point_at, source_t
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: check_contact_kind, check_operating_point, complete_domain, complete_kinematics
+   public :: check_contact_kind, check_operating_point, complete_domain, complete_kinematics, find_contact
 
    character(len=12), parameter :: moes_keys(2) = [character(len=12) :: "moes_m", "moes_l"]
    character(len=16), parameter :: si_keys(4) = &
@@ -51,20 +53,21 @@ contains
       type(case_t), intent(in) :: input
       type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
+      class(contact_t), allocatable :: contact
+      type(scales_t) :: scales
       type(operating_t) :: point
-      type(circular_t) :: contact
       integer :: culprit
       character(len=:), allocatable :: what, expected
 
       if (.not. input%contact%si) return
-      call find_point(input, contact, point)
+      call find_contact(input, contact, scales, point)
       what = ""
       expected = ""
-      if (contact%pressure < 1.0e5_dp .or. contact%pressure > 2.0e10_dp) then
-         what = "the Hertz pressure is " // short(contact%pressure) // " Pa"
+      if (scales%pressure < 1.0e5_dp .or. scales%pressure > 2.0e10_dp) then
+         what = "the Hertz pressure is " // short(scales%pressure) // " Pa"
          expected = "values in SI units with a Hertz pressure between 1e5 and 2e10 Pa"
-      else if (contact%radius > input%contact%radius) then
-         what = "the Hertz radius " // short(contact%radius) // " m exceeds contact.radius"
+      else if (scales%length > input%contact%radius) then
+         what = "the Hertz radius " // short(scales%length) // " m exceeds contact.radius"
          expected = "values in SI units with a contact much smaller than the ball"
       else if (point%moes_m > 1.0e5_dp .or. point%moes_m < 0.1_dp) then
          what = "the Moes parameter M is " // short(point%moes_m)
@@ -81,32 +84,36 @@ contains
       end associate
    end subroutine check_operating_point
 
-   !> Contact and operating point, without the heat of the inlet
-   subroutine find_point(input, contact, point)
+   !> Shape, scales and operating point, without the heat of the inlet
+   subroutine find_contact(input, contact, scales, point)
       type(case_t), intent(in) :: input
-      type(circular_t), intent(out) :: contact
+      class(contact_t), allocatable, intent(out) :: contact
+      type(scales_t), intent(out) :: scales
       type(operating_t), intent(out) :: point
 
+      call new_contact(contact)
       associate (c => input%contact, l => input%lubricant)
          if (c%si) then
-            contact = circular_from_si(c%load, c%radius, c%reduced_modulus)
+            scales = hertz_scales(c%load, c%radius, c%reduced_modulus)
             point = operating_from_si(c%load, c%mean_velocity, c%radius, c%reduced_modulus, l%viscosity, &
-                                      l%pressure_viscosity, contact%pressure)
+                                      l%pressure_viscosity, scales%pressure)
          else
-            point = operating_from_moes(c%moes_m, c%moes_l, l%pressure_viscosity)
+            point = operating_from_moes(c%moes_m, c%moes_l)
+            scales%pressure = point%alpha_bar/l%pressure_viscosity
          end if
       end associate
-   end subroutine find_point
+   end subroutine find_contact
 
    !> Border and domain follow from the operating point, side by side, unless they are given
    subroutine complete_domain(schema, input)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(inout) :: input
-      type(circular_t) :: contact
+      class(contact_t), allocatable :: contact
+      type(scales_t) :: scales
       type(operating_t) :: point
       type(domain_t) :: domain
 
-      call find_point(input, contact, point)
+      call find_contact(input, contact, scales, point)
       if (.not. schema%given("grid", "border") .and. flooded_by_default(point)) input%grid%border = "flooded"
       domain = needed_domain(contact, point, input%grid%border == "flooded")
       if (.not. schema%given("grid", "x_inlet")) input%grid%x_inlet = domain%inlet

@@ -2,10 +2,11 @@
 !> Temperature of the lubricant: its viscosity from a data sheet, and shear heating of the inlet
 module ehl_case_temperature
    use ehl_case, only: case_t
-   use ehl_circular, only: circular_from_si, circular_t
+   use ehl_contact_factory, only: hertz_scales
    use ehl_heat, only: dynamic_viscosity, temperature_viscosity, thermal_loading, thermal_reduction
    use ehl_kinds, only: dp
    use ehl_refusal, only: contradict, refuse, short
+   use ehl_scales, only: scales_t
    use ehl_schema, only: schema_t
    use ehl_source, only: source_t
    use ehl_status, only: status_t
@@ -78,7 +79,7 @@ contains
       type(case_t), intent(in) :: input
       type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
-      type(circular_t) :: contact
+      type(scales_t) :: scales
       real(dp) :: loading, reduction
 
       associate (l => input%lubricant, c => input%contact)
@@ -94,9 +95,9 @@ contains
                         "temperature_viscosity, or kinematic_viscosity_40 and kinematic_viscosity_100", status)
             return
          end if
-         contact = circular_from_si(c%load, c%radius, c%reduced_modulus)
+         scales = hertz_scales(c%load, c%radius, c%reduced_modulus)
          loading = thermal_loading(l%temperature_viscosity, l%viscosity, c%mean_velocity, l%thermal_conductivity)
-         reduction = thermal_reduction(loading, contact%pressure/c%reduced_modulus, c%slide_to_roll)
+         reduction = thermal_reduction(loading, scales%pressure/c%reduced_modulus, c%slide_to_roll)
          if (reduction > 0.0_dp) return
          call refuse(schema, sources, "lubricant", "thermal_reduction", "lubricant.thermal_reduction: the formula gives " &
                      // "a film of " // short(reduction) // " times the isothermal one at a thermal loading of " &

@@ -4,31 +4,33 @@ module ehl_circular
    use ehl_contact, only: contact_t
    use ehl_film_formula, only: film_central_formula
    use ehl_kinds, only: dp, pi
+   use ehl_scales, only: scales_t
    implicit none (type, external)
    private
-   public :: circular_t, circular_from_si
+   public :: circular_t, circular_scales
 
    type, extends(contact_t) :: circular_t
    contains
       procedure :: gap_row
       procedure :: pressure_row
       procedure :: load
+      procedure :: kernel_factor
       procedure :: dry_separation
       procedure :: film_formula
    end type circular_t
 
 contains
 
-   !> Scales of the dry contact: a = (3 w R/(2 E'))^(1/3), p_h = 3 w/(2 pi a^2)
-   pure function circular_from_si(load, radius, reduced_modulus) result(contact)
-      !> Load [N], reduced radius R [m], reduced modulus E' [Pa] with 2/E' = sum (1 - nu^2)/E
+   !> Scales: a = (3 w R/(2 E'))^(1/3), p_h = 3 w/(2 pi a^2)
+   pure function circular_scales(load, radius, reduced_modulus) result(scales)
+      !> Load [N], reduced radius R [m], reduced modulus E' [Pa]
       real(dp), intent(in) :: load, radius, reduced_modulus
-      type(circular_t) :: contact
+      type(scales_t) :: scales
 
-      contact%radius = (1.5_dp*load*radius/reduced_modulus)**(1.0_dp/3.0_dp)
-      contact%pressure = 1.5_dp*load/(pi*contact%radius**2)
-      contact%film_scale = contact%radius**2/radius
-   end function circular_from_si
+      scales%length = (1.5_dp*load*radius/reduced_modulus)**(1.0_dp/3.0_dp)
+      scales%pressure = 1.5_dp*load/(pi*scales%length**2)
+      scales%film = scales%length**2/radius
+   end function circular_scales
 
    !> X^2/2 + Y^2/2
    pure subroutine gap_row(self, x, y, values)
@@ -59,6 +61,14 @@ contains
       end associate
       load = 2.0_dp*pi/3.0_dp
    end function load
+
+   !> 2/pi^2
+   pure real(dp) function kernel_factor(self)
+      class(circular_t), intent(in) :: self
+      associate (unused => self)
+      end associate
+      kernel_factor = 2.0_dp/pi**2
+   end function kernel_factor
 
    !> H00 of the dry contact, whose deflection at the centre is 1
    pure real(dp) function dry_separation(self)

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The macroscopic contact: what of a scene is due to the shape of the two bodies and the load on them.
-!> A shape extends `contact_t`; no other module knows one. Lengths by the Hertz radius a, films by a^2/R,
-!> pressures by the Hertz pressure p_h.
+!> A shape extends `contact_t`; only ehl_contact_factory knows one. Lengths, films and pressures by the scales of the
+!> contact (ehl_scales).
 module ehl_contact
    use ehl_kinds, only: dp
    implicit none (type, external)
@@ -9,15 +9,11 @@ module ehl_contact
    public :: contact_t
 
    type, abstract :: contact_t
-      !> Hertz radius a [m] and film scale a^2/R [m]; 0: the contact is given by numbers without dimension
-      real(dp) :: radius = 0.0_dp, film_scale = 0.0_dp
-      !> Hertz pressure p_h [Pa]; 0 where neither viscosity nor density varies
-      real(dp) :: pressure = 0.0_dp
    contains
-      procedure :: has_size
       procedure(row), deferred :: gap_row
       procedure(row), deferred :: pressure_row
       procedure(number), deferred :: load
+      procedure(number), deferred :: kernel_factor
       procedure(number), deferred :: dry_separation
       procedure(film), deferred :: film_formula
    end type contact_t
@@ -34,7 +30,7 @@ module ehl_contact
          real(dp), intent(out) :: values(:)
       end subroutine row
 
-      !> load: iint P dX dY; dry_separation: H00 of the dry contact
+      !> load: iint P dX dY; kernel_factor: k_b of the deflection k_b iint P/r; dry_separation: H00 of the dry contact
       pure real(dp) function number(self)
          import :: contact_t, dp
          implicit none (type, external)
@@ -49,12 +45,4 @@ module ehl_contact
          real(dp), intent(in) :: moes_m, moes_l
       end function film
    end interface
-
-contains
-
-   !> Whether its size in metres is known
-   pure logical function has_size(self)
-      class(contact_t), intent(in) :: self
-      has_size = self%radius > 0.0_dp
-   end function has_size
 end module ehl_contact

@@ -9,7 +9,7 @@ module ehl_deflection
    private
    public :: deflection_t
 
-   !> Elastic deflection W = (2/pi^2) iint P dX' dY' / r on one grid, P piecewise constant on
+   !> Elastic deflection W = k_b iint P dX' dY' / r on one grid, P piecewise constant on
    !> cells of hx x hy centred at the nodes. P is scaled by the Hertz pressure, W by a^2/R.
    type, abstract :: deflection_t
    contains
@@ -23,11 +23,13 @@ module ehl_deflection
 
    abstract interface
       !> Prepare for a grid
-      subroutine setup_i(self, grid, accuracy, threads, status)
+      subroutine setup_i(self, grid, factor, accuracy, threads, status)
          import :: deflection_t, grid_t, dp, status_t
          implicit none (type, external)
          class(deflection_t), intent(inout) :: self
          type(grid_t), intent(in) :: grid
+         !> k_b
+         real(dp), intent(in) :: factor
          !> Largest error allowed, relative to the largest deflection; engines that are exact
          !> to rounding ignore it
          real(dp), intent(in) :: accuracy

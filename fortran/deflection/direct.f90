@@ -28,10 +28,10 @@ module ehl_direct
 contains
 
    !> Prepare for a grid; the accuracy is that of rounding
-   subroutine setup(self, grid, accuracy, threads, status)
+   subroutine setup(self, grid, factor, accuracy, threads, status)
       class(direct_deflection_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
-      real(dp), intent(in) :: accuracy
+      real(dp), intent(in) :: factor, accuracy
       integer, intent(in) :: threads
       type(status_t), intent(inout) :: status
       integer :: i, j, stat
@@ -48,7 +48,7 @@ contains
       end if
       do j = 0, grid%full_ny() - 1
          do i = 0, grid%nx - 1
-            self%k(i, j) = kernel_coefficient(i, j, grid%hx, grid%hy)
+            self%k(i, j) = kernel_coefficient(factor, i, j, grid%hx, grid%hy)
             self%k(-i, j) = self%k(i, j)
          end do
       end do

@@ -57,10 +57,10 @@ module ehl_fft
 contains
 
    !> Prepare for a grid; the accuracy is that of rounding
-   subroutine setup(self, grid, accuracy, threads, status)
+   subroutine setup(self, grid, factor, accuracy, threads, status)
       class(fft_deflection_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
-      real(dp), intent(in) :: accuracy
+      real(dp), intent(in) :: factor, accuracy
       integer, intent(in) :: threads
       type(status_t), intent(inout) :: status
 
@@ -85,7 +85,7 @@ contains
          call status%fail(ehl_internal, "FFTW made no plan for the deflection")
          return
       end if
-      call transform_kernel(self, grid%hx, grid%hy, status)
+      call transform_kernel(self, factor, grid%hx, grid%hy, status)
    end subroutine setup
 
    !> W = K P
@@ -164,9 +164,9 @@ contains
    end subroutine make_plans
 
    !> Cosine transform of the kernel, scaled for a forward and a backward transform
-   subroutine transform_kernel(self, hx, hy, status)
+   subroutine transform_kernel(self, factor, hx, hy, status)
       type(fft_deflection_t), intent(inout) :: self
-      real(dp), intent(in) :: hx, hy
+      real(dp), intent(in) :: factor, hx, hy
       type(status_t), intent(inout) :: status
       type(c_ptr) :: plan
       real(dp), pointer, contiguous :: in_place(:, :)
@@ -182,7 +182,7 @@ contains
          return
       end if
       ! the first index of the table is the offset in Y
-      call fill_kernel(self%kernel, hy, hx, [1, 1])
+      call fill_kernel(self%kernel, factor, hy, hx, [1, 1])
       call fftw_execute_r2r(plan, self%kernel, in_place)
       self%kernel = self%kernel/(real(self%lx, dp)*real(self%ly, dp))
       call drop_plan(plan)

@@ -64,10 +64,10 @@ module ehl_mlmi
 contains
 
    !> Prepare for a grid; accuracies from 1e-10 on are possible, and from 2e-4 on the same
-   subroutine setup(self, grid, accuracy, threads, status)
+   subroutine setup(self, grid, factor, accuracy, threads, status)
       class(mlmi_deflection_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
-      real(dp), intent(in) :: accuracy
+      real(dp), intent(in) :: factor, accuracy
       integer, intent(in) :: threads
       type(status_t), intent(inout) :: status
       real(dp) :: goal, tolerance
@@ -95,7 +95,7 @@ contains
             axis = next_axis(grid, step)
             extent = high - low + 2*size(self%omega)
             if (grid%mirror) extent(2) = extent(2) + high(2)
-            call stage%stencil%make(axis, step, extent, grid%hx, grid%hy, self%omega, tolerance*ratio**(s - 1), met)
+            call stage%stencil%make(axis, step, extent, factor, grid%hx, grid%hy, self%omega, tolerance*ratio**(s - 1), met)
             if (goal < fine_limit .or. .not. met) then
                call refuse(accuracy, status)
                return
@@ -108,7 +108,7 @@ contains
             longest = max(longest, high(1) - low(1) + 1 + 2*stage%margin)
          end associate
       end do
-      call self%stages(n + 1)%finish(low, high, grid%mirror, step, grid%hx, grid%hy, status)
+      call self%stages(n + 1)%finish(low, high, grid%mirror, step, factor, grid%hx, grid%hy, status)
       if (status%failed()) return
       longest = max(longest, high(1) - low(1) + 1 + 2*self%stages(n + 1)%margin)
       allocate (self%work(longest, 3, self%threads), stat=stat)

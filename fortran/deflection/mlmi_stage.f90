@@ -76,11 +76,11 @@ contains
    end subroutine halve
 
    !> Make this the coarsest grid low:high, of every step-th node
-   subroutine finish(self, low, high, mirror, step, hx, hy, status)
+   subroutine finish(self, low, high, mirror, step, factor, hx, hy, status)
       class(stage_t), intent(inout) :: self
       integer, intent(in) :: low(2), high(2), step(2)
       logical, intent(in) :: mirror
-      real(dp), intent(in) :: hx, hy
+      real(dp), intent(in) :: factor, hx, hy
       type(status_t), intent(inout) :: status
       integer :: i, j, width, height, stat
 
@@ -99,7 +99,7 @@ contains
       end if
       do j = 0, height
          do i = 0, width
-            self%coarse(i, j) = kernel_coefficient(step(1)*i, step(2)*j, hx, hy)
+            self%coarse(i, j) = kernel_coefficient(factor, step(1)*i, step(2)*j, hx, hy)
             self%coarse(-i, j) = self%coarse(i, j)
          end do
       end do

@@ -54,14 +54,14 @@ contains
       end do
    end function transfer_weights
 
-   !> Corrections for the kernel K(d) = kernel_coefficient(step(1)*di, step(2)*dj, hx, hy),
+   !> Corrections for the kernel K(d) = kernel_coefficient(factor, step(1)*di, step(2)*dj, hx, hy),
    !> halved along an axis (1: X, 2: Y), on a grid where no two nodes are further apart than
    !> extent (X, Y). The tolerance is in units of K; it is not met if even all corrections
    !> within reach leave out more.
-   subroutine make(self, axis, step, extent, hx, hy, omega, tolerance, met)
+   subroutine make(self, axis, step, extent, factor, hx, hy, omega, tolerance, met)
       class(stencil_t), intent(inout) :: self
       integer, intent(in) :: axis, step(2), extent(2)
-      real(dp), intent(in) :: hx, hy, omega(:), tolerance
+      real(dp), intent(in) :: factor, hx, hy, omega(:), tolerance
       logical, intent(out) :: met
       real(dp), allocatable :: table(:, :), turned(:, :), c(:, :), copies(:, :)
       real(dp) :: low, high, middle, spread
@@ -73,10 +73,10 @@ contains
       allocate (table(0:along + 2*size(omega), 0:across), c(0:along, 0:across), &
                 copies(0:along, 0:across), kept(0:along, 0:across))
       if (axis == 1) then
-         call fill_kernel(table, hx, hy, step)
+         call fill_kernel(table, factor, hx, hy, step)
       else
          allocate (turned(0:across, 0:ubound(table, 1)))
-         call fill_kernel(turned, hx, hy, step)
+         call fill_kernel(turned, factor, hx, hy, step)
          table(:, :) = transpose(turned)
       end if
       do b = 0, across

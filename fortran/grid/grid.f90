@@ -37,41 +37,41 @@ module ehl_grid
 
 contains
 
-   !> Grid of points x points nodes over [x_inlet, x_outlet] x [-y_extent, y_extent];
-   !> with mirror only the (points+1)/2 rows with Y >= 0 are stored
-   pure function new_grid(points, x_inlet, x_outlet, y_extent, mirror) result(grid)
-      integer, intent(in) :: points
+   !> Grid of nx x ny nodes over [x_inlet, x_outlet] x [-y_extent, y_extent];
+   !> with mirror only the (ny+1)/2 rows with Y >= 0 are stored
+   pure function new_grid(nx, ny, x_inlet, x_outlet, y_extent, mirror) result(grid)
+      integer, intent(in) :: nx, ny
       real(dp), intent(in) :: x_inlet, x_outlet, y_extent
       logical, intent(in) :: mirror
       type(grid_t) :: grid
 
-      grid%nx = points
-      grid%hx = (x_outlet - x_inlet)/(points - 1)
-      grid%hy = 2.0_dp*y_extent/(points - 1)
+      grid%nx = nx
+      grid%hx = (x_outlet - x_inlet)/(nx - 1)
+      grid%hy = 2.0_dp*y_extent/(ny - 1)
       grid%x0 = x_inlet
       grid%mirror = mirror
       if (mirror) then
-         grid%ny = (points + 1)/2
+         grid%ny = (ny + 1)/2
          grid%y0 = 0.0_dp
       else
-         grid%ny = points
+         grid%ny = ny
          grid%y0 = -y_extent
       end if
    end function new_grid
 
-   !> Levels that a grid of points x points nodes has, and intervals per side of the coarsest one; no levels where
-   !> halving does not end at an even number of `coarsest_most` or less
-   pure subroutine find_levels(points, levels, intervals)
-      integer, intent(in) :: points
-      integer, intent(out) :: levels, intervals
+   !> Levels that a grid of nx x ny nodes has, and intervals of the sides of the coarsest one; no levels where halving
+   !> does not end at even numbers, that of the shorter side at `coarsest_most` or less
+   pure subroutine find_levels(nx, ny, levels, intervals)
+      integer, intent(in) :: nx, ny
+      integer, intent(out) :: levels, intervals(2)
 
-      intervals = points - 1
+      intervals = [nx, ny] - 1
       levels = 1
-      do while (mod(intervals, 4) == 0 .and. intervals >= 2*coarsest_fewest)
+      do while (all(mod(intervals, 4) == 0) .and. minval(intervals) >= 2*coarsest_fewest)
          intervals = intervals/2
          levels = levels + 1
       end do
-      if (intervals > coarsest_most .or. mod(intervals, 2) /= 0 .or. points < 3) levels = 0
+      if (minval(intervals) > coarsest_most .or. any(mod(intervals, 2) /= 0) .or. min(nx, ny) < 3) levels = 0
    end subroutine find_levels
 
    !> X of column i

@@ -49,9 +49,11 @@ module ehl_coarsest
 contains
 
    !> Tabulate the kernel
-   subroutine setup(self, grid, status)
+   subroutine setup(self, grid, factor, status)
       class(coarsest_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
+      !> k_b
+      real(dp), intent(in) :: factor
       type(status_t), intent(inout) :: status
       real(dp) :: kernel(grid%nx, 2*grid%ny)
       integer :: i, j, k, l, col, stat
@@ -68,7 +70,7 @@ contains
          call status%fail(ehl_no_memory, "no memory for the coarsest level")
          return
       end if
-      call fill_kernel(kernel, grid%hx, grid%hy, [1, 1])
+      call fill_kernel(kernel, factor, grid%hx, grid%hy, [1, 1])
       do l = self%first, self%last
          do k = 2, grid%nx - 1
             col = unknown(self, grid%nx, k, l)

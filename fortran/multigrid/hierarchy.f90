@@ -43,13 +43,14 @@ module ehl_hierarchy
 contains
 
    !> Levels from the coarsest grid on; only the coarsest one gets its arrays yet
-   subroutine setup(self, coarsest, n, lubricant, speed_parameter, engine, threads, status)
+   subroutine setup(self, coarsest, n, lubricant, speed_parameter, kernel_factor, engine, threads, status)
       class(hierarchy_t), intent(inout) :: self
       !> Coarsest grid, and how many levels there are to be at the most
       type(grid_t), intent(in) :: coarsest
       integer, intent(in) :: n
       type(lubricant_t), intent(in) :: lubricant
-      real(dp), intent(in) :: speed_parameter
+      !> lambda_bar; factor k_b of the deflection
+      real(dp), intent(in) :: speed_parameter, kernel_factor
       !> Deflection engine
       character(len=*), intent(in) :: engine
       integer, intent(in) :: threads
@@ -69,9 +70,10 @@ contains
       do k = 1, n
          self%levels(k)%lubricant = lubricant
          self%levels(k)%inverse_speed = 1.0_dp/speed_parameter
+         self%levels(k)%kernel_factor = kernel_factor
       end do
       self%levels(1)%grid = coarsest
-      call self%coarsest%setup(coarsest, status)
+      call self%coarsest%setup(coarsest, kernel_factor, status)
       call self%grow(1, status)
    end subroutine setup
 
@@ -90,11 +92,12 @@ contains
             end if
             level%threads = threads_that_pay(level%grid, self%threads)
             call level%setup(status)
-            call self%spaces(k)%setup(level%grid, level%threads, status)
+            call self%spaces(k)%setup(level%grid, level%kernel_factor, level%threads, status)
             if (status%failed()) return
             call new_deflection(self%engine, level%engine, status)
             if (status%failed()) return
-            call level%engine%setup(level%grid, deflection_accuracy(level%grid), level%threads, status)
+            call level%engine%setup(level%grid, level%kernel_factor, deflection_accuracy(level%grid), level%threads, &
+                                    status)
             if (status%failed()) return
          end associate
          self%ready = k

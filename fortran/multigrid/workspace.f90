@@ -45,10 +45,11 @@ module ehl_workspace
 
 contains
 
-   !> For a grid and a number of threads
-   subroutine setup(self, grid, threads, status)
+   !> For a grid, the factor k_b of its deflection and a number of threads
+   subroutine setup(self, grid, factor, threads, status)
       class(workspace_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
+      real(dp), intent(in) :: factor
       integer, intent(in) :: threads
       type(status_t), intent(inout) :: status
       integer :: d, stat
@@ -69,10 +70,10 @@ contains
       end if
       associate (hx => grid%hx, hy => grid%hy)
          do d = -near_reach, near_reach
-            self%near(d) = kernel_coefficient(d, 0, hx, hy)
-            self%near_dipole(d) = self%near(d) - 0.25_dp*(kernel_coefficient(d - 1, 0, hx, hy) &
-                                                          + kernel_coefficient(d + 1, 0, hx, hy) &
-                                                          + 2.0_dp*kernel_coefficient(d, 1, hx, hy))
+            self%near(d) = kernel_coefficient(factor, d, 0, hx, hy)
+            self%near_dipole(d) = self%near(d) - 0.25_dp*(kernel_coefficient(factor, d - 1, 0, hx, hy) &
+                                                          + kernel_coefficient(factor, d + 1, 0, hx, hy) &
+                                                          + 2.0_dp*kernel_coefficient(factor, d, 1, hx, hy))
          end do
       end associate
    end subroutine setup

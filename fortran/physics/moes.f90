@@ -14,23 +14,19 @@ module ehl_moes
       real(dp) :: alpha_bar = 0.0_dp
       !> Speed parameter lambda_bar = 12 eta0 u R^2/(a^3 p_h) = (128 pi^3/(3 M^4))^(1/3)
       real(dp) :: speed_parameter = 0.0_dp
-      !> Hertz pressure p_h [Pa]
-      real(dp) :: hertz_pressure = 0.0_dp
    end type operating_t
 
 contains
 
-   !> Operating point from M and L; the Hertz pressure follows from alpha_bar and
-   !> alpha [1/Pa] (it is 0 for L = 0, where neither viscosity nor density varies)
-   pure function operating_from_moes(moes_m, moes_l, alpha) result(point)
-      real(dp), intent(in) :: moes_m, moes_l, alpha
+   !> Operating point from M and L
+   pure function operating_from_moes(moes_m, moes_l) result(point)
+      real(dp), intent(in) :: moes_m, moes_l
       type(operating_t) :: point
 
       point%moes_m = moes_m
       point%moes_l = moes_l
       point%alpha_bar = moes_l/pi*(1.5_dp*moes_m)**(1.0_dp/3.0_dp)
       point%speed_parameter = (128.0_dp*pi**3/(3.0_dp*moes_m**4))**(1.0_dp/3.0_dp)
-      point%hertz_pressure = point%alpha_bar/alpha
    end function operating_from_moes
 
    !> Operating point from SI input; 2/E' = sum (1 - nu^2)/E (Zhang et al. 2019, notation)
@@ -54,8 +50,7 @@ contains
       speed = viscosity*mean_velocity/(reduced_modulus*radius)
       load_2d = load/(reduced_modulus*radius**2)
       point = operating_from_moes(load_2d*(2.0_dp*speed)**(-0.75_dp), &
-                                  alpha*reduced_modulus*(2.0_dp*speed)**0.25_dp, alpha)
-      point%hertz_pressure = hertz_pressure
+                                  alpha*reduced_modulus*(2.0_dp*speed)**0.25_dp)
       point%alpha_bar = alpha*hertz_pressure
    end function operating_from_si
 end module ehl_moes

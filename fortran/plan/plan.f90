@@ -2,17 +2,18 @@
 !> The plan of a run: what this scene needs, decided once. The only reader of option words.
 module ehl_plan
    use ehl_case, only: case_t
-   use ehl_circular, only: circular_from_si, circular_t
+   use ehl_case_contact, only: find_contact
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
    use ehl_domain, only: domain_cost, domain_t
    use ehl_grid, only: coarsest_most, find_levels, grid_t, new_grid
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
-   use ehl_moes, only: operating_from_moes, operating_t
+   use ehl_moes, only: operating_t
    use ehl_plan_friction, only: plan_point, plan_sliding, sliding_t
    use ehl_plan_lubricant, only: plan_lubricant
    use ehl_plan_surface, only: check_carried, make_surface
+   use ehl_scales, only: scales_t
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_surface, only: aliased_below, resolved_from, surface_t
    use ehl_transient, only: steps_needed
@@ -33,6 +34,7 @@ module ehl_plan
 
    type :: plan_t
       class(contact_t), allocatable :: contact
+      type(scales_t) :: scales
       type(operating_t) :: point
       type(lubricant_t) :: lubricant
       !> What absolute friction needs to know
@@ -104,7 +106,7 @@ contains
 
       call pick_contact(input, plan)
       plan%flooded = input%grid%border == "flooded"
-      plan%lubricant = plan_lubricant(input, plan%point, plan%contact)
+      plan%lubricant = plan_lubricant(input, plan%point, plan%scales)
       call plan%lubricant%density([1.0_dp], rho, slope)
       plan%film_expected = plan%contact%film_formula(plan%point%moes_m, plan%point%moes_l)/rho(1)
       plan%engine = trim(input%solver%deflection)
@@ -121,7 +123,7 @@ contains
       if (allocated(surface)) then
          call move_alloc(surface, plan%surface)
       else
-         call make_surface(input, plan%contact, heights, plan%surface, plan%amplitude_over_film, status)
+         call make_surface(input, plan%scales, heights, plan%surface, plan%amplitude_over_film, status)
       end if
       call pick_cycle(input, plan)
       call pick_grids(input, plan, status)
@@ -192,20 +194,10 @@ contains
    subroutine pick_contact(input, plan)
       type(case_t), intent(in) :: input
       type(plan_t), intent(inout) :: plan
-      type(circular_t) :: circle
 
-      associate (c => input%contact, l => input%lubricant)
-         if (c%si) then
-            circle = circular_from_si(c%load, c%radius, c%reduced_modulus)
-            plan%sliding = plan_sliding(input, circle)
-            plan%point = plan_point(input, circle, plan%sliding)
-         else
-            plan%point = operating_from_moes(c%moes_m, c%moes_l, l%pressure_viscosity)
-            circle%pressure = plan%point%hertz_pressure
-            plan%sliding = plan_sliding(input, circle)
-         end if
-      end associate
-      plan%contact = circle
+      call find_contact(input, plan%contact, plan%scales, plan%point)
+      plan%sliding = plan_sliding(input, plan%contact, plan%scales)
+      if (input%contact%si) plan%point = plan_point(input, plan%scales, plan%sliding)
    end subroutine pick_contact
 
    !> Kind of cycle, for the smooth contact and for time steps
@@ -250,41 +242,40 @@ contains
       type(status_t), intent(inout) :: status
       type(grid_t) :: grid
       logical :: mirror
-      integer :: intervals, points
+      integer :: intervals(2), level
       real(dp) :: film
 
       if (status%failed()) return
       mirror = input%solver%symmetry == "auto"
       if (mirror .and. allocated(plan%surface)) mirror = plan%surface%even_in_y
-      points = input%grid%points
-      call find_levels(points, plan%levels, intervals)
+      call find_levels(input%grid%points, input%grid%points, plan%levels, intervals)
       ! a coarsest grid that does not resolve a thick film corrects it at random
       film = sqrt(2.0_dp*plan%film_expected)
-      if (plan%levels > 1 .and. 2*intervals <= coarsest_most .and. film > thick_film .and. &
-          input%grid%x_outlet - input%grid%x_inlet > coarsest_mesh*film*intervals) then
+      if (plan%levels > 1 .and. 2*minval(intervals) <= coarsest_most .and. film > thick_film .and. &
+          input%grid%x_outlet - input%grid%x_inlet > coarsest_mesh*film*intervals(1)) then
          intervals = 2*intervals
          plan%levels = plan%levels - 1
       end if
       if (plan%levels == 0) then
-         call status%fail(ehl_bad_input, "grid of "//to_text(points)//" points cannot be coarsened far enough")
+         call status%fail(ehl_bad_input, "grid of "//to_text(input%grid%points)//" points cannot be coarsened far enough")
          return
       end if
       if (plan%target_error > 0.0_dp) then
          plan%levels = 1
-         do while (intervals*2**plan%levels + 1 <= input%grid%max_points)
+         do while (intervals(1)*2**plan%levels + 1 <= input%grid%max_points)
             plan%levels = plan%levels + 1
          end do
       end if
       associate (g => input%grid)
-         plan%coarsest = new_grid(intervals + 1, g%x_inlet, g%x_outlet, g%y_extent, mirror)
+         plan%coarsest = new_grid(intervals(1) + 1, intervals(2) + 1, g%x_inlet, g%x_outlet, g%y_extent, mirror)
          plan%domain_cost = domain_cost(plan%contact, plan%point, domain_t(g%x_inlet, g%x_outlet, g%y_extent), plan%flooded)
       end associate
       grid = plan%coarsest
       plan%start = 0
-      do points = 1, plan%levels
-         if (points > 1) grid = grid%finer()
+      do level = 1, plan%levels
+         if (level > 1) grid = grid%finer()
          if (plan%start == 0 .and. grid%nx >= start_fewest .and. &
-             relative_wedge_error(plan%point, grid) <= start_error) plan%start = points
+             relative_wedge_error(plan%point, grid) <= start_error) plan%start = level
       end do
       if (plan%start == 0) plan%start = plan%levels
       plan%finest = grid

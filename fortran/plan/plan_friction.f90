@@ -6,6 +6,7 @@ module ehl_plan_friction
    use ehl_heat, only: thermal_loading, thermal_reduction
    use ehl_kinds, only: dp
    use ehl_moes, only: operating_from_si, operating_t
+   use ehl_scales, only: scales_t
    implicit none (type, external)
    private
    public :: sliding_t, plan_sliding, plan_point
@@ -31,9 +32,10 @@ module ehl_plan_friction
 contains
 
    !> Motion, load and heat of a case
-   pure function plan_sliding(input, contact) result(sliding)
+   pure function plan_sliding(input, contact, scales) result(sliding)
       type(case_t), intent(in) :: input
       class(contact_t), intent(in) :: contact
+      type(scales_t), intent(in) :: scales
       type(sliding_t) :: sliding
 
       sliding%law = input%lubricant%shear_law
@@ -48,36 +50,37 @@ contains
          sliding%inlet_viscosity = l%viscosity
          if (.not. l%thermal_reduction) return
          sliding%loading = thermal_loading(l%temperature_viscosity, l%viscosity, c%mean_velocity, l%thermal_conductivity)
-         sliding%reduction = thermal_reduction(sliding%loading, contact%pressure/c%reduced_modulus, c%slide_to_roll)
-         sliding%inlet_viscosity = inlet_viscosity(input, contact, sliding%reduction)
+         sliding%reduction = thermal_reduction(sliding%loading, scales%pressure/c%reduced_modulus, c%slide_to_roll)
+         sliding%inlet_viscosity = inlet_viscosity(input, contact, scales, sliding%reduction)
       end associate
    end function plan_sliding
 
    !> Operating point of a contact in SI units, with the viscosity of its inlet
-   pure function plan_point(input, contact, sliding) result(point)
+   pure function plan_point(input, scales, sliding) result(point)
       type(case_t), intent(in) :: input
-      class(contact_t), intent(in) :: contact
+      type(scales_t), intent(in) :: scales
       type(sliding_t), intent(in) :: sliding
       type(operating_t) :: point
-      point = point_of(input, contact, sliding%inlet_viscosity)
+      point = point_of(input, scales, sliding%inlet_viscosity)
    end function plan_point
 
-   pure function point_of(input, contact, viscosity) result(point)
+   pure function point_of(input, scales, viscosity) result(point)
       type(case_t), intent(in) :: input
-      class(contact_t), intent(in) :: contact
+      type(scales_t), intent(in) :: scales
       real(dp), intent(in) :: viscosity
       type(operating_t) :: point
 
       associate (c => input%contact)
          point = operating_from_si(c%load, c%mean_velocity, c%radius, c%reduced_modulus, viscosity, &
-                                   input%lubricant%pressure_viscosity, contact%pressure)
+                                   input%lubricant%pressure_viscosity, scales%pressure)
       end associate
    end function point_of
 
    !> Viscosity [Pa s] at which the film formula gives a share of the film of the lubricant's own viscosity
-   pure real(dp) function inlet_viscosity(input, contact, share)
+   pure real(dp) function inlet_viscosity(input, contact, scales, share)
       type(case_t), intent(in) :: input
       class(contact_t), intent(in) :: contact
+      type(scales_t), intent(in) :: scales
       real(dp), intent(in) :: share
       real(dp) :: low, high, wanted
       integer :: k
@@ -87,9 +90,9 @@ contains
       ! the film rises with viscosity, nowhere by less than its 0.4th power
       high = log(inlet_viscosity)
       low = high + 2.5_dp*log(share)
-      wanted = share*film_at(input, contact, high)
+      wanted = share*film_at(input, contact, scales, high)
       do k = 1, 60
-         if (film_at(input, contact, 0.5_dp*(low + high)) < wanted) then
+         if (film_at(input, contact, scales, 0.5_dp*(low + high)) < wanted) then
             low = 0.5_dp*(low + high)
          else
             high = 0.5_dp*(low + high)
@@ -99,13 +102,14 @@ contains
    end function inlet_viscosity
 
    !> Central film by formula at the logarithm of a viscosity, over a^2/R, which does not depend on it
-   pure real(dp) function film_at(input, contact, log_viscosity)
+   pure real(dp) function film_at(input, contact, scales, log_viscosity)
       type(case_t), intent(in) :: input
       class(contact_t), intent(in) :: contact
+      type(scales_t), intent(in) :: scales
       real(dp), intent(in) :: log_viscosity
       type(operating_t) :: point
 
-      point = point_of(input, contact, exp(log_viscosity))
+      point = point_of(input, scales, exp(log_viscosity))
       film_at = contact%film_formula(point%moes_m, point%moes_l)
    end function film_at
 end module ehl_plan_friction

@@ -2,11 +2,11 @@
 !> The lubricant of a case in Hertz units
 module ehl_plan_lubricant
    use ehl_case, only: case_t
-   use ehl_contact, only: contact_t
    use ehl_kinds, only: dp
    use ehl_lubricant, only: density_constant, density_dowson_higginson, lubricant_t, new_lubricant, &
                             viscosity_barus, viscosity_roelands
    use ehl_moes, only: operating_t
+   use ehl_scales, only: scales_t
    use ehl_shear, only: shear_carreau, shear_eyring, shear_law_t, shear_limiting
    implicit none (type, external)
    private
@@ -15,29 +15,29 @@ module ehl_plan_lubricant
 contains
 
    !> Viscosity, density and shear law of a case at its operating point
-   pure function plan_lubricant(input, point, contact) result(lubricant)
+   pure function plan_lubricant(input, point, scales) result(lubricant)
       type(case_t), intent(in) :: input
       type(operating_t), intent(in) :: point
-      class(contact_t), intent(in) :: contact
+      type(scales_t), intent(in) :: scales
       type(lubricant_t) :: lubricant
 
       lubricant = new_lubricant( &
                   merge(viscosity_barus, viscosity_roelands, input%lubricant%viscosity_law == "barus"), &
                   merge(density_constant, density_dowson_higginson, input%lubricant%density_law == "incompressible"), &
-                  point%alpha_bar, contact%pressure, input%lubricant%roelands_z, input%lubricant%roelands_p0)
-      lubricant%shear = shear_of(input, contact)
+                  point%alpha_bar, scales%pressure, input%lubricant%roelands_z, input%lubricant%roelands_p0)
+      lubricant%shear = shear_of(input, scales)
    end function plan_lubricant
 
    !> Shear law; a contact given by its Moes numbers has no sliding speed and stays Newtonian
-   pure function shear_of(input, contact) result(shear)
+   pure function shear_of(input, scales) result(shear)
       type(case_t), intent(in) :: input
-      class(contact_t), intent(in) :: contact
+      type(scales_t), intent(in) :: scales
       type(shear_law_t) :: shear
 
       if (.not. input%contact%si) return
       associate (l => input%lubricant, c => input%contact)
-         shear%hertz_pressure = contact%pressure
-         shear%scale = l%viscosity*abs(c%slide_to_roll)*c%mean_velocity/contact%film_scale
+         shear%hertz_pressure = scales%pressure
+         shear%scale = l%viscosity*abs(c%slide_to_roll)*c%mean_velocity/scales%film
          select case (l%shear_law)
          case ("eyring")
             shear%law = shear_eyring

@@ -3,7 +3,6 @@
 module ehl_plan_surface
    use, intrinsic :: iso_fortran_env, only: int32
    use ehl_case, only: case_t, is_feature, surface_case_t
-   use ehl_contact, only: contact_t
    use ehl_feature, only: feature_t, new_feature
    use ehl_fractal, only: fractal_t, make_fractal
    use ehl_grid, only: grid_t
@@ -11,6 +10,7 @@ module ehl_plan_surface
    use ehl_height_map, only: height_map_t
    use ehl_kinds, only: dp
    use ehl_map_file, only: check_heights, read_map
+   use ehl_scales, only: scales_t
    use ehl_status, only: ehl_bad_input, ehl_no_memory, status_t
    use ehl_surface, only: aliased_below, surface_t
    use ehl_text, only: to_text
@@ -25,9 +25,9 @@ module ehl_plan_surface
 contains
 
    !> The surface of a case; not allocated: smooth
-   subroutine make_surface(input, contact, heights, surface, amplitude_over_film, status)
+   subroutine make_surface(input, scales, heights, surface, amplitude_over_film, status)
       type(case_t), intent(in) :: input
-      class(contact_t), intent(in) :: contact
+      type(scales_t), intent(in) :: scales
       !> Heights of a map [m] if they are not to be read from a file, else of size 0
       real(dp), intent(in) :: heights(:, :)
       class(surface_t), allocatable, intent(out) :: surface
@@ -39,7 +39,7 @@ contains
       amplitude_over_film = 0.0_dp
       if (status%failed()) return
       if (is_feature(input%surface%kind)) then
-         call make_feature(input%surface, contact, surface, amplitude_over_film, status)
+         call make_feature(input%surface, scales, surface, amplitude_over_film, status)
          return
       end if
       associate (s => input%surface)
@@ -54,7 +54,7 @@ contains
                return
             end if
             if (size(heights) > 0) then
-               call make_map(s, contact, heights, surface, status)
+               call make_map(s, scales, heights, surface, status)
             else
                call check_map(s, status)
                if (.not. status%failed()) then
@@ -64,7 +64,7 @@ contains
                      call generate(s, tile, status)
                   end if
                end if
-               if (.not. status%failed()) call make_map(s, contact, tile, surface, status)
+               if (.not. status%failed()) call make_map(s, scales, tile, surface, status)
             end if
          case default
             continue
@@ -73,9 +73,9 @@ contains
    end subroutine make_surface
 
    !> A single feature
-   subroutine make_feature(s, contact, surface, amplitude_over_film, status)
+   subroutine make_feature(s, scales, surface, amplitude_over_film, status)
       type(surface_case_t), intent(in) :: s
-      class(contact_t), intent(in) :: contact
+      type(scales_t), intent(in) :: scales
       class(surface_t), allocatable, intent(out) :: surface
       real(dp), intent(out) :: amplitude_over_film
       type(status_t), intent(inout) :: status
@@ -84,9 +84,9 @@ contains
 
       amplitude = s%amplitude
       size = [s%width, s%length]
-      if (s%width_m > 0.0_dp) size(1) = s%width_m/contact%radius
-      if (s%length_m > 0.0_dp) size(2) = s%length_m/contact%radius
-      if (s%height_m > 0.0_dp) amplitude = s%height_m/contact%film_scale
+      if (s%width_m > 0.0_dp) size(1) = s%width_m/scales%length
+      if (s%length_m > 0.0_dp) size(2) = s%length_m/scales%length
+      if (s%height_m > 0.0_dp) amplitude = s%height_m/scales%film
       amplitude_over_film = merge(0.0_dp, s%amplitude_over_film, s%amplitude_given .or. s%height_m > 0.0_dp)
       feature = new_feature(s%kind == "bump" .or. s%kind == "ridge", s%kind == "ridge" .or. s%kind == "groove", amplitude, &
                             size(1), size(2), s%angle, s%y_start, s%velocity_ratio, s%x_start)
@@ -150,9 +150,9 @@ contains
    end function map_needs
 
    !> A tile of heights [m]
-   subroutine make_map(s, contact, heights, surface, status)
+   subroutine make_map(s, scales, heights, surface, status)
       type(surface_case_t), intent(in) :: s
-      class(contact_t), intent(in) :: contact
+      type(scales_t), intent(in) :: scales
       real(dp), intent(in) :: heights(:, :)
       class(surface_t), allocatable, intent(out) :: surface
       type(status_t), intent(inout) :: status
@@ -162,13 +162,13 @@ contains
       logical :: made
 
       made = s%tile_x > 0.0_dp .and. s%tile_y > 0.0_dp
-      length = merge([s%tile_x, s%tile_y], [s%length_x, s%length_y], made)/contact%radius
-      filter = filter_t(s%shortest_wavelength/contact%radius, s%longest_wavelength/contact%radius, &
+      length = merge([s%tile_x, s%tile_y], [s%length_x, s%length_y], made)/scales%length
+      filter = filter_t(s%shortest_wavelength/scales%length, s%longest_wavelength/scales%length, &
                         s%filter == "gaussian")
       allocate (placed)
       placed%velocity_ratio = s%velocity_ratio
       placed%x_start = s%x_start
-      call placed%setup(heights, 1.0_dp/contact%film_scale, length, made .and. s%tile_mirrored, filter, map_front, status)
+      call placed%setup(heights, 1.0_dp/scales%film, length, made .and. s%tile_mirrored, filter, map_front, status)
       if (status%failed()) return
       if (placed%variance_whole > 0.0_dp .and. .not. placed%variance > 1.0e-24_dp*placed%variance_whole) then
          call status%fail(ehl_bad_input, "surface.shortest_wavelength and surface.longest_wavelength leave nothing of the "// &

@@ -27,9 +27,9 @@ contains
       write (line, "(a,g0.5,a,g0.5,a,g0.5,a,es9.3)") "contact    M = ", plan%point%moes_m, ", L = ", plan%point%moes_l, &
          ", alpha p_h = ", plan%point%alpha_bar, ", speed parameter = ", plan%point%speed_parameter
       text = trim(line)//new_line("a")
-      if (plan%contact%has_size()) then
-         write (line, "(a,es10.4,a,es10.4,a)") "           a = ", plan%contact%radius, " m, p_h = ", &
-            plan%contact%pressure, " Pa"
+      if (plan%scales%has_size()) then
+         write (line, "(a,es10.4,a,es10.4,a)") "           a = ", plan%scales%length, " m, p_h = ", &
+            plan%scales%pressure, " Pa"
          text = text//trim(line)//new_line("a")
       end if
       text = text//friction_lines(plan)
@@ -189,11 +189,11 @@ contains
          text = trim(line)//new_line("a")
          return
       end if
-      if (plan%surface%variance > 0.0_dp .and. plan%contact%film_scale > 0.0_dp) then
-         write (line, "(a,es9.2,a)") "surface    rms height ", sqrt(plan%surface%variance)*plan%contact%film_scale, " m"
+      if (plan%surface%variance > 0.0_dp .and. plan%scales%film > 0.0_dp) then
+         write (line, "(a,es9.2,a)") "surface    rms height ", sqrt(plan%surface%variance)*plan%scales%film, " m"
          text = trim(line)
          if (plan%surface%variance < plan%surface%variance_whole) then
-            write (line, "(a,es9.2,a)") ", of", sqrt(plan%surface%variance_whole)*plan%contact%film_scale, &
+            write (line, "(a,es9.2,a)") ", of", sqrt(plan%surface%variance_whole)*plan%scales%film, &
                " m before its spectrum was cut"
             text = text//trim(line)
          end if

@@ -140,7 +140,7 @@ contains
       integer :: j
 
       associate (grid => level%grid)
-         wedge = kernel_coefficient(0, 0, grid%hx, grid%hy)/grid%hx
+         wedge = kernel_coefficient(level%kernel_factor, 0, 0, grid%hx, grid%hy)/grid%hx
          poiseuille = level%poiseuille%flow_rate()
          !$omp parallel do default(none) shared(level, sums, wedge, poiseuille) &
          !$omp num_threads(level%threads) if(level%parallel) schedule(static)

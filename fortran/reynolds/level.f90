@@ -26,8 +26,8 @@ module ehl_level
       type(grid_t) :: grid
       type(lubricant_t) :: lubricant
       class(deflection_t), allocatable :: engine
-      !> 1/lambda_bar
-      real(dp) :: inverse_speed = 0.0_dp
+      !> 1/lambda_bar; factor k_b of the deflection
+      real(dp) :: inverse_speed = 0.0_dp, kernel_factor = 0.0_dp
       !> The terms of the Reynolds equation
       type(poiseuille_t) :: poiseuille
       type(wedge_t) :: wedge

@@ -76,10 +76,10 @@ contains
       call record%set("moes_l", plan%point%moes_l)
       call record%set("alpha_bar", plan%point%alpha_bar)
       call record%set("speed_parameter", plan%point%speed_parameter)
-      call record%set("hertz_pressure_Pa", plan%contact%pressure)
-      if (plan%contact%has_size()) then
-         call record%set("hertz_radius_m", plan%contact%radius)
-         call record%set("film_scale_m", plan%contact%film_scale)
+      call record%set("hertz_pressure_Pa", plan%scales%pressure)
+      if (plan%scales%has_size()) then
+         call record%set("hertz_radius_m", plan%scales%length)
+         call record%set("film_scale_m", plan%scales%film)
       end if
       call record%set("points", grid%nx)
       call record%set("x_mesh", grid%hx)
@@ -146,7 +146,7 @@ contains
       real(dp), intent(in) :: film
 
       call record%set("H_min_rough", film)
-      if (plan%contact%has_size()) call record%set("h_min_rough_m", film*plan%contact%film_scale)
+      if (plan%scales%has_size()) call record%set("h_min_rough_m", film*plan%scales%film)
    end subroutine report_rough_film
 
    !> The roughness, smooth film over it, and what of it the grid carries
@@ -159,7 +159,7 @@ contains
 
       sigma = plan%surface%rms_height()
       if (sigma > 0.0_dp) then
-         if (plan%contact%has_size()) call record%set("surface_rms_m", sigma*plan%contact%film_scale)
+         if (plan%scales%has_size()) call record%set("surface_rms_m", sigma*plan%scales%film)
          call record%set("lambda_ratio", m%film_minimum/sigma)
          call record%set("lambda_ratio_central", m%film_central/sigma)
       end if

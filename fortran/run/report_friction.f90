@@ -41,10 +41,10 @@ contains
          else if (.not. ieee_is_finite(friction)) then
             note = "the smooth contact is not converged"
          else
-            rate = speed/plan%contact%film_scale*mean_inverse(plan%contact, grid, h)
+            rate = speed/plan%scales%film*mean_inverse(plan%contact, grid, h)
             stress = greatest_stress(plan, p, h)
             if (shear%thins() .or. stress <= s%newtonian_limit) then
-               mu_smooth = friction*shear%scale*plan%contact%radius**2/s%load
+               mu_smooth = friction*shear%scale*plan%scales%length**2/s%load
                note = "isothermal: the oil is not thinned by the flash temperature (Tian & Kennedy 1994)"
             else
                note = "a ratio alone: the Newtonian shear stress reaches "//fixed(stress, "es8.1e2")// &
@@ -53,8 +53,8 @@ contains
             end if
          end if
          mu = ratio*mu_smooth
-         if (ieee_is_finite(mu)) rise = flash_temperature(mu*s%load*speed/(pi*plan%contact%radius**2), &
-            plan%contact%radius, s%mean_velocity*(1.0_dp + [0.5_dp, -0.5_dp]*s%slide_to_roll), s%conductivity, &
+         if (ieee_is_finite(mu)) rise = flash_temperature(mu*s%load*speed/(pi*plan%scales%length**2), &
+            plan%scales%length, s%mean_velocity*(1.0_dp + [0.5_dp, -0.5_dp]*s%slide_to_roll), s%conductivity, &
             s%diffusivity)
          call record%set("shear_law", trim(s%law))
          call record%set("slide_to_roll", s%slide_to_roll)

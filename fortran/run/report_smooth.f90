@@ -76,10 +76,10 @@ contains
       call record%set("H_min_algebraic_error", steady%results(n)%algebraic(2))
       call record%set("load_beyond", 1.0_dp - m%load/plan%contact%load())
       call record%set("load_error", m%load_error)
-      if (plan%contact%has_size()) then
-         call record%set("h_c_m", m%film_central*plan%contact%film_scale)
-         call record%set("h_min_m", m%film_minimum*plan%contact%film_scale)
-         call record%set("p_max_Pa", m%pressure_maximum*plan%contact%pressure)
+      if (plan%scales%has_size()) then
+         call record%set("h_c_m", m%film_central*plan%scales%film)
+         call record%set("h_min_m", m%film_minimum*plan%scales%film)
+         call record%set("p_max_Pa", m%pressure_maximum*plan%scales%pressure)
       end if
       call record%set("cycles", steady%results(n)%cycles)
       call record%set("total_cycles", sum(steady%results%cycles))

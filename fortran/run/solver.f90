@@ -198,7 +198,7 @@ contains
       if (status%failed()) return
       associate (plan => self%plan)
          call self%hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, &
-                                   plan%engine, plan%threads, status)
+                                   plan%contact%kernel_factor(), plan%engine, plan%threads, status)
          call self%steady%start(plan%contact, plan%film_expected, plan%start, plan%levels, plan%cycle, &
                                 plan%second_cycle, plan%accuracy, plan%target_error, plan%max_cycles, plan%flooded, &
                                 relative_wedge_error(plan%point, plan%finest) <= resolved_error)

@@ -50,7 +50,7 @@ contains
       if (self%in_steps) then
          call report_transient(record, self%plan, self%transient, self%converged(), self%step_seconds, &
                                self%history%column("H_min"), ratio, stop_error)
-         if (self%plan%surface%passes_once) call report_passage(record, self%plan%contact, self%transient%extremes, &
+         if (self%plan%surface%passes_once) call report_passage(record, self%plan%scales, self%transient%extremes, &
                                                                 self%converged())
       end if
       if (self%in_steps .or. self%resting) call report_waves(record, self%plan, self%steady%results(self%level())%m)

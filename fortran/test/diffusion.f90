@@ -42,7 +42,7 @@ contains
       integer :: k
 
       allocate (p(levels))
-      p(levels)%grid = new_grid(points, 0.0_dp, 1.0_dp, 0.5_dp, mirror)
+      p(levels)%grid = new_grid(points, points, 0.0_dp, 1.0_dp, 0.5_dp, mirror)
       do k = levels - 1, 1, -1
          p(k)%grid = p(k + 1)%grid%coarser()
       end do

@@ -14,6 +14,9 @@ module test_deflection
    private
    public :: run_deflection
 
+   !> Of the circular contact
+   real(dp), parameter :: factor = 2.0_dp/pi**2
+
 contains
 
    !> All checks
@@ -35,16 +38,16 @@ contains
       real(dp) :: whole, parts
       integer :: a, i, j
 
-      call is_close(kernel_coefficient(0, 0, 0.1_dp, 0.1_dp), 0.8_dp*asinh(1.0_dp)/pi**2, &
+      call is_close(kernel_coefficient(factor, 0, 0, 0.1_dp, 0.1_dp), 0.8_dp*asinh(1.0_dp)/pi**2, &
                     1.0e-16_dp, "kernel at the origin")
-      call is_close(kernel_coefficient(-3, 2, 0.1_dp, 0.2_dp), &
-                    kernel_coefficient(2, -3, 0.2_dp, 0.1_dp), 1.0e-17_dp, "kernel is symmetric")
+      call is_close(kernel_coefficient(factor, -3, 2, 0.1_dp, 0.2_dp), &
+                    kernel_coefficient(factor, 2, -3, 0.2_dp, 0.1_dp), 1.0e-17_dp, "kernel is symmetric")
       do a = 0, 40, 4
-         whole = kernel_coefficient(a, a/2, 0.3_dp, 0.6_dp)
+         whole = kernel_coefficient(factor, a, a/2, 0.3_dp, 0.6_dp)
          parts = 0.0_dp
          do j = -1, 1
             do i = -1, 1
-               parts = parts + kernel_coefficient(3*a + i, 3*(a/2) + j, 0.1_dp, 0.2_dp)
+               parts = parts + kernel_coefficient(factor, 3*a + i, 3*(a/2) + j, 0.1_dp, 0.2_dp)
             end do
          end do
          call is_close(parts/whole, 1.0_dp, 1.0e-12_dp, "kernel of nine cells")
@@ -81,7 +84,7 @@ contains
       real(dp) :: r, exact
       integer :: i, j
 
-      grid = new_grid(points, -2.5_dp, 1.5_dp, 2.0_dp, .true.)
+      grid = new_grid(points, points, -2.5_dp, 1.5_dp, 2.0_dp, .true.)
       call press(hertz, grid, p)
       call deflect(engine, grid, p, 1.0e-5_dp, 1, w)
       worst = 0.0_dp
@@ -136,8 +139,8 @@ contains
       real(dp), allocatable :: p(:, :), p_whole(:, :), w(:, :), w_whole(:, :)
       integer :: e, which, n
 
-      half = new_grid(129, -2.5_dp, 1.5_dp, 1.7_dp, .true.)
-      whole = new_grid(129, -2.5_dp, 1.5_dp, 1.7_dp, .false.)
+      half = new_grid(129, 129, -2.5_dp, 1.5_dp, 1.7_dp, .true.)
+      whole = new_grid(129, 129, -2.5_dp, 1.5_dp, 1.7_dp, .false.)
       n = half%ny
       allocate (p_whole(whole%nx, whole%ny))
       do e = 1, size(deflection_engines)
@@ -160,7 +163,7 @@ contains
       integer :: e, fold, threads
 
       do fold = 0, 1
-         grid = new_grid(129, -2.5_dp, 1.5_dp, 2.0_dp, fold == 1)
+         grid = new_grid(129, 129, -2.5_dp, 1.5_dp, 2.0_dp, fold == 1)
          call press(inlet, grid, p)
          do e = 1, size(deflection_engines)
             call deflect(trim(deflection_engines(e)), grid, p, 1.0e-5_dp, 1, one)
@@ -183,10 +186,10 @@ contains
 
       do e = 1, size(deflection_engines)
          call new_deflection(trim(deflection_engines(e)), engine, status)
-         grid = new_grid(33, -1.5_dp, 1.5_dp, 1.5_dp, .false.)
-         call engine%setup(grid, 1.0e-3_dp, 2, status)
-         grid = new_grid(65, -2.5_dp, 1.5_dp, 2.0_dp, .true.)
-         call engine%setup(grid, 1.0e-5_dp, 1, status)
+         grid = new_grid(33, 33, -1.5_dp, 1.5_dp, 1.5_dp, .false.)
+         call engine%setup(grid, factor, 1.0e-3_dp, 2, status)
+         grid = new_grid(65, 65, -2.5_dp, 1.5_dp, 2.0_dp, .true.)
+         call engine%setup(grid, factor, 1.0e-5_dp, 1, status)
          call is_true(.not. status%failed(), deflection_engines(e)//": set up again")
          call press(random, grid, p)
          allocate (w, mold=p)
@@ -209,7 +212,7 @@ contains
       real(dp), parameter :: scale = 2.0_dp**(-60)
       integer :: e
 
-      grid = new_grid(65, -2.5_dp, 1.5_dp, 2.0_dp, .false.)
+      grid = new_grid(65, 65, -2.5_dp, 1.5_dp, 2.0_dp, .false.)
       call press(inlet, grid, p)
       do e = 1, size(deflection_engines)
          call deflect(trim(deflection_engines(e)), grid, p, 1.0e-4_dp, 1, w)
@@ -231,8 +234,8 @@ contains
          call new_deflection(trim(deflection_engines(e)), engine, status)
          call is_true(engine%bytes() == 0, deflection_engines(e)//": no memory before setup")
          do n = 1, 2
-            grid = new_grid(64*2**n + 1, -2.5_dp, 1.5_dp, 2.0_dp, .false.)
-            call engine%setup(grid, 1.0e-4_dp, 1, status)
+            grid = new_grid(64*2**n + 1, 64*2**n + 1, -2.5_dp, 1.5_dp, 2.0_dp, .false.)
+            call engine%setup(grid, factor, 1.0e-4_dp, 1, status)
             bytes(n) = engine%bytes()
          end do
          call is_true(bytes(2) < 4.5_dp*bytes(1) .and. bytes(2) > 3.0_dp*bytes(1), &
@@ -251,7 +254,7 @@ contains
       call has_text(unknown%message, "'fmm'", "unknown engine")
       call is_true(.not. allocated(engine), "no engine of an unknown name")
       call new_deflection("mlmi", engine, out_of_reach)
-      call engine%setup(new_grid(65, -2.5_dp, 1.5_dp, 2.0_dp, .false.), 1.0e-13_dp, 1, &
+      call engine%setup(new_grid(65, 65, -2.5_dp, 1.5_dp, 2.0_dp, .false.), factor, 1.0e-13_dp, 1, &
                         out_of_reach)
       call is_equal(out_of_reach%code, ehl_bad_input, "accuracy out of reach")
       call has_text(out_of_reach%message, "1.00E-13", "accuracy out of reach")
@@ -283,7 +286,7 @@ contains
 
       allocate (w(grid%nx, grid%ny))
       call new_deflection(name, engine, status)
-      if (.not. status%failed()) call engine%setup(grid, accuracy, threads, status)
+      if (.not. status%failed()) call engine%setup(grid, factor, accuracy, threads, status)
       call is_true(.not. status%failed(), name//" is set up")
       if (status%failed()) then
          w = huge(1.0_dp)

@@ -36,7 +36,7 @@ contains
       type(contact_results_t) :: m
       type(status_t) :: status
 
-      level%grid = new_grid(33, -2.0_dp, 2.0_dp, 2.0_dp, .false.)
+      level%grid = new_grid(33, 33, -2.0_dp, 2.0_dp, 2.0_dp, .false.)
       level%lubricant = new_lubricant(viscosity_barus, density_dowson_higginson, alpha_bar, hertz_pressure, 0.6_dp, 1.96e8_dp)
       level%lubricant%shear = shear_law_t(law, stress, coefficient, exponent, factor*scale, hertz_pressure)
       level%load = 1.0_dp

@@ -27,7 +27,7 @@ contains
       integer :: i, k
       logical :: moves
 
-      level%grid = new_grid(33, -2.0_dp, 2.0_dp, 1.0_dp, .false.)
+      level%grid = new_grid(33, 33, -2.0_dp, 2.0_dp, 1.0_dp, .false.)
       call level%poiseuille%setup(level%grid)
       allocate (level%p(33, 33), level%eps(33, 33), source=0.0_dp)
       do k = 1, 2

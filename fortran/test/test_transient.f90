@@ -241,8 +241,8 @@ contains
 
       call read_case(text, "test", "", input, status)
       call make_plan(input, none, no_surface, plan, status)
-      call hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, plan%engine, &
-                           plan%threads, status)
+      call hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, plan%contact%kernel_factor(), &
+                           plan%engine, plan%threads, status)
       call steady%start(plan%contact, plan%film_expected, plan%start, plan%levels, plan%cycle, &
                         plan%second_cycle, plan%accuracy, plan%target_error, plan%max_cycles, &
                          plan%flooded, .false.)

@@ -61,7 +61,7 @@ contains
 
       time = 1.0_dp/level%wedge%squeeze
       ! by a change of pressure at one node, with rho = 1; of it flows away, with eps = 1
-      stored = level%wedge%squeeze*kernel_coefficient(0, 0, level%grid%hx, level%grid%hy)
+      stored = level%wedge%squeeze*kernel_coefficient(level%kernel_factor, 0, 0, level%grid%hx, level%grid%hy)
       flow = level%poiseuille%flow_rate()
       !$omp parallel do default(none) shared(level, mass_content, p_before, time, stored, flow) private(i) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
