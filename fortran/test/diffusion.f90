@@ -35,14 +35,18 @@ module diffusion
 contains
 
    !> Levels of a square, whole or folded
-   subroutine new_problem(p, mirror)
+   subroutine new_problem(p, mirror, rows)
       type(problem_t), allocatable, intent(out) :: p(:)
       logical, intent(in) :: mirror
+      !> Nodes along Y, if they are others than along X
+      integer, intent(in), optional :: rows
       type(status_t) :: status
-      integer :: k
+      integer :: k, ny
 
+      ny = points
+      if (present(rows)) ny = rows
       allocate (p(levels))
-      p(levels)%grid = new_grid(points, points, 0.0_dp, 1.0_dp, 0.5_dp, mirror)
+      p(levels)%grid = new_grid(points, ny, 0.0_dp, 1.0_dp, 0.5_dp, mirror)
       do k = levels - 1, 1, -1
          p(k)%grid = p(k + 1)%grid%coarser()
       end do

@@ -5,12 +5,14 @@ module pressed_grid
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: hertz, inlet, random, patch, kind_name, press, some_grid, named
+   public :: hertz, inlet, random, patch, kind_name, press, some_grid, grids, named
 
    !> Kinds of pressure
    integer, parameter :: hertz = 1, inlet = 2, random = 3, patch = 4
    character(len=*), parameter :: kind_name(4) = [character(len=6) :: &
       "Hertz", "inlet", "random", "patch"]
+   !> Grids there are
+   integer, parameter :: grids = 11
 
 contains
 
@@ -47,7 +49,7 @@ contains
    end subroutine press
 
    !> Grids of all sorts: odd and even halvings, meshes that are not square, sides of
-   !> different lengths, whole and folded
+   !> different lengths and numbers of nodes, whole and folded
    type(grid_t) function some_grid(number)
       integer, intent(in) :: number
 
@@ -64,6 +66,10 @@ contains
          some_grid = new_grid(47, 47, -3.5_dp, 1.5_dp, 1.5_dp, .false.)
       case (6)
          some_grid = grid_t(nx=81, ny=21, x0=-2.5_dp, y0=-1.2_dp, hx=0.05_dp, hy=0.12_dp)
+      case (7, 8)
+         some_grid = new_grid(33, 161, -2.5_dp, 1.5_dp, 20.0_dp, number == 8)
+      case (9, 10)
+         some_grid = new_grid(129, 49, -2.5_dp, 1.5_dp, 0.9_dp, number == 10)
       case default
          some_grid = grid_t(nx=30, ny=40, x0=-1.7_dp, y0=0.0_dp, hx=0.11_dp, hy=0.04_dp, &
                             mirror=.true.)

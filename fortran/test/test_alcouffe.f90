@@ -61,15 +61,16 @@ contains
    end function both
 
    !> P^T (A (P u)) by the transfers and the operator one after the other, for two products in a row
-   !> (five-point and nine-point operators), with nodes that are not free, whole and folded
+   !> (five-point and nine-point operators), with nodes that are not free, whole and folded, on as many rows as columns
+   !> and on more
    subroutine product_is_the_product()
       type(problem_t), allocatable :: p(:)
       real(dp), allocatable :: wanted(:), made(:)
       real(dp) :: largest, row(points)
-      integer :: half, j, k
+      integer :: kind, j, k
 
-      do half = 0, 1
-         call new_problem(p, half == 1)
+      do kind = 0, 3
+         call new_problem(p, mod(kind, 2) == 1, merge(193, points, kind > 1))
          call noise(p(levels))
          p(levels)%free(40:47, 20:31) = 0.0_dp
          call coarsen(p, alcouffe)

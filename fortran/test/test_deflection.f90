@@ -9,7 +9,7 @@ module test_deflection
    use ehl_kernel, only: kernel_coefficient
    use ehl_deflection, only: deflection_t
    use ehl_deflection_factory, only: new_deflection, deflection_engines
-   use pressed_grid, only: hertz, inlet, kind_name, named, patch, press, random, some_grid
+   use pressed_grid, only: grids, hertz, inlet, kind_name, named, patch, press, random, some_grid
    implicit none (type, external)
    private
    public :: run_deflection
@@ -108,7 +108,7 @@ contains
       type(grid_t) :: grid
       integer :: g
 
-      do g = 1, 7
+      do g = 1, grids
          grid = some_grid(g)
          call is_true(difference("fft", grid, random, 0.0_dp) < 1.0e-12_dp, &
                       "fft is direct on "//named(grid))
@@ -121,7 +121,7 @@ contains
       real(dp), parameter :: accuracy(4) = [1.0e-3_dp, 2.0e-5_dp, 1.0e-7_dp, 1.0e-10_dp]
       integer :: g, which, a
 
-      do g = 1, 7
+      do g = 1, grids
          grid = some_grid(g)
          do which = hertz, patch
             do a = 1, size(accuracy)
