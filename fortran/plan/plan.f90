@@ -10,12 +10,13 @@ module ehl_plan
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
    use ehl_moes, only: operating_t
+   use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_plan_friction, only: plan_point, plan_sliding, sliding_t
    use ehl_plan_lubricant, only: plan_lubricant
-   use ehl_plan_surface, only: check_carried, make_surface
+   use ehl_plan_surface, only: check_carried, make_surfaces
    use ehl_scales, only: scales_t
    use ehl_status, only: ehl_bad_input, status_t
-   use ehl_surface, only: aliased_below, resolved_from, surface_t
+   use ehl_surface, only: aliased_below, resolved_from
    use ehl_transient, only: steps_needed
    use ehl_text, only: fixed, to_text
    use ehl_wedge, only: wedge_narrow, wedge_separate
@@ -62,14 +63,9 @@ module ehl_plan
       real(dp) :: target_error = 0.0_dp
       !> Central film expected, scaled by a^2/R
       real(dp) :: film_expected = 0.0_dp
-      !> The roughness; not allocated: the contact is smooth
-      class(surface_t), allocatable :: surface
-      !> Amplitude of a waviness as a share of the smooth central film; 0: it is known already
-      real(dp) :: amplitude_over_film = 0.0_dp
-      !> Shares of the variance of the surface: in waves that the grid would alias, which are left out; in waves with
-      !> fewer than eight nodes a period, those included
-      real(dp) :: left_out = 0.0_dp, unresolved = 0.0_dp
-      !> Whether the next coarser grid resolves the surface too, so that the friction of both can be extrapolated
+      !> The rough surfaces
+      type(moving_surfaces_t) :: surfaces
+      !> Whether the next coarser grid resolves the surfaces too, so that the friction of both can be extrapolated
       logical :: extrapolates = .false.
       !> Scheme of the wedge and squeeze terms in time steps
       integer :: scheme = wedge_narrow
@@ -83,8 +79,6 @@ module ehl_plan
       !> Time between the frames that are kept; 0: none
       real(dp) :: frame_interval = 0.0_dp
    contains
-      procedure :: moves
-      procedure :: rests
       procedure :: see_waves
    end type plan_t
 
@@ -94,12 +88,12 @@ module ehl_plan
 contains
 
    !> Decide how a case is solved
-   subroutine make_plan(input, heights, surface, plan, status)
+   subroutine make_plan(input, heights, surfaces, plan, status)
       type(case_t), intent(in) :: input
       !> Heights of a map [m] if they are not to be read from a file, else of size 0
       real(dp), intent(in) :: heights(:, :)
-      !> The surface, if it has been made already; the plan takes it over
-      class(surface_t), allocatable, intent(inout) :: surface
+      !> The surfaces, if they have been made already; the plan takes them over
+      type(moving_surfaces_t), intent(inout) :: surfaces
       type(plan_t), intent(out) :: plan
       type(status_t), intent(inout) :: status
       real(dp) :: rho(1), slope(1)
@@ -120,72 +114,57 @@ contains
       plan%max_periods = input%time%max_periods
       plan%steps = input%time%steps
       plan%frame_interval = input%output%frame_interval
-      if (allocated(surface)) then
-         call move_alloc(surface, plan%surface)
+      if (surfaces%rough()) then
+         call move_alloc(surfaces%of, plan%surfaces%of)
       else
-         call make_surface(input, plan%scales, heights, plan%surface, plan%amplitude_over_film, status)
+         call make_surfaces(input, plan%scales, heights, plan%surfaces, status)
       end if
       call pick_cycle(input, plan)
       call pick_grids(input, plan, status)
-      if (status%failed() .or. .not. allocated(plan%surface)) return
-      plan%surface%threads = plan%threads
-      plan%coarse_run = input%time%estimate_error .and. plan%levels > 2 .and. (plan%rests() .or. plan%steps == 0)
+      if (status%failed() .or. .not. plan%surfaces%rough()) return
+      call plan%surfaces%use_threads(plan%threads)
+      plan%coarse_run = input%time%estimate_error .and. plan%levels > 2 .and. (plan%surfaces%rest() .or. plan%steps == 0)
       call plan%see_waves(plan%finest)
-      call check_carried(plan%surface, plan%finest, status)
+      call check_carried(plan%surfaces, plan%finest, status)
       if (.not. status%failed()) call check_steps(input, plan, status)
    end subroutine make_plan
 
-   !> What of the surface a grid carries
+   !> What of the surfaces a grid carries
    subroutine see_waves(self, grid)
       class(plan_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
 
-      self%left_out = self%surface%unresolved(grid, aliased_below)
-      self%unresolved = self%surface%unresolved(grid, resolved_from)
+      call self%surfaces%see(grid)
       if (.not. self%coarse_run) return
-      ! nothing would be left of the surface on the next coarser grid
-      self%coarse_run = self%surface%unresolved(grid%coarser(), aliased_below) < 1.0_dp
-      self%extrapolates = self%coarse_run .and. .not. self%surface%passes_once .and. &
-                          self%surface%unresolved(grid%coarser(), resolved_from) <= unresolved_most
+      ! nothing would be left of a surface on the next coarser grid
+      self%coarse_run = self%surfaces%most_unresolved(grid%coarser(), aliased_below) < 1.0_dp
+      self%extrapolates = self%coarse_run .and. .not. self%surfaces%pass_once() .and. &
+                          self%surfaces%most_unresolved(grid%coarser(), resolved_from) <= unresolved_most
    end subroutine see_waves
-
-   !> Whether there is a rough surface on the move: time steps
-   pure logical function moves(self)
-      class(plan_t), intent(in) :: self
-      moves = .false.
-      if (allocated(self%surface)) moves = .not. self%surface%at_rest()
-   end function moves
-
-   !> Whether there is a rough surface at rest: a steady contact
-   pure logical function rests(self)
-      class(plan_t), intent(in) :: self
-      rests = .false.
-      if (allocated(self%surface)) rests = self%surface%at_rest()
-   end function rests
 
    !> Refuse a surface so slow that the friction cannot be known within a sensible number of steps
    subroutine check_steps(input, plan, status)
       type(case_t), intent(in) :: input
       type(plan_t), intent(in) :: plan
       type(status_t), intent(inout) :: status
-      real(dp) :: at_mean_velocity
+      real(dp) :: steps
       integer :: most
 
-      if (.not. plan%moves()) return
+      if (.not. plan%surfaces%move()) return
       associate (ratio => input%surface%velocity_ratio)
          most = merge(most_steps_asked_for, most_steps, plan%steps > 0)
-         at_mean_velocity = steps_needed(plan%surface, plan%finest%hx, plan%skip_start)
-         if (at_mean_velocity/ratio <= most) then
+         steps = steps_needed(plan%surfaces, plan%finest%hx, plan%skip_start)
+         if (steps <= most) then
             ! steps that are skipped are counted, too
             most = most_steps_asked_for
-            at_mean_velocity = steps_needed(plan%surface, plan%finest%hx, .false.)
-            if (at_mean_velocity/ratio <= most) return
+            steps = steps_needed(plan%surfaces, plan%finest%hx, .false.)
+            if (steps <= most) return
          end if
          ! rounded up: what is named will do
          call status%fail(ehl_bad_input, "surface.velocity_ratio = "//to_text(ratio)//": so slow a surface needs "// &
-                          fixed(at_mean_velocity/ratio, "es12.2e3")//" time steps until its friction is known, more than "// &
+                          fixed(steps, "es12.2e3")//" time steps until its friction is known, more than "// &
                           to_text(most)//new_line("a")//"expected: a velocity ratio of at least "// &
-                          fixed(1.005_dp*at_mean_velocity/most, "es12.2e3")// &
+                          fixed(1.005_dp*steps*ratio/most, "es12.2e3")// &
                           " on this grid, or 0: a rough surface at rest is a steady contact")
       end associate
    end subroutine check_steps
@@ -211,7 +190,7 @@ contains
       end if
       plan%cycle = cycle_of(plan%cycle_letter)
       plan%second_cycle = plan%cycle
-      if (input%solver%cycle == "auto" .and. .not. allocated(plan%surface)) then
+      if (input%solver%cycle == "auto" .and. .not. plan%surfaces%rough()) then
          ! The first leaves so little that is smooth that one visit to the coarser levels will do. Not before rough runs:
          ! the error of the smooth friction is one of the ratio.
          plan%second_cycle = cycle_of("V")
@@ -246,8 +225,7 @@ contains
       real(dp) :: film
 
       if (status%failed()) return
-      mirror = input%solver%symmetry == "auto"
-      if (mirror .and. allocated(plan%surface)) mirror = plan%surface%even_in_y
+      mirror = input%solver%symmetry == "auto" .and. plan%surfaces%even_in_y()
       call find_levels(input%grid%points, input%grid%points, plan%levels, intervals)
       ! a coarsest grid that does not resolve a thick film corrects it at random
       film = sqrt(2.0_dp*plan%film_expected)

@@ -42,8 +42,8 @@ contains
       what = what//to_text(plan%finest%nx)
       if (frames(plan) > 0.0_dp) what = what//" with output.frame_interval = "//to_text(plan%frame_interval)
       needed = bytes(plan, plan%threads)
-      ! what a surface holds now is free no more
-      if (allocated(plan%surface)) needed = needed - plan%surface%bytes()
+      ! what the surfaces hold now is free no more
+      needed = needed - plan%surfaces%bytes()
       call check_memory(what, needed, status)
    end subroutine check_need
 
@@ -54,7 +54,7 @@ contains
 
       text = "need       about "//amount(bytes(plan, 1))//" of memory and "//duration(seconds(plan))//" on one thread"
       if (plan%target_error > 0.0_dp) text = text//", if it comes to the finest grid"
-      if (plan%moves() .and. plan%steps == 0) text = text//", if it ends as early as it can"
+      if (plan%surfaces%move() .and. plan%steps == 0) text = text//", if it ends as early as it can"
       text = text//new_line("a")
       if (.not. frames(plan) > 0.0_dp) return
       text = text//"frames     "
@@ -98,9 +98,9 @@ contains
       type(plan_t), intent(in) :: plan
 
       steps = 0.0_dp
-      if (.not. plan%moves()) return
+      if (.not. plan%surfaces%move()) return
       steps = plan%steps
-      if (plan%steps == 0) steps = steps_needed(plan%surface, plan%finest%hx, plan%skip_start)/plan%surface%velocity_ratio
+      if (plan%steps == 0) steps = steps_needed(plan%surfaces, plan%finest%hx, plan%skip_start)
    end function steps
 
    !> Frames that are kept until then
@@ -117,16 +117,16 @@ contains
       nodes = real(plan%finest%nx, dp)*plan%finest%ny
    end function nodes
 
-   !> Bytes of all grids, of the surface and of the frames
+   !> Bytes of all grids, of the surfaces and of the frames
    real(dp) function bytes(plan, threads)
       type(plan_t), intent(in) :: plan
       integer, intent(in) :: threads
 
       bytes = smooth_bytes
-      if (allocated(plan%surface)) bytes = bytes + rough_bytes
-      if (plan%moves()) bytes = bytes + alcouffe_bytes
+      if (plan%surfaces%rough()) bytes = bytes + rough_bytes
+      if (plan%surfaces%move()) bytes = bytes + alcouffe_bytes
       bytes = bytes*nodes(plan) + line_bytes*plan%finest%nx*threads
-      if (allocated(plan%surface)) bytes = bytes + plan%surface%bytes_on(plan%finest)
+      bytes = bytes + plan%surfaces%bytes_on(plan%finest)
       if (plan%coarse_run) bytes = bytes*(1.0_dp + coarser_bytes)
       bytes = bytes + 16.0_dp*frames(plan)*plan%finest%nx*plan%finest%full_ny()
    end function bytes
@@ -137,7 +137,7 @@ contains
       real(dp) :: cycles, deflection
 
       cycles = steps(plan)
-      if (plan%rests()) cycles = rest_cycles
+      if (plan%surfaces%rest()) cycles = rest_cycles
       if (plan%coarse_run) cycles = cycles*(1.0_dp + coarser_seconds)
       deflection = 0.0_dp
       if (plan%engine == "direct") deflection = direct_seconds*plan%finest%nx*real(plan%finest%full_ny(), dp)

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The rough surface that a case asks for
+!> The rough surfaces that a case asks for
 module ehl_plan_surface
    use, intrinsic :: iso_fortran_env, only: int32
    use ehl_case, only: case_t, is_feature, surface_case_t
@@ -10,6 +10,7 @@ module ehl_plan_surface
    use ehl_height_map, only: height_map_t
    use ehl_kinds, only: dp
    use ehl_map_file, only: check_heights, read_map
+   use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_scales, only: scales_t
    use ehl_status, only: ehl_bad_input, ehl_no_memory, status_t
    use ehl_surface, only: aliased_below, surface_t
@@ -17,12 +18,27 @@ module ehl_plan_surface
    use ehl_tile_filter, only: filter_t
    implicit none (type, external)
    private
-   public :: make_surface, check_carried
+   public :: make_surfaces, check_carried
 
    !> Length over which the front of a map fades [a]
    real(dp), parameter :: map_front = 0.5_dp
 
 contains
+
+   !> The surfaces of a case
+   subroutine make_surfaces(input, scales, heights, surfaces, status)
+      type(case_t), intent(in) :: input
+      type(scales_t), intent(in) :: scales
+      !> Heights of a map [m] if they are not to be read from a file, else of size 0
+      real(dp), intent(in) :: heights(:, :)
+      type(moving_surfaces_t), intent(inout) :: surfaces
+      type(status_t), intent(inout) :: status
+      class(surface_t), allocatable :: surface
+      real(dp) :: amplitude_over_film
+
+      call make_surface(input, scales, heights, surface, amplitude_over_film, status)
+      if (allocated(surface)) call surfaces%add(surface, amplitude_over_film)
+   end subroutine make_surfaces
 
    !> The surface of a case; not allocated: smooth
    subroutine make_surface(input, scales, heights, surface, amplitude_over_film, status)
@@ -197,14 +213,14 @@ contains
       if (.not. status%failed()) tile = transpose(rows)
    end subroutine generate
 
-   !> Refuse a surface of which a grid carries nothing
-   subroutine check_carried(surface, grid, status)
-      class(surface_t), intent(in) :: surface
+   !> Refuse surfaces if a grid carries nothing of one
+   subroutine check_carried(surfaces, grid, status)
+      type(moving_surfaces_t), intent(in) :: surfaces
       type(grid_t), intent(in) :: grid
       type(status_t), intent(inout) :: status
 
       if (status%failed()) return
-      if (surface%unresolved(grid, aliased_below) < 1.0_dp) return
+      if (surfaces%most_unresolved(grid, aliased_below) < 1.0_dp) return
       call status%fail(ehl_bad_input, "all waves of the surface are shorter than two nodes of the grid of "// &
                        to_text(grid%nx)//" x "//to_text(grid%full_ny())//" nodes, in space or in the time steps: it carries "// &
                        "nothing of them"//new_line("a")//"expected: a finer grid (grid.points), or longer waves")

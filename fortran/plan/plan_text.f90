@@ -33,9 +33,9 @@ contains
          text = text//trim(line)//new_line("a")
       end if
       text = text//friction_lines(plan)
-      if (plan%rests()) then
+      if (plan%surfaces%rest()) then
          text = text//rest_lines(plan)
-      else if (plan%moves()) then
+      else if (plan%surfaces%move()) then
          text = text//scene_lines(plan)
          write (line, "(a,f9.6)") "time       "//trim(merge("narrow upstream", "as in the paper", plan%scheme == wedge_narrow))// &
             ", step = mesh size = ", plan%finest%hx
@@ -45,9 +45,9 @@ contains
             new_line("a")
          if (plan%steps > 0) then
             text = text//"end        after "//to_text(plan%steps)//" steps"//new_line("a")
-         else if (plan%surface%passes_once) then
+         else if (plan%surfaces%pass_once()) then
             write (line, "(a,f8.4)") "end        when it has left the contact, with the film that it made in the inlet: T = ", &
-               plan%surface%end_of_passage()
+               plan%surfaces%end_of_passage()
             text = text//trim(line)//new_line("a")
          else
             write (line, "(a,es8.1)") "end        when the mean of mu_r/mu_s over whole periods changes by less than ", &
@@ -57,14 +57,14 @@ contains
       else
          text = text//"scene      smooth and steady: no time levels, no roughness"//new_line("a")
       end if
-      if (allocated(plan%surface)) text = text//wave_lines(plan)
+      if (plan%surfaces%rough()) text = text//wave_lines(plan)
       text = text//domain_lines(plan)
       text = text//"deflection "//plan%engine//", threads "//to_text(plan%threads)//new_line("a")
       text = text//"cycles     "//plan%cycle_letter//sweeps_of(plan%cycle)
       if (plan%cycle%full .and. .not. plan%second_cycle%full) then
          text = text//", the second on a finer grid V"//sweeps_of(plan%second_cycle)
       end if
-      if (plan%moves()) then
+      if (plan%surfaces%move()) then
          text = text//", time steps "//plan%step_cycle_letter//sweeps_of(plan%step_cycle)// &
                 " (no sweeps first where the prediction is close), "// &
                 trim(merge("Alcouffe ", "classical", plan%step_cycle%coarsening == coarsening_alcouffe))//" coarsening"
@@ -133,7 +133,7 @@ contains
       character(len=:), allocatable :: text
       character(len=128) :: line
 
-      select type (surface => plan%surface)
+      select type (surface => plan%surfaces%of(1)%surface)
       type is (feature_t)
          write (line, "(a,f7.4,a,f7.4,a)") "scene      "//feature_words(surface)//" passes once, velocity ratio ", &
             surface%velocity_ratio, ", its centre at X = 0 at T = ", (surface%reach - surface%x_start)/surface%velocity_ratio
@@ -183,26 +183,28 @@ contains
       character(len=128) :: line
 
       text = ""
-      if (plan%surface%passes_once) then
-         write (line, "(a,es8.1,a)") "waves      with fewer than 8 nodes a period hold ", plan%unresolved, &
+      if (plan%surfaces%pass_once()) then
+         write (line, "(a,es8.1,a)") "waves      with fewer than 8 nodes a period hold ", plan%surfaces%unresolved, &
             " of the variance of its profile"
          text = trim(line)//new_line("a")
          return
       end if
-      if (plan%surface%variance > 0.0_dp .and. plan%scales%film > 0.0_dp) then
-         write (line, "(a,es9.2,a)") "surface    rms height ", sqrt(plan%surface%variance)*plan%scales%film, " m"
-         text = trim(line)
-         if (plan%surface%variance < plan%surface%variance_whole) then
-            write (line, "(a,es9.2,a)") ", of", sqrt(plan%surface%variance_whole)*plan%scales%film, &
-               " m before its spectrum was cut"
-            text = text//trim(line)
+      associate (surface => plan%surfaces%of(1)%surface)
+         if (surface%variance > 0.0_dp .and. plan%scales%film > 0.0_dp) then
+            write (line, "(a,es9.2,a)") "surface    rms height ", sqrt(surface%variance)*plan%scales%film, " m"
+            text = trim(line)
+            if (surface%variance < surface%variance_whole) then
+               write (line, "(a,es9.2,a)") ", of", sqrt(surface%variance_whole)*plan%scales%film, &
+                  " m before its spectrum was cut"
+               text = text//trim(line)
+            end if
+            text = text//new_line("a")
          end if
-         text = text//new_line("a")
-      end if
-      write (line, "(a,es8.1,a)") "waves      with fewer than 8 nodes a period hold ", plan%unresolved, &
+      end associate
+      write (line, "(a,es8.1,a)") "waves      with fewer than 8 nodes a period hold ", plan%surfaces%unresolved, &
          " of the variance of the surface;"
       text = text//trim(line)
-      write (line, "(es8.1,a)") plan%left_out, " of it, with 2 and fewer, is left out"
+      write (line, "(es8.1,a)") plan%surfaces%left_out, " of it, with 2 and fewer, is left out"
       text = text//" "//trim(adjustl(line))//new_line("a")
    end function wave_lines
 
@@ -212,7 +214,7 @@ contains
       character(len=:), allocatable :: text
       character(len=128) :: line
 
-      select type (surface => plan%surface)
+      select type (surface => plan%surfaces%of(1)%surface)
       type is (feature_t)
          write (line, "(a,f8.4)") "scene      "//feature_words(surface)//" at rest, steady; its centre at X = x_start = ", &
             surface%x_start

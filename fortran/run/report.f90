@@ -4,6 +4,7 @@ module ehl_report
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_contact_results, only: contact_results_t
+   use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_outcome, only: outcome_names
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
@@ -113,7 +114,7 @@ contains
          least = minval(films(transient%mean%first_of_mean():))
          ratio = transient%mean%amplitude_ratio()
          if (transient%mean%has_change()) change = transient%mean%change()
-         if (plan%surface%passes_once) then
+         if (plan%surfaces%pass_once()) then
             ! a passage has an end, and no wave to compare amplitudes of
             change = 0.0_dp
             ratio = ieee_value(ratio, ieee_quiet_nan)
@@ -124,9 +125,9 @@ contains
       end if
       call record%set("mu_ratio_min", range(1))
       call record%set("mu_ratio_max", range(2))
-      if (.not. plan%surface%passes_once) call report_rough_film(record, plan, least)
+      if (.not. plan%surfaces%pass_once()) call report_rough_film(record, plan, least)
       call record%set("amplitude_ratio", ratio)
-      if (plan%surface%amplitude >= 0.0_dp) call record%set("amplitude", plan%surface%amplitude)
+      call report_amplitude(record, plan%surfaces)
       call record%set("scheme", trim(merge("narrow", "paper ", plan%scheme == wedge_narrow)))
       call record%set("T", transient%time)
       call record%set("T_period", transient%mean%period)
@@ -138,6 +139,16 @@ contains
       call record%set("seconds_per_step", seconds/max(transient%step, 1))
       call record%set("step_residual_allowed", transient%accuracy%largest)
    end subroutine report_transient
+
+   !> Amplitude of a wave, height or depth of a feature
+   subroutine report_amplitude(record, surfaces)
+      type(record_t), intent(inout) :: record
+      type(moving_surfaces_t), intent(in) :: surfaces
+
+      associate (amplitude => surfaces%of(1)%surface%amplitude)
+         if (amplitude >= 0.0_dp) call record%set("amplitude", amplitude)
+      end associate
+   end subroutine report_amplitude
 
    !> Least film of the rough contact
    subroutine report_rough_film(record, plan, film)
@@ -157,19 +168,19 @@ contains
       type(contact_results_t), intent(in) :: m
       real(dp) :: sigma
 
-      sigma = plan%surface%rms_height()
+      sigma = plan%surfaces%rms_height()
       if (sigma > 0.0_dp) then
          if (plan%scales%has_size()) call record%set("surface_rms_m", sigma*plan%scales%film)
          call record%set("lambda_ratio", m%film_minimum/sigma)
          call record%set("lambda_ratio_central", m%film_central/sigma)
       end if
-      associate (surface => plan%surface)
+      associate (surface => plan%surfaces%of(1)%surface)
          if (surface%variance > 0.0_dp) then
             call record%set("variance_cut", max(0.0_dp, 1.0_dp - surface%variance/surface%variance_whole))
          end if
       end associate
-      call record%set("variance_unresolved", plan%unresolved)
-      call record%set("variance_left_out", plan%left_out)
+      call record%set("variance_unresolved", plan%surfaces%unresolved)
+      call record%set("variance_left_out", plan%surfaces%left_out)
    end subroutine report_waves
 
    !> The contact with a rough surface at rest: results null unless they are good
@@ -189,8 +200,8 @@ contains
       call record%set("H_c_rough", merge(rest%m%film_central, nothing, good))
       call report_rough_film(record, plan, merge(rest%m%film_minimum, nothing, good))
       call record%set("P_max_rough", merge(rest%m%pressure_maximum, nothing, good))
-      call record%set("x_start", plan%surface%x_start)
-      if (plan%surface%amplitude >= 0.0_dp) call record%set("amplitude", plan%surface%amplitude)
+      call record%set("x_start", plan%surfaces%of(1)%surface%x_start)
+      call report_amplitude(record, plan%surfaces)
       call record%set("rough_cycles", rest%total_cycles)
       call record%set("rough_parts", rest%parts)
       call record%set("rough_residual", rest%residual)

@@ -35,7 +35,7 @@ contains
       periods = merge(plan%max_periods, fixed_periods, plan%max_periods > 0)
       ! beyond the largest integer with many periods of a slow surface
       left = ceiling(max(transient%mean%filled, 0) + periods*transient%mean%period/transient%time_step, int64) - transient%step
-      if (good .and. plan%steps == 0 .and. left > 0 .and. .not. plan%surface%passes_once) then
+      if (good .and. plan%steps == 0 .and. left > 0 .and. .not. plan%surfaces%pass_once()) then
          call add(to_text(left)//" steps up to the end of period "//to_text(periods)//": the mean of mu_r/mu_s had settled")
       end if
       call add("a second solve of the smooth contact: one gave the start of the transient run and mu_s")

@@ -7,6 +7,7 @@ module ehl_solver
    use ehl_grid, only: grid_t
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
+   use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_outcome, only: outcome_converged, outcome_interrupted, outcome_running
    use ehl_plan, only: make_plan, plan_t, relative_wedge_error
    use ehl_plan_need, only: check_need
@@ -15,7 +16,6 @@ module ehl_solver
    use ehl_stationary_roughness, only: stationary_roughness_t
    use ehl_status, only: status_t
    use ehl_steady, only: steady_t
-   use ehl_surface, only: surface_t
    use ehl_table, only: table_t
    use ehl_transient, only: transient_t
    implicit none (type, external)
@@ -43,8 +43,8 @@ module ehl_solver
       integer, private :: outcome = outcome_running
       !> Seconds spent on time steps
       real(dp), private :: step_seconds = 0.0_dp
-      !> A surface that was made already
-      class(surface_t), allocatable, private :: surface
+      !> Surfaces that were made already
+      type(moving_surfaces_t), private :: surfaces
       type(case_t), private :: input
       !> Pressure and film of the smooth contact, kept where there is a rough one; frames of the transient run
       real(dp), allocatable, private :: p_smooth(:, :), h_smooth(:, :)
@@ -188,11 +188,11 @@ contains
 
       self%input = input
       ! the run on the coarser grid was counted with the one it belongs to
-      is_part = allocated(self%surface)
+      is_part = self%surfaces%rough()
       if (present(heights)) then
-         call make_plan(input, heights, self%surface, self%plan, status)
+         call make_plan(input, heights, self%surfaces, self%plan, status)
       else
-         call make_plan(input, none, self%surface, self%plan, status)
+         call make_plan(input, none, self%surfaces, self%plan, status)
       end if
       if (.not. is_part) call check_need(self%plan, status)
       if (status%failed()) return
@@ -206,7 +206,7 @@ contains
       call self%hierarchy%grow(self%steady%n, status)
       if (status%failed()) return
       self%grid = self%hierarchy%levels(self%steady%n)%grid
-      if (self%plan%rests()) then
+      if (self%plan%surfaces%rest()) then
          call self%history%init([character(len=16) :: "cycle", "share", "mu_ratio", "H_c", "H_min", "P_max", "load_error", &
                                  "residual"])
       else if (self%moves()) then
@@ -227,14 +227,14 @@ contains
    !> Whether the case is a transient run
    pure logical function moves(self)
       class(solver_t), intent(in) :: self
-      moves = self%plan%moves()
+      moves = self%plan%surfaces%move()
    end function moves
 
    !> How the run stands
    pure integer function stand(self)
       class(solver_t), intent(in) :: self
       stand = self%steady%outcome
-      if (.not. allocated(self%plan%surface)) return
+      if (.not. self%plan%surfaces%rough()) return
       if (self%in_steps) then
          stand = self%outcome
       else if (self%resting) then

@@ -50,16 +50,15 @@ contains
       if (self%in_steps) then
          call report_transient(record, self%plan, self%transient, self%converged(), self%step_seconds, &
                                self%history%column("H_min"), ratio, stop_error)
-         if (self%plan%surface%passes_once) call report_passage(record, self%plan%scales, self%transient%extremes, &
-                                                                self%converged())
+         if (self%plan%surfaces%pass_once()) call report_passage(record, self%plan%scales, self%transient%extremes, &
+                                                                 self%converged())
       end if
       if (self%in_steps .or. self%resting) call report_waves(record, self%plan, self%steady%results(self%level())%m)
       if (self%resting) call report_rest(record, self%plan, self%rest, self%converged(), ratio, stop_error)
-      if (allocated(self%plan%surface)) call report_ratio(self, record, ratio, stop_error)
+      if (self%plan%surfaces%rough()) call report_ratio(self, record, ratio, stop_error)
       call summarise_friction(self, record, good)
       if (self%in_steps .and. self%done()) call record%set("skips", skipped_work(self%plan, self%transient, self%converged()))
-      bytes = real(self%hierarchy%bytes(), dp)
-      if (allocated(self%plan%surface)) bytes = bytes + self%plan%surface%bytes()
+      bytes = real(self%hierarchy%bytes(), dp) + self%plan%surfaces%bytes()
       call record%set("bytes", bytes)
    end function summary
 
@@ -119,7 +118,7 @@ contains
 
       change = (ratio - self%coarse_mean)/ratio
       has_limit = abs(change) <= most_change .and. .not. spike_grows(self%steady%results, self%steady%n)
-      if (self%plan%surface%amplitude > 0.0_dp) has_limit = has_limit .and. change <= most_rise
+      if (self%plan%surfaces%same_on_grids()) has_limit = has_limit .and. change <= most_rise
    end function has_limit
 
    !> Error of the friction ratio by its grid: two grids do not show that they have reached order 2, so that of order 1
@@ -146,13 +145,13 @@ contains
 
       waves = self%waves
       if (.not. waves%known) then
-         if (self%plan%unresolved > rounding) waves%unresolved = ieee_value(waves%unresolved, ieee_quiet_nan)
+         if (self%plan%surfaces%unresolved > rounding) waves%unresolved = ieee_value(waves%unresolved, ieee_quiet_nan)
          waves%left_out = waves%unresolved
          waves%why = "waves that the grid leaves out are not in it: pyehl run predicts what they add"
-         if (self%plan%rests()) waves%why = "waves that the grid leaves out are not in it: what they add is predicted "// &
+         if (self%plan%surfaces%rest()) waves%why = "waves that the grid leaves out are not in it: what they add is predicted "// &
                                             "for surfaces on the move alone"
       end if
-      if (.not. (self%plan%left_out > rounding .and. self%plan%surface%variance > 0.0_dp)) waves%left_out = 0.0_dp
+      if (.not. (self%plan%surfaces%left_out > rounding .and. self%plan%surfaces%has_spectrum())) waves%left_out = 0.0_dp
    end function waves_of
 
    !> Why two grids give no error; empty where they do
@@ -168,7 +167,7 @@ contains
       case (outcome_running)
          if (.not. self%input%time%estimate_error) then
             why = alone//": time.estimate_error is false"
-         else if (self%plan%moves() .and. self%plan%steps > 0) then
+         else if (self%plan%surfaces%move() .and. self%plan%steps > 0) then
             why = alone//", because of time.steps"
          else if (self%plan%coarse_run) then
             why = alone//" yet"
@@ -206,7 +205,7 @@ contains
       nothing = ieee_value(nothing, ieee_quiet_nan)
       friction = merge(self%steady%results(self%level())%m%friction, nothing, good)
       ratio = 1.0_dp
-      if (allocated(self%plan%surface)) ratio = nothing
+      if (self%plan%surfaces%rough()) ratio = nothing
       if (self%in_steps .and. self%converged()) ratio = self%transient%mean%mean(0.0_dp)
       if (self%resting .and. self%converged()) ratio = self%rest%mu_ratio()
       if (self%in_steps .or. self%resting) then

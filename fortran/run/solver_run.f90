@@ -30,8 +30,8 @@ contains
       else
          call advance_cycle(self, status)
          if (status%failed() .or. self%steady%outcome /= outcome_converged) return
-         if (self%plan%moves()) call begin_transient(self, status)
-         if (self%plan%rests()) call begin_rest(self, status)
+         if (self%plan%surfaces%move()) call begin_transient(self, status)
+         if (self%plan%surfaces%rest()) call begin_rest(self, status)
       end if
    end subroutine advance
 
@@ -45,7 +45,7 @@ contains
       call self%steady%advance(self%hierarchy, status)
       if (status%failed()) return
       self%grid = self%hierarchy%levels(n)%grid
-      if (allocated(self%plan%surface)) return
+      if (self%plan%surfaces%rough()) return
       associate (result => self%steady%results(n))
          call self%history%append([real(dp) :: n, self%grid%nx, result%cycles, result%m%film_central, &
                                    result%m%film_minimum, result%m%pressure_maximum, result%m%friction, &
@@ -63,9 +63,9 @@ contains
       call keep_smooth(self, status)
       ! where a feature passes once, the largest pressure and the least film are asked for, not the mean friction alone
       call self%transient%accuracy%set(self%grid%hx, self%plan%accuracy, self%steady%results(n)%m%friction_newtonian, &
-                                       merge(0.0_dp, friction_error(self%steady%results, n), self%plan%surface%passes_once))
+                                       merge(0.0_dp, friction_error(self%steady%results, n), self%plan%surfaces%pass_once()))
       call self%transient%policy%set(self%plan%step_cycle, self%plan%coarsening_may_change, self%plan%max_cycles)
-      call self%transient%start(self%hierarchy%levels(n), self%plan%contact, self%plan%surface, self%plan%skip_start, &
+      call self%transient%start(self%hierarchy%levels(n), self%plan%contact, self%plan%surfaces, self%plan%skip_start, &
                                 self%steady%results(n)%m%friction, status)
       if (status%failed()) return
       call self%hierarchy%prepare_steps(n, self%plan%scheme, self%transient%time_step, status)
@@ -83,13 +83,13 @@ contains
       type(status_t), intent(inout) :: status
 
       call self%plan%see_waves(self%grid)
-      call check_carried(self%plan%surface, self%grid, status)
-      call self%plan%surface%prepare(self%grid, status)
+      call check_carried(self%plan%surfaces, self%grid, status)
+      call self%plan%surfaces%prepare(self%grid, status)
       associate (n => self%steady%n)
          self%p_smooth = self%hierarchy%levels(n)%p
          self%h_smooth = self%hierarchy%levels(n)%h
       end associate
-      if (self%plan%amplitude_over_film > 0.0_dp .and. .not. status%failed()) call set_amplitude(self, status)
+      if (self%plan%surfaces%needs_film() .and. .not. status%failed()) call set_amplitude(self, status)
    end subroutine keep_smooth
 
    !> The amplitude that was given as a share of the film. It belongs to the case and not to the grid: a grid error of
@@ -102,7 +102,7 @@ contains
       film = known_film(self)
       if (.not. film > 0.0_dp) film = film_by_finer_grids(self, status)
       if (status%failed()) return
-      self%plan%surface%amplitude = self%plan%amplitude_over_film*film
+      call self%plan%surfaces%take_film(film)
    end subroutine set_amplitude
 
    !> Extrapolated central film of the smooth contact; 0 where its grid error is too large for that
@@ -140,7 +140,7 @@ contains
       if (status%failed()) return
       if (finer%converged()) film = known_film(finer)
       if (film > 0.0_dp) return
-      call status%fail(ehl_bad_input, "surface.amplitude_over_film = "//to_text(self%plan%amplitude_over_film)// &
+      call status%fail(ehl_bad_input, "surface.amplitude_over_film = "//to_text(self%input%surface%amplitude_over_film)// &
                        ": the film of the smooth contact is not known to "//to_text(100.0_dp*film_error)// &
                        " % on grids of up to "//to_text(input%grid%max_points)//" points"//new_line("a")// &
                        "expected: surface.amplitude, or a larger grid.max_points")
@@ -152,7 +152,7 @@ contains
       type(status_t), intent(inout) :: status
 
       call keep_smooth(self, status)
-      call self%rest%start(self%hierarchy%levels(self%steady%n), self%plan%contact, self%plan%surface, self%plan%max_cycles, &
+      call self%rest%start(self%hierarchy%levels(self%steady%n), self%plan%contact, self%plan%surfaces, self%plan%max_cycles, &
                            self%plan%accuracy, status)
       self%resting = .true.
    end subroutine begin_rest
@@ -180,15 +180,15 @@ contains
 
       clock = start_clock()
       associate (transient => self%transient, m => self%transient%m)
-         call transient%advance(self%hierarchy, self%steady%n, self%plan%surface, status)
+         call transient%advance(self%hierarchy, self%steady%n, self%plan%surfaces, status)
          self%step_seconds = self%step_seconds + clock%seconds()
          if (status%failed()) return
          if (transient%step_converged()) then
             call self%history%append([real(dp) :: transient%step, transient%time, m%friction/transient%friction_smooth, &
                                       m%film_central, m%film_minimum, m%pressure_maximum, m%load_error, transient%cycles, &
                                       transient%residual])
-            if (self%plan%surface%passes_once) call transient%extremes%see(self%hierarchy%levels(self%steady%n), self%p_smooth, &
-                                                                      self%h_smooth, transient%time)
+            if (self%plan%surfaces%pass_once()) call transient%extremes%see(self%hierarchy%levels(self%steady%n), self%p_smooth, &
+                                                                       self%h_smooth, transient%time)
             self%outcome = transient_outcome(self%plan, self%transient)
             call self%frames%keep(self%hierarchy%levels(self%steady%n), transient%time, transient%time_step, &
                                   self%input%output%frame_interval, status)
@@ -215,15 +215,15 @@ contains
       input%grid%target_error = 0.0_dp
       input%time%estimate_error = .false.
       ! the same roughness, not the same share of another film
-      if (self%plan%amplitude_over_film > 0.0_dp) then
+      if (self%plan%surfaces%needs_film()) then
          input%surface%amplitude_given = .true.
-         input%surface%amplitude = self%plan%surface%amplitude
+         input%surface%amplitude = self%plan%surfaces%of(1)%surface%amplitude
       end if
       allocate (self%coarse, stat=stat)
       if (stat /= 0) then
          call status%fail(ehl_no_memory, "no memory for another solver")
       else
-         call self%plan%surface%hand_over(self%coarse%surface)
+         call self%plan%surfaces%hand_over(self%coarse%surfaces)
          call self%coarse%start(input, status)
          self%coarse%checkpoint = self%coarse_checkpoint
       end if

@@ -76,7 +76,7 @@ contains
       self%step_seconds = numbers(1)
       self%coarse_mean = numbers(2)
       self%coarse_outcome = nint(numbers(3))
-      call self%transient%restore(self%hierarchy%levels(self%steady%n), self%plan%surface, same)
+      call self%transient%restore(self%hierarchy%levels(self%steady%n), self%plan%surfaces, same)
       if (.not. same) then
          call status%fail(ehl_bad_input, self%checkpoint%path//": error: the film of this state does not follow from "// &
                           "its pressure"//new_line("a")//"expected: the surface and the program that it was made with")

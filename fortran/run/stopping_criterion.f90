@@ -23,7 +23,7 @@ contains
       logical :: ends, settled
 
       associate (mean => transient%mean)
-         if (plan%surface%passes_once) then
+         if (plan%surfaces%pass_once()) then
             settled = mean%has_mean()
          else
             settled = mean%settled(plan%time_tolerance)
@@ -38,13 +38,13 @@ contains
    !> Periods after which a transient run can end first
    pure real(dp) function least_periods(plan)
       type(plan_t), intent(in) :: plan
-      least_periods = merge(1.0_dp, periods_compared, plan%surface%passes_once)
+      least_periods = merge(1.0_dp, periods_compared, plan%surfaces%pass_once())
    end function least_periods
 
    !> Periods after which a transient run ends at the latest
    pure integer function most_periods(plan)
       type(plan_t), intent(in) :: plan
       most_periods = merge(plan%max_periods, automatic_periods, plan%max_periods > 0)
-      if (plan%surface%passes_once) most_periods = 1
+      if (plan%surfaces%pass_once()) most_periods = 1
    end function most_periods
 end module ehl_stopping_criterion

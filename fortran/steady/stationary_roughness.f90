@@ -8,11 +8,11 @@ module ehl_stationary_roughness
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
+   use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_contact_results, only: load_tolerance, measure, contact_results_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, outcome_running
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_steady, only: least_reduction, residual_tolerance
-   use ehl_surface, only: surface_t
    use ehl_time_levels, only: set_geometry
    implicit none (type, external)
    private
@@ -59,11 +59,11 @@ module ehl_stationary_roughness
 contains
 
    !> Begin from the smooth solution of a level
-   subroutine start(self, level, contact, surface, max_cycles, accuracy, status)
+   subroutine start(self, level, contact, surfaces, max_cycles, accuracy, status)
       class(stationary_roughness_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
       class(contact_t), intent(in) :: contact
-      class(surface_t), intent(inout) :: surface
+      class(moving_surfaces_t), intent(inout) :: surfaces
       !> Most cycles for a share of the roughness
       integer, intent(in) :: max_cycles
       !> Algebraic error as a share of the discretisation error
@@ -81,7 +81,7 @@ contains
          call status%fail(ehl_no_memory, "no memory for the roughness at rest")
          return
       end if
-      call surface%height(level%grid, 0.0_dp, self%rr)
+      call surfaces%roughness(level%grid, 0.0_dp, self%rr)
       self%m = measure(level)
       self%friction_smooth = self%m%friction
    end subroutine start

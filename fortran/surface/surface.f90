@@ -54,6 +54,8 @@ module ehl_surface
       !> Time in which the pattern repeats
       procedure :: time_period
       procedure :: at_rest
+      procedure :: time_near
+      procedure :: time_to_mean
       procedure :: end_of_passage
       procedure :: share
    end type surface_t
@@ -150,6 +152,19 @@ contains
       class(surface_t), intent(in) :: self
       at_rest = .not. abs(self%velocity_ratio) > 0.0_dp
    end function at_rest
+
+   !> Time at which the front, with half its length, comes to where the roughness matters
+   pure real(dp) function time_near(self)
+      class(surface_t), intent(in) :: self
+      time_near = (x_matters - 0.5_dp*self%front_length - self%x_start)/self%velocity_ratio
+   end function time_near
+
+   !> Time from a time on until friction belongs to a mean: roughness fills the contact, what passes once comes near it
+   pure real(dp) function time_to_mean(self, time)
+      class(surface_t), intent(in) :: self
+      real(dp), intent(in) :: time
+      time_to_mean = (merge(x_matters, x_filled, self%passes_once) - self%front_position(time))/self%velocity_ratio
+   end function time_to_mean
 
    !> Time at which what passes once has left the contact
    pure real(dp) function end_of_passage(self)

@@ -39,7 +39,7 @@ contains
                p(i, :, :) = spread(1.0_dp + 0.1_dp*sin(0.7_dp*i)*real([1, 0, 1, 4, 9], dp), 1, 33)
             end if
          end do
-         call predictor%setup(33, 33, 1.0_dp, status)
+         call predictor%setup(33, 33, [1.0_dp], status)
          level%p = p(:, :, 2)
          call predictor%learn(p(:, :, 1:-1:-1), level)
          call predictor%predict(p(:, :, 2:0:-1), level)

@@ -8,12 +8,12 @@ module test_transient
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_level_result, only: friction_error
+   use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_outcome, only: outcome_converged, outcome_running
    use ehl_plan, only: make_plan, plan_t
    use ehl_relaxation, only: full_trust, relax
    use ehl_status, only: status_t
    use ehl_steady, only: steady_t
-   use ehl_surface, only: surface_t
    use ehl_transient, only: transient_t
    implicit none (type, external)
    private
@@ -50,7 +50,7 @@ contains
 
       call begin(heavy, plan, hierarchy, transient, n, status)
       do k = 1, 3
-         call transient%advance(hierarchy, n, plan%surface, status)
+         call transient%advance(hierarchy, n, plan%surfaces, status)
          call is_true(transient%step_converged(), "a step converges")
       end do
       associate (level => hierarchy%levels(n), space => hierarchy%spaces(n))
@@ -60,7 +60,7 @@ contains
          allowed = transient%accuracy%strict
          transient%policy%max_cycles = 1
          transient%accuracy%strict = 1.0e-3_dp*allowed
-         call transient%advance(hierarchy, n, plan%surface, status)
+         call transient%advance(hierarchy, n, plan%surfaces, status)
          call is_true(.not. transient%step_converged(), "one cycle is too few")
          call is_equal(transient%step, 3, "the failed step does not count")
          call is_close(maxval(abs(level%p - p)), 0.0_dp, 0.0_dp, "pressure of the last good step")
@@ -68,14 +68,14 @@ contains
          call is_close(level%h00, h00, 0.0_dp, "H00 of the last good step")
          transient%policy%max_cycles = plan%max_cycles
          transient%accuracy%strict = allowed
-         call transient%advance(hierarchy, n, plan%surface, status)
+         call transient%advance(hierarchy, n, plan%surfaces, status)
          call is_true(transient%step_converged() .and. transient%step == 4, "more cycles are enough")
          p_next = level%p
       end associate
 
       call begin(heavy, plan, hierarchy, transient, n, status)
       do k = 1, 4
-         call transient%advance(hierarchy, n, plan%surface, status)
+         call transient%advance(hierarchy, n, plan%surfaces, status)
       end do
       call is_close(maxval(abs(hierarchy%levels(n)%p - p_next)), 0.0_dp, 0.0_dp, "the failed step left no trace")
       call is_true(.not. status%failed(), "transient run")
@@ -94,7 +94,7 @@ contains
       transient%accuracy%strict = 0.003_dp*transient%accuracy%strict
       transient%accuracy%allowed = 0.0_dp
       do k = 1, 4
-         call transient%advance(hierarchy, n, plan%surface, status)
+         call transient%advance(hierarchy, n, plan%surfaces, status)
       end do
       p = hierarchy%levels(n)%p
       cycles = transient%cycles
@@ -103,13 +103,13 @@ contains
       transient%accuracy%strict = 0.003_dp*transient%accuracy%strict
       transient%accuracy%allowed = 0.0_dp
       do k = 1, 3
-         call transient%advance(hierarchy, n, plan%surface, status)
+         call transient%advance(hierarchy, n, plan%surfaces, status)
       end do
       ! only the predictor uses the pressure of three steps ago: peaks and valleys side by side
       do j = 1, 33
          transient%p_before(:, j, 3) = transient%p_before(:, j, 3)*[(merge(3.5_dp, 1.0_dp, mod(k, 2) == 0), k=1, 65)]
       end do
-      call transient%advance(hierarchy, n, plan%surface, status)
+      call transient%advance(hierarchy, n, plan%surfaces, status)
       call is_true(transient%step_converged() .and. transient%step == 4, "a step with a wrong prediction converges")
       call is_true(transient%cycles > cycles, "after more cycles")
       call is_close(maxval(abs(hierarchy%levels(n)%p - p)), 0.0_dp, 2.0e-5_dp, "to the same pressure")
@@ -127,7 +127,7 @@ contains
       integer :: n, k
 
       call begin(thin, plan, hierarchy, transient, n, status)
-      call transient%advance(hierarchy, n, plan%surface, status)
+      call transient%advance(hierarchy, n, plan%surfaces, status)
       associate (level => hierarchy%levels(n), space => hierarchy%spaces(n))
          level%p = level%p*(1.0_dp + 1.0e-3_dp*level%p)
          call refresh(level)
@@ -154,7 +154,7 @@ contains
       integer :: n, i, j
 
       call begin(heavy, plan, hierarchy, transient, n, status)
-      call transient%advance(hierarchy, n, plan%surface, status)
+      call transient%advance(hierarchy, n, plan%surfaces, status)
       associate (level => hierarchy%levels(n), space => hierarchy%spaces(n))
          level%p = 0.5_dp*level%p
          call refresh(level)
@@ -189,7 +189,7 @@ contains
       integer :: n, i, j
 
       call begin(heavy, plan, hierarchy, transient, n, status)
-      call transient%advance(hierarchy, n, plan%surface, status)
+      call transient%advance(hierarchy, n, plan%surfaces, status)
       associate (level => hierarchy%levels(n), space => hierarchy%spaces(n))
          call relax(level, space, full_trust, 1.0_dp)
          difference = 0.0_dp
@@ -215,7 +215,7 @@ contains
       integer :: n
 
       call begin(heavy, plan, hierarchy, transient, n, status)
-      call transient%advance(hierarchy, n, plan%surface, status)
+      call transient%advance(hierarchy, n, plan%surfaces, status)
       call is_true(all(hierarchy%coarsenings%transfer%nx == 0), "no transfers for classical coarsening")
       associate (before => hierarchy%bytes())
          call hierarchy%prepare_coarsening(status)
@@ -236,11 +236,11 @@ contains
       type(status_t), intent(inout) :: status
       type(case_t), target :: input
       type(steady_t) :: steady
-      class(surface_t), allocatable :: no_surface
+      type(moving_surfaces_t) :: no_surfaces
       real(dp), parameter :: none(0, 0) = reshape([real(dp) ::], [0, 0])
 
       call read_case(text, "test", "", input, status)
-      call make_plan(input, none, no_surface, plan, status)
+      call make_plan(input, none, no_surfaces, plan, status)
       call hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, plan%contact%kernel_factor(), &
                            plan%engine, plan%threads, status)
       call steady%start(plan%contact, plan%film_expected, plan%start, plan%levels, plan%cycle, &
@@ -255,8 +255,8 @@ contains
       call transient%accuracy%set(hierarchy%levels(n)%grid%hx, plan%accuracy, steady%results(n)%m%friction_newtonian, &
                                   friction_error(steady%results, n))
       call transient%policy%set(plan%step_cycle, .false., plan%max_cycles)
-      call plan%surface%prepare(hierarchy%levels(n)%grid, status)
-      call transient%start(hierarchy%levels(n), plan%contact, plan%surface, plan%skip_start, steady%results(n)%m%friction, status)
+      call plan%surfaces%prepare(hierarchy%levels(n)%grid, status)
+      call transient%start(hierarchy%levels(n), plan%contact, plan%surfaces, plan%skip_start, steady%results(n)%m%friction, status)
       call hierarchy%prepare_steps(n, plan%scheme, transient%time_step, status)
    end subroutine begin
 end module test_transient

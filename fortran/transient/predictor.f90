@@ -15,22 +15,21 @@ module ehl_predictor
 
    !> Errors are compared over squares of (2 reach + 1)^2 nodes
    integer, parameter :: reach = 2
-   !> Extrapolations: of second order at the node (what stands), and at the nodes where things were that the surface
-   !> carries along; of first order at the node
-   integer, parameter :: candidates = 3
    !> Errors that are nothing
    real(dp), parameter :: least_error = 1.0e-60_dp
 
    type :: predictor_t
+      !> Extrapolations: of second order at the node (what stands), and at the nodes where things were that a surface
+      !> carries along, one for each surface that moves; of first order at the node
+      integer, private :: candidates = 3
       !> Weights of the candidates but the first, which has the rest; (nx, ny, candidates - 1)
       real(dp), allocatable :: weights(:, :, :)
       !> Errors of the candidates in the last step by their weight in the equation; (nx, ny, candidates)
       real(dp), allocatable, private :: error(:, :, :)
-      !> Nodes that the surface moves in a step
-      real(dp) :: shift = 1.0_dp
+      !> Nodes that the surfaces move in a step
+      real(dp), allocatable :: shifts(:)
    contains
       procedure :: setup
-      procedure :: allocate_weights
       procedure :: predict
       procedure :: learn
       procedure, private :: compare
@@ -38,34 +37,24 @@ module ehl_predictor
 
 contains
 
-   !> Allocate; shift: nodes that the surface moves in a step
-   subroutine setup(self, nx, ny, shift, status)
+   !> Allocate, with all weight on the first candidate
+   subroutine setup(self, nx, ny, shifts, status)
       class(predictor_t), intent(inout) :: self
       integer, intent(in) :: nx, ny
-      real(dp), intent(in) :: shift
+      !> Nodes that the surfaces move in a step
+      real(dp), intent(in) :: shifts(:)
       type(status_t), intent(inout) :: status
       integer :: stat
 
       if (status%failed()) return
-      self%shift = shift
-      if (allocated(self%error)) deallocate (self%error)
-      call self%allocate_weights(nx, ny, status)
-      if (status%failed()) return
-      allocate (self%error(nx, ny, candidates), source=0.0_dp, stat=stat)
+      self%shifts = shifts
+      self%candidates = size(shifts) + 2
+      if (allocated(self%error)) deallocate (self%error, self%weights)
+      associate (n => self%candidates)
+         allocate (self%weights(nx, ny, n - 1), self%error(nx, ny, n), source=0.0_dp, stat=stat)
+      end associate
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the predictor of a time step")
    end subroutine setup
-
-   !> Weights, all zero: the first candidate alone
-   subroutine allocate_weights(self, nx, ny, status)
-      class(predictor_t), intent(inout) :: self
-      integer, intent(in) :: nx, ny
-      type(status_t), intent(inout) :: status
-      integer :: stat
-
-      if (allocated(self%weights)) deallocate (self%weights)
-      allocate (self%weights(nx, ny, candidates - 1), source=0.0_dp, stat=stat)
-      if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the predictor of a time step")
-   end subroutine allocate_weights
 
    !> Pressure expected from that of the last three steps; nodes that were cavitated stay so
    subroutine predict(self, before, level)
@@ -73,15 +62,15 @@ contains
       !> Pressures of the last three steps, the latest first, (nx, ny, 3)
       real(dp), intent(in) :: before(:, :, :)
       type(level_t), intent(inout) :: level
-      real(dp) :: c(level%grid%nx, candidates), p(level%grid%nx)
+      real(dp) :: c(level%grid%nx, self%candidates), p(level%grid%nx)
       integer :: j, k
 
       !$omp parallel do default(none) shared(self, before, level) private(c, p, k) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
-         call extrapolate(self%shift, before(:, j, :), c)
+         call extrapolate(self%shifts, before(:, j, :), c)
          p = c(:, 1)
-         do k = 2, candidates
+         do k = 2, self%candidates
             p = p + self%weights(:, j, k - 1)*(c(:, k) - c(:, 1))
          end do
          ! a NaN stays one
@@ -96,14 +85,14 @@ contains
       !> Pressures of the three steps before that of the level
       real(dp), intent(in) :: before(:, :, :)
       type(level_t), intent(in) :: level
-      real(dp) :: c(level%grid%nx, candidates)
+      real(dp) :: c(level%grid%nx, self%candidates)
       integer :: j, k
 
       !$omp parallel do default(none) shared(self, before, level) private(c, k) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
-         call extrapolate(self%shift, before(:, j, :), c)
-         do k = 1, candidates
+         call extrapolate(self%shifts, before(:, j, :), c)
+         do k = 1, self%candidates
             call weigh(level, j, level%p(:, j) - c(:, k), self%error(:, j, k))
          end do
       end do
@@ -117,8 +106,8 @@ contains
    end subroutine learn
 
    !> The candidates of a row
-   pure subroutine extrapolate(shift, before, c)
-      real(dp), intent(in) :: shift
+   pure subroutine extrapolate(shifts, before, c)
+      real(dp), intent(in) :: shifts(:)
       !> Pressures of the row in the last three steps, the latest first, (nx, 3)
       real(dp), intent(in) :: before(:, :)
       !> Shape (nx, candidates)
@@ -126,21 +115,23 @@ contains
       !> Changes of the last step and of the one before
       real(dp), dimension(size(before, 1)) :: last, former
       real(dp) :: t, t2
-      integer :: i, n, n2
+      integer :: i, k, n, n2
 
       last = before(:, 1) - before(:, 2)
       former = before(:, 2) - before(:, 3)
       c(:, 1) = before(:, 1) + 2.0_dp*last - former
-      c(:, 2) = before(:, 1)
-      c(:, 3) = before(:, 1) + last
-      ! from one step and from two steps up the surface's way, linear between nodes
-      n = int(shift)
-      t = shift - n
-      n2 = int(2.0_dp*shift)
-      t2 = 2.0_dp*shift - n2
-      do i = n2 + 2, size(last)
-         c(i, 2) = c(i, 2) + 2.0_dp*((1.0_dp - t)*last(i - n) + t*last(i - n - 1)) &
-                   - ((1.0_dp - t2)*former(i - n2) + t2*former(i - n2 - 1))
+      c(:, size(shifts) + 2) = before(:, 1) + last
+      ! from one step and from two steps up a surface's way, linear between nodes
+      do k = 1, size(shifts)
+         c(:, k + 1) = before(:, 1)
+         n = int(shifts(k))
+         t = shifts(k) - n
+         n2 = int(2.0_dp*shifts(k))
+         t2 = 2.0_dp*shifts(k) - n2
+         do i = n2 + 2, size(last)
+            c(i, k + 1) = c(i, k + 1) + 2.0_dp*((1.0_dp - t)*last(i - n) + t*last(i - n - 1)) &
+                          - ((1.0_dp - t2)*former(i - n2) + t2*former(i - n2 - 1))
+         end do
       end do
    end subroutine extrapolate
 
@@ -164,12 +155,12 @@ contains
       class(predictor_t), intent(inout) :: self
       type(level_t), intent(in) :: level
       integer, intent(in) :: j
-      real(dp) :: across(level%grid%nx), q(level%grid%nx, candidates)
+      real(dp) :: across(level%grid%nx), q(level%grid%nx, self%candidates)
       integer :: first, last, i, k, row
 
       first = 1 + reach
       last = level%grid%nx - reach
-      do k = 1, candidates
+      do k = 1, self%candidates
          across = 0.0_dp
          do i = j - reach, min(j + reach, level%grid%ny)
             row = i
@@ -180,10 +171,12 @@ contains
             q(i, k) = 1.0_dp/(across(i - 2) + across(i - 1) + across(i) + across(i + 1) + across(i + 2) + least_error)
          end do
       end do
-      do i = first, last
-         across(i) = 1.0_dp/(q(i, 1) + q(i, 2) + q(i, 3))
+      across(first:last) = q(first:last, 1)
+      do k = 2, self%candidates
+         across(first:last) = across(first:last) + q(first:last, k)
       end do
-      do k = 2, candidates
+      across(first:last) = 1.0_dp/across(first:last)
+      do k = 2, self%candidates
          self%weights(first:last, j, k - 1) = q(first:last, k)*across(first:last)
       end do
    end subroutine compare

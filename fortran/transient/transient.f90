@@ -9,12 +9,12 @@ module ehl_transient
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
+   use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_contact_results, only: central_value, load_tolerance, measure, contact_results_t
    use ehl_predictor, only: predictor_t
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_step_accuracy, only: step_accuracy_t
    use ehl_step_policy, only: attempt_predicted, step_begins_again, step_ends, step_policy_t
-   use ehl_surface, only: surface_t, x_filled, x_matters
    use ehl_time_levels, only: keep, set_geometry, set_history
    use ehl_wedge, only: old_times
    implicit none (type, external)
@@ -58,34 +58,26 @@ module ehl_transient
 
 contains
 
-   !> Time steps of a surface with the mean velocity until the mean friction over a period can be compared with an earlier
-   !> one, or the passage ends
-   real(dp) function steps_needed(surface, time_step, skip)
-      class(surface_t), intent(in) :: surface
+   !> Time steps until the mean friction over a period can be compared with an earlier one, or the passage ends
+   real(dp) function steps_needed(surfaces, time_step, skip)
+      class(moving_surfaces_t), intent(in) :: surfaces
       real(dp), intent(in) :: time_step
       !> Whether the steps before the roughness comes near the contact are not made
       logical, intent(in) :: skip
-      real(dp) :: from, way
+      real(dp) :: from
 
-      from = surface%x_start
-      if (skip) from = max(from, x_matters - 0.5_dp*surface%front_length)
-      way = max(0.0_dp, x_counts(surface) - from) + merge(1.0_dp, periods_compared, surface%passes_once)*surface%period
-      steps_needed = way/time_step
+      from = merge(surfaces%begin(), 0.0_dp, skip)
+      steps_needed = (max(0.0_dp, surfaces%time_to_mean(from)) &
+                      + merge(1.0_dp, periods_compared, surfaces%pass_once())*surfaces%period())/time_step
    end function steps_needed
-
-   !> Position of the front from which on the friction belongs to a mean
-   pure real(dp) function x_counts(surface)
-      class(surface_t), intent(in) :: surface
-      x_counts = merge(x_matters, x_filled, surface%passes_once)
-   end function x_counts
 
    !> Begin from the smooth solution of a level, the roughness riding on its film. Where the film is thick it changes
    !> nothing: solving begins when the front, with half its length, reaches x_matters.
-   subroutine start(self, level, contact, surface, skip, friction_smooth, status)
+   subroutine start(self, level, contact, surfaces, skip, friction_smooth, status)
       class(transient_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
       class(contact_t), intent(in) :: contact
-      class(surface_t), intent(inout) :: surface
+      class(moving_surfaces_t), intent(inout) :: surfaces
       !> Begin when the roughness comes near the contact, not when it enters the domain
       logical, intent(in) :: skip
       real(dp), intent(in) :: friction_smooth
@@ -99,8 +91,7 @@ contains
       self%total_sweeps = 0
       self%time_step = level%grid%hx
       self%skipped = 0
-      if (skip) self%skipped = max(0, int((x_matters - 0.5_dp*surface%front_length - surface%x_start) &
-                                          /surface%velocity_ratio/self%time_step))
+      if (skip) self%skipped = int(surfaces%begin()/self%time_step)
       self%time = self%skipped*self%time_step
       self%friction_smooth = friction_smooth
       if (allocated(self%mass_content)) deallocate (self%mass_content, self%p_before, self%rr)
@@ -111,26 +102,25 @@ contains
          call status%fail(ehl_no_memory, "no memory for the time levels")
          return
       end if
-      call self%predictor%setup(level%grid%nx, level%grid%ny, surface%velocity_ratio*self%time_step/level%grid%hx, status)
+      call self%predictor%setup(level%grid%nx, level%grid%ny, surfaces%velocities()*self%time_step/level%grid%hx, status)
       if (status%failed()) return
       do k = old_times, 1, -1
-         call surface%height(level%grid, self%time - (k - 1)*self%time_step, self%rr)
+         call surfaces%roughness(level%grid, self%time - (k - 1)*self%time_step, self%rr)
          self%mass_content(:, :, k) = level%rho*(level%h - self%rr)
       end do
       self%p_before = spread(level%p, 3, 3)
       self%h00_before = level%h00
       self%m = measure(level)
-      call self%mean%start(surface%time_period(), self%time_step, &
-                           (x_counts(surface) - surface%front_position(self%time))/surface%velocity_ratio)
+      call self%mean%start(surfaces%period(), self%time_step, surfaces%time_to_mean(self%time))
       self%extremes = extremes_t()
    end subroutine start
 
    !> One time step, cycle by cycle to convergence
-   subroutine advance(self, hierarchy, n, surface, status)
+   subroutine advance(self, hierarchy, n, surfaces, status)
       class(transient_t), intent(inout) :: self
       type(hierarchy_t), intent(inout) :: hierarchy
       integer, intent(in) :: n
-      class(surface_t), intent(inout) :: surface
+      class(moving_surfaces_t), intent(inout) :: surfaces
       type(status_t), intent(inout) :: status
       type(contact_results_t) :: first
       real(dp) :: load_error, before, residual_first
@@ -138,7 +128,7 @@ contains
       logical :: met
 
       if (status%failed()) return
-      call surface%height(hierarchy%levels(n)%grid, self%time + self%time_step, self%rr)
+      call surfaces%roughness(hierarchy%levels(n)%grid, self%time + self%time_step, self%rr)
       call set_geometry(hierarchy%levels(n), self%contact, self%rr)
       call set_history(hierarchy%levels(n), self%mass_content)
       made = 0
@@ -172,7 +162,7 @@ contains
       associate (level => hierarchy%levels(n))
          self%m = measure(level)
          if (.not. self%step_converged()) then
-            call self%step_back(level, surface)
+            call self%step_back(level, surfaces)
             return
          end if
          if (self%cycles > 1) call self%accuracy%learn(first%friction_newtonian, residual_first, &
@@ -224,26 +214,26 @@ contains
 
    !> Go on with a state that was read into this run. `same` tells whether its film follows from its pressure: it does
    !> not when the surface, or the program, is another one.
-   subroutine restore(self, level, surface, same)
+   subroutine restore(self, level, surfaces, same)
       class(transient_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
-      class(surface_t), intent(inout) :: surface
+      class(moving_surfaces_t), intent(inout) :: surfaces
       logical, intent(out) :: same
       !> Rounding of another processor or compiler may pass
       real(dp), parameter :: rounding = 1.0e-9_dp
 
-      call self%step_back(level, surface)
+      call self%step_back(level, surfaces)
       self%m = measure(level)
       same = abs(sum(1.0_dp/level%h) - self%film_mark) <= rounding*self%film_mark
    end subroutine restore
 
    !> The last good state again
-   subroutine step_back(self, level, surface)
+   subroutine step_back(self, level, surfaces)
       class(transient_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
-      class(surface_t), intent(inout) :: surface
+      class(moving_surfaces_t), intent(inout) :: surfaces
 
-      call surface%height(level%grid, self%time, self%rr)
+      call surfaces%roughness(level%grid, self%time, self%rr)
       call set_geometry(level, self%contact, self%rr)
       level%p = self%p_before(:, :, 1)
       level%h00 = self%h00_before(1)
