@@ -8,7 +8,7 @@ module ehl_solver
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_outcome, only: outcome_converged, outcome_interrupted, outcome_running
-   use ehl_plan, only: make_plan, plan_t, relative_wedge_error
+   use ehl_plan, only: make_plan, plan_t
    use ehl_plan_need, only: check_need
    use ehl_ratio_error, only: waves_t
    use ehl_record, only: record_t
@@ -24,8 +24,6 @@ module ehl_solver
 
    !> Cost of a step on the next coarser grid, in steps: it has a quarter of the nodes
    real(dp), parameter :: coarse_step = 0.25_dp
-   !> A-priori error of H_c of grids that resolve the inlet: a smooth contact that fails there begins again with care
-   real(dp), parameter :: resolved_error = 0.1_dp
 
    type :: solver_t
       !> Finest grid reached so far
@@ -199,9 +197,7 @@ contains
       associate (plan => self%plan)
          call self%hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, &
                                    plan%engine, plan%threads, status)
-         call self%steady%start(plan%contact, plan%film_expected, plan%start, plan%levels, plan%cycle, &
-                                plan%second_cycle, plan%accuracy, plan%target_error, plan%max_cycles, plan%flooded, &
-                                relative_wedge_error(plan%point, plan%finest) <= resolved_error)
+         call self%steady%start(plan%contact, plan%steady_options_t)
       end associate
       call self%hierarchy%grow(self%steady%n, status)
       if (status%failed()) return

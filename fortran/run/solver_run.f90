@@ -5,7 +5,7 @@ submodule (ehl_solver) ehl_solver_run
    use ehl_level_result, only: discretisation_error, extrapolated, friction_error
    use ehl_stopping_criterion, only: transient_outcome
    use ehl_plan_surface, only: check_carried
-   use ehl_outcome, only: outcome_cycle_limit, outcome_diverged, outcome_failed, outcome_negative_film
+   use ehl_outcome, only: outcome_failed
    use ehl_status, only: ehl_no_memory
    use ehl_status, only: ehl_bad_input
    use ehl_text, only: to_text
@@ -26,7 +26,7 @@ contains
       else if (self%in_steps) then
          call advance_step(self, status)
       else if (self%resting) then
-         call advance_rest(self)
+         call advance_rest(self, status)
       else
          call advance_cycle(self, status)
          if (status%failed() .or. self%steady%outcome /= outcome_converged) return
@@ -152,18 +152,21 @@ contains
       type(status_t), intent(inout) :: status
 
       call keep_smooth(self, status)
-      call self%rest%start(self%hierarchy%levels(self%steady%n), self%plan%contact, self%plan%surface, self%plan%max_cycles, &
-                           self%plan%accuracy, status)
+      associate (n => self%steady%n)
+         call self%rest%start(self%hierarchy%levels(n), n, self%plan%contact, self%plan%surface, self%plan%steady_options_t, &
+                              status)
+      end associate
       self%resting = .true.
    end subroutine begin_rest
 
    !> One cycle of the contact with the rough surface at rest; when it is solved, on to the next coarser grid
-   recursive subroutine advance_rest(self)
+   recursive subroutine advance_rest(self, status)
       type(solver_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
       type(clock_t) :: clock
 
       clock = start_clock()
-      call self%rest%advance(self%hierarchy, self%steady%n, self%plan%cycle)
+      call self%rest%advance(self%hierarchy, status)
       self%step_seconds = self%step_seconds + clock%seconds()
       associate (rest => self%rest, m => self%rest%m)
          call self%history%append([real(dp) :: rest%total_cycles, rest%share, m%friction/rest%friction_smooth, &
@@ -183,7 +186,7 @@ contains
          call transient%advance(self%hierarchy, self%steady%n, self%plan%surface, status)
          self%step_seconds = self%step_seconds + clock%seconds()
          if (status%failed()) return
-         if (transient%step_converged()) then
+         if (transient%state == outcome_converged) then
             call self%history%append([real(dp) :: transient%step, transient%time, m%friction/transient%friction_smooth, &
                                       m%film_central, m%film_minimum, m%pressure_maximum, m%load_error, transient%cycles, &
                                       transient%residual])
@@ -192,12 +195,8 @@ contains
             self%outcome = transient_outcome(self%plan, self%transient)
             call self%frames%keep(self%hierarchy%levels(self%steady%n), transient%time, transient%time_step, &
                                   self%input%output%frame_interval, status)
-         else if (.not. m%finite) then
-            self%outcome = outcome_diverged
-         else if (.not. m%positive) then
-            self%outcome = outcome_negative_film
          else
-            self%outcome = outcome_cycle_limit
+            self%outcome = transient%state
          end if
       end associate
    end subroutine advance_step

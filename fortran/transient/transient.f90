@@ -4,12 +4,14 @@ module ehl_transient
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe
    use ehl_extremes, only: extremes_t
-   use ehl_film, only: balance_load, pressure_sum, refresh, update_residual
+   use ehl_film, only: refresh, update_residual
    use ehl_friction_mean, only: friction_mean_t, periods_compared
    use ehl_hierarchy, only: hierarchy_t
+   use ehl_iteration, only: iteration_t, judge_state
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_contact_results, only: central_value, load_tolerance, measure, contact_results_t
+   use ehl_outcome, only: outcome_converged, outcome_running
    use ehl_predictor, only: predictor_t
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_step_accuracy, only: step_accuracy_t
@@ -24,20 +26,21 @@ module ehl_transient
    !> Relative errors of the force balance that a step may have taken away by scaling its pressure
    real(dp), parameter :: small_load_error = 1.0e-5_dp
 
-   type :: transient_t
+   !> The state of the iteration is that of a step
+   type, extends(iteration_t) :: transient_t
       class(contact_t), allocatable, private :: contact
       !> Steps made, steps not needed at the start, the present time, the time step
       integer :: step = 0, skipped = 0
       real(dp) :: time = 0.0_dp, time_step = 0.0_dp
-      !> How the cycles of a step are made, and how exactly it is solved
+      !> How the cycles of a step are made, what comes after the last one, and how exactly a step is solved
       type(step_policy_t) :: policy
+      integer, private :: next = step_begins_again
       type(step_accuracy_t) :: accuracy
       !> Friction of the smooth contact on the same grid
       real(dp) :: friction_smooth = 1.0_dp
-      !> State after the last step
-      type(contact_results_t) :: m
-      real(dp) :: residual = 0.0_dp
-      integer :: cycles = 0, total_cycles = 0, total_sweeps = 0
+      integer :: total_cycles = 0, total_sweeps = 0
+      !> After the first cycle of the present step: Newtonian friction, residual
+      real(dp), private :: friction_first = 0.0_dp, residual_first = 0.0_dp
       type(friction_mean_t) :: mean
       !> Of what passes once
       type(extremes_t) :: extremes
@@ -50,10 +53,11 @@ module ehl_transient
    contains
       procedure :: start
       procedure :: advance
-      procedure :: step_converged
       procedure :: restore
-      procedure, private :: begin_attempt
-      procedure, private :: step_back
+      procedure :: before_cycle
+      procedure :: after_cycle
+      procedure :: judge
+      procedure :: meets
    end type transient_t
 
 contains
@@ -125,61 +129,36 @@ contains
       self%extremes = extremes_t()
    end subroutine start
 
-   !> One time step, cycle by cycle to convergence
+   !> One time step. Where it does not converge the last good state stands.
    subroutine advance(self, hierarchy, n, surface, status)
       class(transient_t), intent(inout) :: self
       type(hierarchy_t), intent(inout) :: hierarchy
       integer, intent(in) :: n
       class(surface_t), intent(inout) :: surface
       type(status_t), intent(inout) :: status
-      type(contact_results_t) :: first
-      real(dp) :: load_error, before, residual_first
-      integer :: sweeps, made, next
-      logical :: met
 
       if (status%failed()) return
       call surface%height(hierarchy%levels(n)%grid, self%time + self%time_step, self%rr)
       call set_geometry(hierarchy%levels(n), self%contact, self%rr)
       call set_history(hierarchy%levels(n), self%mass_content)
-      made = 0
       call self%policy%begin(self%accuracy%tolerance(self%mean%n >= self%mean%filled), self%accuracy%measures(self%step + 1))
-      next = step_begins_again
-      do
-         if (next == step_begins_again) call self%begin_attempt(hierarchy, n, status)
-         if (status%failed()) return
-         if (.not. self%residual < huge(1.0_dp) .and. self%policy%cycles > 0) exit
-         before = self%residual
-         call hierarchy%cycle(n, self%policy%options, self%residual, sweeps)
-         made = made + sweeps
-         associate (level => hierarchy%levels(n))
-            load_error = pressure_sum(level, level%p)/level%load - 1.0_dp
-            if (self%residual <= self%policy%tolerance .and. abs(load_error) > load_tolerance .and. &
-                abs(load_error) <= small_load_error) then
-               call balance_load(level, load_error)
-               call update_residual(level, self%residual)
-               load_error = pressure_sum(level, level%p)/level%load - 1.0_dp
-            end if
-         end associate
-         met = self%residual <= self%policy%tolerance .and. abs(load_error) <= load_tolerance
-         call self%policy%after_cycle(self%step + 1, met, before, self%residual, next)
-         if (next == step_ends) exit
-         if (self%policy%cycles == 1) then
-            first = measure(hierarchy%levels(n))
-            residual_first = self%residual
-         end if
-      end do
-      self%cycles = self%policy%cycles
+      self%n = n
+      self%next = step_begins_again
+      self%state = outcome_running
+      self%cycles = 0
+      self%sweeps = 0
+      call self%iterate(hierarchy, huge(1), status)
+      if (status%failed()) return
       associate (level => hierarchy%levels(n))
-         self%m = measure(level)
-         if (.not. self%step_converged()) then
-            call self%step_back(level, surface)
+         if (self%state /= outcome_converged) then
+            call step_back(self, level, surface)
             return
          end if
-         if (self%cycles > 1) call self%accuracy%learn(first%friction_newtonian, residual_first, &
+         if (self%cycles > 1) call self%accuracy%learn(self%friction_first, self%residual_first, &
                                                        self%m%friction_newtonian, self%residual)
          call self%accuracy%follow(self%m%friction_newtonian)
          self%total_cycles = self%total_cycles + self%cycles
-         self%total_sweeps = self%total_sweeps + made
+         self%total_sweeps = self%total_sweeps + self%sweeps
          self%step = self%step + 1
          self%time = (self%skipped + self%step)*self%time_step
          call self%mean%append(self%m%friction/self%friction_smooth, self%m%film_central, &
@@ -191,14 +170,58 @@ contains
       end associate
    end subroutine advance
 
-   !> First approximation of an attempt at a step, and what its cycles need
-   subroutine begin_attempt(self, hierarchy, n, status)
+   !> The first approximation where an attempt begins; the kind of cycle as the policy goes
+   subroutine before_cycle(self, hierarchy, status)
       class(transient_t), intent(inout) :: self
       type(hierarchy_t), intent(inout) :: hierarchy
-      integer, intent(in) :: n
       type(status_t), intent(inout) :: status
 
-      associate (level => hierarchy%levels(n))
+      if (self%next == step_begins_again) call begin_attempt(self, hierarchy, status)
+      if (status%failed()) return
+      self%options = self%policy%options
+      if (self%residual < huge(1.0_dp) .or. self%cycles == 0) return
+      ! not a number: no cycle helps
+      self%m = measure(hierarchy%levels(self%n))
+      call judge_state(self)
+   end subroutine before_cycle
+
+   !> A small error of the load is taken away where it is all that is left
+   subroutine after_cycle(self, before, may_balance)
+      class(transient_t), intent(inout) :: self
+      type(contact_results_t), intent(in) :: before
+      logical, intent(out) :: may_balance
+
+      associate (unused => before)
+      end associate
+      may_balance = self%residual <= self%policy%tolerance .and. abs(self%m%load_error) <= small_load_error
+   end subroutine after_cycle
+
+   !> The policy counts the cycles of a step, and tells when it ends
+   subroutine judge(self)
+      class(transient_t), intent(inout) :: self
+
+      call self%policy%after_cycle(self%step + 1, self%meets(), self%residual_before, self%residual, self%next)
+      if (self%next == step_ends) then
+         call judge_state(self)
+      else if (self%cycles == 1) then
+         self%friction_first = self%m%friction_newtonian
+         self%residual_first = self%residual
+      end if
+   end subroutine judge
+
+   !> Whether the step meets its tolerance
+   pure logical function meets(self)
+      class(transient_t), intent(in) :: self
+      meets = self%residual <= self%policy%tolerance .and. abs(self%m%load_error) <= load_tolerance
+   end function meets
+
+   !> First approximation of an attempt at a step, and what its cycles need
+   subroutine begin_attempt(self, hierarchy, status)
+      class(transient_t), intent(inout) :: self
+      type(hierarchy_t), intent(inout) :: hierarchy
+      type(status_t), intent(inout) :: status
+
+      associate (level => hierarchy%levels(self%n))
          if (self%policy%attempt == attempt_predicted) then
             call self%predictor%predict(self%p_before, level)
             level%h00 = sum([3.0_dp, -3.0_dp, 1.0_dp]*self%h00_before)
@@ -215,13 +238,6 @@ contains
       if (self%policy%options%coarsening == coarsening_alcouffe) call hierarchy%prepare_coarsening(status)
    end subroutine begin_attempt
 
-   !> Whether the last step met its tolerance
-   pure logical function step_converged(self)
-      class(transient_t), intent(in) :: self
-      step_converged = self%residual <= self%policy%tolerance .and. abs(self%m%load_error) <= load_tolerance &
-                       .and. self%m%finite .and. self%m%positive
-   end function step_converged
-
    !> Go on with a state that was read into this run. `same` tells whether its film follows from its pressure: it does
    !> not when the surface, or the program, is another one.
    subroutine restore(self, level, surface, same)
@@ -232,7 +248,7 @@ contains
       !> Rounding of another processor or compiler may pass
       real(dp), parameter :: rounding = 1.0e-9_dp
 
-      call self%step_back(level, surface)
+      call step_back(self, level, surface)
       self%m = measure(level)
       same = abs(sum(1.0_dp/level%h) - self%film_mark) <= rounding*self%film_mark
    end subroutine restore
