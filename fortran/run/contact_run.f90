@@ -92,7 +92,7 @@ contains
       if (self%in_steps) then
          call advance_step(self, status)
       else if (self%resting) then
-         call advance_rest(self, status)
+         call advance_rest(self)
       else
          call advance_smooth(self, status)
       end if
@@ -167,13 +167,12 @@ contains
    end subroutine begin_steps
 
    !> One cycle of the contact with the rough surface at rest
-   subroutine advance_rest(self, status)
+   subroutine advance_rest(self)
       class(contact_run_t), intent(inout) :: self
-      type(status_t), intent(inout) :: status
       type(clock_t) :: clock
 
       clock = start_clock()
-      call self%rest%advance(self%hierarchy, status)
+      call self%rest%advance(self%hierarchy)
       self%seconds = self%seconds + clock%seconds()
       self%outcome = self%rest%outcome
       associate (rest => self%rest, m => self%rest%m)

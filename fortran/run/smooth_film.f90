@@ -30,7 +30,7 @@ contains
       associate (n => steady%n, results => steady%results)
          if (n == 1) return
          if (.not. results(n - 1)%solved) return
-         error = discretisation_error(results, n)
+         error = discretisation_error(results(n)%m, results(n - 1)%m)
          limit = extrapolated(results, n)
          if (error(1) <= film_error*limit(1)) known_film = limit(1)
       end associate

@@ -117,7 +117,7 @@ contains
       associate (results => self%steady%results, n => self%steady%n)
          if (n == 1) return
          if (.not. results(n - 1)%solved) return
-         error = discretisation_error(results, n)/results(n)%m%films()
+         error = discretisation_error(results(n)%m, results(n - 1)%m)/results(n)%m%films()
       end associate
       grid_error = max(grid_error, ratio_cost(error(1), ratio))
    end function grid_error

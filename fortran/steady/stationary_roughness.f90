@@ -49,8 +49,7 @@ module ehl_stationary_roughness
       procedure :: start
       procedure :: advance
       procedure :: mu_ratio
-      procedure :: before_cycle
-      procedure :: after_cycle
+      procedure :: may_balance
       procedure :: meets
    end type stationary_roughness_t
 
@@ -92,49 +91,35 @@ contains
    !>       add the next share of it; halve the share where the film would be negative, or a solution is not found
    !>       solve the contact
    !>    end do
-   subroutine advance(self, hierarchy, status)
+   subroutine advance(self, hierarchy)
       class(stationary_roughness_t), intent(inout) :: self
       type(hierarchy_t), intent(inout) :: hierarchy
-      type(status_t), intent(inout) :: status
 
       if (self%outcome /= outcome_running) return
-      call self%iterate(hierarchy, 1, status)
-      if (status%failed() .or. self%outcome /= outcome_running) return
-      self%total_cycles = self%total_cycles + 1
-      if (self%state == outcome_running) return
       associate (level => hierarchy%levels(self%n))
+         if (self%due) call grow(self, level)
+         if (self%outcome /= outcome_running) return
+         call self%improve(hierarchy)
+         self%total_cycles = self%total_cycles + 1
+         if (self%state == outcome_running) return
          if (self%state /= outcome_converged) then
             call step_back(self, level)
             return
          end if
          if (self%smooth) self%friction_smooth = self%m%friction
          self%smooth = .false.
-         if (self%share >= 1.0_dp) then
-            self%outcome = outcome_converged
-            return
-         end if
          self%share_done = self%share
          self%p_done = level%p
          self%h00_done = level%h00
-         self%due = .true.
-         self%state = outcome_running
+         self%due = self%share < 1.0_dp
+         if (.not. self%due) self%outcome = outcome_converged
       end associate
    end subroutine advance
 
-   !> The next share of the roughness, if it is due
-   subroutine before_cycle(self, hierarchy, status)
-      class(stationary_roughness_t), intent(inout) :: self
-      type(hierarchy_t), intent(inout) :: hierarchy
-      type(status_t), intent(inout) :: status
-
-      if (self%due .and. .not. status%failed()) call grow(self, hierarchy%levels(self%n))
-   end subroutine before_cycle
-
    !> Algebraic error by the change of the friction; the load is left to the cycles
-   subroutine after_cycle(self, before, may_balance)
+   logical function may_balance(self, before)
       class(stationary_roughness_t), intent(inout) :: self
       type(contact_results_t), intent(in) :: before
-      logical, intent(out) :: may_balance
       real(dp) :: change, q
 
       may_balance = .false.
@@ -143,7 +128,7 @@ contains
       q = reduction([change], [self%change], self%cycles)
       self%algebraic = change*q/(1.0_dp - q)
       self%change = change
-   end subroutine after_cycle
+   end function may_balance
 
    !> Whether the present share is solved; the first cycle cannot tell
    pure logical function meets(self)

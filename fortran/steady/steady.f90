@@ -5,12 +5,10 @@ module ehl_steady
    use ehl_contact_results, only: contact_results_t, load_tolerance, measure
    use ehl_cycle, only: careful_cycle, cycle_options_t
    use ehl_far_field, only: set_far_field
-   use ehl_film, only: film_residual
    use ehl_first_approximation, only: begin_level
    use ehl_hierarchy, only: hierarchy_t
-   use ehl_iteration, only: iteration_t, look_at, reduction
+   use ehl_iteration, only: iteration_t, reduction
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
    use ehl_level_result, only: discretisation_error, level_result_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_negative_film, outcome_running, outcome_target_missed
    use ehl_status, only: status_t
@@ -74,9 +72,7 @@ module ehl_steady
    contains
       procedure :: start
       procedure :: advance
-      procedure :: before_cycle
-      procedure :: look
-      procedure :: after_cycle
+      procedure :: may_balance
       procedure :: meets
    end type steady_t
 
@@ -91,6 +87,7 @@ contains
       self%contact = contact
       self%how = how
       self%max_cycles = how%max_cycles
+      self%of_film = .true.
       self%n = how%start
       self%entered = .false.
       self%careful = .false.
@@ -102,14 +99,14 @@ contains
    !> One cycle of full multigrid, so that whoever calls can stop after any. All of it is
    !>
    !>    do n = start, levels
-   !>       begin level n from the solution of level n - 1; the first from the Hertz pressure
+   !>       begin level n from the solution of level n - 1, the first one from the Hertz pressure
    !>       do until the algebraic error is a share of the discretisation error
    !>          cycle on level n
    !>       end do
    !>       if (the discretisation error is the one wanted) exit
    !>    end do
    !>
-   !> A coarse level that runs out of cycles is still a beginning for the next; one without a solution is left out.
+   !> A coarse level that runs out of cycles is a beginning for the next one still; what has no solution is fail_level's.
    subroutine advance(self, hierarchy, status)
       class(steady_t), intent(inout) :: self
       type(hierarchy_t), intent(inout) :: hierarchy
@@ -118,22 +115,28 @@ contains
 
       if (self%outcome /= outcome_running) return
       if (.not. self%entered) call enter_level(self, hierarchy, status)
-      if (.not. status%failed()) call self%iterate(hierarchy, 1, status)
-      if (status%failed() .or. self%state == outcome_running) return
+      if (status%failed()) return
+      if (self%how%flooded) call set_far_field(hierarchy%levels(self%n), self%contact%load())
+      self%options = next_cycle(self)
+      call self%improve(hierarchy)
       finest = self%n == self%how%levels
-      if (self%state /= outcome_converged .and. (finest .or. self%state /= outcome_cycle_limit)) then
-         call fail_level(self)
-         return
-      end if
-      self%results(self%n)%solved = .true.
-      if (self%state == outcome_converged .and. has_target(self)) then
-         self%outcome = outcome_converged
-      else if (finest) then
-         self%outcome = merge(outcome_target_missed, outcome_converged, self%how%target_error > 0.0_dp)
-      else
-         self%n = self%n + 1
-         self%entered = .false.
-      end if
+      associate (result => self%results(self%n))
+         result%m = self%m
+         result%cycles = self%cycles
+         result%residual = self%residual
+         if (self%state == outcome_running) return
+         result%solved = self%state == outcome_converged .or. (self%state == outcome_cycle_limit .and. .not. finest)
+         if (.not. result%solved) then
+            call fail_level(self)
+         else if (self%state == outcome_converged .and. has_target(self)) then
+            self%outcome = outcome_converged
+         else if (finest) then
+            self%outcome = merge(outcome_target_missed, outcome_converged, self%how%target_error > 0.0_dp)
+         else
+            self%n = self%n + 1
+            self%entered = .false.
+         end if
+      end associate
    end subroutine advance
 
    !> Begin on the present level
@@ -153,39 +156,14 @@ contains
       end if
       self%state = outcome_running
       self%cycles = 0
+      self%residual = 0.0_dp
       self%entered = .true.
    end subroutine enter_level
 
-   !> The border follows the film
-   subroutine before_cycle(self, hierarchy, status)
-      class(steady_t), intent(inout) :: self
-      type(hierarchy_t), intent(inout) :: hierarchy
-      type(status_t), intent(inout) :: status
-
-      if (status%failed()) return
-      if (self%how%flooded) call set_far_field(hierarchy%levels(self%n), self%contact%load())
-      self%options = next_cycle(self)
-   end subroutine before_cycle
-
-   !> Results of the level, with the residual that concerns the film
-   subroutine look(self, level, residual)
-      class(steady_t), intent(inout) :: self
-      type(level_t), intent(in) :: level
-      real(dp), intent(in) :: residual
-
-      call look_at(self, level, residual)
-      associate (result => self%results(self%n))
-         result%m = self%m
-         result%cycles = self%cycles
-         if (self%unsound() == outcome_running) result%residual = film_residual(level)
-      end associate
-   end subroutine look
-
    !> Algebraic errors by the change of the films
-   subroutine after_cycle(self, before, may_balance)
+   logical function may_balance(self, before)
       class(steady_t), intent(inout) :: self
       type(contact_results_t), intent(in) :: before
-      logical, intent(out) :: may_balance
       real(dp) :: change(2), q, error
 
       may_balance = .false.
@@ -197,7 +175,7 @@ contains
       error = abs(self%m%load_error)
       may_balance = is_end(self) .and. error <= small_load_error .and. accurate(self)
       if (may_balance) may_balance = film_per_load*error <= share_of_load*minval(wanted(self))
-   end subroutine after_cycle
+   end function may_balance
 
    !> Whether the level is solved; the load must be right where the solution may end
    pure logical function meets(self)
@@ -213,7 +191,7 @@ contains
 
       has_target = .false.
       if (.not. (self%how%target_error > 0.0_dp .and. has_coarser(self))) return
-      errors = discretisation_error(self%results, self%n) + self%results(self%n)%algebraic
+      errors = discretisation_error(self%m, self%results(self%n - 1)%m) + self%results(self%n)%algebraic
       has_target = errors(1) <= self%how%target_error*self%m%film_central
    end function has_target
 
@@ -244,10 +222,8 @@ contains
    !> Whether the algebraic errors are what the grid deserves, and on a level where the solution may end the residual, too
    pure logical function accurate(self)
       class(steady_t), intent(in) :: self
-      associate (result => self%results(self%n))
-         accurate = all(result%algebraic <= wanted(self))
-         if (is_end(self)) accurate = accurate .and. result%residual <= residual_tolerance
-      end associate
+      accurate = all(self%results(self%n)%algebraic <= wanted(self))
+      if (is_end(self)) accurate = accurate .and. self%residual <= residual_tolerance
    end function accurate
 
    !> Algebraic errors of H_c and H_min that the present level deserves
@@ -257,7 +233,7 @@ contains
 
       associate (values => self%m%films())
          if (has_coarser(self)) then
-            wanted = self%how%accuracy*max(discretisation_error(self%results, self%n), least_error*values)
+            wanted = self%how%accuracy*max(discretisation_error(self%m, self%results(self%n - 1)%m), least_error*values)
          else
             wanted = start_tolerance*values
             if (self%n == self%how%levels) wanted = self%how%accuracy*wanted

@@ -7,11 +7,11 @@ module ehl_transient
    use ehl_film, only: refresh, update_residual
    use ehl_friction_mean, only: friction_mean_t, periods_compared
    use ehl_hierarchy, only: hierarchy_t
-   use ehl_iteration, only: iteration_t, judge_state
+   use ehl_iteration, only: iteration_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_contact_results, only: central_value, load_tolerance, measure, contact_results_t
-   use ehl_outcome, only: outcome_converged, outcome_running
+   use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_running
    use ehl_predictor, only: predictor_t
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_step_accuracy, only: step_accuracy_t
@@ -32,15 +32,12 @@ module ehl_transient
       !> Steps made, steps not needed at the start, the present time, the time step
       integer :: step = 0, skipped = 0
       real(dp) :: time = 0.0_dp, time_step = 0.0_dp
-      !> How the cycles of a step are made, what comes after the last one, and how exactly a step is solved
+      !> How the cycles of a step are made, and how exactly it is solved
       type(step_policy_t) :: policy
-      integer, private :: next = step_begins_again
       type(step_accuracy_t) :: accuracy
       !> Friction of the smooth contact on the same grid
       real(dp) :: friction_smooth = 1.0_dp
-      integer :: total_cycles = 0, total_sweeps = 0
-      !> After the first cycle of the present step: Newtonian friction, residual
-      real(dp), private :: friction_first = 0.0_dp, residual_first = 0.0_dp
+      integer :: total_cycles = 0
       type(friction_mean_t) :: mean
       !> Of what passes once
       type(extremes_t) :: extremes
@@ -54,9 +51,8 @@ module ehl_transient
       procedure :: start
       procedure :: advance
       procedure :: restore
-      procedure :: before_cycle
-      procedure :: after_cycle
-      procedure :: judge
+      procedure, private :: begin_attempt
+      procedure :: may_balance
       procedure :: meets
    end type transient_t
 
@@ -100,7 +96,6 @@ contains
       self%contact = contact
       self%step = 0
       self%total_cycles = 0
-      self%total_sweeps = 0
       self%time_step = level%grid%hx
       self%skipped = 0
       if (skip) self%skipped = max(0, int((x_matters - 0.5_dp*surface%front_length - surface%x_start) &
@@ -136,6 +131,9 @@ contains
       integer, intent(in) :: n
       class(surface_t), intent(inout) :: surface
       type(status_t), intent(inout) :: status
+      type(contact_results_t) :: first
+      real(dp) :: before, residual_first
+      integer :: next
 
       if (status%failed()) return
       call surface%height(hierarchy%levels(n)%grid, self%time + self%time_step, self%rr)
@@ -143,22 +141,32 @@ contains
       call set_history(hierarchy%levels(n), self%mass_content)
       call self%policy%begin(self%accuracy%tolerance(self%mean%n >= self%mean%filled), self%accuracy%measures(self%step + 1))
       self%n = n
-      self%next = step_begins_again
-      self%state = outcome_running
       self%cycles = 0
-      self%sweeps = 0
-      call self%iterate(hierarchy, huge(1), status)
-      if (status%failed()) return
+      next = step_begins_again
+      do
+         if (next == step_begins_again) call self%begin_attempt(hierarchy, status)
+         if (status%failed()) return
+         if (.not. self%residual < huge(1.0_dp) .and. self%cycles > 0) exit
+         before = self%residual
+         self%options = self%policy%options
+         call self%improve(hierarchy)
+         call self%policy%after_cycle(self%step + 1, self%meets(), before, self%residual, next)
+         if (next == step_ends) exit
+         if (self%cycles == 1) then
+            first = self%m
+            residual_first = self%residual
+         end if
+      end do
+      if (self%state == outcome_running) self%state = outcome_cycle_limit
       associate (level => hierarchy%levels(n))
          if (self%state /= outcome_converged) then
             call step_back(self, level, surface)
             return
          end if
-         if (self%cycles > 1) call self%accuracy%learn(self%friction_first, self%residual_first, &
+         if (self%cycles > 1) call self%accuracy%learn(first%friction_newtonian, residual_first, &
                                                        self%m%friction_newtonian, self%residual)
          call self%accuracy%follow(self%m%friction_newtonian)
          self%total_cycles = self%total_cycles + self%cycles
-         self%total_sweeps = self%total_sweeps + self%sweeps
          self%step = self%step + 1
          self%time = (self%skipped + self%step)*self%time_step
          call self%mean%append(self%m%friction/self%friction_smooth, self%m%film_central, &
@@ -170,44 +178,15 @@ contains
       end associate
    end subroutine advance
 
-   !> The first approximation where an attempt begins; the kind of cycle as the policy goes
-   subroutine before_cycle(self, hierarchy, status)
-      class(transient_t), intent(inout) :: self
-      type(hierarchy_t), intent(inout) :: hierarchy
-      type(status_t), intent(inout) :: status
-
-      if (self%next == step_begins_again) call begin_attempt(self, hierarchy, status)
-      if (status%failed()) return
-      self%options = self%policy%options
-      if (self%residual < huge(1.0_dp) .or. self%cycles == 0) return
-      ! not a number: no cycle helps
-      self%m = measure(hierarchy%levels(self%n))
-      call judge_state(self)
-   end subroutine before_cycle
-
-   !> A small error of the load is taken away where it is all that is left
-   subroutine after_cycle(self, before, may_balance)
+   !> Whether a small error of the load is all that is left
+   logical function may_balance(self, before)
       class(transient_t), intent(inout) :: self
       type(contact_results_t), intent(in) :: before
-      logical, intent(out) :: may_balance
 
       associate (unused => before)
       end associate
       may_balance = self%residual <= self%policy%tolerance .and. abs(self%m%load_error) <= small_load_error
-   end subroutine after_cycle
-
-   !> The policy counts the cycles of a step, and tells when it ends
-   subroutine judge(self)
-      class(transient_t), intent(inout) :: self
-
-      call self%policy%after_cycle(self%step + 1, self%meets(), self%residual_before, self%residual, self%next)
-      if (self%next == step_ends) then
-         call judge_state(self)
-      else if (self%cycles == 1) then
-         self%friction_first = self%m%friction_newtonian
-         self%residual_first = self%residual
-      end if
-   end subroutine judge
+   end function may_balance
 
    !> Whether the step meets its tolerance
    pure logical function meets(self)
