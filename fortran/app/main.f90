@@ -8,9 +8,11 @@ program ehl
    use ehl_case_writer, only: options_text
    use ehl_clock, only: clock_t, start_clock
    use ehl_checkpoint_folder, only: checkpoint_path, find_checkpoint, checkpoint_folder_t
+   use ehl_conclusion, only: conclusion
    use ehl_destination, only: destination_t
    use ehl_kinds, only: dp
    use ehl_plan_need, only: making_need
+   use ehl_plan_text, only: plan_text
    use ehl_result_folder, only: result_names, write_results
    use ehl_signals, only: stop_wanted, watch_signals
    use ehl_solver, only: solver_t
@@ -64,7 +66,7 @@ program ehl
    end if
    call solver%start(input, status, heights)
    call end_if_failed()
-   call say(solver%describe())
+   call say(plan_text(solver%plan))
    if (arguments%resume /= "") then
       call solver%resume(checkpoint_path(arguments%resume), note, status)
       call end_if_failed()
@@ -114,7 +116,7 @@ contains
          end if
       end do
       call say(solver%progress())
-      call say(solver%conclusion())
+      call say(conclusion(solver%summary()))
    end subroutine advance_to_the_end
 
    !> Save the state, now or if its time has come. A run does not end because that fails.

@@ -9,8 +9,10 @@ module ehl_f2py_solver
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use ehl_case, only: case_t
    use ehl_case_reader, only: read_case
+   use ehl_conclusion, only: conclusion
    use ehl_grid, only: grid_t
    use ehl_handles, only: drop_handle, new_handle, run_of, run_t
+   use ehl_plan_text, only: plan_text
    use ehl_result_folder, only: write_results
    use ehl_ratio_error, only: waves_t
    use ehl_record, only: record_t
@@ -110,11 +112,11 @@ contains
       if (.not. status%failed()) then
          select case (what)
          case ("plan")
-            text = run%solver%describe()
+            text = plan_text(run%solver%plan)
          case ("progress")
             text = run%solver%progress()
          case ("conclusion")
-            text = run%solver%conclusion()
+            text = conclusion(run%solver%summary())
          case default
             record = run%solver%summary()
             text = record%to_json()

@@ -55,7 +55,7 @@ contains
    end function careful_cycle
 
    !> One cycle with level n as the finest. Film and coefficients are up to date before and after.
-   subroutine finest_cycle(levels, spaces, coarsenings, n, coarsest, options, residual, sweeps)
+   subroutine finest_cycle(levels, spaces, coarsenings, n, coarsest, options, residual)
       !> Coarsest level first
       type(level_t), intent(inout) :: levels(:)
       type(workspace_t), intent(inout) :: spaces(:)
@@ -66,24 +66,20 @@ contains
       type(cycle_options_t), intent(in) :: options
       !> What is left (rms)
       real(dp), intent(out) :: residual
-      !> Sweeps made on level n
-      integer, intent(out), optional :: sweeps
       integer :: k
 
-      k = 0
       if (n == 1) then
          call coarsest%solve(levels(1), coarsest_reduction, coarsest_steps)
          call update_residual(levels(1), residual)
       else
          call visit_coarser(levels, spaces, coarsenings, n, coarsest, options)
          if (options%post == 0) call update_residual(levels(n), residual)
-         do k = options%pre + 1, options%pre + options%post
+         do k = 1, options%post
             call sweep(levels(n), spaces(n), 1, options%trust, options%sweep_share)
             call update_residual(levels(n), residual)
-            if (k == options%pre + options%post .or. residual <= options%enough) exit
+            if (residual <= options%enough) exit
          end do
       end if
-      if (present(sweeps)) sweeps = min(k, options%pre + options%post)
    end subroutine finest_cycle
 
    !> One cycle on level n

@@ -153,16 +153,14 @@ contains
    end function deflection_accuracy
 
    !> One multigrid cycle with level n as the finest
-   subroutine run_cycle(self, n, options, residual, sweeps)
+   subroutine run_cycle(self, n, options, residual)
       class(hierarchy_t), intent(inout) :: self
       integer, intent(in) :: n
       type(cycle_options_t), intent(in) :: options
       !> What is left (rms)
       real(dp), intent(out) :: residual
-      !> Sweeps made on level n
-      integer, intent(out), optional :: sweeps
 
-      call finest_cycle(self%levels, self%spaces, self%coarsenings, n, self%coarsest, options, residual, sweeps)
+      call finest_cycle(self%levels, self%spaces, self%coarsenings, n, self%coarsest, options, residual)
    end subroutine run_cycle
 
    !> Drop what one cycle leaves for the next beyond the fields of its finest level

@@ -16,6 +16,7 @@ module ehl_plan
    use ehl_plan_surface, only: check_carried, make_surfaces
    use ehl_scales, only: scales_t
    use ehl_status, only: ehl_bad_input, status_t
+   use ehl_steady, only: steady_options_t
    use ehl_surface, only: aliased_below, resolved_from
    use ehl_transient, only: steps_needed
    use ehl_text, only: fixed, to_text
@@ -30,10 +31,13 @@ module ehl_plan
    real(dp), parameter :: start_error = 0.6_dp
    !> Lengths of thick films, (2 H_c)^(1/2) [a], and largest mesh of the coarsest grid in terms of them
    real(dp), parameter :: thick_film = 0.8_dp, coarsest_mesh = 0.9_dp
+   !> A-priori error of H_c of grids that resolve the inlet: a smooth contact that fails there begins again with care
+   real(dp), parameter :: resolved_error = 0.1_dp
    !> Most time steps until the friction of a rough surface can be known, and where their number is asked for
    integer, parameter :: most_steps = 100000, most_steps_asked_for = 1000000000
 
-   type :: plan_t
+   !> What the smooth contact needs, and all else
+   type, extends(steady_options_t) :: plan_t
       class(contact_t), allocatable :: contact
       type(scales_t) :: scales
       type(operating_t) :: point
@@ -42,27 +46,16 @@ module ehl_plan
       type(sliding_t) :: sliding
       !> Coarsest and finest grid
       type(grid_t) :: coarsest, finest
-      !> Whether the border has the pressure of a flooded contact, else 0
-      logical :: flooded = .false.
       !> Shares of H_c and H_min of the flooded contact that the domain changes
       real(dp) :: domain_cost(2) = 0.0_dp
-      !> Levels, and the one nested iteration starts on
-      integer :: levels = 0, start = 0
       character(len=:), allocatable :: engine
-      !> Cycles of the smooth contact, on a level that began from a coarser one the first and the second, and of a time step
-      type(cycle_options_t) :: cycle, second_cycle, step_cycle
+      !> Cycles of a time step
+      type(cycle_options_t) :: step_cycle
       !> Whether time steps may go over from classical to Alcouffe coarsening
       logical :: coarsening_may_change = .false.
       !> The cycles in letters
       character(len=1) :: cycle_letter = "F", step_cycle_letter = "V"
-      !> Algebraic error wanted as a share of the discretisation error
-      real(dp) :: accuracy = 0.1_dp
-      integer :: max_cycles = 0
       integer :: threads = 1
-      !> Relative error of H_c wanted; 0: none, solve on the finest grid
-      real(dp) :: target_error = 0.0_dp
-      !> Central film expected, scaled by a^2/R
-      real(dp) :: film_expected = 0.0_dp
       !> The rough surfaces
       type(moving_surfaces_t) :: surfaces
       !> Whether the next coarser grid resolves the surfaces too, so that the friction of both can be extrapolated
@@ -257,6 +250,7 @@ contains
       end do
       if (plan%start == 0) plan%start = plan%levels
       plan%finest = grid
+      plan%may_restart = relative_wedge_error(plan%point, grid) <= resolved_error
    end subroutine pick_grids
 
    !> Rough a-priori error of H_c by the second-order wedge term, relative: 0.16 M h^2

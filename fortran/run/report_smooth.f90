@@ -48,7 +48,7 @@ contains
       coarser = .false.
       if (good .and. n > 1) coarser = steady%results(n - 1)%solved
       if (coarser) then
-         error = discretisation_error(steady%results, n) + steady%results(n)%algebraic
+         error = discretisation_error(m, steady%results(n - 1)%m) + steady%results(n)%algebraic
          limit = extrapolated(steady%results, n)
       else if (good) then
          ! one grid alone: what such grids have been found to miss; H_min misses about twice as much

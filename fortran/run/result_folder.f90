@@ -8,6 +8,7 @@ module ehl_result_folder
    use ehl_kinds, only: dp
    use ehl_npy, only: write_npy
    use ehl_record, only: record_t
+   use ehl_plan_text, only: plan_text
    use ehl_solver, only: solver_t
    use ehl_status, only: status_t
    use ehl_text, only: newline
@@ -64,7 +65,7 @@ contains
       call summary%set("version", version)
       call summary%set("wall_seconds", wall_seconds)
       call write_text(folder // "case.nml", case_text(input), status)
-      if (.not. status%failed()) call write_text(folder // "plan.txt", solver%describe(), status)
+      if (.not. status%failed()) call write_text(folder // "plan.txt", plan_text(solver%plan), status)
       if (.not. status%failed()) call solver%history%write_csv(folder // "history.csv", status)
       if (.not. status%failed() .and. input%output%fields) call write_fields(folder, solver, status)
       done = list_folder(folder, names)

@@ -9,35 +9,31 @@ submodule (ehl_solver) ehl_solver_progress
 
 contains
 
-   module function progress(self) result(text)
-      class(solver_t), intent(in) :: self
-      character(len=:), allocatable :: text
-
-      if (associated(self%coarse)) then
-         text = "for the error, on the next coarser grid: "//state_line(self%coarse)
+   module procedure progress
+      if (allocated(self%coarse)) then
+         text = "for the error, on the next coarser grid: "//state_line(self%coarse, self%coarse%outcome)
       else
-         text = state_line(self)
+         text = state_line(self, self%stand())
       end if
       if (self%in_steps .and. .not. self%done()) text = text//time_left(self)
-   end function progress
+   end procedure progress
 
    !> The state without the time left
-   function state_line(self) result(text)
-      class(solver_t), intent(in) :: self
+   function state_line(run, stand) result(text)
+      class(contact_run_t), intent(in) :: run
+      integer, intent(in) :: stand
       character(len=:), allocatable :: text
 
-      if (self%in_steps) then
-         text = step_line(self%transient, self%stand())
-      else if (self%resting) then
-         text = rest_line(self%grid, self%rest, self%stand())
+      if (run%in_steps) then
+         text = step_line(run%transient, stand)
+      else if (run%resting) then
+         text = rest_line(run%grid, run%rest, stand)
       else
-         text = cycle_line(self%grid, self%steady%results(self%level()), self%stand())
+         text = cycle_line(run%grid, run%steady%results(run%level()), stand)
       end if
    end function state_line
 
-   module subroutine work(self, done, earliest, latest)
-      class(solver_t), intent(in) :: self
-      real(dp), intent(out) :: done, earliest, latest
+   module procedure work
       real(dp) :: coarse
 
       done = 0.0_dp
@@ -46,7 +42,7 @@ contains
       if (.not. self%in_steps) return
       ! the run on the next coarser grid comes first: it has half as many steps
       coarse = self%coarse_work
-      if (associated(self%coarse)) then
+      if (allocated(self%coarse)) then
          coarse = 0.5_dp*coarse_step*earliest_end(self)
          if (self%coarse%in_steps) then
             done = coarse_step*self%coarse%transient%step
@@ -58,11 +54,11 @@ contains
       done = done + self%transient%step
       earliest = earliest_end(self) + coarse
       latest = latest_end(self) + coarse
-   end subroutine work
+   end procedure work
 
    !> Step after which a transient run can end first
    pure real(dp) function earliest_end(self)
-      class(solver_t), intent(in) :: self
+      class(contact_run_t), intent(in) :: self
 
       earliest_end = self%plan%steps
       associate (mean => self%transient%mean)
@@ -90,8 +86,8 @@ contains
 
       text = ""
       call self%work(done, earliest, latest)
-      seconds = self%step_seconds + self%coarse_seconds
-      if (associated(self%coarse)) seconds = seconds + self%coarse%step_seconds
+      seconds = self%seconds + self%coarse_seconds
+      if (allocated(self%coarse)) seconds = seconds + self%coarse%seconds
       if (.not. done > 0.0_dp) return
       if (earliest > done) then
          text = ", about "//to_text(nint((earliest - done)*seconds/done, int64))//" s left"

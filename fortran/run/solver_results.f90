@@ -1,11 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The plan in words, results and fields of a run
+!> Results and fields of a run
 submodule (ehl_solver) ehl_solver_results
    use ehl_domain, only: ratio_cost, too_small
    use ehl_level_result, only: discretisation_error, spike_grows
    use ehl_outcome, only: outcome_names, outcome_target_missed
-   use ehl_plan_text, only: plan_text
-   use ehl_conclusion, only: conclusion_of => conclusion
    use ehl_ratio_error, only: ratio_error_t
    use ehl_report, only: report_transient, report_rest, report_scene, report_waves
    use ehl_report_friction, only: report_friction
@@ -25,15 +23,7 @@ submodule (ehl_solver) ehl_solver_results
 
 contains
 
-   module function describe(self) result(text)
-      class(solver_t), intent(in) :: self
-      character(len=:), allocatable :: text
-      text = plan_text(self%plan)
-   end function describe
-
-   module function summary(self) result(record)
-      class(solver_t), intent(in) :: self
-      type(record_t) :: record
+   module procedure summary
       logical :: good
       real(dp) :: bytes, ratio, stop_error
 
@@ -48,25 +38,20 @@ contains
       ratio = ieee_value(ratio, ieee_quiet_nan)
       stop_error = ratio
       if (self%in_steps) then
-         call report_transient(record, self%plan, self%transient, self%converged(), self%step_seconds, &
+         call report_transient(record, self%plan, self%transient, self%converged(), self%seconds, &
                                self%history%column("H_min"), ratio, stop_error)
          if (self%plan%surfaces%pass_once()) call report_passage(record, self%plan%scales, self%transient%extremes, &
-                                                                 self%converged())
+                                                                self%converged())
       end if
       if (self%in_steps .or. self%resting) call report_waves(record, self%plan, self%steady%results(self%level())%m)
       if (self%resting) call report_rest(record, self%plan, self%rest, self%converged(), ratio, stop_error)
       if (self%plan%surfaces%rough()) call report_ratio(self, record, ratio, stop_error)
       call summarise_friction(self, record, good)
       if (self%in_steps .and. self%done()) call record%set("skips", skipped_work(self%plan, self%transient, self%converged()))
-      bytes = real(self%hierarchy%bytes(), dp) + self%plan%surfaces%bytes()
+      bytes = real(self%hierarchy%bytes(), dp)
+      bytes = bytes + self%plan%surfaces%bytes()
       call record%set("bytes", bytes)
-   end function summary
-
-   module function conclusion(self) result(text)
-      class(solver_t), intent(in) :: self
-      character(len=:), allocatable :: text
-      text = conclusion_of(self%summary())
-   end function conclusion
+   end procedure summary
 
    !> The friction ratio, that in the limit of fine grids, and its error with the parts of it
    subroutine report_ratio(self, record, ratio, stop_error)
@@ -84,7 +69,7 @@ contains
       grid = nothing
       if (self%coarse_outcome == outcome_converged .and. ieee_is_finite(ratio)) then
          ! order 2 (Richardson), if both grids resolve the surface
-         if (self%plan%extrapolates) limit = ratio + (ratio - self%coarse_mean)/3.0_dp
+         if (self%plan%extrapolates) limit = ratio + (ratio - self%coarse_ratio)/3.0_dp
          if (has_limit(self, ratio)) grid = grid_error(self, ratio)
       end if
       waves = waves_of(self)
@@ -116,7 +101,7 @@ contains
       real(dp), intent(in) :: ratio
       real(dp) :: change
 
-      change = (ratio - self%coarse_mean)/ratio
+      change = (ratio - self%coarse_ratio)/ratio
       has_limit = abs(change) <= most_change .and. .not. spike_grows(self%steady%results, self%steady%n)
       if (self%plan%surfaces%same_on_grids()) has_limit = has_limit .and. change <= most_rise
    end function has_limit
@@ -128,11 +113,11 @@ contains
       real(dp), intent(in) :: ratio
       real(dp) :: error(2)
 
-      grid_error = abs(ratio - self%coarse_mean)
+      grid_error = abs(ratio - self%coarse_ratio)
       associate (results => self%steady%results, n => self%steady%n)
          if (n == 1) return
          if (.not. results(n - 1)%solved) return
-         error = discretisation_error(results, n)/results(n)%m%films()
+         error = discretisation_error(results(n)%m, results(n - 1)%m)/results(n)%m%films()
       end associate
       grid_error = max(grid_error, ratio_cost(error(1), ratio))
    end function grid_error
@@ -206,8 +191,7 @@ contains
       friction = merge(self%steady%results(self%level())%m%friction, nothing, good)
       ratio = 1.0_dp
       if (self%plan%surfaces%rough()) ratio = nothing
-      if (self%in_steps .and. self%converged()) ratio = self%transient%mean%mean(0.0_dp)
-      if (self%resting .and. self%converged()) ratio = self%rest%mu_ratio()
+      if ((self%in_steps .or. self%resting) .and. self%converged()) ratio = self%mu_ratio()
       if (self%in_steps .or. self%resting) then
          call report_friction(record, self%plan, self%grid, self%p_smooth, self%h_smooth, friction, ratio)
       else
@@ -217,22 +201,15 @@ contains
       end if
    end subroutine summarise_friction
 
-   module subroutine field_names(self, names)
-      class(solver_t), intent(in) :: self
-      character(len=8), allocatable, intent(out) :: names(:)
-
+   module procedure field_names
       if (self%in_steps .or. self%resting) then
          names = [character(len=8) :: "P", "H", "P_smooth", "H_smooth", "RR", "A_d"]
       else
          names = [character(len=8) :: "P", "H"]
       end if
-   end subroutine field_names
+   end procedure field_names
 
-   module subroutine field(self, name, values, status)
-      class(solver_t), intent(in) :: self
-      character(len=*), intent(in) :: name
-      real(dp), intent(out) :: values(:, :)
-      type(status_t), intent(inout) :: status
+   module procedure field
       character(len=8), allocatable :: names(:)
       real(dp), allocatable :: own(:, :)
       integer :: stat
@@ -270,7 +247,7 @@ contains
          end select
       end associate
       call refine(own, values)
-   end subroutine field
+   end procedure field
 
    !> Values on a grid of the same extent that has as many or more nodes, bilinear in between
    pure subroutine refine(coarse, fine)

@@ -20,13 +20,12 @@ module ehl_level_result
 
 contains
 
-   !> Discretisation errors of H_c and H_min on level n from the next coarser one, order 2
-   pure function discretisation_error(results, n) result(error)
-      type(level_result_t), intent(in) :: results(:)
-      integer, intent(in) :: n
+   !> Discretisation errors of H_c and H_min by the results on two grids, order 2
+   pure function discretisation_error(fine, coarse) result(error)
+      type(contact_results_t), intent(in) :: fine, coarse
       real(dp) :: error(2)
 
-      error = abs(results(n)%m%films() - results(n - 1)%m%films())/3.0_dp
+      error = abs(fine%films() - coarse%films())/3.0_dp
    end function discretisation_error
 
    !> Discretisation error of a quantity without a known order, by its values on three grids, coarsest first: what the

@@ -1,25 +1,21 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The smooth, steady solution by full multigrid (nested iteration), one cycle at a time
+!> The smooth, steady solution by full multigrid
 module ehl_steady
    use ehl_contact, only: contact_t
+   use ehl_contact_results, only: contact_results_t, load_tolerance, measure
    use ehl_cycle, only: careful_cycle, cycle_options_t
    use ehl_far_field, only: set_far_field
-   use ehl_film, only: balance_load, film_residual, update_residual
    use ehl_first_approximation, only: begin_level
    use ehl_hierarchy, only: hierarchy_t
+   use ehl_iteration, only: iteration_t, reduction
    use ehl_kinds, only: dp
-   use ehl_contact_results, only: load_tolerance, measure, contact_results_t
    use ehl_level_result, only: discretisation_error, level_result_t
-   use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, &
-                          outcome_running, outcome_target_missed
+   use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_negative_film, outcome_running, outcome_target_missed
    use ehl_status, only: status_t
    implicit none (type, external)
    private
-   public :: steady_t, largest_error, least_reduction, residual_tolerance
+   public :: steady_options_t, steady_t, largest_error, residual_tolerance
 
-   !> The error after a cycle is at most q/(1 - q) of the last change, q being the reduction per
-   !> cycle; no better reduction than this is believed
-   real(dp), parameter :: least_reduction = 0.3_dp
    !> Relative discretisation errors below this are not believed, as two levels may agree by chance
    real(dp), parameter :: least_error = 2.0e-5_dp
    !> Largest residual (rms, as far as it concerns the film; the wedge term is of order 1 in the inlet) of a converged
@@ -42,124 +38,105 @@ module ehl_steady
    !> Cycles that are few: on a level that began from a coarser one, and from the Hertz pressure
    integer, parameter :: few = 2, few_from_guess = 3
 
-   !> State of the nested iteration
-   type :: steady_t
-      private
-      class(contact_t), allocatable :: contact
-      !> The first on a level and all but the second; the second one on a level that began from a coarser one
+   !> How the smooth contact is solved
+   type :: steady_options_t
+      !> Central film expected, scaled by a^2/R
+      real(dp) :: film_expected = 0.0_dp
+      !> Levels, the one nested iteration starts on, most cycles on a level
+      integer :: levels = 0, start = 0, max_cycles = 0
+      !> Cycles of a level, and the second one where it began from a coarser level
       type(cycle_options_t) :: cycle, second_cycle
-      !> Levels; central film expected [a^2/R]; algebraic error as a share of the discretisation error; relative
-      !> error of H_c at which to stop, 0: on the finest grid; most cycles on a level
-      integer :: levels = 0, max_cycles = 0
-      !> Whether the border has the pressure of a flooded contact
+      !> Algebraic error wanted as a share of the discretisation error
+      real(dp) :: accuracy = 0.1_dp
+      !> Relative error of H_c wanted; 0: none, solve on the finest grid
+      real(dp) :: target_error = 0.0_dp
+      !> Whether the border has the pressure of a flooded contact, else 0
       logical :: flooded = .false.
       !> Whether what fails on the finest level may begin again with care
       logical :: may_restart = .false.
-      real(dp) :: film_expected = 0.0_dp, accuracy = 0.0_dp, target_error = 0.0_dp
-      !> Level to begin on, present level
-      integer :: first = 0
-      integer, public :: n = 0
-      logical :: entered = .false., careful = .false.
-      integer, public :: outcome = outcome_running
+   end type steady_options_t
+
+   !> Full multigrid on its way: the state of the iteration is that of level n
+   type, extends(iteration_t) :: steady_t
+      class(contact_t), allocatable, private :: contact
+      type(steady_options_t), private :: how
+      !> How all of it stands
+      integer :: outcome = outcome_running
+      !> Whether level n has a first approximation, whether cycles are made with care
+      logical, private :: entered = .false., careful = .false.
       !> Restarts: on a finer grid after a failure on a coarse one, with care after one on the finest
-      integer, public :: restarts = 0
-      type(level_result_t), allocatable, public :: results(:)
+      integer :: restarts = 0
+      type(level_result_t), allocatable :: results(:)
       !> Changes of H_c and H_min in the last cycle
-      real(dp) :: change(2) = 0.0_dp
+      real(dp), private :: change(2) = 0.0_dp
    contains
       procedure :: start
       procedure :: advance
-      procedure, private :: enter_level
-      procedure, private :: decide
-      procedure, private :: next_cycle
-      procedure, private :: is_end
-      procedure, private :: accurate
-      procedure, private :: may_scale
-      procedure, private :: wanted
-      procedure, private :: fail_level
+      procedure :: may_balance
+      procedure :: meets
    end type steady_t
 
 contains
 
    !> Ready for the first cycle
-   subroutine start(self, contact, film_expected, first, levels, cycle, second_cycle, accuracy, target_error, max_cycles, &
-                    flooded, may_restart)
+   subroutine start(self, contact, how)
       class(steady_t), intent(inout) :: self
       class(contact_t), intent(in) :: contact
-      !> Central film of the first guess [a^2/R]
-      real(dp), intent(in) :: film_expected
-      !> Level to begin on; levels in all
-      integer, intent(in) :: first, levels
-      !> The second one on a level that began from a coarser one
-      type(cycle_options_t), intent(in) :: cycle, second_cycle
-      !> Algebraic error as a share of the discretisation error; relative error of H_c at which to stop, 0: on the
-      !> finest grid
-      real(dp), intent(in) :: accuracy, target_error
-      !> Most cycles on a level
-      integer, intent(in) :: max_cycles
-      !> Whether the border has the pressure of a flooded contact, else 0
-      logical, intent(in) :: flooded
-      !> Whether what fails on the finest level may begin again with care
-      logical, intent(in) :: may_restart
+      type(steady_options_t), intent(in) :: how
 
       self%contact = contact
-      self%film_expected = film_expected
-      self%levels = levels
-      self%cycle = cycle
-      self%second_cycle = second_cycle
-      self%accuracy = accuracy
-      self%target_error = target_error
-      self%max_cycles = max_cycles
-      self%flooded = flooded
-      self%may_restart = may_restart
-      self%first = first
-      self%n = first
+      self%how = how
+      self%max_cycles = how%max_cycles
+      self%of_film = .true.
+      self%n = how%start
       self%entered = .false.
       self%careful = .false.
       self%outcome = outcome_running
       self%restarts = 0
-      self%results = spread(level_result_t(), 1, levels)
+      self%results = spread(level_result_t(), 1, how%levels)
    end subroutine start
 
-   !> One cycle on the present level, the step to the next level when this one is done
+   !> One cycle of full multigrid, so that whoever calls can stop after any. All of it is
+   !>
+   !>    do n = start, levels
+   !>       begin level n from the solution of level n - 1, the first one from the Hertz pressure
+   !>       do until the algebraic error is a share of the discretisation error
+   !>          cycle on level n
+   !>       end do
+   !>       if (the discretisation error is the one wanted) exit
+   !>    end do
+   !>
+   !> A coarse level that runs out of cycles is a beginning for the next one still; what has no solution is fail_level's.
    subroutine advance(self, hierarchy, status)
       class(steady_t), intent(inout) :: self
       type(hierarchy_t), intent(inout) :: hierarchy
       type(status_t), intent(inout) :: status
-      type(contact_results_t) :: before
-      real(dp) :: change(2), q, residual
+      logical :: finest
 
       if (self%outcome /= outcome_running) return
-      if (.not. self%entered) call self%enter_level(hierarchy, status)
+      if (.not. self%entered) call enter_level(self, hierarchy, status)
       if (status%failed()) return
-      associate (result => self%results(self%n), level => hierarchy%levels(self%n))
-         before = result%m
-         if (self%flooded) call set_far_field(level, self%contact%load())
-         call hierarchy%cycle(self%n, self%next_cycle(), residual)
-         result%cycles = result%cycles + 1
-         result%m = measure(level)
-         if (.not. result%m%finite .or. .not. result%m%positive) then
-            call self%fail_level(merge(outcome_negative_film, outcome_diverged, result%m%finite))
-            return
-         end if
-         change = abs(result%m%films() - before%films())
-         if (result%cycles == 1) then
-            ! part of this change is discretisation error, so that its size says little of the next
-            q = least_reduction
+      if (self%how%flooded) call set_far_field(hierarchy%levels(self%n), self%contact%load())
+      self%options = next_cycle(self)
+      call self%improve(hierarchy)
+      finest = self%n == self%how%levels
+      associate (result => self%results(self%n))
+         result%m = self%m
+         result%cycles = self%cycles
+         result%residual = self%residual
+         if (self%state == outcome_running) return
+         result%solved = self%state == outcome_converged .or. (self%state == outcome_cycle_limit .and. .not. finest)
+         if (.not. result%solved) then
+            call fail_level(self)
+         else if (self%state == outcome_converged .and. has_target(self)) then
+            self%outcome = outcome_converged
+         else if (finest) then
+            self%outcome = merge(outcome_target_missed, outcome_converged, self%how%target_error > 0.0_dp)
          else
-            q = max(least_reduction, min(maxval(change/max(self%change, tiny(1.0_dp))), 0.95_dp))
-         end if
-         result%algebraic = change*q/(1.0_dp - q)
-         self%change = change
-         result%residual = film_residual(level)
-         if (self%may_scale()) then
-            call balance_load(level, result%m%load_error)
-            call update_residual(level, residual)
-            result%residual = film_residual(level)
-            result%m = measure(level)
+            self%n = self%n + 1
+            self%entered = .false.
          end if
       end associate
-      call self%decide()
    end subroutine advance
 
    !> Begin on the present level
@@ -171,43 +148,52 @@ contains
       call hierarchy%grow(self%n, status)
       if (status%failed()) return
       if (self%careful) call hierarchy%forget()
-      call begin_level(hierarchy%levels, self%n, self%contact, self%film_expected, has_coarser(self))
+      call begin_level(hierarchy%levels, self%n, self%contact, self%how%film_expected, has_coarser(self))
       if (has_coarser(self)) then
-         self%results(self%n)%m = self%results(self%n - 1)%m
+         self%m = self%results(self%n - 1)%m
       else
-         self%results(self%n)%m = measure(hierarchy%levels(self%n))
+         self%m = measure(hierarchy%levels(self%n))
       end if
-      self%results(self%n)%cycles = 0
+      self%state = outcome_running
+      self%cycles = 0
+      self%residual = 0.0_dp
       self%entered = .true.
    end subroutine enter_level
 
-   !> Whether the level is solved, and what to do then
-   subroutine decide(self)
+   !> Algebraic errors by the change of the films
+   logical function may_balance(self, before)
       class(steady_t), intent(inout) :: self
-      real(dp) :: values(2)
-      logical :: met
+      type(contact_results_t), intent(in) :: before
+      real(dp) :: change(2), q, error
 
-      associate (result => self%results(self%n), finest => self%n == self%levels)
-         met = self%accurate()
-         if (self%is_end()) met = met .and. abs(result%m%load_error) <= load_tolerance
-         if (.not. met .and. result%cycles < self%max_cycles) return
-         result%solved = .true.
-         if (met .and. self%target_error > 0.0_dp .and. has_coarser(self)) then
-            values = discretisation_error(self%results, self%n) + result%algebraic
-            if (values(1) <= self%target_error*result%m%film_central) then
-               self%outcome = outcome_converged
-               return
-            end if
-         end if
-         if (finest) then
-            if (.not. met) call self%fail_level(outcome_cycle_limit)
-            if (met) self%outcome = merge(outcome_target_missed, outcome_converged, self%target_error > 0.0_dp)
-         else
-            self%n = self%n + 1
-            self%entered = .false.
-         end if
-      end associate
-   end subroutine decide
+      may_balance = .false.
+      if (self%unsound() /= outcome_running) return
+      change = abs(self%m%films() - before%films())
+      q = reduction(change, self%change, self%cycles)
+      self%results(self%n)%algebraic = change*q/(1.0_dp - q)
+      self%change = change
+      error = abs(self%m%load_error)
+      may_balance = is_end(self) .and. error <= small_load_error .and. accurate(self)
+      if (may_balance) may_balance = film_per_load*error <= share_of_load*minval(wanted(self))
+   end function may_balance
+
+   !> Whether the level is solved; the load must be right where the solution may end
+   pure logical function meets(self)
+      class(steady_t), intent(in) :: self
+      meets = accurate(self)
+      if (is_end(self)) meets = meets .and. abs(self%m%load_error) <= load_tolerance
+   end function meets
+
+   !> Whether the error of H_c is the one that was asked for
+   pure logical function has_target(self)
+      class(steady_t), intent(in) :: self
+      real(dp) :: errors(2)
+
+      has_target = .false.
+      if (.not. (self%how%target_error > 0.0_dp .and. has_coarser(self))) return
+      errors = discretisation_error(self%m, self%results(self%n - 1)%m) + self%results(self%n)%algebraic
+      has_target = errors(1) <= self%how%target_error*self%m%film_central
+   end function has_target
 
    !> The cycle to make: on a level that began from a coarser one a light one is the second, if what it leaves is good
    !> enough; with one sweep less at first where the coarser level was solved in few cycles
@@ -216,14 +202,12 @@ contains
       type(cycle_options_t) :: options
       logical :: first
 
-      options = self%cycle
+      options = self%how%cycle
       if (self%careful) options = careful_cycle(options)
-      if (self%careful .or. self%second_cycle%full .eqv. self%cycle%full) return
-      associate (result => self%results(self%n))
-         if (.not. has_coarser(self) .or. result%cycles /= 1) return
-         if (any(self%wanted() < light_error*result%m%films())) return
-      end associate
-      options = self%second_cycle
+      if (self%careful .or. self%how%second_cycle%full .eqv. self%how%cycle%full) return
+      if (.not. has_coarser(self) .or. self%cycles /= 1) return
+      if (any(wanted(self) < light_error*self%m%films())) return
+      options = self%how%second_cycle
       first = self%n == 2
       if (.not. first) first = .not. self%results(self%n - 2)%solved
       if (self%results(self%n - 1)%cycles <= merge(few_from_guess, few, first)) options%pre = options%pre - 1
@@ -232,62 +216,49 @@ contains
    !> Whether the solution may end on the present level
    pure logical function is_end(self)
       class(steady_t), intent(in) :: self
-      is_end = self%n == self%levels .or. self%target_error > 0.0_dp
+      is_end = self%n == self%how%levels .or. self%how%target_error > 0.0_dp
    end function is_end
 
    !> Whether the algebraic errors are what the grid deserves, and on a level where the solution may end the residual, too
    pure logical function accurate(self)
       class(steady_t), intent(in) :: self
-      associate (result => self%results(self%n))
-         accurate = all(result%algebraic <= self%wanted())
-         if (self%is_end()) accurate = accurate .and. result%residual <= residual_tolerance
-      end associate
+      accurate = all(self%results(self%n)%algebraic <= wanted(self))
+      if (is_end(self)) accurate = accurate .and. self%residual <= residual_tolerance
    end function accurate
-
-   !> Whether the load alone is not yet right, and so little wrong that scaling the pressure costs no accuracy of the film
-   pure logical function may_scale(self)
-      class(steady_t), intent(in) :: self
-      real(dp) :: error
-
-      error = abs(self%results(self%n)%m%load_error)
-      may_scale = self%is_end() .and. error > load_tolerance .and. error <= small_load_error .and. self%accurate()
-      if (may_scale) may_scale = film_per_load*error <= share_of_load*minval(self%wanted())
-   end function may_scale
 
    !> Algebraic errors of H_c and H_min that the present level deserves
    pure function wanted(self)
       class(steady_t), intent(in) :: self
       real(dp) :: wanted(2)
 
-      associate (values => self%results(self%n)%m%films())
+      associate (values => self%m%films())
          if (has_coarser(self)) then
-            wanted = self%accuracy*max(discretisation_error(self%results, self%n), least_error*values)
+            wanted = self%how%accuracy*max(discretisation_error(self%m, self%results(self%n - 1)%m), least_error*values)
          else
             wanted = start_tolerance*values
-            if (self%n == self%levels) wanted = self%accuracy*wanted
-            if (self%n < self%levels - 1 .and. .not. self%is_end()) wanted = guess_tolerance*values
+            if (self%n == self%how%levels) wanted = self%how%accuracy*wanted
+            if (self%n < self%how%levels - 1 .and. .not. is_end(self)) wanted = guess_tolerance*values
          end if
-         if (self%is_end()) wanted = min(wanted, largest_error*values)
+         if (is_end(self)) wanted = min(wanted, largest_error*values)
       end associate
    end function wanted
 
    !> Failure on a level: begin anew on the next finer one, where the discrete problem is better posed; on the finest one
    !> once from the first level on with care, unless the film is negative: then there is hardly a solution
-   subroutine fail_level(self, outcome)
+   subroutine fail_level(self)
       class(steady_t), intent(inout) :: self
-      integer, intent(in) :: outcome
       logical :: finest
 
-      finest = self%n == self%levels
-      if (finest .and. (self%careful .or. .not. self%may_restart .or. outcome == outcome_negative_film)) then
-         self%outcome = outcome
+      finest = self%n == self%how%levels
+      if (finest .and. (self%careful .or. .not. self%how%may_restart .or. self%state == outcome_negative_film)) then
+         self%outcome = self%state
          return
       end if
       self%results%solved = .false.
       self%restarts = self%restarts + 1
       self%entered = .false.
       self%careful = self%careful .or. finest
-      self%n = merge(self%first, self%n + 1, finest)
+      self%n = merge(self%how%start, self%n + 1, finest)
    end subroutine fail_level
 
    !> Whether the level begins from a coarser one

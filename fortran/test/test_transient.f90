@@ -51,7 +51,7 @@ contains
       call begin(heavy, plan, hierarchy, transient, n, status)
       do k = 1, 3
          call transient%advance(hierarchy, n, plan%surfaces, status)
-         call is_true(transient%step_converged(), "a step converges")
+         call is_true(transient%state == outcome_converged, "a step converges")
       end do
       associate (level => hierarchy%levels(n), space => hierarchy%spaces(n))
          p = level%p
@@ -61,7 +61,7 @@ contains
          transient%policy%max_cycles = 1
          transient%accuracy%strict = 1.0e-3_dp*allowed
          call transient%advance(hierarchy, n, plan%surfaces, status)
-         call is_true(.not. transient%step_converged(), "one cycle is too few")
+         call is_true(transient%state /= outcome_converged, "one cycle is too few")
          call is_equal(transient%step, 3, "the failed step does not count")
          call is_close(maxval(abs(level%p - p)), 0.0_dp, 0.0_dp, "pressure of the last good step")
          call is_close(maxval(abs(level%h - h)), 0.0_dp, 0.0_dp, "film of the last good step")
@@ -69,7 +69,7 @@ contains
          transient%policy%max_cycles = plan%max_cycles
          transient%accuracy%strict = allowed
          call transient%advance(hierarchy, n, plan%surfaces, status)
-         call is_true(transient%step_converged() .and. transient%step == 4, "more cycles are enough")
+         call is_true(transient%state == outcome_converged .and. transient%step == 4, "more cycles are enough")
          p_next = level%p
       end associate
 
@@ -110,7 +110,7 @@ contains
          transient%p_before(:, j, 3) = transient%p_before(:, j, 3)*[(merge(3.5_dp, 1.0_dp, mod(k, 2) == 0), k=1, 65)]
       end do
       call transient%advance(hierarchy, n, plan%surfaces, status)
-      call is_true(transient%step_converged() .and. transient%step == 4, "a step with a wrong prediction converges")
+      call is_true(transient%state == outcome_converged .and. transient%step == 4, "a step with a wrong prediction converges")
       call is_true(transient%cycles > cycles, "after more cycles")
       call is_close(maxval(abs(hierarchy%levels(n)%p - p)), 0.0_dp, 2.0e-5_dp, "to the same pressure")
       call is_true(.not. status%failed(), "transient run")
@@ -241,11 +241,9 @@ contains
 
       call read_case(text, "test", "", input, status)
       call make_plan(input, none, no_surfaces, plan, status)
-      call hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, plan%contact%kernel_factor(), &
-                           plan%engine, plan%threads, status)
-      call steady%start(plan%contact, plan%film_expected, plan%start, plan%levels, plan%cycle, &
-                        plan%second_cycle, plan%accuracy, plan%target_error, plan%max_cycles, &
-                         plan%flooded, .false.)
+      call hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, plan%contact%kernel_factor(), plan%engine, &
+                           plan%threads, status)
+      call steady%start(plan%contact, plan%steady_options_t)
       call hierarchy%grow(steady%n, status)
       do while (.not. status%failed() .and. steady%outcome == outcome_running)
          call steady%advance(hierarchy, status)

@@ -4,13 +4,15 @@ module ehl_transient
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe
    use ehl_extremes, only: extremes_t
-   use ehl_film, only: balance_load, pressure_sum, refresh, update_residual
+   use ehl_film, only: refresh, update_residual
    use ehl_friction_mean, only: friction_mean_t, periods_compared
    use ehl_hierarchy, only: hierarchy_t
+   use ehl_iteration, only: iteration_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
-   use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_contact_results, only: central_value, load_tolerance, measure, contact_results_t
+   use ehl_moving_surfaces, only: moving_surfaces_t
+   use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_running
    use ehl_predictor, only: predictor_t
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_step_accuracy, only: step_accuracy_t
@@ -24,7 +26,8 @@ module ehl_transient
    !> Relative errors of the force balance that a step may have taken away by scaling its pressure
    real(dp), parameter :: small_load_error = 1.0e-5_dp
 
-   type :: transient_t
+   !> The state of the iteration is that of a step
+   type, extends(iteration_t) :: transient_t
       class(contact_t), allocatable, private :: contact
       !> Steps made, steps not needed at the start, the present time, the time step
       integer :: step = 0, skipped = 0
@@ -34,10 +37,7 @@ module ehl_transient
       type(step_accuracy_t) :: accuracy
       !> Friction of the smooth contact on the same grid
       real(dp) :: friction_smooth = 1.0_dp
-      !> State after the last step
-      type(contact_results_t) :: m
-      real(dp) :: residual = 0.0_dp
-      integer :: cycles = 0, total_cycles = 0, total_sweeps = 0
+      integer :: total_cycles = 0
       type(friction_mean_t) :: mean
       !> Of what passes once
       type(extremes_t) :: extremes
@@ -50,10 +50,10 @@ module ehl_transient
    contains
       procedure :: start
       procedure :: advance
-      procedure :: step_converged
       procedure :: restore
       procedure, private :: begin_attempt
-      procedure, private :: step_back
+      procedure :: may_balance
+      procedure :: meets
    end type transient_t
 
 contains
@@ -88,7 +88,6 @@ contains
       self%contact = contact
       self%step = 0
       self%total_cycles = 0
-      self%total_sweeps = 0
       self%time_step = level%grid%hx
       self%skipped = 0
       if (skip) self%skipped = int(surfaces%begin()/self%time_step)
@@ -115,7 +114,7 @@ contains
       self%extremes = extremes_t()
    end subroutine start
 
-   !> One time step, cycle by cycle to convergence
+   !> One time step. Where it does not converge the last good state stands.
    subroutine advance(self, hierarchy, n, surfaces, status)
       class(transient_t), intent(inout) :: self
       type(hierarchy_t), intent(inout) :: hierarchy
@@ -123,53 +122,41 @@ contains
       class(moving_surfaces_t), intent(inout) :: surfaces
       type(status_t), intent(inout) :: status
       type(contact_results_t) :: first
-      real(dp) :: load_error, before, residual_first
-      integer :: sweeps, made, next
-      logical :: met
+      real(dp) :: before, residual_first
+      integer :: next
 
       if (status%failed()) return
       call surfaces%roughness(hierarchy%levels(n)%grid, self%time + self%time_step, self%rr)
       call set_geometry(hierarchy%levels(n), self%contact, self%rr)
       call set_history(hierarchy%levels(n), self%mass_content)
-      made = 0
       call self%policy%begin(self%accuracy%tolerance(self%mean%n >= self%mean%filled), self%accuracy%measures(self%step + 1))
+      self%n = n
+      self%cycles = 0
       next = step_begins_again
       do
-         if (next == step_begins_again) call self%begin_attempt(hierarchy, n, status)
+         if (next == step_begins_again) call self%begin_attempt(hierarchy, status)
          if (status%failed()) return
-         if (.not. self%residual < huge(1.0_dp) .and. self%policy%cycles > 0) exit
+         if (.not. self%residual < huge(1.0_dp) .and. self%cycles > 0) exit
          before = self%residual
-         call hierarchy%cycle(n, self%policy%options, self%residual, sweeps)
-         made = made + sweeps
-         associate (level => hierarchy%levels(n))
-            load_error = pressure_sum(level, level%p)/level%load - 1.0_dp
-            if (self%residual <= self%policy%tolerance .and. abs(load_error) > load_tolerance .and. &
-                abs(load_error) <= small_load_error) then
-               call balance_load(level, load_error)
-               call update_residual(level, self%residual)
-               load_error = pressure_sum(level, level%p)/level%load - 1.0_dp
-            end if
-         end associate
-         met = self%residual <= self%policy%tolerance .and. abs(load_error) <= load_tolerance
-         call self%policy%after_cycle(self%step + 1, met, before, self%residual, next)
+         self%options = self%policy%options
+         call self%improve(hierarchy)
+         call self%policy%after_cycle(self%step + 1, self%meets(), before, self%residual, next)
          if (next == step_ends) exit
-         if (self%policy%cycles == 1) then
-            first = measure(hierarchy%levels(n))
+         if (self%cycles == 1) then
+            first = self%m
             residual_first = self%residual
          end if
       end do
-      self%cycles = self%policy%cycles
+      if (self%state == outcome_running) self%state = outcome_cycle_limit
       associate (level => hierarchy%levels(n))
-         self%m = measure(level)
-         if (.not. self%step_converged()) then
-            call self%step_back(level, surfaces)
+         if (self%state /= outcome_converged) then
+            call step_back(self, level, surfaces)
             return
          end if
          if (self%cycles > 1) call self%accuracy%learn(first%friction_newtonian, residual_first, &
                                                        self%m%friction_newtonian, self%residual)
          call self%accuracy%follow(self%m%friction_newtonian)
          self%total_cycles = self%total_cycles + self%cycles
-         self%total_sweeps = self%total_sweeps + made
          self%step = self%step + 1
          self%time = (self%skipped + self%step)*self%time_step
          call self%mean%append(self%m%friction/self%friction_smooth, self%m%film_central, &
@@ -181,14 +168,29 @@ contains
       end associate
    end subroutine advance
 
+   !> Whether a small error of the load is all that is left
+   logical function may_balance(self, before)
+      class(transient_t), intent(inout) :: self
+      type(contact_results_t), intent(in) :: before
+
+      associate (unused => before)
+      end associate
+      may_balance = self%residual <= self%policy%tolerance .and. abs(self%m%load_error) <= small_load_error
+   end function may_balance
+
+   !> Whether the step meets its tolerance
+   pure logical function meets(self)
+      class(transient_t), intent(in) :: self
+      meets = self%residual <= self%policy%tolerance .and. abs(self%m%load_error) <= load_tolerance
+   end function meets
+
    !> First approximation of an attempt at a step, and what its cycles need
-   subroutine begin_attempt(self, hierarchy, n, status)
+   subroutine begin_attempt(self, hierarchy, status)
       class(transient_t), intent(inout) :: self
       type(hierarchy_t), intent(inout) :: hierarchy
-      integer, intent(in) :: n
       type(status_t), intent(inout) :: status
 
-      associate (level => hierarchy%levels(n))
+      associate (level => hierarchy%levels(self%n))
          if (self%policy%attempt == attempt_predicted) then
             call self%predictor%predict(self%p_before, level)
             level%h00 = sum([3.0_dp, -3.0_dp, 1.0_dp]*self%h00_before)
@@ -205,13 +207,6 @@ contains
       if (self%policy%options%coarsening == coarsening_alcouffe) call hierarchy%prepare_coarsening(status)
    end subroutine begin_attempt
 
-   !> Whether the last step met its tolerance
-   pure logical function step_converged(self)
-      class(transient_t), intent(in) :: self
-      step_converged = self%residual <= self%policy%tolerance .and. abs(self%m%load_error) <= load_tolerance &
-                       .and. self%m%finite .and. self%m%positive
-   end function step_converged
-
    !> Go on with a state that was read into this run. `same` tells whether its film follows from its pressure: it does
    !> not when the surface, or the program, is another one.
    subroutine restore(self, level, surfaces, same)
@@ -222,7 +217,7 @@ contains
       !> Rounding of another processor or compiler may pass
       real(dp), parameter :: rounding = 1.0e-9_dp
 
-      call self%step_back(level, surfaces)
+      call step_back(self, level, surfaces)
       self%m = measure(level)
       same = abs(sum(1.0_dp/level%h) - self%film_mark) <= rounding*self%film_mark
    end subroutine restore

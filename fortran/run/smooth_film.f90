@@ -1,0 +1,68 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Central film of the smooth contact, extrapolated: what the amplitude of a wave is a share of
+module ehl_smooth_film
+   use ehl_case, only: case_t
+   use ehl_contact_run, only: contact_run_t
+   use ehl_kinds, only: dp
+   use ehl_level_result, only: discretisation_error, extrapolated
+   use ehl_moving_surfaces, only: moving_surfaces_t
+   use ehl_outcome, only: outcome_converged, outcome_running
+   use ehl_plan, only: make_plan
+   use ehl_plan_need, only: check_need
+   use ehl_status, only: ehl_bad_input, status_t
+   use ehl_steady, only: steady_t
+   use ehl_text, only: to_text
+   implicit none (type, external)
+   private
+   public :: known_film, film_by_finer_grids
+
+   !> Relative grid error from which the extrapolation is good enough
+   real(dp), parameter :: film_error = 0.02_dp
+
+contains
+
+   !> The film by the grids of a solution [a^2/R]; 0 where its grid error is too large
+   pure real(dp) function known_film(steady)
+      type(steady_t), intent(in) :: steady
+      real(dp) :: error(2), limit(2)
+
+      known_film = 0.0_dp
+      associate (n => steady%n, results => steady%results)
+         if (n == 1) return
+         if (.not. results(n - 1)%solved) return
+         error = discretisation_error(results(n)%m, results(n - 1)%m)
+         limit = extrapolated(results, n)
+         if (error(1) <= film_error*limit(1)) known_film = limit(1)
+      end associate
+   end function known_film
+
+   !> The film by a run of the smooth contact alone on as many nodes as that takes [a^2/R]
+   real(dp) function film_by_finer_grids(rough, status) result(film)
+      type(case_t), intent(in) :: rough
+      type(status_t), intent(inout) :: status
+      type(contact_run_t), allocatable :: run
+      type(moving_surfaces_t) :: no_surfaces
+      type(case_t) :: input
+      real(dp) :: none(0, 0)
+
+      film = 0.0_dp
+      input = rough
+      input%surface%kind = "smooth"
+      ! the film is extrapolated: it is better than the grid
+      input%grid%target_error = 0.9_dp*film_error
+      allocate (run)
+      call make_plan(input, none, no_surfaces, run%plan, status)
+      call check_need(run%plan, status)
+      call run%begin(status)
+      do while (run%outcome == outcome_running .and. .not. status%failed())
+         call run%advance(status)
+      end do
+      if (status%failed()) return
+      if (run%outcome == outcome_converged) film = known_film(run%steady)
+      if (film > 0.0_dp) return
+      call status%fail(ehl_bad_input, "surface.amplitude_over_film = "//to_text(input%surface%amplitude_over_film)// &
+                       ": the film of the smooth contact is not known to "//to_text(100.0_dp*film_error)// &
+                       " % on grids of up to "//to_text(input%grid%max_points)//" points"//new_line("a")// &
+                       "expected: surface.amplitude, or a larger grid.max_points")
+   end function film_by_finer_grids
+end module ehl_smooth_film
