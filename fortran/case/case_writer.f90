@@ -2,8 +2,7 @@
 !> The resolved case as namelist text, and the list of all options
 module ehl_case_writer
    use ehl_case, only: case_t, is_feature
-   use ehl_case_key, only: key_t
-   use ehl_derived, only: mark_default, mark_derived
+   use ehl_case_key, only: key_t, mark_default, mark_derived
    use ehl_kinds, only: dp
    use ehl_schema, only: schema_t
    use ehl_text, only: newline
