@@ -20,7 +20,7 @@ module ehl_case_key
    type :: key_t
       character(len=name_length) :: group = "", name = ""
       integer :: kind = 0
-      character(len=8) :: unit = ""
+      character(len=8) :: unit = "-"
       !> Numbers: an interval such as '(0, 10]', '0 or [1, 5]'; words: 'this|that'
       character(len=allowed_length) :: allowed = ""
       character(len=96) :: meaning = ""

@@ -7,6 +7,7 @@ module ehl_case_reader
    use ehl_group_reader, only: read_groups
    use ehl_key_finder, only: find_key, hint, join
    use ehl_scanner, only: scan_token, token_atom, token_string, token_t
+   use ehl_keys, only: bind_keys
    use ehl_schema, only: schema_t
    use ehl_source, only: point_at, source_t
    use ehl_status, only: ehl_bad_input, status_t
@@ -53,7 +54,7 @@ contains
       type(status_t) :: later
       integer :: start, last, k, key
 
-      call schema%bind(input)
+      call bind_keys(schema, input)
       sources = [source_t(origin, text//newline)]
       start = 1
       do while (start <= len(options))
@@ -159,8 +160,8 @@ contains
       integer :: k
 
       if (.not. any(schema%keys%marked)) return
-      call constant%bind(defaults)
-      call tried%bind(trial)
+      call bind_keys(constant, defaults)
+      call bind_keys(tried, trial)
       do k = 1, size(schema%keys)
          if (schema%keys(k)%given .and. .not. schema%keys(k)%marked) call tried%keys(k)%take(schema%keys(k))
       end do

@@ -157,7 +157,7 @@ contains
          if (k > 0) then
             associate (key => schema%keys(k))
                what = "text behind the value of "//key%full_name()
-               if (name%kind == token_atom .and. key%unit /= "") then
+               if (name%kind == token_atom) then
                   if (key%unit /= "-") what = "unit or other "//what
                   expected = key%type_text()//" and nothing else, then the next key or '/'"
                end if

@@ -31,8 +31,8 @@ contains
          what = "unknown key '"//name%text//"' in &"//group
          where_else = hint(name%text, schema%names_of(group), "")
          do k = 1, size(schema%keys)
-            if (schema%keys(k)%name == lower_case(name%text)) &
-               where_else = "; '"//trim(schema%keys(k)%name)//"' belongs to &"//trim(schema%keys(k)%group)
+            if (schema%keys(k)%name /= lower_case(name%text)) cycle
+            where_else = "; '"//trim(schema%keys(k)%name)//"' belongs to &"//trim(schema%keys(k)%group)
          end do
          expected = "one of the keys "//join(schema%names_of(group), ", ")//where_else
       end if
