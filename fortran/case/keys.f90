@@ -163,7 +163,7 @@ contains
       end associate
       self%group = "solver"
       associate (s => input%solver)
-         call self%words("deflection", s%deflection, "mlmi|fft|direct", "evaluation of the elastic deflection")
+         call self%words("deflection", s%deflection, "mlmi|fft", "evaluation of the elastic deflection")
          call self%words("coarsening", s%coarsening, "auto|classical|alcouffe", &
                          "transfers in time steps: bilinear, or by the conductance (Galerkin)")
          call self%words("symmetry", s%symmetry, "auto|full", "auto: half the domain where the scene is symmetric in Y")

@@ -166,14 +166,11 @@ def test_deflection_of_the_hertz_pressure():
     pressure = np.sqrt(np.maximum(1.0 - r2, 0.0))
     h = x[1] - x[0]
     inside = r2 < 0.8
-    answers = {}
-    for engine in ("direct", "fft"):
+    for engine, folded in (("mlmi", 1e-4), ("fft", 1e-13)):
         result = library.deflection(pressure, h, h, engine)
-        answers[engine] = result.values
         assert abs(result.values - (1.0 - 0.5 * r2))[inside].max() < 0.02
         assert result.seconds > 0.0
         half = library.deflection(pressure[:, 32:], h, h, engine, mirror=True)
-        assert np.abs(half.values - result.values[:, 32:]).max() < 1e-13
-    assert np.abs(answers["direct"] - answers["fft"]).max() < 1e-13
+        assert np.abs(half.values - result.values[:, 32:]).max() < folded
     with pytest.raises(errors.InputError, match="fem"):
         library.deflection(pressure, h, h, "fem")
