@@ -115,10 +115,10 @@ def test_closed_solver_raises():
     with Solver(Case.from_text(SMALL)) as other:
         assert other._handle != handle
         with pytest.raises(errors.ClosedError):
-            errors.check(*ehl.interrupt(handle))
+            errors.check(*ehl.act(handle, b"interrupt", b"")[2:])
     for wrong in (-1, 0, 5, 2**31 - 1):
         with pytest.raises(errors.ClosedError):
-            errors.check(*ehl.interrupt(wrong))
+            errors.check(*ehl.act(wrong, b"interrupt", b"")[2:])
 
 
 def test_places_run_out_and_come_back():
