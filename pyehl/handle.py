@@ -124,7 +124,7 @@ class SolverHandle:
     def interrupt(self) -> None:
         """Stop here; the results so far stay readable, with the status 'interrupted'."""
         with self._lock:
-            check(*ehl.interrupt(self._handle))
+            self._act("interrupt")
             self.done = True
 
     def resume(self, results: str | os.PathLike[str]) -> str:
@@ -137,12 +137,7 @@ class SolverHandle:
         InputError
             If the state is damaged, or belongs to another case.
         """
-        with self._lock:
-            note, status, message = checkpoints.resume(
-                self._handle, os.fsencode(path_of(results, "the result folder"))
-            )
-        check(status, message)
-        return returned(note)
+        return self._act("resume", path_of(results, "the result folder"))[0]
 
     def keep(self, results: str | os.PathLike[str], resumed: str | os.PathLike[str] = "") -> str:
         """Save states of a transient run in ``RESULTS.checkpoint`` at the interval of the case.
@@ -184,15 +179,11 @@ class SolverHandle:
         FileError
             If it cannot be written.
         """
-        with self._lock:
-            has_state, status, message = checkpoints.save_state(self._handle, int(at_once))
-        check(status, message)
-        return bool(has_state)
+        return self._act("save" if at_once else "tick")[1]
 
     def end_keeping(self) -> None:
         """Remove the states: the run has ended."""
-        with self._lock:
-            check(*checkpoints.end_keeping(self._handle))
+        self._act("drop")
 
     def progress(self) -> str:
         """Tell the state in one line."""
@@ -262,8 +253,15 @@ class SolverHandle:
             check(*ehl.take_prediction(self._handle, left_out, unresolved, why.encode()))
 
     def _write(self, folder: str | os.PathLike[str]) -> None:
+        self._act("write", folder)
+
+    def _act(self, what: str, path: str | os.PathLike[str] = "") -> tuple[str, bool]:
         with self._lock:
-            check(*ehl.write_output(self._handle, os.fsencode(folder)))
+            note, has_state, status, message = ehl.act(
+                self._handle, what.encode(), os.fsencode(path)
+            )
+        check(status, message)
+        return returned(note), bool(has_state)
 
     def _text(self, what: str) -> str:
         with self._lock:

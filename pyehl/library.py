@@ -142,7 +142,7 @@ def deflection(
     """Elastic deflection W = (2/pi^2) iint P dX' dY'/r, P (nx, ny) constant over cells.
 
     The integral of Zhang et al. 2019, eq. 2, in Hertz units: P by p_h, lengths by a, W by a^2/R,
-    so the mesh sizes. The engine is 'mlmi', 'fft' or 'direct'; `mirror`: the rows are those with Y
+    so the mesh sizes. The engine is 'mlmi' or 'fft'; `mirror`: the rows are those with Y
     >= 0 of a pressure that is symmetric in Y; `accuracy` is the largest error of 'mlmi' relative
     to the largest deflection; `repeats` applications, for timing. InputError if the engine does
     not exist or cannot serve the grid.

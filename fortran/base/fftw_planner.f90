@@ -11,7 +11,7 @@ module ehl_fftw_planner
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: lock_planner, unlock_planner, drop_plan, check_plan
+   public :: lock_planner, unlock_planner, drop_plan
    public :: plan_complex, plan_to_real, to_spectrum, to_cosines, to_heights, good_size
 
    type(lock_t), target :: planner
@@ -41,15 +41,16 @@ contains
       plan = c_null_ptr
    end subroutine drop_plan
 
-   !> A failure if FFTW has made no plan
-   subroutine check_plan(plan, what, status)
+   !> Let others plan; a failure if FFTW has made no plan
+   subroutine take_plan(plan, what, status)
       type(c_ptr), intent(in) :: plan
       !> What the plan is for
       character(len=*), intent(in) :: what
       type(status_t), intent(inout) :: status
 
+      call unlock_planner(status)
       if (.not. c_associated(plan)) call status%fail(ehl_internal, "FFTW made no plan for "//what)
-   end subroutine check_plan
+   end subroutine take_plan
 
    !> Complex transform in place
    subroutine plan_complex(plan, n, work, direction, status)
@@ -66,8 +67,7 @@ contains
       call lock_planner(status)
       if (status%failed()) return
       plan = fftw_plan_dft_1d(int(n, c_int), work, same, direction, fftw_estimate)
-      call unlock_planner(status)
-      call check_plan(plan, "a complex transform", status)
+      call take_plan(plan, "a complex transform", status)
    end subroutine plan_complex
 
    !> From half a spectrum to n real values
@@ -83,8 +83,7 @@ contains
       call lock_planner(status)
       if (status%failed()) return
       plan = fftw_plan_dft_c2r_1d(int(n, c_int), spectrum, values, fftw_estimate)
-      call unlock_planner(status)
-      call check_plan(plan, "a real transform", status)
+      call take_plan(plan, "a real transform", status)
    end subroutine plan_to_real
 
    !> Half spectrum (n1/2 + 1, n2) of values (n1, n2), divided by n1 n2: amplitudes of exp(i(k1 x1 + k2 x2)).
@@ -108,8 +107,7 @@ contains
       call lock_planner(status)
       if (status%failed()) return
       plan = fftw_plan_dft_r2c_2d(int(n(2), c_int), int(n(1), c_int), padded, spectrum, fftw_estimate)
-      call unlock_planner(status)
-      call check_plan(plan, "the spectrum of a tile", status)
+      call take_plan(plan, "the spectrum of a tile", status)
       if (status%failed()) return
       do j = 1, n(2)
          padded(:n(1), j) = values(:, j)
@@ -142,8 +140,7 @@ contains
       call lock_planner(status)
       if (status%failed()) return
       plan = fftw_plan_r2r_2d(int(n(2), c_int), int(n(1), c_int), cosines, same, fftw_redft10, fftw_redft10, fftw_estimate)
-      call unlock_planner(status)
-      call check_plan(plan, "the waves of a mirrored map", status)
+      call take_plan(plan, "the waves of a mirrored map", status)
       if (status%failed()) return
       do j = 1, n(2)
          cosines(:, j) = values(:, j)
@@ -171,8 +168,7 @@ contains
       call lock_planner(status)
       if (status%failed()) return
       plan = fftw_plan_dft_c2r_2d(int(n(2), c_int), int(n(1), c_int), spectrum, padded, fftw_estimate)
-      call unlock_planner(status)
-      call check_plan(plan, "the heights of a tile", status)
+      call take_plan(plan, "the heights of a tile", status)
       if (status%failed()) return
       call fftw_execute_dft_c2r(plan, spectrum, padded)
       call drop_plan(plan)

@@ -7,7 +7,26 @@ module ehl_files
    implicit none (type, external)
    private
    public :: flush_file, file_bytes, file_exists, is_file, may_write, make_folder, remove_folder, remove_file
-   public :: rename_path, absolute_path, real_path, folder_of, process_mark, c_text, fortran_text
+   public :: of_two_paths, rename_path, absolute_path, real_path, folder_of, process_mark, c_text, fortran_text
+
+   abstract interface
+      integer(c_int) function of_path(path) bind(c)
+         import :: c_char, c_int
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: path(*)
+      end function of_path
+
+      integer(c_int) function of_two_paths(one, other) bind(c)
+         import :: c_char, c_int
+         implicit none (type, external)
+         character(kind=c_char), intent(in) :: one(*), other(*)
+      end function of_two_paths
+   end interface
+
+   ! not where an argument is passed by value: gfortran 12 takes its address in some of the calls
+   procedure(of_path), bind(c, name="rmdir") :: posix_rmdir
+   procedure(of_path), bind(c, name="unlink") :: posix_unlink
+   procedure(of_two_paths), bind(c, name="rename") :: posix_rename
 
    interface
       integer(c_int) function posix_mkdir(path, mode) bind(c, name="mkdir")
@@ -17,18 +36,6 @@ module ehl_files
          integer(c_int), value :: mode
       end function posix_mkdir
 
-      integer(c_int) function posix_rmdir(path) bind(c, name="rmdir")
-         import :: c_char, c_int
-         implicit none (type, external)
-         character(kind=c_char), intent(in) :: path(*)
-      end function posix_rmdir
-
-      integer(c_int) function posix_unlink(path) bind(c, name="unlink")
-         import :: c_char, c_int
-         implicit none (type, external)
-         character(kind=c_char), intent(in) :: path(*)
-      end function posix_unlink
-
       integer(c_int) function posix_access(path, mode) bind(c, name="access")
          import :: c_char, c_int
          implicit none (type, external)
@@ -36,15 +43,27 @@ module ehl_files
          integer(c_int), value :: mode
       end function posix_access
 
-      integer(c_int) function posix_rename(from, to) bind(c, name="rename")
+      integer(c_int) function posix_open(path, flags) bind(c, name="open")
          import :: c_char, c_int
          implicit none (type, external)
-         character(kind=c_char), intent(in) :: from(*), to(*)
-      end function posix_rename
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value, intent(in) :: flags
+      end function posix_open
+
+      integer(c_int) function posix_fsync(descriptor) bind(c, name="fsync")
+         import :: c_int
+         implicit none (type, external)
+         integer(c_int), value :: descriptor
+      end function posix_fsync
+
+      integer(c_int) function posix_close(descriptor) bind(c, name="close")
+         import :: c_int
+         implicit none (type, external)
+         integer(c_int), value, intent(in) :: descriptor
+      end function posix_close
 
       type(c_ptr) function posix_getcwd(buffer, length) bind(c, name="getcwd")
-         use, intrinsic :: iso_c_binding, only: c_size_t
-         import :: c_char, c_ptr
+         import :: c_char, c_ptr, c_size_t
          implicit none (type, external)
          character(kind=c_char), intent(out) :: buffer(*)
          integer(c_size_t), value :: length
@@ -56,37 +75,6 @@ module ehl_files
          character(kind=c_char), intent(in) :: path(*)
          character(kind=c_char), intent(out) :: resolved(*)
       end function posix_realpath
-
-      type(c_ptr) function posix_fopen(path, mode) bind(c, name="fopen")
-         import :: c_char, c_ptr
-         implicit none (type, external)
-         character(kind=c_char), intent(in) :: path(*), mode(*)
-      end function posix_fopen
-
-      integer(c_int) function posix_fileno(stream) bind(c, name="fileno")
-         import :: c_int, c_ptr
-         implicit none (type, external)
-         type(c_ptr), value :: stream
-      end function posix_fileno
-
-      integer(c_int) function posix_fsync(descriptor) bind(c, name="fsync")
-         import :: c_int
-         implicit none (type, external)
-         integer(c_int), value :: descriptor
-      end function posix_fsync
-
-      integer(c_int) function posix_fclose(stream) bind(c, name="fclose")
-         import :: c_int, c_ptr
-         implicit none (type, external)
-         type(c_ptr), value :: stream
-      end function posix_fclose
-
-      integer(c_int) function posix_open(path, flags) bind(c, name="open")
-         import :: c_char, c_int
-         implicit none (type, external)
-         character(kind=c_char), intent(in) :: path(*)
-         integer(c_int), value, intent(in) :: flags
-      end function posix_open
 
       integer(c_size_t) function posix_lseek(descriptor, offset, from) bind(c, name="lseek")
          import :: c_int, c_size_t
@@ -103,12 +91,6 @@ module ehl_files
          integer(c_size_t), value, intent(in) :: most
       end function posix_read
 
-      integer(c_int) function posix_close(descriptor) bind(c, name="close")
-         import :: c_int
-         implicit none (type, external)
-         integer(c_int), value, intent(in) :: descriptor
-      end function posix_close
-
       integer(c_int) function posix_getpid() bind(c, name="getpid")
          import :: c_int
          implicit none (type, external)
@@ -120,13 +102,14 @@ contains
    !> Have the bytes of a file on the disk itself, lest they are lost with the power; false when that fails
    logical function flush_file(path)
       character(len=*), intent(in) :: path
-      type(c_ptr) :: stream
+      integer(c_int), parameter :: to_write = 1
+      integer(c_int) :: descriptor
 
-      stream = posix_fopen(c_text(path), c_text("r+"))
-      flush_file = c_associated(stream)
+      descriptor = posix_open(c_text(path), to_write)
+      flush_file = descriptor >= 0
       if (.not. flush_file) return
-      flush_file = posix_fsync(posix_fileno(stream)) == 0
-      flush_file = posix_fclose(stream) == 0 .and. flush_file
+      flush_file = posix_fsync(descriptor) == 0
+      flush_file = posix_close(descriptor) == 0 .and. flush_file
    end function flush_file
 
    !> Whether a file or folder is there

@@ -3,8 +3,8 @@
 module ehl_folders
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_f_procpointer, c_funptr, &
                                           c_int, c_int64_t, c_null_char, c_null_ptr, c_ptr, c_short, c_size_t
-   use ehl_files, only: absolute_path, c_text, file_exists, fortran_text, make_folder, may_write, process_mark, real_path, &
-                        rename_path
+   use ehl_files, only: absolute_path, c_text, file_exists, fortran_text, make_folder, may_write, of_two_paths, &
+                        process_mark, real_path, rename_path
    use ehl_text, only: to_text
    implicit none (type, external)
    private
@@ -36,17 +36,14 @@ module ehl_folders
       end function renameat2
    end interface
 
+   procedure(of_two_paths), bind(c, name="link") :: posix_link
+   procedure(of_two_paths), bind(c, name="symlink") :: posix_symlink
+
    interface
       type(c_ptr) function posix_errno() bind(c, name="__errno_location")
          import :: c_ptr
          implicit none (type, external)
       end function posix_errno
-
-      integer(c_int) function posix_link(path, other) bind(c, name="link")
-         import :: c_char, c_int
-         implicit none (type, external)
-         character(kind=c_char), intent(in) :: path(*), other(*)
-      end function posix_link
 
       type(c_ptr) function posix_opendir(path) bind(c, name="opendir")
          import :: c_char, c_ptr
@@ -77,12 +74,6 @@ module ehl_folders
          implicit none (type, external)
          integer(c_int), value :: descriptor, operation
       end function posix_flock
-
-      integer(c_int) function posix_symlink(target_path, path) bind(c, name="symlink")
-         import :: c_char, c_int
-         implicit none (type, external)
-         character(kind=c_char), intent(in) :: target_path(*), path(*)
-      end function posix_symlink
 
       integer(c_size_t) function posix_readlink(path, buffer, length) bind(c, name="readlink")
          import :: c_char, c_size_t

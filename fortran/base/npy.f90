@@ -2,7 +2,7 @@
 !> Arrays of real(dp) as .npy files (NumPy format 1.0), the file that both drivers share
 module ehl_npy
    use, intrinsic :: iso_fortran_env, only: int32, int64, int8
-   use ehl_whole_file, only: end_writing
+   use ehl_whole_file, only: end_writing, open_to_write
    use ehl_kinds, only: dp
    use ehl_status, only: ehl_file, ehl_no_memory, status_t
    use ehl_text, only: newline, to_text
@@ -86,17 +86,13 @@ contains
          call status%fail(ehl_file, path // ": this machine is not little-endian")
          return
       end if
-      open (newunit=lun, file=path, status="replace", action="write", access="stream", &
-            form="unformatted", iostat=stat, iomsg=reason)
-      if (stat == 0) then
-         write (lun, iostat=stat, iomsg=reason) head, values
-         do k = 1, more
-            if (stat == 0) write (lun, iostat=stat, iomsg=reason) behind(k)%values
-         end do
-         call end_writing(lun, path, len(head) + 8_int64*(1 + more)*size(values, kind=int64), stat, reason, status)
-      else
-         call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
-      end if
+      call open_to_write(path, "unformatted", lun, status)
+      if (status%failed()) return
+      write (lun, iostat=stat, iomsg=reason) head, values
+      do k = 1, more
+         if (stat == 0) write (lun, iostat=stat, iomsg=reason) behind(k)%values
+      end do
+      call end_writing(lun, path, len(head) + 8_int64*(1 + more)*size(values, kind=int64), stat, reason, status)
    end subroutine write_values
 
    !> Shape of the matrix in a file, as read_npy would return it
@@ -195,7 +191,7 @@ contains
       character(len=*), intent(in) :: head
       integer, intent(out) :: n(2)
       character(len=:), allocatable, intent(inout) :: problem
-      integer :: first, last, stat
+      integer :: first, last, stat, i
 
       n = 0
       if (index(head, "'descr': '<f8'") == 0) then
@@ -208,16 +204,6 @@ contains
       if (first == 0 .or. last < first + 4) return
       if (head(last - 1:last - 1) == ",") return
       read (head(first + 1:last - 1), *, iostat=stat) n
-      if (stat == 0 .and. all(n > 0) .and. count_commas(head(first:last)) == 1) problem = ""
+      if (stat == 0 .and. all(n > 0) .and. count([(head(i:i) == ",", i=first, last)]) == 1) problem = ""
    end subroutine read_header
-
-   pure integer function count_commas(text)
-      character(len=*), intent(in) :: text
-      integer :: i
-
-      count_commas = 0
-      do i = 1, len(text)
-         if (text(i:i) == ",") count_commas = count_commas + 1
-      end do
-   end function count_commas
 end module ehl_npy

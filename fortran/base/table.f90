@@ -3,9 +3,9 @@
 module ehl_table
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_fortran_env, only: int64
-   use ehl_whole_file, only: end_writing
+   use ehl_whole_file, only: end_writing, open_to_write
    use ehl_kinds, only: dp
-   use ehl_status, only: ehl_file, ehl_internal, status_t
+   use ehl_status, only: ehl_internal, status_t
    use ehl_text, only: to_text
    implicit none (type, external)
    private
@@ -118,12 +118,8 @@ contains
          call status%fail(ehl_internal, "the table for " // path // " has no columns")
          return
       end if
-      open (newunit=lun, file=path, status="replace", action="write", access="stream", &
-            form="formatted", iostat=stat, iomsg=reason)
-      if (stat /= 0) then
-         call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
-         return
-      end if
+      call open_to_write(path, "formatted", lun, status)
+      if (status%failed()) return
       allocate (whole(size(self%names)))
       line = ""
       do k = 1, size(self%names)

@@ -7,7 +7,7 @@ module ehl_whole_file
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: read_text, holds_text, write_text, end_writing
+   public :: read_text, holds_text, write_text, open_to_write, end_writing
 
 contains
 
@@ -77,6 +77,18 @@ contains
       close (lun)
    end function holds_text
 
+   !> Open a file to write it, "formatted" or "unformatted", in place of what was there
+   subroutine open_to_write(path, form, lun, status)
+      character(len=*), intent(in) :: path, form
+      integer, intent(out) :: lun
+      type(status_t), intent(inout) :: status
+      character(len=256) :: reason
+      integer :: stat
+
+      open (newunit=lun, file=path, status="replace", action="write", access="stream", form=form, iostat=stat, iomsg=reason)
+      if (stat /= 0) call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
+   end subroutine open_to_write
+
    !> Write a text to a file, replacing what was there
    subroutine write_text(path, text, status)
       character(len=*), intent(in) :: path, text
@@ -84,14 +96,10 @@ contains
       character(len=256) :: reason
       integer :: lun, stat
 
-      open (newunit=lun, file=path, status="replace", action="write", access="stream", &
-            form="unformatted", iostat=stat, iomsg=reason)
-      if (stat == 0) then
-         write (lun, iostat=stat, iomsg=reason) text
-         call end_writing(lun, path, len(text, kind=int64), stat, reason, status)
-      else
-         call status%fail(ehl_file, path // ": cannot write: " // trim(reason))
-      end if
+      call open_to_write(path, "unformatted", lun, status)
+      if (status%failed()) return
+      write (lun, iostat=stat, iomsg=reason) text
+      call end_writing(lun, path, len(text, kind=int64), stat, reason, status)
    end subroutine write_text
 
    !> Close a file that was written. A failure if a write or the closing failed, or the file is not whole: a write to

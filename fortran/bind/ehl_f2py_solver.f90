@@ -9,6 +9,7 @@ module ehl_f2py_solver
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use ehl_case, only: case_t
    use ehl_case_reader, only: read_case
+   use ehl_checkpoint_folder, only: checkpoint_path
    use ehl_conclusion, only: conclusion
    use ehl_grid, only: grid_t
    use ehl_handles, only: drop_handle, new_handle, run_of, run_t
@@ -17,11 +18,11 @@ module ehl_f2py_solver
    use ehl_ratio_error, only: waves_t
    use ehl_record, only: record_t
    use ehl_reply, only: reply
-   use ehl_status, only: ehl_bad_input, status_t
+   use ehl_status, only: ehl_bad_input, ehl_internal, status_t
    implicit none (type, external)
    private
-   public :: open_case, close_case, advance, interrupt, describe, work, take_prediction
-   public :: grid_shape, axes, field, write_output
+   public :: open_case, close_case, advance, act, describe, work, take_prediction
+   public :: grid_shape, axes, field
 
 contains
 
@@ -83,18 +84,45 @@ contains
       call reply(status, stat, message)
    end subroutine advance
 
-   !> Stop: what there is stays readable
-   subroutine interrupt(handle, stat, message)
+   !> "interrupt" a run, so that what there is stays readable; "write" the files of its result into an empty folder;
+   !> "resume" it from the newest state of the run with these results, before the first advance, which gives a note. Of
+   !> its own states: "tick" (save one if its time has come), "save", or "drop" them at a good end.
+   subroutine act(handle, what, path, note, has_state, stat, message)
       integer(c_int), intent(in) :: handle
-      integer(c_int), intent(out) :: stat
+      character(len=*), intent(in) :: what, path
+      character(len=4096), intent(out) :: note
+      !> Whether a state is there now, after "save"
+      integer(c_int), intent(out) :: has_state, stat
       character(len=4096), intent(out) :: message
       type(run_t), pointer :: run
       type(status_t) :: status
+      character(len=:), allocatable :: text
 
+      text = ""
+      has_state = 0
       call run_of(handle, run, status)
-      if (.not. status%failed()) call run%solver%interrupt()
+      if (.not. status%failed()) then
+         select case (what)
+         case ("interrupt")
+            call run%solver%interrupt()
+         case ("write")
+            call write_results(path, run%input, run%solver, run%clock%seconds(), status)
+         case ("resume")
+            call run%solver%resume(checkpoint_path(path), text, status)
+         case ("tick")
+            call run%checkpoints%tick(run%solver, status)
+         case ("save")
+            call run%checkpoints%save(run%solver, status)
+            if (run%checkpoints%has_state()) has_state = 1
+         case ("drop")
+            call run%checkpoints%close()
+         case default
+            call status%fail(ehl_internal, "a run cannot '"//what//"'")
+         end select
+      end if
+      note = text
       call reply(status, stat, message)
-   end subroutine interrupt
+   end subroutine act
 
    !> The "plan" in a few lines, one line of "progress", the "conclusion" of a run that has ended, or the "summary" as JSON
    subroutine describe(handle, what, text, stat, message)
@@ -217,20 +245,6 @@ contains
       if (.not. status%failed()) call run%solver%field(name, values, status)
       call reply(status, stat, message)
    end subroutine field
-
-   !> Write the files of the result into an empty folder
-   subroutine write_output(handle, folder, stat, message)
-      integer(c_int), intent(in) :: handle
-      character(len=*), intent(in) :: folder
-      integer(c_int), intent(out) :: stat
-      character(len=4096), intent(out) :: message
-      type(run_t), pointer :: run
-      type(status_t) :: status
-
-      call run_of(handle, run, status)
-      if (.not. status%failed()) call write_results(folder, run%input, run%solver, run%clock%seconds(), status)
-      call reply(status, stat, message)
-   end subroutine write_output
 
    !> Arrays must have the shape of the grid
    subroutine check_shape(run, nx, ny, status)

@@ -8,6 +8,7 @@ module ehl_case_contact
    use ehl_kinds, only: dp
    use ehl_moes, only: operating_from_moes, operating_from_si, operating_t
    use ehl_refusal, only: contradict, first_given, is_before, refuse, short
+   use ehl_keys, only: bind_keys
    use ehl_scales, only: scales_t
    use ehl_schema, only: schema_t
    use ehl_source, only: point_at, source_t
@@ -134,7 +135,7 @@ contains
       real(dp) :: unusual, most
       integer :: k, at
 
-      call defaults%bind(usual)
+      call bind_keys(defaults, usual)
       culprit = schema%find("lubricant", "viscosity")
       most = -1.0_dp
       do k = 1, size(names)

@@ -6,11 +6,13 @@ module ehl_case_key
    use ehl_text, only: quoted, to_text
    implicit none (type, external)
    private
-   public :: key_t, name_length
+   public :: key_t, choices, allowed_length, name_length, mark_default, mark_derived
    public :: kind_real, kind_integer, kind_logical, kind_word, kind_path, kind_text
 
-   integer, parameter :: name_length = 24
+   integer, parameter :: name_length = 24, allowed_length = 96
    integer, parameter :: kind_real = 1, kind_integer = 2, kind_logical = 3
+   !> Ends of the lines of keys of a written case that were not given: constant defaults, and what follows from other keys
+   character(len=*), parameter :: mark_default = "! default", mark_derived = "! derived"
    !> One of a list of words; a file name; any text
    integer, parameter :: kind_word = 4, kind_path = 5, kind_text = 6
 
@@ -18,9 +20,9 @@ module ehl_case_key
    type :: key_t
       character(len=name_length) :: group = "", name = ""
       integer :: kind = 0
-      character(len=8) :: unit = ""
+      character(len=8) :: unit = "-"
       !> Numbers: an interval such as '(0, 10]', '0 or [1, 5]'; words: 'this|that'
-      character(len=96) :: allowed = ""
+      character(len=allowed_length) :: allowed = ""
       character(len=96) :: meaning = ""
       !> The value inside the case, one of these
       real(dp), pointer :: real_value => null()
@@ -39,7 +41,7 @@ module ehl_case_key
       procedure :: value_text
       procedure :: type_text
       procedure :: allows
-      procedure :: copy_value
+      procedure :: take
    end type key_t
 
 contains
@@ -75,9 +77,8 @@ contains
    pure function type_text(self) result(text)
       class(key_t), intent(in) :: self
       character(len=:), allocatable :: text
-      character(len=*), parameter :: apostrophe = "'"
-      character(len=:), allocatable :: rest
-      integer :: bar
+      character(len=allowed_length), allocatable :: words(:)
+      integer :: k
 
       select case (self%kind)
       case (kind_real, kind_integer)
@@ -88,21 +89,34 @@ contains
       case (kind_logical)
          text = ".true. or .false."
       case (kind_word)
-         rest = trim(self%allowed)
+         words = choices(self%allowed)
          text = ""
-         do
-            bar = index(rest, "|")
-            if (bar == 0) exit
-            text = text // apostrophe // rest(:bar - 1) // apostrophe // ", "
-            rest = rest(bar + 1:)
+         do k = 1, size(words) - 1
+            text = text // quoted(words(k)) // ", "
          end do
-         text = text // "or " // apostrophe // rest // apostrophe
+         text = text // "or " // quoted(words(size(words)))
       case (kind_path)
          text = "a file name between quotes"
       case default
          text = "a text between quotes"
       end select
    end function type_text
+
+   !> Words of a list 'this|that'
+   pure function choices(allowed) result(list)
+      character(len=*), intent(in) :: allowed
+      character(len=allowed_length), allocatable :: list(:)
+      integer :: start, bar
+
+      allocate (list(0))
+      start = 1
+      do
+         bar = index(allowed(start:) // "|", "|")
+         list = [character(len=allowed_length) :: list, allowed(start:start + bar - 2)]
+         start = start + bar
+         if (start > len(allowed)) return
+      end do
+   end function choices
 
    !> Whether a number lies in the allowed interval: '[1, 5]', '(0, 5]', '0 or [1, 5]'
    pure logical function allows(self, value)
@@ -122,8 +136,8 @@ contains
       if (index(self%allowed, "0 or ") == 1) allows = allows .or. .not. abs(value) > 0.0_dp
    end function allows
 
-   !> Take the value of the same key of another case
-   subroutine copy_value(self, other)
+   !> Take the value of the same key of another case, and where that was given
+   subroutine take(self, other)
       class(key_t), intent(inout) :: self
       type(key_t), intent(in) :: other
 
@@ -139,5 +153,11 @@ contains
       case default
          self%path_value = other%path_value
       end select
-   end subroutine copy_value
+      self%given = other%given
+      self%source = other%source
+      self%name_first = other%name_first
+      self%name_last = other%name_last
+      self%first = other%first
+      self%last = other%last
+   end subroutine take
 end module ehl_case_key

@@ -2,14 +2,16 @@
 !> From the text of a case file and --set options to a complete case
 module ehl_case_reader
    use ehl_case, only: case_t
-   use ehl_case_check, only: check_case
-   use ehl_derived, only: settle_marks
+   use ehl_case_check, only: check_case, complete_case
+   use ehl_case_value, only: set_value
    use ehl_group_reader, only: read_groups
-   use ehl_option_reader, only: note_option, read_option, split_options
+   use ehl_key_finder, only: find_key, hint, join
+   use ehl_scanner, only: scan_token, token_atom, token_string, token_t
+   use ehl_keys, only: bind_keys
    use ehl_schema, only: schema_t
-   use ehl_source, only: source_t
+   use ehl_source, only: point_at, source_t
    use ehl_status, only: ehl_bad_input, status_t
-   use ehl_text, only: newline
+   use ehl_text, only: lower_case, newline
    use ehl_whole_file, only: read_text
    implicit none (type, external)
    private
@@ -30,7 +32,7 @@ contains
       call read_text(path, largest_file, text, status)
       if (status%failed()) then
          status%code = ehl_bad_input
-         status%message = status%message // newline // "expected: the name of a case file"
+         status%message = status%message//newline//"expected: the name of a case file"
          return
       end if
       call read_case(text, path, options, input, status)
@@ -48,22 +50,126 @@ contains
       type(status_t), intent(inout) :: status
       type(schema_t) :: schema
       type(source_t), allocatable :: sources(:)
-      integer :: k
+      type(token_t) :: name
+      type(status_t) :: later
+      integer :: start, last, k, key
 
-      call schema%bind(input)
-      sources = [source_t(origin, text)]
-      call split_options(options, sources)
+      call bind_keys(schema, input)
+      sources = [source_t(origin, text//newline)]
+      start = 1
+      do while (start <= len(options))
+         last = start + index(options(start:)//newline, newline) - 2
+         if (last >= start) sources = [sources, source_t("--set "//options(start:last), options(start:last)//newline, .false.)]
+         start = last + 2
+      end do
+      ! faults of options are told when they are read
       do k = 2, size(sources)
-         call note_option(sources(k), schema)
+         later = status_t()
+         call find_option(sources(k), schema, key, name, later)
+         if (.not. later%failed()) schema%keys(key)%replaced = .true.
       end do
       call read_groups(sources(1), schema, status)
       if (.not. status%failed()) call settle_marks(schema, sources(:1))
       do k = 2, size(sources)
-         if (status%failed()) return
-         call read_option(sources(k), k, schema, status)
+         if (.not. status%failed()) call read_option(sources(k), k, schema, status)
       end do
       if (status%failed()) return
       input%given = schema%keys%given
       call check_case(schema, input, sources, status)
    end subroutine read_case
+
+   !> Key of an option group.key=value
+   subroutine find_option(source, schema, key, name, status)
+      type(source_t), intent(in) :: source
+      type(schema_t), intent(in) :: schema
+      !> Position of the key in the schema
+      integer, intent(out) :: key
+      !> Its name in the option, up to the equals sign
+      type(token_t), intent(out) :: name
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: group
+      integer :: dot, equals
+
+      key = 0
+      equals = index(source%text, "=")
+      dot = index(source%text(:max(equals - 1, 0)), ".")
+      if (dot == 0) then
+         call status%fail(ehl_bad_input, point_at(source, 1, len(source%text), "option is not complete", "group.key=value"))
+         return
+      end if
+      group = lower_case(trim(adjustl(source%text(:dot - 1))))
+      name = token_t(token_atom, dot + 1, max(dot + 1, equals - 1), trim(adjustl(source%text(dot + 1:equals - 1))))
+      associate (names => schema%group_names())
+         if (any(names == group)) then
+            key = find_key(source, schema, group, name, status)
+         else
+            call status%fail(ehl_bad_input, point_at(source, 1, max(1, dot - 1), "unknown group '"//group//"'", &
+                                                     "one of "//join(names, ", ")//hint(group, names, "")))
+         end if
+      end associate
+   end subroutine find_option
+
+   !> One option; words need no quotes here
+   subroutine read_option(source, number, schema, status)
+      type(source_t), intent(in) :: source
+      !> Among the sources
+      integer, intent(in) :: number
+      type(schema_t), intent(inout) :: schema
+      type(status_t), intent(inout) :: status
+      type(token_t) :: name, value
+      integer :: equals, first, k, last, position
+
+      call find_option(source, schema, k, name, status)
+      if (status%failed()) return
+      equals = index(source%text, "=")
+      first = equals + verify(source%text(equals + 1:), " ")
+      last = verify(source%text, " "//newline, back=.true.)
+      position = first
+      call scan_token(source%text, position, value)
+      associate (key => schema%keys(k))
+         if (key%given .and. key%source > 1) then
+            call fail(1, equals - 1, "key "//key%full_name()//" is set twice", "every key once")
+         else if (first > last) then
+            call fail(equals + 1, equals + 1, "no value for "//key%full_name(), key%type_text())
+         else if (value%kind == token_string .and. position <= last) then
+            call fail(position, last, "text behind the value of "//key%full_name(), "nothing more")
+         else
+            ! without quotes the rest of the option is the value, whatever it looks like
+            if (value%kind /= token_string) value = token_t(token_atom, first, last, source%text(first:last))
+            call set_value(key, source, number, name, value, status)
+         end if
+      end associate
+
+   contains
+
+      subroutine fail(from, to, what, expected)
+         integer, intent(in) :: from, to
+         character(len=*), intent(in) :: what, expected
+         call status%fail(ehl_bad_input, point_at(source, from, to, what, expected))
+      end subroutine fail
+   end subroutine read_option
+
+   !> Take a marked value as not given if it is what follows from those that were given: so an option on a written case
+   !> does the same as on the case that it was written from, and a value that somebody has changed counts as given
+   subroutine settle_marks(schema, sources)
+      type(schema_t), intent(inout) :: schema
+      !> Where the values came from: the case file
+      type(source_t), intent(in) :: sources(:)
+      type(case_t), target :: trial, defaults
+      type(schema_t) :: tried, constant
+      integer :: k
+
+      if (.not. any(schema%keys%marked)) return
+      call bind_keys(constant, defaults)
+      call bind_keys(tried, trial)
+      do k = 1, size(schema%keys)
+         if (schema%keys(k)%given .and. .not. schema%keys(k)%marked) call tried%keys(k)%take(schema%keys(k))
+      end do
+      call complete_case(tried, trial, sources)
+      do k = 1, size(schema%keys)
+         associate (key => schema%keys(k))
+            if (key%marked .and. key%value_text() == tried%keys(k)%value_text()) call key%take(constant%keys(k))
+         end associate
+      end do
+   end subroutine settle_marks
 end module ehl_case_reader

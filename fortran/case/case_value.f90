@@ -1,20 +1,16 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> From a piece of text to the value of one key, or a message that says why not
 module ehl_case_value
-   use ehl_case, only: path_length, word_length
-   use ehl_case_key, only: key_t, kind_integer, kind_logical, kind_path, kind_real, kind_text, kind_word
+   use ehl_case, only: path_length
+   use ehl_case_key, only: choices, key_t, kind_integer, kind_logical, kind_path, kind_real, kind_word
    use ehl_kinds, only: dp
-   use ehl_scanner, only: is_real_number, is_whole_number, token_atom, token_open_string, &
-                          token_string, token_t
+   use ehl_scanner, only: token_atom, token_open_string, token_string, token_t
    use ehl_source, only: point_at, source_t
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_text, only: lower_case, nearest_word, to_text
    implicit none (type, external)
    private
    public :: set_value
-
-   !> Largest power of ten that is tried to be read: beyond it reading itself may overflow
-   integer, parameter :: maxexponent_10 = range(1.0_dp) - 1
 
 contains
 
@@ -26,7 +22,8 @@ contains
       integer, intent(in) :: number
       type(token_t), intent(in) :: name, token
       type(status_t), intent(inout) :: status
-      character(len=:), allocatable :: problem
+      character(len=:), allocatable :: problem, expected, near
+      integer :: first
 
       if (token%kind == token_open_string) then
          call status%fail(ehl_bad_input, point_at(source, token%first, token%last, &
@@ -40,48 +37,35 @@ contains
       key%first = token%first
       key%last = token%last
       problem = ""
+      expected = key%type_text()
+      first = token%first
       select case (key%kind)
-      case (kind_real)
-         call set_number(key, token, problem)
-      case (kind_integer)
-         call set_number(key, token, problem)
+      case (kind_real, kind_integer)
+         call set_number(key, token, problem, first)
       case (kind_logical)
          call set_logical(key, token, problem)
-      case (kind_word)
-         call set_word(key, token, number > 1, problem)
-      case (kind_path, kind_text)
-         call set_path(key, token, number > 1, problem)
       case default
-         problem = "no such kind"
+         if (token%kind == token_atom .and. number == 1) then
+            problem = "no quotes around the text"
+            if (key%kind == kind_word) problem = "no quotes around the word"
+            if (key%kind == kind_path) problem = "no quotes around the file name"
+         else if (key%kind == kind_word) then
+            call set_word(key, token, problem)
+         else if (len(token%text) > path_length) then
+            problem = "longer than " // to_text(path_length) // " characters"
+         else
+            key%path_value = token%text
+         end if
       end select
       if (problem == "") return
-      call refuse(key, source, token, problem, status)
-   end subroutine set_value
-
-   !> One message about the value of a key
-   subroutine refuse(key, source, token, problem, status)
-      type(key_t), intent(in) :: key
-      type(source_t), intent(in) :: source
-      type(token_t), intent(in) :: token
-      character(len=*), intent(in) :: problem
-      type(status_t), intent(inout) :: status
-      character(len=:), allocatable :: expected, near
-      integer :: first, length
-
-      expected = key%type_text()
       if (key%kind == kind_word) then
          near = nearest_word(token%text, choices(key%allowed))
          if (near /= "") expected = expected // "; did you mean '" // near // "'?"
       end if
-      first = token%first
-      if (problem == "text behind the number") then
-         length = number_length(token%text)
-         first = token%first + length
-      end if
       call status%fail(ehl_bad_input, point_at(source, first, token%last, &
          key%full_name() // " = " // shortened(source%text(token%first:token%last)) // ": " // problem, &
          expected))
-   end subroutine refuse
+   end subroutine set_value
 
    !> A value as a message shows it
    pure function shortened(text) result(answer)
@@ -93,86 +77,102 @@ contains
    end function shortened
 
    !> Real and integer values
-   subroutine set_number(key, token, problem)
+   subroutine set_number(key, token, problem, first)
       type(key_t), intent(inout) :: key
       type(token_t), intent(in) :: token
       character(len=:), allocatable, intent(inout) :: problem
+      !> Where the fault is in the text
+      integer, intent(inout) :: first
       real(dp) :: value
-      integer :: stat
+      integer :: length, stat
 
+      length = number_length(token%text)
       if (token%kind == token_string) then
          problem = "text where a number is wanted"
-         return
-      end if
-      if (index(token%text, ",") > 0) then
+      else if (index(token%text, ",") > 0) then
          problem = "decimal comma, or more than one value"
-         return
-      end if
-      if (.not. is_real_number(token%text)) then
+      else if (is_not_finite(token%text)) then
+         problem = "not a finite number"
+      else if (index(token%text, "*") > 0) then
+         problem = "not one plain number"
+      else if (length == 0) then
          problem = "not a number"
-         if (number_length(token%text) > 0) problem = "text behind the number"
-         if (index(token%text, "*") > 0) problem = "not one plain number"
-         if (is_not_finite(token%text)) problem = "not a finite number"
-         return
-      end if
-      if (decimal_exponent(token%text) > maxexponent_10) then
+      else if (length < len(token%text)) then
+         problem = "text behind the number"
+         first = token%first + length
+      else if (is_huge(token%text)) then
          problem = "too large for a number"
-         return
-      end if
-      read (token%text, *, iostat=stat) value
-      if (stat /= 0) then
-         problem = "cannot be read as a number"
-      else if (key%kind == kind_integer .and. .not. is_whole_number(token%text)) then
-         problem = "not a whole number"
-      else if (.not. key%allows(value)) then
-         problem = "out of range"
-      else if (key%kind == kind_integer) then
-         key%integer_value = nint(value)
       else
-         key%real_value = value
+         read (token%text, *, iostat=stat) value
+         if (stat /= 0) then
+            problem = "cannot be read as a number"
+         else if (key%kind == kind_integer .and. verify(token%text, "+-0123456789") > 0) then
+            problem = "not a whole number"
+         else if (.not. key%allows(value)) then
+            problem = "out of range"
+         else if (key%kind == kind_integer) then
+            key%integer_value = nint(value)
+         else
+            key%real_value = value
+         end if
       end if
    end subroutine set_number
 
-   !> Upper bound of the power of ten of a number: digits before the point, and the exponent
-   pure integer function decimal_exponent(text)
+   !> Characters of the decimal number that a text begins with: -1.5e-3, .5, 2, 1.d0; 0 when it begins with none
+   pure integer function number_length(text)
       character(len=*), intent(in) :: text
-      integer :: mark, stat, power, first
+      character(len=len(text) + 1) :: line
+      integer :: at, digits
 
-      mark = scan(text, "eEdD")
-      decimal_exponent = scan(text, ".eEdD") - 1
-      if (decimal_exponent < 0) decimal_exponent = len(text)
-      if (mark == 0) return
-      first = mark + 1
-      if (len(text) - first > 8) then
-         ! So long an exponent is out of range whatever it is, unless it is negative
-         power = 10**8
-         if (text(first:first) == "-") power = -10**8
-      else
-         read (text(first:), *, iostat=stat) power
-         if (stat /= 0) power = 10**8
+      number_length = 0
+      line = text
+      at = behind_sign(1)
+      digits = digits_at(at)
+      at = at + digits
+      if (line(at:at) == ".") then
+         digits = digits + digits_at(at + 1)
+         at = at + 1 + digits_at(at + 1)
       end if
-      decimal_exponent = decimal_exponent + power
-   end function decimal_exponent
+      if (digits == 0) return
+      number_length = at - 1
+      if (scan(line(at:at), "eEdD") == 0) return
+      at = behind_sign(at + 1)
+      if (digits_at(at) > 0) number_length = at + digits_at(at) - 1
+
+   contains
+
+      !> Position behind an optional sign
+      pure integer function behind_sign(first)
+         integer, intent(in) :: first
+         behind_sign = first + scan(line(first:first), "+-")
+      end function behind_sign
+
+      !> Number of digits from a position on
+      pure integer function digits_at(first)
+         integer, intent(in) :: first
+         digits_at = verify(line(first:), "0123456789") - 1
+      end function digits_at
+   end function number_length
+
+   !> Whether reading a number might overflow: a hundred digits before the point, or three of a positive exponent
+   pure logical function is_huge(number)
+      character(len=*), intent(in) :: number
+      integer :: mark
+
+      mark = scan(number, "eEdD")
+      is_huge = scan(number // ".", ".eEdD") > 100
+      if (mark == 0 .or. index(number, "-", back=.true.) > mark) return
+      is_huge = is_huge .or. len(number) - max(mark, index(number, "+", back=.true.)) > 2
+   end function is_huge
 
    !> Words that other programs write for nan and inf
    pure logical function is_not_finite(text)
       character(len=*), intent(in) :: text
       character(len=:), allocatable :: word
 
-      word = lower_case(text)
-      if (scan(word(1:1), "+-") == 1) word = word(2:)
+      word = lower_case(text(verify(text // " ", "+-"):))
       is_not_finite = index(word, "nan") == 1 .or. index(word, "inf") == 1
    end function is_not_finite
-
-   !> Characters of the number that a text begins with; 0 when it begins with none
-   pure integer function number_length(text)
-      character(len=*), intent(in) :: text
-
-      do number_length = len(text), 1, -1
-         if (is_real_number(text(:number_length))) return
-      end do
-      number_length = 0
-   end function number_length
 
    !> .true., .false. and their short forms
    subroutine set_logical(key, token, problem)
@@ -192,59 +192,19 @@ contains
    end subroutine set_logical
 
    !> One of the allowed words, in any case
-   subroutine set_word(key, token, bare, problem)
+   subroutine set_word(key, token, problem)
       type(key_t), intent(inout) :: key
       type(token_t), intent(in) :: token
-      !> Whether the word may stand without quotes
-      logical, intent(in) :: bare
       character(len=:), allocatable, intent(inout) :: problem
-      character(len=len(key%allowed)), allocatable :: list(:)
       integer :: k
 
-      if (token%kind == token_atom .and. .not. bare) then
-         problem = "no quotes around the word"
-         return
-      end if
-      list = choices(key%allowed)
-      do k = 1, size(list)
-         if (lower_case(list(k)) == lower_case(token%text)) then
-            key%word_value = list(k)(:word_length)
-            return
-         end if
-      end do
       problem = "no such choice"
+      associate (list => choices(key%allowed))
+         do k = 1, size(list)
+            if (lower_case(list(k)) /= lower_case(token%text)) cycle
+            key%word_value = trim(list(k))
+            problem = ""
+         end do
+      end associate
    end subroutine set_word
-
-   !> Words of a list 'this|that'
-   pure function choices(allowed) result(list)
-      character(len=*), intent(in) :: allowed
-      character(len=len(allowed)), allocatable :: list(:)
-      integer :: start, bar
-
-      allocate (list(0))
-      start = 1
-      do
-         bar = index(allowed(start:), "|")
-         if (bar == 0) exit
-         list = [character(len=len(allowed)) :: list, allowed(start:start + bar - 2)]
-         start = start + bar
-      end do
-      list = [character(len=len(allowed)) :: list, trim(allowed(start:))]
-   end function choices
-
-   !> A file name, or any text
-   subroutine set_path(key, token, bare, problem)
-      type(key_t), intent(inout) :: key
-      type(token_t), intent(in) :: token
-      logical, intent(in) :: bare
-      character(len=:), allocatable, intent(inout) :: problem
-
-      if (token%kind == token_atom .and. .not. bare) then
-         problem = "no quotes around the " // trim(merge("file name", "text     ", key%kind == kind_path))
-      else if (len(token%text) > path_length) then
-         problem = "longer than " // to_text(path_length) // " characters"
-      else
-         key%path_value = token%text
-      end if
-   end subroutine set_path
 end module ehl_case_value

@@ -2,9 +2,9 @@
 !> The resolved case as namelist text, and the list of all options
 module ehl_case_writer
    use ehl_case, only: case_t, is_feature
-   use ehl_case_key, only: key_t
-   use ehl_derived, only: mark_default, mark_derived
+   use ehl_case_key, only: key_t, mark_default, mark_derived
    use ehl_kinds, only: dp
+   use ehl_keys, only: bind_keys
    use ehl_schema, only: schema_t
    use ehl_text, only: newline
    implicit none (type, external)
@@ -24,8 +24,8 @@ contains
       integer :: k
 
       copy = input
-      call schema%bind(copy)
-      call constant%bind(defaults)
+      call bind_keys(schema, copy)
+      call bind_keys(constant, defaults)
       text = ""
       do k = 1, size(schema%keys)
          if (opens_group(schema, k)) text = text // "&" // trim(schema%keys(k)%group) // newline
@@ -115,7 +115,7 @@ contains
       character(len=1), parameter :: tab = achar(9)
       integer :: k
 
-      call schema%bind(defaults)
+      call bind_keys(schema, defaults)
       text = ""
       do k = 1, size(schema%keys)
          associate (key => schema%keys(k))

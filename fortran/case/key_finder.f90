@@ -8,19 +8,9 @@ module ehl_key_finder
    use ehl_text, only: lower_case, nearest_word
    implicit none (type, external)
    private
-   public :: group_position, find_key, join, hint
+   public :: find_key, join, hint
 
 contains
-
-   !> Position of a name in a list; 0 when it is not there
-   pure integer function group_position(names, name)
-      character(len=*), intent(in) :: names(:), name
-
-      do group_position = 1, size(names)
-         if (names(group_position) == name) return
-      end do
-      group_position = 0
-   end function group_position
 
    !> Position of a key in the schema; unknown and repeated keys are faults
    integer function find_key(source, schema, group, name, status)
@@ -29,28 +19,23 @@ contains
       character(len=*), intent(in) :: group
       type(token_t), intent(in) :: name
       type(status_t), intent(inout) :: status
-      character(len=:), allocatable :: what, expected
+      character(len=:), allocatable :: what, expected, where_else
       integer :: k
 
       find_key = schema%find(group, lower_case(name%text))
       if (find_key > 0) then
-         if (schema%keys(find_key)%given .and. source%has_lines) then
-            what = "key " // schema%keys(find_key)%full_name() // " is there twice"
-            expected = "every key once"
-            call status%fail(ehl_bad_input, point_at(source, name%first, name%last, what, expected))
-         end if
-         return
+         if (.not. (schema%keys(find_key)%given .and. source%has_lines)) return
+         what = "key "//schema%keys(find_key)%full_name()//" is there twice"
+         expected = "every key once"
+      else
+         what = "unknown key '"//name%text//"' in &"//group
+         where_else = hint(name%text, schema%names_of(group), "")
+         do k = 1, size(schema%keys)
+            if (schema%keys(k)%name /= lower_case(name%text)) cycle
+            where_else = "; '"//trim(schema%keys(k)%name)//"' belongs to &"//trim(schema%keys(k)%group)
+         end do
+         expected = "one of the keys "//join(schema%names_of(group), ", ")//where_else
       end if
-      what = "unknown key '" // name%text // "' in &" // group
-      expected = "one of the keys " // join(schema%names_of(group), ", ") &
-                 // hint(name%text, schema%names_of(group), "")
-      do k = 1, size(schema%keys)
-         if (schema%keys(k)%name == lower_case(name%text)) then
-            expected = "one of the keys " // join(schema%names_of(group), ", ") &
-                       // "; '" // trim(schema%keys(k)%name) // "' belongs to &" &
-                       // trim(schema%keys(k)%group)
-         end if
-      end do
       call status%fail(ehl_bad_input, point_at(source, name%first, name%last, what, expected))
    end function find_key
 
@@ -62,7 +47,7 @@ contains
 
       text = trim(names(1))
       do k = 2, size(names)
-         text = text // between // trim(names(k))
+         text = text//between//trim(names(k))
       end do
    end function join
 
@@ -72,6 +57,6 @@ contains
       character(len=:), allocatable :: text
 
       text = nearest_word(name, names)
-      if (text /= "") text = "; did you mean '" // prefix // text // "'?"
+      if (text /= "") text = "; did you mean '"//prefix//text//"'?"
    end function hint
 end module ehl_key_finder

@@ -4,7 +4,7 @@ module ehl_source
    use ehl_text, only: newline, to_text
    implicit none (type, external)
    private
-   public :: source_t, point_at, line_number, column_number
+   public :: source_t, point_at, line_number
 
    !> Longest part of a line that a message shows
    integer, parameter :: shown = 100
@@ -13,6 +13,7 @@ module ehl_source
    type :: source_t
       !> What a message calls it: a file name, or '--set' and the option
       character(len=:), allocatable :: name
+      !> Ends with a line end
       character(len=:), allocatable :: text
       !> Whether messages give line and column
       logical :: has_lines = .true.
@@ -27,44 +28,34 @@ contains
       integer, intent(in) :: first, last
       character(len=*), intent(in) :: what, expected
       character(len=:), allocatable :: message
-      character(len=:), allocatable :: place, margin, line
-      integer :: start, finish, from, at
+      character(len=:), allocatable :: place, margin, number
+      integer :: start, finish, from
 
-      call line_bounds(source%text, first, start, finish)
-      ! Of a long line only the part around the fault is shown
-      from = start
-      if (first - start > shown - 20) from = first - shown/2
-      from = whole_character(source%text, from, start)
-      line = one_line(source%text(from:min(finish, from + shown - 1)))
-      margin = "  "
-      place = source%name
-      if (source%has_lines) then
-         margin = "  " // to_text(line_number(source%text, first)) // " "
-         place = place // ":" // to_text(line_number(source%text, first)) // ":" &
-                 // to_text(column_number(source%text, first))
-      end if
-      at = min(first, finish + 1)
-      message = place // ": error: " // what // newline &
-                // margin // "| " // line // newline &
-                // repeat(" ", len(margin)) // "| " // blanks_for(source%text(from:at - 1)) &
-                // repeat("^", max(1, characters(source%text(at:min(last, finish))))) // newline &
-                // "expected: " // expected
+      associate (text => source%text)
+         start = index(text(:first - 1), newline, back=.true.) + 1
+         finish = start + index(text(start:), newline) - 2
+         ! of a long line only the part around the fault is shown
+         from = start
+         if (first - start > shown - 20) then
+            from = first - shown/2
+            do while (is_continuation(text(from:from)))
+               from = from - 1
+            end do
+         end if
+         place = source%name
+         margin = "  "
+         if (source%has_lines) then
+            number = to_text(line_number(text, first))
+            place = place//":"//number//":"//to_text(characters(text(start:first - 1)) + 1)
+            margin = margin//number//" "
+         end if
+         message = place//": error: "//what//newline// &
+                   margin//"| "//one_line(text(from:min(finish, from + shown - 1)))//newline// &
+                   repeat(" ", len(margin))//"| "//blanks_for(text(from:first - 1))// &
+                   repeat("^", max(1, characters(text(first:min(last, finish)))))//newline// &
+                   "expected: "//expected
+      end associate
    end function point_at
-
-   !> First and last character of the line that holds the position (last is before the line end)
-   pure subroutine line_bounds(text, position, start, finish)
-      character(len=*), intent(in) :: text
-      integer, intent(in) :: position
-      integer, intent(out) :: start, finish
-
-      start = index(text(:min(position - 1, len(text))), newline, back=.true.) + 1
-      finish = index(text(start:), newline)
-      if (finish == 0) then
-         finish = len(text)
-      else
-         finish = start + finish - 2
-      end if
-   end subroutine line_bounds
 
    !> Line of a position, from 1
    pure integer function line_number(text, position)
@@ -72,44 +63,22 @@ contains
       integer, intent(in) :: position
       integer :: i
 
-      line_number = 1
-      do i = 1, min(position - 1, len(text))
-         if (text(i:i) == newline) line_number = line_number + 1
-      end do
+      line_number = 1 + count([(text(i:i) == newline, i=1, position - 1)])
    end function line_number
 
-   !> Column of a position, in characters from 1
-   pure integer function column_number(text, position)
-      character(len=*), intent(in) :: text
-      integer, intent(in) :: position
-      integer :: start, finish
+   !> Whether a byte is not the first one of a character of UTF-8 text
+   elemental logical function is_continuation(byte)
+      character(len=1), intent(in) :: byte
+      is_continuation = iand(iachar(byte), 192) == 128
+   end function is_continuation
 
-      call line_bounds(text, position, start, finish)
-      column_number = characters(text(start:min(position - 1, len(text)))) + 1
-   end function column_number
-
-   !> Number of characters of UTF-8 text: continuation bytes do not count
+   !> Number of characters of UTF-8 text
    pure integer function characters(text)
       character(len=*), intent(in) :: text
       integer :: i
 
-      characters = 0
-      do i = 1, len(text)
-         if (iand(iachar(text(i:i)), 192) /= 128) characters = characters + 1
-      end do
+      characters = count([(.not. is_continuation(text(i:i)), i=1, len(text))])
    end function characters
-
-   !> The position, moved left to the first byte of a UTF-8 character
-   pure integer function whole_character(text, position, start)
-      character(len=*), intent(in) :: text
-      integer, intent(in) :: position, start
-
-      whole_character = position
-      do while (whole_character > start)
-         if (iand(iachar(text(whole_character:whole_character)), 192) /= 128) exit
-         whole_character = whole_character - 1
-      end do
-   end function whole_character
 
    !> Blanks as wide as the text; tabs stay tabs, so that the caret stands right
    pure function blanks_for(text) result(blanks)
@@ -119,11 +88,7 @@ contains
 
       blanks = ""
       do i = 1, len(text)
-         if (text(i:i) == achar(9)) then
-            blanks = blanks // achar(9)
-         else if (iand(iachar(text(i:i)), 192) /= 128) then
-            blanks = blanks // " "
-         end if
+         if (.not. is_continuation(text(i:i))) blanks = blanks//merge(text(i:i), " ", text(i:i) == achar(9))
       end do
    end function blanks_for
 
@@ -135,8 +100,7 @@ contains
 
       clean = line
       do i = 1, len(line)
-         if (iachar(line(i:i)) < 32 .and. line(i:i) /= achar(9)) clean(i:i) = " "
-         if (iachar(line(i:i)) == 127) clean(i:i) = " "
+         if ((iachar(line(i:i)) < 32 .and. line(i:i) /= achar(9)) .or. iachar(line(i:i)) == 127) clean(i:i) = " "
       end do
    end function one_line
 end module ehl_source

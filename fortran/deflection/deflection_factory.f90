@@ -3,7 +3,6 @@
 module ehl_deflection_factory
    use ehl_status, only: status_t, ehl_bad_input
    use ehl_deflection, only: deflection_t
-   use ehl_direct, only: direct_deflection_t
    use ehl_fft, only: fft_deflection_t
    use ehl_mlmi, only: mlmi_deflection_t
    implicit none (type, external)
@@ -12,7 +11,7 @@ module ehl_deflection_factory
 
    !> The engines' names
    character(len=*), parameter :: deflection_engines(*) = [character(len=6) :: &
-      "mlmi", "fft", "direct"]
+      "mlmi", "fft"]
 
 contains
 
@@ -27,11 +26,9 @@ contains
          allocate (mlmi_deflection_t :: deflection)
       case ("fft")
          allocate (fft_deflection_t :: deflection)
-      case ("direct")
-         allocate (direct_deflection_t :: deflection)
       case default
          call status%fail(ehl_bad_input, "deflection engine '"//trim(engine)// &
-                          "' is not known: 'mlmi', 'fft' or 'direct' was expected")
+                          "' is not known: 'mlmi' or 'fft' was expected")
       end select
    end subroutine new_deflection
 end module ehl_deflection_factory

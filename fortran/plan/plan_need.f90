@@ -18,11 +18,10 @@ module ehl_plan_need
    real(dp), parameter :: line_bytes = 2000.0_dp
    !> Share of the run on the next coarser grid in memory and, with half as many steps, in time
    real(dp), parameter :: coarser_bytes = 0.25_dp, coarser_seconds = 0.125_dp
-   !> Seconds per stored node of a smooth contact and of a time step or cycle, and per pair of nodes of a directly summed
-   !> deflection, on one thread of a processor of 2020
-   real(dp), parameter :: smooth_seconds = 8.0e-7_dp, step_seconds = 3.0e-7_dp, direct_seconds = 1.0e-9_dp
-   !> Deflections of a smooth contact and of a step, and cycles of a rough contact at rest
-   real(dp), parameter :: smooth_deflections = 30.0_dp, step_deflections = 5.0_dp, rest_cycles = 20.0_dp
+   !> Seconds per stored node of a smooth contact and of a time step or cycle, on one thread of a processor of 2020
+   real(dp), parameter :: smooth_seconds = 8.0e-7_dp, step_seconds = 3.0e-7_dp
+   !> Cycles of a rough contact at rest
+   real(dp), parameter :: rest_cycles = 20.0_dp
 
    !> Bytes and seconds per pixel of a fractal surface that is made
    real(dp), parameter :: making_bytes = 16.0_dp, making_seconds = 8.0e-8_dp
@@ -134,14 +133,11 @@ contains
    !> Seconds on one thread until the run can end
    real(dp) function seconds(plan)
       type(plan_t), intent(in) :: plan
-      real(dp) :: cycles, deflection
+      real(dp) :: cycles
 
       cycles = steps(plan)
       if (plan%surfaces%rest()) cycles = rest_cycles
       if (plan%coarse_run) cycles = cycles*(1.0_dp + coarser_seconds)
-      deflection = 0.0_dp
-      if (plan%engine == "direct") deflection = direct_seconds*plan%finest%nx*real(plan%finest%full_ny(), dp)
-      seconds = nodes(plan)*(smooth_seconds + cycles*step_seconds &
-                             + (smooth_deflections + cycles*step_deflections)*deflection)
+      seconds = nodes(plan)*(smooth_seconds + cycles*step_seconds)
    end function seconds
 end module ehl_plan_need

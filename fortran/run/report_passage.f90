@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What is said of a feature that passes the contact once
 module ehl_report_passage
-   use ehl_extremes, only: extreme_film, extreme_pressure, extreme_ratio, extreme_rise, extremes_t
+   use ehl_extremes, only: extreme_film, extreme_pressure, extremes_t
    use ehl_kinds, only: dp
    use ehl_record, only: record_t
    use ehl_scales, only: scales_t
@@ -18,26 +18,19 @@ contains
       type(scales_t), intent(in) :: scales
       type(extremes_t), intent(in) :: extremes
       logical, intent(in) :: good
+      !> In the order of the extremes, and of what is found of each
+      character(len=*), parameter :: names(4) = [character(len=11) :: "P_max_rough", "H_min_rough", "P_rise_max", &
+                                                 "H_ratio_min"], parts(4) = [character(len=2) :: "", "_T", "_X", "_Y"]
       real(dp) :: found(4, 4)
+      integer :: i, k
 
       found = extremes%found
       if (.not. good) found = ieee_value(found, ieee_quiet_nan)
-      call record%set("P_max_rough", found(1, extreme_pressure))
-      call record%set("P_max_rough_T", found(2, extreme_pressure))
-      call record%set("P_max_rough_X", found(3, extreme_pressure))
-      call record%set("P_max_rough_Y", found(4, extreme_pressure))
-      call record%set("H_min_rough", found(1, extreme_film))
-      call record%set("H_min_rough_T", found(2, extreme_film))
-      call record%set("H_min_rough_X", found(3, extreme_film))
-      call record%set("H_min_rough_Y", found(4, extreme_film))
-      call record%set("P_rise_max", found(1, extreme_rise))
-      call record%set("P_rise_max_T", found(2, extreme_rise))
-      call record%set("P_rise_max_X", found(3, extreme_rise))
-      call record%set("P_rise_max_Y", found(4, extreme_rise))
-      call record%set("H_ratio_min", found(1, extreme_ratio))
-      call record%set("H_ratio_min_T", found(2, extreme_ratio))
-      call record%set("H_ratio_min_X", found(3, extreme_ratio))
-      call record%set("H_ratio_min_Y", found(4, extreme_ratio))
+      do k = 1, size(names)
+         do i = 1, size(parts)
+            call record%set(trim(names(k))//trim(parts(i)), found(i, k))
+         end do
+      end do
       if (scales%has_size()) then
          call record%set("p_max_rough_Pa", found(1, extreme_pressure)*scales%pressure)
          call record%set("h_min_rough_m", found(1, extreme_film)*scales%film)

@@ -8,6 +8,7 @@ module test_deflection
    use ehl_status, only: status_t, ehl_bad_input
    use ehl_kernel, only: kernel_coefficient
    use ehl_deflection, only: deflection_t
+   use direct, only: sum_directly
    use ehl_deflection_factory, only: new_deflection, deflection_engines
    use pressed_grid, only: grids, hertz, inlet, kind_name, named, patch, press, random, some_grid
    implicit none (type, external)
@@ -70,8 +71,6 @@ contains
          call is_true(inside(2) < 1.0e-4_dp, deflection_engines(e)//": Hertz, inside")
          call is_true(inside(2) < 0.3_dp*inside(1), deflection_engines(e)//": Hertz, order 2")
       end do
-      call hertz_error("direct", 65, worst(1), inside(1))
-      call is_close(worst(1), 5.0e-3_dp, 0.1e-3_dp, "direct: Hertz")
    end subroutine engines_give_hertz
 
    !> Largest error of the Hertz deflection, and that for r < 1/2
@@ -266,12 +265,13 @@ contains
       type(grid_t), intent(in) :: grid
       integer, intent(in) :: which
       real(dp), intent(in) :: accuracy
-      real(dp), allocatable :: p(:, :), w(:, :), direct(:, :)
+      real(dp), allocatable :: p(:, :), w(:, :), exact(:, :)
 
       call press(which, grid, p)
-      call deflect("direct", grid, p, 0.0_dp, 1, direct)
+      allocate (exact, mold=p)
+      call sum_directly(grid, factor, p, exact)
       call deflect(engine, grid, p, accuracy, 1, w)
-      difference = maxval(abs(w - direct))/maxval(abs(direct))
+      difference = maxval(abs(w - exact))/maxval(abs(exact))
    end function difference
 
    !> Deflection w by a fresh engine

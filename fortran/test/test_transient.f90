@@ -241,8 +241,8 @@ contains
 
       call read_case(text, "test", "", input, status)
       call make_plan(input, none, no_surfaces, plan, status)
-      call hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, plan%contact%kernel_factor(), plan%engine, &
-                           plan%threads, status)
+      call hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, plan%contact%kernel_factor(), &
+                           plan%engine, plan%threads, status)
       call steady%start(plan%contact, plan%steady_options_t)
       call hierarchy%grow(steady%n, status)
       do while (.not. status%failed() .and. steady%outcome == outcome_running)

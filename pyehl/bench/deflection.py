@@ -17,8 +17,6 @@ __all__ = ["COLUMNS", "MEANING", "deflection_rows"]
 
 Array = NDArray[np.float64]
 
-# Direct summation costs N^2; larger grids would take minutes
-LARGEST_DIRECT = 129
 # Share of the discretisation error that the error of a deflection may have
 SHARE = 0.1
 
@@ -71,9 +69,7 @@ def deflection_rows(grids: Sequence[int], threads: Sequence[int]) -> list[dict[s
                 "megabytes": yardstick.transform.nbytes / 1e6,
             }
         )
-        for engine in ("mlmi", "fft", "direct"):
-            if engine == "direct" and points > LARGEST_DIRECT:
-                continue
+        for engine in ("mlmi", "fft"):
             for half in (False, True):
                 first = points // 2 if half else 0
                 rows += [

@@ -115,10 +115,10 @@ def test_closed_solver_raises():
     with Solver(Case.from_text(SMALL)) as other:
         assert other._handle != handle
         with pytest.raises(errors.ClosedError):
-            errors.check(*ehl.interrupt(handle))
+            errors.check(*ehl.act(handle, b"interrupt", b"")[2:])
     for wrong in (-1, 0, 5, 2**31 - 1):
         with pytest.raises(errors.ClosedError):
-            errors.check(*ehl.interrupt(wrong))
+            errors.check(*ehl.act(wrong, b"interrupt", b"")[2:])
 
 
 def test_places_run_out_and_come_back():
@@ -166,14 +166,11 @@ def test_deflection_of_the_hertz_pressure():
     pressure = np.sqrt(np.maximum(1.0 - r2, 0.0))
     h = x[1] - x[0]
     inside = r2 < 0.8
-    answers = {}
-    for engine in ("direct", "fft"):
+    for engine, folded in (("mlmi", 1e-4), ("fft", 1e-13)):
         result = library.deflection(pressure, h, h, engine)
-        answers[engine] = result.values
         assert abs(result.values - (1.0 - 0.5 * r2))[inside].max() < 0.02
         assert result.seconds > 0.0
         half = library.deflection(pressure[:, 32:], h, h, engine, mirror=True)
-        assert np.abs(half.values - result.values[:, 32:]).max() < 1e-13
-    assert np.abs(answers["direct"] - answers["fft"]).max() < 1e-13
+        assert np.abs(half.values - result.values[:, 32:]).max() < folded
     with pytest.raises(errors.InputError, match="fem"):
         library.deflection(pressure, h, h, "fem")
