@@ -292,7 +292,6 @@ FILES = {
         for end in (".npy", ".txt", ".nc")
     },
     "bench": (["bench", "smooth", "--points", "17", "--threads", "1", "-o", "a.json"], ["a.json"]),
-    "compare": (["compare", "out", "ref.csv", "-o", "a.csv"], ["a.csv"]),
 }  # fmt: skip
 
 
@@ -305,7 +304,6 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Path:
     pyehl.solve(moving, output=folder / "moving", check=False)
     shutil.rmtree(folder / "moving.checkpoint")
     (folder / "rough.nml").write_text(ROUGH)
-    (folder / "ref.csv").write_text("grid.points,H_c,H_c_rtol\n33,0.08,9\n")
     return folder
 
 
