@@ -28,7 +28,7 @@ from pyehl.studies.curve import (
     no_coefficient,
 )
 from pyehl.studies.curve_run import CSV, NETCDF, PICTURE, axes_of, perform
-from pyehl.studies.curve_table import Measured, read_measured
+from pyehl.studies.measured_friction import Measured, read_measured
 from pyehl.studies.stribeck import KEYS, CurvePlan, plan_curve
 
 __all__ = ["add_arguments", "execute"]
