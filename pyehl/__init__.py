@@ -25,13 +25,13 @@ if TYPE_CHECKING:
     from pyehl.api import check, film, predict, solve
     from pyehl.case import Case
     from pyehl.errors import EhlError, FileError, InputError, NotConverged
+    from pyehl.measured_response.folder import response
     from pyehl.netcdf import export
     from pyehl.plots.folder import plot
     from pyehl.prediction.result import Prediction
     from pyehl.results import load
     from pyehl.solver import Solver
     from pyehl.studies.curve_run import stribeck
-    from pyehl.studies.response_folder import response
     from pyehl.studies.sweep import sweep
     from pyehl.surfaces.tile import Topography
     from pyehl.theory.lubricant import Lubricant
@@ -76,7 +76,7 @@ _HOMES = {
     "load": "results",
     "plot": "plots.folder",
     "predict": "api",
-    "response": "studies.response_folder",
+    "response": "measured_response.folder",
     "solve": "api",
     "stribeck": "studies.curve_run",
     "sweep": "studies.sweep",

@@ -15,7 +15,7 @@ from pyehl.prediction import film_sheet, folder, of_case
 from pyehl.prediction.friction import TRACKS
 from pyehl.prediction.result import Prediction
 from pyehl.progress import ProgressBar
-from pyehl.run import Observer, run
+from pyehl.run import run
 from pyehl.solver import Solver
 from pyehl.surfaces import Surface
 
@@ -25,22 +25,6 @@ if TYPE_CHECKING:
 __all__ = ["check", "film", "predict", "solve"]
 
 Progress = bool | Callable[[Solver], object]
-
-
-class _Listener(Observer):
-    """Hands the state of a run on: to a function, or to a line on stderr."""
-
-    def __init__(self, progress: Progress) -> None:
-        self._call = progress if callable(progress) else None
-        self._bar = ProgressBar(disable=progress is not True)
-
-    def advanced(self, solver: Solver) -> None:
-        """Take the state after a cycle or a step."""
-        if self._call is not None:
-            self._call(solver)
-        self._bar.show(solver)
-        if solver.done:
-            self._bar.close()
 
 
 @contextmanager
@@ -114,16 +98,16 @@ def solve(
     check_kind(check, bool, "check", "True or False")
     if not callable(progress):
         check_kind(progress, bool, "progress", "True, False or a function")
-    listener = _Listener(progress)
+        progress = ProgressBar().show if progress else lambda solver: None
     if output is None:
         with Solver(case, surface=surface) as solver:
             while not solver.done:
                 solver.advance()
-                listener.advanced(solver)
+                progress(solver)
             data = solver.dataset()
     else:
         output = path_of(output, "output")
-        outcome = run(case, output, listener, force=force, inputs=inputs, surface=surface)
+        outcome = run(case, output, advanced=progress, force=force, inputs=inputs, surface=surface)
         if outcome.interrupted:
             raise KeyboardInterrupt
         # xarray takes long to import, and most functions do without it

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import os
 import threading
+from collections.abc import Callable
 from typing import Any, NamedTuple, Self
 
 import numpy as np
@@ -94,10 +95,19 @@ class SolverHandle:
     def __exit__(self, *error: object) -> None:
         self.close()
 
+    def _call(
+        self, function: Callable[..., tuple[Any, ...]], *arguments: object
+    ) -> tuple[Any, ...]:
+        """Call a function of the library on this solver; what it returns besides its status."""
+        with self._lock:
+            *found, status, message = function(self._handle, *arguments)
+        check(status, message)
+        return tuple(found)
+
     def close(self) -> None:
         """Free the memory; the solver cannot be used afterwards."""
         with self._lock:
-            check(*ehl.close_case(self._handle))
+            self._call(ehl.close_case)
             self._handle = 0
             self._given = None
 
@@ -109,8 +119,7 @@ class SolverHandle:
     def advance(self) -> bool:
         """One cycle (steady) or step (moving surface); whether nothing is left to do."""
         with self._lock:
-            done, converged, status, message = ehl.advance(self._handle)
-            check(status, message)
+            done, converged = self._call(ehl.advance)
             self._calls += 1
             self.done, self.converged = bool(done), bool(converged)
             return self.done
@@ -160,16 +169,15 @@ class SolverHandle:
             If the folder cannot be made.
         """
         with self._lock:
-            note, status, message = checkpoints.keep(
-                self._handle,
+            note = self._call(
+                checkpoints.keep,
                 os.fsencode(path_of(results, "the result folder")),
                 os.fsencode(path_of(resumed, "the folder to resume")),
                 int(self._given is not None),
                 NO_HEIGHTS if self._given is None else self._given,
             )
             self._given = None
-        check(status, message)
-        return returned(note)
+        return returned(*note)
 
     def save_state(self, *, at_once: bool = False) -> bool:
         """Save the state if its time has come, or at once; whether there is one then.
@@ -191,10 +199,7 @@ class SolverHandle:
 
     def work(self) -> Work:
         """Tell how much of a transient run is done, and how much there is."""
-        with self._lock:
-            done, earliest, latest, status, message = ehl.work(self._handle)
-        check(status, message)
-        return Work(done, earliest, latest)
+        return Work(*self._call(ehl.work))
 
     def describe(self) -> str:
         """Tell the plan: what will be solved and how, with a table of the levels."""
@@ -212,17 +217,14 @@ class SolverHandle:
     @property
     def shape(self) -> tuple[int, int]:
         """Nodes of the finest grid in X and Y."""
-        with self._lock:
-            nx, ny, status, message = ehl.grid_shape(self._handle)
-        check(status, message)
+        nx, ny = self._call(ehl.grid_shape)
         return nx, ny
 
     def axes(self) -> tuple[Array, Array]:
         """Coordinates X (nx,) and Y (ny,) of the nodes in Hertz radii a."""
-        with self._lock:
-            nx, ny = self.shape
-            x, y = np.empty(nx), np.empty(ny)
-            check(*ehl.axes(self._handle, x, y))
+        nx, ny = self.shape
+        x, y = np.empty(nx), np.empty(ny)
+        self._call(ehl.axes, x, y)
         return x, y
 
     def field(self, name: str) -> Array:
@@ -233,9 +235,8 @@ class SolverHandle:
         InputError
             If there is no such field.
         """
-        with self._lock:
-            values = np.empty(self.shape, order="F")
-            check(*ehl.field(self._handle, text_of(name, "field"), values))
+        values = np.empty(self.shape, order="F")
+        self._call(ehl.field, text_of(name, "field"), values)
         return values
 
     def take_prediction(self, left_out: float, unresolved: float, why: str) -> None:
@@ -249,22 +250,14 @@ class SolverHandle:
         why
             Why there is none.
         """
-        with self._lock:
-            check(*ehl.take_prediction(self._handle, left_out, unresolved, why.encode()))
+        self._call(ehl.take_prediction, left_out, unresolved, why.encode())
 
     def _write(self, folder: str | os.PathLike[str]) -> None:
         self._act("write", folder)
 
     def _act(self, what: str, path: str | os.PathLike[str] = "") -> tuple[str, bool]:
-        with self._lock:
-            note, has_state, status, message = ehl.act(
-                self._handle, what.encode(), os.fsencode(path)
-            )
-        check(status, message)
+        note, has_state = self._call(ehl.act, what.encode(), os.fsencode(path))
         return returned(note), bool(has_state)
 
     def _text(self, what: str) -> str:
-        with self._lock:
-            text, status, message = ehl.describe(self._handle, what.encode())
-        check(status, message)
-        return returned(text)
+        return returned(*self._call(ehl.describe, what.encode()))

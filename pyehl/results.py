@@ -116,11 +116,6 @@ def _variable(dims: tuple[str, ...], values: Array, unit: str, meaning: str) -> 
     return xr.Variable(dims, values, {"units": unit, "long_name": meaning})
 
 
-def _attributes(summary: Mapping[str, Any], case: str) -> dict[str, Any]:
-    scalars = {k: v for k, v in summary.items() if isinstance(v, str | int | float)}
-    return scalars | {"case": case}
-
-
 def scalars(summary: Mapping[str, Any]) -> dict[str, xr.Variable]:
     """Numbers of a summary as variables without a dimension; NaN for one that does not exist."""
     found = {}
@@ -151,20 +146,16 @@ def _solution_dataset(
     """Dataset of a folder of ``ehl`` and ``pyehl run``; `arrays` by the names of their files."""
     settings = namelist.values(case)
     point = OperatingPoint.from_settings(settings) if "load" in settings["contact"] else None
-    coords: dict[str, xr.Variable] = {}
-    variables: dict[str, xr.Variable] = {}
+    found: dict[str, xr.Variable] = {}
     for field in SOLUTION:
         if field.file not in arrays:
             continue
         values = arrays[field.file]
-        place = coords if len(field.dims) == 1 else variables
-        meaning = f"{field.meaning}, {field.scaled}"
-        place[field.name] = _variable(field.dims, values, "1", meaning)
+        found[field.name] = _variable(field.dims, values, "1", f"{field.meaning}, {field.scaled}")
         if point is not None:
             scaled = values * field.scale(point)
-            place[field.si_name] = _variable(field.dims, scaled, field.si_unit, field.meaning)
-    variables |= _tables(tables) | scalars(summary)
-    return xr.Dataset(variables, coords, _attributes(summary, case))
+            found[field.si_name] = _variable(field.dims, scaled, field.si_unit, field.meaning)
+    return _dataset(summary, case, found, tables)
 
 
 def prediction_dataset(
@@ -179,15 +170,26 @@ def prediction_dataset(
     and, of shape (nx, ny), surface, deformed [m], delta_p [Pa], and the columns by name of the
     tables ``passage``, ``spectrum`` and ``bands``.
     """
-    coords: dict[str, xr.Variable] = {}
-    variables: dict[str, xr.Variable] = {}
-    for file, (name, unit, meaning) in PREDICTION.items():
-        if file in ("x", "y"):
-            coords[name] = _variable((name,), arrays[file], unit, meaning)
-        else:
-            variables[name] = _variable(("x_m", "y_m"), arrays[file], unit, meaning)
-    variables |= _tables(tables) | scalars(summary)
-    return xr.Dataset(variables, coords, _attributes(summary, case))
+    found = {
+        name: _variable((name,) if file in "xy" else ("x_m", "y_m"), arrays[file], unit, meaning)
+        for file, (name, unit, meaning) in PREDICTION.items()
+    }
+    return _dataset(summary, case, found, tables)
+
+
+def _dataset(
+    summary: Mapping[str, Any],
+    case: str,
+    found: Mapping[str, xr.Variable],
+    tables: Mapping[str, Mapping[str, Array]],
+) -> xr.Dataset:
+    """Dataset of arrays, tables and numbers; arrays of one dimension are its coordinates."""
+    coords = {name: values for name, values in found.items() if values.ndim == 1}
+    rest = {name: values for name, values in found.items() if values.ndim > 1}
+    attributes = {k: v for k, v in summary.items() if isinstance(v, str | int | float)}
+    return xr.Dataset(
+        rest | _tables(tables) | scalars(summary), coords, attributes | {"case": case}
+    )
 
 
 def _table(path: Path) -> dict[str, Array]:

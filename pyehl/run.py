@@ -26,7 +26,7 @@ from pyehl.errors import FileError, InputError
 from pyehl.solver import Solver
 from pyehl.surfaces import Surface, for_solver
 
-__all__ = ["Observer", "Outcome", "resume", "run", "signals_to"]
+__all__ = ["Outcome", "resume", "run", "signals_to"]
 
 AnyPath = str | os.PathLike[str]
 
@@ -66,14 +66,8 @@ class StopRequest:
         signal.signal(number, self._before[signal.Signals(number)])
 
 
-class Observer:
-    """What a driver does when a run tells something; this one does nothing."""
-
-    def say(self, text: str) -> None:
-        """Take a message."""
-
-    def advanced(self, solver: Solver) -> None:
-        """Take the state after a cycle or a step."""
+def _silent(told: object) -> None:
+    """Take what a run tells."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,33 +78,13 @@ class Outcome:
     interrupted: bool
 
 
-def run(
-    case: Case,
-    folder: AnyPath,
-    observer: Observer | None = None,
-    *,
-    force: bool = False,
-    inputs: Iterable[AnyPath] = (),
-    surface: Surface | None = None,
-) -> Outcome:
-    """Solve a case and write the result folder, however the run ends.
-
-    The folder is new or empty, or has results of an earlier run, which are replaced; `force`:
-    other files in it stay. The folder of one of the `inputs`, which the case was read from, is not
-    replaced. InputError if the folder holds something else than results, or cannot be written;
-    EhlError if the solver failed: nothing is written then.
-    """
-    return _drive(
-        case, folder, "", observer or Observer(), force=force, inputs=inputs, surface=surface
-    )
-
-
 def resume(
     results: AnyPath,
     folder: AnyPath | None = None,
     case: Case | None = None,
-    observer: Observer | None = None,
     *,
+    say: Callable[[str], object] = _silent,
+    advanced: Callable[[Solver], object] = _silent,
     options: Iterable[str] = (),
     force: bool = False,
     inputs: Iterable[AnyPath] = (),
@@ -126,8 +100,15 @@ def resume(
     kept = library.checkpoint_case(results)
     if case is None:
         case = Case.read(kept, options)
-    place = results if folder is None else folder
-    return _drive(case, place, results, observer or Observer(), force=force, inputs=inputs)
+    return run(
+        case,
+        results if folder is None else folder,
+        resumed=results,
+        say=say,
+        advanced=advanced,
+        force=force,
+        inputs=inputs,
+    )
 
 
 def _open(case: Case, resumed: AnyPath, surface: Surface | None) -> Solver:
@@ -160,42 +141,51 @@ def _keep_state(solver: Solver, *, at_once: bool) -> bool:
         return False
 
 
-def _drive(
+def run(
     case: Case,
     folder: AnyPath,
-    resumed: AnyPath,
-    observer: Observer,
     *,
-    force: bool,
-    inputs: Iterable[AnyPath],
+    resumed: AnyPath = "",
+    say: Callable[[str], object] = _silent,
+    advanced: Callable[[Solver], object] = _silent,
+    force: bool = False,
+    inputs: Iterable[AnyPath] = (),
     surface: Surface | None = None,
 ) -> Outcome:
-    """Solve a case, from its beginning or from the state of a run with the results `resumed`."""
+    """Solve a case and write the result folder, however the run ends.
+
+    It begins with the state of the run that was to write into `resumed`, or anew. `say` takes
+    messages, `advanced` the solver after each cycle or step. The folder is new or empty, or has
+    results of an earlier run, which are replaced; `force`: other files in it stay. The folder of
+    one of the `inputs`, which the case was read from, is not replaced. InputError if the folder
+    holds something else than results, or cannot be written; EhlError if the solver failed: nothing
+    is written then.
+    """
     sources = (*inputs, str(case.resolve()["surface"].get("file", "")))
     Destination(folder, "solution", inputs=sources, force=force).check()
     request = StopRequest()
     with signals_to(request.take), _open(case, resumed, surface) as solver:
-        observer.say(solver.describe())
+        say(solver.describe())
         if os.fspath(resumed):
             begins = "there is no state yet: the run begins at its beginning"
-            observer.say(f"resume: {solver.resume(resumed) or begins}")
+            say(f"resume: {solver.resume(resumed) or begins}")
         note = solver.keep(folder, resumed)
         if note:
-            observer.say(f"note: {note}")
+            say(f"note: {note}")
         while not solver.done:
             if request.wanted:
                 solver.interrupt()
             else:
                 solver.advance()
                 _keep_state(solver, at_once=False)
-            observer.advanced(solver)
-        observer.say(solver.conclusion())
+            advanced(solver)
+        say(solver.conclusion())
         has_state = not solver.converged and _keep_state(solver, at_once=True)
         solver.write(folder, force=force, inputs=sources)
         name = os.fspath(folder)
-        observer.say(f"results: {name}")
+        say(f"results: {name}")
         if solver.converged:
             solver.end_keeping()
         elif has_state:
-            observer.say(f"state: {name}.checkpoint\nto resume: pyehl run --resume {name}")
+            say(f"state: {name}.checkpoint\nto resume: pyehl run --resume {name}")
         return Outcome(solver.converged, request.wanted and not solver.converged)

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import argparse
 
-from pyehl.errors import EXIT_FAILED, EXIT_OK, InputError
-from pyehl.studies.compare import Comparison, compare, read_results, write_deviations
-from pyehl.studies.reference_table import SHIPPED, ReferenceTable, read_reference
+from pyehl.errors import EXIT_FAILED, EXIT_OK
+from pyehl.studies.compare import compare, read_results
+from pyehl.studies.reference_table import SHIPPED, read_reference
 
 __all__ = ["add_arguments", "execute"]
 
@@ -25,55 +25,30 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help=f"table of references, or one that comes with pyehl: {', '.join(SHIPPED)}",
     )
     parser.add_argument(
-        "--key",
-        action="append",
-        default=[],
-        metavar="NAME",
-        help="a column without a dot that is a key: the result must have its value",
-    )
-    parser.add_argument(
-        "--rtol", type=float, metavar="R", help="relative tolerance of values without one"
-    )
-    parser.add_argument(
         "--partial", action="store_true", help="a study need not have all rows of the table"
     )
-    parser.add_argument("-o", "--output", metavar="FILE.csv", help="write the deviations")
     parser.add_argument("-q", "--quiet", action="store_true", help="print nothing but failures")
-
-
-def report(table: ReferenceTable, found: Comparison, *, quiet: bool) -> str:
-    """Return the lines that are printed."""
-    lines = []
-    case = None
-    for d in found.deviations:
-        if quiet and d.passed:
-            continue
-        if d.case != case:
-            case = d.case
-            lines.append(f"{table.name}:{d.line}: {case or 'all results'}")
-        lines.append(f"   {d}")
-    if not quiet:
-        passed = sum(d.passed for d in found.deviations)
-        rows = len(table.rows) - len(found.missing)
-        lines.append(
-            f"{passed} of {len(found.deviations)} values pass; {rows} of {len(table.rows)} rows "
-            "of the table have results"
-        )
-    return "\n".join(lines)
 
 
 def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl compare``."""
-    if args.rtol is not None and not args.rtol >= 0.0:
-        raise InputError(f"--rtol {args.rtol}: expected a number that is not negative")
-    table = read_reference(args.reference, keys=args.key, rtol=args.rtol)
-    results = read_results(args.results)
+    table, results = read_reference(args.reference), read_results(args.results)
     found = compare(results, table)
-    if args.output is not None:
-        write_deviations(args.output, found.deviations)
-    told = report(table, found, quiet=args.quiet)
-    if told:
-        print(told)
+    line = 0
+    for deviation in found.deviations:
+        if args.quiet and deviation.passed:
+            continue
+        if deviation.line != line:
+            line = deviation.line
+            print(f"{table.name}:{line}: {deviation.case or 'all results'}")
+        print(f"   {deviation}")
+    if not args.quiet:
+        passed = sum(deviation.passed for deviation in found.deviations)
+        rows = len(table.rows) - len(found.missing)
+        print(
+            f"{passed} of {len(found.deviations)} values pass; {rows} of {len(table.rows)} rows "
+            "of the table have results"
+        )
     incomplete = results.many and found.missing and not args.partial
     if incomplete:
         first = found.missing[0]

@@ -5,28 +5,15 @@ from __future__ import annotations
 
 import argparse
 import time
-from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from pyehl.case import Case
 from pyehl.commands.arguments import add_case_arguments, add_force
 from pyehl.commands.watching import Bar
-from pyehl.studies.response_folder import response
-from pyehl.studies.tiers import TIERS, Tier
+from pyehl.measured_response.folder import response
+from pyehl.measured_response.tiers import TIERS
 
 __all__ = ["add_arguments", "execute"]
-
-
-def _watch(bar: Bar, tiers: Sequence[Tier]) -> Callable[[str, int, int], None]:
-    """Give what takes the steps of tiers; a step costs what its nodes do."""
-    done: dict[str, float] = {}
-    cost = {tier.name: tier.points**2 for tier in tiers}
-
-    def update(name: str, step: int, total: int) -> None:
-        done[name] = float(cost[name] * step)
-        bar.show(sum(done.values()), f"{name}: step {step} of {total}")
-
-    return update
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -42,11 +29,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_force(parser)
     parser.add_argument(
-        "--jobs",
-        type=int,
-        default=1,
-        metavar="N",
-        help="runs side by side, each with its threads (1)",
+        "--jobs", type=int, default=1, metavar="N", help="runs side by side, with their threads (1)"
     )
     parser.add_argument(
         "--quick", action="store_true", help="waves down to a/16 only, in a third of the time"
@@ -56,10 +39,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl response``."""
     case = Case.read(args.case, args.overrides)
-    tiers = TIERS[:-1] if args.quick else TIERS
     ratio = float(case.resolve()["surface"]["velocity_ratio"])
+    # a step costs what its nodes do
+    cost = {tier.name: float(tier.points**2) for tier in (TIERS[:-1] if args.quick else TIERS)}
+    done: dict[str, float] = {}
     began = time.perf_counter()
-    bar = Bar(sum(tier.points**2 * tier.steps(max(ratio, 1e-3)) for tier in tiers))
+    bar = Bar(sum(cost[t.name] * t.steps(max(ratio, 1e-3)) for t in TIERS if t.name in cost))
+
+    def show(name: str, step: int, total: int) -> None:
+        done[name] = cost[name] * step
+        bar.show(sum(done.values()), f"{name}: step {step} of {total}")
+
     try:
         summary = response(
             args.case,
@@ -68,7 +58,7 @@ def execute(args: argparse.Namespace) -> int:
             force=args.force,
             jobs=args.jobs,
             quick=args.quick,
-            progress=_watch(bar, tiers),
+            progress=show,
         ).attrs
     finally:
         bar.close()

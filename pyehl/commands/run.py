@@ -6,12 +6,14 @@ from __future__ import annotations
 import argparse
 import sys
 import time
+from collections.abc import Callable
+from typing import Any
 
 from pyehl.case import Case
 from pyehl.commands.arguments import add_case_arguments, add_force
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
 from pyehl.progress import ProgressBar
-from pyehl.run import Observer, Outcome, resume, run
+from pyehl.run import Outcome, resume, run
 from pyehl.solver import Solver
 
 __all__ = ["add_arguments", "execute"]
@@ -20,31 +22,27 @@ __all__ = ["add_arguments", "execute"]
 PROGRESS_INTERVAL = 2.0
 
 
-class Terminal(Observer):
-    """Prints; one line about the state in place on a terminal, now and then elsewhere."""
+def _say(text: str) -> None:
+    """Print a message."""
+    print(text, flush=True)
 
-    def __init__(self) -> None:
-        self._bar = ProgressBar(disable=not sys.stderr.isatty())
-        self._last = time.monotonic()
 
-    def say(self, text: str) -> None:
-        """Print a message."""
-        print(text, flush=True)
+def _display() -> Callable[[Solver], None]:
+    """Give what shows the state: a bar on a terminal, else lines now and then, and the end."""
+    bar = ProgressBar() if sys.stderr.isatty() else None
+    interval = PROGRESS_INTERVAL if bar is None else 0.1
+    last = time.monotonic()
 
-    def advanced(self, solver: Solver) -> None:
-        """Show the state if it is time to, and at the end."""
-        if solver.done:
-            self._bar.close()
-            self.say(solver.progress())
-            return
-        now = time.monotonic()
-        if now - self._last < (PROGRESS_INTERVAL if self._bar.disabled else 0.1):
-            return
-        self._last = now
-        if self._bar.disabled:
-            self.say(solver.progress())
-        else:
-            self._bar.show(solver)
+    def show(solver: Solver) -> None:
+        nonlocal last
+        if solver.done or time.monotonic() - last >= interval:
+            last = time.monotonic()
+            if bar is not None:
+                bar.show(solver)
+            if bar is None or solver.done:
+                _say(solver.progress())
+
+    return show
 
 
 def _status(outcome: Outcome) -> int:
@@ -69,7 +67,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl run``."""
-    observer = Observer() if args.quiet else Terminal()
+    words: dict[str, Any] = {} if args.quiet else {"say": _say, "advanced": _display()}
+    words["force"] = args.force
     if args.resume is not None:
         if args.resume == "":
             raise InputError("pyehl run: error: the folder behind --resume has no name")
@@ -78,10 +77,9 @@ def execute(args: argparse.Namespace) -> int:
             args.resume,
             args.output,
             case,
-            observer,
             options=args.overrides,
-            force=args.force,
             inputs=() if args.case is None else (args.case,),
+            **words,
         )
         return _status(done)
     if args.case is None or args.output is None:
@@ -91,4 +89,4 @@ def execute(args: argparse.Namespace) -> int:
             "expected: pyehl run CASE.nml -o DIR, or pyehl run --resume DIR"
         )
     case = Case.read(args.case, args.overrides)
-    return _status(run(case, args.output, observer, force=args.force, inputs=(args.case,)))
+    return _status(run(case, args.output, inputs=(args.case,), **words))

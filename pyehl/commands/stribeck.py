@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Mapping, Sequence
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +29,7 @@ from pyehl.studies.curve import (
     no_coefficient,
 )
 from pyehl.studies.curve_run import CSV, NETCDF, PICTURE, axes_of, perform
-from pyehl.studies.curve_table import Measured, read_measured
+from pyehl.studies.measured_friction import Measured, read_measured
 from pyehl.studies.stribeck import KEYS, CurvePlan, plan_curve
 
 __all__ = ["add_arguments", "execute"]
@@ -172,8 +173,7 @@ def execute(args: argparse.Namespace) -> int:
     measured = None if args.measured is None else _measured(args.measured, plan)
     folder = Path(args.output)
     inputs = tuple(word for word in (args.case, args.measured) if word is not None)
-    watcher = Terminal(lambda done: plan.text(jobs, done), quiet=args.quiet)
-    try:
+    with closing(Terminal(lambda done: plan.text(jobs, done), quiet=args.quiet)) as watcher:
         outcome, rows = perform(
             plan,
             folder,
@@ -183,8 +183,6 @@ def execute(args: argparse.Namespace) -> int:
             force=args.force,
             watcher=watcher,
         )
-    finally:
-        watcher.close()
     if outcome.interrupted:
         watcher.goes_on(folder)
         return EXIT_INTERRUPTED

@@ -7,7 +7,7 @@ A file of an instrument or an array, or the surface of a case, whatever its kind
 from __future__ import annotations
 
 import argparse
-import zlib
+import hashlib
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -132,12 +132,10 @@ def _beside(path: Path) -> tuple[Path, Path]:
 
 
 def _seal(path: Path) -> str:
-    """Size and checksum of a tile, as its case has them."""
-    crc = 0
+    """Checksum of a tile, as its case has it."""
     with path.open("rb") as stream:
-        while part := stream.read(2**20):
-            crc = zlib.crc32(part, crc)
-    return f"! {path.name}: {path.stat().st_size} bytes, CRC-32 {crc:08x}\n"
+        digest = hashlib.file_digest(stream, "sha256").hexdigest()
+    return f"! {path.name}: sha256 {digest}\n"
 
 
 def _check(path: Path, inputs: Sequence[str], plots: bool) -> None:

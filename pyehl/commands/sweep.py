@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -107,8 +108,7 @@ def execute(args: argparse.Namespace) -> int:
     if args.plan:
         print(todo.text(jobs))
         return EXIT_OK
-    watcher = Terminal(lambda done: todo.text(jobs, done), quiet=args.quiet)
-    try:
+    with closing(Terminal(lambda done: todo.text(jobs, done), quiet=args.quiet)) as watcher:
         outcome = perform(
             todo,
             folder,
@@ -118,8 +118,6 @@ def execute(args: argparse.Namespace) -> int:
             force=args.force,
             watcher=watcher,
         )
-    finally:
-        watcher.close()
     if not args.quiet:
         print(report(outcome, folder, max(1, min(jobs, outcome.ran))))
     if outcome.interrupted:

@@ -3,34 +3,31 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
-from pyehl import namelist
-from pyehl.arrays import write_csv
+import pandas as pd
+
 from pyehl.case import Case
-from pyehl.destination import check_files, made_by
 from pyehl.errors import InputError, did_you_mean
-from pyehl.given import Value, option, text_file
+from pyehl.given import option, text_file
 from pyehl.studies.journal import read_header
 from pyehl.studies.reference_table import Expected, Key, ReferenceRow, ReferenceTable
 
-__all__ = ["Comparison", "Deviation", "Results", "compare", "read_results", "write_deviations"]
+__all__ = ["Comparison", "Deviation", "Results", "compare", "read_results"]
 
 Row = Mapping[str, Any]
 
 TABLES = ("results.csv", "stribeck.csv")
 # Numbers of keys are the same when they are written with so many digits
 SAME = 1e-9
-# First line of a table of deviations
-COLUMNS = "line,case,name,reference,tolerance,result,deviation,verdict"
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,42 +83,32 @@ class Results:
 
     name: str  # folder or file
     rows: tuple[Row, ...]  # results by name; keys of the case that were varied are among them
-    # Case, options and what is varied of a study, as its journal says; None: not known
-    study: Mapping[str, Any] | None
     many: bool  # whether it is a table
-    case: str = ""  # resolved text of the case of one result; '' for a table
+    case: str  # text of the case that all rows are of; '' where it is not known
+    # Texts ``group.key=value`` that hold for all rows, and keys that are varied
+    options: tuple[str, ...] = ()
+    vary: tuple[str, ...] = ()
 
-    def key(self, number: int, name: str) -> object:
+    def key(self, row: Row, name: str) -> object:
         """Give the value of a key for a row; None where the case does not have it.
 
         InputError if nothing is known of the key.
         """
-        row = self.rows[number]
         if name in row:
             return row[name]
-        if "." not in name:
-            raise InputError(f"{self.name}: there is no '{name}'{did_you_mean(name, row)}")
-        if self.case:
-            settings = namelist.values(self.case)
-        elif self.study is not None:
-            study = self.study
-            values = tuple((key, row[key]) for key in study["vary"])
-            settings = _settings(study["case"], tuple(study["set"]), values)
-        else:
+        if not self.case:
             raise InputError(
                 f"{self.name}: there is no column '{name}', and no journal beside it that says "
                 "what the case was"
             )
+        varied = (option(key, row[key]) for key in self.vary)
         group, _, key = name.partition(".")
-        return settings[group].get(key)
+        return _settings(self.case, (*self.options, *varied))[group].get(key)
 
 
 @cache
-def _settings(
-    text: str, options: tuple[str, ...], values: tuple[tuple[str, Value], ...]
-) -> dict[str, dict[str, Any]]:
-    texts = [*options, *(option(key, value) for key, value in values)]
-    return Case.from_text(text, texts, "case of the study").resolve()
+def _settings(text: str, options: tuple[str, ...]) -> dict[str, dict[str, Any]]:
+    return Case.from_text(text, options, "case of the results").resolve()
 
 
 def read_results(path: str | os.PathLike[str]) -> Results:
@@ -131,13 +118,14 @@ def read_results(path: str | os.PathLike[str]) -> Results:
     """
     folder = Path(path)
     if folder.is_dir() and (folder / "summary.json").is_file():
-        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-        case = (folder / "case.nml").read_text(encoding="utf-8")
-        return Results(str(folder), (summary,), None, many=False, case=case)
+        summary = json.loads(text_file(folder / "summary.json"))
+        return Results(str(folder), (summary,), False, text_file(folder / "case.nml"))
     tables = [folder / name for name in TABLES] if folder.is_dir() else [folder]
     for table in tables:
         if table.is_file():
-            return Results(str(table), _rows(table), read_header(table.parent), many=True)
+            study = read_header(table.parent) or {"case": "", "set": (), "vary": ()}
+            known = (study["case"], tuple(study["set"]), tuple(study["vary"]))
+            return Results(str(table), _rows(table), True, *known)
     raise InputError(
         f"{folder}: no results\nexpected: a result folder (summary.json), a folder of "
         f"pyehl sweep or stribeck ({', '.join(TABLES)}), or a CSV file"
@@ -145,26 +133,14 @@ def read_results(path: str | os.PathLike[str]) -> Results:
 
 
 def _rows(path: Path) -> tuple[Row, ...]:
-    lines = [
-        line for line in text_file(path).splitlines() if line.strip() and not line.startswith("#")
-    ]
-    rows = [{k: _value(v) for k, v in row.items()} for row in csv.DictReader(lines)]
-    if not rows:
+    lines = [line for line in text_file(path).splitlines() if line.strip() and line[0] != "#"]
+    if len(lines) < 2:
         raise InputError(f"{path}: there are no rows")
-    return tuple(rows)
-
-
-def _value(text: str | None) -> Value | None:
-    if text in (None, ""):
-        return None
-    if text in ("true", "false"):
-        return text == "true"
-    for kind in (int, float):
-        try:
-            return kind(text)
-        except ValueError:
-            continue
-    return text
+    try:
+        table = pd.read_csv(StringIO("\n".join(lines)))
+    except pd.errors.ParserError as error:
+        raise InputError(f"{path}: no table: {error}") from error
+    return tuple(table.to_dict("records"))
 
 
 def _same(wanted: Key, found: object) -> bool:
@@ -189,14 +165,13 @@ def compare(results: Results, table: ReferenceTable) -> Comparison:
     deviations, missing = [], []
     for reference in table.rows:
         matched = [
-            n
-            for n in range(len(results.rows))
-            if all(_same(value, results.key(n, key)) for key, value in reference.keys.items())
+            row
+            for row in results.rows
+            if all(_same(value, results.key(row, key)) for key, value in reference.keys.items())
         ]
+        deviations += [found for row in matched for found in _deviations(reference, row)]
         if not matched:
             missing.append(reference)
-        for n in matched:
-            deviations += _deviations(reference, results.rows[n])
     if not deviations:
         raise InputError(
             f"{table.name}: none of its {len(table.rows)} rows belongs to a result of "
@@ -206,8 +181,8 @@ def compare(results: Results, table: ReferenceTable) -> Comparison:
 
 
 def _deviations(reference: ReferenceRow, row: Row) -> list[Deviation]:
-    case = ", ".join(f"{key}={_told(value)}" for key, value in reference.keys.items())
-    found = []
+    told = (f"{k}={v:g}" if isinstance(v, float) else f"{k}={v}" for k, v in reference.keys.items())
+    case, found = ", ".join(told), []
     for name, expected in reference.expected.items():
         value, why = row.get(name), ""
         if (
@@ -218,21 +193,3 @@ def _deviations(reference: ReferenceRow, row: Row) -> list[Deviation]:
             value, why = None, f"status '{row.get('status', 'unknown')}'"
         found.append(Deviation(reference.line, case, name, expected, value, why))
     return found
-
-
-def _told(value: Key) -> str:
-    return f"{value:g}" if isinstance(value, float) else str(value)
-
-
-def write_deviations(path: str | os.PathLike[str], deviations: Sequence[Deviation]) -> None:
-    """Write deviations as CSV, whole or not at all.
-
-    InputError if there is another file; FileError if it cannot be written.
-    """
-    check_files([path], "compare", known=lambda there: made_by(there, COLUMNS))
-    rows = (
-        (d.line, d.case, d.name, d.expected.value, d.expected.tolerance, d.found, d.difference,
-         "pass" if d.passed else "fail")
-        for d in deviations
-    )  # fmt: skip
-    write_csv(path, COLUMNS.split(","), rows)

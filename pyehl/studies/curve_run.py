@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,8 +16,8 @@ from pyehl.destination import Destination
 from pyehl.errors import InputError
 from pyehl.given import Option, check_kind, options_of, path_of
 from pyehl.netcdf import write_netcdf
-from pyehl.studies.curve import curve_rows
-from pyehl.studies.curve_table import curve_dataset, write_csv
+from pyehl.studies import table
+from pyehl.studies.curve import UNITS, curve_rows
 from pyehl.studies.gather import Outcome, Watcher, gather
 from pyehl.studies.journal import NAME
 from pyehl.studies.stribeck import KEYS, CurvePlan, plan_curve
@@ -27,6 +27,7 @@ __all__ = ["CSV", "NETCDF", "PICTURE", "axes_of", "perform", "stribeck"]
 
 CSV, NETCDF, PICTURE = "stribeck.csv", "stribeck.nc", "stribeck.png"
 FILES = (CSV, NETCDF, PICTURE)
+COLUMNS = (*UNITS, "status", "message")
 
 
 def axes_of(values: Mapping[str, Any]) -> list[Axis]:
@@ -62,6 +63,12 @@ def perform(
         raise InputError(
             f"{folder}: error: this command reads a file of it\nexpected: another folder"
         )
+
+    def write(done: Mapping[int, dict[str, Any]]) -> None:
+        rows = dict(enumerate(curve_rows(plan, done)))
+        points = (p.point for p in plan.points)
+        table.write_csv(folder / CSV, plan.study, points, rows, COLUMNS)
+
     outcome = gather(
         plan.tasks,
         folder,
@@ -70,11 +77,17 @@ def perform(
         scheduler=scheduler,
         place=Destination(folder, "stribeck", (NAME, *FILES), inputs, force=force),
         watcher=watcher,
-        write=lambda rows: write_csv(folder / CSV, plan, curve_rows(plan, rows)),
+        write=write,
     )
     rows = curve_rows(plan, outcome.rows)
-    write_netcdf(folder / NETCDF, curve_dataset(plan, rows))
+    write_netcdf(folder / NETCDF, _dataset(plan, rows))
     return outcome, rows
+
+
+def _dataset(plan: CurvePlan, rows: Sequence[Mapping[str, Any]]) -> xr.Dataset:
+    """Give a curve as a Dataset whose dimensions are what was varied."""
+    found = {name: [row[name] for row in rows] for name in COLUMNS}
+    return table.over(plan.study, found, UNITS, {"title": "Stribeck curve of pyehl"}, float)
 
 
 def stribeck(
@@ -163,4 +176,4 @@ def stribeck(
         )
     if outcome.interrupted:
         raise KeyboardInterrupt
-    return curve_dataset(plan, rows)
+    return _dataset(plan, rows)

@@ -1,29 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How long a case takes, by estimate, and what it has in common with others.
 
-The numbers are of one thread of the machine that `CALIBRATION` was measured on; `speed` compares
-this machine with it. They are good to a factor of two or so: what matters is that long cases begin
-first, and that the time of a study is known before it runs.
+The numbers are of one thread of the machine that they were measured on, good to a factor of two or
+so: what matters is that long cases begin first, and that the order of magnitude is known before a
+study runs.
 """
 
 from __future__ import annotations
 
-import time
 from collections.abc import Mapping
 from typing import Any
 
 from pyehl.case import Case
 from pyehl.prediction.smooth import POINTS, smooth_case
-from pyehl.solver import Solver
+from pyehl.studies.tasks import Task
 from pyehl.surfaces import FEATURES
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["seconds_of", "shares_of", "smooth_seconds", "speed"]
+__all__ = ["TaskList", "seconds_of", "smooth_seconds"]
 
 Settings = Mapping[str, Mapping[str, Any]]
 
-CALIBRATION = 0.030
-"""Seconds of the smooth contact on 65 x 65 nodes where the others were measured."""
 PREDICTION, PREDICTION_PIXEL = 0.1, 1.4e-6
 """Seconds of a prediction, and per pixel of its tile, without the smooth contact under it."""
 FULL = 2.8
@@ -33,21 +30,6 @@ SMOOTH_LINE, SMOOTH_NODE = 5e-4, 5e-7
 """Seconds of a smooth contact per line and per node of its finest grid."""
 STEP_NODE, MANY_WAVES = 2.7e-7, 1.25
 """Seconds of a time step of a waviness per node; how much longer surfaces of many waves take."""
-
-
-def speed() -> float:
-    """Seconds of this machine over those of the one that was measured on."""
-    text = "&contact moes_m = 200.0 moes_l = 10.0 /\n&grid points = 65 /\n"
-    case = Case.from_text(text)
-    best = min(_once(case) for _ in range(3))
-    return best / CALIBRATION
-
-
-def _once(case: Case) -> float:
-    began = time.perf_counter()
-    with Solver(case) as solver:
-        solver.run()
-    return time.perf_counter() - began
 
 
 def smooth_seconds(points: int) -> float:
@@ -100,8 +82,21 @@ def _time_to_settle(settings: Settings) -> float:
     return (way + 3.0 * period) / float(surface["velocity_ratio"])
 
 
-def shares_of(settings: Settings, run: str) -> str:
-    """Name the smooth contact that cases have in common; '' where there is none to share."""
-    if run != "predict":
-        return ""
-    return smooth_case(settings)
+class TaskList:
+    """Tasks with the time that each may take, as they are added."""
+
+    def __init__(self) -> None:
+        self.tasks: list[Task] = []
+        self.contacts: set[str] = set()  # smooth contacts under predictions
+
+    def add(
+        self, number: int, case: Case, run: str, *, folder: str = "", tracks: bool = False
+    ) -> int:
+        """Add a task on a checked case; gives its number. With a folder a prediction is whole."""
+        settings = case.resolve()
+        shares = smooth_case(settings) if run == "predict" else ""
+        shared = shares in self.contacts
+        seconds = seconds_of(settings, run, shared=shared, full=tracks or bool(folder))
+        self.contacts.add(shares)
+        self.tasks.append(Task(number, case.text, run, folder, seconds, shares, tracks))
+        return number

@@ -16,7 +16,7 @@ from pyehl.case import Case
 from pyehl.errors import InputError
 from pyehl.prediction.options import unpredictable
 from pyehl.solver import Solver
-from pyehl.studies.estimate import seconds_of, shares_of, speed
+from pyehl.studies.estimate import TaskList
 from pyehl.studies.study import Point, Study
 from pyehl.studies.tasks import Task
 from pyehl.theory.film import central_film
@@ -124,10 +124,10 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None, *, brief: boo
         check_memory(study.size)
     fixed = {text.partition("=")[0].strip().lower() for text in study.options} | set(study.keys)
     one_thread = [] if THREADS in fixed else [f"{THREADS}=1"]
-    factor = speed()
     digits = len(str(study.size))
-    points, tasks = [], []
-    seen: dict[str, set[str]] = {"contact": set(), "surface": set(), "checked": set()}
+    points, tasks = [], TaskList()
+    surfaces_seen: set[str] = set()
+    checked: set[str] = set()
     maps: dict[str, None] = {}
     began = time.monotonic()
     for number in study.spread(MOST) if brief else range(study.size):
@@ -137,26 +137,19 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None, *, brief: boo
         case = study.resolved(point, *one_thread)
         settings = case.resolve()
         with study.named(point):
-            _check(study, case, settings, seen["checked"])
-        seen["surface"].add(json.dumps(settings["surface"], default=str))
+            _check(study, case, settings, checked)
+        surfaces_seen.add(json.dumps(settings["surface"], default=str))
         if settings["surface"]["kind"] == "map":
             maps[str(settings["surface"]["file"])] = None
         folder = "" if keep is None else str(Path(keep) / f"{point.number + 1:0{digits}d}")
-        shares = shares_of(settings, study.run)
-        full = study.tracks or bool(folder)
-        shared = shares in seen["contact"]
-        seconds = factor * seconds_of(settings, study.run, shared=shared, full=full)
-        seen["contact"].add(shares)
         points.append(point)
-        tasks.append(
-            Task(point.number, case.text, study.run, folder, seconds, shares, study.tracks)
-        )
+        tasks.add(number, case, study.run, folder=folder, tracks=study.tracks)
     return Plan(
         study,
         tuple(points),
-        tuple(tasks),
-        len(seen["contact"]),
-        len(seen["surface"]),
+        tuple(tasks.tasks),
+        len(tasks.contacts),
+        len(surfaces_seen),
         tuple(maps),
         time.monotonic() - began,
     )

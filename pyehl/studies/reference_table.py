@@ -13,7 +13,7 @@ from __future__ import annotations
 import csv
 import math
 import os
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
@@ -28,7 +28,7 @@ __all__ = ["SHIPPED", "Expected", "ReferenceRow", "ReferenceTable", "read_refere
 SHIPPED = ("smooth", "waviness")
 """Tables that come with the package."""
 NOTE = "note"
-RTOL, ATOL = "_rtol", "_atol"
+TOLERANCES = ("_rtol", "_atol")
 
 Key = float | bool | str
 
@@ -62,88 +62,65 @@ class ReferenceTable:
     rows: tuple[ReferenceRow, ...]  # at least one
 
 
-def read_reference(
-    path: str | os.PathLike[str], *, keys: Iterable[str] = (), rtol: float | None = None
-) -> ReferenceTable:
+def read_reference(path: str | os.PathLike[str]) -> ReferenceTable:
     """Read a table of references, a file or one of `SHIPPED`.
 
-    `keys` are columns without a dot that are keys all the same; `rtol` is the relative tolerance
-    of values that have none in the table, else they must have one. InputError with file, line,
-    column and what was expected.
+    InputError with file, line, column and what was expected.
     """
-    name, text = _text(path)
-    lines = text.splitlines()
-    table = [(n, line) for n, line in enumerate(lines, start=1) if _counts(line)]
-    if len(table) < 2:
-        raise InputError(f"{name}: error: there are no rows\nexpected: a line of names, and rows")
-    cells = list(csv.reader(line for _, line in table))
-    head = [word.strip() for word in cells[0]]
-    key_columns, value_columns = _columns(name, table[0][0], head, keys)
-    rows = []
-    for (number, _), row in zip(table[1:], cells[1:], strict=True):
-        if len(row) != len(head):
-            raise InputError(
-                f"{name}:{number}: error: {len(row)} cells\nexpected: {len(head)}, as the names"
-            )
-        found = dict(zip(head, (cell.strip() for cell in row), strict=True))
-        given = {key: _key(f"{name}:{number}", key, found[key]) for key in key_columns}
-        expected = {
-            value: _expected(f"{name}:{number}", value, found, rtol)
-            for value in value_columns
-            if found[value]
-        }
-        rows.append(ReferenceRow(number, given, expected))
-    notes = tuple(line.lstrip("# ") for line in lines if line.startswith("#"))
-    return ReferenceTable(name, notes, tuple(key_columns), tuple(value_columns), tuple(rows))
-
-
-def _text(path: str | os.PathLike[str]) -> tuple[str, str]:
     name = os.fspath(path)
     if name in SHIPPED and not Path(name).exists():
         file = resources.files("pyehl").joinpath("reproduce", "data", f"{name}.csv")
-        return f"{name}.csv", file.read_text(encoding="utf-8")
-    return name, text_file(path, f"a CSV file, or one of {', '.join(SHIPPED)}")
+        name, text = f"{name}.csv", file.read_text(encoding="utf-8")
+    else:
+        text = text_file(path, f"a CSV file, or one of {', '.join(SHIPPED)}")
+    lines = text.splitlines()
+    numbers = [n for n, line in enumerate(lines, 1) if line.strip() and line[0] != "#"]
+    if len(numbers) < 2:
+        raise InputError(f"{name}: error: there are no rows\nexpected: a line of names, and rows")
+    table = [[word.strip() for word in row] for row in csv.reader(lines[n - 1] for n in numbers)]
+    head = table[0]
+    keys, values = _columns(f"{name}:{numbers[0]}: error:", head)
+    rows = []
+    for number, row in zip(numbers[1:], table[1:], strict=True):
+        where = f"{name}:{number}: error:"
+        if len(row) != len(head):
+            raise InputError(f"{where} {len(row)} cells\nexpected: {len(head)}, as the names")
+        found = dict(zip(head, row, strict=True))
+        given = {key: _key(where, key, found[key]) for key in keys}
+        expected = {value: _expected(where, value, found) for value in values if found[value]}
+        rows.append(ReferenceRow(number, given, expected))
+    notes = tuple(line.lstrip("# ") for line in lines if line.startswith("#"))
+    return ReferenceTable(name, notes, tuple(keys), tuple(values), tuple(rows))
 
 
-def _counts(line: str) -> bool:
-    return bool(line.strip()) and not line.startswith("#")
-
-
-def _columns(
-    name: str, number: int, head: list[str], keys: Iterable[str]
-) -> tuple[list[str], list[str]]:
-    where = f"{name}:{number}: error:"
+def _columns(where: str, head: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Names of keys and of values."""
     for word in head:
         if not word or head.count(word) > 1:
             raise InputError(f"{where} the name '{word}' is {'there twice' if word else 'empty'}")
-    chosen = set(keys)
-    for word in chosen - set(head):
-        raise InputError(
-            f"{name}: error: there is no column '{word}' (--key){did_you_mean(word, head)}"
-        )
     known = {key.name for key in library.keys()}
-    key_columns = [word for word in head if "." in word or word in chosen]
-    for word in key_columns:
-        if "." in word and word not in known:
+    keys = [word for word in head if "." in word]
+    for word in keys:
+        if word not in known:
             raise InputError(
                 f"{where} '{word}' is no key of a case{did_you_mean(word, known)}\n"
                 "expected: group.key for keys, names of summary.json for values"
             )
-    rest = [word for word in head if word not in key_columns and word != NOTE]
-    values = [word for word in rest if not word.endswith((RTOL, ATOL))]
+    rest = [word for word in head if word not in keys and word != NOTE]
+    values = [word for word in rest if not word.endswith(TOLERANCES)]
     for word in rest:
-        if word not in values and word[: -len(RTOL)] not in values:
+        if word not in values and word[:-5] not in values:
             raise InputError(
                 f"{where} '{word}' is the tolerance of no column{did_you_mean(word[:-5], values)}"
             )
     if not values:
         raise InputError(f"{where} no column of values\nexpected: names as in summary.json")
-    return key_columns, values
+    return keys, values
 
 
 def _key(where: str, key: str, cell: str) -> Key:
     if not cell:
-        raise InputError(f"{where}: error: {key} is empty\nexpected: a number or a word")
+        raise InputError(f"{where} {key} is empty\nexpected: a number or a word")
     if cell.lower() in LOGICAL:
         return LOGICAL[cell.lower()]
     try:
@@ -152,23 +129,19 @@ def _key(where: str, key: str, cell: str) -> Key:
         return cell.strip("'\"")
 
 
-def _expected(where: str, name: str, found: dict[str, str], rtol: float | None) -> Expected:
+def _expected(where: str, name: str, found: dict[str, str]) -> Expected:
     value = _number(where, name, found[name])
-    relative, absolute = (found.get(f"{name}{end}", "") for end in (RTOL, ATOL))
-    if not relative and not absolute:
-        if rtol is None:
-            raise InputError(
-                f"{where}: error: {name} has no tolerance\n"
-                f"expected: a column {name}{RTOL} or {name}{ATOL}, or --rtol"
-            )
-        return Expected(value, rtol * abs(value))
+    given = [f"{name}{end}" for end in TOLERANCES if found.get(f"{name}{end}")]
+    if not given:
+        raise InputError(
+            f"{where} {name} has no tolerance\nexpected: a column {name}_rtol or {name}_atol"
+        )
     tolerance = 0.0
-    for word, end, scale in ((relative, RTOL, abs(value)), (absolute, ATOL, 1.0)):
-        if word:
-            share = _number(where, f"{name}{end}", word)
-            if share < 0.0:
-                raise InputError(f"{where}: error: {name}{end} = {word}\nexpected: not negative")
-            tolerance += share * scale
+    for column in given:
+        share = _number(where, column, found[column])
+        if share < 0.0:
+            raise InputError(f"{where} {column} = {found[column]}\nexpected: not negative")
+        tolerance += share * abs(value) if column.endswith("_rtol") else share
     return Expected(value, tolerance)
 
 
@@ -178,5 +151,5 @@ def _number(where: str, name: str, cell: str) -> float:
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise InputError(f"{where}: error: {name} = '{cell}'\nexpected: a number")
+        raise InputError(f"{where} {name} = '{cell}'\nexpected: a number")
     return value

@@ -17,7 +17,7 @@ from pyehl import surfaces
 from pyehl.case import Case
 from pyehl.errors import InputError
 from pyehl.prediction.options import unpredictable
-from pyehl.studies.estimate import seconds_of, shares_of, speed
+from pyehl.studies.estimate import TaskList
 from pyehl.studies.plan import check_memory, duration, formula_film
 from pyehl.studies.study import MAX_CASES, Point, Study, make
 from pyehl.studies.tasks import Task
@@ -121,18 +121,11 @@ def plan_curve(
         )
     check_memory(count)
     chosen = {int((k + 0.5) * size / ehl) for k in range(ehl)}
-    factor = speed()
     points: list[CurvePoint] = []
-    tasks: list[Task] = []
-    seen: set[str] = set()
+    tasks = TaskList()
 
     def add(made: Case, run: str) -> int:
-        settings = made.resolve()
-        shares = shares_of(settings, run)
-        seconds = factor * seconds_of(settings, run, shared=shares in seen)
-        seen.add(shares)
-        tasks.append(Task(len(tasks), made.text, run, "", seconds, shares))
-        return tasks[-1].number
+        return tasks.add(len(tasks.tasks), made, run)
 
     for point in study.points():
         rough = study.resolved(point)
@@ -152,7 +145,7 @@ def plan_curve(
                 full=add(rough, "solve") if point.number in chosen else None,
             )
         )
-    return CurvePlan(study, tuple(points), tuple(tasks), seeds)
+    return CurvePlan(study, tuple(points), tuple(tasks.tasks), seeds)
 
 
 def _check(settings: Settings, seeds: int, ehl: int) -> None:

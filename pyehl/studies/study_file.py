@@ -14,7 +14,15 @@ from pyehl.studies.vary import axis
 
 __all__ = ["read_study"]
 
-STUDY_KEYS = ("case", "run", "set", "vary", "zip", "outputs")
+# Keys, their types, and these in words
+KEYS: dict[str, tuple[Any, str]] = {
+    "case": (str, "a text"),
+    "run": (str, "a text"),
+    "set": (dict, "a table"),
+    "vary": (dict, "a table"),
+    "zip": (bool | list, "true, false or lists"),
+    "outputs": (list, "a list"),
+}
 
 
 def read_study(path: str | os.PathLike[str]) -> dict[str, Any]:
@@ -29,44 +37,31 @@ def read_study(path: str | os.PathLike[str]) -> dict[str, Any]:
         values = tomllib.loads(text_file(path))
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"{name}: error: {error}") from error
-    for key in values:
-        if key not in STUDY_KEYS:
-            hint = did_you_mean(key, STUDY_KEYS)
+    for key, value in values.items():
+        if key not in KEYS:
             raise InputError(
                 f"{name}: error: unknown key '{key}'\nexpected: one of the keys "
-                f"{', '.join(STUDY_KEYS)}{hint}"
+                f"{', '.join(KEYS)}{did_you_mean(key, KEYS)}"
             )
-    _expect(name, values, "case", str)
-    _expect(name, values, "run", str)
-    _expect(name, values, "set", dict)
-    _expect(name, values, "vary", dict)
-    _expect(name, values, "zip", bool | list)
-    _expect(name, values, "outputs", list)
+        kind, words = KEYS[key]
+        if not isinstance(value, kind):
+            raise InputError(f"{name}: error: {key} = {value!r}\nexpected: {words}")
     if "case" not in values:
         raise InputError(f"{name}: error: there is no 'case'\nexpected: the path of a case file")
     try:
         axes = [axis(key, found) for key, found in _flat(values.get("vary", {})).items()]
-        fixed = [
-            option(a.key, a.values[0])
-            for a in (axis(key, [found]) for key, found in _flat(values.get("set", {})).items())
-        ]
+        fixed = [axis(key, [found]) for key, found in _flat(values.get("set", {})).items()]
     except InputError as error:
         raise InputError(f"{name}: error: {error}") from error
     return {
         "case": os.path.join(os.path.dirname(name), values["case"]),
         "axes": axes,
-        "options": fixed,
+        "options": [option(a.key, a.values[0]) for a in fixed],
         "zipped": values.get("zip", False),
         "run": values.get("run", "solve"),
         "outputs": [str(word) for word in values.get("outputs", [])],
         "origin": f"{name}: error: ",
     }
-
-
-def _expect(name: str, values: Mapping[str, Any], key: str, kind: Any) -> None:  # noqa: ANN401
-    if key in values and not isinstance(values[key], kind):
-        words = {str: "a text", dict: "a table", list: "a list"}.get(kind, "true, false or lists")
-        raise InputError(f"{name}: error: {key} = {values[key]!r}\nexpected: {words}")
 
 
 def _flat(table: Mapping[str, Any]) -> dict[str, Any]:

@@ -146,12 +146,9 @@ def sweep(
     if jobs < 0:
         raise InputError(f"jobs = {jobs}: expected a number of worker processes")
     todo = plan(study)
-    if output is not None:
-        folder = path_of(output, "output")
+    with tempfile.TemporaryDirectory(prefix="pyehl-") as place:
+        folder = place if output is None else path_of(output, "output")
         outcome = perform(todo, folder, jobs=jobs, scheduler=scheduler, force=force)
-    else:
-        with tempfile.TemporaryDirectory(prefix="pyehl-") as place:
-            outcome = perform(todo, place, jobs=jobs, scheduler=scheduler)
     if outcome.interrupted:
         raise KeyboardInterrupt
     return table.dataset(todo.study, todo.points, outcome.rows)

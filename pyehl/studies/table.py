@@ -38,12 +38,18 @@ def columns(study: Study, rows: Mapping[int, Row]) -> list[str]:
     return [*(name for name in found if name not in skipped), *LAST]
 
 
-def write_csv(path: Path, study: Study, points: Sequence[Point], rows: Mapping[int, Row]) -> None:
-    """Write the table of all finished cases, whole or not at all.
+def write_csv(
+    path: Path,
+    study: Study,
+    points: Iterable[Point],
+    rows: Mapping[int, Row],
+    names: Sequence[str] = (),
+) -> None:
+    """Write the table of all finished cases, whole or not at all; `names`: of these columns.
 
     FileError if it cannot be written.
     """
-    names = columns(study, rows)
+    names = names or columns(study, rows)
     arrays.write_csv(
         path,
         [*study.keys, *names],

@@ -9,7 +9,7 @@ y = j length_y/ny. Spectra are those of Jacobs, Junge & Pastewka 2017, in m^4.
 from pyehl.surfaces.features import FEATURES, feature
 from pyehl.surfaces.filters import filtered
 from pyehl.surfaces.generators import fractal, harmonic
-from pyehl.surfaces.in_memory import Surface, as_map, in_memory, keep_beside
+from pyehl.surfaces.in_memory import Surface, as_map, given, in_memory, keep_beside, part_of
 from pyehl.surfaces.interpolation import interpolated, resampled, shifted
 from pyehl.surfaces.of_case import (
     finished,
@@ -21,13 +21,12 @@ from pyehl.surfaces.of_case import (
     without_spikes,
 )
 from pyehl.surfaces.options import Options
-from pyehl.surfaces.part import given, part_of
 from pyehl.surfaces.prepare import Preparation, prepare
 from pyehl.surfaces.reading import Scan, read_scan
-from pyehl.surfaces.record import Record
 from pyehl.surfaces.solver_surface import SolverSurface, for_solver
 from pyehl.surfaces.spectra import psd_2d, psd_isotropic, wavenumbers
 from pyehl.surfaces.tile import MAX_PIXELS, Topography
+from pyehl.surfaces.working_map import Record
 
 __all__ = [
     "FEATURES",

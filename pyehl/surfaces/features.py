@@ -18,6 +18,7 @@ import math
 import numpy as np
 
 from pyehl.errors import InputError
+from pyehl.given import positive
 from pyehl.library import surface_functions
 from pyehl.surfaces.tile import Topography
 
@@ -51,8 +52,7 @@ def feature(
     if kind not in FEATURES:
         raise InputError(f"kind {kind!r}: expected one of {FEATURES}")
     for name, value in (("height", height), ("width", width)):
-        if not (math.isfinite(value) and value > 0.0):
-            raise InputError(f"{name} must be positive [m], not {value!r}")
+        positive(name, value, "m")
     if not (math.isfinite(length) and length >= 0.0):
         raise InputError(f"length must not be negative [m], not {length!r}")
     is_line = kind in ("ridge", "groove")

@@ -14,6 +14,7 @@ import math
 import numpy as np
 
 from pyehl.errors import InputError, check
+from pyehl.given import positive
 from pyehl.library import surface_functions
 from pyehl.surfaces.tile import MAX_PIXELS, Topography
 
@@ -45,17 +46,15 @@ def fractal(
     nx, ny = (pixels, pixels) if isinstance(pixels, int) else pixels
     if nx < 4 or ny < 4 or nx * ny > MAX_PIXELS:
         raise InputError(f"pixels must be at least 4 per side and at most {MAX_PIXELS} in all")
-    if not (math.isfinite(rms_height) and rms_height > 0.0):
-        raise InputError(f"rms_height must be positive [m], not {rms_height!r}")
     if not 0.0 < hurst <= 1.0:
         raise InputError(f"hurst must be in (0, 1], not {hurst!r}")
     if not (math.isfinite(rolloff_wavenumber) and rolloff_wavenumber >= 0.0):
         raise InputError(
             f"rolloff_wavenumber must not be negative [rad/m], not {rolloff_wavenumber!r}"
         )
-    for name, value in (("length_x", length_x), ("length_y", length_y)):
-        if not (math.isfinite(value) and value > 0.0):
-            raise InputError(f"{name} must be positive [m], not {value!r}")
+    lengths = {"rms_height": rms_height, "length_x": length_x, "length_y": length_y}
+    for name, value in lengths.items():
+        positive(name, value, "m")
     if seed < 0:
         raise InputError(f"seed must not be negative, not {seed!r}")
     if modulus not in ("deterministic", "gaussian"):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A surface that a caller has in memory, in place of that of a case."""
+"""A surface in memory: that of a caller, and part of a large one where its statistics do."""
 
 from __future__ import annotations
 
@@ -10,13 +10,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import InputError
 from pyehl.given import heights_of
+from pyehl.surfaces.seams import mirrored
 from pyehl.surfaces.tile import Topography
 
-__all__ = ["READY", "Surface", "as_map", "in_memory", "keep_beside"]
+__all__ = ["READY", "Surface", "as_map", "given", "in_memory", "keep_beside", "part_of"]
 
 Surface = Topography | ArrayLike
 """A tile, or heights [m] of shape (nx, ny) that have the size that the case says."""
@@ -39,6 +40,8 @@ READY: Mapping[str, Any] = {
     "surface.tile_mirrored": False,
 }
 """Options of a tile that is ready: nothing is left to prepare."""
+LARGE_PIXELS, PART_PIXELS = 2**20, 2**18
+"""Pixels of the largest tile that is looked at as a whole, and of a part of a larger one."""
 
 
 def in_memory(surface: Surface, group: Mapping[str, Any]) -> Topography:
@@ -81,3 +84,39 @@ def keep_beside(tile: Topography, case: Path) -> str:
     changed = re.sub(rf"^(\s*file = )'.*{IN_MEMORY}'", rf"\1'{name}'", text, flags=re.MULTILINE)
     case.write_text(changed, encoding="utf-8")
     return name
+
+
+def part_of(
+    heights: NDArray[np.float64], pixel: tuple[float, float], origin: str, *, images: bool = False
+) -> Topography | None:
+    """Middle of a large surface, with its mirror images; None for one that is not large.
+
+    Heights (nx, ny) [m], pixel size along x and y [m]. `images`: the tile of the surface is it
+    with its mirror images, four times as many pixels. The part has at most `PART_PIXELS` pixels,
+    square where the surface is wide enough.
+    """
+    if heights.size * (4 if images else 1) <= LARGE_PIXELS:
+        return None
+    most = PART_PIXELS // 4
+    side = int(most**0.5)
+    nx = min(heights.shape[0], max(side, most // heights.shape[1]))
+    ny = min(heights.shape[1], most // nx)
+    i, j = (heights.shape[0] - nx) // 2, (heights.shape[1] - ny) // 2
+    tile = mirrored(heights[i : i + nx, j : j + ny])
+    tile -= tile.mean()
+    name = f"{origin}, {nx} x {ny} pixels in its middle"
+    return Topography(tile, (2 * nx * pixel[0], 2 * ny * pixel[1]), name)
+
+
+def given(heights: NDArray[np.float64], surface: Mapping[str, Any]) -> Topography:
+    """Tile of heights [m] that stand in for the surface of a case; of a large one a part.
+
+    Its size is that of the tile in the group ``surface``, or that of the map.
+    """
+    x, y = (float(surface[f"tile_{k}"] or surface[f"length_{k}"]) for k in "xy")
+    images = bool(surface["tile_mirrored"])
+    pixel = (x / heights.shape[0], y / heights.shape[1])
+    if images:
+        pixel = (0.5 * pixel[0], 0.5 * pixel[1])
+    part = part_of(heights, pixel, "the heights", images=images)
+    return part or Topography(mirrored(heights) if images else heights, (x, y))

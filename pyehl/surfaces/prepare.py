@@ -19,8 +19,7 @@ from pyehl.surfaces import cutting, holes, levelling, seams, spikes
 from pyehl.surfaces.memory import check_pixels
 from pyehl.surfaces.options import NEUTRAL, Options, defaults
 from pyehl.surfaces.reading import Scan
-from pyehl.surfaces.record import Record, Step
-from pyehl.surfaces.working_map import WorkingMap
+from pyehl.surfaces.working_map import Record, Step, WorkingMap
 
 __all__ = ["Preparation", "consume", "prepare"]
 

@@ -12,15 +12,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl import library
+from pyehl.surfaces.in_memory import part_of
 from pyehl.surfaces.interpolation import shift_across
 from pyehl.surfaces.of_case import moved, scan_of, whole
 from pyehl.surfaces.options import NEUTRAL, Options
-from pyehl.surfaces.part import part_of
 from pyehl.surfaces.prepare import consume
 from pyehl.surfaces.reading import plain_array
-from pyehl.surfaces.record import Record
 from pyehl.surfaces.seams import mirrored
 from pyehl.surfaces.tile import Topography
+from pyehl.surfaces.working_map import Record
 from pyehl.theory.operating import OperatingPoint
 
 __all__ = ["SolverSurface", "for_solver"]

@@ -8,8 +8,6 @@ import json
 import os
 from itertools import islice
 from pathlib import Path
-from queue import Queue
-from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -19,13 +17,13 @@ from matplotlib.image import imread
 from pyehl import cli, schema
 from pyehl.bench.second_solver import START, VELOCITY, X_MATTERS, SecondSolver, Wave, Z
 from pyehl.case import Case
-from pyehl.studies import response, tiers
-from pyehl.studies.response_folder import destination
-from pyehl.studies.superposition import SLOPE, WaveSet, superpose
+from pyehl.errors import EhlError
+from pyehl.measured_response import measurement, tiers
+from pyehl.measured_response.folder import destination
+from pyehl.measured_response.superposition import SLOPE, WaveSet, superpose
 
 # Long waves and short ones in a thick film, where a coarse grid does
 TINY = (
-    tiers.Tier("ridges", 4.0, 129, 1.0, 0.5, ridges=True),
     tiers.Tier("long", 2.0, 65, 2.0, 0.5),
     tiers.Tier("middle", 1.0, 257, 0.5, 0.25),
 )
@@ -35,9 +33,9 @@ CASE = "&contact moes_m = 200.0 moes_l = 10.0 /\n&surface velocity_ratio = 1.05 
 @pytest.fixture
 def tiny(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[str]:
     """Words of a command that takes seconds."""
-    monkeypatch.setattr(response, "TIERS", TINY)
+    monkeypatch.setattr(measurement, "TIERS", TINY)
     monkeypatch.setattr("pyehl.commands.response.TIERS", TINY)
-    monkeypatch.setattr("pyehl.studies.response_folder.TIERS", TINY)
+    monkeypatch.setattr("pyehl.measured_response.folder.TIERS", TINY)
     (tmp_path / "case.nml").write_text(CASE)
     return ["response", str(tmp_path / "case.nml"), "-o", str(tmp_path / "out")]
 
@@ -61,12 +59,6 @@ def test_command(
     assert summary["velocity_ratio"] == 1.05
     assert set(summary) == {q.name for q in schema.QUANTITIES if "response" in q.kinds}
     assert imread(folder / "response.png").std() > 0.1
-    # along the motion nothing moves: T is real; the grid is coarse
-    assert [row["direction"] for row in rows if row["tier"] == "ridges"] == ["90", "90"]
-    for row in rows:
-        if row["tier"] == "ridges":
-            assert float(row["T_im_centre"]) == 0.0
-            assert float(row["shipped_difference_centre"]) < 0.02
     fine = [row for row in rows if row["tier"] == "middle"]
     # the residual of the fit at this point, 0.018, and the error of the grid (film 1 % thin)
     assert max(float(row["shipped_difference_centre"]) for row in fine) < 0.03
@@ -85,8 +77,8 @@ def test_command(
     capsys.readouterr()
     assert cli.main([*tiny, "--set", "surface.velocity_ratio=1.1"]) == 2
     assert "\n  velocity_ratio: there 1.05, here 1.1\n" in capsys.readouterr().err
-    here = response.metadata.version("pyehl")
-    monkeypatch.setattr(response.metadata, "version", lambda name: "9.9.9")
+    here = measurement.metadata.version("pyehl")
+    monkeypatch.setattr(measurement.metadata, "version", lambda name: "9.9.9")
     assert cli.main(tiny) == 2
     assert f"\n  pyehl version: there {here}, here 9.9.9\n" in capsys.readouterr().err
 
@@ -125,31 +117,50 @@ def test_tiers_share_the_processors_that_may_be_used(
     """Six of 64, for two tiers at a time."""
     threads = []
 
-    class Context:
-        Queue = Queue
-
-        def Process(self, *, target, args, daemon):  # noqa: N802
-            threads.append(args[3])
-            args[5].put(("end", (args[2].name, "")))
-            return Mock()
+    def run_tier(settings, ratio, tier, count, path, progress):
+        threads.append(count)
+        np.savez(path, tile=tier.tile)
 
     monkeypatch.setattr(os, "cpu_count", lambda: 64)
     monkeypatch.setattr(os, "sched_getaffinity", lambda process: set(range(6)))
-    monkeypatch.setattr(response.mp, "get_context", lambda kind: Context())
-    response._run_all("", 1.0, TINY, 2, tmp_path, lambda name, done, total: None)
-    assert threads == [3, 3, 3]
+    monkeypatch.setattr(measurement, "_run_tier", run_tier)
+    case = Case.from_text(CASE)
+    found = measurement.measure(case, destination(tmp_path / "out"), tiers=TINY, jobs=2)
+    assert threads == [3, 3]
+    assert {name: float(tier["tile"]) for name, tier in found.items()} == {
+        "long": 2.0,
+        "middle": 1.0,
+    }
+
+
+def test_an_interrupt_ends_all_tiers(tmp_path: Path):
+    """One tells it, in the middle of its run; the other ends with its next step."""
+
+    def interrupt(name: str, done: int, total: int) -> None:
+        if name == "long" and done == 3:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        measurement.measure(
+            Case.from_text(CASE),
+            destination(tmp_path / "out"),
+            tiers=TINY,
+            jobs=2,
+            progress=interrupt,
+        )
+    assert not list((tmp_path / "out").iterdir())
 
 
 def test_failed_run_is_named(tmp_path: Path):
     """At this load the inlet is finer than the grid."""
     case = Case.from_text("&contact moes_m = 20000.0 moes_l = 20.0 /\n")
     tier = tiers.Tier("long", 4.0, 17, 4.0, 2.0)
-    with pytest.raises(response.EhlError, match="tier 'long'"):
-        response.measure(case, destination(tmp_path / "out"), tiers=[tier])
+    with pytest.raises(EhlError, match="tier 'long': the run ended too early"):
+        measurement.measure(case, destination(tmp_path / "out"), tiers=[tier])
     assert not list((tmp_path / "out").iterdir())
 
 
-@pytest.mark.parametrize("tier", tiers.TIERS[1:], ids=lambda tier: tier.name)
+@pytest.mark.parametrize("tier", tiers.TIERS, ids=lambda tier: tier.name)
 def test_waves_of_a_tier(tier: tiers.Tier):
     waves = tiers.tier_waves(tier)
     nodes = 2.0 * np.pi / waves.q * (tier.points - 1) / 4.0

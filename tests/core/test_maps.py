@@ -234,8 +234,10 @@ def test_part_of_a_large_map(tmp_path: Path, monkeypatch):
     case = Case.read(write_case(tmp_path / "case.nml", "map.npy", size))
     with Solver(case) as solver:
         assert solver.tile is None
-    monkeypatch.setattr("pyehl.surfaces.part.LARGE_PIXELS", 4000)
-    monkeypatch.setattr("pyehl.surfaces.part.PART_PIXELS", 1024)
+    # a function has the name of the module
+    module = sys.modules["pyehl.surfaces.in_memory"]
+    monkeypatch.setattr(module, "LARGE_PIXELS", 4000)
+    monkeypatch.setattr(module, "PART_PIXELS", 1024)
     with Solver(case) as solver:
         part, plan = solver.tile, solver.describe()
     assert part is not None

@@ -19,7 +19,7 @@ import pytest
 import pyehl
 from pyehl import cli
 from pyehl.bench import smooth
-from pyehl.studies import tiers
+from pyehl.measured_response import tiers
 
 SMOOTH = (
     "&contact moes_m = 100.0 moes_l = 5.0 /\n"
@@ -292,7 +292,6 @@ FILES = {
         for end in (".npy", ".txt", ".nc")
     },
     "bench": (["bench", "smooth", "--points", "17", "--threads", "1", "-o", "a.json"], ["a.json"]),
-    "compare": (["compare", "out", "ref.csv", "-o", "a.csv"], ["a.csv"]),
 }  # fmt: skip
 
 
@@ -305,7 +304,6 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Path:
     pyehl.solve(moving, output=folder / "moving", check=False)
     shutil.rmtree(folder / "moving.checkpoint")
     (folder / "rough.nml").write_text(ROUGH)
-    (folder / "ref.csv").write_text("grid.points,H_c,H_c_rtol\n33,0.08,9\n")
     return folder
 
 
@@ -377,7 +375,11 @@ def test_pictures_and_exports_go_with_the_result(call: Call, tmp_path: Path):
 def test_response_with_foreign_case(call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """Beside a tier of its own, without a summary."""
     tiny = (tiers.Tier("long", 2.0, 65, 2.0, 0.5),)
-    for module in ("studies.response", "studies.response_folder", "commands.response"):
+    for module in (
+        "measured_response.measurement",
+        "measured_response.folder",
+        "commands.response",
+    ):
         monkeypatch.setattr(f"pyehl.{module}.TIERS", tiny)
     assert call("response", "-o", "out").returncode == 0
     out = tmp_path / "out"

@@ -27,6 +27,7 @@ LAYERS = [
     ["run"],
     ["api"],
     ["studies"],
+    ["measured_response"],
     ["bench", "reproduce"],
     ["commands"],
     ["cli"],

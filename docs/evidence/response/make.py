@@ -21,9 +21,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl.case import Case
+from pyehl.measured_response.superposition import FILLING, Superposition, WaveSet, superpose
+from pyehl.measured_response.tiers import TIERS, tier_waves
 from pyehl.prediction.smooth import zone_on
-from pyehl.studies.superposition import FILLING, Superposition, WaveSet, superpose
-from pyehl.studies.tiers import TIERS, tier_waves
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_base

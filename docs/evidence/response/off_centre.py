@@ -19,14 +19,14 @@ from numpy.typing import NDArray
 from parts import smooth_zone
 from scipy.optimize import minimize_scalar
 
-from pyehl.solver import Solver
-from pyehl.studies.superposition import (
+from pyehl.measured_response.superposition import (
     FRONT,
     WaveSet,
     linear_surface,
     step_counts,
     transient_case,
 )
+from pyehl.solver import Solver
 from pyehl.theory.operating import OperatingPoint
 
 POINTS, RATIO, FILLING = 257, 1.01, 5.3

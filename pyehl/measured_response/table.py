@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A measured response as a table and as an xarray Dataset, beside the shipped response."""
+"""A measured response as an xarray Dataset and as a table, beside the shipped response."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from pyehl.arrays import write_csv
+from pyehl.destination import new_file
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_transfer
 from pyehl.theory.transport import Zone, stiffness, transport
@@ -23,25 +23,19 @@ Complex = NDArray[np.complex128]
 
 STATIONS = np.array([-0.5, 0.0, 0.5])
 """Where the response is tabulated, on Y = 0 [a]."""
-# Variables over the waves: meaning and unit
-WAVES = {
+PLACES = ("upstream", "centre", "downstream")
+"""How the columns of the table call them."""
+# Variables over the waves, the second part also over X: meaning and unit
+VARIABLES = {
     "kx": ("wavenumber along the motion", "1/a"),
     "ky": ("wavenumber across the motion", "1/a"),
     "wavelength": ("2 pi/|q|", "a"),
     "nabla_2": ("wavelength over a times sqrt(M/L)", "1"),
     "direction": ("angle of the crests to those across the motion", "degree"),
     "points": ("nodes per side of the grid", "1"),
-    "nodes": ("nodes per wavelength", "1"),
-    "lag_inlet": ("phase of T extrapolated to X = -1", "degree"),
-    "slope": ("change of the phase of T with X over k (U - 1)", "1"),
-    "decay": ("change of ln|T| with X", "1/a"),
     "fit_residual": ("rms left by the fit in time over the amplitude, at X = 0", "1"),
-}
-PLACES = {
     "amplitude": ("|T|, film wave over roughness", "1"),
     "lag": ("phase of T", "degree"),
-    "T_re": ("real part of T", "1"),
-    "T_im": ("imaginary part of T", "1"),
     "pressure": ("|pressure wave| over roughness", "p_h R/a^2"),
     "pressure_ratio": ("pressure wave over pi/4 |q| (1 - T) of the half-space", "1"),
     "shipped_amplitude": ("|T| of the response that the prediction uses", "1"),
@@ -62,22 +56,6 @@ def shipped_response(
     return np.stack(found, axis=-1)
 
 
-def _along(x: Array, response: Complex, kx: Array, velocity_ratio: float) -> dict[str, Array]:
-    """Phase at X = -1, its slope over k (U - 1) and the change of ln|T|, within |X| <= 0.5."""
-    near = np.abs(x) <= 0.5 + 1e-9
-    phase = np.unwrap(np.angle(response[:, near]), axis=1)
-    basis = np.stack([np.ones(int(near.sum())), x[near] + 1.0], axis=1)
-    inverse = np.linalg.pinv(basis)
-    lag, slope = inverse @ phase.T
-    slip = kx * (velocity_ratio - 1.0)
-    over = np.divide(slope, slip, out=np.full(kx.shape, np.nan), where=np.abs(slip) > 1e-9)
-    return {
-        "lag_inlet": np.degrees(lag),
-        "slope": over,
-        "decay": (inverse @ np.log(np.abs(response[:, near])).T)[1],
-    }
-
-
 def _tier(
     tier: Mapping[str, Any], zone: Zone, operating: OperatingPoint, velocity_ratio: float
 ) -> dict[str, Array]:
@@ -85,25 +63,19 @@ def _tier(
     k0 = 2.0 * np.pi / float(tier["tile"])
     kx, ky = k0 * tier["along"], k0 * tier["across"]
     q = np.hypot(kx, ky)
-    x, response = tier["x"], tier["response"]
-    place = [int(np.argmin(np.abs(x - station))) for station in STATIONS]
-    t, pressure = response[:, place], tier["stiffness"][:, place]
+    place = [int(np.argmin(np.abs(tier["x"] - station))) for station in STATIONS]
+    t, pressure = tier["response"][:, place], tier["stiffness"][:, place]
     shipped = shipped_response(kx, ky, zone, operating, velocity_ratio)
-    spacing = float(tier["spacing"])
     return {
         "kx": kx,
         "ky": ky,
         "wavelength": 2.0 * np.pi / q,
         "nabla_2": 2.0 * np.pi / q * np.sqrt(operating.moes_m / operating.moes_l),
         "direction": np.degrees(np.arctan2(ky, kx)),
-        "points": np.full(kx.shape, round(4.0 / spacing) + 1.0),
-        "nodes": 2.0 * np.pi / q / spacing,
-        **_along(x, response, kx, velocity_ratio),
+        "points": np.full(kx.shape, round(4.0 / float(tier["spacing"])) + 1.0),
         "fit_residual": tier["residual"][:, place[1]],
         "amplitude": np.abs(t),
         "lag": np.degrees(np.angle(t)),
-        "T_re": t.real,
-        "T_im": t.imag,
         "pressure": np.abs(pressure),
         "pressure_ratio": np.abs(pressure / (stiffness(q)[:, np.newaxis] * (1.0 - t))),
         "shipped_amplitude": np.abs(shipped),
@@ -120,23 +92,19 @@ def dataset(
 ) -> xr.Dataset:
     """Give all waves of a measurement, the longest first.
 
-    `tiers` are as :func:`pyehl.studies.response.measure` returns them; `zone` is the smooth
-    contact that the shipped response goes through. Over wave (m,), and over wave and X (m, 3) at
-    the STATIONS; each variable has units.
+    `tiers` are as :func:`pyehl.measured_response.measurement.measure` returns them; `zone` is the
+    smooth contact that the shipped response goes through. Over wave (m,), and over wave and X
+    (m, 3) at the STATIONS; each variable has units.
     """
     parts = [_tier(tier, zone, operating, velocity_ratio) for tier in tiers.values()]
     joined = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     order = np.argsort(-joined["wavelength"], kind="stable")
-    variables = {
-        name: xr.Variable(("wave",), joined[name][order], {"long_name": text, "units": unit})
-        for name, (text, unit) in WAVES.items()
-    }
-    variables |= {
-        name: xr.Variable(("wave", "X"), joined[name][order], {"long_name": text, "units": unit})
-        for name, (text, unit) in PLACES.items()
-    }
-    names = np.concatenate([np.full(len(t["along"]), name) for name, t in tiers.items()])
-    variables["tier"] = xr.Variable(("wave",), names[order], {"long_name": "run it is from"})
+    names = np.repeat(list(tiers), [tier["along"].size for tier in tiers.values()])
+    variables = {"tier": xr.Variable(("wave",), names[order], {"long_name": "run it is from"})}
+    for name, (text, unit) in VARIABLES.items():
+        values = joined[name][order]
+        dims = ("wave", "X")[: values.ndim]
+        variables[name] = xr.Variable(dims, values, {"long_name": text, "units": unit})
     place = xr.Variable(("X",), STATIONS, {"long_name": "along the motion, x/a", "units": "1"})
     scalars = {
         "title": "response of a lubricated contact to waves of roughness",
@@ -149,16 +117,9 @@ def dataset(
 
 def write_table(data: xr.Dataset, path: Path) -> None:
     """Write a Dataset of waves as CSV, one line a wave, a column for each X."""
-    columns: list[tuple[str, Any]] = [("tier", data["tier"].values)]
-    columns += [(name, data[name].values) for name in WAVES]
-    for name in PLACES:
-        columns += [
-            (f"{name}_{where}", data[name].values[:, i])
-            for i, where in enumerate(("upstream", "centre", "downstream"))
-        ]
-    rows = zip(*(values for _, values in columns), strict=True)
-    write_csv(
-        path,
-        [name for name, _ in columns],
-        ([v if isinstance(v, str) else f"{v:.6g}" for v in row] for row in rows),
-    )
+    table = data.drop_dims("X").to_dataframe()
+    for name in VARIABLES:
+        if "X" in data[name].dims:
+            table[[f"{name}_{place}" for place in PLACES]] = data[name].values
+    with new_file(path) as fresh:
+        table.to_csv(fresh, index=False, float_format="%.6g")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The files of a Stribeck curve, and measured data to lay over it."""
+"""Measured friction, to lay over a Stribeck curve."""
 
 from __future__ import annotations
 
@@ -8,48 +8,18 @@ import io
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
-from pyehl import arrays
 from pyehl.errors import InputError
 from pyehl.given import text_file
-from pyehl.studies.curve import UNITS
-from pyehl.studies.stribeck import CurvePlan
-from pyehl.studies.table import over
 
-__all__ = ["Measured", "curve_dataset", "read_measured", "write_csv"]
+__all__ = ["Measured", "read_measured"]
 
 Array = NDArray[np.float64]
 Row = Mapping[str, Any]
-
-WORDS = ("status", "message")
-
-
-def write_csv(path: Path, plan: CurvePlan, rows: Sequence[Row]) -> None:
-    """Write the table of a curve, whole or not at all: what was varied, `UNITS`, status, message.
-
-    FileError if it cannot be written.
-    """
-    names = (*UNITS, *WORDS)
-    arrays.write_csv(
-        path,
-        [*plan.study.keys, *names],
-        (
-            [*point.point.values.values(), *(row[name] for name in names)]
-            for point, row in zip(plan.points, rows, strict=True)
-        ),
-    )
-
-
-def curve_dataset(plan: CurvePlan, rows: Sequence[Row]) -> xr.Dataset:
-    """Give a curve as a Dataset whose dimensions are what was varied."""
-    found = {name: [row[name] for row in rows] for name in (*UNITS, *WORDS)}
-    return over(plan.study, found, UNITS, {"title": "Stribeck curve of pyehl"}, float)
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,25 +84,24 @@ def read_measured(path: str | os.PathLike[str], key: str) -> Measured:
             f"{name}:1: error: the columns are {', '.join(head) or 'none'}\nexpected: one of "
             f"{', '.join(known)}; one of mu, mu_ratio; and error, which may be missing"
         )
-    columns = {word: head.index(word) for word in (abscissae[0], ordinates[0])}
-    if "error" in head:
-        columns["error"] = head.index("error")
-    values: dict[str, list[float]] = {word: [] for word in columns}
+    abscissa, ordinate = abscissae[0], ordinates[0]
+    wanted = [abscissa, ordinate, *(["error"] if "error" in head else [])]
+    rows = []
     for number, line in enumerate(lines[1:], start=2):
         if not any(word.strip() for word in line):
             continue
-        for word, place in columns.items():
+        given = dict(zip(head, line, strict=False))
+        for word in wanted:
             try:
-                value = float(line[place])
-            except (ValueError, IndexError):
+                value = float(given.get(word, "nothing"))
+            except ValueError:
                 value = np.nan
-            least = -np.inf if word != abscissae[0] else 0.0
-            if not (np.isfinite(value) and value > least):
-                given = line[place] if place < len(line) else "nothing"
-                raise InputError(f"{name}:{number}: error: {word} = '{given}'\nexpected: a number")
-            values[word].append(value)
-    if not values[ordinates[0]]:
+            if not np.isfinite(value) or (word == abscissa and value <= 0.0):
+                told = given.get(word, "nothing")
+                raise InputError(f"{name}:{number}: error: {word} = '{told}'\nexpected: a number")
+        rows.append([float(given[word]) for word in wanted])
+    if not rows:
         raise InputError(f"{name}: error: there are no rows")
-    friction = np.array(values[ordinates[0]])
-    errors = np.array(values["error"]) if "error" in columns else np.zeros_like(friction)
-    return Measured(abscissae[0], np.array(values[abscissae[0]]), ordinates[0], friction, errors)
+    table = np.array(rows)
+    error = table[:, 2] if "error" in head else np.zeros(len(table))
+    return Measured(abscissa, table[:, 0], ordinate, table[:, 1], error)

@@ -3,14 +3,13 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 
-from pyehl.studies.superposition import WaveSet, step_counts
+from pyehl.measured_response.superposition import WaveSet, step_counts
 
-__all__ = ["DIRECTIONS", "TIERS", "Tier", "ridge_wavelengths", "tier_waves"]
+__all__ = ["DIRECTIONS", "TIERS", "Tier", "tier_waves"]
 
 # Angles of the crests to those across the motion, one wave after the other [deg]
 DIRECTIONS = (0, 45, 80, 26, 0, 63, 15, 75, 0, 56, 35, 70, 0, 45, 62, 20)
@@ -25,32 +24,21 @@ class Tier:
     name: str  # of the tier and of its file
     tile: float  # side of the tile [a]
     points: int  # nodes per side of the domain, 4 a by 4 a
-    # Wavelengths along the motion, and shortest of all [a]. Of ridges: across it
+    # Wavelengths along the motion, and shortest of all [a]
     longest: float
     shortest: float
-    # Steady solutions with ridges along the motion (:mod:`pyehl.studies.ridges`)
-    ridges: bool = False
 
     def steps(self, velocity_ratio: float) -> int:
-        """Count the steps of the run; of ridges the solutions."""
-        if self.ridges:
-            return 1 + len(ridge_wavelengths(self))
+        """Count the steps of the run."""
         return step_counts(self.points, self.tile, velocity_ratio)[1]
 
 
 TIERS = (
-    Tier("ridges", 4.0, 257, 2.0, 0.125, ridges=True),
     Tier("long", 4.0, 257, 4.0, 0.125),
     Tier("middle", 1.0, 513, 0.5, 0.0625),
     Tier("short", 0.5, 1025, 0.125, 0.03125),
 )
-"""The tiers of the command; the first three are those of a quick measurement."""
-
-
-def ridge_wavelengths(tier: Tier) -> list[float]:
-    """Wavelengths of ridges, an octave apart [a]."""
-    octaves = round(math.log2(tier.longest / tier.shortest))
-    return [tier.longest / 2**k for k in range(octaves + 1)]
+"""The tiers of the command; all but the last are those of a quick measurement."""
 
 
 def tier_waves(tier: Tier) -> WaveSet:

@@ -3,38 +3,35 @@
 
 Waves of 4 a down to a/32, each on a grid with at least eight nodes a wavelength, in tiers: a
 coarse grid and a long tile for long waves, finer grids and shorter tiles for short ones. A tier is
-one transient run (:mod:`pyehl.studies.superposition`) in a process of its own, and one file of the
-result folder; a tier whose file is there is not run again.
+one transient run (:mod:`pyehl.measured_response.superposition`) and one file of the result folder;
+a tier whose file is there is not run again.
 """
 
 from __future__ import annotations
 
 import json
-import multiprocessing as mp
+import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import asdict, replace
 from importlib import metadata
 from pathlib import Path
-from queue import Empty
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.case import Case
 from pyehl.destination import Destination, file_errors, new_file
 from pyehl.errors import EhlError, InputError
+from pyehl.measured_response.superposition import superpose
+from pyehl.measured_response.tiers import TIERS, Tier, tier_waves
 from pyehl.studies.journal import difference
 from pyehl.studies.pool import processors
-from pyehl.studies.ridges import ridges
-from pyehl.studies.superposition import superpose
-from pyehl.studies.tiers import TIERS, Tier, ridge_wavelengths, tier_waves
 from pyehl.theory.operating import OperatingPoint
 
 __all__ = ["measure", "with_tiers"]
 
-Array = NDArray[np.float64]
 Progress = Callable[[str, int, int], object]
 
 
@@ -55,77 +52,40 @@ def _file(folder: Path, tier: Tier) -> Path:
     return folder / f"tier_{tier.name}.npz"
 
 
-def run_tier(
-    text: str, velocity_ratio: float, tier: Tier, threads: int, path: Path, progress: Progress
+def _run_tier(
+    settings: Mapping[str, Mapping[str, Any]],
+    velocity_ratio: float,
+    tier: Tier,
+    threads: int,
+    path: Path,
+    progress: Callable[[int, int], None],
 ) -> None:
-    """Run a tier of a resolved case and write its file, whole or not at all."""
-    settings = Case.from_text(text).resolve()
+    """Run a tier and write its file, whole or not at all."""
     began = time.perf_counter()
-
-    def report(done: int, total: int) -> None:
-        progress(tier.name, done, total)
-
-    if tier.ridges:
-        found: dict[str, Any] = ridges(
-            settings,
-            ridge_wavelengths(tier),
-            points=tier.points,
-            solver={"threads": threads},
-            progress=report,
-        )
-    else:
-        waves = tier_waves(tier)
-        found = {name: getattr(waves, name) for name in ("tile", "along", "across", "phase")}
-        found |= asdict(
-            superpose(
-                settings,
-                waves,
-                points=tier.points,
-                velocity_ratio=velocity_ratio,
-                solver={"threads": threads},
-                progress=report,
-            )
-        )
+    waves = tier_waves(tier)
+    found = superpose(
+        settings,
+        waves,
+        points=tier.points,
+        velocity_ratio=velocity_ratio,
+        solver={"threads": threads},
+        progress=progress,
+    )
     with new_file(path) as partial, partial.open("wb") as stream:
         np.savez(
             stream,
             identity=_identity(settings, velocity_ratio, tier),
             seconds=time.perf_counter() - began,
-            **found,
+            **asdict(waves),
+            **asdict(found),
         )
-
-
-def _child(
-    text: str,
-    velocity_ratio: float,
-    tier: Tier,
-    threads: int,
-    path: Path,
-    queue: Any,  # noqa: ANN401
-) -> None:
-    """Run a tier in a process of its own, as long as there is somebody to read the queue."""
-    parent = mp.parent_process()
-
-    def report(*now: Any) -> None:  # noqa: ANN401
-        if parent is not None and not parent.is_alive():
-            raise KeyboardInterrupt
-        queue.put(("step", now))
-
-    try:
-        run_tier(text, velocity_ratio, tier, threads, path, report)
-        queue.put(("end", (tier.name, "")))
-    except (EhlError, OSError, ValueError) as error:
-        queue.put(("end", (tier.name, str(error))))
-    except KeyboardInterrupt:
-        queue.put(("end", (tier.name, "interrupted")))
 
 
 def with_tiers(place: Destination) -> Destination:
     """Give a place with the tiers in it, which stay."""
     folder = Path(place.folder)
-    tiers = [_file(folder, tier).name for tier in TIERS]
-    there = [path.name for path in folder.iterdir()] if folder.is_dir() else []
-    return replace(place, kept=tuple(name for name in there if name in tiers))
+    there = tuple(path.name for tier in TIERS if (path := _file(folder, tier)).exists())
+    return replace(place, kept=there)
 
 
 def _check_folder(
@@ -159,7 +119,7 @@ def measure(
     place: Destination,
     *,
     tiers: Sequence[Tier] = TIERS,
-    jobs: int = 2,
+    jobs: int = 1,
     progress: Progress = lambda name, done, total: None,
 ) -> dict[str, dict[str, Any]]:
     """Measure the response at the operating point and velocity ratio of a case.
@@ -168,10 +128,10 @@ def measure(
     folder are not run again; `jobs` run at a time and share the processors. `progress` is called
     with the name of a tier, its steps done and its steps in all.
 
-    By the name of the tier what :class:`pyehl.studies.superposition.Superposition` has, with tile
-    [a], along, across, phase [rad] and seconds. InputError if the velocity ratio is not positive,
-    or the folder holds something else; FileError if it cannot be made; EhlError if a tier fails:
-    those that have ended stay.
+    By the name of the tier what :class:`pyehl.measured_response.superposition.Superposition` has,
+    with tile [a], along, across, phase [rad] and seconds. InputError if the velocity ratio is not
+    positive, or the folder holds something else; FileError if it cannot be made; EhlError if a tier
+    fails: those that have ended stay.
     """
     settings = case.resolve()
     ratio = float(settings["surface"]["velocity_ratio"])
@@ -187,7 +147,12 @@ def measure(
     with file_errors(folder, "cannot be made"):
         folder.mkdir(parents=True, exist_ok=True)
     wanted = [tier for tier in tiers if tier not in done]
-    _run_all(case.text, ratio, wanted, jobs, folder, progress)
+    threads = max(1, processors() // max(1, min(jobs, len(wanted))))
+
+    def run(tier: Tier, report: Callable[[int, int], None]) -> None:
+        _run_tier(settings, ratio, tier, threads, _file(folder, tier), report)
+
+    _run_all(run, wanted, jobs, progress)
     found = {}
     for tier in tiers:
         with np.load(_file(folder, tier), allow_pickle=False) as stored:
@@ -196,45 +161,36 @@ def measure(
 
 
 def _run_all(
-    text: str,
-    velocity_ratio: float,
+    run: Callable[[Tier, Callable[[int, int], None]], None],
     tiers: Sequence[Tier],
     jobs: int,
-    folder: Path,
     progress: Progress,
 ) -> None:
-    """Run tiers side by side, the largest first."""
-    context = mp.get_context("spawn")
-    queue: Any = context.Queue()
-    waiting = sorted(tiers, key=lambda tier: tier.points)
-    threads = max(1, processors() // max(1, min(jobs, len(waiting))))
-    running: dict[str, Any] = {}
-    failed: list[str] = []
-    try:
-        while waiting or running:
-            while waiting and len(running) < jobs:
-                tier = waiting.pop()
-                arguments = (text, velocity_ratio, tier, threads, _file(folder, tier), queue)
-                process = context.Process(target=_child, args=arguments, daemon=True)
-                process.start()
-                running[tier.name] = process
-            try:
-                kind, values = queue.get(timeout=1.0)
-            except Empty:
-                for name in [n for n, p in running.items() if not p.is_alive() and queue.empty()]:
-                    code = running.pop(name).exitcode
-                    failed.append(f"tier '{name}': its process ended with status {code}")
-                continue
-            if kind == "step":
-                progress(*values)
-                continue
-            name, message = values
-            running.pop(name).join()
-            if message:
-                failed.append(f"tier '{name}': {message}")
-    finally:
-        for process in running.values():
-            process.terminate()
-            process.join()
+    """Run tiers side by side, the largest first; a solver works without the lock of Python."""
+    ended, alone = threading.Event(), threading.Lock()
+
+    def run_one(tier: Tier) -> None:
+        def report(done: int, total: int) -> None:
+            if ended.is_set():
+                raise KeyboardInterrupt
+            with alone:
+                progress(tier.name, done, total)
+
+        run(tier, report)
+
+    failed = []
+    with ThreadPoolExecutor(jobs) as pool:
+        largest_first = sorted(tiers, key=lambda tier: -tier.points)
+        runs = {pool.submit(run_one, tier): tier for tier in largest_first}
+        try:
+            for future in as_completed(runs):
+                try:
+                    future.result()
+                except (EhlError, OSError, ValueError) as error:
+                    failed.append(f"tier '{runs[future].name}': {error}")
+        finally:
+            # after Ctrl-C: what runs ends with its step, what waits does not begin
+            ended.set()
+            pool.shutdown(wait=False, cancel_futures=True)
     if failed:
         raise EhlError("; ".join(failed))

@@ -15,32 +15,24 @@ from numpy.typing import NDArray
 from pyehl.case import Case
 from pyehl.destination import Destination, write_json
 from pyehl.given import Option, check_kind, path_of
+from pyehl.measured_response.measurement import measure, with_tiers
+from pyehl.measured_response.table import dataset, shipped_response, write_table
+from pyehl.measured_response.tiers import TIERS
 from pyehl.netcdf import write_netcdf
 from pyehl.prediction.smooth import solve_contact, zone_of
 from pyehl.results import scalars
-from pyehl.studies.response import measure, with_tiers
-from pyehl.studies.response_table import dataset, shipped_response, write_table
-from pyehl.studies.tiers import TIERS
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import fitted_range
-from pyehl.theory.transport import Zone
 
 __all__ = ["destination", "response"]
 
-Settings = Mapping[str, Mapping[str, Any]]
 Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 PICTURE = "response.png"
 FILES = ("response.csv", "response.nc", "case.nml", PICTURE, "summary.json")
-DIRECTIONS = (0.0, 45.0, 80.0, 90.0)
+DIRECTIONS = (0.0, 45.0, 80.0)
 """Of the lines of the shipped response: crests to those across the motion [deg]."""
-
-
-def _zone(settings: Settings, operating: OperatingPoint) -> Zone:
-    """Give the smooth contact that the shipped response goes through."""
-    return zone_of(solve_contact(settings), operating, Lubricant.from_settings(settings))
 
 
 def destination(
@@ -112,18 +104,14 @@ def response(
     with tempfile.TemporaryDirectory(prefix="pyehl-") as nothing:
         folder = nothing if output is None else path_of(output, "output")
         place = destination(folder, inputs=inputs, force=force)
-        found = measure(case, place, tiers=tiers, jobs=jobs, progress=progress or _silent)
-        return _write(case, found, place)
-
-
-def _silent(name: str, done: int, total: int) -> None:
-    """Take the steps of a run."""
+        told = {} if progress is None else {"progress": progress}
+        return _write(case, measure(case, place, tiers=tiers, jobs=jobs, **told), place)
 
 
 def _write(case: Case, found: Mapping[str, Mapping[str, Any]], place: Destination) -> xr.Dataset:
     """Write table, Dataset, picture, summary and case of a measured response, whole or not at all.
 
-    `found` is what :func:`pyehl.studies.response.measure` returns.
+    `found` is what :func:`pyehl.measured_response.measurement.measure` returns.
     """
     # matplotlib takes long to import
     from pyehl.plots.response import response_figure  # noqa: PLC0415
@@ -132,63 +120,52 @@ def _write(case: Case, found: Mapping[str, Mapping[str, Any]], place: Destinatio
     settings = case.resolve()
     ratio = float(settings["surface"]["velocity_ratio"])
     operating = OperatingPoint.from_settings(settings)
-    data = dataset(found, _zone(settings, operating), operating, ratio)
-    values = {"moes_m": operating.moes_m, "moes_l": operating.moes_l, "velocity_ratio": ratio}
-    difference = data["shipped_difference"].values[:, 1]
-    summary = {
-        "kind": "response",
-        "files": list(FILES),
-        **values,
-        "waves": int(data.sizes["wave"]),
-        "tiers": [_tier_summary(name, tier) for name, tier in found.items()],
-        "shipped_difference_rms": float(np.sqrt(np.mean(difference**2))),
-        "shipped_difference_max": float(difference.max()),
-        "within_fitted_range": all(
-            low <= values[name] <= high for name, (low, high) in fitted_range().items()
-        ),
-    }
-    with with_tiers(place).fresh() as folder:
-        write_table(data, folder / "response.csv")
-        write_netcdf(folder / "response.nc", data)
-        save(response_figure(*_beside_shipped(settings, data)), folder / PICTURE)
-        (folder / "case.nml").write_text(case.text, encoding="utf-8")
-        write_json(folder / "summary.json", summary)
-    return data.assign(scalars(summary)).assign_attrs(summary)
-
-
-def _beside_shipped(
-    settings: Settings, data: xr.Dataset
-) -> tuple[dict[str, Array], dict[float, tuple[Array, Complex]], str]:
-    """Give the measured waves at X = 0 and the shipped response, to draw.
-
-    The arguments of :func:`pyehl.plots.response.response_figure`.
-    """
-    operating = OperatingPoint.from_settings(settings)
-    zone, ratio = _zone(settings, operating), float(data.attrs["velocity_ratio"])
+    zone = zone_of(solve_contact(settings), operating, Lubricant.from_settings(settings))
+    data = dataset(found, zone, operating, ratio)
+    at_centre = data.sel(X=0.0)
     nabla = np.geomspace(float(data["nabla_2"].min()), float(data["nabla_2"].max()), 400)
     q = 2.0 * np.pi / nabla * np.sqrt(operating.moes_m / operating.moes_l)
     lines = {}
     for direction in DIRECTIONS:
         kx, ky = q * np.cos(np.radians(direction)), q * np.sin(np.radians(direction))
         lines[direction] = (nabla, shipped_response(kx, ky, zone, operating, ratio)[:, 1])
-    waves = {
-        "nabla_2": data["nabla_2"].values,
-        "direction": data["direction"].values,
-        "amplitude": data["amplitude"].values[:, 1],
-        "lag": data["lag"].values[:, 1],
-    }
+    waves = {name: at_centre[name].values for name in ("nabla_2", "direction", "amplitude", "lag")}
     label = f"M = {operating.moes_m:.4g}, L = {operating.moes_l:.4g}, velocity ratio {ratio:g}"
-    return waves, lines, label
+    summary = _summary(found, at_centre["shipped_difference"].values, data.attrs)
+    with with_tiers(place).fresh() as folder:
+        write_table(data, folder / "response.csv")
+        write_netcdf(folder / "response.nc", data)
+        save(response_figure(waves, lines, label), folder / PICTURE)
+        (folder / "case.nml").write_text(case.text, encoding="utf-8")
+        write_json(folder / "summary.json", summary)
+    return data.assign(scalars(summary)).assign_attrs(summary)
 
 
-def _tier_summary(name: str, tier: Mapping[str, Any]) -> dict[str, Any]:
-    middle = int(np.argmin(np.abs(tier["x"])))
+def _summary(
+    found: Mapping[str, Mapping[str, Any]], difference: Array, values: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Give what ``summary.json`` holds; `values` has the conditions."""
+    tiers = [
+        {
+            "name": name,
+            "points": round(4.0 / float(tier["spacing"])) + 1,
+            "tile": float(tier["tile"]),
+            "waves": int(tier["along"].size),
+            "H_c": float(tier["central_film"]),
+            "fit_residual": float(tier["residual"][:, int(np.argmin(np.abs(tier["x"])))].max()),
+            "seconds": float(tier["seconds"]),
+        }
+        for name, tier in found.items()
+    ]
     return {
-        "name": name,
-        "points": round(4.0 / float(tier["spacing"])) + 1,
-        "tile": float(tier["tile"]),
-        "waves": int(tier["along"].size),
-        "H_c": float(tier["central_film"]),
-        "fit_residual": float(tier["residual"][:, middle].max()),
-        "seconds": float(tier["seconds"]),
+        "kind": "response",
+        "files": list(FILES),
+        **{name: values[name] for name in ("moes_m", "moes_l", "velocity_ratio")},
+        "waves": int(difference.size),
+        "tiers": tiers,
+        "shipped_difference_rms": float(np.sqrt(np.mean(difference**2))),
+        "shipped_difference_max": float(difference.max()),
+        "within_fitted_range": all(
+            low <= values[name] <= high for name, (low, high) in fitted_range().items()
+        ),
     }

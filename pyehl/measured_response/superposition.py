@@ -22,7 +22,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pyehl import namelist
 from pyehl.case import Case
 from pyehl.errors import EhlError
 from pyehl.solver import Solver
@@ -133,15 +132,15 @@ def transient_case(
 ) -> Case:
     """Return the case of a run with a tile of a side [a] at the operating point of a case."""
     o = OperatingPoint.from_settings(settings)
-    groups = {
-        "contact": {
+    return Case(
+        contact={
             "load": o.load,
             "mean_velocity": o.mean_velocity,
             "radius": o.radius,
             "reduced_modulus": o.reduced_modulus,
         },
-        "lubricant": dict(settings["lubricant"]),
-        "surface": {
+        lubricant=settings["lubricant"],
+        surface={
             "kind": "fractal",
             "length_x": tile * o.hertz_radius,
             "length_y": tile * o.hertz_radius,
@@ -149,11 +148,10 @@ def transient_case(
             "x_start": FRONT,
         },
         # the tiers count their nodes on 4 a by 4 a, whatever M and L
-        "grid": {"points": points, "x_inlet": -2.5, "x_outlet": 1.5, "y_extent": 2.0},
-        "solver": {"accuracy": ACCURACY, **solver},
-        "time": {"steps": 100000, "estimate_error": False},
-    }
-    return Case.from_text(namelist.text_of(groups), origin="response")
+        grid={"points": points, "x_inlet": -2.5, "x_outlet": 1.5, "y_extent": 2.0},
+        solver={"accuracy": ACCURACY, **solver},
+        time={"steps": 100000, "estimate_error": False},
+    )
 
 
 def superpose(
@@ -175,17 +173,14 @@ def superpose(
     done and in all. EhlError if the run ends before its time.
     """
     case = transient_case(
-        settings,
-        points=points,
-        tile=waves.tile,
-        velocity_ratio=velocity_ratio,
-        solver=solver or {},
+        settings, points=points, tile=waves.tile, velocity_ratio=velocity_ratio, solver=solver or {}
     )
     operating = OperatingPoint.from_settings(case.resolve())
     heights, amplitude = linear_surface(waves, slope)
     with Solver.open(case, heights * operating.film_scale) as run:
         while not run.done and float(run.summary().get("steps") or 0) < 1:
             run.advance()
+        _refuse_end(run)
         central_film = float(run.summary().get("H_c_smooth") or run.summary()["H_c"])
         x, y = run.axes()
         spacing = float(x[1] - x[0])
@@ -195,8 +190,7 @@ def superpose(
         times, films, pressures = [], [], []
         for step in range(1, total + 1):
             run.advance()
-            if run.done:
-                raise EhlError(f"the run ended too early: {run.summary()['status']}")
+            _refuse_end(run)
             if step > total - period:
                 times.append(float(run.summary()["T"]))
                 films.append(run.field("H")[near, middle])
@@ -209,6 +203,11 @@ def superpose(
         (x[near], np.array(times), np.array(films), np.array(pressures)),
         (spacing, central_film),
     )
+
+
+def _refuse_end(run: Solver) -> None:
+    if run.done:
+        raise EhlError(f"the run ended too early: {run.summary()['status']}")
 
 
 def _fit(
