@@ -15,9 +15,9 @@ import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.image import imread
+from second_solver import START, VELOCITY, X_MATTERS, SecondSolver, Wave, Z
 
 from pyehl import cli, schema
-from pyehl.bench.second_solver import START, VELOCITY, X_MATTERS, SecondSolver, Wave, Z
 from pyehl.case import Case
 from pyehl.studies import response, tiers
 from pyehl.studies.response_folder import destination
