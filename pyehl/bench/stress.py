@@ -52,7 +52,7 @@ COLUMNS = (
 )
 MEANING = (
     "ended: all steps asked for converged; checked: solved once more to a twentieth of the "
-    "algebraic error;\nwrong: differs by more than the error it states; cycles: of a step, or in all"
+    "algebraic error;\nwrong: differs by more than the error it states; cycles: of a step, or all"
 )
 """What the columns are."""
 

@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import scipy
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -267,8 +266,8 @@ def _flattened(about: Mapping[str, Any], tile: Topography) -> Array:
     # the mean is not flattened
     stiff[0, 0] = np.inf
     unit = about["film_scale_m"] / about["hertz_pressure_Pa"]
-    part = scipy.fft.rfft2(tile.heights) * unit / stiff
-    return np.asarray(scipy.fft.irfft2(part, s=tile.shape))
+    part = np.fft.rfft2(tile.heights) * unit / stiff
+    return np.asarray(np.fft.irfft2(part, s=tile.shape))
 
 
 def _passage(tables: Mapping[str, Mapping[str, Array]], length: float, title: str) -> Figure:
