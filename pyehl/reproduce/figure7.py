@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pyehl.arrays import write_csv
 from pyehl.plots import paper_surfaces
 from pyehl.plots.style import save
-from pyehl.prediction.flattening import stiffness
+from pyehl.prediction.by_response import STIFFER
 from pyehl.reproduce.level import Level
 from pyehl.reproduce.piece import Check, Finding, Result
 from pyehl.reproduce.references import References
@@ -142,13 +142,6 @@ def show(data: Surfaces, references: References, folder: Path, level: Level) -> 
     )  # fmt: skip
 
 
-def _stiffer() -> float:
-    """How much stiffer eq. 11 read literally is than the half-space."""
-    q = np.ones(1)
-    literal, exact = (stiffness(q, q, 1.0, kind)[0] for kind in ("paper", "exact"))
-    return float(literal / exact - 1.0)
-
-
 def _findings(
     data: Surfaces,
     means: dict[str, tuple[float, float]],
@@ -175,9 +168,9 @@ def _findings(
         ),
         Finding(
             "Misprints and readings",
-            f"Eq. 11 with its wavelength read as 2 pi/|q| is {100 * _stiffer():.0f} % stiffer than "
-            "the half-space, and the viscosity law of the prediction is not stated. Read "
-            "literally, with Barus' law of the appendix, "
+            f"Eq. 11 with its wavelength read as 2 pi/|q| is {100 * (STIFFER - 1.0):.0f} % "
+            "stiffer than the half-space, and the viscosity law of the prediction is not stated. "
+            "Read literally, with Barus' law of the appendix, "
             f"the paper's model gives a mean of {np.nanmean(data.predicted['literal']):.3f}, with "
             "the exact stiffness and Roelands' law of its section 2 "
             f"{np.nanmean(data.predicted['paper']):.3f}, for the same surfaces.",

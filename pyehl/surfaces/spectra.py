@@ -22,8 +22,8 @@ def wavenumbers(topography: Topography) -> tuple[Array, Array]:
     """q_x (nx, 1) and q_y (1, ny//2 + 1) of the half spectrum of a tile [rad/m]."""
     nx, ny = topography.shape
     dx, dy = topography.pixel
-    qx: Array = 2.0 * np.pi * np.fft.fftfreq(nx, dx)
-    qy: Array = 2.0 * np.pi * np.fft.rfftfreq(ny, dy)
+    qx = np.asarray(2.0 * np.pi * np.fft.fftfreq(nx, dx), dtype=np.float64)
+    qy = np.asarray(2.0 * np.pi * np.fft.rfftfreq(ny, dy), dtype=np.float64)
     return qx[:, np.newaxis], qy[np.newaxis, :]
 
 
