@@ -7,7 +7,6 @@ import csv
 import json
 import math
 import resource
-import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -15,8 +14,6 @@ import pytest
 from matplotlib.image import imread
 
 from pyehl.bench import (
-    faults_edge,
-    faults_files,
     faults_inputs,
     precision,
     skips,
@@ -113,36 +110,6 @@ def test_cases_of_a_campaign_cover_what_can_be_asked_for():
         assert case.values["time.steps"] in (0, stress_cases.BOUNDS[case.points])
 
 
-def test_inputs_at_the_edge(tmp_path: Path):
-    (tmp_path / "case.nml").write_text(CASE)
-    trials, counts, bad = faults_edge.inputs_at_the_edge(tmp_path, run)
-    assert bad == []
-    assert counts == {"refused": trials}
-    trials, counts, bad = faults_edge.arguments(tmp_path)
-    assert bad == []
-    assert counts == {"refused": trials}
-
-
-def test_what_edge_rows_must_see(tmp_path: Path, monkeypatch):
-    """Commands that accept everything, and write over what they find."""
-
-    def careless(folder: Path, *words: str, **_: object) -> subprocess.CompletedProcess[str]:
-        for path in folder.rglob("report.md"):
-            path.write_text("")
-        return subprocess.CompletedProcess(words, 0, "", "")
-
-    (tmp_path / "case.nml").write_text(CASE)
-    trials, _, bad = faults_edge.inputs_at_the_edge(tmp_path, careless)
-    assert len(bad) == trials
-    trials, _, bad = faults_files.foreign(tmp_path, careless)
-    assert len(bad) == trials
-    monkeypatch.setattr(faults_edge.Solver, "field", lambda solver, name: np.zeros(2) / 3.0)
-    torn = iter(range(10**9))
-    assert faults_edge.reads(10)[2] == []
-    monkeypatch.setattr(faults_edge.Solver, "field", lambda solver, name: np.array([next(torn)]))
-    assert len(faults_edge.reads(10)[2]) == 1
-
-
 def test_mutated_inputs(tmp_path: Path):
     found = faults_inputs.run_chunk(5, 40, tmp_path, main)
     assert found["bad"] == []
@@ -174,7 +141,7 @@ def test_faults_campaign(tmp_path: Path, capsys):
     words = ["bench", "faults", "--kills", "4", "--inputs", "20"]
     assert main([*words, "-o", str(tmp_path / "f")]) == 0
     rows = json.loads((tmp_path / "f" / "faults.json").read_text())["rows"]
-    assert [row["wrong"] for row in rows] == [0] * 11
+    assert [row["wrong"] for row in rows] == [0] * 6
     assert main([*words, "-o", str(tmp_path / "f")]) == 2
 
 
