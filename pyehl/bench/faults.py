@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``pyehl bench faults``: kills, full disks, damaged states and hostile input, from a seed.
+"""``pyehl bench faults``: kills, damaged states and hostile input, from a seed.
 
 Nothing may be lost, no run may leave half a folder, no input may end in a traceback or a hang, and
 a run that was killed and resumed gives the bits of an unbroken one.
@@ -21,7 +21,7 @@ from typing import Any
 
 import numpy as np
 
-from pyehl.bench.faults_resources import damage, resources
+from pyehl.bench.faults_states import damage
 
 __all__ = ["COLUMNS", "campaign"]
 
@@ -72,8 +72,6 @@ def campaign(
         rows.append(_row(name, *work(folder, generator, max(1, round(share * kills)))))
     tell("bytes of a state flipped, region by region")
     rows.append(_row("damaged states", *damage(folder, generator, run, same)))
-    tell("disk full, folder gone or read-only, no memory, two runs into one folder")
-    rows.append(_row("resources", *resources(folder, run)))
     tell(f"mutated inputs: {inputs}")
     rows.append(_row("mutated inputs", *_inputs(folder, seed, inputs)))
     return rows

@@ -4,12 +4,16 @@
 from __future__ import annotations
 
 import os
+import resource
+import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
 import pytest
+from limited import limited
 
 CASE = (
     "&contact moes_m = 100.0 moes_l = 6.0 /\n"
@@ -81,3 +85,49 @@ def test_refused_at_once(folder: Path, words: tuple[str, ...], part: str):
     assert "Traceback" not in done.stderr
     assert part in done.stderr
     assert not (folder / "edge-out").exists()
+
+
+@pytest.mark.parametrize("size", [1_000, 30_000])
+def test_full_disk_is_told_and_leaves_no_folder(folder: Path, size: int):
+    """A write that takes a part is no error for gfortran: the length of every file is checked."""
+    words = ["run", "case.nml", "-o", "full", "--set", "time.steps=4"]
+    done = limited(folder, resource.RLIMIT_FSIZE, size, *words)
+    assert done.returncode == 1
+    assert "cannot write: the disk is full" in done.stderr
+    assert not (folder / "full").exists()
+
+
+def test_no_memory_on_the_way(folder: Path):
+    """What a run of 4097 x 4097 nodes is given is enough for the coarser grids."""
+    words = ["run", "case.nml", "-o", "large", "--set", "grid.points=4097"]
+    done = limited(folder, resource.RLIMIT_AS, 600 * 2**20, *words)
+    assert done.returncode in (1, 2)
+    assert done.stderr.strip()
+    assert "Traceback" not in done.stderr
+    assert not (folder / "large").exists()
+
+
+@pytest.mark.parametrize("out", ["file/x", "/proc/pyehl"])
+def test_no_place_for_a_folder(folder: Path, out: str):
+    (folder / "file").write_text("", encoding="utf-8")
+    words = [sys.executable, "-P", "-m", "pyehl", "run", "case.nml", "-o", out]
+    done = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert out in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_folder_taken_away_from_a_run(folder: Path):
+    gone = folder / "gone"
+    gone.mkdir()
+    words = [sys.executable, "-P", "-m", "pyehl", "run", "case.nml", "-o", "gone/out"]
+    # a state is written at once
+    words += ["--set", "output.checkpoint_interval=0.01"]
+    with subprocess.Popen(words, cwd=folder, stderr=subprocess.PIPE, text=True) as process:
+        until = time.monotonic() + 60.0
+        while process.poll() is None and not any(gone.iterdir()) and time.monotonic() < until:
+            time.sleep(0.01)
+        shutil.rmtree(gone)
+        told = process.communicate()[1]
+    assert process.returncode in (0, 1, 2)
+    assert "Traceback" not in told

@@ -6,7 +6,6 @@ from __future__ import annotations
 import csv
 import json
 import math
-import resource
 from pathlib import Path
 
 import numpy as np
@@ -21,7 +20,7 @@ from pyehl.bench import (
     stress_cases,
 )
 from pyehl.bench.faults import CASE, run, same
-from pyehl.bench.faults_resources import damage, limited
+from pyehl.bench.faults_states import damage
 from pyehl.cli import main
 
 
@@ -116,20 +115,9 @@ def test_mutated_inputs(tmp_path: Path):
     assert sum(found["counts"].values()) == 40
 
 
-@pytest.mark.parametrize("size", [1_000, 20_000])
-def test_full_disk_is_told_and_leaves_no_folder(tmp_path: Path, size: int):
-    """A write that takes a part is no error for gfortran: the length of every file is checked."""
-    (tmp_path / "case.nml").write_text(CASE)
-    words = ["run", "case.nml", "-o", "out", "--set", "time.steps=4"]
-    done = limited(tmp_path, resource.RLIMIT_FSIZE, size, *words)
-    assert done.returncode == 1
-    assert "cannot write: the disk is full" in done.stderr
-    assert not (tmp_path / "out").exists()
-
-
 @pytest.mark.slow
 def test_damaged_states(tmp_path: Path, monkeypatch):
-    monkeypatch.setattr("pyehl.bench.faults_resources.REGIONS", 2)
+    monkeypatch.setattr("pyehl.bench.faults_states.REGIONS", 2)
     (tmp_path / "case.nml").write_text(CASE)
     trials, counts, bad = damage(tmp_path, np.random.default_rng(1), run, same)
     assert (trials, bad) == (4, [])
@@ -141,7 +129,7 @@ def test_faults_campaign(tmp_path: Path, capsys):
     words = ["bench", "faults", "--kills", "4", "--inputs", "20"]
     assert main([*words, "-o", str(tmp_path / "f")]) == 0
     rows = json.loads((tmp_path / "f" / "faults.json").read_text())["rows"]
-    assert [row["wrong"] for row in rows] == [0] * 6
+    assert [row["wrong"] for row in rows] == [0] * 5
     assert main([*words, "-o", str(tmp_path / "f")]) == 2
 
 
