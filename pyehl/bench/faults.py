@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``pyehl bench faults``: kills, full disks, damaged states and hostile input, from a seed.
+"""``pyehl bench faults``: kills, damaged states and hostile input, from a seed.
 
 Nothing may be lost, no run may leave half a folder, no input may end in a traceback or a hang, and
 a run that was killed and resumed gives the bits of an unbroken one.
@@ -21,9 +21,7 @@ from typing import Any
 
 import numpy as np
 
-from pyehl.bench.faults_edge import arguments, inputs_at_the_edge, reads
-from pyehl.bench.faults_files import foreign, starts
-from pyehl.bench.faults_resources import damage, resources
+from pyehl.bench.faults_states import damage
 
 __all__ = ["COLUMNS", "campaign"]
 
@@ -74,17 +72,6 @@ def campaign(
         rows.append(_row(name, *work(folder, generator, max(1, round(share * kills)))))
     tell("bytes of a state flipped, region by region")
     rows.append(_row("damaged states", *damage(folder, generator, run, same)))
-    tell("disk full, folder gone or read-only, no memory, two runs into one folder")
-    rows.append(_row("resources", *resources(folder, run)))
-    tell(f"two first starts of one study at once: {max(1, round(0.1 * kills))}")
-    rows.append(_row("two first starts", *starts(folder, max(1, round(0.1 * kills)), run, command)))
-    tell("files of others in every output folder")
-    rows.append(_row("files of others", *foreign(folder, run)))
-    tell(f"reads while another thread advances: {inputs}")
-    rows.append(_row("reads during steps", *reads(inputs)))
-    tell("devices, pipes, files of terabytes, arguments of the wrong kind")
-    rows.append(_row("inputs at the edge", *inputs_at_the_edge(folder, run)))
-    rows.append(_row("arguments of Python", *arguments(folder)))
     tell(f"mutated inputs: {inputs}")
     rows.append(_row("mutated inputs", *_inputs(folder, seed, inputs)))
     return rows
@@ -158,10 +145,7 @@ def _kill_runs(
     takes = time.monotonic() - began
     done = finished = 0
     while done < kills:
-        words = ["run", "case.nml", "-o", "out"]
-        if out.with_name("out.checkpoint").exists():
-            words = ["run", "--resume", "out"]
-        if _killed(folder, words, float(generator.uniform(0.0, 1.1 * takes))):
+        if _killed(folder, _go_on(out), float(generator.uniform(0.0, 1.1 * takes))):
             done += 1
             if out.exists() and not (out / "summary.json").is_file():
                 bad.append(f"kill {done}: half a folder {sorted(p.name for p in out.iterdir())}")
@@ -169,14 +153,17 @@ def _kill_runs(
             finished += 1
             _compare(out, whole, f"after kill {done}", bad)
             shutil.rmtree(out, ignore_errors=True)
-    words = ["run", "case.nml", "-o", "out"]
-    if out.with_name("out.checkpoint").exists():
-        words = ["run", "--resume", "out"]
-    last = run(folder, *words)
+    last = run(folder, *_go_on(out))
     if last.returncode:
         bad.append(f"the last run: {last.stderr}")
     _compare(out, whole, "in the end", bad)
     return done, {"killed": done, "ended first, or in the end": finished + 1}, bad
+
+
+def _go_on(out: Path) -> list[str]:
+    """Words that begin a run, or resume it where it has left a state."""
+    resumed = out.with_name(f"{out.name}.checkpoint").exists()
+    return ["run", "--resume", out.name] if resumed else ["run", "case.nml", "-o", out.name]
 
 
 def _compare(out: Path, whole: Path, when: str, bad: list[str]) -> None:

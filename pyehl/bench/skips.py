@@ -24,9 +24,11 @@ from pyehl.bench.comparison import (
     rounding,
     solve,
 )
-from pyehl.bench.skipped_predictions import prediction_scene, sweep_scene
 from pyehl.bench.unit import hertz
+from pyehl.case import Case
 from pyehl.errors import InputError
+from pyehl.prediction import smooth as smooth_contact
+from pyehl.prediction.of_case import predict
 
 __all__ = ["COLUMNS", "MEANING", "SCENES", "skip_rows"]
 
@@ -64,6 +66,8 @@ START_TOLERANCE = 1e-3
 LEAST = 257
 # Periods after which a run of fixed length is over: until the start has died out, and one more
 FIXED_PERIODS = 3
+# Surfaces of a sweep
+PREDICTIONS = 20
 
 
 def smooth_scene(points: int, repeats: int) -> list[Row]:
@@ -228,12 +232,38 @@ def fractal_scene(points: int, repeats: int) -> list[Row]:
     return _run_rows("fractal surface", options, repeats, symmetric=False)
 
 
+def prediction_scene(points: int, repeats: int) -> list[Row]:
+    """Predictions of fractal surfaces, nothing simulated."""
+    seeds = range(1, PREDICTIONS + 1)
+    cases = [Case.from_text("", [*FRACTAL, f"surface.seed={seed}"]).resolve() for seed in seeds]
+
+    def ratios(*, keep: bool) -> Values:
+        smooth_contact.forget()
+        found = []
+        for settings in cases:
+            if not keep:
+                smooth_contact.forget()
+            found.append(predict(settings).mu_ratio)
+        return {"mu_ratio": found}
+
+    return [
+        compare(
+            f"sweep of {PREDICTIONS} predictions",
+            f"{PREDICTIONS - 1} smooth contacts",
+            "mu_ratio",
+            lambda: ratios(keep=True),
+            lambda: ratios(keep=False),
+            nothing,
+            repeats,
+        )
+    ]
+
+
 SCENES: dict[str, Callable[[int, int], list[Row]]] = {
     "smooth": smooth_scene,
     "wave": wave_scene,
     "fractal": fractal_scene,
     "predict": prediction_scene,
-    "sweep": sweep_scene,
 }
 """Scenes by name; each takes the nodes per side and the number of repeats."""
 

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from pyehl.bench.unit import ScipyDeflection, hertz, median_seconds
+from pyehl.bench.unit import unit_seconds
 from pyehl.case import Case
 from pyehl.solver import Solver
 
@@ -92,9 +92,7 @@ def smooth_rows(
     """
     rows: list[dict[str, Any]] = []
     for points in grids:
-        p, h, _, _ = hertz(points)
-        yardstick = ScipyDeflection(points, points, h, h)
-        unit = median_seconds(lambda p=p, y=yardstick: y.apply(p))  # type: ignore[misc]
+        unit = unit_seconds(points)
         for engine in engines:
             for workers in threads:
                 text = (

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import contextlib
 import statistics
-import sys
 import tempfile
 import time
 from collections.abc import Callable, Sequence
@@ -96,27 +95,6 @@ def meaning(scheme: str, front: float, steps: int) -> str:
     )
 
 
-class Line:
-    """A line on a terminal about what is being done; a new line each time elsewhere."""
-
-    def __init__(self) -> None:
-        self._last = 0.0
-
-    def show(self, text: str, *, now: bool = False) -> None:
-        """Show the text, at most twice a second, on no terminal every ten seconds."""
-        tty = sys.stderr.isatty()
-        if not now and time.monotonic() - self._last < (0.5 if tty else 10.0):
-            return
-        self._last = time.monotonic()
-        print(f"\r\x1b[K{text[:110]}" if tty else text, end="" if tty else "\n", file=sys.stderr)
-        sys.stderr.flush()
-
-    def clear(self) -> None:
-        """Leave an empty line on a terminal."""
-        if sys.stderr.isatty():
-            print("\r\x1b[K", end="", file=sys.stderr, flush=True)
-
-
 def _case(scene: Scene, points: int, scheme: str, *options: str) -> Case:
     return Case.from_text(
         scene.text,
@@ -130,16 +108,14 @@ def _case(scene: Scene, points: int, scheme: str, *options: str) -> Case:
     )
 
 
-def _fill(solver: Solver, case: Case, front: float, show: Callable[[str], None]) -> None:
+def _fill(solver: Solver, case: Case, front: float) -> None:
     """Advance until the front of the roughness is at X = front."""
     settings = case.resolve()["surface"]
     wanted = (front - float(settings["x_start"])) / float(settings["velocity_ratio"])
     while not solver.done:
         solver.advance()
-        at = float(solver.summary().get("T", -1.0))
-        if at >= wanted:
+        if float(solver.summary().get("T", -1.0)) >= wanted:
             return
-        show("smooth contact" if at < 0.0 else f"on the way, T = {at:.2f} of {wanted:.2f}")
     raise EhlError(f"the run ended before it could be timed: {solver.progress()}")
 
 
@@ -151,6 +127,7 @@ def step_rows(
     scheme: str = "narrow",
     front: float = FILLED,
     steps: int = STEPS,
+    tell: Callable[[str], None] = lambda text: None,
 ) -> list[dict[str, Any]]:
     """Seconds and cycles of a step (means), per grid, case and number of threads.
 
@@ -158,7 +135,6 @@ def step_rows(
     are the steps that follow those in which the front of the roughness comes to X = `front`.
     """
     rows: list[dict[str, Any]] = []
-    line = Line()
     for points in grids:
         p, h, _, _ = hertz(points)
         yardstick = ScipyDeflection(points, points, h, h)
@@ -166,6 +142,7 @@ def step_rows(
         first = len(rows)
         for scene in scenes:
             name = f"{points} {scene.name} {scene.domain}"
+            tell(name)
             rows += _scene_rows(
                 scene,
                 name,
@@ -174,12 +151,10 @@ def step_rows(
                 (scheme, front, steps),
                 lambda p=p, y=yardstick: y.apply(p),  # type: ignore[misc]
                 units,
-                line,
             )
         for row in rows[first:]:
             row["unit_seconds"] = statistics.median(units)
             row["units"] = row["seconds"] / row["unit_seconds"]
-    line.clear()
     return rows
 
 
@@ -191,7 +166,6 @@ def _scene_rows(
     how: tuple[str, float, int],
     deflect: Callable[[], object],
     units: list[float],
-    line: Line,
 ) -> list[dict[str, Any]]:
     scheme, front, steps = how
     rows: list[dict[str, Any]] = []
@@ -200,8 +174,7 @@ def _scene_rows(
         place = f"{folder}/state"
         with Solver(case) as solver:
             solver.keep(place)
-            line.show(f"{name}: steps before those that are timed", now=True)
-            _fill(solver, case, front, lambda text: line.show(f"{name}: {text}"))
+            _fill(solver, case, front)
             solver.save_state(at_once=True)
         with contextlib.ExitStack() as stack:
             solvers = []
@@ -214,7 +187,6 @@ def _scene_rows(
                 solvers.append(solver)
             before = [solver.summary() for solver in solvers]
             times: list[list[float]] = [[] for _ in solvers]
-            line.show(f"{name}: {steps} steps on {threads} thread(s)", now=True)
             # in turn, so that what else the machine does slows all of them alike
             for _ in range(steps):
                 for solver, taken in zip(solvers, times, strict=True):
@@ -249,29 +221,31 @@ def _scene_rows(
 
 
 def error_rows(
-    grids: Sequence[int], threads: int, *, scheme: str = "narrow", scenes: Sequence[Scene] = CASES
+    grids: Sequence[int],
+    threads: int,
+    *,
+    scheme: str = "narrow",
+    scenes: Sequence[Scene] = CASES,
+    tell: Callable[[str], None] = lambda text: None,
 ) -> list[dict[str, Any]]:
     """Mean of mu_r/mu_s by whole runs, and its relative change to that on the finest grid.
 
     The half domain serves for the whole one where the scene is symmetric.
     """
     rows: list[dict[str, Any]] = []
-    line = Line()
     chosen = {scene.name: scene for scene in scenes}
     chosen |= {scene.name: scene for scene in scenes if scene.domain == "half"}
     for scene in chosen.values():
         means: dict[int, float] = {}
         for points in sorted(grids):
-            name = f"{points} {scene.name}, whole run"
+            tell(f"{points} {scene.name}, whole run")
             options = f"solver.threads={threads}", f"time.tolerance={TOLERANCE}"
             case = _case(scene, points, scheme, *options)
             began = time.perf_counter()
             with Solver(case) as solver:
-                while not solver.advance():
-                    line.show(f"{name}: {solver.progress()}")
+                solver.run()
                 summary = solver.summary()
             seconds = time.perf_counter() - began
-            line.show(f"{name}: mu_r/mu_s {summary['mu_ratio']}, {seconds:.1f} s", now=True)
             if summary["mu_ratio"] is not None:
                 means[points] = summary["mu_ratio"]
             rows.append(
@@ -290,5 +264,4 @@ def error_rows(
         for row in rows:
             if row["case"] == scene.name and row["points"] in means and row["points"] < finest:
                 row["error"] = abs(means[row["points"]] / means[finest] - 1.0)
-    line.clear()
     return rows

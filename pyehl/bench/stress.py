@@ -2,7 +2,7 @@
 """``pyehl bench stress``: where the solver converges and where not, and that it is never wrong.
 
 Cases drawn from a seed run through the machinery of ``pyehl sweep``. All that end with a result are
-solved once more to a twentieth of the algebraic error, and a sample by the second solver.
+solved once more to a twentieth of the algebraic error.
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from pyehl.bench import stress_second
 from pyehl.bench.stress_cases import FAMILIES, StressCase, draw, study_of
 from pyehl.destination import write_json
 from pyehl.studies.plan import plan
@@ -45,18 +44,15 @@ COLUMNS = (
     ("cases", "d"),
     ("converged", "d"),
     ("ended", "d"),
-    ("no_solution", "d"),
     ("failed", "d"),
     ("checked", "d"),
     ("wrong", "d"),
-    ("second", "d"),
     ("cycles", ".1f"),
     ("most_cycles", ".1f"),
 )
 MEANING = (
-    "ended: all steps asked for converged; no solution: of the equations, by the second solver; "
-    "checked: solved once more to a twentieth\nof the algebraic error; wrong: differs by more than "
-    "the error it states; cycles: of a step, or in all"
+    "ended: all steps asked for converged; checked: solved once more to a twentieth of the "
+    "algebraic error;\nwrong: differs by more than the error it states; cycles: of a step, or all"
 )
 """What the columns are."""
 
@@ -68,15 +64,13 @@ def campaign(
     *,
     jobs: int = 1,
     grids: Sequence[int] = (65, 129, 257),
-    sample: int = 20,
     tell: Callable[[str], None] = lambda text: None,
 ) -> list[Row]:
     """Run so many cases of a seed and check what they say; a row for each.
 
     A row is the case, what its run said, `outcome`, `difference` and `allowed`. The folder gets
     the journals of the runs, so that a campaign that was stopped is resumed. Each grid has half as
-    many cases as the one before. The second solver solves `sample` converged cases too, and tries
-    four times as many failed ones.
+    many cases as the one before.
     """
     rows: list[Row] = []
     drawn = draw(cases, seed, grids)
@@ -94,8 +88,6 @@ def campaign(
                 if part:
                     _check(family, part, folder / f"{family}-{name}", jobs)
         rows += found
-    tell("a sample by the second solver")
-    stress_second.check(rows, sample, tell)
     return rows
 
 
@@ -180,7 +172,6 @@ def summary(rows: Sequence[Row]) -> list[Row]:
             continue
         counts = Counter(row["outcome"] for row in mine)
         good = counts["converged"] + counts[ENDED]
-        unsolvable = sum(row.get("second") == "no solution" for row in mine)
         cycles = [row["cycles_per_step"] or row["cycles"] or 0.0 for row in mine]
         table.append(
             {
@@ -188,11 +179,9 @@ def summary(rows: Sequence[Row]) -> list[Row]:
                 "cases": len(mine),
                 "converged": counts["converged"],
                 "ended": counts[ENDED],
-                "no_solution": unsolvable,
-                "failed": len(mine) - good - unsolvable,
+                "failed": len(mine) - good,
                 "checked": sum(row["difference"] is not None for row in mine),
                 "wrong": sum(bool(row["wrong"]) for row in mine),
-                "second": sum(row.get("second") is not None for row in mine),
                 "cycles": sum(cycles) / len(cycles),
                 "most_cycles": max(cycles),
             }

@@ -19,7 +19,14 @@ from numpy.typing import NDArray
 
 from pyehl import library
 
-__all__ = ["ScipyDeflection", "hertz", "machine", "median_seconds", "processor_seconds"]
+__all__ = [
+    "ScipyDeflection",
+    "hertz",
+    "machine",
+    "median_seconds",
+    "processor_seconds",
+    "unit_seconds",
+]
 
 Array = NDArray[np.float64]
 
@@ -30,9 +37,7 @@ def kernel(nx: int, ny: int, hx: float, hy: float) -> Array:
     """(2/pi^2) times the integral of 1/r over a cell at offsets (i hx, j hy), shape (nx, ny)."""
     x = (np.arange(nx + 1) - 0.5)[:, None] * hx
     y = (np.arange(ny + 1) - 0.5)[None, :] * hy
-    r = np.hypot(x, y)
     corner = x * np.arcsinh(y / np.abs(x)) + y * np.arcsinh(x / np.abs(y))
-    assert np.isfinite(r).all()
     cells: Array = corner[1:, 1:] - corner[:-1, 1:] - corner[1:, :-1] + corner[:-1, :-1]
     return 2.0 / np.pi**2 * cells
 
@@ -73,6 +78,13 @@ def processor_seconds() -> float:
     """Seconds of the processor [s] of this process and of its children that have ended."""
     children = resource.getrusage(resource.RUSAGE_CHILDREN)
     return time.process_time() + children.ru_utime + children.ru_stime
+
+
+def unit_seconds(points: int) -> float:
+    """Seconds of one deflection by scipy.fft on so many nodes per side."""
+    pressure, h, _, _ = hertz(points)
+    yardstick = ScipyDeflection(points, points, h, h)
+    return median_seconds(lambda: yardstick.apply(pressure))
 
 
 def machine() -> dict[str, str]:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from pyehl.bench.precision import add_errors, extrapolated
-from pyehl.bench.unit import ScipyDeflection, hertz, median_seconds, processor_seconds
+from pyehl.bench.unit import processor_seconds, unit_seconds
 from pyehl.case import Case
 from pyehl.errors import InputError
 from pyehl.prediction.of_case import predict
@@ -105,7 +105,7 @@ def work_rows(
         used = grids or (scene.grids if full else scene.grids[:-1])
         mine: list[Row] = []
         for points in used:
-            unit = _unit(points)
+            unit = unit_seconds(points)
             # the finest grid is there for the reference
             reference = scene.rough and full and points == scene.grids[-1]
             for setting, options in _settings(scene):
@@ -115,18 +115,11 @@ def work_rows(
                     tell(f"{name}: {points} x {points}, {setting}, threads {workers}")
                     mine += _run(scene, setting, options, points, workers, unit)
         if scene.rough:
-            mine += _predicted(scene, _unit(max(used)))
+            mine += _predicted(scene, unit_seconds(max(used)))
         mine += extrapolated(mine)
         add_errors(mine, scene.quantities)
         rows += mine
     return rows
-
-
-def _unit(points: int) -> float:
-    """Seconds of one deflection by scipy.fft."""
-    pressure, h, _, _ = hertz(points)
-    yardstick = ScipyDeflection(points, points, h, h)
-    return median_seconds(lambda: yardstick.apply(pressure))
 
 
 def _run(
@@ -146,25 +139,32 @@ def _run(
         solver.run()
         seconds = processor_seconds() - began
         summary = solver.summary()
+    row = {"setting": setting, "points": points, "threads": threads, "status": summary["status"]}
     rows = []
     for quantity in scene.quantities:
-        value, estimate = summary.get(quantity), summary.get(f"{quantity}_error")
-        rows.append(
-            {
-                "scene": scene.name,
-                "quantity": quantity,
-                "setting": setting,
-                "points": points,
-                "threads": threads,
-                "seconds": seconds,
-                "units": seconds / unit,
-                "unit_seconds": unit,
-                "value": value,
-                "status": summary["status"],
-                "estimate": abs(estimate / value) if estimate and value else None,
-            }
-        )
+        value, error = summary.get(quantity), summary.get(f"{quantity}_error")
+        estimate = abs(error / value) if error and value else None
+        rows.append(row | _common(scene, quantity, seconds, unit, value, estimate))
     return rows
+
+
+def _common(
+    scene: Scene,
+    quantity: str,
+    seconds: float,
+    unit: float,
+    value: float | None,
+    estimate: float | None,
+) -> Row:
+    return {
+        "scene": scene.name,
+        "quantity": quantity,
+        "seconds": seconds,
+        "units": seconds / unit,
+        "unit_seconds": unit,
+        "value": value,
+        "estimate": estimate,
+    }
 
 
 def _predicted(scene: Scene, unit: float) -> list[Row]:
@@ -176,21 +176,10 @@ def _predicted(scene: Scene, unit: float) -> list[Row]:
     began = processor_seconds()
     told = predict(case.resolve()).summary
     seconds = processor_seconds() - began
-    model = told.get("mu_ratio_model_error")
+    value, model = told["mu_ratio"], told.get("mu_ratio_model_error")
+    row = {"setting": "prediction", "points": 257, "threads": 1, "status": told["status"]}
     return [
-        {
-            "scene": scene.name,
-            "quantity": "mu_ratio",
-            "setting": "prediction",
-            "points": 257,
-            "threads": 1,
-            "seconds": seconds,
-            "units": seconds / unit,
-            "unit_seconds": unit,
-            "value": told["mu_ratio"],
-            "status": told["status"],
-            "estimate": model / told["mu_ratio"] if model else None,
-        }
+        row | _common(scene, "mu_ratio", seconds, unit, value, model / value if model else None)
     ]
 
 

@@ -166,10 +166,13 @@ def _step(args: argparse.Namespace, answer: Answer) -> Rows:
         scheme=args.scheme,
         front=args.front,
         steps=args.steps,
+        tell=_tell,
     )
     answer |= {"scheme": args.scheme, "front": args.front, "steps": args.steps}
     if args.error:
-        whole = step.error_rows(args.points, max(args.threads), scheme=args.scheme, scenes=scenes)
+        whole = step.error_rows(
+            args.points, max(args.threads), scheme=args.scheme, scenes=scenes, tell=_tell
+        )
         answer["runs"] = whole
         errors = {(row["points"], row["case"]): row["error"] for row in whole}
         for row in rows:
@@ -258,7 +261,7 @@ FILES: dict[str, tuple[str, Callable[..., None], Callable[..., Rows]]] = {
 }
 FOLDERS: dict[str, tuple[str, Callable[..., None], Callable[..., Rows]]] = {
     "stress": ("where the solver converges: random cases", _add_stress, _stress),
-    "faults": ("kills, full disks, damaged states, mutated input", _add_faults, _faults),
+    "faults": ("kills, damaged states, mutated input", _add_faults, _faults),
 }
 
 

@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import scipy
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -30,7 +29,7 @@ from pyehl.theory.transport import stiffness
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["headline", "prediction_figures", "scales_of", "solution_figures", "surface_figures"]
+__all__ = ["headline", "prediction_figures", "scales_of", "solution_figures"]
 
 Array = NDArray[np.float64]
 
@@ -195,39 +194,6 @@ def _extremes(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
     return figure
 
 
-def surface_figures(
-    tile: Topography,
-    hertz_radius: float,
-    moes_m: float,
-    moes_l: float,
-    convention: str,
-    title: str,
-    waves: tuple[np.ndarray, np.ndarray] | None = None,
-) -> dict[str, Figure]:
-    """Figure of a tile, its two-dimensional and its radially averaged spectrum with A_d/A_i.
-
-    `waves`: deformed roughness and what is flattened of it, where they were predicted.
-    """
-    figure = _row(3, (11.6, 3.2), title, room=(0.8, 1.9, 0.8))
-    first, second, third = figure.axes
-    third.set_box_aspect(1.0)
-    surface.heights(tile, ax=first)
-    surface.spectrum_map(tile, ax=second)
-    deformed, flattening = waves or (None, None)
-    surface.spectrum_line(
-        tile,
-        hertz_radius,
-        moes_m,
-        moes_l,
-        convention,
-        deformed=deformed,
-        flattening=flattening,
-        ax=third,
-    )
-    figure.axes[-1].set_box_aspect(1.0)
-    return {"surface_spectrum": figure}
-
-
 def prediction_figures(
     about: Mapping[str, Any],
     arrays: Mapping[str, Array],
@@ -240,20 +206,24 @@ def prediction_figures(
     title = headline(about)
     size = about["length_x_m"], about["length_y_m"]
     tile = Topography(arrays["surface"], size, about["surface"])
-    names = ("hertz_radius_m", "moes_m", "moes_l", "wavelength_convention")
-    radius, m, ell, convention = (about[name] for name in names)
-    waves = None
-    if about["reduction"] == "response":
-        waves = arrays["deformed"], _flattened(about, Topography(arrays["delta_p"], size))
-    figures = surface_figures(tile, radius, m, ell, convention, title, waves)
+    deformed = arrays["deformed"]
+    figure = _row(3, (11.6, 3.2), title, room=(0.8, 1.9, 0.8))
+    first, second, third = figure.axes
+    third.set_box_aspect(1.0)
+    surface.heights(tile, ax=first)
+    surface.spectrum_map(tile, ax=second)
+    flattened = _flattened(about, Topography(arrays["delta_p"], size))
+    surface.spectrum_line(tile, deformed, flattened, ax=third)
+    figure.axes[-1].set_box_aspect(1.0)
+    figures = {"surface_spectrum": figure}
     figure = _row(2, (8.0, 3.4), title, sharey=True, room=(0.75, 1.35, 1.05))
     for ax, values, name in zip(
         list(figure.axes),
-        (tile.heights, arrays["deformed"]),
+        (tile.heights, deformed),
         ("(a) undeformed,", "(b) deformed,"),
         strict=True,
     ):
-        surface.roughness(tile, values, radius, name=name, ax=ax)
+        surface.roughness(tile, values, about["hertz_radius_m"], name=name, ax=ax)
     figure.axes[1].set_ylabel("")
     figures["roughness"] = figure
     if about["status"] == "predicted":
@@ -267,8 +237,8 @@ def _flattened(about: Mapping[str, Any], tile: Topography) -> Array:
     # the mean is not flattened
     stiff[0, 0] = np.inf
     unit = about["film_scale_m"] / about["hertz_pressure_Pa"]
-    part = scipy.fft.rfft2(tile.heights) * unit / stiff
-    return np.asarray(scipy.fft.irfft2(part, s=tile.shape))
+    part = np.fft.rfft2(tile.heights) * unit / stiff
+    return np.asarray(np.fft.irfft2(part, s=tile.shape))
 
 
 def _passage(tables: Mapping[str, Mapping[str, Array]], length: float, title: str) -> Figure:

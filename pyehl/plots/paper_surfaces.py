@@ -26,11 +26,10 @@ from pyehl.plots.style import (
 )
 from pyehl.surfaces import Topography, psd_isotropic
 
-__all__ = ["DPI", "Array", "Step", "by_seed", "deformed", "flow", "spectrum"]
+__all__ = ["Array", "Step", "by_seed", "deformed", "flow", "spectrum"]
 
 Array = NDArray[np.float64]
 
-DPI = 130
 COLOURS = (GREY, "black", BLUE, VERMILLION)
 
 

@@ -30,7 +30,6 @@ from pyehl.plots.style import (
     hertz_ticks,
 )
 from pyehl.surfaces import Topography, interpolated, psd_2d, psd_isotropic
-from pyehl.theory import amplitude
 
 __all__ = ["heights", "octaves", "passage", "roughness", "spectrum_line", "spectrum_map"]
 
@@ -87,33 +86,18 @@ def spectrum_map(topography: Topography, *, ax: Axes | None = None) -> Axes:
 
 
 def spectrum_line(
-    topography: Topography,
-    hertz_radius: float,
-    moes_m: float,
-    moes_l: float,
-    convention: str = "components",
-    *,
-    deformed: Array | None = None,
-    flattening: Array | None = None,
-    ax: Axes | None = None,
+    topography: Topography, deformed: Array, flattened: Array, *, ax: Axes | None = None
 ) -> Axes:
-    """Radially averaged spectrum C_iso [m^4] of a tile, with A_d/A_i on a second axis.
+    """Radially averaged spectrum C_iso [m^4] of a tile, and what a contact makes of its waves.
 
-    A_d/A_i is the real ratio of the paper, or with the tiles of a prediction what its response
-    makes of them: abs(T), and abs(1 - T) that takes the pressure.
+    On a second axis abs(T), the share of a wave that stays in the contact, and abs(1 - T), the
+    share that takes pressure.
 
     Parameters
     ----------
     topography
         The tile.
-    hertz_radius
-        a [m].
-    moes_m, moes_l
-        Conditions at which A_d/A_i is drawn, for waves along x (crests across the motion) and
-        along y (crests along the motion).
-    convention
-        Wavelength convention of A_d/A_i, see :mod:`pyehl.theory.amplitude`.
-    deformed, flattening
+    deformed, flattened
         Deformed roughness and what is flattened of it [m], as the tile.
     """
     ax = axes_or_new(ax, 3.8, 3.0)
@@ -124,31 +108,15 @@ def spectrum_line(
     ax.set_ylabel(r"$C^{iso}$ [m$^4$]", color=BLUE)
     ax.tick_params(axis="y", colors=BLUE)
     twin = ax.twinx()
-    if deformed is not None and flattening is not None:
-        for values, style, label in ((deformed, "-", "$|T|$"), (flattening, "--", "$|1 - T|$")):
-            part = Topography(values, topography.size)
-            share = np.sqrt(psd_isotropic(part)[1][shown] / c_iso[shown])
-            twin.plot(q[shown], share, style, color=VERMILLION, lw=1.4, label=label)
-        twin.set_ylabel("response at the centre (rms)", color=VERMILLION)
-    else:
-        _paper_ratio(twin, q, (hertz_radius, moes_m, moes_l, convention))
-        twin.set_ylim(0.0, 1.02)
-        twin.set_ylabel(r"$A_d/A_i$", color=VERMILLION)
+    for values, style, label in ((deformed, "-", "$|T|$"), (flattened, "--", "$|1 - T|$")):
+        part = Topography(values, topography.size)
+        share = np.sqrt(psd_isotropic(part)[1][shown] / c_iso[shown])
+        twin.plot(q[shown], share, style, color=VERMILLION, lw=1.4, label=label)
+    twin.set_ylabel("response at the centre (rms)", color=VERMILLION)
     twin.tick_params(axis="y", colors=VERMILLION)
     # the spectrum falls and the response rises: below both there is room
     twin.legend(loc="lower center", fontsize="small")
     return ax
-
-
-def _paper_ratio(ax: Axes, q: Array, condition: tuple[float, float, float, str]) -> None:
-    """Draw A_d/A_i of the paper for waves across and along the motion."""
-    radius, moes_m, moes_l, convention = condition
-    line = np.geomspace(q[0], q[-1], 200) if q.size > 1 else q
-    for along, style, label in (((1.0, 0.0), "-", "along $x$"), ((0.0, 1.0), "--", "along $y$")):
-        ratio = amplitude.component_amplitude_ratio(
-            along[0] * line, along[1] * line, radius, moes_m, moes_l, convention=convention
-        )
-        ax.plot(line, ratio, style, color=VERMILLION, lw=1.4, label=f"wave {label}")
 
 
 def roughness(

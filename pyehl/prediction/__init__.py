@@ -12,9 +12,20 @@ delta p. Friction is the integral of the shear stress at p_s + delta p in a film
     friction depends on the velocity ratio. Put together in :mod:`pyehl.prediction.by_response`;
     compared with the full simulation in docs/evidence/prediction.
 ``reduction="amplitude"``
-    The real ratio of the paper (eq. 10), :mod:`pyehl.prediction.flattening`. With
-    ``smooth="hertz"`` all of it is the model of the paper, 4 to 76 % below the full simulation of
-    the same surfaces.
+    The real ratio of the paper (eq. 10). With ``smooth="hertz"`` all of it is the model of the
+    paper, 4 to 76 % below the full simulation of the same surfaces.
+
+Readings of the paper
+---------------------
+* Eq. 10 as printed multiplies the modulus of the component; the phase must be kept, else every
+  surface would become a symmetric peak at the origin. The phase is kept here.
+* Eqs 9 and 12 both print a factor 4/(Nx Ny); a transform and its inverse carry 1/(Nx Ny) once
+  between them, and Parseval holds in m^2.
+* The half-space resists a wave of wavenumber |q| by E'|q|/4 per height of flattening
+  (``stiffness="exact"``; Johnson 1985, Contact Mechanics, section 13.2). Eq. 11,
+  pi E'/(sqrt 2 wavelength), is this very number for a cos cos pattern of that wavelength, whose |q|
+  is 2 sqrt 2 pi/wavelength. Read with wavelength = 2 pi/|q| it is E'|q|/(2 sqrt 2), 41 % too stiff
+  (``stiffness="paper"``).
 
 What happens where the model ends
 ---------------------------------
@@ -34,18 +45,9 @@ tracks is a property of the spectrum. The absolute friction coefficient of a
 Newtonian lubricant at these pressures has no meaning.
 """
 
-from pyehl.prediction.bands import Band, contributions
-from pyehl.prediction.flattening import Response, response, stiffness
-from pyehl.prediction.friction import RoughFriction, predict_friction
+from pyehl.prediction.bands import Band
+from pyehl.prediction.contact import Response
+from pyehl.prediction.friction import RoughFriction
 from pyehl.prediction.options import Options
 
-__all__ = [
-    "Band",
-    "Options",
-    "Response",
-    "RoughFriction",
-    "contributions",
-    "predict_friction",
-    "response",
-    "stiffness",
-]
+__all__ = ["Band", "Options", "Response", "RoughFriction"]

@@ -5,7 +5,8 @@ The model is that of Zhang et al. 2019, section 3, with three changes: the ratio
 undeformed amplitude is the complex response of :mod:`pyehl.theory.response`, pressure and film
 are those of the smooth contact of :mod:`pyehl.prediction.smooth`, and the leading term of second
 order is that of :mod:`pyehl.prediction.second_order`. With ``reduction="amplitude"``
-the real ratio of the paper takes the place of the response: it moves with the roughness.
+the real ratio of the paper takes the place of the response: it moves with the roughness. With
+``smooth="hertz"`` too, the contact is that of the paper, a semi-ellipse and a uniform film.
 """
 
 from __future__ import annotations
@@ -18,11 +19,11 @@ from numpy.typing import NDArray
 
 from pyehl.prediction.bands import Band, octaves
 from pyehl.prediction.carrying import confirmed
+from pyehl.prediction.contact import HertzContact, Response
 from pyehl.prediction.errors import KNOWN_RATIO, model_error
-from pyehl.prediction.flattening import Response
 from pyehl.prediction.friction import RoughFriction, passed
 from pyehl.prediction.options import Options
-from pyehl.prediction.passage import RADIUS_PIXELS, friction_along, working_grid
+from pyehl.prediction.passage import fewer_pixels, friction_along, short_mean, working_grid
 from pyehl.prediction.rough_contact import Edge, RoughContact
 from pyehl.prediction.smooth import SmoothContact, zone_of
 from pyehl.prediction.spectrum import Spectrum
@@ -33,17 +34,17 @@ from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["RoughPassage"]
+__all__ = ["STIFFER", "RoughPassage"]
 
 Array = NDArray[np.float64]
 
 # Points per Hertz radius at which the shear stress is taken: the tile is finer, and its other
 # pixels are met at other positions
 POINTS = 60
+# Eq. 11 with wavelength 2 pi/|q| over E'|q|/4 (see `pyehl.prediction`)
+STIFFER = math.sqrt(2.0)
 # Largest mu_r/mu_s that is told
 LARGEST_RATIO = 10.0
-# Positions of a passage for a track other than the first, and for a band
-FEW_POSITIONS = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,17 +80,23 @@ class RoughPassage:
             o.moes_l,
             convention=self.options.wavelength_convention,
         )
-        return Transfer.carried(ratio)
+        return Transfer.carried(ratio, STIFFER if self.options.stiffness == "paper" else 1.0)
 
     def _contact(
         self, spectrum: Spectrum, transfer: Transfer, edge: Edge, power: Array | None = None
-    ) -> RoughContact:
+    ) -> RoughContact | HertzContact:
         """Contact of a tile; `power` of the components as the transfer was made for them."""
-        stride = max(1, int(1.0 / (POINTS * max(spectrum.pixel))))
-        while spectrum.shape[1] % stride:
-            stride -= 1
-        if power is None:
-            power = spectrum.power
+        if self.options.as_in_paper:
+            return HertzContact(
+                spectrum.tile(transfer.pressure_at_centre(spectrum, self.velocity_ratio)),
+                spectrum.tile(transfer.at_centre(spectrum, self.velocity_ratio)),
+                self.contact.central_film,
+                pixel=spectrum.pixel,
+                operating=self.operating,
+                lubricant=self.lubricant,
+                load_balance=self.options.load_balance,
+            )
+        stride = self._stride(spectrum)
         return RoughContact(
             Waves.of(spectrum, transfer, self.contact.central_film, self.velocity_ratio, stride),
             edge,
@@ -99,8 +106,18 @@ class RoughPassage:
             operating=self.operating,
             lubricant=self.lubricant,
             velocity_ratio=self.velocity_ratio,
-            second=transfer.second.of(power) if transfer.second else None,
+            second=transfer.second.of(spectrum.power if power is None else power)
+            if transfer.second
+            else None,
         )
+
+    def _stride(self, spectrum: Spectrum) -> int:
+        """Every so many-th pixel across the motion is a point of the contact."""
+        every = self.options.as_in_paper
+        stride = 1 if every else max(1, int(1.0 / (POINTS * max(spectrum.pixel))))
+        while spectrum.shape[1] % stride:
+            stride -= 1
+        return stride
 
     def deformed(self) -> Array:
         """Deformed roughness (nx, ny) [m] at the centre of the contact, on the pixels given."""
@@ -119,13 +136,13 @@ class RoughPassage:
     def mean(self) -> float:
         """mu_r/mu_s over a few positions of the passage [-]; NaN where the film ends."""
         grid, spectrum, transfer, edge = self._parts()
-        contact = self._contact(spectrum, transfer, edge)
         with np.errstate(over="ignore", invalid="ignore"):
-            return _mean(contact, grid.shape[0])
+            contact = self._contact(spectrum, transfer, edge)
+            return short_mean(contact, grid.shape[0])
 
     def known(self) -> bool:
-        """Whether the error of the ratio is."""
-        return math.isfinite(model_error(self.mean()))
+        """Whether the error of the ratio is; that of the paper never is, and is not asked for."""
+        return self.options.as_in_paper or math.isfinite(model_error(self.mean()))
 
     def run(
         self, tracks: int = 8, *, brief: bool = False
@@ -136,16 +153,16 @@ class RoughPassage:
         the linear response ends. No tracks: NaN for mean and spread.
         """
         grid, spectrum, transfer, edge = self._parts()
-        contact = self._contact(spectrum, transfer, edge)
         with np.errstate(over="ignore", invalid="ignore"):
+            contact = self._contact(spectrum, transfer, edge)
             passage = friction_along(contact, grid.shape[0], self.options.positions, LARGEST_RATIO)
-            found = self._result(contact, grid, spectrum, transfer, passage, brief)
+            found = self._result(contact, grid, (spectrum, transfer, edge), passage, brief)
             if found.status != "predicted":
                 return found, (math.nan, math.nan), []
             ratios = np.array(
                 [
-                    found.mu_ratio if offset == 0.0 else _mean(contact, grid.shape[0], track)
-                    for offset, track in self._tracks(grid, contact.waves.stride, tracks)
+                    found.mu_ratio if offset == 0.0 else short_mean(contact, grid.shape[0], track)
+                    for offset, track in self._tracks(grid, self._stride(spectrum), tracks)
                 ]
             )
             bands = self._bands(spectrum, transfer, edge, found.mu_ratio, brief)
@@ -165,10 +182,9 @@ class RoughPassage:
 
     def _result(
         self,
-        contact: RoughContact,
+        contact: RoughContact | HertzContact,
         grid: Topography,
-        spectrum: Spectrum,
-        transfer: Transfer,
+        parts: tuple[Spectrum, Transfer, Edge],
         passage: tuple[NDArray[np.int_], Array, float],
         brief: bool,
     ) -> RoughFriction:
@@ -182,20 +198,23 @@ class RoughPassage:
                 f"deformed roughness reaches {depth:.3g} m through the film at a point of the "
                 "contact: no full film, no ratio"
             )
+        elif self.options.load_balance and contact.imbalance >= 1.0:
+            status, message = "load lost", "the roughness pressure exceeds the load"
         elif not np.all(np.isfinite(ratios)):
             status, message = "overflow", "the viscosity at p_s + delta p is not a number"
         elif float(ratios.mean()) > LARGEST_RATIO:
             status = "beyond linear response"
-            message = _beyond(float(ratios.mean()))
+            high = f"{float(ratios.mean()):.3g}"
+            message = f"pressures that raise mu_r/mu_s to {high} are beyond a linear response"
             if not brief:
-                message += self._carried(spectrum, transfer, contact.edge)
+                message += self._carried(*parts)
         return passed(
             contact,
             (status, message),
             passage,
             pixel=grid.pixel[0],
             film_unit=o.film_scale,
-            response=self._tiles(spectrum, transfer, grid.shape == self.topography.shape),
+            response=self._tiles(*parts[:2], grid.shape == self.topography.shape),
         )
 
     def _carried(self, spectrum: Spectrum, transfer: Transfer, edge: Edge) -> str:
@@ -268,7 +287,7 @@ class RoughPassage:
     def _below(self, spectrum: Spectrum, transfer: Transfer, edge: Edge, limit: float) -> float:
         """mu_r/mu_s of the waves with |q| below a limit [1/a], on as few pixels as they need."""
         shape = tuple(
-            _fewer(n, pixel * n, limit)
+            fewer_pixels(n, pixel * n, limit)
             for n, pixel in zip(spectrum.shape, spectrum.pixel, strict=True)
         )
         nx, ny = shape[0], shape[1]
@@ -278,22 +297,4 @@ class RoughPassage:
         part.values[part.q >= limit] = 0.0
         power = np.where(spectrum.q < limit, spectrum.power, 0.0)
         contact = self._contact(part, transfer.kept((rows, columns)), edge.below(limit), power)
-        return _mean(contact, nx)
-
-
-def _beyond(ratio: float) -> str:
-    return f"pressures that raise mu_r/mu_s to {ratio:.3g} are beyond a linear response"
-
-
-def _fewer(pixels: int, length: float, limit: float) -> int:
-    """Pixels, a multiple of the positions, for waves below a limit [1/a] in a contact."""
-    highest = int(limit * length / (2.0 * math.pi))
-    few = max(2 * highest + 2, math.ceil(RADIUS_PIXELS * length))
-    few = FEW_POSITIONS * math.ceil(few / FEW_POSITIONS)
-    return few if few < pixels else pixels
-
-
-def _mean(contact: RoughContact, pixels: int, track: int = 0) -> float:
-    """Mean of mu_r/mu_s over a few positions of a track."""
-    steps = np.arange(FEW_POSITIONS) * (pixels // FEW_POSITIONS)
-    return float(np.mean([contact.friction(int(s), track) for s in steps]))
+        return short_mean(contact, nx)

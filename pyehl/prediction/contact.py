@@ -1,20 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Shear stress over the Hertz circle at one position of the surface: eqs 13 and 14."""
+"""Shear stress over the contact at one position of the surface (eqs 13 and 14).
+
+Pressures by p_h, films by a^2/R.
+"""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pyehl.prediction.flattening import Response
-from pyehl.prediction.options import Options
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import shear_stress
 
-__all__ = ["Contact", "ShearedContact"]
+__all__ = ["HertzContact", "Response", "ShearedContact"]
 
 Array = NDArray[np.float64]
 
@@ -22,10 +24,18 @@ Array = NDArray[np.float64]
 MIN_SAMPLES = 128
 
 
+@dataclass(frozen=True, slots=True)
+class Response:
+    """What a loaded contact makes of a rough tile, before it is anywhere in the contact."""
+
+    pressure: Array  # delta p (nx, ny) [Pa], mean zero
+    deformed: Array  # deformed roughness rr_d (nx, ny) [m], mean zero, peaks thin the film
+
+
 class ShearedContact:
     """Points of a contact, the shear stress integrals over them, and what was met so far."""
 
-    thinnest: float  # least film, in the unit of films
+    thinnest: float  # least film
     smooth: float  # sum of the stress of the smooth contact over the points, as `stress`
     points: int  # within the contact
     area: float  # that one of them stands for [m^2]
@@ -39,11 +49,9 @@ class ShearedContact:
         self.imbalance = 0.0  # greatest share of the load that delta p carries or takes off [-]
 
     def stress(self, pressure: Array, film: Array) -> Array:
-        """Shear stress at a pressure [Pa] in a film [m].
-
-        [Pa]; of a Newtonian oil divided by eta0 and the sliding speed.
-        """
-        ratio = self.lubricant.viscosity_ratio(pressure) / film
+        """Shear stress [Pa]; of a Newtonian oil divided by eta0 and the sliding speed."""
+        pressure = pressure * self.operating.hertz_pressure
+        ratio = self.lubricant.viscosity_ratio(pressure) / (film * self.operating.film_scale)
         if not self.thins:
             return ratio
         newtonian = ratio * (self.lubricant.viscosity * self.operating.sliding_speed)
@@ -65,61 +73,58 @@ class ShearedContact:
         return self.cavitated * stress / (self.count * least * self.smooth)
 
 
-class Contact(ShearedContact):
-    """The pixels of the Hertz circle; `index` (n,) are their places in the flattened tile."""
+class HertzContact(ShearedContact):
+    """All pixels of the Hertz circle, in a semi-ellipse of pressure and a uniform film."""
 
     def __init__(
         self,
-        field: Response,
-        pixel: tuple[float, float],
+        pressure: Array,
+        deformed: Array,
+        film: float,
         *,
+        pixel: tuple[float, float],
         operating: OperatingPoint,
         lubricant: Lubricant,
-        film: float,
-        options: Options,
+        load_balance: bool,
     ) -> None:
         super().__init__(operating, lubricant)
-        self.film, self.options = film, options
-        self.circle = math.pi * operating.hertz_radius**2
-        self.hertz_pressure = operating.hertz_pressure
-        nx, ny = field.pressure.shape
-        a = operating.hertz_radius
-        i, stride_x = _lattice(a / pixel[0], nx)
-        j, stride_y = _lattice(a / pixel[1], ny)
-        self.area = pixel[0] * pixel[1] * stride_x * stride_y
-        square = (i * pixel[0] / a)[:, np.newaxis] ** 2 + (j * pixel[1] / a)[np.newaxis, :] ** 2
+        self.pressure, self.deformed, self.film = pressure, deformed, film
+        self.load_balance = load_balance
+        nx, ny = pressure.shape
+        i, stride_x = _lattice(1.0 / pixel[0], nx)
+        j, stride_y = _lattice(1.0 / pixel[1], ny)
+        self.area = pixel[0] * pixel[1] * stride_x * stride_y * operating.hertz_radius**2
+        square = (i * pixel[0])[:, np.newaxis] ** 2 + (j * pixel[1])[np.newaxis, :] ** 2
         inside = square < 1.0
         self.radius_squared = square[inside]
+        # places in the flattened tile
         self.index = ((i % nx)[:, np.newaxis] * ny + j % ny)[inside]
         self.points = self.index.size
-        self.pressure, self.deformed = field.pressure, field.deformed
         # every height within |y| < a passes through the contact
-        self.thinnest = film - float(field.deformed[:, np.unique(j % ny)].max())
-        self.smooth_pressure = self.hertz_pressure * np.sqrt(1.0 - self.radius_squared)
-        self.smooth = float(self.stress(self.smooth_pressure, np.array(film)).sum())
+        self.thinnest = film - float(deformed[:, np.unique(j % ny)].max())
+        self.semi_ellipse = np.sqrt(1.0 - self.radius_squared)
+        self.smooth = float(self.stress(self.semi_ellipse, np.array(film)).sum())
 
-    def friction(self, step: int) -> float:
-        """Integral of the shear stress over that of the smooth contact, `step` pixels on."""
-        if self.thinnest <= 0.0:
+    def friction(self, step: int, track: int = 0) -> float:
+        """Integral of the shear stress over that of the smooth contact, some pixels on."""
+        moved = [np.roll(v, (step, track), (0, 1)) for v in (self.pressure, self.deformed)]
+        delta, deformed = (values.ravel().take(self.index) for values in moved)
+        film = self.film - deformed
+        if min(self.thinnest, float(film.min())) <= 0.0:
             return math.nan
-        delta = np.roll(self.pressure, step, axis=0).ravel().take(self.index)
-        film = self.film - np.roll(self.deformed, step, axis=0).ravel().take(self.index)
-        # times the area of the circle, not of its pixels
-        carried = float(delta.mean()) * self.circle / self.operating.load
+        # times the area of the circle, not of its pixels: the load is 2 pi/3
+        carried = 1.5 * float(delta.mean())
         self.imbalance = max(self.imbalance, abs(carried))
-        if self.options.load_balance:
+        pressure = self.semi_ellipse
+        if self.load_balance:
             if carried >= 1.0:
                 return math.nan
             scale = (1.0 - carried) ** (1.0 / 3.0)
-            inner = np.maximum(0.0, 1.0 - self.radius_squared / scale**2)
-            pressure = (scale * self.hertz_pressure) * np.sqrt(inner) + delta
-        else:
-            pressure = self.smooth_pressure + delta
+            pressure = scale * np.sqrt(np.maximum(0.0, 1.0 - self.radius_squared / scale**2))
+        pressure = pressure + delta
         tension = pressure <= 0.0
-        lost = int(np.count_nonzero(tension))
-        if lost:
-            pressure[tension] = 0.0
-            self.cavitated += lost
+        self.cavitated += int(np.count_nonzero(tension))
+        pressure[tension] = 0.0
         self.count += 1
         with np.errstate(over="ignore"):
             return float(self.stress(pressure, film).sum()) / self.smooth

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""mu_r/mu_s over a passage of a tile."""
+"""What a passage of a tile is in the end: mu_r/mu_s with all that was met."""
 
 from __future__ import annotations
 
@@ -9,16 +9,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pyehl.errors import InputError
-from pyehl.prediction.contact import Contact, ShearedContact
-from pyehl.prediction.flattening import Response, response
-from pyehl.prediction.options import Options
-from pyehl.prediction.passage import friction_along, working_grid
-from pyehl.surfaces import Topography, interpolated
-from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.operating import OperatingPoint
+from pyehl.prediction.contact import Response, ShearedContact
+from pyehl.surfaces import interpolated
 
-__all__ = ["TRACKS", "RoughFriction", "broken", "passed", "predict_friction"]
+__all__ = ["TRACKS", "RoughFriction", "broken", "passed"]
 
 Array = NDArray[np.float64]
 
@@ -53,61 +47,6 @@ class RoughFriction:
     # Greatest |integral of delta p|/w over the passage [-], before any load balance
     load_error: float
     response: Response  # delta p and deformed roughness on the grid of the given tile
-
-
-def predict_friction(
-    topography: Topography,
-    operating: OperatingPoint,
-    lubricant: Lubricant,
-    film: float,
-    options: Options | None = None,
-) -> RoughFriction:
-    """mu_r/mu_s over one passage of a rough tile through a contact.
-
-    The pixel [0, 0] of the tile starts at the centre of the contact and moves along x; `film` is
-    the smooth central film h_c [m], taken to be the film everywhere in the contact. The status is
-    ``"predicted"`` unless the model does not hold, see :mod:`pyehl.prediction`. InputError if the
-    film is not positive, or the conditions have no amplitude reduction (L = 0).
-
-    delta p and rr_d belong to the tile and are computed once; only the semi-ellipse and the film
-    are met anew at each position, inside the circle alone. Positions are whole pixels of the
-    working grid, so that moving the tile is a copy. The ratio along the passage is smooth, because
-    the viscosity confines the friction to the middle of the contact (for table 1 a Gaussian of
-    standard deviation 0.24 a): its mean over 8 positions of a tile of 2 a is right to 1e-7. A tile
-    much shorter than the contact is visited at a stride. A coarse map, or one whose pixels do not
-    divide into positions, is first interpolated by its Fourier series.
-    """
-    options = options or Options()
-    if not (math.isfinite(film) and film > 0.0):
-        raise InputError(f"film thickness must be positive [m], not {film!r}")
-    field = response(topography, operating, options)
-    grid = working_grid(topography, operating, options.positions)
-    work = field if grid is topography else response(grid, operating, options)
-    with np.errstate(over="ignore", invalid="ignore"):
-        contact = Contact(
-            work,
-            grid.pixel,
-            operating=operating,
-            lubricant=lubricant,
-            film=film,
-            options=options,
-        )
-        passage = friction_along(contact, grid.shape[0], options.positions)
-
-    status, message = "predicted", "full film throughout the passage"
-    if contact.thinnest <= 0.0:
-        status = "film breakdown"
-        message = (
-            f"deformed roughness reaches {film - contact.thinnest:.3g} m in a film of "
-            f"{film:.3g} m: no full film, no ratio"
-        )
-    elif not np.all(np.isfinite(passage[1])):
-        if options.load_balance and contact.imbalance >= 1.0:
-            status, message = "load lost", "the roughness pressure exceeds the load"
-        else:
-            status, message = "overflow", "the viscosity at p_s + delta p is not a number"
-    outcome = status, message
-    return passed(contact, outcome, passage, pixel=grid.pixel[0], film_unit=1.0, response=field)
 
 
 def passed(

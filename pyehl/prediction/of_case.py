@@ -19,7 +19,6 @@ from pyehl.errors import InputError
 from pyehl.prediction.breakdown import advise, below_zero
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.friction import TRACKS, broken
-from pyehl.prediction.of_paper import PaperPassage
 from pyehl.prediction.options import Options, unpredictable
 from pyehl.prediction.result import Prediction
 from pyehl.prediction.smooth import SmoothContact, hertz_contact, read_contact, solve_contact
@@ -81,11 +80,7 @@ def predict(
         surface = surfaces.from_settings(settings, operating, film)
     else:
         surface = surfaces.finished(surface, settings["surface"])
-    passage: RoughPassage | PaperPassage
-    if options.as_in_paper:
-        passage = PaperPassage(surface, operating, lubricant, film, options)
-    else:
-        passage = RoughPassage(surface, contact, operating, lubricant, options, velocity_ratio)
+    passage = RoughPassage(surface, contact, operating, lubricant, options, velocity_ratio)
     friction, over, bands = passage.run(0 if brief else tracks, brief=brief)
 
     def smooth_film(x: Array, y: Array) -> Array:

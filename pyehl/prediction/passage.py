@@ -14,7 +14,7 @@ from pyehl.prediction.options import MAX_POSITIONS
 from pyehl.surfaces import MAX_PIXELS, Topography, interpolated, resampled
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["RADIUS_PIXELS", "friction_along", "working_grid"]
+__all__ = ["fewer_pixels", "friction_along", "short_mean", "working_grid"]
 
 Array = NDArray[np.float64]
 
@@ -46,12 +46,29 @@ def working_grid(topography: Topography, operating: OperatingPoint, positions: i
     return resampled(topography, (want_x, want_y))
 
 
-class HasFriction(Protocol):
-    """A contact that tells its friction when the tile has moved by so many pixels."""
+def fewer_pixels(pixels: int, length: float, limit: float) -> int:
+    """Pixels for waves below a limit [1/a] in a contact, as `short_mean` takes them.
 
-    def friction(self, step: int, /) -> float:
+    Of a tile of a length [a] that has so many.
+    """
+    highest = int(limit * length / (2.0 * math.pi))
+    few = max(2 * highest + 2, math.ceil(RADIUS_PIXELS * length))
+    few = FIRST_POSITIONS * math.ceil(few / FIRST_POSITIONS)
+    return few if few < pixels else pixels
+
+
+class HasFriction(Protocol):
+    """A contact that tells its friction when the tile has moved by pixels along and across."""
+
+    def friction(self, step: int, track: int = 0, /) -> float:
         """Friction over that of the smooth contact."""
         ...
+
+
+def short_mean(contact: HasFriction, pixels: int, track: int = 0) -> float:
+    """Mean of mu_r/mu_s over a few positions: of a track other than the first, or for a band."""
+    steps = np.arange(FIRST_POSITIONS) * (pixels // FIRST_POSITIONS)
+    return float(np.mean([contact.friction(int(s), track) for s in steps]))
 
 
 def friction_along(

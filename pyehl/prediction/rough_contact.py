@@ -122,11 +122,6 @@ class RoughContact(ShearedContact):
         self.smooth = float(self.stress(self.pressure, self.film)[self.inside].sum())
         self.thinnest = float(self.film[self.inside].min())
 
-    def stress(self, pressure: Array, film: Array) -> Array:
-        """Shear stress at P [p_h] in H [a^2/R]: [Pa], or of a Newtonian oil over eta0 and speed."""
-        o = self.operating
-        return super().stress(pressure * o.hertz_pressure, film * o.film_scale)
-
     def change(self, shift: int, track: int = 0) -> Array:
         """Loss of film [a^2/R] and gain of pressure [p_h] at the points, (m, n, 2).
 

@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 
 from pyehl import namelist
@@ -62,14 +61,22 @@ class SmoothContact:
 
     def at(self, x: Array, y: Array) -> tuple[Array, Array]:
         """P and H on the grid of places x (m,) and y (n,), both (m, n); outside P is zero."""
-        places = [
-            (values - axis[0]) / (axis[1] - axis[0]) for values, axis in ((x, self.x), (y, self.y))
-        ]
-        grid = np.meshgrid(*places, indexing="ij")
-        interpolated = scipy.ndimage.map_coordinates
-        pressure = interpolated(self.pressure, grid, order=1, mode="constant")
-        film = interpolated(self.film, grid, order=1, mode="nearest")
-        return np.asarray(pressure), np.asarray(film)
+        rows, columns = _linear(x, self.x), _linear(y, self.y)
+        found = []
+        for values in (self.pressure, self.film):
+            (i, u), (j, v) = rows, columns
+            along = values[i] * (1.0 - u)[:, np.newaxis] + values[i + 1] * u[:, np.newaxis]
+            found.append(along[:, j] * (1.0 - v) + along[:, j + 1] * v)
+        inside = [(x >= axis[0]) & (x <= axis[-1]) for x, axis in ((x, self.x), (y, self.y))]
+        found[0][~np.logical_and.outer(*inside)] = 0.0
+        return found[0], found[1]
+
+
+def _linear(places: Array, axis: Array) -> tuple[NDArray[np.intp], Array]:
+    """Node before each place (m,) on an equidistant axis, and the share of the next one."""
+    at = (places - axis[0]) / (axis[1] - axis[0])
+    before = np.clip(np.floor(at), 0, axis.size - 2).astype(np.intp)
+    return before, np.clip(at - before, 0.0, 1.0)
 
 
 # Keys that pressure and film of a smooth contact do not know; those of the first line they do where

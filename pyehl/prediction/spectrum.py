@@ -10,7 +10,6 @@ from dataclasses import dataclass, field, replace
 from typing import Any, cast
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 
 __all__ = ["Spectrum"]
@@ -35,10 +34,10 @@ class Spectrum:
     def of(cls, heights: Array, length_x: float, length_y: float) -> Spectrum:
         """Of heights (nx, ny) [a^2/R] on a tile of a size [a]."""
         nx, ny = heights.shape
-        values = scipy.fft.fft(scipy.fft.rfft(heights, axis=0), axis=1)
+        values = np.fft.fft(np.fft.rfft(heights, axis=0), axis=1)
         values[0, 0] = 0.0
-        qx = 2.0 * np.pi * scipy.fft.rfftfreq(nx, length_x / nx)
-        qy = 2.0 * np.pi * scipy.fft.fftfreq(ny, length_y / ny)
+        qx = 2.0 * np.pi * np.fft.rfftfreq(nx, length_x / nx)
+        qy = 2.0 * np.pi * np.fft.fftfreq(ny, length_y / ny)
         return cls(values, qx, qy, (nx, ny))
 
     def __post_init__(self) -> None:
@@ -80,8 +79,8 @@ class Spectrum:
         if stride > 1:
             # on every so many-th column waves that differ by its wavenumber are one
             part = part.reshape(part.shape[0], stride, -1).sum(axis=1)
-        lines = scipy.fft.ifft(part, axis=1, overwrite_x=True)
-        tile = scipy.fft.irfft(lines, n=nx * refinement, axis=0, overwrite_x=True)
+        lines = np.fft.ifft(part, axis=1)
+        tile = np.fft.irfft(lines, n=nx * refinement, axis=0)
         return np.asarray(tile * (refinement / stride))
 
     def share_below(self, length: float) -> float:

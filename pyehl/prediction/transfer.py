@@ -76,6 +76,7 @@ class Transfer:
     bent: bool
     # The pressure of second order; None where the waves move with the roughness as they are
     second: SecondOrder | None = None
+    stiffening: float = 1.0  # stiffness over that of the half-space
 
     @classmethod
     def of(
@@ -124,9 +125,10 @@ class Transfer:
         return cls(found[:count], found[count:-1], found[-1], bent, second)
 
     @classmethod
-    def carried(cls, ratio: Array) -> Transfer:
+    def carried(cls, ratio: Array, stiffening: float = 1.0) -> Transfer:
         """Return a real ratio that is the same everywhere and moves with the roughness."""
-        return cls([ratio.astype(np.complex128)] * STATIONS.size, [], None, bent=False)
+        driven = [ratio.astype(np.complex128)] * STATIONS.size
+        return cls(driven, [], None, bent=False, stiffening=stiffening)
 
     def kept(self, index: tuple[Indices, Indices]) -> Transfer:
         """Return the part of the components at rows and columns of the spectrum."""
@@ -143,7 +145,8 @@ class Transfer:
         """Pressure over roughness at X = Y = 0 [p_h R/a^2]."""
         free = self._free_at_centre(spectrum, velocity_ratio)
         qx, qy = spectrum.qx[:, np.newaxis], spectrum.qy[np.newaxis, :]
-        return wave_pressure(qx, qy, velocity_ratio, self.driven[MIDDLE], free)
+        found = wave_pressure(qx, qy, velocity_ratio, self.driven[MIDDLE], free)
+        return self.stiffening * found
 
     def _free_at_centre(self, spectrum: Spectrum, velocity_ratio: float) -> Complex:
         if not self.free:

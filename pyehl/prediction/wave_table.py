@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 
 from pyehl.prediction.spectrum import Spectrum
@@ -20,8 +19,8 @@ Complex = NDArray[np.complex128]
 # Wavenumbers and directions: the interpolated T is right to 1e-3. Both are odd, and so are those of
 # the coarse tables, which every second one makes
 TABLE = (73, 25)
-# Components that are interpolated at a time
-BLOCK = 1 << 18
+# Components that are interpolated at a time: few enough to stay in the cache
+BLOCK = 1 << 12
 
 
 def coarsened(values: NDArray[Any], times: int) -> NDArray[Any]:
@@ -87,7 +86,7 @@ class WaveTable:
         step = max(1, BLOCK // width)
         for first in range(0, self._shape[0], step):
             part = slice(first * width, (first + step) * width)
-            spread = (_weights(self._rows[part], self._columns[part]) @ values).view(np.complex128)
+            spread = _between(values, self._rows[part], self._columns[part]).view(np.complex128)
             for k, out in enumerate(found):
                 out[first : first + step] = spread[:, k].reshape(-1, width)[:, self._mirror]
         for out in found:
@@ -96,8 +95,8 @@ class WaveTable:
         return found
 
 
-def _weights(row: Array, column: Array) -> scipy.sparse.csr_array:
-    """Matrix of the bilinear interpolation in a table, (n, m)."""
+def _between(values: Array, row: Array, column: Array) -> Array:
+    """Interpolate a table (m, k) bilinearly at places (n,): (n, k)."""
     i, j = (
         np.minimum(place.astype(np.int32), size - 2)
         for place, size in zip((row, column), TABLE, strict=True)
@@ -105,9 +104,7 @@ def _weights(row: Array, column: Array) -> scipy.sparse.csr_array:
     # what rounding puts beyond the last column is on it
     u, v = row - i, np.minimum(column - j, 1.0)
     at = i * np.int32(TABLE[1]) + j
-    index = np.stack([at, at + 1, at + TABLE[1], at + TABLE[1] + 1], axis=-1)
-    weight = np.stack([(1.0 - u) * (1.0 - v), (1.0 - u) * v, u * (1.0 - v), u * v], axis=-1)
-    ends = np.arange(0, 4 * at.size + 1, 4, dtype=np.int32)
-    return scipy.sparse.csr_array(
-        (weight.ravel(), index.ravel(), ends), shape=(at.size, TABLE[0] * TABLE[1])
-    )
+    found = values[at] * ((1.0 - u) * (1.0 - v))[:, np.newaxis]
+    for step, weight in ((1, (1.0 - u) * v), (TABLE[1], u * (1.0 - v)), (TABLE[1] + 1, u * v)):
+        found += values[at + step] * weight[:, np.newaxis]
+    return found

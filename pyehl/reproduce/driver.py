@@ -12,8 +12,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import cast
 
+from pyehl.arrays import write_csv
 from pyehl.destination import Destination, file_errors
 from pyehl.errors import InputError
+from pyehl.plots.style import save
 from pyehl.reproduce import (
     figure1,
     figure2,
@@ -35,6 +37,7 @@ from pyehl.studies.plan import Plan
 
 __all__ = ["PIECES", "reproduce"]
 
+DPI = 130
 # In the order of the report; the order of the work is the same
 MODULES = (table1, figure1, figure2, figure3, figure4, figure5, figure6, table2, figure7)
 PIECES: dict[str, Piece] = {module.NAME: cast(Piece, module) for module in MODULES}
@@ -79,11 +82,16 @@ def reproduce(
         try:
             data = piece.run(runs, level)
         except RunFailed as error:
-            result = Result(name, piece.TITLE, (), (), None, failed=str(error))
+            result = Result(failed=str(error))
         else:
             numbers = read_references() if references is None else references
-            result = piece.show(data, numbers, place, level)
-        result = replace(result, wall=time.perf_counter() - began)
+            result = piece.show(data, numbers, level)
+        wall = time.perf_counter() - began
+        result = replace(result, name=name, title=piece.TITLE, folder=place, wall=wall)
+        if result.table is not None:
+            write_csv(result.file(".csv"), *result.table)
+        if result.figure is not None:
+            save(result.figure, result.file(".png"), DPI, "reproduce")
         results.append(result)
         if done is not None:
             done(result)

@@ -4,16 +4,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import scipy.fft
 
-from pyehl.arrays import write_csv
 from pyehl.case import Case
 from pyehl.plots import paper_surfaces
 from pyehl.plots.paper_surfaces import Step
-from pyehl.plots.style import save
 from pyehl.prediction import of_case
 from pyehl.prediction.result import Prediction
 from pyehl.reproduce.level import Level
@@ -83,7 +80,7 @@ def run(runs: Runs, level: Level) -> Flow:
                 np.where(r2 < 1.0, stress, np.nan), float(peak.max() / peak.std()))  # fmt: skip
 
 
-def show(data: Flow, references: References, folder: Path, level: Level) -> Result:
+def show(data: Flow, references: References, level: Level) -> Result:
     """Draw the steps as fields, with the numbers that they lead to."""
     tile, response = data.paper.surface, data.paper.friction.response
     steps = [
@@ -99,17 +96,11 @@ def show(data: Flow, references: References, folder: Path, level: Level) -> Resu
         f"seed {SEED}: $\\mu_r/\\mu_s$ = {data.paper.mu_ratio:.3f} by the paper's model over a "
         f"passage, {data.ours.mu_ratio:.3f} by ours, whose $A_d/A_i$ is complex and knows the slip"
     )
-    picture = save(paper_surfaces.flow(steps, result), folder / "figure1.png", paper_surfaces.DPI)
-    table = folder / "figure1.csv"
-    write_csv(
-        table,
-        ("model", "mu_ratio", "rms_height_m", "rms_deformed_m", "rms_pressure_Pa"),
-        [
-            (name, p.mu_ratio, p.surface.rms_height, float(np.std(p.friction.response.deformed)),
-             float(np.std(p.friction.response.pressure)))
-            for name, p in (("paper", data.paper), ("response", data.ours))
-        ],
-    )  # fmt: skip
+    rows = [
+        (name, p.mu_ratio, p.surface.rms_height, float(np.std(p.friction.response.deformed)),
+         float(np.std(p.friction.response.pressure)))
+        for name, p in (("paper", data.paper), ("response", data.ours))
+    ]  # fmt: skip
     # Parseval, with the amplitudes of step 2
     total = float(np.sqrt(np.sum(10.0 ** (2.0 * data.spectrum))))
     checks = [
@@ -128,7 +119,11 @@ def show(data: Flow, references: References, folder: Path, level: Level) -> Resu
         f"rms height; it is {np.abs(tile.heights).max() / tile.rms_height:.1f} times that with it.",
     ]
     return Result(
-        NAME, TITLE, checks, [(picture, "The steps as fields of one surface.")], table, notes,
-        seconds=data.paper.seconds + data.ours.seconds,
+        checks,
+        (("model", "mu_ratio", "rms_height_m", "rms_deformed_m", "rms_pressure_Pa"), rows),
+        paper_surfaces.flow(steps, result),
+        "The steps as fields of one surface.",
+        notes,
+        alone=data.paper.seconds + data.ours.seconds,
         paper_seconds=f"{references['time.prediction'].value:g} s for each time step",
-    )  # fmt: skip
+    )

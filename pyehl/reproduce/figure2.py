@@ -5,14 +5,11 @@ from __future__ import annotations
 
 import csv
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pyehl.arrays import write_csv
 from pyehl.plots import paper
-from pyehl.plots.style import save
 from pyehl.reproduce.level import Level
 from pyehl.reproduce.piece import Check, Result
 from pyehl.reproduce.references import References
@@ -96,7 +93,7 @@ def _independent(wave: Wave) -> list[Check]:
     return found
 
 
-def show(data: list[Wave], references: References, folder: Path, level: Level) -> Result:
+def show(data: list[Wave], references: References, level: Level) -> Result:
     """Draw the finest grid, and compare its mean under the scheme of the paper."""
     paper_wave = next(w for w in reversed(data) if w.scheme == "paper")
     printed = references["fig2.mu_ratio"]
@@ -108,31 +105,22 @@ def show(data: list[Wave], references: References, folder: Path, level: Level) -
         ),
         Check.of("H_c of the smooth contact", paper_wave.film, references["fig2.film"]),
     ]
-    made = data[0].made
     checks += [check for wave in data for check in _independent(wave)]
-    table = folder / "figure2.csv"
-    write_csv(
-        table,
-        ("points", "scheme", "T", "mu_ratio"),
-        [(w.points, w.scheme, t, r) for w in data for t, r in zip(w.time, w.ratio, strict=True)],
-    )
+    rows = [(w.points, w.scheme, t, r) for w in data for t, r in zip(w.time, w.ratio, strict=True)]
     figure = paper.wave_history(
         [(f"{w.points}², {w.scheme} scheme: mean {w.mean:.4f}", w.time, w.ratio) for w in data],
         printed.value,
     )
-    picture = save(figure, folder / "figure2.png", paper.DPI)
     means = ", ".join(f"{w.points} x {w.points} {w.scheme}: {w.mean:.4f}" for w in data)
     notes = [
         f"Means over the last period: {means}.",
         "The paper prints the mean; its curve is not published as numbers.",
     ]
     return Result(
-        NAME,
-        TITLE,
         checks,
-        [(picture, "Ours over time; dashed, the mean that the paper prints.")],
-        table,
+        (("points", "scheme", "T", "mu_ratio"), rows),
+        figure,
+        "Ours over time; dashed, the mean that the paper prints.",
         notes,
-        studies=[made.name],
-        seconds=made.seconds,
+        studies=[data[0].made],
     )

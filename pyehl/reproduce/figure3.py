@@ -3,13 +3,9 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 
-from pyehl.arrays import write_csv
 from pyehl.plots import paper
-from pyehl.plots.style import save
 from pyehl.reproduce.level import Level
 from pyehl.reproduce.piece import Result
 from pyehl.reproduce.references import References
@@ -20,6 +16,11 @@ __all__ = ["NAME", "TITLE", "run", "series", "show", "without_result"]
 
 NAME = "figure 3"
 TITLE = "Relative friction of moving waves over H_c/A_i"
+
+COLUMNS = (
+    *("scheme", "moes_m", "moes_l", "wavelength", "film_over_amplitude", "amplitude"),
+    *("mu_ratio", "status"),
+)
 
 
 def run(runs: Runs, level: Level) -> list[WaveSet]:
@@ -58,25 +59,18 @@ def without_result(found: WaveSet) -> str:
     )
 
 
-def show(data: list[WaveSet], references: References, folder: Path, level: Level) -> Result:
+def show(data: list[WaveSet], references: References, level: Level) -> Result:
     """Draw the curves; the paper's own are not published as numbers."""
     grid = f"{level.collapse_grid} x {level.collapse_grid} nodes"
     figure = paper.friction_over_film(
         [(f"scheme '{found.scheme}', {grid}", series(found, found.ratio)) for found in data]
     )
-    picture = save(figure, folder / "figure3.png", paper.DPI)
-    table = folder / "figure3.csv"
-    write_csv(
-        table,
-        ("scheme", "moes_m", "moes_l", "wavelength", "film_over_amplitude", "amplitude",
-         "mu_ratio", "status"),
-        [
-            (f.scheme, f.moes_m[k], f.moes_l[k], f.wavelength[k], f.ratio[k], f.amplitude[k],
-             f.friction[k], f.status[k])
-            for f in data
-            for k in range(f.friction.size)
-        ],
-    )  # fmt: skip
+    rows = [
+        (f.scheme, f.moes_m[k], f.moes_l[k], f.wavelength[k], f.ratio[k], f.amplitude[k],
+         f.friction[k], f.status[k])
+        for f in data
+        for k in range(f.friction.size)
+    ]  # fmt: skip
     falling = [
         bool(np.all(np.diff(s.friction[np.argsort(s.place)]) < 0.0))
         for found in data
@@ -92,12 +86,10 @@ def show(data: list[WaveSet], references: References, folder: Path, level: Level
         *(without_result(found) for found in data),
     ]
     return Result(
-        NAME,
-        TITLE,
         (),
-        [(picture, "Both schemes; the curves of the paper are not published as numbers.")],
-        table,
+        (COLUMNS, rows),
+        figure,
+        "Both schemes; the curves of the paper are not published as numbers.",
         notes,
-        studies=[found.made.name for found in data],
-        seconds=sum(found.made.seconds for found in data),
+        studies=[found.made for found in data],
     )

@@ -5,14 +5,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pyehl.arrays import write_csv
 from pyehl.plots import paper
-from pyehl.plots.style import save
 from pyehl.reproduce.figure3 import series, without_result
 from pyehl.reproduce.fit import Fit, evaluate, fit, scatter
 from pyehl.reproduce.level import Level
@@ -33,6 +30,10 @@ TITLE = "Relative friction of moving waves over theta_2, eq. 16, and over a bett
 DAMPED = (1000.0, 10.0, 0.25, 2.5)
 ONE_CURVE = 1.0
 """Above this theta_2 the waves lie on one curve."""
+COLUMNS = (
+    *("scheme", "moes_m", "moes_l", "wavelength", "film_over_amplitude", "theta_2", "theta_r"),
+    *("mu_ratio", "mu_ratio_eq_16", "status"),
+)
 BELOW = "Below theta_2 = 1 the waves do not lie on one curve"
 
 
@@ -76,7 +77,7 @@ def run(runs: Runs, level: Level) -> list[Collapsed]:
     return out
 
 
-def show(data: list[Collapsed], references: References, folder: Path, level: Level) -> Result:
+def show(data: list[Collapsed], references: References, level: Level) -> Result:
     """Draw the collapse over both parameters under both schemes, and compare with eq. 16."""
     second, fourth = references["eq16.second"], references["eq16.fourth"]
     eq_16 = second.value, fourth.value
@@ -115,28 +116,18 @@ def show(data: list[Collapsed], references: References, folder: Path, level: Lev
              float(evaluate(c.theta_2[k], *eq_16)), c.found.status[k])
             for k in range(c.theta_2.size)
         ]  # fmt: skip
-    picture = save(paper.collapses(panels), folder / "figure4.png", paper.DPI)
-    table = folder / "figure4.csv"
-    write_csv(
-        table,
-        ("scheme", "moes_m", "moes_l", "wavelength", "film_over_amplitude", "theta_2", "theta_r",
-         "mu_ratio", "mu_ratio_eq_16", "status"),
-        rows,
-    )  # fmt: skip
     caption = (
         "Left over theta_2 with eq. 16 (dotted) and our fit of its form; right over the parameter "
         "from the response. Above the scheme of the paper, below the narrow one."
     )
     return Result(
-        NAME,
-        TITLE,
         checks,
-        [(picture, caption)],
-        table,
+        (COLUMNS, rows),
+        paper.collapses(panels),
+        caption,
         notes,
         findings=[_below(data[0]), *_damping(data, eq_16, level)],
-        studies=[c.found.made.name for c in data],
-        seconds=sum(c.found.made.seconds for c in data),
+        studies=[c.found.made for c in data],
     )
 
 

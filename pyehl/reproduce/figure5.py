@@ -5,13 +5,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
-from pyehl.arrays import write_csv
 from pyehl.plots import paper_surfaces
-from pyehl.plots.style import save
 from pyehl.reproduce.level import Level
 from pyehl.reproduce.piece import Check, Result
 from pyehl.reproduce.references import References
@@ -48,7 +45,7 @@ def run(runs: Runs, level: Level) -> Spectrum:
     return Spectrum(surface, q, c_iso, rms, float(-0.5 * slope - 1.0))
 
 
-def show(data: Spectrum, references: References, folder: Path, level: Level) -> Result:
+def show(data: Spectrum, references: References, level: Level) -> Result:
     """Draw as the paper does, and compare with the inputs of Table 1."""
     rms, hurst = references["table1.rms_height"], references["table1.hurst"]
     checks = [
@@ -61,13 +58,10 @@ def show(data: Spectrum, references: References, folder: Path, level: Level) -> 
             "annuli have a width", f"p. {hurst.page}, {hurst.where}",
         ),
     ]  # fmt: skip
-    picture = save(
-        paper_surfaces.spectrum(data.surface), folder / "figure5.png", paper_surfaces.DPI
-    )
-    table = folder / "figure5.csv"
-    write_csv(table, ("q_rad_per_m", "c_iso_m4"), zip(data.q, data.c_iso, strict=True))
     notes = [
         f"Seed {SEED}. The paper's own surface is not published: the same inputs give another one."
     ]
     caption = "Surface, its two-dimensional spectrum, its radial mean with the slope -2 - 2H."
-    return Result(NAME, TITLE, checks, [(picture, caption)], table, notes)
+    rows = list(zip(data.q, data.c_iso, strict=True))
+    figure = paper_surfaces.spectrum(data.surface)
+    return Result(checks, (("q_rad_per_m", "c_iso_m4"), rows), figure, caption, notes)

@@ -4,15 +4,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pyehl import results
-from pyehl.arrays import write_csv
 from pyehl.plots import paper_surfaces
-from pyehl.plots.style import save
 from pyehl.prediction.smooth import solve_contact, zone_of
 from pyehl.reproduce.level import Level
 from pyehl.reproduce.piece import Check, Finding, Result
@@ -155,7 +152,7 @@ def _agreement(ours: Array, simulated: Array) -> tuple[float, float]:
     return float(np.corrcoef(ours, simulated)[0, 1]), float(np.std(ours) / np.std(simulated))
 
 
-def show(data: Deformed, references: References, folder: Path, level: Level) -> Result:
+def show(data: Deformed, references: References, level: Level) -> Result:
     """Draw all fields on one scale with their height distributions."""
     inside = data.inside
     fields = {
@@ -165,17 +162,10 @@ def show(data: Deformed, references: References, folder: Path, level: Level) -> 
         "paper's prediction": data.paper,
     }
     centred = {name: field - field[inside].mean() for name, field in fields.items()}
-    figure = paper_surfaces.deformed(data.x, data.y, inside, centred)
-    picture = save(figure, folder / "figure6.png", paper_surfaces.DPI)
-    table = folder / "figure6.csv"
-    write_csv(
-        table,
-        ("X", "Y", "undeformed_m", "simulated_m", "response_m", "paper_m"),
-        [
-            (data.x[i], data.y[j], *(float(field[i, j]) for field in fields.values()))
-            for i, j in np.argwhere(inside)
-        ],
-    )
+    rows = [
+        (data.x[i], data.y[j], *(float(field[i, j]) for field in fields.values()))
+        for i, j in np.argwhere(inside)
+    ]
     core = np.hypot(data.x[:, None], data.y[None, :]) <= FRICTION
     ours, theirs, ours_wide, theirs_wide = (
         _agreement(field[where], data.simulated[where])
@@ -222,6 +212,11 @@ def show(data: Deformed, references: References, folder: Path, level: Level) -> 
         "scale; below, height distributions and the centre line."
     )
     return Result(
-        NAME, TITLE, checks, [(picture, caption)], table, notes, findings,
-        studies=[data.made.name], seconds=data.made.seconds,
-    )  # fmt: skip
+        checks,
+        (("X", "Y", "undeformed_m", "simulated_m", "response_m", "paper_m"), rows),
+        paper_surfaces.deformed(data.x, data.y, inside, centred),
+        caption,
+        notes,
+        findings,
+        [data.made],
+    )

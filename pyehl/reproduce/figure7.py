@@ -4,15 +4,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pyehl.arrays import write_csv
 from pyehl.plots import paper_surfaces
-from pyehl.plots.style import save
-from pyehl.prediction.flattening import stiffness
+from pyehl.prediction.by_response import STIFFER
 from pyehl.reproduce.level import Level
 from pyehl.reproduce.piece import Check, Finding, Result
 from pyehl.reproduce.references import References
@@ -79,7 +76,7 @@ def _deviations(predicted: Array, simulated: Array) -> tuple[float, float]:
     return float(np.abs(d).mean()), float(d.mean())
 
 
-def show(data: Surfaces, references: References, folder: Path, level: Level) -> Result:
+def show(data: Surfaces, references: References, level: Level) -> Result:
     """Draw both predictions beside the simulation, and compare the mean deviation."""
     seeds = np.arange(SEED, SEED + data.simulated.size)
     means = {model: _deviations(p, data.simulated) for model, p in data.predicted.items()}
@@ -89,19 +86,13 @@ def show(data: Surfaces, references: References, folder: Path, level: Level) -> 
     }
     shown = [(labels[model], data.predicted[model]) for model in labels]
     figure = paper_surfaces.by_seed(seeds, data.simulated, shown)
-    picture = save(figure, folder / "figure7.png", paper_surfaces.DPI)
     names = ["seed", "simulated"]
     names += [f"{word}_{model}" for word in ("predicted", "deviation") for model in MODELS]
-    table = folder / "figure7.csv"
-    write_csv(
-        table,
-        names,
-        [
-            (int(seeds[k]), data.simulated[k], *(data.predicted[m][k] for m in MODELS),
-             *(data.predicted[m][k] / data.simulated[k] - 1.0 for m in MODELS))
-            for k in range(seeds.size)
-        ],
-    )  # fmt: skip
+    rows = [
+        (int(seeds[k]), data.simulated[k], *(data.predicted[m][k] for m in MODELS),
+         *(data.predicted[m][k] / data.simulated[k] - 1.0 for m in MODELS))
+        for k in range(seeds.size)
+    ]  # fmt: skip
     claimed = references["fig7.deviation"]
     checks = [
         Check.of(
@@ -130,23 +121,18 @@ def show(data: Surfaces, references: References, folder: Path, level: Level) -> 
         ),
     ]
     return Result(
-        NAME, TITLE, checks,
-        [(picture, "By seed of the surface; the paper's surfaces are not published.")],
-        table, notes, _findings(data, means, spread, references),
-        studies=[made.name for made in data.studies],
-        seconds=sum(made.seconds for made in data.studies),
+        checks,
+        (names, rows),
+        figure,
+        "By seed of the surface; the paper's surfaces are not published.",
+        notes,
+        _findings(data, means, spread, references),
+        data.studies,
         paper_seconds=(
             f"{references['time.simulation'].value / 86400:g} days for a simulation, "
             f"{references['time.prediction'].value:g} s for each time step of a prediction"
         ),
-    )  # fmt: skip
-
-
-def _stiffer() -> float:
-    """How much stiffer eq. 11 read literally is than the half-space."""
-    q = np.ones(1)
-    literal, exact = (stiffness(q, q, 1.0, kind)[0] for kind in ("paper", "exact"))
-    return float(literal / exact - 1.0)
+    )
 
 
 def _findings(
@@ -175,9 +161,9 @@ def _findings(
         ),
         Finding(
             "Misprints and readings",
-            f"Eq. 11 with its wavelength read as 2 pi/|q| is {100 * _stiffer():.0f} % stiffer than "
-            "the half-space, and the viscosity law of the prediction is not stated. Read "
-            "literally, with Barus' law of the appendix, "
+            f"Eq. 11 with its wavelength read as 2 pi/|q| is {100 * (STIFFER - 1.0):.0f} % "
+            "stiffer than the half-space, and the viscosity law of the prediction is not stated. "
+            "Read literally, with Barus' law of the appendix, "
             f"the paper's model gives a mean of {np.nanmean(data.predicted['literal']):.3f}, with "
             "the exact stiffness and Roelands' law of its section 2 "
             f"{np.nanmean(data.predicted['paper']):.3f}, for the same surfaces.",

@@ -4,14 +4,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
 
+from pyehl.plots.style import Figure
 from pyehl.reproduce.level import Level
 from pyehl.reproduce.references import Reference, References
-from pyehl.reproduce.runs import Runs
+from pyehl.reproduce.runs import Made, Runs
 
 __all__ = ["Check", "Finding", "Piece", "Result"]
 
@@ -67,16 +68,25 @@ class Check:
             return f"FAIL, not reproduced: {self.finding}"
         return ("pass" if self.passed else "FAIL") if self.judged else "not judged"
 
+    def row(self) -> dict[str, str]:
+        """Give what a table says of it."""
+        share = f" ({100.0 * self.deviation / self.expected:+.2f} %)" if self.expected else ""
+        known = math.isfinite(self.found)
+        allowed = "-" if self.tolerance is None else f"{self.tolerance:.2g}"
+        return {
+            "number": self.name,
+            "ours": f"{self.found:.6g}" if known else "no result",
+            "theirs": f"{self.expected:.6g}",
+            "where theirs is from": self.source,
+            "deviation": f"{self.deviation:+.3g}{share}" if known else "-",
+            "tolerance": f"{allowed}: {self.why}",
+            "verdict": self.verdict,
+        }
+
     def __str__(self) -> str:
-        """Give both numbers, deviation and verdict in one line."""
-        if not math.isfinite(self.found):
-            return f"{self.name}: no result; {self.expected:.6g} {self.source}: {self.verdict}"
-        relative = f" ({100.0 * self.deviation / self.expected:+.2f} %)" if self.expected else ""
-        allowed = "" if self.tolerance is None else f", tolerance {self.tolerance:.2g}"
-        return (
-            f"{self.name}: {self.found:.6g}, theirs {self.expected:.6g} [{self.source}]: "
-            f"deviation {self.deviation:+.3g}{relative}{allowed} ({self.why}): {self.verdict}"
-        )
+        """Give the row in a line."""
+        name, *cells = self.row().items()
+        return f"{name[1]}: " + ", ".join(f"{head} {cell}" for head, cell in cells)
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,21 +99,33 @@ class Finding:
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """A piece of the paper, redone."""
+    """A piece of the paper, redone; `reproduce` names it and writes its files."""
 
-    # 'figure 2', and what it shows
-    name: str
-    title: str
-    checks: Sequence[Check]  # deviations
-    pictures: Sequence[tuple[Path, str]]  # file and caption
-    table: Path | None  # file with the numbers of the picture; None where a run has failed
+    checks: Sequence[Check] = ()  # deviations
+    # Names of columns and rows of the numbers of the picture; None where a run has failed
+    table: tuple[Sequence[str], Sequence[Iterable[object]]] | None = None
+    figure: Figure | None = None
+    caption: str = ""
     notes: Sequence[str] = ()  # what else is to be said, a sentence or two each
     findings: Sequence[Finding] = ()  # where the paper is not reproduced
-    studies: Sequence[str] = ()  # names of the studies that it rests on
-    seconds: float = 0.0  # processor time of these [s]
+    studies: Sequence[Made] = ()  # that it rests on
+    alone: float = 0.0  # processor time of what is no study [s]
     paper_seconds: str = ""  # the time that the paper states, in words; '' for none
-    wall: float = field(default=0.0)
+    # 'figure 2', what it shows, its folder, and how long it took [s]
+    name: str = ""
+    title: str = ""
+    folder: Path = Path()
+    wall: float = 0.0
     failed: str = ""  # which run has no result, so that the piece has none; '' for none
+
+    def file(self, suffix: str) -> Path:
+        """Path of its '.csv' or '.png'."""
+        return self.folder / f"{self.folder.name}{suffix}"
+
+    @property
+    def seconds(self) -> float:
+        """Processor time [s]."""
+        return self.alone + sum(made.seconds for made in self.studies)
 
     @property
     def passed(self) -> bool:
@@ -142,7 +164,6 @@ class Piece(Protocol):
         self,
         data: Any,  # noqa: ANN401
         references: References,
-        folder: Path,
         level: Level,
     ) -> Result:
-        """Write picture and table into a folder, and compare."""
+        """Draw and compare."""

@@ -10,6 +10,7 @@ import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import resources
+from typing import Any
 
 from pyehl.errors import InternalError
 
@@ -46,18 +47,10 @@ def read_references() -> dict[str, Reference]:
     found = {}
     for row in csv.DictReader(x for x in text.splitlines() if not x.startswith("#")):
         try:
-            tolerance = float(row["tolerance"]) if row["tolerance"] else None
-            found[row["name"]] = Reference(
-                row["name"],
-                float(row["value"]),
-                row["unit"],
-                row["page"],
-                row["where"],
-                row["how"],
-                float(row["reading"]),
-                tolerance,
-                row["why"],
-            )
+            values: dict[str, Any] = dict(row)
+            for key in ("value", "reading", "tolerance"):
+                values[key] = float(row[key]) if row[key] or key != "tolerance" else None
+            found[row["name"]] = Reference(**values)
         except (KeyError, TypeError, ValueError) as error:
             raise InternalError(f"{FILE}: a row is not complete: {row} ({error})") from error
     return found

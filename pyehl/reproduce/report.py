@@ -5,9 +5,10 @@ from __future__ import annotations
 
 import base64
 import html
-import os
 from collections.abc import Sequence
 from pathlib import Path
+
+import pandas as pd
 
 from pyehl.destination import new_file
 from pyehl.reproduce.level import Level
@@ -21,30 +22,10 @@ STYLE = (
     "td,th{border:1px solid #ccc;padding:.2em .5em;text-align:left}"
     ".fail{color:#b00020;font-weight:bold}.pass{color:#006e4e}pre{background:#f5f5f5;padding:.6em}"
 )
-HEAD = ("number", "ours", "theirs", "where theirs is from", "deviation", "tolerance", "verdict")
 PAPER = (
     "Zhang, Biboulet, Venner & Lubrecht 2019, Prediction of the Stribeck curve under full-film "
     "elastohydrodynamic lubrication, doi 10.1016/j.triboint.2019.01.028"
 )
-
-
-def _rows(result: Result) -> list[tuple[str, ...]]:
-    rows: list[tuple[str, ...]] = []
-    for c in result.checks:
-        share = f" ({100.0 * c.deviation / c.expected:+.2f} %)" if c.expected else ""
-        allowed = "-" if c.tolerance is None else f"{c.tolerance:.2g}"
-        rows.append(
-            (
-                c.name,
-                f"{c.found:.6g}",
-                f"{c.expected:.6g}",
-                c.source,
-                f"{c.deviation:+.3g}{share}",
-                f"{allowed}: {c.why}",
-                c.verdict,
-            )
-        )
-    return rows
 
 
 def _seconds(result: Result) -> str:
@@ -79,7 +60,7 @@ def _html(folder: Path, results: Sequence[Result], level: Level, machine: Sequen
         f"<pre>{text(chr(10).join(rest))}</pre><table>",
     ]
     out += [
-        f"<tr><td><a href='#{_anchor(r)}'>{text(r.name)}</a></td><td>{text(r.title)}</td>"
+        f"<tr><td><a href='#{r.folder.name}'>{text(r.name)}</a></td><td>{text(r.title)}</td>"
         f"<td class='{'pass' if r.passed else 'fail'}'>{text(r.line())}</td></tr>"
         for r in results
     ]
@@ -91,39 +72,27 @@ def _html(folder: Path, results: Sequence[Result], level: Level, machine: Sequen
         out.append("</ul>")
     for r in results:
         out.append(
-            f"<h2 id='{_anchor(r)}'>{text(r.name.capitalize())}: {text(r.title)}</h2>"
+            f"<h2 id='{r.folder.name}'>{text(r.name.capitalize())}: {text(r.title)}</h2>"
             f"<p class='{'pass' if r.passed else 'fail'}'>{text(r.line())}</p>"
         )
-        for path, caption in r.pictures:
-            data = base64.b64encode(path.read_bytes()).decode()
+        if r.figure is not None:
+            data = base64.b64encode(r.file(".png").read_bytes()).decode()
             out.append(
-                f"<p><img alt='{text(caption, quote=True)}' src='data:image/png;base64,{data}'>"
-                f"<br>{text(caption)}</p>"
+                f"<p><img alt='{text(r.caption, quote=True)}' src='data:image/png;base64,{data}'>"
+                f"<br>{text(r.caption)}</p>"
             )
         if r.checks:
-            out.append("<table><tr>" + "".join(f"<th>{h}</th>" for h in HEAD) + "</tr>")
-            for row in _rows(r):
-                kind = "fail" if row[-1].startswith("FAIL") else ""
-                cells = "".join(f"<td class='{kind}'>{text(cell)}</td>" for cell in row)
-                out.append(f"<tr>{cells}</tr>")
-            out.append("</table>")
+            out.append(pd.DataFrame([check.row() for check in r.checks]).to_html(index=False))
         if r.notes:
             out.append("<ul>" + "".join(f"<li>{text(note)}</li>" for note in r.notes) + "</ul>")
-        studies = ", ".join(f"studies/{s}" for s in r.studies) or "none"
+        studies = ", ".join(f"studies/{made.name}" for made in r.studies) or "none"
         if r.table is not None:
+            file = r.file(".csv")
             out.append(
-                f"<p>Numbers: <a href='{_relative(r.table, folder)}'>{r.table.name}</a>. Runs: "
+                f"<p>Numbers: <a href='{file.relative_to(folder)}'>{file.name}</a>. Runs: "
                 f"{text(studies)}. {text(_seconds(r))}.</p>"
             )
     return "\n".join([*out, "</body></html>"]) + "\n"
-
-
-def _anchor(result: Result) -> str:
-    return result.name.replace(" ", "-")
-
-
-def _relative(path: Path, folder: Path) -> str:
-    return os.path.relpath(path, folder)
 
 
 def write_report(

@@ -3,10 +3,7 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from pyehl import surfaces
-from pyehl.arrays import write_csv
 from pyehl.case import Case
 from pyehl.reproduce.level import Level
 from pyehl.reproduce.piece import Check, Result
@@ -60,22 +57,16 @@ def run(runs: Runs, level: Level) -> dict[str, float]:
     }
 
 
-def show(data: dict[str, float], references: References, folder: Path, level: Level) -> Result:
+def show(data: dict[str, float], references: References, level: Level) -> Result:
     """Compare with what is printed, and with what follows from it by hand."""
     checks = [Check.of(name, value, references[f"table1.{name}"]) for name, value in data.items()]
-    table = folder / "table1.csv"
-    write_csv(
-        table,
-        ("name", "ours", "paper", "unit", "deviation"),
-        [
-            (name, value, references[f"table1.{name}"].value, references[f"table1.{name}"].unit,
-             value - references[f"table1.{name}"].value)
-            for name, value in data.items()
-        ],
-    )  # fmt: skip
+    rows = [
+        (name, c.found, c.expected, references[f"table1.{name}"].unit, c.deviation)
+        for c, name in zip(checks, data, strict=True)
+    ]
     notes = [
         "The rms height is measured on the surface that the generator makes. The tile is as wide "
         "as the contact and is repeated; its pixels are those of the grid of 513 x 513 nodes to "
         "0.2 %.",
     ]
-    return Result(NAME, TITLE, checks, (), table, notes)
+    return Result(checks, (("name", "ours", "paper", "unit", "deviation"), rows), notes=notes)

@@ -5,9 +5,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from pathlib import Path
 
-from pyehl.arrays import write_csv
 from pyehl.reproduce.level import Level
 from pyehl.reproduce.piece import Check, Finding, Result
 from pyehl.reproduce.references import References
@@ -92,7 +90,7 @@ def run(runs: Runs, level: Level) -> Meshes:
     return Meshes(sorted(rows), studies)
 
 
-def show(data: Meshes, references: References, folder: Path, level: Level) -> Result:
+def show(data: Meshes, references: References, level: Level) -> Result:
     """Write the table; the paper's numbers are of another surface."""
     checks = []
     for mesh in level.meshes:
@@ -105,8 +103,6 @@ def show(data: Meshes, references: References, folder: Path, level: Level) -> Re
     for model in ("response", "paper"):
         value = data.value(last, f"prediction, {model}")
         checks.append(Check.of(f"prediction, {model}", value, references["table2.prediction"]))
-    table = folder / "table2.csv"
-    write_csv(table, ("points", "method", "mu_ratio", "seconds"), data.rows)
     notes = [
         f"{mesh} x {mesh}, {method}: mu_r/mu_s {value:.4f}, {seconds:.1f} s"
         for mesh, method, value, seconds in data.rows
@@ -116,11 +112,13 @@ def show(data: Meshes, references: References, folder: Path, level: Level) -> Re
         "are of one thread, and of a machine that may have had other work."
     )
     return Result(
-        NAME, TITLE, checks, (), table, notes, _findings(data, level),
-        studies=[made.name for made in data.studies],
-        seconds=sum(made.seconds for made in data.studies),
+        checks,
+        (("points", "method", "mu_ratio", "seconds"), data.rows),
+        notes=notes,
+        findings=_findings(data, level),
+        studies=data.studies,
         paper_seconds=f"{references['time.simulation'].value / 86400:g} days for a simulation",
-    )  # fmt: skip
+    )
 
 
 def _findings(data: Meshes, level: Level) -> list[Finding]:

@@ -7,7 +7,6 @@ from dataclasses import replace
 from typing import cast
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 
 from pyehl.errors import InputError
@@ -41,21 +40,19 @@ def shifted(topography: Topography, distance_x: float, distance_y: float = 0.0) 
     qx, qy = wavenumbers(topography)
     fx = _shift_factor(qx[:, 0], distance_x, None if nx % 2 else nx // 2)
     fy = _shift_factor(qy[0, :], distance_y, None if ny % 2 else ny // 2)
-    z = scipy.fft.rfft2(topography.heights) * fx[:, np.newaxis] * fy[np.newaxis, :]
-    heights = scipy.fft.irfft2(z, s=(nx, ny))
+    z = np.fft.rfft2(topography.heights) * fx[:, np.newaxis] * fy[np.newaxis, :]
+    heights = np.fft.irfft2(z, s=(nx, ny))
     return replace(topography, heights=np.ascontiguousarray(heights))
 
 
 def shift_across(heights: Array, length_y: float, distance: float) -> None:
     """Move a tile (nx, ny) along y by a distance [m] in place, as :func:`shifted` does."""
     ny = heights.shape[1]
-    q = 2.0 * np.pi * scipy.fft.rfftfreq(ny, length_y / ny)
+    q = 2.0 * np.pi * np.fft.rfftfreq(ny, length_y / ny)
     factor = _shift_factor(q, distance, None if ny % 2 else ny // 2)
     for first in range(0, heights.shape[0], LINES):
         part = slice(first, first + LINES)
-        heights[part] = scipy.fft.irfft(
-            scipy.fft.rfft(heights[part], axis=1) * factor, n=ny, axis=1
-        )
+        heights[part] = np.fft.irfft(np.fft.rfft(heights[part], axis=1) * factor, n=ny, axis=1)
 
 
 def resampled(topography: Topography, pixels: tuple[int, int]) -> Topography:
@@ -72,13 +69,13 @@ def resampled(topography: Topography, pixels: tuple[int, int]) -> Topography:
             raise InputError(f"cannot resample {topography.shape} pixels to fewer, {pixels}")
         if new == old:
             continue
-        values = scipy.fft.rfft(z, axis=axis, norm="forward")
+        values = np.fft.rfft(z, axis=axis, norm="forward")
         if old % 2 == 0:
             # the Nyquist component is one of two conjugate halves on a finer grid
             index = [slice(None), slice(None)]
             index[axis] = slice(old // 2, old // 2 + 1)
             values[tuple(index)] *= 0.5
-        z = scipy.fft.irfft(values, n=new, axis=axis, norm="forward")
+        z = np.fft.irfft(values, n=new, axis=axis, norm="forward")
     return replace(topography, heights=np.ascontiguousarray(z))
 
 

@@ -9,7 +9,6 @@ its mean over annuli of |q|.
 from __future__ import annotations
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 
 from pyehl.surfaces.tile import Topography
@@ -23,8 +22,8 @@ def wavenumbers(topography: Topography) -> tuple[Array, Array]:
     """q_x (nx, 1) and q_y (1, ny//2 + 1) of the half spectrum of a tile [rad/m]."""
     nx, ny = topography.shape
     dx, dy = topography.pixel
-    qx = 2.0 * np.pi * scipy.fft.fftfreq(nx, dx)
-    qy = 2.0 * np.pi * scipy.fft.rfftfreq(ny, dy)
+    qx = np.asarray(2.0 * np.pi * np.fft.fftfreq(nx, dx), dtype=np.float64)
+    qy = np.asarray(2.0 * np.pi * np.fft.rfftfreq(ny, dy), dtype=np.float64)
     return qx[:, np.newaxis], qy[np.newaxis, :]
 
 
@@ -37,11 +36,11 @@ def psd_2d(topography: Topography) -> tuple[Array, Array, Array]:
     nx, ny = topography.shape
     dx, dy = topography.pixel
     z = topography.heights - topography.heights.mean()
-    amplitude = scipy.fft.fft2(z, norm="forward")
+    amplitude = np.fft.fft2(z, norm="forward")
     area = topography.length_x * topography.length_y
-    c2d = scipy.fft.fftshift(area * np.abs(amplitude) ** 2)
-    qx = scipy.fft.fftshift(2.0 * np.pi * scipy.fft.fftfreq(nx, dx))
-    qy = scipy.fft.fftshift(2.0 * np.pi * scipy.fft.fftfreq(ny, dy))
+    c2d = np.fft.fftshift(area * np.abs(amplitude) ** 2)
+    qx = np.fft.fftshift(2.0 * np.pi * np.fft.fftfreq(nx, dx))
+    qy = np.fft.fftshift(2.0 * np.pi * np.fft.fftfreq(ny, dy))
     return qx, qy, c2d
 
 

@@ -21,7 +21,7 @@ from functools import lru_cache
 from typing import cast
 
 import numpy as np
-import scipy
+from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 __all__ = ["LARGEST", "disc_correction", "monomials"]
@@ -56,7 +56,7 @@ def _radial(z: Array, last: int) -> list[tuple[range, Array]]:
     found = []
     for m in range(last + 1):
         orders = range(m or 2, last + 1, 2)
-        values = [_weight(n, m) * scipy.special.lpmv(m, n, z) / z for n in orders]
+        values = [_weight(n, m) * _legendre(n, m, z) / z for n in orders]
         if values:
             found.append((orders, np.stack(values, axis=-1)))
     return found
@@ -65,10 +65,10 @@ def _radial(z: Array, last: int) -> list[tuple[range, Array]]:
 def _series(qx: Array, qy: Array, theta: Array, radial: list[tuple[range, Array]]) -> Complex:
     """Sum the series at the angles (n,) that the radial parts (n, number of l) belong to."""
     q, phi = np.hypot(qx, qy), np.arctan2(qy, qx)
-    bessel = [(2 * n + 1) * scipy.special.spherical_jn(n, q) for n in range(radial[0][0].stop)]
+    bessel = _bessel(radial[0][0].stop, q)
     total = np.zeros((theta.size, q.size), dtype=complex)
     for m, (orders, values) in enumerate(radial):
-        part = values @ np.stack([(-1) ** ((n - m) // 2) * bessel[n] for n in orders])
+        part = values @ np.stack([(-1) ** ((n - m) // 2) * (2 * n + 1) * bessel[n] for n in orders])
         # i^l = i^m (-1)^((l - m)/2); cos(m(theta - phi)) by the addition theorem
         part *= np.cos(m * theta)[:, np.newaxis] * np.cos(m * phi) + (
             np.sin(m * theta)[:, np.newaxis] * np.sin(m * phi)
@@ -77,14 +77,27 @@ def _series(qx: Array, qy: Array, theta: Array, radial: list[tuple[range, Array]
     return total
 
 
+def _legendre(n: int, m: int, z: Array) -> Array:
+    """Associated Legendre function of the first kind with the phase (-1)^m."""
+    derivative = legendre.Legendre.basis(n).deriv(m)
+    return np.asarray((-1.0) ** m * (1.0 - z * z) ** (0.5 * m) * derivative(z))
+
+
+def _bessel(count: int, q: Array) -> Array:
+    """Spherical Bessel functions of the orders below `count`, (count, m) (DLMF 10.54.2)."""
+    place, weight = legendre.leggauss(2 * count)
+    waves = np.exp(1j * np.outer(q, place)) * (0.5 * weight)
+    turned = (-1j) ** np.arange(count)
+    return np.asarray((waves @ legendre.legvander(place, count - 1) * turned).real.T)
+
+
 def _weight(n: int, m: int) -> float:
     """Pressure per deflection of Y_nm, times its share in a plane wave."""
-    gammaln = scipy.special.gammaln
-    inverse = gammaln((n + m + 2) / 2) + gammaln((n - m + 2) / 2)
-    inverse -= gammaln((n + m + 1) / 2) + gammaln((n - m + 1) / 2)
-    share = math.exp(inverse + gammaln(n - m + 1) - gammaln(n + m + 1))
-    share *= scipy.special.lpmv(m, n, 0.0)
-    return float(share * (2.0 if m else 1.0) * math.pi / 2.0)
+    inverse = math.lgamma((n + m + 2) / 2) + math.lgamma((n - m + 2) / 2)
+    inverse -= math.lgamma((n + m + 1) / 2) + math.lgamma((n - m + 1) / 2)
+    share = math.exp(inverse + math.lgamma(n - m + 1) - math.lgamma(n + m + 1))
+    share *= float(_legendre(n, m, np.zeros(())))
+    return share * (2.0 if m else 1.0) * math.pi / 2.0
 
 
 @lru_cache(maxsize=1)

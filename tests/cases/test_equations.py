@@ -12,10 +12,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from far_field import far_field
 from numpy.typing import NDArray
 from scipy import fft
-
-from pyehl.bench.far_field import far_field
 
 Array = NDArray[np.float64]
 

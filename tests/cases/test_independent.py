@@ -7,8 +7,7 @@ from itertools import islice
 
 import numpy as np
 import pytest
-
-from pyehl.bench.second_solver import START, VELOCITY, SecondSolver, Wave, Z
+from second_solver import START, VELOCITY, SecondSolver, Wave, Z
 
 
 def options(wavelength: float, scheme: str = "narrow", **amplitude: float) -> dict[str, object]:

@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.image import imread
+from second_solver import START, VELOCITY, X_MATTERS, SecondSolver, Wave, Z
 
 from pyehl import cli, schema
-from pyehl.bench.second_solver import START, VELOCITY, X_MATTERS, SecondSolver, Wave, Z
 from pyehl.case import Case
 from pyehl.errors import EhlError
 from pyehl.measured_response import measurement, tiers

@@ -10,10 +10,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from limited import limited
 
 import pyehl
 from pyehl import library
-from pyehl.bench.faults_resources import limited
 from pyehl.errors import NoMemoryError
 
 WAVE = (

@@ -25,8 +25,11 @@ print("loaded:", *sys.modules)
         (["run", "quick.nml", "-o", "out"], HEAVY | SCIPY),
         (["check", "quick.nml"], HEAVY | SCIPY),
         (["film", "table1.nml"], HEAVY),
-        (["predict", "table1.nml", "--no-plots", "-o", "out"], HEAVY),
-        (["predict", "table1.nml", "-o", "out"], (HEAVY | {"matplotlib.pyplot"}) - {"matplotlib"}),
+        (["predict", "table1.nml", "--no-plots", "-o", "out"], HEAVY | SCIPY),
+        (
+            ["predict", "table1.nml", "-o", "out"],
+            (HEAVY | SCIPY | {"matplotlib.pyplot"}) - {"matplotlib"},
+        ),
     ],
     ids=["version", "run", "check", "film", "predict without pictures", "predict"],
 )

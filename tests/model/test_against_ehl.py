@@ -8,9 +8,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from paper_model import predict_friction
 
 from pyehl import surfaces
-from pyehl.prediction import Options, predict_friction
+from pyehl.prediction import Options
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 

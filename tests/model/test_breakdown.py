@@ -176,6 +176,8 @@ def test_rough_surfaces_are_not_told_to_remove_spikes(settings):
 def test_tracks(scan):
     """Over the map and not over its mirror image; the track moves the surface across the motion."""
     scan["surface"]["outliers"] = 50.0
+    # as many as tracks other than the first have
+    scan["psd"]["positions"] = 8
     one = predict(scan, tracks=1)
     assert one.tracks[0] == pytest.approx(one.mu_ratio, rel=1e-12)
     assert one.tracks[1] == 0.0

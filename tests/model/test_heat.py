@@ -5,10 +5,10 @@ import math
 
 import numpy as np
 import pytest
+from paper_model import predict_friction
 
 from pyehl.case import Case
 from pyehl.commands.film import report as film_report
-from pyehl.prediction import predict_friction
 from pyehl.prediction.film_sheet import sheet
 from pyehl.prediction.of_case import predict
 from pyehl.solver import Solver

@@ -112,7 +112,7 @@ def test_every_function_takes_axes_and_returns_them(fields, settings):
         lambda ax: contact.contours(x, y, film, ax=ax),
         lambda ax: surface.heights(tile, ax=ax),
         lambda ax: surface.spectrum_map(tile, ax=ax),
-        lambda ax: surface.spectrum_line(tile, 4.154e-4, 1000.0, 10.0, ax=ax),
+        lambda ax: surface.spectrum_line(tile, deformed, tile.heights - deformed, ax=ax),
         lambda ax: surface.roughness(tile, deformed, 4.154e-4, ax=ax),
         lambda ax: surface.passage(line * 1e-4, line, 8e-4, ax=ax),
         lambda ax: surface.octaves([(1e-4, 5e-5, 0.1)], ax=ax),
@@ -139,12 +139,17 @@ def test_headline():
     assert "FILM" in figures.headline(about | {"status": "negative film"})
 
 
-def test_amplitude_ratio_for_both_directions(settings):
+def test_heights_and_what_is_left_of_each_wave(settings):
+    """The model of the paper has a real ratio: what stays and what takes pressure make one."""
     result = predict(settings)
-    ax = surface.spectrum_line(result.surface, 4.154e-4, 1000.0, 10.0)
+    rough, deformed = result.surface, result.friction.response.deformed
+    ax = surface.spectrum_line(rough, deformed, rough.heights - deformed)
     (twin,) = (other for other in ax.figure.axes if other is not ax)
-    for label in ("wave along $x$", "wave along $y$"):
-        assert np.all(np.diff(curves(twin)[label][:, 1]) > 0.0)
+    stays, flattened = (curves(twin)[name][:, 1] for name in ("$|T|$", "$|1 - T|$"))
+    assert np.all(np.diff(stays) > 0.0)
+    # of an annulus both are rms values, which add up to one or a little more
+    assert np.all(stays + flattened >= 1.0)
+    assert np.all(stays + flattened < 1.03)
     ax = surface.heights(result.surface)
     assert ax.get_images()[0].get_array().max() == pytest.approx(result.surface.heights.max() * 1e9)
 
@@ -224,7 +229,7 @@ def test_files_of_all_formats(fields, tmp_path):
     path = style.save(figure, tmp_path / "a.png")
     data = path.read_bytes()
     width, height = struct.unpack(">II", data[16:24])
-    assert (width, height) == (2160, 990)
+    assert (width, height) == (1440, 660)
     for suffix, magic in (("pdf", b"%PDF"), ("svg", b"<?xml")):
         (path,) = folder.save_all({"b": figure}, tmp_path, suffix)
         assert path.name == f"b.{suffix}"

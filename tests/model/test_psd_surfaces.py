@@ -6,10 +6,10 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from paper_model import contributions, passage, predict_friction, response
 
 from pyehl import surfaces
-from pyehl.prediction import Options, contributions, predict_friction, response
-from pyehl.prediction.of_paper import PaperPassage
+from pyehl.prediction import Options
 from pyehl.surfaces import Topography
 from pyehl.theory import stribeck
 from pyehl.theory.lubricant import Lubricant
@@ -78,7 +78,7 @@ def test_below_equation_16():
 
 
 def over_tracks(rough):
-    return PaperPassage(rough, POINT, ROELANDS, FILM, Options()).run(8)[1]
+    return passage(rough, POINT, ROELANDS, FILM).run(8)[1]
 
 
 def test_rise_over_all_tracks_is_quadratic_in_the_height(table_1):

@@ -6,8 +6,6 @@ from __future__ import annotations
 import csv
 import json
 import math
-import resource
-import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -15,8 +13,6 @@ import pytest
 from matplotlib.image import imread
 
 from pyehl.bench import (
-    faults_edge,
-    faults_files,
     faults_inputs,
     precision,
     skips,
@@ -24,13 +20,14 @@ from pyehl.bench import (
     stress_cases,
 )
 from pyehl.bench.faults import CASE, run, same
-from pyehl.bench.faults_resources import damage, limited
+from pyehl.bench.faults_states import damage
 from pyehl.cli import main
 
 
 def test_skips_change_nothing(tmp_path: Path, capsys, monkeypatch):
     """Rows on small grids; the exit status says that nothing differs."""
     monkeypatch.setattr(skips, "LEAST", 65)
+    monkeypatch.setattr(skips, "PREDICTIONS", 2)
     point = ("contact.moes_m=100.0", "contact.moes_l=6.0", "surface.velocity_ratio=1.01")
     domain = ("grid.x_inlet=-2.5", "grid.x_outlet=1.5", "grid.y_extent=2.0")
     wave = (*point, *domain, "surface.kind=harmonic", "surface.amplitude_over_film=0.2")
@@ -64,9 +61,8 @@ def test_each_benchmark_has_its_own_options(capsys):
     assert "-o DIR is needed" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("scene", ["smooth", pytest.param("sweep", marks=pytest.mark.slow)])
-def test_skips_of_other_scenes(scene: str):
-    rows = skips.skip_rows([scene], 257, repeats=1)
+def test_skips_of_smooth_contacts():
+    rows = skips.skip_rows(["smooth"], 257, repeats=1)
     assert len(rows) >= 2
     assert all(row["same"] for row in rows)
 
@@ -76,7 +72,7 @@ def test_stress_campaign(tmp_path: Path, capsys):
     """A tiny campaign: it ends, nothing is wrong, the same seed draws the same cases."""
     words = ["bench", "stress", "--cases", "8", "--seed", "3", "--points", "65", "--jobs", "1"]
     assert main([*words, "-o", str(tmp_path / "s")]) == 0
-    assert "no solution" in capsys.readouterr().out
+    assert "checked" in capsys.readouterr().out
     answer = json.loads((tmp_path / "s" / "stress.json").read_text())
     assert [row["family"] for row in answer["rows"]].count("wave") == 4
     assert imread(tmp_path / "s" / "stress.png").std() > 0.1
@@ -113,56 +109,15 @@ def test_cases_of_a_campaign_cover_what_can_be_asked_for():
         assert case.values["time.steps"] in (0, stress_cases.BOUNDS[case.points])
 
 
-def test_inputs_at_the_edge(tmp_path: Path):
-    (tmp_path / "case.nml").write_text(CASE)
-    trials, counts, bad = faults_edge.inputs_at_the_edge(tmp_path, run)
-    assert bad == []
-    assert counts == {"refused": trials}
-    trials, counts, bad = faults_edge.arguments(tmp_path)
-    assert bad == []
-    assert counts == {"refused": trials}
-
-
-def test_what_edge_rows_must_see(tmp_path: Path, monkeypatch):
-    """Commands that accept everything, and write over what they find."""
-
-    def careless(folder: Path, *words: str, **_: object) -> subprocess.CompletedProcess[str]:
-        for path in folder.rglob("report.md"):
-            path.write_text("")
-        return subprocess.CompletedProcess(words, 0, "", "")
-
-    (tmp_path / "case.nml").write_text(CASE)
-    trials, _, bad = faults_edge.inputs_at_the_edge(tmp_path, careless)
-    assert len(bad) == trials
-    trials, _, bad = faults_files.foreign(tmp_path, careless)
-    assert len(bad) == trials
-    monkeypatch.setattr(faults_edge.Solver, "field", lambda solver, name: np.zeros(2) / 3.0)
-    torn = iter(range(10**9))
-    assert faults_edge.reads(10)[2] == []
-    monkeypatch.setattr(faults_edge.Solver, "field", lambda solver, name: np.array([next(torn)]))
-    assert len(faults_edge.reads(10)[2]) == 1
-
-
 def test_mutated_inputs(tmp_path: Path):
     found = faults_inputs.run_chunk(5, 40, tmp_path, main)
     assert found["bad"] == []
     assert sum(found["counts"].values()) == 40
 
 
-@pytest.mark.parametrize("size", [1_000, 20_000])
-def test_full_disk_is_told_and_leaves_no_folder(tmp_path: Path, size: int):
-    """A write that takes a part is no error for gfortran: the length of every file is checked."""
-    (tmp_path / "case.nml").write_text(CASE)
-    words = ["run", "case.nml", "-o", "out", "--set", "time.steps=4"]
-    done = limited(tmp_path, resource.RLIMIT_FSIZE, size, *words)
-    assert done.returncode == 1
-    assert "cannot write: the disk is full" in done.stderr
-    assert not (tmp_path / "out").exists()
-
-
 @pytest.mark.slow
 def test_damaged_states(tmp_path: Path, monkeypatch):
-    monkeypatch.setattr("pyehl.bench.faults_resources.REGIONS", 2)
+    monkeypatch.setattr("pyehl.bench.faults_states.REGIONS", 2)
     (tmp_path / "case.nml").write_text(CASE)
     trials, counts, bad = damage(tmp_path, np.random.default_rng(1), run, same)
     assert (trials, bad) == (4, [])
@@ -174,7 +129,7 @@ def test_faults_campaign(tmp_path: Path, capsys):
     words = ["bench", "faults", "--kills", "4", "--inputs", "20"]
     assert main([*words, "-o", str(tmp_path / "f")]) == 0
     rows = json.loads((tmp_path / "f" / "faults.json").read_text())["rows"]
-    assert [row["wrong"] for row in rows] == [0] * 11
+    assert [row["wrong"] for row in rows] == [0] * 5
     assert main([*words, "-o", str(tmp_path / "f")]) == 2
 
 

@@ -17,9 +17,8 @@ import numpy as np
 from cases import HERE, case, rows, surface
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.errors import model_error
-from pyehl.prediction.friction import predict_friction
 from pyehl.prediction.options import Options
-from pyehl.prediction.smooth import solve_contact
+from pyehl.prediction.smooth import hertz_contact, solve_contact
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -30,11 +29,17 @@ def predictions(row: dict[str, float]) -> tuple[float, float]:
     settings = case(row).resolve()
     operating, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
     tile = surface(row)
-    passage = RoughPassage(
-        tile, solve_contact(settings), operating, oil, Options(), row["velocity_ratio"]
-    )
-    paper = predict_friction(tile, operating, oil, central_film(operating, oil), Options())
-    return passage.run(0, brief=True)[0].mu_ratio, paper.mu_ratio
+    dry = hertz_contact(central_film(operating, oil) / operating.film_scale, "formula")
+    ratios = [
+        RoughPassage(tile, contact, operating, oil, options, row["velocity_ratio"])
+        .run(0, brief=True)[0]
+        .mu_ratio
+        for contact, options in (
+            (solve_contact(settings), Options()),
+            (dry, Options(reduction="amplitude", smooth="hertz")),
+        )
+    ]
+    return ratios[0], ratios[1]
 
 
 def main() -> None:

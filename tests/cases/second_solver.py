@@ -14,11 +14,10 @@ from typing import Any
 
 import numpy as np
 import scipy.fft
+from far_field import far_field
 from numpy.typing import NDArray
 from scipy import linalg, sparse
 from scipy.sparse.linalg import LinearOperator, gmres
-
-from pyehl.bench.far_field import far_field
 
 __all__ = ["START", "VELOCITY", "X_MATTERS", "NotSolvedError", "SecondSolver", "Wave", "Z"]
 

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The model of Zhang et al. 2019, section 3, of a tile: as it is asked for in tests."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from pyehl.prediction import Band, Options, Response, RoughFriction
+from pyehl.prediction.by_response import RoughPassage
+from pyehl.prediction.smooth import hertz_contact
+from pyehl.surfaces import Topography
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+
+
+def passage(
+    tile: Topography,
+    operating: OperatingPoint,
+    oil: Lubricant,
+    film: float,
+    options: Options | None = None,
+) -> RoughPassage:
+    """A tile in a semi-ellipse of pressure and a uniform film [m]."""
+    read = replace(options or Options(), reduction="amplitude", smooth="hertz")
+    contact = hertz_contact(film / operating.film_scale, "given")
+    return RoughPassage(tile, contact, operating, oil, read, 1.01)
+
+
+def predict_friction(
+    tile: Topography,
+    operating: OperatingPoint,
+    oil: Lubricant,
+    film: float,
+    options: Options | None = None,
+) -> RoughFriction:
+    """Friction over a passage."""
+    return passage(tile, operating, oil, film, options).run(0)[0]
+
+
+def contributions(
+    tile: Topography, operating: OperatingPoint, oil: Lubricant, film: float
+) -> list[Band]:
+    """What each octave adds."""
+    return passage(tile, operating, oil, film).run(0)[2]
+
+
+def response(
+    tile: Topography, operating: OperatingPoint, options: Options | None = None
+) -> Response:
+    """Pressure and deformed roughness of a tile, in a film of a metre."""
+    return predict_friction(tile, operating, Lubricant(), 1.0, options).response
