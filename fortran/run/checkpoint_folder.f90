@@ -89,7 +89,7 @@ contains
       character(len=:), allocatable :: place
 
       note = ""
-      if (.not. solver%moves() .or. input%output%checkpoint_interval <= 0.0_dp) return
+      if (.not. solver%plan%surfaces%move() .or. input%output%checkpoint_interval <= 0.0_dp) return
       place = checkpoint_path(results)
       call check_ours(place, status)
       if (status%failed()) return

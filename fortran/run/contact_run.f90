@@ -52,7 +52,6 @@ module ehl_contact_run
       procedure :: begin_rough
       procedure :: level
       procedure :: mu_ratio
-      procedure :: steps_made
       procedure :: save
    end type contact_run_t
 
@@ -222,12 +221,6 @@ contains
       end if
    end function mu_ratio
 
-   !> Time steps made so far
-   pure integer function steps_made(self)
-      class(contact_run_t), intent(in) :: self
-      steps_made = merge(self%transient%step, 0, self%in_steps)
-   end function steps_made
-
    !> Write the state under names that begin with a prefix. Before the first time step there is nothing that is worth it.
    subroutine save(self, prefix, text, status)
       class(contact_run_t), intent(inout) :: self
@@ -235,7 +228,7 @@ contains
       character(len=*), intent(in) :: prefix, text
       type(status_t), intent(inout) :: status
 
-      if (self%steps_made() == 0) return
+      if (.not. self%in_steps .or. self%transient%step == 0) return
       call self%checkpoint%write(prefix, text, self%transient, self%history, self%frames, &
                                  [self%seconds, self%coarse_ratio, real(self%coarse_outcome, dp)], status)
    end subroutine save

@@ -15,7 +15,7 @@ module ehl_solver
    use ehl_ratio_error, only: waves_t
    use ehl_record, only: record_t
    use ehl_smooth_film, only: film_by_finer_grids, known_film
-   use ehl_status, only: ehl_no_memory, status_t
+   use ehl_status, only: status_t
    implicit none (type, external)
    private
    public :: solver_t
@@ -42,7 +42,6 @@ module ehl_solver
       procedure :: done
       procedure :: converged
       procedure :: interrupt
-      procedure :: moves
       procedure :: finest
       procedure :: save_state
       procedure :: resume
@@ -163,23 +162,18 @@ contains
       type(case_t) :: input
       type(moving_surfaces_t) :: surfaces
       real(dp) :: none(0, 0)
-      integer :: stat
 
       input = self%input
       input%output%frame_interval = 0.0_dp
       input%grid%points = (self%grid%nx + 1)/2
       input%grid%target_error = 0.0_dp
       input%time%estimate_error = .false.
-      allocate (self%coarse, stat=stat)
-      if (stat /= 0) then
-         call status%fail(ehl_no_memory, "no memory for another solver")
-      else
-         ! the same roughness, not the same share of another film
-         call self%plan%surfaces%hand_over(surfaces)
-         call make_plan(input, none, surfaces, self%coarse%plan, status)
-         call self%coarse%begin(status)
-         self%coarse%checkpoint = self%coarse_checkpoint
-      end if
+      allocate (self%coarse)
+      ! the same roughness, not the same share of another film
+      call self%plan%surfaces%hand_over(surfaces)
+      call make_plan(input, none, surfaces, self%coarse%plan, status)
+      call self%coarse%begin(status)
+      self%coarse%checkpoint = self%coarse_checkpoint
       if (status%failed()) call end_coarse(self, status)
    end subroutine begin_coarse
 
@@ -198,13 +192,14 @@ contains
       class(solver_t), intent(inout) :: self
       type(status_t), intent(in) :: status
 
-      self%coarse_outcome = outcome_failed
-      if (status%failed()) self%coarse_message = status%message
-      if (.not. allocated(self%coarse)) return
+      self%coarse_outcome = self%coarse%outcome
+      if (status%failed()) then
+         self%coarse_outcome = outcome_failed
+         self%coarse_message = status%message
+      end if
+      if (self%coarse_outcome == outcome_converged) self%coarse_ratio = self%coarse%mu_ratio()
       self%coarse_work = coarse_step*self%coarse%transient%step
       self%coarse_seconds = self%coarse%seconds
-      if (.not. status%failed()) self%coarse_outcome = self%coarse%outcome
-      if (self%coarse_outcome == outcome_converged) self%coarse_ratio = self%coarse%mu_ratio()
       deallocate (self%coarse)
    end subroutine end_coarse
 
@@ -235,12 +230,6 @@ contains
       self%outcome = outcome_interrupted
       if (self%resting .and. allocated(self%coarse)) deallocate (self%coarse)
    end subroutine interrupt
-
-   !> Whether the case is a transient run
-   pure logical function moves(self)
-      class(solver_t), intent(in) :: self
-      moves = self%plan%surfaces%move()
-   end function moves
 
    !> The grid that fields refer to: the finest one of the plan; with a wanted error, which ends on a grid that nobody
    !> knows before, the finest one so far

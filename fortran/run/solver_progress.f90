@@ -43,40 +43,30 @@ contains
       ! the run on the next coarser grid comes first: it has half as many steps
       coarse = self%coarse_work
       if (allocated(self%coarse)) then
-         coarse = 0.5_dp*coarse_step*earliest_end(self)
+         coarse = 0.5_dp*coarse_step*end_after(self, least_periods(self%plan))
          if (self%coarse%in_steps) then
             done = coarse_step*self%coarse%transient%step
-            coarse = coarse_step*earliest_end(self%coarse)
+            coarse = coarse_step*end_after(self%coarse, least_periods(self%coarse%plan))
          end if
       else
          done = coarse
       end if
       done = done + self%transient%step
-      earliest = earliest_end(self) + coarse
-      latest = latest_end(self) + coarse
+      earliest = end_after(self, least_periods(self%plan)) + coarse
+      latest = end_after(self, real(most_periods(self%plan), dp)) + coarse
    end procedure work
 
-   !> Step after which a transient run can end first
-   pure real(dp) function earliest_end(self)
-      class(contact_run_t), intent(in) :: self
+   !> Step that a transient run has reached after so many periods, or that it is to end after
+   pure real(dp) function end_after(run, periods)
+      class(contact_run_t), intent(in) :: run
+      real(dp), intent(in) :: periods
 
-      earliest_end = self%plan%steps
-      associate (mean => self%transient%mean)
-         if (self%plan%steps == 0) earliest_end = max(mean%filled, 1) + least_periods(self%plan) &
-                                                *mean%period/mean%time_step
+      associate (mean => run%transient%mean)
+         end_after = max(mean%filled, 1) + periods*mean%period/mean%time_step
       end associate
-      earliest_end = max(earliest_end, real(self%transient%step, dp))
-   end function earliest_end
-
-   !> Step after which it ends even if its mean does not settle
-   pure real(dp) function latest_end(self)
-      class(solver_t), intent(in) :: self
-
-      latest_end = self%plan%steps
-      associate (mean => self%transient%mean)
-         if (self%plan%steps == 0) latest_end = max(mean%filled, 1) + most_periods(self%plan)*mean%period/mean%time_step
-      end associate
-   end function latest_end
+      if (run%plan%steps > 0) end_after = run%plan%steps
+      end_after = max(end_after, real(run%transient%step, dp))
+   end function end_after
 
    !> The time left in words
    function time_left(self) result(text)

@@ -3,9 +3,9 @@
 module ehl_steady
    use ehl_contact, only: contact_t
    use ehl_contact_results, only: contact_results_t, load_tolerance, measure
-   use ehl_cycle, only: careful_cycle, cycle_options_t
+   use ehl_cycle, only: careful_cycle, cycle_options_t, prolong_solution
    use ehl_far_field, only: set_far_field
-   use ehl_first_approximation, only: begin_level
+   use ehl_film, only: refresh
    use ehl_hierarchy, only: hierarchy_t
    use ehl_iteration, only: iteration_t, reduction
    use ehl_kinds, only: dp
@@ -139,21 +139,34 @@ contains
       end associate
    end subroutine advance
 
-   !> Begin on the present level
+   !> Begin on level n: from the solution on the next coarser one, or from the Hertz pressure
    subroutine enter_level(self, hierarchy, status)
       class(steady_t), intent(inout) :: self
       type(hierarchy_t), intent(inout) :: hierarchy
       type(status_t), intent(inout) :: status
+      integer :: j
 
       call hierarchy%grow(self%n, status)
       if (status%failed()) return
       if (self%careful) call hierarchy%forget()
-      call begin_level(hierarchy%levels, self%n, self%contact, self%how%film_expected, has_coarser(self))
-      if (has_coarser(self)) then
-         self%m = self%results(self%n - 1)%m
-      else
-         self%m = measure(hierarchy%levels(self%n))
-      end if
+      associate (level => hierarchy%levels(self%n), grid => hierarchy%levels(self%n)%grid)
+         do j = 1, grid%ny
+            call self%contact%gap_row(grid%columns(), grid%y(j), level%geometry(:, j))
+         end do
+         level%rhs = 0.0_dp
+         level%load = self%contact%load()
+         if (has_coarser(self)) then
+            call prolong_solution(hierarchy%levels(self%n - 1), level)
+            self%m = self%results(self%n - 1)%m
+         else
+            do j = 1, grid%ny
+               call self%contact%pressure_row(grid%columns(), grid%y(j), level%p(:, j))
+            end do
+            level%h00 = self%how%film_expected + self%contact%dry_separation()
+            call refresh(level)
+            self%m = measure(level)
+         end if
+      end associate
       self%state = outcome_running
       self%cycles = 0
       self%residual = 0.0_dp

@@ -4,27 +4,24 @@ module test_transient
    use check, only: is_close, is_equal, is_true
    use ehl_case, only: case_t
    use ehl_case_reader, only: read_case
+   use ehl_contact_run, only: contact_run_t
    use ehl_film, only: refresh, update_residual
-   use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
-   use ehl_level_result, only: friction_error
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_outcome, only: outcome_converged, outcome_running
-   use ehl_plan, only: make_plan, plan_t
+   use ehl_plan, only: make_plan
    use ehl_relaxation, only: full_trust, relax
    use ehl_status, only: status_t
-   use ehl_steady, only: steady_t
-   use ehl_transient, only: transient_t
    implicit none (type, external)
    private
    public :: run_transient
 
    character(len=*), parameter :: heavy = "&contact moes_m = 500, moes_l = 10 / &grid points = 65 / "// &
                                   "&surface kind = 'harmonic', amplitude = 0.015, wavelength = 1, "// &
-                                  "x_start = -1 /"
+                                  "x_start = -1 / &solver coarsening = 'classical' /"
    character(len=*), parameter :: thin = "&contact moes_m = 100, moes_l = 2 / &grid points = 129 / "// &
                                   "&surface kind = 'harmonic', amplitude = 0.02, wavelength = 1, "// &
-                                  "x_start = -1 /"
+                                  "x_start = -1 / &solver coarsening = 'classical' /"
 
 contains
 
@@ -40,95 +37,89 @@ contains
    !> A step that runs out of cycles leaves the fields of the last good one, from which more cycles lead to the
    !> same bits as if nothing had happened
    subroutine failed_step_leaves_the_last_state()
-      type(plan_t) :: plan
-      type(hierarchy_t) :: hierarchy
-      type(transient_t) :: transient
+      type(contact_run_t) :: run
       type(status_t) :: status
       real(dp), dimension(65, 33) :: p, h, p_next
       real(dp) :: h00, allowed
       integer :: n, k
 
-      call begin(heavy, plan, hierarchy, transient, n, status)
+      call begin(heavy, run, n, status)
       do k = 1, 3
-         call transient%advance(hierarchy, n, plan%surfaces, status)
-         call is_true(transient%state == outcome_converged, "a step converges")
+         call run%advance(status)
+         call is_true(run%transient%state == outcome_converged, "a step converges")
       end do
-      associate (level => hierarchy%levels(n), space => hierarchy%spaces(n))
+      associate (level => run%hierarchy%levels(n), space => run%hierarchy%spaces(n))
          p = level%p
          h = level%h
          h00 = level%h00
-         allowed = transient%accuracy%strict
-         transient%policy%max_cycles = 1
-         transient%accuracy%strict = 1.0e-3_dp*allowed
-         call transient%advance(hierarchy, n, plan%surfaces, status)
-         call is_true(transient%state /= outcome_converged, "one cycle is too few")
-         call is_equal(transient%step, 3, "the failed step does not count")
+         allowed = run%transient%accuracy%strict
+         run%transient%policy%max_cycles = 1
+         run%transient%accuracy%strict = 1.0e-3_dp*allowed
+         call run%advance(status)
+         call is_true(run%transient%state /= outcome_converged, "one cycle is too few")
+         call is_equal(run%transient%step, 3, "the failed step does not count")
          call is_close(maxval(abs(level%p - p)), 0.0_dp, 0.0_dp, "pressure of the last good step")
          call is_close(maxval(abs(level%h - h)), 0.0_dp, 0.0_dp, "film of the last good step")
          call is_close(level%h00, h00, 0.0_dp, "H00 of the last good step")
-         transient%policy%max_cycles = plan%max_cycles
-         transient%accuracy%strict = allowed
-         call transient%advance(hierarchy, n, plan%surfaces, status)
-         call is_true(transient%state == outcome_converged .and. transient%step == 4, "more cycles are enough")
+         run%transient%policy%max_cycles = run%plan%max_cycles
+         run%transient%accuracy%strict = allowed
+         call run%advance(status)
+         call is_true(run%transient%state == outcome_converged .and. run%transient%step == 4, "more cycles are enough")
          p_next = level%p
       end associate
 
-      call begin(heavy, plan, hierarchy, transient, n, status)
+      call begin(heavy, run, n, status)
       do k = 1, 4
-         call transient%advance(hierarchy, n, plan%surfaces, status)
+         call run%advance(status)
       end do
-      call is_close(maxval(abs(hierarchy%levels(n)%p - p_next)), 0.0_dp, 0.0_dp, "the failed step left no trace")
+      call is_close(maxval(abs(run%hierarchy%levels(n)%p - p_next)), 0.0_dp, 0.0_dp, "the failed step left no trace")
       call is_true(.not. status%failed(), "transient run")
    end subroutine failed_step_leaves_the_last_state
 
    !> A prediction that leads nowhere is dropped: the step begins again from the last one and comes to the same end
    subroutine step_begins_again()
-      type(plan_t) :: plan
-      type(hierarchy_t) :: hierarchy
-      type(transient_t) :: transient
+      type(contact_run_t) :: run
       type(status_t) :: status
       real(dp) :: p(65, 33)
       integer :: n, k, j, cycles
 
-      call begin(heavy, plan, hierarchy, transient, n, status)
-      transient%accuracy%strict = 0.003_dp*transient%accuracy%strict
-      transient%accuracy%allowed = 0.0_dp
+      call begin(heavy, run, n, status)
+      run%transient%accuracy%strict = 0.003_dp*run%transient%accuracy%strict
+      run%transient%accuracy%allowed = 0.0_dp
       do k = 1, 4
-         call transient%advance(hierarchy, n, plan%surfaces, status)
+         call run%advance(status)
       end do
-      p = hierarchy%levels(n)%p
-      cycles = transient%cycles
+      p = run%hierarchy%levels(n)%p
+      cycles = run%transient%cycles
 
-      call begin(heavy, plan, hierarchy, transient, n, status)
-      transient%accuracy%strict = 0.003_dp*transient%accuracy%strict
-      transient%accuracy%allowed = 0.0_dp
+      call begin(heavy, run, n, status)
+      run%transient%accuracy%strict = 0.003_dp*run%transient%accuracy%strict
+      run%transient%accuracy%allowed = 0.0_dp
       do k = 1, 3
-         call transient%advance(hierarchy, n, plan%surfaces, status)
+         call run%advance(status)
       end do
       ! only the predictor uses the pressure of three steps ago: peaks and valleys side by side
       do j = 1, 33
-         transient%p_before(:, j, 3) = transient%p_before(:, j, 3)*[(merge(3.5_dp, 1.0_dp, mod(k, 2) == 0), k=1, 65)]
+         run%transient%p_before(:, j, 3) = run%transient%p_before(:, j, 3)*[(merge(3.5_dp, 1.0_dp, mod(k, 2) == 0), k=1, 65)]
       end do
-      call transient%advance(hierarchy, n, plan%surfaces, status)
-      call is_true(transient%state == outcome_converged .and. transient%step == 4, "a step with a wrong prediction converges")
-      call is_true(transient%cycles > cycles, "after more cycles")
-      call is_close(maxval(abs(hierarchy%levels(n)%p - p)), 0.0_dp, 2.0e-5_dp, "to the same pressure")
+      call run%advance(status)
+      call is_true(run%transient%state == outcome_converged .and. run%transient%step == 4, "a wrong prediction does no harm")
+      call is_true(run%transient%cycles > cycles, "after more cycles")
+      call is_close(maxval(abs(run%hierarchy%levels(n)%p - p)), 0.0_dp, 2.0e-5_dp, "to the same pressure")
       call is_true(.not. status%failed(), "transient run")
    end subroutine step_begins_again
 
    !> Sweeps of a time step make no error grow, whatever coarse grids do about it: here the conductance in all of
    !> the contact is of the order of the squeeze term's share in the lines
    subroutine sweeps_alone_do_not_diverge()
-      type(plan_t) :: plan
-      type(hierarchy_t) :: hierarchy
-      type(transient_t) :: transient
+      type(contact_run_t) :: run
       type(status_t) :: status
       real(dp) :: first, last
       integer :: n, k
 
-      call begin(thin, plan, hierarchy, transient, n, status)
-      call transient%advance(hierarchy, n, plan%surfaces, status)
-      associate (level => hierarchy%levels(n), space => hierarchy%spaces(n))
+      call begin(thin, run, n, status)
+      call run%advance(status)
+      associate (level => run%hierarchy%levels(n), space => run%hierarchy%spaces(n))
          level%p = level%p*(1.0_dp + 1.0e-3_dp*level%p)
          call refresh(level)
          call update_residual(level, first)
@@ -145,17 +136,15 @@ contains
    !> However wrong a pressure is, in a sweep of a time step a node changes its conductance by e^3 at the most; seen at
    !> nodes that neither dipoles nor the mean of smooth changes touch
    subroutine changes_are_limited()
-      type(plan_t) :: plan
-      type(hierarchy_t) :: hierarchy
-      type(transient_t) :: transient
+      type(contact_run_t) :: run
       type(status_t) :: status
       real(dp), dimension(65, 33) :: p, gain
       real(dp) :: change, largest
       integer :: n, i, j
 
-      call begin(heavy, plan, hierarchy, transient, n, status)
-      call transient%advance(hierarchy, n, plan%surfaces, status)
-      associate (level => hierarchy%levels(n), space => hierarchy%spaces(n))
+      call begin(heavy, run, n, status)
+      call run%advance(status)
+      associate (level => run%hierarchy%levels(n), space => run%hierarchy%spaces(n))
          level%p = 0.5_dp*level%p
          call refresh(level)
          p = level%p
@@ -179,18 +168,16 @@ contains
    !> The mean along X of the changes that may be taken back is the same whether it is formed everywhere or only
    !> where it is not zero
    subroutine smooth_part_is_a_whole_mean()
-      type(plan_t) :: plan
-      type(hierarchy_t) :: hierarchy
-      type(transient_t) :: transient
+      type(contact_run_t) :: run
       type(status_t) :: status
       real(dp), parameter :: weights(-4:4) = [1.0_dp, 8.0_dp, 28.0_dp, 56.0_dp, 70.0_dp, 56.0_dp, 28.0_dp, 8.0_dp, &
                                               1.0_dp]/256.0_dp
       real(dp) :: difference, largest
       integer :: n, i, j
 
-      call begin(heavy, plan, hierarchy, transient, n, status)
-      call transient%advance(hierarchy, n, plan%surfaces, status)
-      associate (level => hierarchy%levels(n), space => hierarchy%spaces(n))
+      call begin(heavy, run, n, status)
+      call run%advance(status)
+      associate (level => run%hierarchy%levels(n), space => run%hierarchy%spaces(n))
          call relax(level, space, full_trust, 1.0_dp)
          difference = 0.0_dp
          largest = 0.0_dp
@@ -208,53 +195,40 @@ contains
 
    !> Operator-dependent transfers cost no memory before they are used
    subroutine transfers_when_asked_for()
-      type(plan_t) :: plan
-      type(hierarchy_t) :: hierarchy
-      type(transient_t) :: transient
+      type(contact_run_t) :: run
       type(status_t) :: status
       integer :: n
 
-      call begin(heavy, plan, hierarchy, transient, n, status)
-      call transient%advance(hierarchy, n, plan%surfaces, status)
-      call is_true(all(hierarchy%coarsenings%transfer%nx == 0), "no transfers for classical coarsening")
-      associate (before => hierarchy%bytes())
-         call hierarchy%prepare_coarsening(status)
-         call is_true(all(hierarchy%coarsenings(2:n)%transfer%nx > 0), "transfers for Alcouffe coarsening")
-         call is_true(hierarchy%bytes() > before, "transfers take memory")
+      call begin(heavy, run, n, status)
+      call run%advance(status)
+      call is_true(all(run%hierarchy%coarsenings%transfer%nx == 0), "no transfers for classical coarsening")
+      associate (before => run%hierarchy%bytes())
+         call run%hierarchy%prepare_coarsening(status)
+         call is_true(all(run%hierarchy%coarsenings(2:n)%transfer%nx > 0), "transfers for Alcouffe coarsening")
+         call is_true(run%hierarchy%bytes() > before, "transfers take memory")
       end associate
       call is_true(.not. status%failed(), "transfers")
    end subroutine transfers_when_asked_for
 
    !> Solve the smooth contact of a case and let the roughness in
-   subroutine begin(text, plan, hierarchy, transient, n, status)
+   subroutine begin(text, run, n, status)
       character(len=*), intent(in) :: text
-      type(plan_t), intent(out) :: plan
-      type(hierarchy_t), intent(out) :: hierarchy
-      type(transient_t), intent(out) :: transient
+      type(contact_run_t), intent(out) :: run
       !> Finest level
       integer, intent(out) :: n
       type(status_t), intent(inout) :: status
       type(case_t), target :: input
-      type(steady_t) :: steady
       type(moving_surfaces_t) :: no_surfaces
-      real(dp), parameter :: none(0, 0) = reshape([real(dp) ::], [0, 0])
+      real(dp) :: none(0, 0)
 
       call read_case(text, "test", "", input, status)
-      call make_plan(input, none, no_surfaces, plan, status)
-      call hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, plan%contact%kernel_factor(), &
-                           plan%engine, plan%threads, status)
-      call steady%start(plan%contact, plan%steady_options_t)
-      call hierarchy%grow(steady%n, status)
-      do while (.not. status%failed() .and. steady%outcome == outcome_running)
-         call steady%advance(hierarchy, status)
+      call make_plan(input, none, no_surfaces, run%plan, status)
+      call run%begin(status)
+      do while (run%outcome == outcome_running .and. .not. (run%roughness_is_due() .or. status%failed()))
+         call run%advance(status)
       end do
-      call is_true(steady%outcome == outcome_converged, "the smooth contact converges")
-      n = steady%n
-      call transient%accuracy%set(hierarchy%levels(n)%grid%hx, plan%accuracy, steady%results(n)%m%friction_newtonian, &
-                                  friction_error(steady%results, n))
-      call transient%policy%set(plan%step_cycle, .false., plan%max_cycles)
-      call plan%surfaces%prepare(hierarchy%levels(n)%grid, status)
-      call transient%start(hierarchy%levels(n), plan%contact, plan%surfaces, plan%skip_start, steady%results(n)%m%friction, status)
-      call hierarchy%prepare_steps(n, plan%scheme, transient%time_step, status)
+      call is_true(run%roughness_is_due(), "the smooth contact converges")
+      call run%begin_rough(status)
+      n = run%steady%n
    end subroutine begin
 end module test_transient

@@ -26,7 +26,7 @@ module ehl_step_accuracy
 
    type :: step_accuracy_t
       !> Residual (rms) that serves every case
-      real(dp) :: strict = 8.0e-5_dp
+      real(dp) :: strict = 0.0_dp
       !> Newtonian friction of the smooth contact on the same grid
       real(dp) :: friction_smooth = 1.0_dp
       !> Error of mu_r/mu_s allowed, as a share of its distance from 1; 0: it is not known

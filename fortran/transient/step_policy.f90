@@ -32,7 +32,7 @@ module ehl_step_policy
 
    type :: step_policy_t
       !> Most cycles a step
-      integer :: max_cycles = 30
+      integer :: max_cycles = 0
       !> Cycles of a step to begin with
       type(cycle_options_t) :: cycle
       !> Kind of coarsening; whether it changes for good when a cycle is slow, and the step in which it did (0: none)
@@ -40,7 +40,7 @@ module ehl_step_policy
       logical :: may_change = .false.
       !> The step under way: its largest residual (rms), whether it makes a cycle more to measure what that does, the
       !> attempt, the cycles made and how the next one is made
-      real(dp) :: tolerance = 8.0e-5_dp
+      real(dp) :: tolerance = 0.0_dp
       logical, private :: measured = .false.
       integer :: attempt = attempt_predicted, cycles = 0
       type(cycle_options_t) :: options
