@@ -4,7 +4,7 @@ module ehl_steady
    use ehl_contact, only: contact_t
    use ehl_cycle, only: careful_cycle, cycle_options_t
    use ehl_far_field, only: set_far_field
-   use ehl_film, only: balance_load, film_residual, update_residual
+   use ehl_force_balance, only: balance_load
    use ehl_first_approximation, only: begin_level
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
@@ -12,6 +12,7 @@ module ehl_steady
    use ehl_level_result, only: discretisation_error, level_result_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, &
                           outcome_running, outcome_target_missed
+   use ehl_reynolds, only: film_residual, update_residual
    use ehl_status, only: status_t
    implicit none (type, external)
    private
@@ -153,7 +154,7 @@ contains
          self%change = change
          result%residual = film_residual(level)
          if (self%may_scale()) then
-            call balance_load(level, result%m%load_error)
+            call balance_load(level)
             call update_residual(level, residual)
             result%residual = film_residual(level)
             result%m = measure(level)

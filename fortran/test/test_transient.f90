@@ -4,13 +4,15 @@ module test_transient
    use check, only: is_close, is_equal, is_true
    use ehl_case, only: case_t
    use ehl_case_reader, only: read_case
-   use ehl_film, only: refresh, update_residual
+   use ehl_film, only: refresh
+   use ehl_flow, only: along
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_level_result, only: friction_error
    use ehl_outcome, only: outcome_converged, outcome_running
    use ehl_plan, only: make_plan, plan_t
    use ehl_relaxation, only: full_trust, relax
+   use ehl_reynolds, only: update_residual
    use ehl_status, only: status_t
    use ehl_steady, only: steady_t
    use ehl_surface, only: surface_t
@@ -159,7 +161,7 @@ contains
          level%p = 0.5_dp*level%p
          call refresh(level)
          p = level%p
-         gain = level%dlneps_dp
+         gain = level%flow%dlneps_dp(:, :, along)
          call relax(level, space, full_trust, 1.0_dp)
          largest = 0.0_dp
          do j = 2, level%grid%ny - 1

@@ -4,13 +4,15 @@ module ehl_transient
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe
    use ehl_extremes, only: extremes_t
-   use ehl_film, only: balance_load, pressure_sum, refresh, update_residual
+   use ehl_film, only: refresh
+   use ehl_force_balance, only: balance_load, load_excess
    use ehl_friction_mean, only: friction_mean_t, periods_compared
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_contact_results, only: central_value, load_tolerance, measure, contact_results_t
    use ehl_predictor, only: predictor_t
+   use ehl_reynolds, only: update_residual
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_step_accuracy, only: step_accuracy_t
    use ehl_step_policy, only: attempt_predicted, step_begins_again, step_ends, step_policy_t
@@ -152,12 +154,12 @@ contains
          call hierarchy%cycle(n, self%policy%options, self%residual, sweeps)
          made = made + sweeps
          associate (level => hierarchy%levels(n))
-            load_error = pressure_sum(level, level%p)/level%load - 1.0_dp
+            load_error = load_excess(level)
             if (self%residual <= self%policy%tolerance .and. abs(load_error) > load_tolerance .and. &
                 abs(load_error) <= small_load_error) then
-               call balance_load(level, load_error)
+               call balance_load(level)
                call update_residual(level, self%residual)
-               load_error = pressure_sum(level, level%p)/level%load - 1.0_dp
+               load_error = load_excess(level)
             end if
          end associate
          met = self%residual <= self%policy%tolerance .and. abs(load_error) <= load_tolerance
