@@ -2,12 +2,15 @@
 !> Transfer of the problem to the next coarser level, and of the correction back (full approximation scheme)
 module ehl_coarse_problem
    use ehl_alcouffe, only: transfer_t
-   use ehl_film, only: pressure_sum, reynolds_operator, update_coefficients
+   use ehl_film, only: update_coefficients
+   use ehl_force_balance, only: pass_load_on
    use ehl_galerkin, only: coarsening_t, galerkin_product
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_nine_point, only: nine_point_t
+   use ehl_node_state, only: cavity_pressure, change_flowing, stay_cavitated
+   use ehl_reynolds, only: reynolds_operator
    use ehl_workspace, only: workspace_t
    implicit none (type, external)
    private
@@ -41,7 +44,7 @@ contains
       do j = 1, coarse%grid%ny
          call weight_row(coarse%grid, fine%p, j, coarse%p(:, j))
          ! a cavitated node stays so
-         where (fine%p(::2, 2*j - 1) <= 0.0_dp) coarse%p(:, j) = 0.0_dp
+         call stay_cavitated(fine%p(::2, 2*j - 1), coarse%p(:, j))
          space%p_start(:, j) = coarse%p(:, j)
          call weight_row(coarse%grid, fine%h, j, coarse%h(:, j))
          space%h_start(:, j) = coarse%h(:, j)
@@ -59,7 +62,7 @@ contains
       call update_coefficients(coarse)
       if (kind_of_coarsening == coarsening_alcouffe) call build_galerkin(fine, coarse, coarsening)
       call restrict_residual(fine, coarse, coarsening%transfer)
-      coarse%load = fine%load - pressure_sum(fine, fine%p) + pressure_sum(coarse, coarse%p)
+      call pass_load_on(fine, coarse)
    end subroutine restrict_problem
 
    !> Coarse row j by full weighting, on the border by injection
@@ -105,7 +108,7 @@ contains
          end if
          do i = 2, coarse%grid%nx - 1
             coarse%rhs(i, j) = operator_row(i) + residual(i)
-            if (coarse%p(i, j) > 0.0_dp) cycle
+            if (coarse%p(i, j) > cavity_pressure) cycle
             if (coarse%poiseuille%frozen) then
                coarse%rhs(i, j) = never
             else
@@ -124,22 +127,21 @@ contains
       type(level_t), intent(in) :: fine
       type(level_t), intent(inout) :: coarse
       type(coarsening_t), intent(inout) :: coarsening
-      real(dp) :: limit
-      integer :: i, j, below, first, last
+      real(dp) :: limit, greatest(fine%grid%nx)
+      integer :: i, j, first, last
 
       first = fine%grid%first_inner()
       last = fine%grid%ny - 1
       limit = dependent_from*min(fine%grid%hx, fine%grid%hy)**2
       coarsening%free = 0.0_dp
       coarsening%dependent = 0.0_dp
-      !$omp parallel do default(none) shared(fine, coarsening, first, last, limit) private(i, below) &
+      !$omp parallel do default(none) shared(fine, coarsening, first, last, limit) private(i, greatest) &
       !$omp num_threads(fine%threads) if(fine%parallel) schedule(static)
       do j = first, last
-         below = fine%grid%south(j)
+         call fine%flow%greatest_around(j, fine%grid%south(j), greatest)
          do i = 2, fine%grid%nx - 1
-            if (fine%p(i, j) > 0.0_dp) coarsening%free(i, j) = 1.0_dp
-            if (max(fine%eps(i, j), fine%eps(i - 1, j), fine%eps(i + 1, j), fine%eps(i, j + 1), &
-                    fine%eps(i, below)) >= limit) coarsening%dependent(i, j) = 1.0_dp
+            if (fine%p(i, j) > cavity_pressure) coarsening%free(i, j) = 1.0_dp
+            if (greatest(i) >= limit) coarsening%dependent(i, j) = 1.0_dp
          end do
       end do
       !$omp end parallel do
@@ -166,7 +168,7 @@ contains
       !$omp parallel do default(none) shared(level, a) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny - 1
-         call level%poiseuille%integrate(level%eps, j, j, a)
+         call level%poiseuille%integrate(level%flow, j, j, a)
       end do
       !$omp end parallel do
    end subroutine five_point
@@ -182,8 +184,8 @@ contains
       integer, intent(in) :: coarsening
       !> Share of the change that is taken over
       real(dp), intent(in) :: part
-      real(dp) :: row(fine%grid%nx), after
-      integer :: i, j
+      real(dp) :: row(fine%grid%nx)
+      integer :: j, nx
 
       !$omp parallel do default(none) shared(coarse, space, part) &
       !$omp num_threads(coarse%threads) if(coarse%parallel) schedule(static)
@@ -198,7 +200,8 @@ contains
          fine%h00 = coarse%h00
       end if
       coarse%poiseuille%frozen = .false.
-      !$omp parallel do default(none) shared(fine, coarse, space, transfer, coarsening) private(i, row, after) &
+      nx = fine%grid%nx
+      !$omp parallel do default(none) shared(fine, coarse, space, transfer, coarsening, nx) private(row) &
       !$omp num_threads(fine%threads) if(fine%parallel) schedule(static)
       do j = 1, fine%grid%ny
          call interpolate_row(coarse%grid, space%h_start, j, row)
@@ -209,13 +212,8 @@ contains
          else
             call interpolate_row(coarse%grid, space%p_start, j, row)
          end if
-         do i = 2, fine%grid%nx - 1
-            if (fine%p(i, j) > 0.0_dp) then
-               after = fine%p(i, j) + row(i)
-               ! a NaN stays one
-               fine%p(i, j) = merge(after, 0.0_dp, .not. after <= 0.0_dp)
-            end if
-         end do
+         row = fine%p(:, j) + row
+         call change_flowing(row(2:nx - 1), fine%p(2:nx - 1, j))
       end do
       !$omp end parallel do
    end subroutine correct

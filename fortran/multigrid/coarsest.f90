@@ -3,12 +3,15 @@
 module ehl_coarsest
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_dense_lu, only: back_substitute, factor
-   use ehl_film, only: pressure_sum, refresh, reynolds_operator
+   use ehl_film, only: refresh
+   use ehl_force_balance, only: missing_load
    use ehl_grid, only: grid_t
    use ehl_kernel, only: fill_kernel
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
+   use ehl_node_state, only: cavitate, cavity_pressure
    use ehl_poiseuille, only: most_neighbours
+   use ehl_reynolds, only: reynolds_operator
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_wedge, only: wedge_reach
    implicit none (type, external)
@@ -40,10 +43,10 @@ module ehl_coarsest
    contains
       procedure :: setup
       procedure :: solve
-      procedure, private :: find_residual
+      procedure :: find_residual
       procedure, private :: move
       procedure :: bytes
-      procedure, private :: assemble
+      procedure :: assemble
    end type coarsest_t
 
 contains
@@ -146,21 +149,21 @@ contains
       type(level_t), intent(inout) :: level
       logical, intent(in) :: fresh
       real(dp), intent(out) :: norm
-      real(dp) :: damping, after
-      integer :: half, i, j, u
+      real(dp) :: damping
+      integer :: half, i, j, nx, u
 
+      nx = level%grid%nx
       self%held = self%cavitated
       damping = 1.0_dp
       do half = 1, merge(most_halvings, 1, fresh)
          do j = self%first, self%last
-            do i = 2, level%grid%nx - 1
-               u = unknown(self, level%grid%nx, i, j)
-               after = self%p_before(i, j) + damping*self%direction(u)
-               ! a NaN stays one
-               level%p(i, j) = merge(after, 0.0_dp, .not. after <= 0.0_dp)
-               ! exactly zero, lest rounding frees the node
-               if (self%held(u)) level%p(i, j) = 0.0_dp
+            do i = 2, nx - 1
+               u = unknown(self, nx, i, j)
+               level%p(i, j) = self%p_before(i, j) + damping*self%direction(u)
+               ! exactly, lest rounding frees the node
+               if (self%held(u)) level%p(i, j) = cavity_pressure
             end do
+            call cavitate(level%p(2:nx - 1, j))
          end do
          level%h00 = self%h00_before + damping*self%direction(self%n + 1)
          call refresh(level)
@@ -186,7 +189,8 @@ contains
          do i = 2, level%grid%nx - 1
             u = unknown(self, level%grid%nx, i, j)
             self%residual(u) = level%rhs(i, j) - row(i)
-            if (level%p(i, j) < 0.0_dp .or. (level%p(i, j) <= 0.0_dp .and. self%residual(u) >= 0.0_dp)) then
+            if (level%p(i, j) < cavity_pressure .or. &
+                (level%p(i, j) <= cavity_pressure .and. self%residual(u) >= 0.0_dp)) then
                self%cavitated(u) = .true.
                self%residual(u) = -level%p(i, j)
             else
@@ -196,7 +200,7 @@ contains
             norm = norm + weight*self%residual(u)**2
          end do
       end do
-      self%residual(self%n + 1) = level%load - pressure_sum(level, level%p)
+      self%residual(self%n + 1) = missing_load(level)
       norm = sqrt(norm/((level%grid%nx - 2)*(level%grid%full_ny() - 2)) + self%residual(self%n + 1)**2)
    end subroutine find_residual
 
@@ -205,7 +209,7 @@ contains
       class(coarsest_t), intent(inout) :: self
       type(level_t), intent(in) :: level
       real(dp) :: coupling(most_neighbours), rate(most_neighbours), own, part, excess, c(0:wedge_reach)
-      integer :: i, j, m, u, nx, at, nb(2, most_neighbours), neighbours
+      integer :: i, j, m, u, nx, at, nb(2, most_neighbours), direction(most_neighbours), neighbours
 
       nx = level%grid%nx
       ! transposed, so that a row is contiguous
@@ -218,19 +222,19 @@ contains
                cycle
             end if
             at = i + (j - 1)*nx
-            call level%poiseuille%couplings(level%eps, i, j, neighbours, nb, coupling, rate, excess)
+            call level%poiseuille%couplings(level%flow, i, j, neighbours, nb, direction, coupling, rate, excess)
             own = 0.0_dp
             call add_pressure(i, j, -sum(coupling) - excess)
             do m = 1, neighbours
-               associate (e => level%eps(i, j), en => level%eps(nb(1, m), nb(2, m)), ii => nb(1, m), jj => nb(2, m))
+               associate (flow => level%flow, ii => nb(1, m), jj => nb(2, m), d => direction(m))
                   call add_pressure(ii, jj, coupling(m))
                   ! a Galerkin operator does not change
                   if (level%poiseuille%frozen) cycle
                   part = rate(m)*(level%p(ii, jj) - level%p(i, j))
-                  own = own + 3.0_dp*e/level%h(i, j)*part
-                  call add_pressure(ii, jj, en*level%dlneps_dp(ii, jj)*part)
-                  call add_pressure(i, j, e*level%dlneps_dp(i, j)*part)
-                  call add_film(ii, jj, 3.0_dp*en/level%h(ii, jj)*part)
+                  own = own + flow%film_power(i, j, d)*flow%eps(i, j, d)/level%h(i, j)*part
+                  call add_pressure(ii, jj, flow%eps(ii, jj, d)*flow%dlneps_dp(ii, jj, d)*part)
+                  call add_pressure(i, j, flow%eps(i, j, d)*flow%dlneps_dp(i, j, d)*part)
+                  call add_film(ii, jj, flow%film_power(ii, jj, d)*flow%eps(ii, jj, d)/level%h(ii, jj)*part)
                end associate
             end do
             c = level%wedge%weights(i)

@@ -3,11 +3,13 @@
 module ehl_cycle
    use ehl_coarse_problem, only: coarsening_alcouffe, coarsening_classical, correct, restrict_problem
    use ehl_coarsest, only: coarsest_t
-   use ehl_film, only: refresh, update_coefficients, update_residual
+   use ehl_film, only: refresh, update_coefficients
    use ehl_galerkin, only: coarsening_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
+   use ehl_node_state, only: cavitate
    use ehl_relaxation, only: full_trust, relax
+   use ehl_reynolds, only: update_residual
    use ehl_workspace, only: workspace_t
    implicit none (type, external)
    private
@@ -152,7 +154,7 @@ contains
       call refine(coarse%h - coarse%h00 - coarse%geometry, coarse%grid%mirror, fine%h)
       fine%h00 = coarse%h00
       do j = 1, fine%grid%ny
-         where (fine%p(:, j) <= 0.0_dp) fine%p(:, j) = 0.0_dp
+         call cavitate(fine%p(:, j))
          fine%h(:, j) = fine%h00 + fine%geometry(:, j) + fine%h(:, j)
       end do
       call update_coefficients(fine)

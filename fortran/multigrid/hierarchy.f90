@@ -5,6 +5,7 @@ module ehl_hierarchy
    use ehl_coarsest, only: coarsest_t
    use ehl_cycle, only: cycle_options_t, finest_cycle
    use ehl_deflection_factory, only: new_deflection
+   use ehl_flow_factory, only: new_flow
    use ehl_galerkin, only: coarsening_t
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
@@ -69,8 +70,8 @@ contains
       end if
       do k = 1, n
          self%levels(k)%lubricant = lubricant
-         self%levels(k)%inverse_speed = 1.0_dp/speed_parameter
          self%levels(k)%kernel_factor = kernel_factor
+         call new_flow(speed_parameter, self%levels(k)%flow)
       end do
       self%levels(1)%grid = coarsest
       call self%coarsest%setup(coarsest, kernel_factor, status)

@@ -5,11 +5,12 @@
 module ehl_iteration
    use ehl_contact_results, only: contact_results_t, load_tolerance, measure
    use ehl_cycle, only: cycle_options_t
-   use ehl_film, only: balance_load, film_residual, update_residual
+   use ehl_force_balance, only: balance_load
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_diverged, outcome_negative_film, outcome_running
+   use ehl_reynolds, only: film_residual, update_residual
    implicit none (type, external)
    private
    public :: iteration_t, reduction
@@ -71,7 +72,7 @@ contains
       associate (level => hierarchy%levels(self%n))
          call self%look(level, residual)
          if (self%may_balance(before) .and. abs(self%m%load_error) > load_tolerance) then
-            call balance_load(level, self%m%load_error)
+            call balance_load(level)
             call update_residual(level, residual)
             call self%look(level, residual)
          end if

@@ -1,9 +1,32 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Line systems of the Reynolds equation along X, assembled and eliminated in one pass along X
-!> for `line_width` lines side by side
+!> Line systems of the Reynolds equation (reynolds.f90) along X: the changes d(i) of the pressure of a row that its
+!> linearised equation asks for while the other rows stay. A node with D(i) = 1 changes distributively: -1/4 of its change
+!> goes to each of the four neighbours, else D(i) = 0. With r(i) the residual,
+!>
+!>    em4 d(i-4) + em3 d(i-3) + em2 d(i-2) + em1 d(i-1) + e0 d(i) + e1 d(i+1) + e2 d(i+2) = r(i)
+!>
+!>    em4 = - c2 s(i-2, -2)
+!>    em3 = - c1 s(i-1, -2) - c2 s(i-2, -1)
+!>    em2 = - w D(i-2)/4 - c0 s(i, -2) - c1 s(i-1, -1) - c2 s(i-2, 0)
+!>    em1 = w (1 + D(i-1)) + w' g(i-1) (P(i-1) - P(i)) - c0 s(i, -1) - c1 s(i-1, 0) - c2 s(i-2, 1)
+!>    e0  = (o - e - w) (1 + D(i)/4) + g(i) [e' (P(i+1) - P(i)) + w' (P(i-1) - P(i)) + o']
+!>          - c0 s(i, 0) - c1 s(i-1, 1) - c2 s(i-2, 2)
+!>    e1  = e (1 + D(i+1)) + e' g(i+1) (P(i+1) - P(i)) - c0 s(i, 1) - c1 s(i-1, 2)
+!>    e2  = - e D(i+2)/4 - c0 s(i, 2)
+!>
+!>    s(i, l) = d(rho H)(i)/d d(i+l) = rho(i) K(l) + [H d rho/dP](i) (1 if l = 0, -D(i+l)/4 if |l| = 1, else 0)
+!>    g(i)    = (1 - D(i)) d eps(i)/dP
+!>
+!> e, w: couplings to the east and to the west, o: less the sum of those to other rows, e', w', o': their change with the
+!> conductance (poiseuille.f90, line_terms_t); c: wedge.f90; K(l): deflection at a distance of l nodes by the change of one,
+!> nothing beyond |l| = 2. A cavitated node that is content (node_state.f90) has d(i) = 0.
+!>
+!> The systems are assembled and eliminated in one pass along X for `line_width` lines side by side.
 module ehl_line_system
    use ehl_kinds, only: dp
+   use ehl_flow, only: along
    use ehl_level, only: level_t
+   use ehl_node_state, only: cavity_pressure, last_flowing
    use ehl_poiseuille, only: line_terms_t, stretch
    use ehl_wedge, only: line_reach
    use ehl_workspace, only: line_fields, line_width, line_work_t, near_reach
@@ -45,17 +68,12 @@ contains
    pure integer function last_awake(level, j) result(i)
       type(level_t), intent(in) :: level
       integer, intent(in) :: j
-      integer :: south
 
-      south = level%grid%south(j)
       associate (p => level%p)
-         do i = level%grid%nx - 1, 3, -1
-            if (max(p(i - 1, j), p(i, j), p(i + 1, j)) > 0.0_dp) exit
-            if (max(p(i - 1, south), p(i, south), p(i + 1, south)) > 0.0_dp) exit
-            if (max(p(i - 1, j + 1), p(i, j + 1), p(i + 1, j + 1)) > 0.0_dp) exit
-         end do
+         i = max(last_flowing(p(:, level%grid%south(j))), last_flowing(p(:, j)), last_flowing(p(:, j + 1)))
       end associate
       ! 2 where there is no such node
+      i = min(i + 1, level%grid%nx - 1)
       i = level%wedge%last_asking(level%mass_content(:, j), level%rhs(:, j), i)
    end function last_awake
 
@@ -74,7 +92,7 @@ contains
          last = min(first + stretch - 1, furthest)
          do l = 1, line_width
             j = rows(l)
-            call level%poiseuille%line_row(level%p, level%eps, level%rhs(:, j), j, first, last, terms)
+            call level%poiseuille%line_row(level%p, level%flow, level%rhs(:, j), j, first, last, terms)
             call level%wedge%line_row(level%mass_content(:, j), first, last, terms%rest)
             ! stores scattered by vector instructions are slower than single ones
             !GCC$ novector
@@ -83,7 +101,7 @@ contains
                g(l, f_p, i) = level%p(i, j)
                g(l, f_rho, i) = level%rho(i, j)
                g(l, f_h_drho_dp, i) = level%h_drho_dp(i, j)
-               g(l, f_gain, i) = (1.0_dp - dipole(i, j))*level%eps(i, j)*level%dlneps_dp(i, j)
+               g(l, f_gain, i) = (1.0_dp - dipole(i, j))*level%flow%eps(i, j, along)*level%flow%dlneps_dp(i, j, along)
                g(l, f_dipole, i) = dipole(i, j)
                g(l, f_residual, i) = terms%rest(k)
                g(l, f_other, i) = terms%other(k)
@@ -96,7 +114,7 @@ contains
    end subroutine gather
 
    !> Row i of a line couples the changes at nodes i-4 ... i+2; it is eliminated with the rows before
-   !> it as soon as it is made, so that only the upper two diagonals are kept
+   !> it as soon as it is made, so that only the upper two diagonals are kept. The coefficients: see above.
    pure subroutine eliminate(level, near, delta, furthest, g, upper, change)
       type(level_t), intent(in) :: level
       !> Kernel near the source, and what a distributive change adds to it
@@ -142,7 +160,7 @@ contains
                pw = g(l, f_p, i - 1) - g(l, f_p, i)
                r = g(l, f_residual, i)
                ! cavitated nodes that are content to stay so do not change
-               active = merge(0.0_dp, 1.0_dp, g(l, f_p, i) <= 0.0_dp .and. r >= 0.0_dp)
+               active = merge(0.0_dp, 1.0_dp, g(l, f_p, i) <= cavity_pressure .and. r >= 0.0_dp)
                d = active*r
                em4 = -active*c(2)*s(l, -2, former)
                em3 = -active*(c(1)*s(l, -2, last) + c(2)*s(l, -1, former))

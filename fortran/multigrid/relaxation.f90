@@ -8,8 +8,10 @@
 !> the lines do not see its deflection. Where the values of the constants come from: docs/design.md.
 module ehl_relaxation
    use ehl_kinds, only: dp
+   use ehl_flow, only: along
    use ehl_level, only: level_t
    use ehl_line_system, only: last_awake, solve_lines
+   use ehl_node_state, only: cavitate, change_flowing, flowing_around
    use ehl_workspace, only: line_width, workspace_t
    !$ use omp_lib, only: omp_get_thread_num
    implicit none (type, external)
@@ -82,32 +84,22 @@ contains
       type(level_t), intent(in) :: level
       type(workspace_t), intent(inout) :: space
       integer, intent(in) :: first, last
-      real(dp) :: limit
-      integer :: j, below
+      real(dp) :: limit, greatest(level%grid%nx)
+      integer :: i, j, below
 
       limit = switch*min(level%grid%hx, level%grid%hy)**2
-      !$omp parallel do default(none) shared(level, space, first, last, limit) private(below) &
+      !$omp parallel do default(none) shared(level, space, first, last, limit) private(i, below, greatest) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
          below = level%grid%south(j)
-         call mark_row(limit, level%eps(:, below), level%eps(:, j), level%eps(:, j + 1), &
-                       level%p(:, below), level%p(:, j), level%p(:, j + 1), space%dipole(:, j))
+         call level%flow%greatest_around(j, below, greatest)
+         call flowing_around(level%p(:, below), level%p(:, j), level%p(:, j + 1), space%dipole(:, j))
+         do i = 2, level%grid%nx - 1
+            space%dipole(i, j) = merge(space%dipole(i, j), 0.0_dp, greatest(i) < limit)
+         end do
       end do
       !$omp end parallel do
    end subroutine mark_dipoles
-
-   !> The same of a row, from it and its neighbours
-   pure subroutine mark_row(limit, eps_south, eps, eps_north, p_south, p, p_north, dipole)
-      real(dp), intent(in) :: limit
-      real(dp), contiguous, intent(in) :: eps_south(:), eps(:), eps_north(:), p_south(:), p(:), p_north(:)
-      real(dp), contiguous, intent(inout) :: dipole(:)
-      integer :: i
-
-      do i = 2, size(dipole) - 1
-         dipole(i) = merge(1.0_dp, 0.0_dp, max(eps(i), eps(i - 1), eps(i + 1), eps_north(i), eps_south(i)) < limit) &
-                     *merge(1.0_dp, 0.0_dp, min(p(i), p(i - 1), p(i + 1), p_north(i), p_south(i)) > 0.0_dp)
-      end do
-   end subroutine mark_row
 
    !> Share of a node's change that is to be free of its smooth part, in time steps: 1 where the conductance
    !> around the node is nothing against the squeeze term, 0 where it is much
@@ -124,7 +116,7 @@ contains
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
          below = level%grid%south(j)
-         largest = max(level%eps(:, below), level%eps(:, j), level%eps(:, j + 1))
+         largest = max(level%flow%eps(:, below, along), level%flow%eps(:, j, along), level%flow%eps(:, j + 1, along))
          do i = 1 + around, nx - around
             share = largest(i)
             do k = 1, around
@@ -144,7 +136,8 @@ contains
       type(workspace_t), intent(inout) :: space
       integer, intent(in) :: j0, last, thread
       real(dp), intent(in) :: trust, part
-      real(dp) :: scale, t, omega, omega_far, before, after, change
+      real(dp) :: scale, omega, omega_far, change
+      real(dp), dimension(level%grid%nx) :: t, after
       logical :: time_step, limited
       integer :: rows(line_width), lines, furthest, i, j, l
 
@@ -166,17 +159,20 @@ contains
             j = rows(l)
             space%change(furthest + 1:, j) = 0.0_dp
             if (time_step) space%rough(furthest + 1:, j) = 0.0_dp
+            t(2:furthest) = level%flow%eps(2:furthest, j, along)*scale
             do i = 2, furthest
-               t = level%eps(i, j)*scale
-               before = level%p(i, j)
                change = part*work%change(l, i)
-               if (limited) change = change/max(1.0_dp, abs(level%dlneps_dp(i, j)*change)/trust)
+               if (limited) change = change/max(1.0_dp, abs(level%flow%dlneps_dp(i, j, along)*change)/trust)
                space%change(i, j) = omega_far*space%dipole(i, j)*change
-               after = level%p(i, j) + (1.0_dp - space%dipole(i, j))*(omega + t)/(1.0_dp + t)*change
-               ! here and below: a NaN stays one, where max(0, NaN) could be cavitation
-               level%p(i, j) = merge(after, 0.0_dp, .not. after <= 0.0_dp)
-               if (time_step) space%rough(i, j) = (level%p(i, j) - before)*space%share(i, j)
+               after(i) = level%p(i, j) + (1.0_dp - space%dipole(i, j))*(omega + t(i))/(1.0_dp + t(i))*change
             end do
+            call cavitate(after(2:furthest))
+            if (time_step) then
+               do i = 2, furthest
+                  space%rough(i, j) = (after(i) - level%p(i, j))*space%share(i, j)
+               end do
+            end if
+            level%p(2:furthest, j) = after(2:furthest)
          end do
       end associate
    end subroutine relax_lines
@@ -186,7 +182,7 @@ contains
       type(level_t), intent(inout) :: level
       type(workspace_t), intent(inout) :: space
       integer, intent(in) :: first, last
-      real(dp) :: smooth(level%grid%nx), after
+      real(dp) :: smooth(level%grid%nx)
       integer :: from(last), to(last)
       integer :: i, j, k, row
 
@@ -205,7 +201,7 @@ contains
          end do
       end do
       !$omp end parallel do
-      !$omp parallel do default(none) shared(level, space, first, last, from, to) private(i, k, row, smooth, after) &
+      !$omp parallel do default(none) shared(level, space, first, last, from, to) private(i, k, row, smooth) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static, 8)
       do j = first, last
          if (from(j) == 0) cycle
@@ -219,11 +215,9 @@ contains
             end do
          end do
          do i = from(j), to(j)
-            if (level%p(i, j) > 0.0_dp) then
-               after = level%p(i, j) - space%share(i, j)*smooth(i)
-               level%p(i, j) = merge(after, 0.0_dp, .not. after <= 0.0_dp)
-            end if
+            smooth(i) = level%p(i, j) - space%share(i, j)*smooth(i)
          end do
+         call change_flowing(smooth(from(j):to(j)), level%p(from(j):to(j), j))
       end do
       !$omp end parallel do
    end subroutine take_back_smooth
@@ -247,13 +241,13 @@ contains
    pure subroutine apply_row(south, change, north, p)
       real(dp), contiguous, intent(in) :: south(:), change(:), north(:)
       real(dp), contiguous, intent(inout) :: p(:)
-      real(dp) :: after
-      integer :: i
+      real(dp) :: after(size(p))
+      integer :: i, nx
 
-      do i = 2, size(p) - 1
-         after = p(i) + change(i) - 0.25_dp*(change(i - 1) + change(i + 1) + south(i) + north(i))
-         after = merge(after, 0.0_dp, .not. after <= 0.0_dp)
-         p(i) = merge(after, p(i), p(i) > 0.0_dp)
+      nx = size(p)
+      do i = 2, nx - 1
+         after(i) = p(i) + change(i) - 0.25_dp*(change(i - 1) + change(i + 1) + south(i) + north(i))
       end do
+      call change_flowing(after(2:nx - 1), p(2:nx - 1))
    end subroutine apply_row
 end module ehl_relaxation

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What is read off a solution: film thicknesses, pressure, friction, load
 module ehl_contact_results
-   use ehl_film, only: pressure_sum
+   use ehl_force_balance, only: load_excess
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
@@ -45,8 +45,7 @@ contains
       do j = 1, level%grid%ny
          smallest(j) = minval(level%h(:, j))
          largest(j) = maxval(level%p(:, j))
-         ! eta/(eta0 H) from the conductance, which knows the viscosity
-         stress = level%inverse_speed*level%rho(:, j)*level%h(:, j)**2/level%eps(:, j)
+         call level%flow%stress_row(level%h(:, j), level%rho(:, j), j, stress)
          newtonian(j) = sum(stress)*level%grid%weight(j)
          friction(j) = newtonian(j)
          if (.not. level%lubricant%shear%thins()) cycle
@@ -59,7 +58,7 @@ contains
       m%friction = sum(friction)
       m%friction_newtonian = sum(newtonian)
       m%load = level%load
-      m%load_error = pressure_sum(level, level%p)/level%load - 1.0_dp
+      m%load_error = load_excess(level)
       m%film_central = central_value(level%grid, level%h)
       ! a NaN fails every comparison
       m%finite = abs(m%load_error) < huge(1.0_dp) .and. abs(m%film_central) < huge(1.0_dp) &

@@ -30,7 +30,7 @@ contains
       real(dp) :: speed_parameter
       integer :: i, j
 
-      speed_parameter = 1.0_dp/level%inverse_speed
+      speed_parameter = 1.0_dp/level%flow%inverse_speed
       associate (grid => level%grid)
          do j = 1, grid%ny
             do i = 1, grid%nx, merge(1, grid%nx - 1, grid%is_border(j))

@@ -3,6 +3,7 @@
 module ehl_level
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_deflection, only: deflection_t
+   use ehl_flow, only: flow_t
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
@@ -14,21 +15,15 @@ module ehl_level
    public :: level_t
 
    !> Fields of one level, arrays of shape (nx, ny). Dimensionless: P by p_h, lengths by a,
-   !> films by a^2/R.
-   !>
-   !> The discrete Reynolds equation reads, for every node with P > 0,
-   !>
-   !>    div(eps grad P) - wedge(rho H) = rhs
-   !>
-   !> where the first term is that of `poiseuille`, the second one the implicit part of `wedge`, and rhs holds
-   !> the part of earlier times and the multigrid right-hand side; where P = 0 the left-hand side may be smaller.
+   !> films by a^2/R. The equations are in reynolds.f90, film.f90 and force_balance.f90.
    type :: level_t
       type(grid_t) :: grid
       type(lubricant_t) :: lubricant
       class(deflection_t), allocatable :: engine
-      !> 1/lambda_bar; factor k_b of the deflection
-      real(dp) :: inverse_speed = 0.0_dp, kernel_factor = 0.0_dp
-      !> The terms of the Reynolds equation
+      !> Factor k_b of the deflection
+      real(dp) :: kernel_factor = 0.0_dp
+      !> Conductances, and the terms of the Reynolds equation
+      class(flow_t), allocatable :: flow
       type(poiseuille_t) :: poiseuille
       type(wedge_t) :: wedge
       !> Rigid separation H00
@@ -39,8 +34,8 @@ module ehl_level
       real(dp), allocatable :: p(:, :), h(:, :), geometry(:, :)
       !> Right-hand side of the Reynolds equation, and the residual
       real(dp), allocatable :: rhs(:, :), residual(:, :)
-      !> Conductance eps = rho H^3/(eta lambda_bar), d ln(eps)/dP at constant film, density, and H d rho/dP
-      real(dp), allocatable :: eps(:, :), dlneps_dp(:, :), rho(:, :), h_drho_dp(:, :)
+      !> Density, and H d rho/dP
+      real(dp), allocatable :: rho(:, :), h_drho_dp(:, :)
       !> Mass content rho H
       real(dp), allocatable :: mass_content(:, :)
       !> Threads that work on it, and whether they are several
@@ -53,7 +48,7 @@ module ehl_level
 
 contains
 
-   !> Allocate the fields; grid, lubricant, speed parameter and threads are known
+   !> Allocate the fields; grid, lubricant, flow and threads are known
    subroutine setup(self, status)
       class(level_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
@@ -62,13 +57,14 @@ contains
       if (status%failed()) return
       associate (nx => self%grid%nx, ny => self%grid%ny)
          allocate (self%p(nx, ny), self%h(nx, ny), self%geometry(nx, ny), &
-                   self%rhs(nx, ny), self%residual(nx, ny), self%eps(nx, ny), self%dlneps_dp(nx, ny), &
-                   self%rho(nx, ny), self%h_drho_dp(nx, ny), self%mass_content(nx, ny), source=0.0_dp, stat=stat)
+                   self%rhs(nx, ny), self%residual(nx, ny), self%rho(nx, ny), self%h_drho_dp(nx, ny), &
+                   self%mass_content(nx, ny), source=0.0_dp, stat=stat)
       end associate
       if (stat /= 0) then
          call status%fail(ehl_no_memory, "no memory for a grid level")
          return
       end if
+      call self%flow%setup(self%grid, status)
       call self%poiseuille%setup(self%grid)
       call self%wedge%set_steady(self%grid%hx)
       self%parallel = self%threads > 1
@@ -79,6 +75,6 @@ contains
       class(level_t), intent(in) :: self
 
       bytes = self%poiseuille%bytes()
-      if (allocated(self%p)) bytes = bytes + 8*10*size(self%p, kind=int64)
+      if (allocated(self%p)) bytes = bytes + self%flow%bytes() + 8*8*size(self%p, kind=int64)
    end function bytes
 end module ehl_level

@@ -1,9 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The Poiseuille term div(eps grad P) on one grid, in two forms: the five-point difference with arithmetic means of
-!> eps between nodes (Zhang et al. 2019, eqs. 7 and 8), and the nine-point Galerkin product of a finer grid's term,
-!> frozen while P and H change. No other module knows the stencil.
+!> The Poiseuille term d/dX (eps_x dP/dX) + d/dY (eps_y dP/dY) on one grid, in two forms: the five-point difference with
+!> arithmetic means of the conductances between nodes (Zhang et al. 2019, eqs. 7 and 8; reynolds.f90), and the nine-point
+!> Galerkin product of a finer grid's term, frozen while P and H change. No other module knows the stencil.
 module ehl_poiseuille
    use, intrinsic :: iso_fortran_env, only: int64
+   use ehl_flow, only: along, flow_t
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_nine_point, only: nine_point_t
@@ -68,9 +69,10 @@ contains
    end subroutine prepare_product
 
    !> Row j of the term at pressure p, in columns 2 to nx-1; j is no border row
-   pure subroutine apply_row(self, p, eps, j, values)
+   pure subroutine apply_row(self, p, flow, j, values)
       class(poiseuille_t), intent(in) :: self
-      real(dp), contiguous, intent(in) :: p(:, :), eps(:, :)
+      real(dp), contiguous, intent(in) :: p(:, :)
+      class(flow_t), intent(in) :: flow
       integer, intent(in) :: j
       !> Shape (nx)
       real(dp), intent(inout) :: values(:)
@@ -86,21 +88,22 @@ contains
       south = self%grid%south(j)
       rx = 0.5_dp/self%grid%hx**2
       ry = 0.5_dp/self%grid%hy**2
-      associate (e => eps)
+      associate (ex => flow%eps(:, :, along), ey => flow%eps(:, :, flow%across))
          do i = 2, nx - 1
-            values(i) = rx*((e(i + 1, j) + e(i, j))*(p(i + 1, j) - p(i, j)) &
-                            + (e(i - 1, j) + e(i, j))*(p(i - 1, j) - p(i, j))) &
-                        + ry*((e(i, j + 1) + e(i, j))*(p(i, j + 1) - p(i, j)) &
-                              + (e(i, south) + e(i, j))*(p(i, south) - p(i, j)))
+            values(i) = rx*((ex(i + 1, j) + ex(i, j))*(p(i + 1, j) - p(i, j)) &
+                            + (ex(i - 1, j) + ex(i, j))*(p(i - 1, j) - p(i, j))) &
+                        + ry*((ey(i, j + 1) + ey(i, j))*(p(i, j + 1) - p(i, j)) &
+                              + (ey(i, south) + ey(i, j))*(p(i, south) - p(i, j)))
          end do
       end associate
    end subroutine apply_row
 
    !> What a line system takes from row j, in columns `first` to `last`: nodes are numbered from 1 at `first`. Border
    !> nodes have a coupling to the east only.
-   pure subroutine line_row(self, p, eps, rhs, j, first, last, terms)
+   pure subroutine line_row(self, p, flow, rhs, j, first, last, terms)
       class(poiseuille_t), intent(in) :: self
-      real(dp), contiguous, intent(in) :: p(:, :), eps(:, :)
+      real(dp), contiguous, intent(in) :: p(:, :)
+      class(flow_t), intent(in) :: flow
       !> Shape (nx)
       real(dp), contiguous, intent(in) :: rhs(:)
       integer, intent(in) :: j, first, last
@@ -115,22 +118,24 @@ contains
       below = self%grid%south(j)
       rx = 0.5_dp/self%grid%hx**2
       ry = 0.5_dp/self%grid%hy**2
-      do i = max(first - 1, 1), min(last, self%grid%nx - 1)
-         k = i - first + 1
-         terms%east(k) = rx*(eps(i + 1, j) + eps(i, j))
-         terms%east_rate(k) = rx
-      end do
-      do i = max(first, 2), min(last, self%grid%nx - 1)
-         k = i - first + 1
-         north = ry*(eps(i, j + 1) + eps(i, j))
-         south = ry*(eps(i, below) + eps(i, j))
-         pn = p(i, j + 1) - p(i, j)
-         ps = p(i, below) - p(i, j)
-         terms%rest(k) = rhs(i) - north*pn - south*ps - terms%east(k)*(p(i + 1, j) - p(i, j)) &
-                         - terms%east(k - 1)*(p(i - 1, j) - p(i, j))
-         terms%other(k) = -(north + south)
-         terms%other_rate(k) = ry*(pn + ps)
-      end do
+      associate (ex => flow%eps(:, :, along), ey => flow%eps(:, :, flow%across))
+         do i = max(first - 1, 1), min(last, self%grid%nx - 1)
+            k = i - first + 1
+            terms%east(k) = rx*(ex(i + 1, j) + ex(i, j))
+            terms%east_rate(k) = rx
+         end do
+         do i = max(first, 2), min(last, self%grid%nx - 1)
+            k = i - first + 1
+            north = ry*(ey(i, j + 1) + ey(i, j))
+            south = ry*(ey(i, below) + ey(i, j))
+            pn = p(i, j + 1) - p(i, j)
+            ps = p(i, below) - p(i, j)
+            terms%rest(k) = rhs(i) - north*pn - south*ps - terms%east(k)*(p(i + 1, j) - p(i, j)) &
+                            - terms%east(k - 1)*(p(i - 1, j) - p(i, j))
+            terms%other(k) = -(north + south)
+            terms%other_rate(k) = ry*(pn + ps)
+         end do
+      end associate
    end subroutine line_row
 
    !> The same for a Galerkin product: the couplings as they are, and no change of them
@@ -167,13 +172,13 @@ contains
       end associate
    end subroutine frozen_line_row
 
-   !> Neighbours of node (i, j), the couplings to them, their change with the conductance of either node, and the excess
-   !> of the node over the sum of its couplings
-   pure subroutine couplings(self, eps, i, j, n, neighbour, coupling, rate, excess)
+   !> Neighbours of node (i, j), the couplings to them, which conductance they are made of, their change with that of
+   !> either node, and the excess of the node over the sum of its couplings
+   pure subroutine couplings(self, flow, i, j, n, neighbour, direction, coupling, rate, excess)
       class(poiseuille_t), intent(in) :: self
-      real(dp), contiguous, intent(in) :: eps(:, :)
+      class(flow_t), intent(in) :: flow
       integer, intent(in) :: i, j
-      integer, intent(out) :: n, neighbour(2, most_neighbours)
+      integer, intent(out) :: n, neighbour(2, most_neighbours), direction(most_neighbours)
       real(dp), intent(out) :: coupling(most_neighbours), rate(most_neighbours), excess
       real(dp) :: sum_eps
       integer :: m
@@ -181,13 +186,15 @@ contains
       coupling = 0.0_dp
       rate = 0.0_dp
       excess = 0.0_dp
+      direction = along
       neighbour(:, 1:4) = reshape([i + 1, j, i - 1, j, i, j + 1, i, self%grid%south(j)], [2, 4])
       neighbour(:, 5:8) = reshape([i - 1, j + 1, i + 1, j + 1, i - 1, j - 1, i + 1, j - 1], [2, 4])
       if (.not. self%frozen) then
          n = 4
+         direction(1:4) = [along, along, flow%across, flow%across]
          coupling(1:4) = 0.5_dp/[self%grid%hx**2, self%grid%hx**2, self%grid%hy**2, self%grid%hy**2]
          do m = 1, 4
-            sum_eps = eps(i, j) + eps(neighbour(1, m), neighbour(2, m))
+            sum_eps = flow%eps(i, j, direction(m)) + flow%eps(neighbour(1, m), neighbour(2, m), direction(m))
             coupling(m) = coupling(m)*sum_eps
             rate(m) = coupling(m)/sum_eps
          end do
@@ -207,9 +214,9 @@ contains
    end subroutine couplings
 
    !> The five-point difference as an operator integrated over the cells; rows from `first` to `last`
-   pure subroutine integrate(self, eps, first, last, a)
+   pure subroutine integrate(self, flow, first, last, a)
       class(poiseuille_t), intent(in) :: self
-      real(dp), contiguous, intent(in) :: eps(:, :)
+      class(flow_t), intent(in) :: flow
       integer, intent(in) :: first, last
       type(nine_point_t), intent(inout) :: a
       real(dp) :: rx, ry
@@ -219,17 +226,19 @@ contains
          rx = 0.5_dp*self%grid%cell(j)/self%grid%hx**2
          ry = 0.5_dp*self%grid%hx/self%grid%hy
          do i = 1, self%grid%nx - 1
-            a%east(i, j) = rx*(eps(i, j) + eps(i + 1, j))
-            a%north(i, j) = ry*(eps(i, j) + eps(i, j + 1))
+            a%east(i, j) = rx*(flow%eps(i, j, along) + flow%eps(i + 1, j, along))
+            a%north(i, j) = ry*(flow%eps(i, j, flow%across) + flow%eps(i, j + 1, flow%across))
          end do
       end do
    end subroutine integrate
 
-   !> What a change of the pressure in one row does in the term along X, in size: the conductance of the node alone
-   pure subroutine flow_row(self, eps, change, values)
+   !> What a change of the pressure in row j does in the term along X, in size: the conductance of the node alone
+   pure subroutine flow_row(self, flow, j, change, values)
       class(poiseuille_t), intent(in) :: self
+      class(flow_t), intent(in) :: flow
+      integer, intent(in) :: j
       !> Shape (nx)
-      real(dp), intent(in) :: eps(:), change(:)
+      real(dp), intent(in) :: change(:)
       !> Shape (nx); zero on the borders
       real(dp), intent(out) :: values(:)
       real(dp) :: r
@@ -239,11 +248,11 @@ contains
       values(1) = 0.0_dp
       values(size(values)) = 0.0_dp
       do i = 2, size(values) - 1
-         values(i) = r*eps(i)*(2.0_dp*change(i) - change(i - 1) - change(i + 1))
+         values(i) = r*flow%eps(i, j, along)*(2.0_dp*change(i) - change(i - 1) - change(i + 1))
       end do
    end subroutine flow_row
 
-   !> What flows away from a node per pressure there, with the same conductance around; a factor of eps
+   !> What flows away from a node per pressure there, with the same conductance around; a factor of eps along X
    pure real(dp) function flow_rate(self)
       class(poiseuille_t), intent(in) :: self
       flow_rate = 2.0_dp/self%grid%hx**2 + 2.0_dp/self%grid%hy**2

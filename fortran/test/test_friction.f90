@@ -3,6 +3,7 @@
 module test_friction
    use check, only: is_close, is_true
    use ehl_film, only: update_coefficients
+   use ehl_flow_factory, only: new_flow
    use ehl_grid, only: new_grid
    use ehl_heat, only: dynamic_viscosity, flash_temperature, kinematic_viscosity, temperature_viscosity, thermal_reduction
    use ehl_kinds, only: dp, pi
@@ -40,10 +41,10 @@ contains
       level%lubricant = new_lubricant(viscosity_barus, density_dowson_higginson, alpha_bar, hertz_pressure, 0.6_dp, 1.96e8_dp)
       level%lubricant%shear = shear_law_t(law, stress, coefficient, exponent, factor*scale, hertz_pressure)
       level%load = 1.0_dp
+      call new_flow(1.0_dp/700.0_dp, level%flow)
       call level%setup(status)
       level%p = p
       level%h = h
-      level%inverse_speed = 700.0_dp
       call update_coefficients(level)
       m = measure(level)
       friction_of = m%friction

@@ -2,6 +2,7 @@
 !> The predictor of a time step
 module test_predictor
    use check, only: is_close, is_true
+   use ehl_flow_factory, only: new_flow
    use ehl_grid, only: new_grid
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
@@ -29,7 +30,9 @@ contains
 
       level%grid = new_grid(33, 33, -2.0_dp, 2.0_dp, 1.0_dp, .false.)
       call level%poiseuille%setup(level%grid)
-      allocate (level%p(33, 33), level%eps(33, 33), source=0.0_dp)
+      allocate (level%p(33, 33), source=0.0_dp)
+      call new_flow(1.0_dp, level%flow)
+      call level%flow%setup(level%grid, status)
       do k = 1, 2
          moves = k == 1
          do i = 1, 33
@@ -55,7 +58,7 @@ contains
       end do
       call predictor%learn(p(:, :, 1:-1:-1), level)
       call is_true(minval(predictor%weights(6:29, :, 1)) > 0.95_dp, "the motion was right")
-      level%eps = 1.0_dp
+      level%flow%eps = 1.0_dp
       call predictor%learn(p(:, :, 1:-1:-1), level)
       call is_true(maxval(predictor%weights(6:29, :, 1)) < 0.05_dp, "a ripple in a flow is wrong")
       call is_true(.not. status%failed(), "predictor")

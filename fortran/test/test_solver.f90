@@ -12,6 +12,7 @@ module test_solver
    use ehl_deflection, only: deflection_t
    use ehl_deflection_factory, only: new_deflection
    use ehl_film, only: update_coefficients
+   use ehl_flow_factory, only: new_flow
    use ehl_grid, only: grid_t, new_grid
    use ehl_kinds, only: dp, pi
    use ehl_level, only: level_t
@@ -182,8 +183,8 @@ contains
 
       level%grid = new_grid(65, 65, -2.5_dp, 1.5_dp, 2.0_dp, .false.)
       level%lubricant = new_lubricant(viscosity_roelands, density_dowson_higginson, 36.5_dp, 1.66e9_dp, 0.668_dp, 1.96e8_dp)
-      level%inverse_speed = 1.0e3_dp
       level%kernel_factor = 2.0_dp/pi**2
+      call new_flow(1.0e-3_dp, level%flow)
       call level%setup(status)
       call space%setup(level%grid, level%kernel_factor, 1, status)
       do j = 2, level%grid%ny - 1
@@ -222,8 +223,8 @@ contains
       call ieee_set_halting_mode(ieee_invalid, .false.)
       level%grid = new_grid(33, 33, -2.5_dp, 1.5_dp, 2.0_dp, .false.)
       level%lubricant = new_lubricant(viscosity_roelands, density_dowson_higginson, 36.5_dp, 1.66e9_dp, 0.668_dp, 1.96e8_dp)
-      level%inverse_speed = 1.0e3_dp
       level%kernel_factor = 2.0_dp/pi**2
+      call new_flow(1.0e-3_dp, level%flow)
       call level%setup(status)
       call space%setup(level%grid, level%kernel_factor, 1, status)
       call space%prepare_steps(status)

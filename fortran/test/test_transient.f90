@@ -5,12 +5,14 @@ module test_transient
    use ehl_case, only: case_t
    use ehl_case_reader, only: read_case
    use ehl_contact_run, only: contact_run_t
-   use ehl_film, only: refresh, update_residual
+   use ehl_film, only: refresh
+   use ehl_flow, only: along
    use ehl_kinds, only: dp
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_outcome, only: outcome_converged, outcome_running
    use ehl_plan, only: make_plan
    use ehl_relaxation, only: full_trust, relax
+   use ehl_reynolds, only: update_residual
    use ehl_status, only: status_t
    implicit none (type, external)
    private
@@ -148,7 +150,7 @@ contains
          level%p = 0.5_dp*level%p
          call refresh(level)
          p = level%p
-         gain = level%dlneps_dp
+         gain = level%flow%dlneps_dp(:, :, along)
          call relax(level, space, full_trust, 1.0_dp)
          largest = 0.0_dp
          do j = 2, level%grid%ny - 1

@@ -13,6 +13,7 @@ program tester
    use test_predictor, only: run_predictor
    use test_record, only: run_record
    use test_report, only: run_report
+   use test_reynolds, only: run_reynolds
    use test_solver, only: run_solver
    use test_text, only: run_text
    use test_transient, only: run_transient
@@ -27,6 +28,8 @@ program tester
       call run_sealed()
    case ("record")
       call run_record()
+   case ("reynolds")
+      call run_reynolds()
    case ("report")
       call run_report()
    case ("case")

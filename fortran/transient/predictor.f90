@@ -8,6 +8,7 @@
 module ehl_predictor
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
+   use ehl_node_state, only: cavitate, stay_cavitated
    use ehl_status, only: ehl_no_memory, status_t
    implicit none (type, external)
    private
@@ -73,8 +74,9 @@ contains
          do k = 2, self%candidates
             p = p + self%weights(:, j, k - 1)*(c(:, k) - c(:, 1))
          end do
-         ! a NaN stays one
-         level%p(:, j) = merge(p, 0.0_dp, .not. p <= 0.0_dp .and. before(:, j, 1) > 0.0_dp)
+         level%p(:, j) = p
+         call cavitate(level%p(:, j))
+         call stay_cavitated(before(:, j, 1), level%p(:, j))
       end do
       !$omp end parallel do
    end subroutine predict
@@ -145,7 +147,7 @@ contains
       real(dp), intent(out) :: weight(:)
       real(dp) :: flow(size(error))
 
-      call level%poiseuille%flow_row(level%eps(:, j), error, flow)
+      call level%poiseuille%flow_row(level%flow, j, error, flow)
       weight = error**2
       weight = weight + flow**2
    end subroutine weigh

@@ -4,7 +4,7 @@ module ehl_transient
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe
    use ehl_extremes, only: extremes_t
-   use ehl_film, only: refresh, update_residual
+   use ehl_film, only: refresh
    use ehl_friction_mean, only: friction_mean_t, periods_compared
    use ehl_hierarchy, only: hierarchy_t
    use ehl_iteration, only: iteration_t
@@ -14,6 +14,7 @@ module ehl_transient
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_running
    use ehl_predictor, only: predictor_t
+   use ehl_reynolds, only: update_residual
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_step_accuracy, only: step_accuracy_t
    use ehl_step_policy, only: attempt_predicted, step_begins_again, step_ends, step_policy_t

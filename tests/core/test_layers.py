@@ -87,7 +87,7 @@ def test_numerics_does_not_know_cases(root: Path):
 # What gives a stencil or a shape away, and the only file of the library that may hold it
 OWNED = [
     ("reynolds/poiseuille.f90", r"/[\w%]*h[xy]\s*\*\*\s*2"),
-    ("reynolds/poiseuille.f90", r"\be(?:ps)?\(i [+-] 1, j\) \+"),
+    ("reynolds/poiseuille.f90", r"\be(?:ps|x)?\(i [+-] 1, j\) \+"),
     ("reynolds/poiseuille.f90", r"%product%?\w*\(|%north_east\(i"),
     ("reynolds/wedge.f90", r"1\.5_dp, -2\.0_dp, 0\.5_dp"),
     ("reynolds/wedge.f90", r"1\.5_dp/\w*time_step"),

@@ -1,0 +1,109 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> How the lubricant flows between the surfaces under a gradient of pressure: the conductances of the Reynolds equation,
+!>
+!>    q_x = -eps_x dP/dX,   q_y = -eps_y dP/dY
+!>
+!> with q the Poiseuille part of the mass flow, and how they change with P and H. What a kind of flow has to say is in the
+!> file of that kind (newtonian_flow.f90); flow_factory.f90 chooses. Everything else asks here.
+module ehl_flow
+   use, intrinsic :: iso_fortran_env, only: int64
+   use ehl_grid, only: grid_t
+   use ehl_kinds, only: dp
+   use ehl_lubricant, only: lubricant_t
+   use ehl_status, only: ehl_no_memory, status_t
+   implicit none (type, external)
+   private
+   public :: flow_t, along
+
+   !> Place of what concerns the flow along X in the arrays of a flow; `across` of the flow is that of Y
+   integer, parameter :: along = 1
+
+   !> Arrays of shape (nx, ny, across)
+   type, abstract :: flow_t
+      !> 1 where the lubricant flows alike in both directions, so that one array serves for both; else 2. The conductance
+      !> along X, the direction of the motion, is then the larger one.
+      integer :: across = along
+      !> 1/lambda_bar: the conductance of unit film, density and viscosity
+      real(dp) :: inverse_speed = 0.0_dp
+      !> Conductance, and d ln(eps)/dP at constant film
+      real(dp), allocatable :: eps(:, :, :), dlneps_dp(:, :, :)
+   contains
+      procedure :: setup
+      procedure(find_row), deferred :: find_row
+      procedure(film_power), deferred :: film_power
+      procedure(stress_row), deferred :: stress_row
+      procedure :: greatest_around
+      procedure :: bytes
+   end type flow_t
+
+   abstract interface
+      !> Conductances of row j and their change with P; behind node `last` the whole row is cavitated
+      pure subroutine find_row(self, lubricant, p, h, rho, drho_dp, j, last)
+         import :: dp, flow_t, lubricant_t
+         implicit none (type, external)
+         class(flow_t), intent(inout) :: self
+         type(lubricant_t), intent(in) :: lubricant
+         !> Pressure and film, shape (nx, ny)
+         real(dp), intent(in) :: p(:, :), h(:, :)
+         !> Density of the row and its change with P, shape (nx)
+         real(dp), intent(in) :: rho(:), drho_dp(:)
+         integer, intent(in) :: j, last
+      end subroutine find_row
+
+      !> d ln(eps)/d ln(H) at node (i, j), along X or across
+      pure real(dp) function film_power(self, i, j, direction)
+         import :: dp, flow_t
+         implicit none (type, external)
+         class(flow_t), intent(in) :: self
+         integer, intent(in) :: i, j, direction
+      end function film_power
+
+      !> eta/(eta0 H) of row j: the shear stress of the sliding over that of eta = eta0 and H = 1 in a Newtonian lubricant
+      pure subroutine stress_row(self, h, rho, j, stress)
+         import :: dp, flow_t
+         implicit none (type, external)
+         class(flow_t), intent(in) :: self
+         !> Film and density of the row, shape (nx)
+         real(dp), intent(in) :: h(:), rho(:)
+         integer, intent(in) :: j
+         real(dp), intent(out) :: stress(:)
+      end subroutine stress_row
+   end interface
+
+contains
+
+   !> Allocate the arrays of a grid
+   subroutine setup(self, grid, status)
+      class(flow_t), intent(inout) :: self
+      type(grid_t), intent(in) :: grid
+      type(status_t), intent(inout) :: status
+      integer :: stat
+
+      if (status%failed()) return
+      allocate (self%eps(grid%nx, grid%ny, self%across), self%dlneps_dp(grid%nx, grid%ny, self%across), source=0.0_dp, &
+                stat=stat)
+      if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the conductances of a grid level")
+   end subroutine setup
+
+   !> Largest conductance of each node of row j and its four neighbours, in columns 2 to nx-1
+   pure subroutine greatest_around(self, j, south, values)
+      class(flow_t), intent(in) :: self
+      !> The row, and the one below it
+      integer, intent(in) :: j, south
+      !> Shape (nx)
+      real(dp), intent(inout) :: values(:)
+      integer :: i
+
+      do i = 2, size(values) - 1
+         values(i) = max(self%eps(i, j, along), self%eps(i - 1, j, along), self%eps(i + 1, j, along), &
+                         self%eps(i, j + 1, along), self%eps(i, south, along))
+      end do
+   end subroutine greatest_around
+
+   !> Allocated bytes
+   pure integer(int64) function bytes(self)
+      class(flow_t), intent(in) :: self
+      bytes = 0
+      if (allocated(self%eps)) bytes = 16*size(self%eps, kind=int64)
+   end function bytes
+end module ehl_flow

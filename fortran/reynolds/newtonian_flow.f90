@@ -1,0 +1,66 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Flow of a Newtonian lubricant, alike in both directions:
+!>
+!>    eps = rho H^3/(eta lambda_bar),   d ln(eps)/dP = d ln(rho)/dP - d ln(eta)/dP,   d ln(eps)/d ln(H) = 3
+!>
+!> The viscosity itself is not kept: it is needed only where friction is measured, and the conductance holds it.
+module ehl_newtonian_flow
+   use ehl_flow, only: along, flow_t
+   use ehl_kinds, only: dp
+   use ehl_lubricant, only: lubricant_t
+   implicit none (type, external)
+   private
+   public :: newtonian_flow_t
+
+   type, extends(flow_t) :: newtonian_flow_t
+   contains
+      procedure :: find_row
+      procedure :: film_power
+      procedure :: stress_row
+   end type newtonian_flow_t
+
+contains
+
+   !> Conductances of row j and their change with P. Behind `last` the lubricant is that at P = 0.
+   pure subroutine find_row(self, lubricant, p, h, rho, drho_dp, j, last)
+      class(newtonian_flow_t), intent(inout) :: self
+      type(lubricant_t), intent(in) :: lubricant
+      !> Pressure and film, shape (nx, ny)
+      real(dp), intent(in) :: p(:, :), h(:, :)
+      !> Density of the row and its change with P, shape (nx)
+      real(dp), intent(in) :: rho(:), drho_dp(:)
+      integer, intent(in) :: j, last
+      real(dp) :: log_eta(size(p, 1)), rest_log(1), rest_slope(1)
+      integer :: i
+
+      call lubricant%log_viscosity(p(:last, j), log_eta(:last), self%dlneps_dp(:last, j, along))
+      do i = 1, last
+         self%eps(i, j, along) = rho(i)*h(i, j)**3*exp(-log_eta(i))*self%inverse_speed
+      end do
+      if (last < size(p, 1)) then
+         call lubricant%log_viscosity([0.0_dp], rest_log, rest_slope)
+         self%dlneps_dp(last + 1:, j, along) = rest_slope(1)
+         self%eps(last + 1:, j, along) = rho(last + 1)*exp(-rest_log(1))*self%inverse_speed*h(last + 1:, j)**3
+      end if
+      self%dlneps_dp(:, j, along) = drho_dp/rho - self%dlneps_dp(:, j, along)
+   end subroutine find_row
+
+   !> d ln(eps)/d ln(H)
+   pure real(dp) function film_power(self, i, j, direction)
+      class(newtonian_flow_t), intent(in) :: self
+      integer, intent(in) :: i, j, direction
+      associate (unused => [i, j, direction, self%across])
+      end associate
+      film_power = 3.0_dp
+   end function film_power
+
+   !> eta/(eta0 H) of row j, from the conductance
+   pure subroutine stress_row(self, h, rho, j, stress)
+      class(newtonian_flow_t), intent(in) :: self
+      !> Film and density of the row, shape (nx)
+      real(dp), intent(in) :: h(:), rho(:)
+      integer, intent(in) :: j
+      real(dp), intent(out) :: stress(:)
+      stress = self%inverse_speed*rho*h**2/self%eps(:, j, along)
+   end subroutine stress_row
+end module ehl_newtonian_flow

@@ -1,0 +1,105 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The Reynolds equation on one level. Where the lubricant fills the gap (P > 0)
+!>
+!>    d/dX (eps_x dP/dX) + d/dY (eps_y dP/dY) - d(rho H)/dX - d(rho H)/dT = 0
+!>
+!> and P = 0 elsewhere, where the left-hand side is not positive: P >= 0 and nothing flows out of a cavity. P is given on the
+!> border: 0, or that of a flooded contact (far_field.f90). eps_x and eps_y are the conductances (flow.f90), for a Newtonian
+!> lubricant both rho H^3/(eta lambda_bar); rho and eta depend on P (physics/lubricant.f90), H on all of P (film.f90), and its
+!> constant H00 on the force balance (force_balance.f90).
+!>
+!> Discrete, at node (i, j), with m = rho H:
+!>
+!>    [e_x(i+1/2) (P(i+1) - P(i)) - e_x(i-1/2) (P(i) - P(i-1))]/hx^2
+!>    + [e_y(j+1/2) (P(j+1) - P(j)) - e_y(j-1/2) (P(j) - P(j-1))]/hy^2        poiseuille.f90
+!>    - [c0 m(i) + c1 m(i-1) + c2 m(i-2)]                                     wedge.f90, implicit part
+!>    = rhs
+!>
+!> where e(i+1/2) = (eps(i) + eps(i+1))/2. By scheme, with ' and " for one and two time steps ago:
+!>
+!>    steady     c = (3/2, -2, 1/2)/hx                         rhs = 0
+!>    narrow     c = (3/2, 0, 0)/dT                            rhs = [-2 m'(i-1) + m"(i-2)/2]/dT
+!>    separate   c = (3/2, -2, 1/2)/hx + (3/2, 0, 0)/dT        rhs = [-2 m'(i) + m"(i)/2]/dT
+!>
+!> (narrow: both terms along the characteristic, dT = hx). On the levels below the finest rhs is that of the full
+!> approximation scheme (multigrid/coarse_problem.f90), and the first two lines may be a Galerkin product.
+!>
+!> Zhang et al. 2019, eqs. 1, 7 and 8; the narrow scheme: Venner & Lubrecht 2000.
+module ehl_reynolds
+   use ehl_flow, only: along
+   use ehl_kernel, only: kernel_coefficient
+   use ehl_kinds, only: dp
+   use ehl_level, only: level_t
+   use ehl_node_state, only: silence_content
+   implicit none (type, external)
+   private
+   public :: film_residual, reynolds_operator, update_residual
+
+contains
+
+   !> Row j of the Reynolds operator (the left-hand side above), zero at the borders
+   pure subroutine reynolds_operator(level, j, values)
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: j
+      !> Shape (nx)
+      real(dp), intent(out) :: values(:)
+      integer :: nx
+
+      nx = level%grid%nx
+      values(1) = 0.0_dp
+      values(nx) = 0.0_dp
+      if (level%grid%is_border(j)) then
+         values(2:nx - 1) = 0.0_dp
+         return
+      end if
+      call level%poiseuille%apply_row(level%p, level%flow, j, values)
+      call level%wedge%subtract_row(level%mass_content(:, j), values)
+   end subroutine reynolds_operator
+
+   !> residual = rhs - operator where P > 0; where P = 0 only the part that asks for pressure
+   !> (residual < 0). Returns the rms over the grid.
+   subroutine update_residual(level, rms)
+      type(level_t), intent(inout) :: level
+      real(dp), intent(out) :: rms
+      real(dp) :: sums(level%grid%ny), row(level%grid%nx)
+      integer :: i, j
+
+      !$omp parallel do default(none) shared(level, sums) private(i, row) &
+      !$omp num_threads(level%threads) if(level%parallel) schedule(static)
+      do j = 1, level%grid%ny
+         call reynolds_operator(level, j, row)
+         level%residual(1, j) = 0.0_dp
+         level%residual(level%grid%nx, j) = 0.0_dp
+         do i = 2, level%grid%nx - 1
+            level%residual(i, j) = level%rhs(i, j) - row(i)
+         end do
+         call silence_content(level%p(:, j), level%residual(:, j))
+         if (level%grid%is_border(j)) level%residual(:, j) = 0.0_dp
+         sums(j) = sum(level%residual(:, j)**2)*level%grid%weight(j)/(level%grid%hx*level%grid%hy)
+      end do
+      !$omp end parallel do
+      rms = sqrt(sum(sums)/(real(level%grid%nx, dp)*level%grid%full_ny()))
+   end subroutine update_residual
+
+   !> Residual (rms) as far as it concerns the film: each with the share that the deflection by the node's own pressure
+   !> has in what answers it, the rest being the Poiseuille term. In the far inlet, where eps/h^2 is 1e8, a residual of 1
+   !> is a pressure of 1e-9. Needs the residual of the present state.
+   real(dp) function film_residual(level)
+      type(level_t), intent(in) :: level
+      real(dp) :: sums(level%grid%ny), wedge, poiseuille
+      integer :: j
+
+      associate (grid => level%grid)
+         wedge = kernel_coefficient(level%kernel_factor, 0, 0, grid%hx, grid%hy)/grid%hx
+         poiseuille = level%poiseuille%flow_rate()
+         !$omp parallel do default(none) shared(level, sums, wedge, poiseuille) &
+         !$omp num_threads(level%threads) if(level%parallel) schedule(static)
+         do j = 1, grid%ny
+            sums(j) = sum((level%residual(:, j)*wedge/(wedge + poiseuille*level%flow%eps(:, j, along)))**2) &
+                      *level%grid%weight(j)/(level%grid%hx*level%grid%hy)
+         end do
+         !$omp end parallel do
+         film_residual = sqrt(sum(sums)/(real(grid%nx, dp)*grid%full_ny()))
+      end associate
+   end function film_residual
+end module ehl_reynolds
