@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import check
 from pyehl.given import path_of, text_of
-from pyehl.library import checkpoints, ehl, returned
+from pyehl.library import ehl, returned
 
 __all__ = ["SolverHandle", "Work"]
 
@@ -160,7 +160,7 @@ class SolverHandle:
             If the folder cannot be made.
         """
         with self._lock:
-            note, status, message = checkpoints.keep(
+            note, status, message = ehl.keep(
                 self._handle,
                 os.fsencode(path_of(results, "the result folder")),
                 os.fsencode(path_of(resumed, "the folder to resume")),
