@@ -200,5 +200,6 @@ contains
          call self%reals("checkpoint_interval", o%checkpoint_interval, "s", "[0, 1e6]", &
                          "wall time between states of a transient run kept on disk; 0: none")
       end associate
+      self%keys = self%keys(:self%n)
    end subroutine bind_keys
 end module ehl_keys
