@@ -199,7 +199,7 @@ contains
       character(len=allowed_length), allocatable :: list(:)
       integer :: k
 
-      list = choices(key%allowed)
+      allocate (list, source=choices(key%allowed))
       problem = "no such choice"
       do k = 1, size(list)
          if (lower_case(list(k)) /= lower_case(token%text)) cycle
