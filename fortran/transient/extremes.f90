@@ -40,7 +40,8 @@ contains
       class(extremes_t), intent(inout) :: self
       type(level_t), intent(in) :: level
       integer, intent(in) :: which
-      real(dp), intent(in) :: sign, values(:, :), time
+      real(dp), intent(in) :: sign, time
+      real(dp), contiguous, intent(in) :: values(:, :)
       integer :: place(2)
 
       if (.not. maxval(sign*values) > sign*self%found(1, which)) return
