@@ -20,7 +20,7 @@ from functools import partial
 from pathlib import Path
 
 from pyehl.errors import FileError, InputError, check
-from pyehl.extension import destination
+from pyehl.extension import functions
 
 __all__ = [
     "Destination",
@@ -73,7 +73,7 @@ class Destination:
     def _step(self, step: bytes, made: str = "") -> str:
         lists = (_lines(self.names), _lines(self.inputs), _lines(self.kept))
         folder, kind = os.fsencode(self.folder), self.kind.encode()
-        fresh, status, message = destination.place(
+        fresh, status, message = functions.place(
             step, folder, kind, *lists, int(self.force), os.fsencode(made)
         )
         check(status, message)

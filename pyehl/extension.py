@@ -12,7 +12,7 @@ from pyehl.processor import suffix
 if TYPE_CHECKING:
     from pyehl import _core
 
-__all__ = ["checkpoints", "destination", "functions", "solvers", "surface_functions", "waves"]
+__all__ = ["functions", "solvers", "surface_functions", "waves"]
 
 try:
     _extension = import_module(f"pyehl._core{suffix()}")
@@ -23,8 +23,6 @@ except ImportError as error:  # pragma: no cover
     ) from error
 
 solvers = cast("_core._Solver", _extension.ehl_f2py_solver)
-checkpoints = cast("_core._Checkpoints", _extension.ehl_f2py_checkpoints)
-destination = cast("_core._Destination", _extension.ehl_f2py_destination)
 functions = cast("_core._Functions", _extension.ehl_f2py_functions)
 surface_functions = cast("_core._Surfaces", _extension.ehl_f2py_surfaces)
 waves = cast("_core._Waves", _extension.ehl_f2py_waves)

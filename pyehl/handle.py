@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import check
 from pyehl.given import path_of, text_of
-from pyehl.library import checkpoints, ehl, returned
+from pyehl.library import ehl, returned
 
 __all__ = ["SolverHandle", "Work"]
 
@@ -170,7 +170,7 @@ class SolverHandle:
         """
         with self._lock:
             note = self._call(
-                checkpoints.keep,
+                ehl.keep,
                 os.fsencode(path_of(results, "the result folder")),
                 os.fsencode(path_of(resumed, "the folder to resume")),
                 int(self._given is not None),

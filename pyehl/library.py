@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import check
-from pyehl.extension import checkpoints, functions, surface_functions, waves
+from pyehl.extension import functions, surface_functions, waves
 from pyehl.extension import solvers as ehl
 from pyehl.given import Option, options_of, path_of, text_of
 
@@ -28,7 +28,6 @@ __all__ = [
     "build",
     "check_memory",
     "checkpoint_case",
-    "checkpoints",
     "deflection",
     "ehl",
     "free_bytes",
@@ -88,7 +87,7 @@ def checkpoint_case(results: str | os.PathLike[str]) -> Path:
     Beside it lies ``surface.npy`` when the surface of the run came from Python. InputError if no
     state was kept.
     """
-    path, status, message = checkpoints.checkpoint_case(os.fsencode(results))
+    path, status, message = functions.checkpoint_case(os.fsencode(results))
     check(status, message)
     return Path(os.fsdecode(path.rstrip()))
 

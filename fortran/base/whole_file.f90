@@ -24,16 +24,12 @@ contains
       text = ""
       if (.not. file_exists(path)) then
          call status%fail(ehl_file, path // ": error: there is no such file")
-         return
-      end if
-      if (file_exists(path // "/.")) then
+      else if (file_exists(path // "/.")) then
          call status%fail(ehl_file, path // ": error: this is a folder, not a file")
-         return
-      end if
-      if (.not. is_file(path)) then
+      else if (.not. is_file(path)) then
          call status%fail(ehl_file, path // ": error: this is a device or a pipe, not a file")
-         return
       end if
+      if (status%failed()) return
       open (newunit=lun, file=path, status="old", action="read", access="stream", &
             form="unformatted", iostat=stat, iomsg=reason)
       if (stat /= 0) then

@@ -5,18 +5,21 @@ module ehl_f2py_functions
    use ehl_case, only: case_t
    use ehl_case_reader, only: read_case, read_case_file
    use ehl_case_writer, only: case_text, options_text
+   use ehl_checkpoint_folder, only: find_checkpoint
    use ehl_clock, only: clock_t, start_clock
    use ehl_deflection, only: deflection_t
    use ehl_deflection_factory, only: new_deflection
+   use ehl_destination, only: destination_t
    use ehl_grid, only: grid_t
+   use ehl_handles, only: reply
    use ehl_kinds, only: pi
    use ehl_memory, only: check_memory, free_bytes
-   use ehl_reply, only: reply
+   use ehl_result_folder, only: result_names
    use ehl_status, only: status_t
    use ehl_version, only: build_text, version
    implicit none (type, external)
    private
-   public :: resolve, needs_memory, memory_left, keys, about, deflection
+   public :: resolve, checkpoint_case, place, needs_memory, memory_left, keys, about, deflection
 
 contains
 
@@ -39,6 +42,53 @@ contains
       if (.not. status%failed()) resolved = case_text(input)
       call reply(status, stat, message)
    end subroutine resolve
+
+   !> Case file of the run with these results, to resume it; its folder holds surface.npy as well when
+   !> the surface came from Python
+   subroutine checkpoint_case(results, path, stat, message)
+      character(len=*), intent(in) :: results
+      character(len=4096), intent(out) :: path
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      real(c_double), allocatable :: heights(:, :)
+      character(len=:), allocatable :: text
+      type(status_t) :: status
+
+      path = ""
+      call find_checkpoint(results, text, heights, status)
+      if (.not. status%failed()) path = text
+      call reply(status, stat, message)
+   end subroutine checkpoint_case
+
+   !> A step on the way of a result to its folder: 'check', 'resume' (a check for a result that is completed), 'begin',
+   !> which gives an empty folder `fresh`, or 'finish' with that. Lists have a line end behind each item.
+   subroutine place(step, folder, kind, names, inputs, kept, force, made, fresh, stat, message)
+      character(len=*), intent(in) :: step, folder, kind, names, inputs, kept
+      integer(c_int), intent(in) :: force
+      !> The folder that 'begin' gave
+      character(len=*), intent(in) :: made
+      character(len=4096), intent(out) :: fresh
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(destination_t) :: destination
+      type(status_t) :: status
+      character(len=:), allocatable :: path
+
+      fresh = ""
+      destination = destination_t(folder, kind, names, inputs, kept, force /= 0)
+      ! the library knows what it writes
+      if (kind == "solution") destination%names = result_names
+      select case (step)
+      case ("begin")
+         call destination%begin(path, status)
+         fresh = path
+      case ("finish")
+         call destination%finish(made, status)
+      case default
+         call destination%check(status, resumes=step == "resume")
+      end select
+      call reply(status, stat, message)
+   end subroutine place
 
    !> Refuse what would not fit into the memory
    subroutine needs_memory(what, bytes, stat, message)

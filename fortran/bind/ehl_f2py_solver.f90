@@ -12,16 +12,15 @@ module ehl_f2py_solver
    use ehl_checkpoint_folder, only: checkpoint_path
    use ehl_conclusion, only: conclusion
    use ehl_grid, only: grid_t
-   use ehl_handles, only: drop_handle, new_handle, run_of, run_t
+   use ehl_handles, only: drop_handle, new_handle, reply, run_of, run_t
    use ehl_plan_text, only: plan_text
    use ehl_result_folder, only: write_results
    use ehl_ratio_error, only: waves_t
    use ehl_record, only: record_t
-   use ehl_reply, only: reply
    use ehl_status, only: ehl_bad_input, ehl_internal, status_t
    implicit none (type, external)
    private
-   public :: open_case, close_case, advance, act, describe, work, take_prediction
+   public :: open_case, close_case, advance, act, keep, describe, work, take_prediction
    public :: grid_shape, axes, field
 
 contains
@@ -123,6 +122,31 @@ contains
       note = text
       call reply(status, stat, message)
    end subroutine act
+
+   !> Keep states of the run beside its results, at the interval of the case; `resumed` names the
+   !> results of the run that is resumed; with has_heights on the surface of open_case too
+   subroutine keep(handle, results, resumed, has_heights, nx, ny, heights, note, stat, message)
+      integer(c_int), intent(in) :: handle
+      character(len=*), intent(in) :: results, resumed
+      integer(c_int), intent(in) :: has_heights, nx, ny
+      real(c_double), intent(inout) :: heights(nx, ny)
+      character(len=4096), intent(out) :: note
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(run_t), pointer :: run
+      type(status_t) :: status
+      character(len=:), allocatable :: text
+
+      note = ""
+      call run_of(handle, run, status)
+      if (.not. status%failed()) then
+         associate (n => merge(nx, 0, has_heights /= 0))
+            call run%checkpoints%open(results, run%input, run%solver, resumed, heights(:n, :), text, status)
+         end associate
+         if (.not. status%failed()) note = text
+      end if
+      call reply(status, stat, message)
+   end subroutine keep
 
    !> The "plan" in a few lines, one line of "progress", the "conclusion" of a run that has ended, or the "summary" as JSON
    subroutine describe(handle, what, text, stat, message)

@@ -4,8 +4,8 @@ module ehl_f2py_surfaces
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use ehl_feature, only: feature_t, new_feature
    use ehl_fractal, only: fractal_t, make_fractal
+   use ehl_handles, only: reply
    use ehl_plan_need, only: making_need
-   use ehl_reply, only: reply
    use ehl_status, only: status_t
    use ehl_tile_filter, only: filter_heights, filter_t
    implicit none (type, external)

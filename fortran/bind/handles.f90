@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Solvers by number: what Python holds is an index into this table
+!> Solvers by number: what Python holds is an index into this table; how routines for Python end
 module ehl_handles
+   use, intrinsic :: iso_c_binding, only: c_int
    use ehl_case, only: case_t
    use ehl_clock, only: clock_t, start_clock
    use ehl_checkpoint_folder, only: checkpoint_folder_t
@@ -10,7 +11,7 @@ module ehl_handles
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: run_t, new_handle, drop_handle, run_of
+   public :: run_t, new_handle, drop_handle, run_of, reply
 
    !> A case on its way: the resolved input, the solver, its states on disk, the time since it was opened
    type :: run_t
@@ -98,4 +99,15 @@ contains
       end if
       call unlock(table_lock, status)
    end subroutine find
+
+   !> How routines for Python end: code and text of a status
+   subroutine reply(status, stat, message)
+      type(status_t), intent(in) :: status
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+
+      stat = int(status%code, c_int)
+      message = ""
+      if (status%failed()) message = status%message
+   end subroutine reply
 end module ehl_handles

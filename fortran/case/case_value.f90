@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> From a piece of text to the value of one key, or a message that says why not
 module ehl_case_value
-   use ehl_case, only: path_length
-   use ehl_case_key, only: choices, key_t, kind_integer, kind_logical, kind_path, kind_real, kind_word
+   use ehl_case, only: path_length, word_length
+   use ehl_case_key, only: allowed_length, choices, key_t, kind_integer, kind_logical, kind_path, kind_real, kind_word
    use ehl_kinds, only: dp
    use ehl_scanner, only: token_atom, token_open_string, token_string, token_t
    use ehl_source, only: point_at, source_t
@@ -196,15 +196,15 @@ contains
       type(key_t), intent(inout) :: key
       type(token_t), intent(in) :: token
       character(len=:), allocatable, intent(inout) :: problem
+      character(len=allowed_length), allocatable :: list(:)
       integer :: k
 
+      allocate (list, source=choices(key%allowed))
       problem = "no such choice"
-      associate (list => choices(key%allowed))
-         do k = 1, size(list)
-            if (lower_case(list(k)) /= lower_case(token%text)) cycle
-            key%word_value = trim(list(k))
-            problem = ""
-         end do
-      end associate
+      do k = 1, size(list)
+         if (lower_case(list(k)) /= lower_case(token%text)) cycle
+         key%word_value = list(k)(:word_length)
+         problem = ""
+      end do
    end subroutine set_word
 end module ehl_case_value

@@ -33,6 +33,7 @@ contains
          do k = 1, size(schema%keys)
             if (schema%keys(k)%name /= lower_case(name%text)) cycle
             where_else = "; '"//trim(schema%keys(k)%name)//"' belongs to &"//trim(schema%keys(k)%group)
+            exit
          end do
          expected = "one of the keys "//join(schema%names_of(group), ", ")//where_else
       end if

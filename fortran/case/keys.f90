@@ -2,7 +2,7 @@
 !> The one table of all keys: group, name, unit, allowed values, meaning, and where the value lives in a case; the
 !> defaults are those of the types in ehl_case
 module ehl_keys
-   use ehl_case, only: case_t
+   use ehl_case, only: case_t, surface_case_t
    use ehl_case_key, only: kind_path, kind_text
    use ehl_schema, only: schema_t
    implicit none (type, external)
@@ -85,70 +85,7 @@ contains
          call self%integers("max_points", g%max_points, "[17, 8193]", "most nodes per side that target_error may choose")
       end associate
       self%group = "surface"
-      associate (s => input%surface)
-         call self%words("kind", s%kind, "smooth|harmonic|map|fractal|dent|bump|ridge|groove", &
-                         "the moving roughness; the last four pass once")
-         call self%reals("amplitude", s%amplitude, "a^2/R", "[0, 1]", &
-                         "amplitude A_i of a wave, height or depth of a feature; no default")
-         call self%reals("amplitude_over_film", s%amplitude_over_film, "-", "[0, 10]", &
-                         "the same as a share of the smooth central film, extrapolated to fine grids")
-         call self%reals("wavelength", s%wavelength, "a", "[0.01, 100]", "harmonic wavelength")
-         call self%reals("wavelength_x", s%wavelength_x, "a", "[0.01, 100]", "wavelength along X; default wavelength")
-         call self%reals("wavelength_y", s%wavelength_y, "a", "[0.01, 1e6]", "wavelength along Y; default wavelength")
-         call self%reals("velocity_ratio", s%velocity_ratio, "-", "[0, 2]", &
-                         "velocity of the rough surface over the mean one; default 1 + SRR/2, surface 2: 1 - SRR/2")
-         call self%reals("x_start", s%x_start, "a", "[-1e5, 1e4]", &
-                         "where the roughness begins at time 0, at rest its origin; default x_inlet")
-         call self%reals("height_m", s%height_m, "m", "0 or [1e-12, 1e-4]", &
-                         "height or depth of a single feature; 0: amplitude or amplitude_over_film")
-         call self%reals("width", s%width, "a", "[0.01, 100]", "width of a single feature, across its line")
-         call self%reals("length", s%length, "a", "0 or [0.01, 100]", &
-                         "its length; 0: that of a dent or bump its width, of a ridge or groove endless")
-         call self%reals("width_m", s%width_m, "m", "0 or [1e-9, 0.1]", "width of a single feature in metres; 0: width")
-         call self%reals("length_m", s%length_m, "m", "0 or [1e-9, 0.1]", "length of a single feature in metres; 0: length")
-         call self%reals("angle", s%angle, "deg", "[-360, 360]", &
-                         "turn a single feature counter-clockwise; 0: it lies across the motion")
-         call self%reals("y_start", s%y_start, "a", "[-20, 20]", "position of a single feature across the motion")
-         call self%texts("file", s%file, kind_path, "height map of kind 'map': .npy, text, instrument file")
-         call self%texts("channel", s%channel, kind_text, "channel of an instrument file: name, or number from 1")
-         call self%reals("length_x", s%length_x, "m", "0 or [1e-9, 1]", &
-                         "size of the map along X; 0: that of the file; fractal: 8.29e-4")
-         call self%reals("length_y", s%length_y, "m", "0 or [1e-9, 1]", &
-                         "size of the map along Y; 0: that of the file; fractal: 8.29e-4")
-         call self%reals("crop_x_min", s%crop_x_min, "m", "[0, 1]", "the map begins there along X")
-         call self%reals("crop_x_max", s%crop_x_max, "m", "[0, 1]", "the map ends there; 0: at its end")
-         call self%reals("crop_y_min", s%crop_y_min, "m", "[0, 1]", "the map begins there along Y")
-         call self%reals("crop_y_max", s%crop_y_max, "m", "[0, 1]", "the map ends there; 0: at its end")
-         call self%integers("sign", s%sign, "[-1, 1]", "-1: valleys of the map are positive")
-         call self%reals("outliers", s%outliers, "-", "0 or [3, 1e6]", &
-                         "points so many standard deviations off are spikes and removed; 0: none")
-         call self%words("fill", s%fill, "harmonic|none", "missing points: interpolated, or refused")
-         call self%words("detrend", s%detrend, "auto|none|centre|tilt|curvature", &
-                         "form taken off; auto: tilt for instrument files, none for arrays")
-         call self%reals("rotate", s%rotate, "deg", "[-360, 360]", "turn the map counter-clockwise")
-         call self%words("edges", s%edges, "auto|mirror|window|periodic", &
-                         "auto: mirror for instrument files, periodic for arrays")
-         call self%reals("track", s%track, "m", "[-1, 1]", &
-                         "line of a map or fractal surface that passes the centre, across the motion")
-         call self%reals("tile_x", s%tile_x, "m", "0 or [1e-9, 10]", &
-                         "size of the tile that pyehl has made of the map; not for input")
-         call self%reals("tile_y", s%tile_y, "m", "0 or [1e-9, 10]", &
-                         "size of the tile that pyehl has made of the map; not for input")
-         call self%logicals("tile_mirrored", s%tile_mirrored, "that tile has mirror images; not for input")
-         call self%reals("shortest_wavelength", s%shortest_wavelength, "m", "[0, 1]", &
-                         "waves of a map or fractal surface shorter than this are cut; 0: none")
-         call self%reals("longest_wavelength", s%longest_wavelength, "m", "[0, 1]", &
-                         "waves of a map or fractal surface longer than this are cut; 0: none")
-         call self%words("filter", s%filter, "sharp|gaussian", "how the spectrum is cut")
-         call self%reals("rms_height", s%rms_height, "m", "[0, 1e-4]", &
-                         "rms height of a fractal surface, before its spectrum is cut")
-         call self%reals("hurst", s%hurst, "-", "[0, 1]", "Hurst exponent")
-         call self%reals("rolloff_wavenumber", s%rolloff_wavenumber, "rad/m", "[0, 1e11]", &
-                         "the spectrum is flat below it; 0: no roll-off")
-         call self%integers("pixels", s%pixels, "[4, 8192]", "pixels per side of a fractal surface")
-         call self%integers("seed", s%seed, "[0, 2147483647]", "seed of the random phases")
-         call self%words("modulus", s%modulus, "deterministic|gaussian", "modulus of the Fourier components")
-      end associate
+      call add_surface_keys(self, input%surface)
       self%group = "time"
       associate (t => input%time)
          call self%words("scheme", t%scheme, "narrow|paper", &
@@ -200,5 +137,75 @@ contains
          call self%reals("checkpoint_interval", o%checkpoint_interval, "s", "[0, 1e6]", &
                          "wall time between states of a transient run kept on disk; 0: none")
       end associate
+      self%keys = self%keys(:self%n)
    end subroutine bind_keys
+
+   !> A surface, in the group that is set
+   subroutine add_surface_keys(self, s)
+      type(schema_t), intent(inout) :: self
+      type(surface_case_t), intent(inout), target :: s
+
+      call self%words("kind", s%kind, "smooth|harmonic|map|fractal|dent|bump|ridge|groove", &
+                      "the moving roughness; the last four pass once")
+      call self%reals("amplitude", s%amplitude, "a^2/R", "[0, 1]", &
+                      "amplitude A_i of a wave, height or depth of a feature; no default")
+      call self%reals("amplitude_over_film", s%amplitude_over_film, "-", "[0, 10]", &
+                      "the same as a share of the smooth central film, extrapolated to fine grids")
+      call self%reals("wavelength", s%wavelength, "a", "[0.01, 100]", "harmonic wavelength")
+      call self%reals("wavelength_x", s%wavelength_x, "a", "[0.01, 100]", "wavelength along X; default wavelength")
+      call self%reals("wavelength_y", s%wavelength_y, "a", "[0.01, 1e6]", "wavelength along Y; default wavelength")
+      call self%reals("velocity_ratio", s%velocity_ratio, "-", "[0, 2]", &
+                      "velocity of the rough surface over the mean one; default 1 + SRR/2, surface 2: 1 - SRR/2")
+      call self%reals("x_start", s%x_start, "a", "[-1e5, 1e4]", &
+                      "where the roughness begins at time 0, at rest its origin; default x_inlet")
+      call self%reals("height_m", s%height_m, "m", "0 or [1e-12, 1e-4]", &
+                      "height or depth of a single feature; 0: amplitude or amplitude_over_film")
+      call self%reals("width", s%width, "a", "[0.01, 100]", "width of a single feature, across its line")
+      call self%reals("length", s%length, "a", "0 or [0.01, 100]", &
+                      "its length; 0: that of a dent or bump its width, of a ridge or groove endless")
+      call self%reals("width_m", s%width_m, "m", "0 or [1e-9, 0.1]", "width of a single feature in metres; 0: width")
+      call self%reals("length_m", s%length_m, "m", "0 or [1e-9, 0.1]", "length of a single feature in metres; 0: length")
+      call self%reals("angle", s%angle, "deg", "[-360, 360]", &
+                      "turn a single feature counter-clockwise; 0: it lies across the motion")
+      call self%reals("y_start", s%y_start, "a", "[-20, 20]", "position of a single feature across the motion")
+      call self%texts("file", s%file, kind_path, "height map of kind 'map': .npy, text, instrument file")
+      call self%texts("channel", s%channel, kind_text, "channel of an instrument file: name, or number from 1")
+      call self%reals("length_x", s%length_x, "m", "0 or [1e-9, 1]", &
+                      "size of the map along X; 0: that of the file; fractal: 8.29e-4")
+      call self%reals("length_y", s%length_y, "m", "0 or [1e-9, 1]", &
+                      "size of the map along Y; 0: that of the file; fractal: 8.29e-4")
+      call self%reals("crop_x_min", s%crop_x_min, "m", "[0, 1]", "the map begins there along X")
+      call self%reals("crop_x_max", s%crop_x_max, "m", "[0, 1]", "the map ends there; 0: at its end")
+      call self%reals("crop_y_min", s%crop_y_min, "m", "[0, 1]", "the map begins there along Y")
+      call self%reals("crop_y_max", s%crop_y_max, "m", "[0, 1]", "the map ends there; 0: at its end")
+      call self%integers("sign", s%sign, "[-1, 1]", "-1: valleys of the map are positive")
+      call self%reals("outliers", s%outliers, "-", "0 or [3, 1e6]", &
+                      "points so many standard deviations off are spikes and removed; 0: none")
+      call self%words("fill", s%fill, "harmonic|none", "missing points: interpolated, or refused")
+      call self%words("detrend", s%detrend, "auto|none|centre|tilt|curvature", &
+                      "form taken off; auto: tilt for instrument files, none for arrays")
+      call self%reals("rotate", s%rotate, "deg", "[-360, 360]", "turn the map counter-clockwise")
+      call self%words("edges", s%edges, "auto|mirror|window|periodic", &
+                      "auto: mirror for instrument files, periodic for arrays")
+      call self%reals("track", s%track, "m", "[-1, 1]", &
+                      "line of a map or fractal surface that passes the centre, across the motion")
+      call self%reals("tile_x", s%tile_x, "m", "0 or [1e-9, 10]", &
+                      "size of the tile that pyehl has made of the map; not for input")
+      call self%reals("tile_y", s%tile_y, "m", "0 or [1e-9, 10]", &
+                      "size of the tile that pyehl has made of the map; not for input")
+      call self%logicals("tile_mirrored", s%tile_mirrored, "that tile has mirror images; not for input")
+      call self%reals("shortest_wavelength", s%shortest_wavelength, "m", "[0, 1]", &
+                      "waves of a map or fractal surface shorter than this are cut; 0: none")
+      call self%reals("longest_wavelength", s%longest_wavelength, "m", "[0, 1]", &
+                      "waves of a map or fractal surface longer than this are cut; 0: none")
+      call self%words("filter", s%filter, "sharp|gaussian", "how the spectrum is cut")
+      call self%reals("rms_height", s%rms_height, "m", "[0, 1e-4]", &
+                      "rms height of a fractal surface, before its spectrum is cut")
+      call self%reals("hurst", s%hurst, "-", "[0, 1]", "Hurst exponent")
+      call self%reals("rolloff_wavenumber", s%rolloff_wavenumber, "rad/m", "[0, 1e11]", &
+                      "the spectrum is flat below it; 0: no roll-off")
+      call self%integers("pixels", s%pixels, "[4, 8192]", "pixels per side of a fractal surface")
+      call self%integers("seed", s%seed, "[0, 2147483647]", "seed of the random phases")
+      call self%words("modulus", s%modulus, "deterministic|gaussian", "modulus of the Fourier components")
+   end subroutine add_surface_keys
 end module ehl_keys

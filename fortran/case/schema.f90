@@ -10,8 +10,9 @@ module ehl_schema
 
    type :: schema_t
       type(key_t), allocatable :: keys(:)
-      !> Group of the keys that are added next
+      !> Group of the keys that are added next, and how many there are
       character(len=name_length) :: group = ""
+      integer :: n = 0
    contains
       procedure :: find
       procedure :: given
@@ -27,14 +28,16 @@ module ehl_schema
 
 contains
 
-   !> A key behind the others
+   !> A key behind the others; places behind it are spare
    subroutine add(self, key)
       class(schema_t), intent(inout) :: self
       type(key_t), intent(in) :: key
 
-      if (.not. allocated(self%keys)) allocate (self%keys(0))
-      self%keys = [self%keys, key]
-      self%keys(size(self%keys))%group = self%group
+      if (.not. allocated(self%keys)) allocate (self%keys(128))
+      if (self%n == size(self%keys)) self%keys = [self%keys, self%keys]
+      self%n = self%n + 1
+      self%keys(self%n) = key
+      self%keys(self%n)%group = self%group
    end subroutine add
 
    subroutine reals(self, name, value, unit, allowed, meaning)

@@ -39,7 +39,7 @@ contains
       values = seed_sequence(words)
       ! of four 64-bit words the first two are the state, the others the sequence, the high one first
       self%increment = [values(6), values(7), values(4), values(5)]
-      self%increment = shifted(self%increment)
+      self%increment = sum_of(self%increment, self%increment)
       self%increment(0) = ior(self%increment(0), 1_ik)
       self%state = 0
       call step(self)
@@ -100,13 +100,6 @@ contains
          c(i) = iand(c(i), mask)
       end do
    end function sum_of
-
-   !> 2 a modulo 2^128
-   pure function shifted(a) result(b)
-      integer(ik), intent(in) :: a(0:3)
-      integer(ik) :: b(0:3)
-      b = sum_of(a, a)
-   end function shifted
 
    !> Eight 32-bit words from the words of a seed
    pure function seed_sequence(words) result(values)

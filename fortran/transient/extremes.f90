@@ -28,33 +28,24 @@ contains
       !> Pressure and film of the smooth contact, (nx, ny)
       real(dp), intent(in) :: p_smooth(:, :), h_smooth(:, :)
       real(dp), intent(in) :: time
-      !> Largest values of each row; of films with the sign changed
-      real(dp) :: rows(level%grid%ny, 4)
-      integer :: j
 
-      do j = 1, level%grid%ny
-         rows(j, extreme_pressure) = maxval(level%p(:, j))
-         rows(j, extreme_film) = -minval(level%h(:, j))
-         rows(j, extreme_rise) = maxval(level%p(:, j) - p_smooth(:, j))
-         rows(j, extreme_ratio) = -minval(level%h(:, j)/h_smooth(:, j))
-      end do
-      call self%note(level, extreme_pressure, 1.0_dp, rows, level%p, time)
-      call self%note(level, extreme_film, -1.0_dp, rows, level%h, time)
-      call self%note(level, extreme_rise, 1.0_dp, rows, level%p - p_smooth, time)
-      call self%note(level, extreme_ratio, -1.0_dp, rows, level%h/h_smooth, time)
+      call self%note(level, extreme_pressure, 1.0_dp, level%p, time)
+      call self%note(level, extreme_film, -1.0_dp, level%h, time)
+      call self%note(level, extreme_rise, 1.0_dp, level%p - p_smooth, time)
+      call self%note(level, extreme_ratio, -1.0_dp, level%h/h_smooth, time)
    end subroutine see
 
-   !> Keep a value, with its place, when it is beyond the one kept
-   subroutine note(self, level, which, sign, rows, values, time)
+   !> Keep the largest value (sign 1) or the least (-1), with its place, when it is beyond the one kept
+   subroutine note(self, level, which, sign, values, time)
       class(extremes_t), intent(inout) :: self
       type(level_t), intent(in) :: level
       integer, intent(in) :: which
-      real(dp), intent(in) :: sign, rows(:, :), values(:, :), time
-      integer :: i, j
+      real(dp), intent(in) :: sign, time
+      real(dp), contiguous, intent(in) :: values(:, :)
+      integer :: place(2)
 
-      if (.not. maxval(rows(:, which)) > sign*self%found(1, which)) return
-      j = maxloc(rows(:, which), dim=1)
-      i = maxloc(sign*values(:, j), dim=1)
-      self%found(:, which) = [values(i, j), time, level%grid%x(i), level%grid%y(j)]
+      if (.not. maxval(sign*values) > sign*self%found(1, which)) return
+      place = maxloc(sign*values)
+      self%found(:, which) = [values(place(1), place(2)), time, level%grid%x(place(1)), level%grid%y(place(2))]
    end subroutine note
 end module ehl_extremes
