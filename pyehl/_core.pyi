@@ -78,18 +78,6 @@ class _Surfaces:
         words: NDArray[np.int32],
         gaussian: int,
     ) -> tuple[int, bytes]: ...
-    def feature(
-        self,
-        heights: _Array,
-        x: _Array,
-        y: _Array,
-        is_raised: int,
-        is_line: int,
-        amplitude: float,
-        width: float,
-        length: float,
-        angle: float,
-    ) -> float: ...
     def filter_tile(
         self,
         heights: _Array,

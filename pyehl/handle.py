@@ -49,17 +49,9 @@ class Work(NamedTuple):
 
 
 class SolverHandle:
-    """A solver that was opened, and is closed at the end of a ``with`` block.
+    """A solver on the text of a resolved case, with heights [m] (nx, ny) in place of a file.
 
-    Every method may be called from every thread. What is read while another thread advances is the
-    state after a whole cycle or step.
-
-    Parameters
-    ----------
-    text
-        The resolved case.
-    heights
-        Surface [m], shape (nx, ny), in place of a file.
+    It is closed at the end of a ``with`` block.
 
     Attributes
     ----------
@@ -200,14 +192,6 @@ class SolverHandle:
     def work(self) -> Work:
         """Tell how much of a transient run is done, and how much there is."""
         return Work(*self._call(ehl.work))
-
-    def describe(self) -> str:
-        """Tell the plan: what will be solved and how, with a table of the levels."""
-        return self._text("plan")
-
-    def conclusion(self) -> str:
-        """Tell the results of a run that has ended, with their errors, in a few lines."""
-        return self._text("conclusion")
 
     def summary(self) -> dict[str, Any]:
         """Give the scalar results as in ``summary.json``; None for a number that does not exist."""

@@ -11,12 +11,13 @@ rounding, not to the last bit: v3 fuses multiplications and additions. The envir
 from __future__ import annotations
 
 import os
+import sys
 from importlib.util import find_spec
 from pathlib import Path
 
 from pyehl.errors import InputError
 
-__all__ = ["VARIABLE", "suffix"]
+__all__ = ["VARIABLE", "run_program", "suffix"]
 
 VARIABLE = "PYEHL_CPU"
 BASELINE, V3 = "baseline", "x86-64-v3"
@@ -62,3 +63,16 @@ def suffix() -> str:
     """Suffix of the build that this process uses."""
     has_v3 = find_spec("pyehl._core_v3") is not None
     return choose(os.environ.get(VARIABLE, ""), has_v3, processor_flags() if has_v3 else set())
+
+
+def run_program() -> None:
+    """Run the program ``ehl`` of a wheel in place of this process, with the same arguments.
+
+    It is the same build as that of the extension, so that both give the same bits.
+    """
+    try:
+        program = Path(__file__).with_name("bin") / f"ehl{suffix()}"
+    except InputError as error:
+        print(error, file=sys.stderr)
+        sys.exit(2)
+    os.execv(program, [str(program), *sys.argv[1:]])

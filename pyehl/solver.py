@@ -190,7 +190,7 @@ class Solver(SolverHandle):
             Also predict what of the friction hangs on waves that the grid does not resolve; this
             solves the smooth contact.
         """
-        return "\n".join([super().describe(), *self._lines(predict=predict)])
+        return "\n".join([self._text("plan"), *self._lines(predict=predict)])
 
     def _lines(self, *, predict: bool = True) -> list[str]:
         """Tell how a map was prepared, and what the grid does not resolve."""
@@ -235,7 +235,7 @@ class Solver(SolverHandle):
     def conclusion(self) -> str:
         """Tell the results of a run that has ended, with their errors, in a few lines."""
         self._tell()
-        return super().conclusion()
+        return self._text("conclusion")
 
     def dataset(self) -> xarray.Dataset:
         """Give the results so far, the same as `pyehl.load` of the folder that `write` makes."""

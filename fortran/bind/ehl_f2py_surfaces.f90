@@ -2,7 +2,6 @@
 !> Surfaces for Python; for the rules see ehl_f2py_solver
 module ehl_f2py_surfaces
    use, intrinsic :: iso_c_binding, only: c_double, c_int
-   use ehl_feature, only: feature_t, new_feature
    use ehl_fractal, only: fractal_t, make_fractal
    use ehl_handles, only: reply
    use ehl_plan_need, only: making_need
@@ -10,7 +9,7 @@ module ehl_f2py_surfaces
    use ehl_tile_filter, only: filter_heights, filter_t
    implicit none (type, external)
    private
-   public :: making, fractal, feature, filter_tile
+   public :: making, fractal, filter_tile
 
 contains
 
@@ -40,24 +39,6 @@ contains
                         heights, status)
       call reply(status, stat, message)
    end subroutine fractal
-
-   !> Heights of a single feature at distances x and y from its centre, heights(nx, ny), in units of amplitude;
-   !> all lengths in the same unit, the angle in degrees. Half of its length along x.
-   subroutine feature(nx, ny, heights, x, y, is_raised, is_line, amplitude, width, length, angle, reach)
-      integer(c_int), intent(in) :: nx, ny
-      real(c_double), intent(inout) :: heights(nx, ny)
-      real(c_double), intent(in) :: x(nx), y(ny)
-      integer(c_int), intent(in) :: is_raised, is_line
-      real(c_double), intent(in) :: amplitude, width, length, angle
-      real(c_double), intent(out) :: reach
-      !f2py threadsafe
-      type(feature_t) :: made
-
-      made = new_feature(is_raised /= 0, is_line /= 0, amplitude, width, length, angle, 0.0_c_double, 0.0_c_double, &
-                         0.0_c_double)
-      reach = made%reach
-      call made%heights_at(x, y, heights)
-   end subroutine feature
 
    !> Cut the spectrum of the heights of a periodic tile, heights(nx, ny), at a shortest and a longest
    !> wavelength; 0: not

@@ -29,9 +29,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_force(parser)
     parser.add_argument(
-        "--jobs", type=int, default=1, metavar="N", help="runs side by side, with their threads (1)"
-    )
-    parser.add_argument(
         "--quick", action="store_true", help="waves down to a/16 only, in a third of the time"
     )
 
@@ -56,7 +53,6 @@ def execute(args: argparse.Namespace) -> int:
             args.overrides,
             output=args.output,
             force=args.force,
-            jobs=args.jobs,
             quick=args.quick,
             progress=show,
         ).attrs

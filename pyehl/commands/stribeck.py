@@ -28,9 +28,9 @@ from pyehl.studies.curve import (
     full_film_ends,
     no_coefficient,
 )
+from pyehl.studies.curve_plan import KEYS, CurvePlan, plan_curve
 from pyehl.studies.curve_run import CSV, NETCDF, PICTURE, axes_of, perform
 from pyehl.studies.measured_friction import Measured, read_measured
-from pyehl.studies.stribeck import KEYS, CurvePlan, plan_curve
 
 __all__ = ["add_arguments", "execute"]
 

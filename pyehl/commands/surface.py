@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl surface``: a rough surface in numbers, as a picture and as a file.
 
-A file of an instrument or an array, or the surface of a case, whatever its kind.
+A file of an instrument or an array, or the surface of a case.
 """
 
 from __future__ import annotations
@@ -65,11 +65,11 @@ def execute(args: argparse.Namespace) -> int:
         text = f"&surface kind = 'map' file = '{name}' /"
         case = Case.from_text(text, args.overrides, args.case)
     settings = case.resolve()
-    if settings["surface"]["kind"] == "smooth":
+    kind = settings["surface"]["kind"]
+    if kind in ("smooth", *FEATURES):
         raise InputError(
-            f"{args.case}: the case has no rough surface\n"
-            "expected: surface.kind = 'harmonic', 'map', 'fractal', "
-            + ", ".join(repr(name) for name in FEATURES)
+            f"{args.case}: surface.kind = '{kind}' is no tile of heights\n"
+            "expected: surface.kind = 'harmonic', 'map', 'fractal'"
         )
     if args.output is not None and args.output.suffix not in SUFFIXES:
         raise InputError(
@@ -105,9 +105,8 @@ def _lines(surface: Topography) -> list[str]:
     else:
         lines = surface.preparation.record.report()
     nx, ny = surface.shape
-    tile = "window" if surface.origin.startswith("single ") else "tile  "
     lines.append(
-        f"{tile}     {nx} x {ny} pixels, {surface.length_x * 1e3:.5g} x "
+        f"tile       {nx} x {ny} pixels, {surface.length_x * 1e3:.5g} x "
         f"{surface.length_y * 1e3:.5g} mm"
     )
     return lines

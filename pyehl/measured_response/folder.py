@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from pyehl.case import Case
 from pyehl.destination import Destination, write_json
-from pyehl.given import Option, check_kind, path_of
+from pyehl.given import Option, path_of
 from pyehl.measured_response.measurement import measure, with_tiers
 from pyehl.measured_response.table import dataset, shipped_response, write_table
 from pyehl.measured_response.tiers import TIERS
@@ -51,7 +51,6 @@ def response(
     *options: Option,
     output: str | os.PathLike[str] | None = None,
     force: bool = False,
-    jobs: int = 1,
     quick: bool = False,
     progress: Callable[[str, int, int], object] | None = None,
 ) -> xr.Dataset:
@@ -68,8 +67,6 @@ def response(
         again. None: nothing is kept on disk.
     force
         Other files may be in the folder; they stay.
-    jobs
-        Runs side by side, each with its threads.
     quick
         Waves down to a/16 only, in a third of the time.
     progress
@@ -97,7 +94,6 @@ def response(
     ...     print(str(error).partition(";")[0])
     surface.velocity_ratio = 0: a surface at rest makes no waves in time
     """
-    check_kind(jobs, int, "jobs", "a number of runs")
     inputs = () if isinstance(case, Case) else (case,)
     case = Case.of(case, *options)
     tiers = TIERS[:-1] if quick else TIERS
@@ -105,7 +101,7 @@ def response(
         folder = nothing if output is None else path_of(output, "output")
         place = destination(folder, inputs=inputs, force=force)
         told = {} if progress is None else {"progress": progress}
-        return _write(case, measure(case, place, tiers=tiers, jobs=jobs, **told), place)
+        return _write(case, measure(case, place, tiers=tiers, **told), place)
 
 
 def _write(case: Case, found: Mapping[str, Mapping[str, Any]], place: Destination) -> xr.Dataset:

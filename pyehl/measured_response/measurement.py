@@ -10,11 +10,10 @@ a tier whose file is there is not run again.
 from __future__ import annotations
 
 import json
-import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import asdict, replace
+from functools import partial
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -50,35 +49,6 @@ def _identity(settings: Mapping[str, Mapping[str, Any]], velocity_ratio: float, 
 
 def _file(folder: Path, tier: Tier) -> Path:
     return folder / f"tier_{tier.name}.npz"
-
-
-def _run_tier(
-    settings: Mapping[str, Mapping[str, Any]],
-    velocity_ratio: float,
-    tier: Tier,
-    threads: int,
-    path: Path,
-    progress: Callable[[int, int], None],
-) -> None:
-    """Run a tier and write its file, whole or not at all."""
-    began = time.perf_counter()
-    waves = tier_waves(tier)
-    found = superpose(
-        settings,
-        waves,
-        points=tier.points,
-        velocity_ratio=velocity_ratio,
-        solver={"threads": threads},
-        progress=progress,
-    )
-    with new_file(path) as partial, partial.open("wb") as stream:
-        np.savez(
-            stream,
-            identity=_identity(settings, velocity_ratio, tier),
-            seconds=time.perf_counter() - began,
-            **asdict(waves),
-            **asdict(found),
-        )
 
 
 def with_tiers(place: Destination) -> Destination:
@@ -119,14 +89,13 @@ def measure(
     place: Destination,
     *,
     tiers: Sequence[Tier] = TIERS,
-    jobs: int = 1,
     progress: Progress = lambda name, done, total: None,
 ) -> dict[str, dict[str, Any]]:
     """Measure the response at the operating point and velocity ratio of a case.
 
     Its groups contact and lubricant and `surface.velocity_ratio` are used. Tiers that are in the
-    folder are not run again; `jobs` run at a time and share the processors. `progress` is called
-    with the name of a tier, its steps done and its steps in all.
+    folder are not run again; one after the other has all processors. `progress` is called with the
+    name of a tier, its steps done and its steps in all.
 
     By the name of the tier what :class:`pyehl.measured_response.superposition.Superposition` has,
     with tile [a], along, across, phase [rad] and seconds. InputError if the velocity ratio is not
@@ -140,57 +109,46 @@ def measure(
             f"surface.velocity_ratio = {ratio:g}: a surface at rest makes no waves in time; "
             "expected: a positive number"
         )
-    if jobs < 1:
-        raise InputError(f"jobs = {jobs}; expected: 1 or more")
     folder = Path(place.folder)
     done = _check_folder(place, settings, ratio)
     with file_errors(folder, "cannot be made"):
         folder.mkdir(parents=True, exist_ok=True)
-    wanted = [tier for tier in tiers if tier not in done]
-    threads = max(1, processors() // max(1, min(jobs, len(wanted))))
-
-    def run(tier: Tier, report: Callable[[int, int], None]) -> None:
-        _run_tier(settings, ratio, tier, threads, _file(folder, tier), report)
-
-    _run_all(run, wanted, jobs, progress)
     found = {}
     for tier in tiers:
-        with np.load(_file(folder, tier), allow_pickle=False) as stored:
+        path = _file(folder, tier)
+        if tier not in done:
+            _run_tier(settings, ratio, tier, path, partial(progress, tier.name))
+        with np.load(path, allow_pickle=False) as stored:
             found[tier.name] = {name: stored[name] for name in stored.files}
     return found
 
 
-def _run_all(
-    run: Callable[[Tier, Callable[[int, int], None]], None],
-    tiers: Sequence[Tier],
-    jobs: int,
-    progress: Progress,
+def _run_tier(
+    settings: Mapping[str, Mapping[str, Any]],
+    velocity_ratio: float,
+    tier: Tier,
+    path: Path,
+    progress: Callable[[int, int], object],
 ) -> None:
-    """Run tiers side by side, the largest first; a solver works without the lock of Python."""
-    ended, alone = threading.Event(), threading.Lock()
-
-    def run_one(tier: Tier) -> None:
-        def report(done: int, total: int) -> None:
-            if ended.is_set():
-                raise KeyboardInterrupt
-            with alone:
-                progress(tier.name, done, total)
-
-        run(tier, report)
-
-    failed = []
-    with ThreadPoolExecutor(jobs) as pool:
-        largest_first = sorted(tiers, key=lambda tier: -tier.points)
-        runs = {pool.submit(run_one, tier): tier for tier in largest_first}
-        try:
-            for future in as_completed(runs):
-                try:
-                    future.result()
-                except (EhlError, OSError, ValueError) as error:
-                    failed.append(f"tier '{runs[future].name}': {error}")
-        finally:
-            # after Ctrl-C: what runs ends with its step, what waits does not begin
-            ended.set()
-            pool.shutdown(wait=False, cancel_futures=True)
-    if failed:
-        raise EhlError("; ".join(failed))
+    """Run a tier and write its file, whole or not at all."""
+    began = time.perf_counter()
+    waves = tier_waves(tier)
+    try:
+        found = superpose(
+            settings,
+            waves,
+            points=tier.points,
+            velocity_ratio=velocity_ratio,
+            solver={"threads": processors()},
+            progress=progress,
+        )
+    except EhlError as error:
+        raise EhlError(f"tier '{tier.name}': {error}") from error
+    with new_file(path) as fresh, fresh.open("wb") as stream:
+        np.savez(
+            stream,
+            identity=_identity(settings, velocity_ratio, tier),
+            seconds=time.perf_counter() - began,
+            **asdict(waves),
+            **asdict(found),
+        )

@@ -163,7 +163,7 @@ def superpose(
     solver: Mapping[str, Any] | None = None,
     slope: float = SLOPE,
     filling: float = FILLING,
-    progress: Callable[[int, int], None] = lambda done, total: None,
+    progress: Callable[[int, int], object] = lambda done, total: None,
 ) -> Superposition:
     """Run a tile of waves through the contact of a resolved case.
 

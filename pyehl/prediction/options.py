@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from pyehl.surfaces.features import FEATURES
+from pyehl.surfaces import FEATURES
 
 __all__ = ["MAX_POSITIONS", "Options", "unpredictable"]
 

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from pyehl import surfaces
 from pyehl.prediction.errors import KNOWN_RATIO
-from pyehl.studies.stribeck import CurvePlan, CurvePoint, Settings
+from pyehl.studies.curve_plan import CurvePlan, CurvePoint, Settings
 from pyehl.studies.tasks import FAILED, why_none
 from pyehl.theory import stribeck
 from pyehl.theory.film import central_film

@@ -18,9 +18,9 @@ from pyehl.given import Option, check_kind, options_of, path_of
 from pyehl.netcdf import write_netcdf
 from pyehl.studies import table
 from pyehl.studies.curve import UNITS, curve_rows
+from pyehl.studies.curve_plan import KEYS, CurvePlan, plan_curve
 from pyehl.studies.gather import Outcome, Watcher, gather
 from pyehl.studies.journal import NAME
-from pyehl.studies.stribeck import KEYS, CurvePlan, plan_curve
 from pyehl.studies.vary import Axis, axis
 
 __all__ = ["CSV", "NETCDF", "PICTURE", "axes_of", "perform", "stribeck"]

@@ -87,7 +87,7 @@ class TaskList:
 
     def __init__(self) -> None:
         self.tasks: list[Task] = []
-        self.contacts: set[str] = set()  # smooth contacts under predictions
+        self._contacts: set[str] = set()  # smooth contacts under predictions
 
     def add(
         self, number: int, case: Case, run: str, *, folder: str = "", tracks: bool = False
@@ -95,8 +95,8 @@ class TaskList:
         """Add a task on a checked case; gives its number. With a folder a prediction is whole."""
         settings = case.resolve()
         shares = smooth_case(settings) if run == "predict" else ""
-        shared = shares in self.contacts
+        shared = shares in self._contacts
         seconds = seconds_of(settings, run, shared=shared, full=tracks or bool(folder))
-        self.contacts.add(shares)
+        self._contacts.add(shares)
         self.tasks.append(Task(number, case.text, run, folder, seconds, shares, tracks))
         return number

@@ -44,9 +44,6 @@ class Plan:
     # Its cases in the order of the table; of a large study that is not to run, some of them
     points: tuple[Point, ...]
     tasks: tuple[Task, ...]
-    # Smooth contacts and rough surfaces that differ
-    contacts: int
-    surfaces: int
     maps: tuple[str, ...]  # files of their height maps
     check_seconds: float  # time that the checks took [s]
 
@@ -81,11 +78,6 @@ class Plan:
             f"time       about {duration(max(total / workers, longest))} by estimate, "
             f"{words} of one thread each; the longest case {duration(longest)}"
         )
-        if self.study.run == "predict" and 1 < checked == size:
-            lines.append(
-                f"shared     {self.contacts} smooth contacts and {self.surfaces} surfaces "
-                f"for {len(self.tasks)} cases"
-            )
         return "\n".join(lines)
 
 
@@ -126,7 +118,6 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None, *, brief: boo
     one_thread = [] if THREADS in fixed else [f"{THREADS}=1"]
     digits = len(str(study.size))
     points, tasks = [], TaskList()
-    surfaces_seen: set[str] = set()
     checked: set[str] = set()
     maps: dict[str, None] = {}
     began = time.monotonic()
@@ -138,7 +129,6 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None, *, brief: boo
         settings = case.resolve()
         with study.named(point):
             _check(study, case, settings, checked)
-        surfaces_seen.add(json.dumps(settings["surface"], default=str))
         if settings["surface"]["kind"] == "map":
             maps[str(settings["surface"]["file"])] = None
         folder = "" if keep is None else str(Path(keep) / f"{point.number + 1:0{digits}d}")
@@ -148,8 +138,6 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None, *, brief: boo
         study,
         tuple(points),
         tuple(tasks.tasks),
-        len(tasks.contacts),
-        len(surfaces_seen),
         tuple(maps),
         time.monotonic() - began,
     )

@@ -6,9 +6,8 @@ direction); peaks are positive and thin the film. Pixel [i, j] lies at x = i len
 y = j length_y/ny. Spectra are those of Jacobs, Junge & Pastewka 2017, in m^4.
 """
 
-from pyehl.surfaces.features import FEATURES, feature
 from pyehl.surfaces.filters import filtered
-from pyehl.surfaces.generators import fractal, harmonic
+from pyehl.surfaces.generators import FEATURES, fractal, harmonic
 from pyehl.surfaces.in_memory import Surface, as_map, given, in_memory, keep_beside, part_of
 from pyehl.surfaces.interpolation import interpolated, resampled, shifted
 from pyehl.surfaces.of_case import (
@@ -39,7 +38,6 @@ __all__ = [
     "Surface",
     "Topography",
     "as_map",
-    "feature",
     "filtered",
     "finished",
     "for_solver",

@@ -18,7 +18,10 @@ from pyehl.given import positive
 from pyehl.library import surface_functions
 from pyehl.surfaces.tile import MAX_PIXELS, Topography
 
-__all__ = ["fractal", "harmonic"]
+__all__ = ["FEATURES", "fractal", "harmonic"]
+
+FEATURES = ("dent", "bump", "ridge", "groove")
+"""Kinds of surfaces that pass the contact once; the solver alone makes them."""
 
 
 def fractal(

@@ -21,19 +21,17 @@ Sizes = tuple[float | None, float | None]
 
 
 def read_instrument(
-    path: Path, channel: str = "", lengths: Sizes = (None, None)
+    path: Path, channel: str = ""
 ) -> tuple[NDArray[np.float64], Sizes, bool, str, str]:
     """Heights (nx, ny) [m] of one channel of an instrument file, NaN where missing.
 
-    The channel is a name, or a number from 1; empty: the file's first height channel. `lengths`
-    are what the caller knows of the size along x and y [m], which a file without one needs. Also
-    the size of the file [m] or (None, None), whether it says that the map is periodic, the name of
-    the channel, and a note that heights were taken in m, for a file that names neither a size nor
-    a unit.
+    The channel is a name, or a number from 1; empty: the file's first height channel. Also the size
+    of the file [m] or (None, None), whether it says that the map is periodic, the name of the
+    channel, and a note that heights were taken in m, for a file that names neither a size nor a
+    unit.
 
     InputError if the package is missing, the file is of no kind that it knows, has no such
-    channel, is a profile along a line, has no size and the caller knows none, or has a size
-    without a unit.
+    channel, is a profile along a line, or has a size without a unit.
     """
     try:
         from SurfaceTopography.IO import open_topography  # noqa: PLC0415 (heavy, and optional)
@@ -49,11 +47,6 @@ def read_instrument(
             check_pixels(str(path), tuple(picked.nb_grid_pts))
             name = str(picked.name)
             sized = picked.physical_sizes is not None
-            if not sized and not all(lengths):
-                raise InputError(
-                    f"{path}: the size of the map is not known: the file has none; "
-                    "give surface.length_x and surface.length_y [m]"
-                )
             scan = picked.topography(**({} if sized else {"physical_sizes": (1.0, 1.0)}))
     except (EhlError, OSError):
         raise

@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 from pyehl.errors import FileError, InputError
-from pyehl.surfaces.features import FEATURES, feature
 from pyehl.surfaces.filters import filtered
 from pyehl.surfaces.generators import fractal, harmonic
 from pyehl.surfaces.interpolation import shift_across
@@ -57,13 +56,8 @@ FRACTAL = (
 def harmonic_amplitude(
     settings: Mapping[str, Mapping[str, Any]], operating: OperatingPoint, film: float
 ) -> float:
-    """Amplitude A_i [m] of the harmonic surface of a resolved case with a smooth film h_c [m].
-
-    Of a single feature its height or depth.
-    """
+    """Amplitude A_i [m] of the harmonic surface of a resolved case with a smooth film h_c [m]."""
     surface = settings["surface"]
-    if surface.get("height_m"):
-        return float(surface["height_m"])
     amplitude = surface.get("amplitude")
     if amplitude:
         return float(amplitude) * operating.film_scale
@@ -107,27 +101,8 @@ def whole(
         )
     if kind == "map":
         return _map(surface)
-    if kind in FEATURES:
-        return _feature(settings, operating, film)
     raise InputError(
-        f"surface.kind = {kind!r} has no heights; expected 'harmonic', 'map', 'fractal', "
-        + ", ".join(repr(name) for name in FEATURES)
-    )
-
-
-def _feature(
-    settings: Mapping[str, Mapping[str, Any]], operating: OperatingPoint, film: float
-) -> Topography:
-    """Single feature, in the middle of a window around it."""
-    surface = settings["surface"]
-    radius = operating.hertz_radius
-    size = [
-        float(surface.get(f"{name}_m", 0.0)) or float(surface.get(name, 0.0)) * radius
-        for name in ("width", "length")
-    ]
-    height = harmonic_amplitude(settings, operating, film)
-    return feature(
-        str(surface["kind"]), height, size[0], size[1], float(surface["angle"]), end=radius
+        f"surface.kind = {kind!r} is no tile of heights; expected 'harmonic', 'map', 'fractal'"
     )
 
 

@@ -141,24 +141,22 @@ def _read(path: Path, length_x: float | None, length_y: float | None, channel: s
         else:
             heights, own, periodic = read_text(path)
     else:
-        heights, own, periodic, name, note = read_instrument(path, channel, (length_x, length_y))
+        heights, own, periodic, name, note = read_instrument(path, channel)
     _check_shape(path, heights.shape)
-    sizes = []
-    for key, given, found in zip(("length_x", "length_y"), (length_x, length_y), own, strict=True):
-        size = given or found
-        if size is None:
-            raise InputError(
-                f"{path}: the size of the map is not known: the file has none; "
-                f"give surface.{key} [m]"
-            )
-        sizes.append(float(size))
+    x, y = length_x or own[0], length_y or own[1]
+    if x is None or y is None:
+        missing = (f"surface.length_{k}" for k, size in (("x", x), ("y", y)) if size is None)
+        raise InputError(
+            f"{path}: the size of the map is not known: the file has none; "
+            f"give {' and '.join(missing)} [m]"
+        )
     given_names = [f"surface.{k}" for k, v in (("length_x", length_x), ("length_y", length_y)) if v]
     size_from = ", ".join(given_names) or "the file"
     if len(given_names) == 1:
         size_from += " and the file"
     if given_names and own != (None, None):
         size_from += f" (in place of {own[0]:.6g} x {own[1]:.6g} m of the file)"
-    scan = Scan(heights, sizes[0], sizes[1], str(path), array, periodic, name, size_from, note)
+    scan = Scan(heights, float(x), float(y), str(path), array, periodic, name, size_from, note)
     _check_pixel(scan)
     return scan
 

@@ -208,7 +208,7 @@ def test_surface_refuses(tmp_path: Path, capsys):
         "&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
     )
     assert cli.main(["surface", str(tmp_path / "case.nml")]) == 2
-    assert "no rough surface" in capsys.readouterr().err
+    assert "surface.kind = 'smooth' is no tile of heights" in capsys.readouterr().err
     (tmp_path / "case.nml").write_text("&surface kind = 'fractal' /\n")
     assert cli.main(["surface", str(tmp_path / "case.nml"), "-o", "map.x3p"]) == 2
     assert ".npy, .txt, .nc" in capsys.readouterr().err

@@ -15,7 +15,7 @@ LAYERS = [
     ["errors", "display", "schema"],
     ["processor", "namelist", "given"],
     ["extension"],
-    ["library", "program", "destination"],
+    ["library", "destination"],
     ["theory", "arrays"],
     ["surfaces"],
     ["case"],

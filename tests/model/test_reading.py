@@ -136,7 +136,7 @@ def test_array_axes(tmp_path):
         scan = read_scan(tmp_path / name, *SIZE)
         assert scan.is_array
         assert scan.heights == pytest.approx(z, abs=1e-24)
-        with pytest.raises(ValueError, match=r"surface\.length_x \[m\]"):
+        with pytest.raises(ValueError, match=r"surface\.length_x and surface\.length_y \[m\]"):
             read_scan(tmp_path / name)
 
 
@@ -241,9 +241,10 @@ def test_files_without_size_and_unit(tmp_path, suffix):
     else:
         with h5py.File(path, "w") as file:
             file["height"] = z
-    for lengths in ((None, None), (SIZE[0], None)):
-        with pytest.raises(ValueError, match=r"size of the map is not known.*surface\.length_x"):
-            read_scan(path, *lengths)
+    with pytest.raises(ValueError, match=r"not known: .*; give surface\.length_x and surface\.len"):
+        read_scan(path)
+    with pytest.raises(ValueError, match=r"not known: .*; give surface\.length_y \[m\]"):
+        read_scan(path, SIZE[0], None)
     scan = read_scan(path, *SIZE)
     assert scan.heights == pytest.approx(z, abs=1e-24)
     assert (scan.length_x, scan.length_y) == SIZE

@@ -190,7 +190,7 @@ def test_from_settings(settings, tmp_path):
     settings["surface"] |= {"kind": "map", "file": str(tmp_path / "map.npy")}
     assert surfaces.from_settings(settings, point, 2e-7).shape == (16, 16)
     settings["surface"]["kind"] = "smooth"
-    with pytest.raises(ValueError, match="no heights"):
+    with pytest.raises(ValueError, match="no tile of heights"):
         surfaces.from_settings(settings, point, 2e-7)
 
 
