@@ -7,6 +7,7 @@ else in Hertz units.
 
 from __future__ import annotations
 
+import math
 import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,7 +16,9 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.cm import ScalarMappable
+from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
@@ -41,6 +44,7 @@ __all__ = [
     "film_unit",
     "height_unit",
     "hertz_ticks",
+    "label_decades",
     "label_log_ticks",
     "letter",
     "nearest",
@@ -57,6 +61,9 @@ COMPRESSION = {"compress_type": zlib.Z_RLE}
 # Okabe & Ito: told apart by everybody
 BLUE, VERMILLION, GREEN, GREY = "#0072B2", "#D55E00", "#009E73", "#666666"
 SEQUENTIAL, DIVERGING = "viridis", "PuOr_r"
+SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+# Powers of ten as plain text: to read them as mathematics takes as long as the rest of an axis
+POWERS = FuncFormatter(lambda value, _: "10" + f"{math.log10(value):.0f}".translate(SUPERSCRIPTS))
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +92,17 @@ def axes_or_new(ax: Axes | None, width: float, height: float) -> Axes:
 def colour_bar(image: ScalarMappable, ax: Axes, label: str, *, shrink: float = 1.0) -> None:
     """Put a colour bar beside axes, so much shorter than they are."""
     beside = ax.inset_axes((1.04, 0.5 - 0.5 * shrink, 0.05, shrink))
-    ax.figure.colorbar(image, cax=beside).set_label(label)
+    powers = POWERS if isinstance(image.norm, LogNorm) else None
+    ax.figure.colorbar(image, cax=beside, format=powers).set_label(label)
+
+
+def label_decades(*axes: Axis) -> None:
+    """Label the decades of logarithmic axes as `POWERS` does, where there are two or more."""
+    for axis in axes:
+        low, high = axis.get_view_interval()
+        if high > 30.0 * low:
+            axis.set_major_formatter(POWERS)
+            axis.set_minor_formatter(NullFormatter())
 
 
 def contact_heights(

@@ -28,6 +28,7 @@ from pyehl.plots.style import (
     extent_of,
     height_unit,
     hertz_ticks,
+    label_decades,
 )
 from pyehl.surfaces import Topography, interpolated, psd_2d, psd_isotropic
 
@@ -107,6 +108,7 @@ def spectrum_line(
     ax.set_xlabel(r"$|q|$ [rad/m]")
     ax.set_ylabel(r"$C^{iso}$ [m$^4$]", color=BLUE)
     ax.tick_params(axis="y", colors=BLUE)
+    label_decades(ax.xaxis, ax.yaxis)
     twin = ax.twinx()
     for values, style, label in ((deformed, "-", "$|T|$"), (flattened, "--", "$|1 - T|$")):
         part = Topography(values, topography.size)
@@ -204,7 +206,8 @@ def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = No
     ax.plot(cut, total, "o-", ms=3, lw=1.2, color=BLUE, label="with all longer ones")
     ax.axhline(0.0, color=GREY, lw=0.8)
     ax.set_xscale("log")
-    ax.set_xlabel(r"wavelength of the component [$\mu$m]")
+    label_decades(ax.xaxis)
+    ax.set_xlabel("wavelength of the component [μm]")
     ax.set_ylabel(r"contribution to $\mu_r/\mu_s - 1$")
     ax.ticklabel_format(axis="y", scilimits=SHORT)
     ax.legend(fontsize="small", frameon=False)
