@@ -55,7 +55,7 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
-DPI = 200
+DPI = 150
 # For PNG files: twice as fast as the usual way, and as small
 COMPRESSION = {"compress_type": zlib.Z_RLE}
 # Okabe & Ito: told apart by everybody
@@ -113,9 +113,10 @@ def contact_heights(
     unit: str,
     *,
     name: str,
+    bar: bool,
     ax: Axes,
 ) -> None:
-    """Draw heights inside the Hertz circle with a colour bar; the title gives their rms.
+    """Draw heights inside the Hertz circle, with a colour bar or not; the title gives their rms.
 
     Heights (nx, ny) are in `unit`, NaN outside of the circle, `top` is the largest of the scale;
     outer edges of the map and Hertz radius in the unit of the axes.
@@ -129,7 +130,8 @@ def contact_heights(
     ax.set_title(f"{name} rms {rms:.3g} {unit}".strip(), loc="left", fontsize="medium", y=1.0)
     ax.set_xlim(-1.05 * radius, 1.05 * radius)
     ax.set_ylim(-1.05 * radius, 1.05 * radius)
-    colour_bar(image, ax, f"height [{unit}]", shrink=0.85)
+    if bar:
+        colour_bar(image, ax, f"height [{unit}]", shrink=0.85)
 
 
 def extent_of(

@@ -127,6 +127,7 @@ def roughness(
     hertz_radius: float,
     *,
     name: str = "",
+    bar: bool = True,
     ax: Axes | None = None,
 ) -> Axes:
     """Draw a tile inside the Hertz circle, on the scale of the undeformed roughness.
@@ -141,6 +142,8 @@ def roughness(
         a [m].
     name
         What the field is called in the title, which also gives its rms.
+    bar
+        Whether it has a colour bar.
     """
     ax = axes_or_new(ax, 3.8, 3.1)
     nx, ny = topography.shape
@@ -153,7 +156,7 @@ def roughness(
     unit, label = height_unit(top)
     extent = extent_of(i * (px / hertz_radius), j * (py / hertz_radius))
     shown = np.where(inside, values[at], np.nan) * unit
-    contact_heights(shown, extent, 1.0, top * unit, label, name=name, ax=ax)
+    contact_heights(shown, extent, 1.0, top * unit, label, name=name, bar=bar, ax=ax)
     ax.set_xlabel("$x/a$")
     ax.set_ylabel("$y/a$")
     hertz_ticks(ax)
