@@ -148,7 +148,7 @@ def _deformed(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
     top = transient.roughness_top(x, y, rough, deformed)
     names = ("(a) undeformed,", "(b) deformed,")
     for ax, field, name in zip(list(figure.axes), (rough, deformed), names, strict=True):
-        transient.roughness(x, y, field, scales, top=top, name=name, ax=ax)
+        transient.roughness(x, y, field, scales, top=top, name=name, bar=field is deformed, ax=ax)
     figure.axes[1].set_ylabel("")
     return figure
 
@@ -216,14 +216,15 @@ def prediction_figures(
     surface.spectrum_line(tile, deformed, flattened, ax=third)
     figure.axes[-1].set_box_aspect(1.0)
     figures = {"surface_spectrum": figure}
-    figure = _row(2, (8.0, 3.4), title, sharey=True, room=(0.75, 1.35, 1.05))
+    figure = _row(2, (7.2, 3.4), title, sharey=True, room=(0.75, 0.35, 1.15))
     for ax, values, name in zip(
         list(figure.axes),
         (tile.heights, deformed),
         ("(a) undeformed,", "(b) deformed,"),
         strict=True,
     ):
-        surface.roughness(tile, values, about["hertz_radius_m"], name=name, ax=ax)
+        last = values is deformed
+        surface.roughness(tile, values, about["hertz_radius_m"], name=name, bar=last, ax=ax)
     figure.axes[1].set_ylabel("")
     figures["roughness"] = figure
     if about["status"] == "predicted":

@@ -28,6 +28,7 @@ from pyehl.plots.style import (
     extent_of,
     height_unit,
     hertz_ticks,
+    label_decades,
 )
 from pyehl.surfaces import Topography, interpolated, psd_2d, psd_isotropic
 
@@ -107,6 +108,7 @@ def spectrum_line(
     ax.set_xlabel(r"$|q|$ [rad/m]")
     ax.set_ylabel(r"$C^{iso}$ [m$^4$]", color=BLUE)
     ax.tick_params(axis="y", colors=BLUE)
+    label_decades(ax.xaxis, ax.yaxis)
     twin = ax.twinx()
     for values, style, label in ((deformed, "-", "$|T|$"), (flattened, "--", "$|1 - T|$")):
         part = Topography(values, topography.size)
@@ -125,6 +127,7 @@ def roughness(
     hertz_radius: float,
     *,
     name: str = "",
+    bar: bool = True,
     ax: Axes | None = None,
 ) -> Axes:
     """Draw a tile inside the Hertz circle, on the scale of the undeformed roughness.
@@ -139,6 +142,8 @@ def roughness(
         a [m].
     name
         What the field is called in the title, which also gives its rms.
+    bar
+        Whether it has a colour bar.
     """
     ax = axes_or_new(ax, 3.8, 3.1)
     nx, ny = topography.shape
@@ -151,7 +156,7 @@ def roughness(
     unit, label = height_unit(top)
     extent = extent_of(i * (px / hertz_radius), j * (py / hertz_radius))
     shown = np.where(inside, values[at], np.nan) * unit
-    contact_heights(shown, extent, 1.0, top * unit, label, name=name, ax=ax)
+    contact_heights(shown, extent, 1.0, top * unit, label, name=name, bar=bar, ax=ax)
     ax.set_xlabel("$x/a$")
     ax.set_ylabel("$y/a$")
     hertz_ticks(ax)
@@ -204,7 +209,8 @@ def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = No
     ax.plot(cut, total, "o-", ms=3, lw=1.2, color=BLUE, label="with all longer ones")
     ax.axhline(0.0, color=GREY, lw=0.8)
     ax.set_xscale("log")
-    ax.set_xlabel(r"wavelength of the component [$\mu$m]")
+    label_decades(ax.xaxis)
+    ax.set_xlabel("wavelength of the component [μm]")
     ax.set_ylabel(r"contribution to $\mu_r/\mu_s - 1$")
     ax.ticklabel_format(axis="y", scilimits=SHORT)
     ax.legend(fontsize="small", frameon=False)

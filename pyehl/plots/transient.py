@@ -189,6 +189,7 @@ def roughness(
     *,
     top: float = 0.0,
     name: str = "",
+    bar: bool = True,
     ax: Axes | None = None,
 ) -> Axes:
     """Heights inside the Hertz circle as a map with a colour bar (Fig. 6, left).
@@ -203,6 +204,8 @@ def roughness(
         Largest height of the scale, in Hertz units; 0: that of the field.
     name
         What the field is called in the title, which also gives its rms.
+    bar
+        Whether it has a colour bar.
     """
     ax = axes_or_new(ax, 4.0, 3.4)
     at, circle = _inside(x, y)
@@ -217,7 +220,7 @@ def roughness(
     within_x, within_y = x[np.abs(x) <= 1.0], y[np.abs(y) <= 1.0]
     extent = extent_of(within_x, within_y, unit_x)
     shown = np.where(circle, heights[at], np.nan) * unit
-    contact_heights(shown, extent, unit_x, top * unit, label, name=name, ax=ax)
+    contact_heights(shown, extent, unit_x, top * unit, label, name=name, bar=bar, ax=ax)
     ax.set_xlabel(label_x)
     ax.set_ylabel(label_y)
     if scales is None:

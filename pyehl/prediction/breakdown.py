@@ -23,6 +23,7 @@ from pyehl.surfaces.tile import Topography
 __all__ = [
     "Advice",
     "BelowZero",
+    "SmoothFilm",
     "advise",
     "below_zero",
 ]

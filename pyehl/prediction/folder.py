@@ -3,8 +3,11 @@
 
 from __future__ import annotations
 
+import gc
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
 
 import numpy as np
 
@@ -53,11 +56,28 @@ def write(
         for name, values in prediction.arrays.items():
             np.save(folder / f"{name}.npy", values)
         if plots:
-            # matplotlib takes longer to import than the prediction takes to compute
-            from pyehl.plots.figures import prediction_figures  # noqa: PLC0415
-            from pyehl.plots.folder import save_all  # noqa: PLC0415
-
-            made = prediction_figures(prediction.summary, prediction.arrays, prediction.tables)
-            save_all(made, folder)
+            with _uncollected():
+                _draw(prediction, folder)
         files = sorted(["summary.json", *(path.name for path in folder.iterdir())])
         write_json(folder / "summary.json", prediction.summary | {"files": files})
+
+
+def _draw(prediction: Prediction, folder: Path) -> None:
+    # matplotlib takes longer to import than the prediction takes to compute
+    from pyehl.plots.figures import prediction_figures  # noqa: PLC0415
+    from pyehl.plots.folder import save_all  # noqa: PLC0415
+
+    made = prediction_figures(prediction.summary, prediction.arrays, prediction.tables)
+    save_all(made, folder)
+
+
+@contextmanager
+def _uncollected() -> Iterator[None]:
+    """Collect no garbage meanwhile: matplotlib makes many objects, and nearly all are in use."""
+    running = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if running:
+            gc.enable()

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from pyehl import surfaces
 from pyehl.errors import InputError
-from pyehl.prediction.breakdown import advise, below_zero
+from pyehl.prediction.breakdown import Advice, SmoothFilm, advise, below_zero
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.friction import TRACKS, broken
 from pyehl.prediction.options import Options, unpredictable
@@ -54,22 +54,9 @@ def predict(
     are outside the model, or there are too many tracks; OSError if a map cannot be opened.
     """
     start = time.perf_counter()
-    if not 1 <= tracks <= MAX_TRACKS:
-        raise InputError(
-            f"--tracks {tracks}: expected 1 to {MAX_TRACKS}; the mean over {MAX_TRACKS} is known "
-            "to a hundredth of the spread"
-        )
-    why = unpredictable(str(settings["surface"]["kind"]))
-    if why:
-        raise InputError(why)
+    options = _options(settings, tracks)
     operating = OperatingPoint.from_settings(settings)
     lubricant = Lubricant.from_settings(settings, str(settings["psd"]["viscosity_law"]))
-    options = Options.from_settings(settings)
-    if not options.as_in_paper and (options.load_balance or options.stiffness == "paper"):
-        raise InputError(
-            "psd.load_balance and psd.stiffness = 'paper' belong to the model of the paper: "
-            "psd.reduction = 'amplitude' with psd.smooth = 'hertz'"
-        )
     velocity_ratio = float(settings["surface"]["velocity_ratio"])
     if smooth is None:
         contact = _smooth_contact(settings, operating, lubricant, options)
@@ -88,24 +75,16 @@ def predict(
         a = operating.hertz_radius
         return contact.at(x / a, y / a)[1] * operating.film_scale
 
-    radius = operating.hertz_radius
-    below = below_zero(friction.response.deformed, surface.pixel, radius, smooth_film)
+    below = below_zero(
+        friction.response.deformed, surface.pixel, operating.hertz_radius, smooth_film
+    )
     advice = None
     if friction.status == "predicted" and below.deepest <= 0.0:
         # the positions of the passage have missed it
         friction = broken(friction, below.deepest)
         over, bands = (math.nan, math.nan), []
     if friction.status == "film breakdown" and not brief:
-        kind = str(settings["surface"].get("filter", "sharp"))
-        advice = advise(
-            surface,
-            lambda tile: replace(passage, topography=tile).deformed(),
-            radius,
-            smooth_film,
-            lambda tile, shortest: surfaces.filtered(tile, shortest, kind=kind),
-            lambda threshold: surfaces.without_spikes(surface, threshold, settings["surface"]),
-            lambda tile: replace(passage, topography=tile).known(),
-        )
+        advice = _advice(passage, settings["surface"], smooth_film)
     return Prediction(
         settings=settings,
         operating=operating,
@@ -124,6 +103,39 @@ def predict(
         track_count=0 if brief else tracks,
         below=below,
         advice=advice,
+    )
+
+
+def _options(settings: Mapping[str, Mapping[str, Any]], tracks: int) -> Options:
+    """How the model is read; InputError where nothing is predicted of the case."""
+    if not 1 <= tracks <= MAX_TRACKS:
+        raise InputError(
+            f"--tracks {tracks}: expected 1 to {MAX_TRACKS}; the mean over {MAX_TRACKS} is known "
+            "to a hundredth of the spread"
+        )
+    why = unpredictable(str(settings["surface"]["kind"]))
+    if why:
+        raise InputError(why)
+    options = Options.from_settings(settings)
+    if not options.as_in_paper and (options.load_balance or options.stiffness == "paper"):
+        raise InputError(
+            "psd.load_balance and psd.stiffness = 'paper' belong to the model of the paper: "
+            "psd.reduction = 'amplitude' with psd.smooth = 'hertz'"
+        )
+    return options
+
+
+def _advice(passage: RoughPassage, group: Mapping[str, Any], smooth_film: SmoothFilm) -> Advice:
+    """Where the film ends, and what of the group ``surface`` would carry."""
+    surface, kind = passage.topography, str(group.get("filter", "sharp"))
+    return advise(
+        surface,
+        lambda tile: replace(passage, topography=tile).deformed(),
+        passage.operating.hertz_radius,
+        smooth_film,
+        lambda tile, shortest: surfaces.filtered(tile, shortest, kind=kind),
+        lambda threshold: surfaces.without_spikes(surface, threshold, group),
+        lambda tile: replace(passage, topography=tile).known(),
     )
 
 

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 from pyehl.surfaces import FEATURES
@@ -55,11 +55,4 @@ class Options:
     def from_settings(cls, settings: Mapping[str, Mapping[str, Any]]) -> Options:
         """From the group ``psd`` of a resolved case."""
         group = settings["psd"]
-        return cls(
-            reduction=str(group["reduction"]),
-            smooth=str(group["smooth"]),
-            wavelength_convention=str(group["wavelength_convention"]),
-            stiffness=str(group["stiffness"]),
-            load_balance=bool(group["load_balance"]),
-            positions=int(group["positions"]),
-        )
+        return cls(**{field.name: group[field.name] for field in fields(cls)})

@@ -229,7 +229,7 @@ def test_files_of_all_formats(fields, tmp_path):
     path = style.save(figure, tmp_path / "a.png")
     data = path.read_bytes()
     width, height = struct.unpack(">II", data[16:24])
-    assert (width, height) == (1440, 660)
+    assert (width, height) == (1080, 495)
     for suffix, magic in (("pdf", b"%PDF"), ("svg", b"<?xml")):
         (path,) = folder.save_all({"b": figure}, tmp_path, suffix)
         assert path.name == f"b.{suffix}"
