@@ -6,20 +6,24 @@ module ehl_friction_mean
    private
    public :: friction_mean_t, start_up, periods_compared
 
-   !> The last period is compared with those that end this share of a period earlier, one by one
-   real(dp), parameter :: lags(*) = [0.125_dp, 0.25_dp, 0.375_dp, 0.5_dp]
+   !> The last period is compared with those that end earlier, one by one, by these shares of the longest lag: half a
+   !> period, or what a run that begins with the contact full of roughness asks for
+   real(dp), parameter :: lags(*) = [0.25_dp, 0.5_dp, 0.75_dp, 1.0_dp]
+   real(dp), parameter :: longest_lag = 0.5_dp
    !> The mean is that of one period. Where it has not settled after so many of them it is that of all periods but the
    !> first ones, in which what is left of the start dies out: pressure peaks of single nodes carry the friction there,
    !> and since a period is no whole number of steps, each one meets other phases of them
    real(dp), parameter :: several = 20.0_dp
    integer, parameter :: start_up = 2
    !> Periods until a mean can be compared with earlier ones
-   real(dp), parameter :: periods_compared = 1.0_dp + lags(size(lags))
+   real(dp), parameter :: periods_compared = 1.0_dp + longest_lag
 
    !> Friction ratio at equidistant times
    type :: friction_mean_t
       !> Period and time between values
       real(dp) :: period = 0.0_dp, time_step = 0.0_dp
+      !> Longest time between means that are compared, in periods
+      real(dp) :: lag = longest_lag
       !> Steps before the roughness fills the contact: they belong to no mean
       integer :: filled = 0
       integer :: n = 0
@@ -44,11 +48,15 @@ module ehl_friction_mean
 contains
 
    !> Forget all values; the roughness fills the contact after time_filled
-   subroutine start(self, period, time_step, time_filled)
+   subroutine start(self, period, time_step, time_filled, lag)
       class(friction_mean_t), intent(inout) :: self
       real(dp), intent(in) :: period, time_step, time_filled
+      !> Longest time between means that are compared; half a period at the most, which is the default
+      real(dp), intent(in), optional :: lag
 
       self%period = period
+      self%lag = longest_lag
+      if (present(lag)) self%lag = min(longest_lag, lag/period)
       self%time_step = time_step
       self%filled = ceiling(time_filled/time_step)
       self%n = 0
@@ -108,7 +116,7 @@ contains
    !> Whether the mean can be compared with earlier ones
    pure logical function has_change(self)
       class(friction_mean_t), intent(in) :: self
-      has_change = self%periods() >= periods_compared
+      has_change = self%periods() >= 1.0_dp + self%lag
    end function has_change
 
    !> Mean over the whole periods that end `lag` before the last value: the exact integral of the
@@ -175,7 +183,7 @@ contains
       change = 0.0_dp
       if (self%periods() < several) then
          do k = 1, size(lags)
-            change = max(change, abs(self%mean(lags(k)*self%period) - self%mean(0.0_dp)))
+            change = max(change, abs(self%mean(lags(k)*(self%lag*self%period)) - self%mean(0.0_dp)))
          end do
          return
       end if

@@ -125,7 +125,7 @@ class RoughPassage:
         t = self._transfer(spectrum).at_centre(spectrum, self.velocity_ratio)
         return np.asarray(spectrum.tile(t) * self.operating.film_scale)
 
-    def _parts(self) -> tuple[Topography, Spectrum, Transfer, Edge]:
+    def parts(self) -> tuple[Topography, Spectrum, Transfer, Edge]:
         """Tile on the grid that is worked on, its components, and what becomes of them."""
         grid = working_grid(self.topography, self.operating, self.options.positions)
         spectrum = self._spectrum(grid)
@@ -135,7 +135,7 @@ class RoughPassage:
 
     def mean(self) -> float:
         """mu_r/mu_s over a few positions of the passage [-]; NaN where the film ends."""
-        grid, spectrum, transfer, edge = self._parts()
+        grid, spectrum, transfer, edge = self.parts()
         with np.errstate(over="ignore", invalid="ignore"):
             contact = self._contact(spectrum, transfer, edge)
             return short_mean(contact, grid.shape[0])
@@ -152,7 +152,7 @@ class RoughPassage:
         `brief`: of the bands the shortest alone, and without a search for what would help where
         the linear response ends. No tracks: NaN for mean and spread.
         """
-        grid, spectrum, transfer, edge = self._parts()
+        grid, spectrum, transfer, edge = self.parts()
         with np.errstate(over="ignore", invalid="ignore"):
             contact = self._contact(spectrum, transfer, edge)
             passage = friction_along(contact, grid.shape[0], self.options.positions, LARGEST_RATIO)
@@ -176,7 +176,7 @@ class RoughPassage:
 
     def below(self, shortest: float) -> float:
         """mu_r/mu_s without the waves shorter than a length [a], over a few positions [-]."""
-        _, spectrum, transfer, edge = self._parts()
+        _, spectrum, transfer, edge = self.parts()
         with np.errstate(over="ignore", invalid="ignore"):
             return self._below(spectrum, transfer, edge, 2.0 * math.pi / shortest)
 

@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The pressure that a rough surface adds where it fills the contact: a start for time steps.
+
+The waves of :mod:`pyehl.prediction.transfer`, those that the grid of the run carries, on its nodes.
+Units: lengths by a, heights by a^2/R, pressures by p_h.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import scipy
+from numpy.typing import NDArray
+
+from pyehl import surfaces
+from pyehl.errors import InputError
+from pyehl.prediction.by_response import RoughPassage
+from pyehl.prediction.errors import model_error, outside_range
+from pyehl.prediction.options import Options
+from pyehl.prediction.rough_contact import (
+    EDGE_RADIUS,
+    REACH,
+    Edge,
+    away_from_centre,
+    slipped,
+    station_weights,
+)
+from pyehl.prediction.smooth import SmoothContact, solve_contact
+from pyehl.prediction.spectrum import Spectrum
+from pyehl.prediction.transfer import Transfer
+from pyehl.surfaces import Topography
+from pyehl.theory.disc import monomials
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.response import edge_gain
+from pyehl.theory.transport import free_stiffness, stiffness
+
+__all__ = ["starting_pressure"]
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+# Points per half of the shortest wave along the motion, between which a cubic spline is used
+REFINEMENT = 2
+# The pressure of the waves fades over this width at the edge of the contact [a]
+EDGE_WIDTH = 0.1
+
+
+def starting_pressure(
+    settings: Mapping[str, Mapping[str, Any]],
+    tile: Topography | None,
+    x: Array,
+    y: Array,
+    fronts: Sequence[float],
+) -> list[Array]:
+    """Pressure (nx, ny) [p_h] that the roughness of a resolved case adds, Fortran order.
+
+    Parameters
+    ----------
+    settings
+        The resolved case.
+    tile
+        Its surface on its track, where it is not made as the case says.
+    x, y
+        Nodes of the grid of the run (nx,), (ny,) [a].
+    fronts
+        Positions along the motion at which the tile begins, one for each array of the result [a].
+
+    Raises
+    ------
+    InputError
+        If the surface is not usable, or the conditions are outside the range of the prediction.
+    EhlError
+        If the smooth contact has no solution.
+    """
+    passage = _passage(settings, tile)
+    beyond = outside_range(passage.operating, passage.velocity_ratio, passage.options)
+    if beyond:
+        raise InputError(f"{', '.join(beyond)} outside the range of the prediction")
+    if not math.isfinite(model_error(passage.mean())):
+        raise InputError("the pressures are beyond a linear response")
+    waves = _Waves(passage, x, y)
+    return [waves.pressure(front) for front in fronts]
+
+
+def _passage(settings: Mapping[str, Mapping[str, Any]], tile: Topography | None) -> RoughPassage:
+    operating = OperatingPoint.from_settings(settings)
+    lubricant = Lubricant.from_settings(settings)
+    contact = solve_contact(settings)
+    if tile is None:
+        film = contact.central_film * operating.film_scale
+        tile = surfaces.from_settings(settings, operating, film)
+    else:
+        tile = surfaces.finished(tile, {**settings["surface"], "track": 0.0})
+    ratio = float(settings["surface"]["velocity_ratio"])
+    return RoughPassage(tile, contact, operating, lubricant, Options(), ratio)
+
+
+class _Waves:
+    """The waves of a tile on the nodes of a grid that lie in the contact."""
+
+    def __init__(self, passage: RoughPassage, x: Array, y: Array) -> None:
+        self.shape = x.size, y.size
+        self.rows, self.columns = (np.flatnonzero(np.abs(v) < REACH) for v in (x, y))
+        self.x, self.y = x[self.rows, np.newaxis], y[np.newaxis, self.columns]
+        ratio = passage.velocity_ratio
+        _, spectrum, transfer, edge = passage.parts()
+        mesh = (x[1] - x[0]) * max(1.0, ratio), y[1] - y[0]
+        spectrum, transfer, self.edge = _carried(spectrum, transfer, edge, mesh)
+        self.pixel = spectrum.pixel
+        self.slipped = self.x + slipped(self.x, self.y, ratio, bent=transfer.bent)
+        self.weights = station_weights(self.x)
+        self.off = away_from_centre(self.y)
+        second = transfer.second.of(spectrum.power) if transfer.second else None
+        self.second = second and [self.weights @ v for v in second]
+        self._make_tiles(spectrum, transfer, passage.contact, ratio)
+        radius = np.hypot(self.x, self.y)
+        held = np.minimum(1.0, EDGE_RADIUS / np.maximum(radius, 1e-12))
+        self.monomials = monomials(held * self.x, held * self.y, axis=0)
+        self.fade = np.clip((REACH - radius) / EDGE_WIDTH, 0.0, 1.0)
+
+    def _make_tiles(
+        self, spectrum: Spectrum, transfer: Transfer, contact: SmoothContact, ratio: float
+    ) -> None:
+        """Splines through the pressure of driven and free waves, by station."""
+        qx, qy = spectrum.qx[:, np.newaxis], spectrum.qy[np.newaxis, :]
+        gain = edge_gain(qx, qy, contact.central_film)
+        k, k_free = gain * stiffness(spectrum.q), gain * free_stiffness(qx, qy, ratio)
+
+        def spline(factor: Complex) -> Array:
+            tile = spectrum.tile(factor, REFINEMENT)
+            return np.asarray(scipy.ndimage.spline_filter(tile, order=3, mode="grid-wrap"))
+
+        self.driven = [spline(k * (1.0 - t)) for t in transfer.driven]
+        self.free = [spline(-k_free * t) for t in transfer.free]
+        off = transfer.off_centre
+        self.free_off = None if off is None else spline(-k_free * off)
+
+    def _at(self, spline: Array, x: Array) -> Array:
+        """Values of a tile at places X on it and at the Y of the nodes."""
+        places = np.broadcast_arrays(x * (REFINEMENT / self.pixel[0]), self.y / self.pixel[1])
+        found = scipy.ndimage.map_coordinates(
+            spline, places, order=3, mode="grid-wrap", prefilter=False
+        )
+        return np.asarray(found)
+
+    def pressure(self, front: float) -> Array:
+        """Pressure (nx, ny) that is added where the tile begins at X = front."""
+        added = np.zeros((self.x.size, self.y.size))
+        for i, tile in enumerate(self.driven):
+            added += self.weights[..., i] * self._at(tile, self.x - front)
+        for i, tile in enumerate(self.free):
+            added += self.weights[..., i] * self._at(tile, self.slipped - front)
+        if self.free_off is not None:
+            added += self.off * self._at(self.free_off, self.slipped - front)
+        added += np.tensordot(self.edge.at(front, 0.0), self.monomials, 1)
+        if self.second:
+            gain, variance = self.second
+            added += gain * (np.square(added) - variance)
+        pressure = np.zeros(self.shape, order="F")
+        pressure[np.ix_(self.rows, self.columns)] = self.fade * added
+        return pressure
+
+
+def _carried(
+    spectrum: Spectrum, transfer: Transfer, edge: Edge, mesh: tuple[float, float]
+) -> tuple[Spectrum, Transfer, Edge]:
+    """Return what a grid carries, waves of more than two nodes, on as few pixels as it takes."""
+    limits = [math.pi / h * (1.0 - 1e-9) for h in mesh]
+    nx, ny = spectrum.shape
+    # twice the pixels that the waves need, for the spline
+    shape = tuple(
+        min(n, 4 * (int(limit * pixel * n / (2.0 * math.pi)) + 1))
+        for n, pixel, limit in zip((nx, ny), spectrum.pixel, limits, strict=True)
+    )
+    rows: NDArray[np.int_] = np.arange(shape[0] // 2 + 1)
+    columns = np.rint(np.fft.fftfreq(shape[1], 1.0 / shape[1])).astype(np.int_) % ny
+    part = spectrum.kept((rows, columns), (shape[0], shape[1]))
+    part.values[part.qx >= limits[0]] = 0.0
+    part.values[:, np.abs(part.qy) >= limits[1]] = 0.0
+    return part, transfer.kept((rows, columns)), edge.below(min(limits))
