@@ -59,6 +59,7 @@ class RoughPassage:
     lubricant: Lubricant
     options: Options
     velocity_ratio: float  # velocity of the rough surface over the mean velocity [-]
+    mesh: float = 0.0  # mesh size on which its waves leak [a]; 0: as in nature
 
     def _spectrum(self, tile: Topography) -> Spectrum:
         o = self.operating
@@ -71,7 +72,14 @@ class RoughPassage:
             zone = zone_of(self.contact, o, self.lubricant)
             moes = o.moes_m, o.moes_l
             newtonian = self.lubricant.shear.law == "newtonian"
-            return Transfer.of(spectrum, zone, moes, self.velocity_ratio, at_amplitude=newtonian)
+            return Transfer.of(
+                spectrum,
+                zone,
+                moes,
+                self.velocity_ratio,
+                at_amplitude=newtonian,
+                mesh=self.mesh,
+            )
         ratio = component_amplitude_ratio(
             spectrum.qx[:, np.newaxis],
             spectrum.qy[np.newaxis, :],

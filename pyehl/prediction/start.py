@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -23,7 +24,6 @@ from pyehl.prediction.options import Options
 from pyehl.prediction.rough_contact import (
     EDGE_RADIUS,
     REACH,
-    Edge,
     away_from_centre,
     slipped,
     station_weights,
@@ -45,6 +45,8 @@ Complex = NDArray[np.complex128]
 
 # Points per half of the shortest wave along the motion, between which a cubic spline is used
 REFINEMENT = 2
+# A grid carries waves of more than two nodes: so that rounding does not decide
+BELOW = 1.0 - 1e-9
 # The pressure of the waves fades over this width at the edge of the contact [a]
 EDGE_WIDTH = 0.1
 
@@ -76,7 +78,7 @@ def starting_pressure(
     EhlError
         If the smooth contact has no solution.
     """
-    passage = _passage(settings, tile)
+    passage = replace(_passage(settings, tile), mesh=float(x[1] - x[0]))
     beyond = outside_range(passage.operating, passage.velocity_ratio, passage.options)
     if beyond:
         raise InputError(f"{', '.join(beyond)} outside the range of the prediction")
@@ -109,12 +111,16 @@ class _Waves:
         ratio = passage.velocity_ratio
         _, spectrum, transfer, edge = passage.parts()
         mesh = (x[1] - x[0]) * max(1.0, ratio), y[1] - y[0]
-        spectrum, transfer, self.edge = _carried(spectrum, transfer, edge, mesh)
+        limits = math.pi / mesh[0] * BELOW, math.pi / mesh[1] * BELOW
+        spectrum.values[spectrum.qx >= limits[0]] = 0.0
+        spectrum.values[:, np.abs(spectrum.qy) >= limits[1]] = 0.0
+        second = transfer.second.of(spectrum.power) if transfer.second else None
+        self.edge = edge.below(min(limits))
+        spectrum, transfer = _on_fewer_pixels(spectrum, transfer, limits)
         self.pixel = spectrum.pixel
         self.slipped = self.x + slipped(self.x, self.y, ratio, bent=transfer.bent)
         self.weights = station_weights(self.x)
         self.off = away_from_centre(self.y)
-        second = transfer.second.of(spectrum.power) if transfer.second else None
         self.second = second and [self.weights @ v for v in second]
         self._make_tiles(spectrum, transfer, passage.contact, ratio)
         radius = np.hypot(self.x, self.y)
@@ -165,20 +171,15 @@ class _Waves:
         return pressure
 
 
-def _carried(
-    spectrum: Spectrum, transfer: Transfer, edge: Edge, mesh: tuple[float, float]
-) -> tuple[Spectrum, Transfer, Edge]:
-    """Return what a grid carries, waves of more than two nodes, on as few pixels as it takes."""
-    limits = [math.pi / h * (1.0 - 1e-9) for h in mesh]
-    nx, ny = spectrum.shape
-    # twice the pixels that the waves need, for the spline
-    shape = tuple(
+def _on_fewer_pixels(
+    spectrum: Spectrum, transfer: Transfer, limits: tuple[float, float]
+) -> tuple[Spectrum, Transfer]:
+    """Return a tile without waves of limits [1/a] and more on the pixels that a spline asks for."""
+    # two pixels for each that the waves need
+    nx, ny = (
         min(n, 4 * (int(limit * pixel * n / (2.0 * math.pi)) + 1))
-        for n, pixel, limit in zip((nx, ny), spectrum.pixel, limits, strict=True)
+        for n, pixel, limit in zip(spectrum.shape, spectrum.pixel, limits, strict=True)
     )
-    rows: NDArray[np.int_] = np.arange(shape[0] // 2 + 1)
-    columns = np.rint(np.fft.fftfreq(shape[1], 1.0 / shape[1])).astype(np.int_) % ny
-    part = spectrum.kept((rows, columns), (shape[0], shape[1]))
-    part.values[part.qx >= limits[0]] = 0.0
-    part.values[:, np.abs(part.qy) >= limits[1]] = 0.0
-    return part, transfer.kept((rows, columns)), edge.below(min(limits))
+    rows: NDArray[np.int_] = np.arange(nx // 2 + 1)
+    columns = np.rint(np.fft.fftfreq(ny, 1.0 / ny)).astype(np.int_) % spectrum.shape[1]
+    return spectrum.kept((rows, columns), (nx, ny)), transfer.kept((rows, columns))
