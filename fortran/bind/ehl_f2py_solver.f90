@@ -21,7 +21,7 @@ module ehl_f2py_solver
    use ehl_status, only: ehl_bad_input, ehl_internal, status_t
    implicit none (type, external)
    private
-   public :: open_case, close_case, advance, act, describe, work, take_prediction
+   public :: open_case, close_case, advance, act, describe, work, take_prediction, start_fronts, take_start
    public :: grid_shape, axes, field
 
 contains
@@ -186,6 +186,44 @@ contains
       if (.not. status%failed()) run%solver%waves = waves_t(.true., left_out, unresolved, why)
       call reply(status, stat, message)
    end subroutine take_prediction
+
+   !> Positions of the front [a] for which the pressure that the roughness adds is asked, to begin time steps with; n is 0
+   !> where nothing is asked
+   subroutine start_fronts(handle, fronts, n, stat, message)
+      integer(c_int), intent(in) :: handle
+      real(c_double), intent(out) :: fronts(4)
+      integer(c_int), intent(out) :: n, stat
+      character(len=4096), intent(out) :: message
+      type(run_t), pointer :: run
+      type(status_t) :: status
+
+      n = 0
+      fronts = 0.0_c_double
+      call run_of(handle, run, status)
+      if (.not. status%failed()) then
+         associate (asked => run%solver%start_fronts())
+            n = size(asked)
+            fronts(:n) = asked
+         end associate
+      end if
+      call reply(status, stat, message)
+   end subroutine start_fronts
+
+   !> Hand that pressure [p_h] over, on the whole finest grid, or why there is none
+   subroutine take_start(handle, why, nx, ny, pressure, stat, message)
+      integer(c_int), intent(in) :: handle, nx, ny
+      character(len=*), intent(in) :: why
+      real(c_double), intent(inout) :: pressure(nx, ny, 4)
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(run_t), pointer :: run
+      type(status_t) :: status
+
+      call run_of(handle, run, status)
+      if (why == "" .and. .not. status%failed()) call check_shape(run, nx, ny, status)
+      if (.not. status%failed()) call run%solver%take_start(pressure, why)
+      call reply(status, stat, message)
+   end subroutine take_start
 
    !> Nodes of the whole (unfolded) finest grid
    subroutine grid_shape(handle, nx, ny, stat, message)

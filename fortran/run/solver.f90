@@ -12,6 +12,7 @@ module ehl_solver
    use ehl_outcome, only: outcome_converged, outcome_failed, outcome_interrupted, outcome_running
    use ehl_plan, only: make_plan
    use ehl_plan_need, only: check_need
+   use ehl_predicted_start, only: start_time, steps_ago
    use ehl_ratio_error, only: waves_t
    use ehl_record, only: record_t
    use ehl_smooth_film, only: film_by_finer_grids, known_film
@@ -44,6 +45,8 @@ module ehl_solver
       procedure :: interrupt
       procedure :: moves
       procedure :: finest
+      procedure :: start_fronts
+      procedure :: take_start
       procedure :: save_state
       procedure :: resume
       procedure :: progress
@@ -179,6 +182,8 @@ contains
          call make_plan(input, none, surfaces, self%coarse%plan, status)
          call self%coarse%begin(status)
          self%coarse%checkpoint = self%coarse_checkpoint
+         self%coarse%predicted = self%predicted%coarser()
+         if (allocated(self%why_front)) self%coarse%why_front = self%why_front
       end if
       if (status%failed()) call end_coarse(self, status)
    end subroutine begin_coarse
@@ -251,6 +256,34 @@ contains
       grid = self%plan%finest
       if (self%plan%target_error > 0.0_dp) grid = self%grid
    end function finest
+
+   !> Positions of the front of the surface at the times of `steps_ago`, for which a prediction is asked; none: for nothing
+   pure function start_fronts(self) result(fronts)
+      class(solver_t), intent(in) :: self
+      real(dp), allocatable :: fronts(:)
+
+      fronts = [real(dp) ::]
+      if (self%plan%predicted_start) fronts = self%plan%surfaces%of(1)%surface%front_position( &
+         start_time(self%plan%surfaces, self%plan%finest) - steps_ago*self%plan%finest%hx)
+   end function start_fronts
+
+   !> Take the pressure that is expected at these times
+   subroutine take_start(self, pressure, why)
+      class(solver_t), intent(inout) :: self
+      !> On the whole finest grid, (nx, full_ny, 4), scaled by p_h
+      real(dp), intent(in) :: pressure(:, :, :)
+      !> Why there is none; empty where there is
+      character(len=*), intent(in) :: why
+
+      if (why /= "") then
+         self%why_front = why
+         return
+      end if
+      associate (grid => self%plan%finest)
+         self%predicted%time = start_time(self%plan%surfaces, grid)
+         self%predicted%pressure = pressure(:, grid%full_ny() - grid%ny + 1:, :)
+      end associate
+   end subroutine take_start
 
    !> Write the state into a folder (its name ends in '/')
    subroutine save_state(self, folder, status)

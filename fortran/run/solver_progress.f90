@@ -62,7 +62,7 @@ contains
 
       earliest_end = self%plan%steps
       associate (mean => self%transient%mean)
-         if (self%plan%steps == 0) earliest_end = max(mean%filled, 1) + least_periods(self%plan) &
+         if (self%plan%steps == 0) earliest_end = max(mean%filled, 1) + least_periods(self%plan, mean) &
                                                 *mean%period/mean%time_step
       end associate
       earliest_end = max(earliest_end, real(self%transient%step, dp))

@@ -24,6 +24,8 @@ module ehl_friction_mean
       real(dp) :: period = 0.0_dp, time_step = 0.0_dp
       !> Longest time between means that are compared, in periods
       real(dp) :: lag = longest_lag
+      !> Time after which nothing is left of what the run began with; 0: it does not count
+      real(dp) :: transit = 0.0_dp
       !> Steps before the roughness fills the contact: they belong to no mean
       integer :: filled = 0
       integer :: n = 0
@@ -40,6 +42,7 @@ module ehl_friction_mean
       procedure :: change
       procedure :: has_change
       procedure :: settled
+      procedure :: uncertainty
       procedure :: periods
       procedure :: window
       procedure :: amplitude_ratio
@@ -48,15 +51,19 @@ module ehl_friction_mean
 contains
 
    !> Forget all values; the roughness fills the contact after time_filled
-   subroutine start(self, period, time_step, time_filled, lag)
+   subroutine start(self, period, time_step, time_filled, lag, transit)
       class(friction_mean_t), intent(inout) :: self
       real(dp), intent(in) :: period, time_step, time_filled
       !> Longest time between means that are compared; half a period at the most, which is the default
       real(dp), intent(in), optional :: lag
+      !> Time after which nothing is left of what the run began with
+      real(dp), intent(in), optional :: transit
 
       self%period = period
       self%lag = longest_lag
       if (present(lag)) self%lag = min(longest_lag, lag/period)
+      self%transit = 0.0_dp
+      if (present(transit)) self%transit = transit
       self%time_step = time_step
       self%filled = ceiling(time_filled/time_step)
       self%n = 0
@@ -194,6 +201,12 @@ contains
          change = max(change, 0.5_dp*abs(integral(self%values(:self%n), last - half, last)/half - self%mean(0.0_dp)))
       end do
    end function change
+
+   !> Error of the mean by the end of the run: its change, as often as it is still to come until nothing is left of the start
+   pure real(dp) function uncertainty(self)
+      class(friction_mean_t), intent(in) :: self
+      uncertainty = self%change()*max(1.0_dp, (self%transit + self%window() - self%n*self%time_step)/(self%lag*self%period))
+   end function uncertainty
 
    !> Whether the mean changes no more than by this share of it; a mean over several periods, of what has peaks
    !> of many times itself, by this share of the largest value

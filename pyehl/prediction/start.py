@@ -7,6 +7,7 @@ Units: lengths by a, heights by a^2/R, pressures by p_h.
 
 from __future__ import annotations
 
+import logging
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -17,7 +18,8 @@ import scipy
 from numpy.typing import NDArray
 
 from pyehl import surfaces
-from pyehl.errors import InputError
+from pyehl.errors import EhlError, InputError
+from pyehl.handle import SolverHandle
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.errors import model_error, outside_range
 from pyehl.prediction.options import Options
@@ -38,7 +40,9 @@ from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import edge_gain
 from pyehl.theory.transport import free_stiffness, stiffness
 
-__all__ = ["starting_pressure"]
+__all__ = ["hand_over", "starting_pressure"]
+
+LOG = logging.getLogger(__name__)
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -57,8 +61,8 @@ def starting_pressure(
     x: Array,
     y: Array,
     fronts: Sequence[float],
-) -> list[Array]:
-    """Pressure (nx, ny) [p_h] that the roughness of a resolved case adds, Fortran order.
+) -> Array:
+    """Pressure (nx, ny, n) [p_h] that the roughness of a resolved case adds, Fortran order.
 
     Parameters
     ----------
@@ -69,7 +73,7 @@ def starting_pressure(
     x, y
         Nodes of the grid of the run (nx,), (ny,) [a].
     fronts
-        Positions along the motion at which the tile begins, one for each array of the result [a].
+        Positions along the motion at which the tile begins (n,) [a].
 
     Raises
     ------
@@ -85,7 +89,35 @@ def starting_pressure(
     if not math.isfinite(model_error(passage.mean())):
         raise InputError("the pressures are beyond a linear response")
     waves = _Waves(passage, x, y)
-    return [waves.pressure(front) for front in fronts]
+    pressure = np.zeros((x.size, y.size, len(fronts)), order="F")
+    for k, front in enumerate(fronts):
+        pressure[(*waves.place, k)] = waves.pressure(front)
+    return pressure
+
+
+def hand_over(
+    solver: SolverHandle,
+    settings: Mapping[str, Mapping[str, Any]],
+    tile: Topography | None,
+    *,
+    whole: bool,
+) -> None:
+    """Give a solver the pressure that it asks for, or say why there is none.
+
+    The solver then lets the roughness in behind a front. `whole`: `tile` is the surface, not a part
+    of it.
+    """
+    try:
+        if not whole:
+            raise InputError("the map is too large to be predicted as a whole")
+        x, y = solver.axes()
+        found = starting_pressure(settings, tile, x, y, solver.start_fronts())
+    except (EhlError, ValueError, ArithmeticError, OSError, MemoryError) as error:
+        why = (str(error) or type(error).__name__).replace("\n", " ")
+        LOG.warning("time.start = 'prediction': the roughness enters behind a front: %s", why)
+        solver.take_start(None, why)
+    else:
+        solver.take_start(found)
 
 
 def _passage(settings: Mapping[str, Mapping[str, Any]], tile: Topography | None) -> RoughPassage:
@@ -105,9 +137,10 @@ class _Waves:
     """The waves of a tile on the nodes of a grid that lie in the contact."""
 
     def __init__(self, passage: RoughPassage, x: Array, y: Array) -> None:
-        self.shape = x.size, y.size
-        self.rows, self.columns = (np.flatnonzero(np.abs(v) < REACH) for v in (x, y))
-        self.x, self.y = x[self.rows, np.newaxis], y[np.newaxis, self.columns]
+        rows, columns = (np.flatnonzero(np.abs(v) < REACH) for v in (x, y))
+        # the nodes are the product of these rows and columns of the grid
+        self.place = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
+        self.x, self.y = x[rows, np.newaxis], y[np.newaxis, columns]
         ratio = passage.velocity_ratio
         _, spectrum, transfer, edge = passage.parts()
         mesh = (x[1] - x[0]) * max(1.0, ratio), y[1] - y[0]
@@ -154,7 +187,7 @@ class _Waves:
         return np.asarray(found)
 
     def pressure(self, front: float) -> Array:
-        """Pressure (nx, ny) that is added where the tile begins at X = front."""
+        """Pressure that is added at `place` where the tile begins at X = front."""
         added = np.zeros((self.x.size, self.y.size))
         for i, tile in enumerate(self.driven):
             added += self.weights[..., i] * self._at(tile, self.x - front)
@@ -166,9 +199,7 @@ class _Waves:
         if self.second:
             gain, variance = self.second
             added += gain * (np.square(added) - variance)
-        pressure = np.zeros(self.shape, order="F")
-        pressure[np.ix_(self.rows, self.columns)] = self.fade * added
-        return pressure
+        return np.asarray(self.fade * added)
 
 
 def _on_fewer_pixels(
