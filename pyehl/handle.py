@@ -236,6 +236,24 @@ class SolverHandle:
         """
         self._call(ehl.take_prediction, left_out, unresolved, why.encode())
 
+    def start_fronts(self) -> list[float]:
+        """Positions of the front [a] at which `take_start` is to give a pressure; mostly none."""
+        fronts, n = self._call(ehl.start_fronts)
+        return [float(x) for x in fronts[:n]]
+
+    def take_start(self, pressure: Array | None, why: str = "") -> None:
+        """Take the pressure that roughness adds where it fills the contact, as a start.
+
+        Parameters
+        ----------
+        pressure
+            At the positions of `start_fronts`, shape (nx, ny, 4) [p_h]; None where there is none.
+        why
+            Why there is none.
+        """
+        given = np.zeros((1, 1, 4), order="F") if pressure is None else pressure
+        self._call(ehl.take_start, why.encode(), given)
+
     def _write(self, folder: str | os.PathLike[str]) -> None:
         self._act("write", folder)
 

@@ -160,6 +160,8 @@ s | T | a/u | time at the end
 s | T_period | a/u | period of the roughness; time of the passage of a feature
 s | T_mean | a/u | time that mu_ratio is the mean over
 s | steps | - | time steps
+s | start | | start of the time steps: 'front', or 'prediction': the contact is full
+s | start_note | | why they did not begin with the prediction that was asked for
 s | steps_skipped | - | steps that were not needed at the start
 s | cycles_per_step | - | cycles of a step
 s | seconds_per_step | s | time of a step

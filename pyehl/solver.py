@@ -150,9 +150,12 @@ class Solver(SolverHandle):
         self._surface = surface
         self._resolution: Resolution | str | None = None
         self._predicted = self._told = False
+        # whether `tile` is not a part of the surface alone
+        self._whole = True
         if heights is None:
             own = for_solver(case.resolve())
             self.preparation, self.tile = own.preparation, own.part
+            self._whole = own.part is None
             text = case.with_options(*own.options).text if own.options else case.text
             super().__init__(text, own.heights)
         else:
@@ -164,6 +167,15 @@ class Solver(SolverHandle):
                 )
             super().__init__(case.text, heights)
             self.tile = given(np.asarray(heights, dtype=np.float64), group)
+
+    def advance(self) -> bool:
+        """One cycle (steady) or step (moving surface); whether nothing is left to do."""
+        if not self._calls and self.start_fronts():
+            # most runs ask for nothing
+            from pyehl.prediction.start import hand_over  # noqa: PLC0415
+
+            hand_over(self, self._case.resolve(), self.tile, whole=self._whole)
+        return super().advance()
 
     def __repr__(self) -> str:
         """Give the case and the state in one line."""

@@ -126,6 +126,7 @@ module ehl_case
       real(dp) :: tolerance = 1.0e-3_dp
       integer :: max_periods = 0
       logical :: skip_start = .true.
+      character(len=word_length) :: start = "front"
       logical :: estimate_error = .true.
       integer :: steps = 0
    end type time_case_t

@@ -93,6 +93,8 @@ contains
          call self%reals("tolerance", t%tolerance, "-", "[1e-8, 0.5]", &
                          "stop when the period mean of mu_r/mu_s changes less, relatively")
          call self%integers("max_periods", t%max_periods, "[0, 100000]", "most periods; 0: 36")
+         call self%words("start", t%start, "front|prediction", &
+                         "roughness enters behind a front, or fills the contact as pyehl predicts")
          call self%logicals("skip_start", t%skip_start, "solve nothing before the roughness comes near the contact")
          call self%logicals("estimate_error", t%estimate_error, &
                             "run on the next coarser grid too, for the grid error of mu_ratio")

@@ -64,6 +64,8 @@ module ehl_plan
       integer :: scheme = wedge_narrow
       !> Begin the transient run when the roughness comes near the contact
       logical :: skip_start = .true.
+      !> Begin it with the contact full of roughness, from a prediction
+      logical :: predicted_start = .false.
       !> Repeat the run on the next coarser grid, for the grid error of the friction ratio
       logical :: coarse_run = .false.
       !> Relative change of the mean friction ratio at which to stop, most periods, exact steps
@@ -112,6 +114,9 @@ contains
       else
          call make_surfaces(input, plan%scales, heights, plan%surfaces, status)
       end if
+      ! a feature passes once, and which grid an error asks for is not known before
+      plan%predicted_start = input%time%start == "prediction" .and. plan%surfaces%move() .and. &
+                             .not. plan%surfaces%pass_once() .and. .not. plan%target_error > 0.0_dp
       call pick_cycle(input, plan)
       call pick_grids(input, plan, status)
       if (status%failed() .or. .not. plan%surfaces%rough()) return
@@ -146,11 +151,11 @@ contains
       if (.not. plan%surfaces%move()) return
       associate (ratio => input%surface%velocity_ratio)
          most = merge(most_steps_asked_for, most_steps, plan%steps > 0)
-         steps = steps_needed(plan%surfaces, plan%finest%hx, plan%skip_start)
+         steps = steps_needed(plan%surfaces, plan%finest%hx, plan%skip_start, plan%predicted_start)
          if (steps <= most) then
             ! steps that are skipped are counted, too
             most = most_steps_asked_for
-            steps = steps_needed(plan%surfaces, plan%finest%hx, .false.)
+            steps = steps_needed(plan%surfaces, plan%finest%hx, .false., plan%predicted_start)
             if (steps <= most) return
          end if
          ! rounded up: what is named will do

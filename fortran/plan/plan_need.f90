@@ -99,7 +99,7 @@ contains
       steps = 0.0_dp
       if (.not. plan%surfaces%move()) return
       steps = plan%steps
-      if (plan%steps == 0) steps = steps_needed(plan%surfaces, plan%finest%hx, plan%skip_start)
+      if (plan%steps == 0) steps = steps_needed(plan%surfaces, plan%finest%hx, plan%skip_start, plan%predicted_start)
    end function steps
 
    !> Frames that are kept until then

@@ -11,6 +11,7 @@ module ehl_contact_run
    use ehl_outcome, only: outcome_converged, outcome_running
    use ehl_plan, only: plan_t
    use ehl_plan_surface, only: check_carried
+   use ehl_predicted_start, only: predicted_start_t
    use ehl_stationary_roughness, only: stationary_roughness_t
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_steady, only: steady_t
@@ -29,6 +30,9 @@ module ehl_contact_run
       type(steady_t) :: steady
       type(stationary_roughness_t) :: rest
       type(transient_t) :: transient
+      !> What time steps begin with where the plan says so, and why they do not
+      type(predicted_start_t) :: predicted
+      character(len=:), allocatable :: why_front
       !> Whether the rough surface is in: in time steps; at rest
       logical :: in_steps = .false., resting = .false.
       !> How the run stands
@@ -157,6 +161,8 @@ contains
          call transient%policy%set(plan%step_cycle, plan%coarsening_may_change, plan%max_cycles)
          call transient%start(self%hierarchy%levels(n), plan%contact, plan%surfaces, plan%skip_start, m%friction, status)
          if (status%failed()) return
+         if (plan%predicted_start) call begin_filled(self, n, status)
+         if (status%failed()) return
          call self%hierarchy%prepare_steps(n, plan%scheme, transient%time_step, status)
       end associate
       if (status%failed()) return
@@ -164,6 +170,24 @@ contains
       call self%frames%start()
       if (self%checkpoint%found()) call take_state(self, status)
    end subroutine begin_steps
+
+   !> The predicted start, unless somebody has said why there is none
+   subroutine begin_filled(self, n, status)
+      class(contact_run_t), intent(inout) :: self
+      integer, intent(in) :: n
+      type(status_t), intent(inout) :: status
+      logical :: done
+
+      if (allocated(self%why_front)) return
+      if (.not. allocated(self%predicted%pressure)) then
+         call status%fail(ehl_bad_input, "time.start = 'prediction': this program predicts nothing"//new_line("a")// &
+                          "expected: time.start = 'front', or 'pyehl run'")
+         return
+      end if
+      call self%transient%fill(self%hierarchy%levels(n), self%plan%surfaces, self%predicted, done)
+      if (.not. done) self%why_front = "the film would be negative"
+      deallocate (self%predicted%pressure)
+   end subroutine begin_filled
 
    !> One cycle of the contact with the rough surface at rest
    subroutine advance_rest(self)

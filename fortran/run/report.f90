@@ -113,7 +113,7 @@ contains
          range = transient%mean%extremes()
          least = minval(films(transient%mean%first_of_mean():))
          ratio = transient%mean%amplitude_ratio()
-         if (transient%mean%has_change()) change = transient%mean%change()
+         if (transient%mean%has_change()) change = transient%mean%uncertainty()
          if (plan%surfaces%pass_once()) then
             ! a passage has an end, and no wave to compare amplitudes of
             change = 0.0_dp

@@ -174,6 +174,8 @@ contains
       call make_plan(input, none, surfaces, self%coarse%plan, status)
       call self%coarse%begin(status)
       self%coarse%checkpoint = self%coarse_checkpoint
+      self%coarse%predicted = self%predicted%coarser()
+      if (allocated(self%why_front)) self%coarse%why_front = self%why_front
       if (status%failed()) call end_coarse(self, status)
    end subroutine begin_coarse
 

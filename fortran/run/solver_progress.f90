@@ -43,16 +43,16 @@ contains
       ! the run on the next coarser grid comes first: it has half as many steps
       coarse = self%coarse_work
       if (allocated(self%coarse)) then
-         coarse = 0.5_dp*coarse_step*end_after(self, least_periods(self%plan))
+         coarse = 0.5_dp*coarse_step*end_after(self, least_periods(self%plan, self%transient%mean))
          if (self%coarse%in_steps) then
             done = coarse_step*self%coarse%transient%step
-            coarse = coarse_step*end_after(self%coarse, least_periods(self%coarse%plan))
+            coarse = coarse_step*end_after(self%coarse, least_periods(self%coarse%plan, self%coarse%transient%mean))
          end if
       else
          done = coarse
       end if
       done = done + self%transient%step
-      earliest = end_after(self, least_periods(self%plan)) + coarse
+      earliest = end_after(self, least_periods(self%plan, self%transient%mean)) + coarse
       latest = end_after(self, real(most_periods(self%plan), dp)) + coarse
    end procedure work
 

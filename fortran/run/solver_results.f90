@@ -40,6 +40,7 @@ contains
       if (self%in_steps) then
          call report_transient(record, self%plan, self%transient, self%converged(), self%seconds, &
                                self%history%column("H_min"), ratio, stop_error)
+         call report_start(self, record)
          if (self%plan%surfaces%pass_once()) call report_passage(record, self%plan%scales, self%transient%extremes, &
                                                                 self%converged())
       end if
@@ -52,6 +53,19 @@ contains
       bytes = bytes + self%plan%surfaces%bytes()
       call record%set("bytes", bytes)
    end procedure summary
+
+   !> What the time steps began with
+   subroutine report_start(self, record)
+      type(solver_t), intent(in) :: self
+      type(record_t), intent(inout) :: record
+
+      if (self%plan%predicted_start .and. .not. allocated(self%why_front)) then
+         call record%set("start", "prediction")
+      else
+         call record%set("start", "front")
+         if (allocated(self%why_front)) call record%set("start_note", "no prediction: "//self%why_front)
+      end if
+   end subroutine report_start
 
    !> The friction ratio, that in the limit of fine grids, and its error with the parts of it
    subroutine report_ratio(self, record, ratio, stop_error)

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> When a transient run ends
 module ehl_stopping_criterion
-   use ehl_friction_mean, only: periods_compared
+   use ehl_friction_mean, only: friction_mean_t
    use ehl_kinds, only: dp
    use ehl_outcome, only: outcome_converged, outcome_running, outcome_unsettled
    use ehl_plan, only: plan_t
@@ -36,9 +36,10 @@ contains
    end function transient_outcome
 
    !> Periods after which a transient run can end first
-   pure real(dp) function least_periods(plan)
+   pure real(dp) function least_periods(plan, mean)
       type(plan_t), intent(in) :: plan
-      least_periods = merge(1.0_dp, periods_compared, plan%surfaces%pass_once())
+      type(friction_mean_t), intent(in) :: mean
+      least_periods = merge(1.0_dp, 1.0_dp + mean%lag, plan%surfaces%pass_once())
    end function least_periods
 
    !> Periods after which a transient run ends at the latest

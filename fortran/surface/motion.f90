@@ -42,6 +42,19 @@ contains
       end do
    end function time_to_mean
 
+   pure real(dp) module function time_filled(self, x)
+      class(moving_surfaces_t), intent(in) :: self
+      real(dp), intent(in) :: x
+      integer :: k
+
+      time_filled = -huge(1.0_dp)
+      do k = 1, self%count()
+         associate (surface => self%of(k)%surface)
+            if (.not. surface%at_rest()) time_filled = max(time_filled, (x - surface%x_start)/surface%velocity_ratio)
+         end associate
+      end do
+   end function time_filled
+
    pure real(dp) module function period(self)
       class(moving_surfaces_t), intent(in) :: self
       integer :: k

@@ -47,6 +47,7 @@ module ehl_moving_surfaces
       procedure :: velocities
       procedure :: begin
       procedure :: time_to_mean
+      procedure :: time_filled
       procedure :: period
       procedure :: end_of_passage
       procedure :: rms_height
@@ -70,6 +71,12 @@ module ehl_moving_surfaces
          class(moving_surfaces_t), intent(in) :: self
          real(dp), intent(in) :: time
       end function time_to_mean
+
+      !> Time at which the fronts of all that move have passed X
+      pure real(dp) module function time_filled(self, x)
+         class(moving_surfaces_t), intent(in) :: self
+         real(dp), intent(in) :: x
+      end function time_filled
 
       !> Time in which the friction repeats; of what passes once the time of the passage
       pure real(dp) module function period(self)

@@ -6,20 +6,26 @@ module ehl_friction_mean
    private
    public :: friction_mean_t, start_up, periods_compared
 
-   !> The last period is compared with those that end this share of a period earlier, one by one
-   real(dp), parameter :: lags(*) = [0.125_dp, 0.25_dp, 0.375_dp, 0.5_dp]
+   !> The last period is compared with those that end earlier, one by one, by these shares of the longest lag: half a
+   !> period, or what a run that begins with the contact full of roughness asks for
+   real(dp), parameter :: lags(*) = [0.25_dp, 0.5_dp, 0.75_dp, 1.0_dp]
+   real(dp), parameter :: longest_lag = 0.5_dp
    !> The mean is that of one period. Where it has not settled after so many of them it is that of all periods but the
    !> first ones, in which what is left of the start dies out: pressure peaks of single nodes carry the friction there,
    !> and since a period is no whole number of steps, each one meets other phases of them
    real(dp), parameter :: several = 20.0_dp
    integer, parameter :: start_up = 2
    !> Periods until a mean can be compared with earlier ones
-   real(dp), parameter :: periods_compared = 1.0_dp + lags(size(lags))
+   real(dp), parameter :: periods_compared = 1.0_dp + longest_lag
 
    !> Friction ratio at equidistant times
    type :: friction_mean_t
       !> Period and time between values
       real(dp) :: period = 0.0_dp, time_step = 0.0_dp
+      !> Longest time between means that are compared, in periods
+      real(dp) :: lag = longest_lag
+      !> Time after which nothing is left of what the run began with; 0: it does not count
+      real(dp) :: transit = 0.0_dp
       !> Steps before the roughness fills the contact: they belong to no mean
       integer :: filled = 0
       integer :: n = 0
@@ -36,6 +42,7 @@ module ehl_friction_mean
       procedure :: change
       procedure :: has_change
       procedure :: settled
+      procedure :: uncertainty
       procedure :: periods
       procedure :: window
       procedure :: amplitude_ratio
@@ -44,11 +51,19 @@ module ehl_friction_mean
 contains
 
    !> Forget all values; the roughness fills the contact after time_filled
-   subroutine start(self, period, time_step, time_filled)
+   subroutine start(self, period, time_step, time_filled, lag, transit)
       class(friction_mean_t), intent(inout) :: self
       real(dp), intent(in) :: period, time_step, time_filled
+      !> Longest time between means that are compared; half a period at the most, which is the default
+      real(dp), intent(in), optional :: lag
+      !> Time after which nothing is left of what the run began with
+      real(dp), intent(in), optional :: transit
 
       self%period = period
+      self%lag = longest_lag
+      if (present(lag)) self%lag = min(longest_lag, lag/period)
+      self%transit = 0.0_dp
+      if (present(transit)) self%transit = transit
       self%time_step = time_step
       self%filled = ceiling(time_filled/time_step)
       self%n = 0
@@ -108,7 +123,7 @@ contains
    !> Whether the mean can be compared with earlier ones
    pure logical function has_change(self)
       class(friction_mean_t), intent(in) :: self
-      has_change = self%periods() >= periods_compared
+      has_change = self%periods() >= 1.0_dp + self%lag
    end function has_change
 
    !> Mean over the whole periods that end `lag` before the last value: the exact integral of the
@@ -175,7 +190,7 @@ contains
       change = 0.0_dp
       if (self%periods() < several) then
          do k = 1, size(lags)
-            change = max(change, abs(self%mean(lags(k)*self%period) - self%mean(0.0_dp)))
+            change = max(change, abs(self%mean(lags(k)*(self%lag*self%period)) - self%mean(0.0_dp)))
          end do
          return
       end if
@@ -186,6 +201,12 @@ contains
          change = max(change, 0.5_dp*abs(integral(self%values(:self%n), last - half, last)/half - self%mean(0.0_dp)))
       end do
    end function change
+
+   !> Error of the mean by the end of the run: its change, as often as it is still to come until nothing is left of the start
+   pure real(dp) function uncertainty(self)
+      class(friction_mean_t), intent(in) :: self
+      uncertainty = self%change()*max(1.0_dp, (self%transit + self%window() - self%n*self%time_step)/(self%lag*self%period))
+   end function uncertainty
 
    !> Whether the mean changes no more than by this share of it; a mean over several periods, of what has peaks
    !> of many times itself, by this share of the largest value

@@ -5,6 +5,7 @@ module ehl_transient
    use ehl_cycle, only: coarsening_alcouffe
    use ehl_extremes, only: extremes_t
    use ehl_film, only: refresh
+   use ehl_force_balance, only: balance_load
    use ehl_friction_mean, only: friction_mean_t, periods_compared
    use ehl_hierarchy, only: hierarchy_t
    use ehl_iteration, only: iteration_t
@@ -12,7 +13,9 @@ module ehl_transient
    use ehl_level, only: level_t
    use ehl_contact_results, only: central_value, load_tolerance, measure, contact_results_t
    use ehl_moving_surfaces, only: moving_surfaces_t
+   use ehl_node_state, only: cavitate
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_running
+   use ehl_predicted_start, only: first_mean, predicted_start_t, start_lag, transit
    use ehl_predictor, only: predictor_t
    use ehl_reynolds, only: update_residual
    use ehl_status, only: ehl_no_memory, status_t
@@ -50,6 +53,7 @@ module ehl_transient
       type(predictor_t) :: predictor
    contains
       procedure :: start
+      procedure :: fill
       procedure :: advance
       procedure :: restore
       procedure, private :: begin_attempt
@@ -60,13 +64,17 @@ module ehl_transient
 contains
 
    !> Time steps until the mean friction over a period can be compared with an earlier one, or the passage ends
-   real(dp) function steps_needed(surfaces, time_step, skip)
+   real(dp) function steps_needed(surfaces, time_step, skip, filled)
       class(moving_surfaces_t), intent(in) :: surfaces
       real(dp), intent(in) :: time_step
-      !> Whether the steps before the roughness comes near the contact are not made
-      logical, intent(in) :: skip
+      !> Whether the steps before the roughness comes near the contact are not made; whether it fills the contact at the start
+      logical, intent(in) :: skip, filled
       real(dp) :: from
 
+      if (filled) then
+         steps_needed = (first_mean + start_lag + surfaces%period())/time_step
+         return
+      end if
       from = merge(surfaces%begin(), 0.0_dp, skip)
       steps_needed = (max(0.0_dp, surfaces%time_to_mean(from)) &
                       + merge(1.0_dp, periods_compared, surfaces%pass_once())*surfaces%period())/time_step
@@ -114,6 +122,52 @@ contains
       call self%mean%start(surfaces%period(), self%time_step, surfaces%time_to_mean(self%time))
       self%extremes = extremes_t()
    end subroutine start
+
+   !> Begin with the contact full of roughness instead, from the pressure that it is expected to add. Where the film would
+   !> not be positive all is as it was.
+   subroutine fill(self, level, surfaces, from, done)
+      class(transient_t), intent(inout) :: self
+      type(level_t), intent(inout) :: level
+      class(moving_surfaces_t), intent(inout) :: surfaces
+      type(predicted_start_t), intent(in) :: from
+      logical, intent(out) :: done
+      type(contact_results_t) :: smooth
+      real(dp), allocatable :: mass_content(:, :, :)
+      real(dp) :: h00_smooth
+      integer :: j, k
+
+      h00_smooth = level%h00
+      smooth = self%m
+      allocate (mass_content, source=self%mass_content)
+      ! the latest pressure last: until then it is that of the smooth contact
+      do k = size(self%p_before, 3), 1, -1
+         call surfaces%roughness(level%grid, from%time - (k - 1)*self%time_step, self%rr)
+         call set_geometry(level, self%contact, self%rr)
+         do j = 1, level%grid%ny
+            level%p(:, j) = self%p_before(:, j, 1) + from%pressure(:, j, k)
+            call cavitate(level%p(:, j))
+         end do
+         level%h00 = h00_smooth
+         call refresh(level)
+         call balance_load(level)
+         self%m = measure(level)
+         done = self%m%finite .and. self%m%positive
+         if (.not. done) exit
+         self%p_before(:, :, k) = level%p
+         self%h00_before(k) = level%h00
+         if (k <= old_times) self%mass_content(:, :, k) = level%mass_content
+      end do
+      if (done) then
+         self%skipped = nint(from%time/self%time_step)
+         self%time = self%skipped*self%time_step
+         call self%mean%start(surfaces%period(), self%time_step, first_mean, start_lag, transit)
+      else
+         self%mass_content = mass_content
+         self%p_before = spread(self%p_before(:, :, 1), 3, 3)
+         self%h00_before = h00_smooth
+         self%m = smooth
+      end if
+   end subroutine fill
 
    !> One time step. Where it does not converge the last good state stands.
    subroutine advance(self, hierarchy, n, surfaces, status)

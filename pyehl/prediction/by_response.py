@@ -59,6 +59,7 @@ class RoughPassage:
     lubricant: Lubricant
     options: Options
     velocity_ratio: float  # velocity of the rough surface over the mean velocity [-]
+    mesh: float = 0.0  # mesh size on which its waves leak [a]; 0: as in nature
 
     def _spectrum(self, tile: Topography) -> Spectrum:
         o = self.operating
@@ -71,7 +72,14 @@ class RoughPassage:
             zone = zone_of(self.contact, o, self.lubricant)
             moes = o.moes_m, o.moes_l
             newtonian = self.lubricant.shear.law == "newtonian"
-            return Transfer.of(spectrum, zone, moes, self.velocity_ratio, at_amplitude=newtonian)
+            return Transfer.of(
+                spectrum,
+                zone,
+                moes,
+                self.velocity_ratio,
+                at_amplitude=newtonian,
+                mesh=self.mesh,
+            )
         ratio = component_amplitude_ratio(
             spectrum.qx[:, np.newaxis],
             spectrum.qy[np.newaxis, :],
@@ -125,7 +133,7 @@ class RoughPassage:
         t = self._transfer(spectrum).at_centre(spectrum, self.velocity_ratio)
         return np.asarray(spectrum.tile(t) * self.operating.film_scale)
 
-    def _parts(self) -> tuple[Topography, Spectrum, Transfer, Edge]:
+    def parts(self) -> tuple[Topography, Spectrum, Transfer, Edge]:
         """Tile on the grid that is worked on, its components, and what becomes of them."""
         grid = working_grid(self.topography, self.operating, self.options.positions)
         spectrum = self._spectrum(grid)
@@ -135,7 +143,7 @@ class RoughPassage:
 
     def mean(self) -> float:
         """mu_r/mu_s over a few positions of the passage [-]; NaN where the film ends."""
-        grid, spectrum, transfer, edge = self._parts()
+        grid, spectrum, transfer, edge = self.parts()
         with np.errstate(over="ignore", invalid="ignore"):
             contact = self._contact(spectrum, transfer, edge)
             return short_mean(contact, grid.shape[0])
@@ -152,7 +160,7 @@ class RoughPassage:
         `brief`: of the bands the shortest alone, and without a search for what would help where
         the linear response ends. No tracks: NaN for mean and spread.
         """
-        grid, spectrum, transfer, edge = self._parts()
+        grid, spectrum, transfer, edge = self.parts()
         with np.errstate(over="ignore", invalid="ignore"):
             contact = self._contact(spectrum, transfer, edge)
             passage = friction_along(contact, grid.shape[0], self.options.positions, LARGEST_RATIO)
@@ -176,7 +184,7 @@ class RoughPassage:
 
     def below(self, shortest: float) -> float:
         """mu_r/mu_s without the waves shorter than a length [a], over a few positions [-]."""
-        _, spectrum, transfer, edge = self._parts()
+        _, spectrum, transfer, edge = self.parts()
         with np.errstate(over="ignore", invalid="ignore"):
             return self._below(spectrum, transfer, edge, 2.0 * math.pi / shortest)
 

@@ -25,17 +25,41 @@ from pyehl.theory.disc import LARGEST, disc_correction, monomials
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["Edge", "RoughContact"]
+__all__ = [
+    "EDGE_RADIUS",
+    "REACH",
+    "Edge",
+    "RoughContact",
+    "away_from_centre",
+    "slipped",
+    "station_weights",
+]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 REACH = 1.0
 """Friction is taken within this distance from the centre [a]."""
-# The polynomials of the edge are held constant beyond this radius
 EDGE_RADIUS = 0.85
+"""The polynomials of the edge are held constant beyond this radius."""
 # The change of T off the centre line is linear in Y^2 up to here
 FARTHEST = 0.75
+
+
+def station_weights(x: Array) -> Array:
+    """Weights (..., n) of the stations in the waves at places X [a]."""
+    return np.stack([np.interp(x, STATIONS, unit) for unit in np.eye(STATIONS.size)], axis=-1)
+
+
+def away_from_centre(y: Array) -> Array:
+    """Share of the change off the centre line in the free wave at places Y [a]."""
+    return np.minimum(np.abs(y), FARTHEST) ** 2 / OFF_CENTRE**2
+
+
+def slipped(x: Array, y: Array, velocity_ratio: float, *, bent: bool) -> Array:
+    """Way of the roughness past the free wave since the inlet made that, at places X, Y [a]."""
+    inlet = np.sqrt(np.maximum(0.0, 1.0 - y * y)) if bent else np.ones_like(y)
+    return (velocity_ratio - 1.0) * (x + inlet)
 
 
 class Edge:
@@ -100,15 +124,13 @@ class RoughContact(ShearedContact):
         radius = np.hypot(self.x[:, np.newaxis], self.y[np.newaxis, :])
         self.inside = (radius < REACH) & (self.pressure > 0.0)
         self.points = int(np.count_nonzero(self.inside))
-        self.weights = np.stack(
-            [np.interp(self.x, STATIONS, unit) for unit in np.eye(STATIONS.size)], axis=-1
-        ).astype(np.float32)
-        off = np.minimum(np.abs(self.y), FARTHEST) ** 2 / OFF_CENTRE**2
-        self.off = off.astype(np.float32)
-        # the free wave is that of the roughness where it was when the inlet made it
-        inlet = np.sqrt(np.maximum(0.0, 1.0 - self.y * self.y)) if waves.bent else np.ones(1)
-        slipped = (velocity_ratio - 1.0) * (self.x[:, np.newaxis] + inlet)
-        place = (self.x[:, np.newaxis] + slipped) / pixel[0] * REFINEMENT
+        self.weights = station_weights(self.x).astype(np.float32)
+        self.off = away_from_centre(self.y).astype(np.float32)
+        # the free wave is that of the roughness where it was when the inlet made it; without a bend
+        # it is so on all lines
+        lines = self.y if waves.bent else np.zeros(1)
+        way = slipped(self.x[:, np.newaxis], lines, velocity_ratio, bent=waves.bent)
+        place = (self.x[:, np.newaxis] + way) / pixel[0] * REFINEMENT
         self.free_rows = np.floor(place).astype(np.int32)
         self.between = (place - self.free_rows).astype(np.float32)
         held = np.minimum(1.0, EDGE_RADIUS / np.maximum(radius, 1e-12))

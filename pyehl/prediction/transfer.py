@@ -87,11 +87,12 @@ class Transfer:
         velocity_ratio: float,
         *,
         at_amplitude: bool = False,
+        mesh: float = 0.0,
     ) -> Transfer:
         """Of a tile in a contact, from a table over |q| and direction; `moes` are M, L.
 
         `at_amplitude`: the waves leak as those of the amplitude of the tile
-        (:func:`_at_amplitude`), not as small ones.
+        (:func:`_at_amplitude`), not as small ones. `mesh` [a]: they leak as on a grid.
         """
         bent = _bends(spectrum, velocity_ratio)
         table = WaveTable(spectrum)
@@ -107,10 +108,10 @@ class Transfer:
             power, few = table.gathered(spectrum.power), table.coarse()
             carried = coarsened(inlet[0], 1) * np.exp(1j * few[0] * slip)
             for _ in range(REPETITIONS):
-                driven, free = transport(leaking, *few, velocity_ratio, CENTRE)[MIDDLE]
+                driven, free = transport(leaking, *few, velocity_ratio, CENTRE, mesh)[MIDDLE]
                 pressure = wave_pressure(*few, velocity_ratio, driven, free * carried)
                 leaking = _at_amplitude(zone, float(power @ np.square(np.abs(pressure))))
-        stations = transport(leaking, kx, ky, velocity_ratio, STATIONS)
+        stations = transport(leaking, kx, ky, velocity_ratio, STATIONS, mesh)
         turned = [np.exp(1j * kx * slip * (x + 1.0)) for x in STATIONS]
         parts = [(d, f * inlet[0] * t) for (d, f), t in zip(stations, turned, strict=True)]
         ratios = np.array([d + f for d, f in parts])

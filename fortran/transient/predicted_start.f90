@@ -1,0 +1,68 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Where time steps begin with the contact full of roughness: what somebody expects the roughness to add to the pressure.
+!> Whether that is right is decided by the steps: a film that is wrong leaves the contact with the mean velocity.
+module ehl_predicted_start
+   use ehl_grid, only: grid_t
+   use ehl_kinds, only: dp
+   use ehl_moving_surfaces, only: moving_surfaces_t
+   implicit none (type, external)
+   private
+   public :: predicted_start_t, start_fronts, first_mean, start_lag, transit
+
+   !> The times, in steps before the start: the last three of this run and of the one on the next coarser grid
+   integer, parameter :: steps_ago(4) = [0, 1, 2, 4]
+   !> Time after which the friction may belong to a mean, when the film of the start has come from X = -1 to 0.5, behind
+   !> which little friction is made; time between means that are compared then; time after which it has left the contact [a/u]
+   real(dp), parameter :: first_mean = 1.5_dp, start_lag = 0.125_dp, transit = 2.0_dp
+
+   type :: predicted_start_t
+      !> Time of the start
+      real(dp) :: time = 0.0_dp
+      !> Pressure that the roughness adds at the times of `steps_ago`, (nx, ny, 4), scaled by p_h
+      real(dp), allocatable :: pressure(:, :, :)
+   contains
+      procedure :: take
+      procedure :: coarser
+   end type predicted_start_t
+
+contains
+
+   !> Time at which roughness has filled the domain, and did at the times before; a whole number of steps of the next coarser grid
+   pure real(dp) function start_time(surfaces, grid)
+      class(moving_surfaces_t), intent(in) :: surfaces
+      type(grid_t), intent(in) :: grid
+      real(dp) :: step
+
+      step = 2.0_dp*grid%hx
+      start_time = step*(ceiling(max(0.0_dp, surfaces%time_filled(grid%x(grid%nx)))/step) + maxval(steps_ago)/2)
+   end function start_time
+
+   !> Positions of the front of the first surface at the times that a pressure is needed at [a], (4)
+   pure function start_fronts(surfaces, grid) result(fronts)
+      class(moving_surfaces_t), intent(in) :: surfaces
+      type(grid_t), intent(in) :: grid
+      real(dp) :: fronts(size(steps_ago))
+      fronts = surfaces%of(1)%surface%front_position(start_time(surfaces, grid) - steps_ago*grid%hx)
+   end function start_fronts
+
+   !> Take the pressure at these times
+   subroutine take(self, surfaces, grid, pressure)
+      class(predicted_start_t), intent(inout) :: self
+      class(moving_surfaces_t), intent(in) :: surfaces
+      type(grid_t), intent(in) :: grid
+      !> On the whole of the grid, (nx, full_ny, 4), scaled by p_h
+      real(dp), intent(in) :: pressure(:, :, :)
+
+      self%time = start_time(surfaces, grid)
+      self%pressure = pressure(:, grid%full_ny() - grid%ny + 1:, :)
+   end subroutine take
+
+   !> The same start on the next coarser grid
+   pure function coarser(self) result(start)
+      class(predicted_start_t), intent(in) :: self
+      type(predicted_start_t) :: start
+
+      start%time = self%time
+      if (allocated(self%pressure)) start%pressure = self%pressure(::2, ::2, [1, 3, 4])
+   end function coarser
+end module ehl_predicted_start
