@@ -184,7 +184,7 @@ def interferogram(
     red, green, caption = fringes or fringe_spacings(_central(x, y, h), scales)
     inner_x, inner_y = np.abs(x) <= VIEW, np.abs(y) <= VIEW
     view = h[np.ix_(inner_x, inner_y)]
-    factor = max(1, math.ceil(1200 / max(view.shape)))
+    factor = max(1, math.ceil(900 / max(view.shape)))
     fine = scipy.ndimage.zoom(view, factor, order=1, grid_mode=True, mode="nearest")
     extent = extent_of(x[inner_x], y[inner_y], unit)
     colours = fringe_colours(fine, red, green).transpose(1, 0, 2)

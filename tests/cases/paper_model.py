@@ -34,7 +34,7 @@ def predict_friction(
     options: Options | None = None,
 ) -> RoughFriction:
     """Friction over a passage."""
-    return passage(tile, operating, oil, film, options).run(0)[0]
+    return passage(tile, operating, oil, film, options).run(0, brief=True)[0]
 
 
 def contributions(

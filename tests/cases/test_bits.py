@@ -21,6 +21,7 @@ HARMONIC = {
     "surface.x_start": 1.5,
     "time.steps": 12,
 }
+SHORT = {"time.steps": 2, "time.estimate_error": False}
 FULL = {"solver.symmetry": "full"}
 
 
@@ -47,7 +48,7 @@ def results(folder: Path) -> dict[str, object]:
 @pytest.mark.parametrize(
     # whole domains of 257 x 257 nodes are worked on by all threads
     ("points", "scene"),
-    [(257, FULL), (129, HARMONIC), (257, FULL | HARMONIC | {"time.steps": 3})],
+    [(257, FULL), (129, HARMONIC), (257, FULL | HARMONIC | SHORT)],
     ids=["smooth", "harmonic", "harmonic-whole"],
 )
 def test_threads(solve, points: int, scene: dict[str, object], engine: str):
@@ -57,7 +58,7 @@ def test_threads(solve, points: int, scene: dict[str, object], engine: str):
         for threads in (1, 2, 4)
     )
     assert (one["threads"], four["threads"]) == (1, 4)
-    assert one["status"] in ("converged", "not settled")  # of 12 steps no mean is asked
+    assert one["status"] in ("converged", "not settled")  # of a few steps no mean is asked
     expected = results(one.folder)
     assert {"P.npy", "H.npy", "history.csv", "H_c"} <= set(expected)
     assert results(two.folder) == expected

@@ -37,7 +37,7 @@ def test_second_solver_deflects_by_the_kernel():
     ("point", "points", "amplitude", "wavelength", "scheme"),
     [
         ((100.0, 6.0), 33, 0.03, 1.0, "narrow"),
-        ((500.0, 5.0), 65, 0.012, 0.5, "narrow"),
+        pytest.param((500.0, 5.0), 65, 0.012, 0.5, "narrow", marks=pytest.mark.long),
         pytest.param((500.0, 5.0), 65, 0.012, 0.5, "paper", marks=pytest.mark.long),
         pytest.param((700.0, 12.0), 65, 0.012, 0.7, "narrow", marks=pytest.mark.slow),
     ],

@@ -186,9 +186,10 @@ def test_rms_height_is_that_before_the_cut(solve):
 def test_long_text_lines(tmp_path: Path):
     """One row of more than a mebibyte, in any of the usual separators."""
     z = rough((4, 45000))
+    cells = [[f"{v:.17e}" for v in row] for row in z]
     texts = {"blank.txt": " ", "comma.csv": ",", "semicolon.csv": ";", "tab.txt": "\t"}
     for name, separator in texts.items():
-        lines = [separator.join(f"{v:.17e}" for v in row) for row in z]
+        lines = [separator.join(row) for row in cells]
         assert len(lines[0]) > 2**20
         (tmp_path / name).write_text("# heights in m\n" + "\n".join(lines))
         scan = read_scan(tmp_path / name, 8.29e-4, 8.29e-4)

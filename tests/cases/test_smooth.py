@@ -174,6 +174,7 @@ def limits(solve, point: tuple[float, float]) -> dict[str, float]:
     return {name: (4.0 * fine[name] - coarse[name]) / 3.0 for name in ("H_c", "H_min")}
 
 
+@pytest.mark.long
 def test_error_estimates(solve):
     ratios = []
     for point in ESTIMATED:

@@ -300,7 +300,7 @@ def test_what_is_read_while_another_thread_advances_is_a_state():
         states.add(solver.field("P").tobytes())
         times.add(solver.summary().get("T"))
     reads = 0
-    while reads < 1000:
+    while reads < 300:
         with Solver(Case.from_text(text, options)) as solver:
             thread = threading.Thread(target=solver.run)
             thread.start()

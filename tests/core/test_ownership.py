@@ -234,8 +234,10 @@ def without_rights() -> list[str]:
     return ["setpriv", "--bounding-set", "-dac_override,-dac_read_search"]
 
 
-@pytest.mark.parametrize("deep", [False, True])
-@pytest.mark.parametrize("name", FOLDERS)
+# that folders are made on the way is nobody's but `Destination`'s
+@pytest.mark.parametrize(
+    ("name", "deep"), [*((name, False) for name in FOLDERS), ("ehl", True), ("sweep", True)]
+)
 def test_no_permission(ehl: str, tmp_path: Path, name: str, deep: bool):
     text, words = FOLDERS[name]
     (tmp_path / "case.nml").write_text(text)
@@ -275,14 +277,20 @@ def test_no_permission_for_files(tmp_path: Path, name: str):
     assert not list((tmp_path / "locked").iterdir())
 
 
+COARSE = ("--dpi", "40")
 # Single files: words of the command, and what it writes
 FILES = {
     "export": (["export", "out", "-o", "a.nc"], ["a.nc"]),
     "export of the folder": (["export", "out"], ["out/results.nc"]),
-    "plot": (["plot", "out", "-o", "."], ["centre_lines.png", "film.png"]),
-    "plot of the folder": (["plot", "out"], ["out/centre_lines.png", "out/film.png"]),
-    "plot as PDF": (["plot", "out", "--format", "pdf"], ["out/centre_lines.pdf", "out/film.pdf"]),
-    "plot as SVG": (["plot", "out", "--format", "svg"], ["out/centre_lines.svg", "out/film.svg"]),
+    "plot": (["plot", "out", "-o", ".", *COARSE], ["centre_lines.png", "film.png"]),
+    "plot of the folder": (["plot", "out", *COARSE], ["out/centre_lines.png", "out/film.png"]),
+    **{
+        f"plot as {end}": (
+            ["plot", "out", "--format", end, *COARSE],
+            [f"out/centre_lines.{end}", f"out/film.{end}"],
+        )
+        for end in ("pdf", "svg")
+    },
     "movie": (["plot", "moving", "--movie"], ["moving/movie.gif"]),
     **{
         f"surface as {end}": (
@@ -313,6 +321,7 @@ def test_single_files(
 ):
     monkeypatch.setattr(smooth, "smooth_rows", lambda *_: [])
     monkeypatch.setattr(smooth, "exponents", lambda _: {})
+    monkeypatch.setattr("pyehl.plots.movie.DPI", 40)
     shutil.copytree(results, tmp_path, dirs_exist_ok=True)
     words, files = FILES[name]
     # a foreign file in place of each: nothing is written, not even the others

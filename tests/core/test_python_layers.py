@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import ast
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -36,6 +37,7 @@ LAYERS = [
 RANK = {name: rank for rank, names in enumerate(LAYERS) for name in names}
 
 
+@cache
 def modules(root: Path) -> dict[str, tuple[Path, ast.Module]]:
     """File and syntax tree of every module, by its name within the package."""
     found = {}
