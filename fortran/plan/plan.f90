@@ -66,6 +66,8 @@ module ehl_plan
       logical :: skip_start = .true.
       !> Begin it with the contact full of roughness, from a prediction
       logical :: predicted_start = .false.
+      !> Why it does not, where that was asked for
+      character(len=:), allocatable :: why_front
       !> Repeat the run on the next coarser grid, for the grid error of the friction ratio
       logical :: coarse_run = .false.
       !> Relative change of the mean friction ratio at which to stop, most periods, exact steps
@@ -114,9 +116,7 @@ contains
       else
          call make_surfaces(input, plan%scales, heights, plan%surfaces, status)
       end if
-      ! a feature passes once, and which grid an error asks for is not known before
-      plan%predicted_start = input%time%start == "prediction" .and. plan%surfaces%move() .and. &
-                             .not. plan%surfaces%pass_once() .and. .not. plan%target_error > 0.0_dp
+      if (input%time%start == "prediction" .and. plan%surfaces%move()) call pick_start(plan)
       call pick_cycle(input, plan)
       call pick_grids(input, plan, status)
       if (status%failed() .or. .not. plan%surfaces%rough()) return
@@ -126,6 +126,20 @@ contains
       call check_carried(plan%surfaces, plan%finest, status)
       if (.not. status%failed()) call check_steps(input, plan, status)
    end subroutine make_plan
+
+   !> Begin with the contact full of roughness where that can be predicted
+   subroutine pick_start(plan)
+      type(plan_t), intent(inout) :: plan
+
+      if (plan%surfaces%pass_once()) then
+         plan%why_front = "a single feature passes once"
+      else if (plan%surfaces%count() > 1) then
+         plan%why_front = "two rough surfaces are not predicted"
+      else if (plan%target_error > 0.0_dp) then
+         plan%why_front = "the grid of grid.target_error is not known before"
+      end if
+      plan%predicted_start = .not. allocated(plan%why_front)
+   end subroutine pick_start
 
    !> What of the surfaces a grid carries
    subroutine see_waves(self, grid)

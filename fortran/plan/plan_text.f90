@@ -110,6 +110,7 @@ contains
          call add("time       "//trim(merge("narrow upstream", "as in the paper", plan%scheme == wedge_narrow))// &
                   ", step = mesh size = "//fixed(plan%finest%hx, "f9.6"))
          if (plan%predicted_start) call add("start      with the contact full of roughness, from the prediction")
+         if (allocated(plan%why_front)) call add("start      behind a front, with no prediction: "//plan%why_front)
          if (plan%steps > 0) then
             call add("end        after "//to_text(plan%steps)//" steps")
          else if (plan%surfaces%pass_once()) then

@@ -7,13 +7,12 @@ module ehl_contact_run
    use ehl_grid, only: grid_t
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
-   use ehl_level_result, only: friction_error
    use ehl_outcome, only: outcome_converged, outcome_running
    use ehl_plan, only: plan_t
    use ehl_plan_surface, only: check_carried
    use ehl_predicted_start, only: predicted_start_t
    use ehl_stationary_roughness, only: stationary_roughness_t
-   use ehl_status, only: ehl_bad_input, status_t
+   use ehl_status, only: status_t
    use ehl_steady, only: steady_t
    use ehl_stopping_criterion, only: transient_outcome
    use ehl_table, only: table_t
@@ -42,6 +41,8 @@ module ehl_contact_run
       real(dp) :: seconds = 0.0_dp
       !> Pressure and film of the smooth contact, kept where there is a rough one; frames of the transient run
       real(dp), allocatable :: p_smooth(:, :), h_smooth(:, :)
+      !> Its separation
+      real(dp) :: h00_smooth = 0.0_dp
       type(frames_t) :: frames
       !> State on disk, and to go on from when the smooth contact is solved
       type(checkpoint_t) :: checkpoint
@@ -51,6 +52,7 @@ module ehl_contact_run
       integer :: coarse_outcome = outcome_running
    contains
       procedure :: begin
+      procedure, private :: begin_history
       procedure :: advance
       procedure :: roughness_is_due
       procedure :: begin_rough
@@ -58,6 +60,22 @@ module ehl_contact_run
       procedure :: mu_ratio
       procedure :: save
    end type contact_run_t
+
+   ! in contact_start.f90
+   interface
+      !> From the smooth contact on level n to time steps, or to the state that was kept
+      module subroutine begin_steps(self, n, status)
+         class(contact_run_t), intent(inout) :: self
+         integer, intent(in) :: n
+         type(status_t), intent(inout) :: status
+      end subroutine begin_steps
+
+      !> Where the first steps from a prediction fail: all of them again behind a front
+      module subroutine begin_again(self, status)
+         class(contact_run_t), intent(inout) :: self
+         type(status_t), intent(inout) :: status
+      end subroutine begin_again
+   end interface
 
 contains
 
@@ -67,6 +85,7 @@ contains
       type(status_t), intent(inout) :: status
 
       if (status%failed()) return
+      if (allocated(self%plan%why_front)) self%why_front = self%plan%why_front
       associate (plan => self%plan)
          call self%hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, &
                                    plan%contact%kernel_factor(), plan%engine, plan%threads, status)
@@ -75,6 +94,13 @@ contains
       call self%hierarchy%grow(self%steady%n, status)
       if (status%failed()) return
       self%grid = self%hierarchy%levels(self%steady%n)%grid
+      call self%begin_history()
+   end subroutine begin
+
+   !> A history without a row
+   subroutine begin_history(self)
+      class(contact_run_t), intent(inout) :: self
+
       if (self%plan%surfaces%rest()) then
          call self%history%init([character(len=16) :: "cycle", "share", "mu_ratio", "H_c", "H_min", "P_max", "load_error", &
                                  "residual"])
@@ -85,7 +111,7 @@ contains
          call self%history%init([character(len=16) :: "level", "points", "cycle", "H_c", "H_min", "P_max", "F", &
                                  "load_error", "residual", "H_c_algebraic"])
       end if
-   end subroutine begin
+   end subroutine begin_history
 
    !> One multigrid cycle, or one time step
    subroutine advance(self, status)
@@ -139,6 +165,7 @@ contains
       associate (plan => self%plan, n => self%steady%n)
          self%p_smooth = self%hierarchy%levels(n)%p
          self%h_smooth = self%hierarchy%levels(n)%h
+         self%h00_smooth = self%hierarchy%levels(n)%h00
          if (plan%surfaces%rest()) then
             call self%rest%start(self%hierarchy%levels(n), n, plan%contact, plan%surfaces, plan%steady_options_t, status)
             self%resting = .true.
@@ -147,47 +174,6 @@ contains
          end if
       end associate
    end subroutine begin_rough
-
-   !> From the smooth contact on level n to time steps, or to the state that was kept
-   subroutine begin_steps(self, n, status)
-      class(contact_run_t), intent(inout) :: self
-      integer, intent(in) :: n
-      type(status_t), intent(inout) :: status
-
-      associate (plan => self%plan, transient => self%transient, m => self%steady%results(n)%m)
-         ! where a feature passes once, the largest pressure and the least film are asked for, not the mean friction alone
-         call transient%accuracy%set(self%grid%hx, plan%accuracy, m%friction_newtonian, &
-                                     merge(0.0_dp, friction_error(self%steady%results, n), plan%surfaces%pass_once()))
-         call transient%policy%set(plan%step_cycle, plan%coarsening_may_change, plan%max_cycles)
-         call transient%start(self%hierarchy%levels(n), plan%contact, plan%surfaces, plan%skip_start, m%friction, status)
-         if (status%failed()) return
-         if (plan%predicted_start) call begin_filled(self, n, status)
-         if (status%failed()) return
-         call self%hierarchy%prepare_steps(n, plan%scheme, transient%time_step, status)
-      end associate
-      if (status%failed()) return
-      self%in_steps = .true.
-      call self%frames%start()
-      if (self%checkpoint%found()) call take_state(self, status)
-   end subroutine begin_steps
-
-   !> The predicted start, unless somebody has said why there is none
-   subroutine begin_filled(self, n, status)
-      class(contact_run_t), intent(inout) :: self
-      integer, intent(in) :: n
-      type(status_t), intent(inout) :: status
-      logical :: done
-
-      if (allocated(self%why_front)) return
-      if (.not. allocated(self%predicted%pressure)) then
-         call status%fail(ehl_bad_input, "time.start = 'prediction': this program predicts nothing"//new_line("a")// &
-                          "expected: time.start = 'front', or 'pyehl run'")
-         return
-      end if
-      call self%transient%fill(self%hierarchy%levels(n), self%plan%surfaces, self%predicted, done)
-      if (.not. done) self%why_front = "the film would be negative"
-      deallocate (self%predicted%pressure)
-   end subroutine begin_filled
 
    !> One cycle of the contact with the rough surface at rest
    subroutine advance_rest(self)
@@ -216,7 +202,11 @@ contains
          self%seconds = self%seconds + clock%seconds()
          if (status%failed()) return
          self%outcome = transient%state
-         if (transient%state /= outcome_converged) return
+         if (transient%state /= outcome_converged) then
+            if (transient%mean%transit > 0.0_dp .and. transient%mean%n < transient%mean%filled .and. &
+                .not. self%checkpoint%found()) call begin_again(self, status)
+            return
+         end if
          call self%history%append([real(dp) :: transient%step, transient%time, m%friction/transient%friction_smooth, &
                                    m%film_central, m%film_minimum, m%pressure_maximum, m%load_error, transient%cycles, &
                                    transient%residual])
@@ -256,25 +246,4 @@ contains
       call self%checkpoint%write(prefix, text, self%transient, self%history, self%frames, &
                                  [self%seconds, self%coarse_ratio, real(self%coarse_outcome, dp)], status)
    end subroutine save
-
-   !> The state that was kept takes the place of the start of the transient run
-   subroutine take_state(self, status)
-      class(contact_run_t), intent(inout) :: self
-      type(status_t), intent(inout) :: status
-      real(dp) :: numbers(3)
-      logical :: same
-
-      call self%checkpoint%read(self%transient, self%history, self%frames, self%grid, numbers, status)
-      if (status%failed()) return
-      self%seconds = numbers(1)
-      self%coarse_ratio = numbers(2)
-      self%coarse_outcome = nint(numbers(3))
-      call self%transient%restore(self%hierarchy%levels(self%steady%n), self%plan%surfaces, same)
-      if (.not. same) then
-         call status%fail(ehl_bad_input, self%checkpoint%path//": error: the film of this state does not follow from "// &
-                          "its pressure"//new_line("a")//"expected: the surface and the program that it was made with")
-         return
-      end if
-      self%outcome = transient_outcome(self%plan, self%transient)
-   end subroutine take_state
 end module ehl_contact_run

@@ -21,7 +21,7 @@ module ehl_checkpoint
    character(len=*), parameter :: state_files(2) = ["checkpoint.a", "checkpoint.b"], frame_file = "checkpoint.frame-", &
       coarser = "coarser-"
    !> What a state begins with: behind `family` stands the number of the layout
-   character(len=*), parameter :: family = "ehl checkpoint v", magic = family//"11"
+   character(len=*), parameter :: family = "ehl checkpoint v", magic = family//"12"
    !> What a file can be; otherwise the step of its state
    integer, parameter :: missing = -1, damaged = -2, other_version = -3
 
@@ -92,7 +92,8 @@ contains
          write (lun, iostat=stat, iomsg=reason) magic, t%step, frames%n, len(text), text, &
             t%skipped, t%time, t%time_step, t%residual, t%cycles, t%total_cycles, t%policy%coarsening, &
             t%policy%changed_at, t%h00_before, t%friction_smooth, t%mass_content, t%p_before, t%predictor%weights, &
-            t%accuracy%rise, t%accuracy%sensitivity, t%accuracy%largest, t%film_mark, t%extremes%found, numbers, &
+            t%accuracy%rise, t%accuracy%sensitivity, t%accuracy%largest, t%film_mark, t%extremes%found, mean%filled, mean%lag, &
+            mean%transit, numbers, &
             (history%row(k), mean%values(k), mean%film(k), mean%roughness(k), k=1, t%step)
       end associate
       call end_sealed(lun, path//".new", stat, reason, status)
@@ -180,7 +181,8 @@ contains
          if (stat == 0) read (lun, iostat=stat, iomsg=reason) &
             t%skipped, t%time, t%time_step, t%residual, t%cycles, t%total_cycles, t%policy%coarsening, &
             t%policy%changed_at, t%h00_before, t%friction_smooth, t%mass_content, t%p_before, t%predictor%weights, &
-            t%accuracy%rise, t%accuracy%sensitivity, t%accuracy%largest, t%film_mark, t%extremes%found, numbers
+            t%accuracy%rise, t%accuracy%sensitivity, t%accuracy%largest, t%film_mark, t%extremes%found, t%mean%filled, &
+            t%mean%lag, t%mean%transit, numbers
          do k = 1, t%step
             if (stat == 0) read (lun, iostat=stat, iomsg=reason) row, values
             if (stat /= 0) exit

@@ -13,6 +13,7 @@ import numpy as np
 from pyehl.bench.unit import processor_seconds
 from pyehl.case import Case
 from pyehl.handle import SolverHandle
+from pyehl.prediction.start import hand_over
 
 __all__ = [
     "ROUNDING",
@@ -24,6 +25,7 @@ __all__ = [
     "nothing",
     "rounding",
     "solve",
+    "solve_from_prediction",
     "step_tolerance",
 ]
 
@@ -53,6 +55,15 @@ def solve(*options: str) -> dict[str, Any]:
     """Solve the case of all defaults with options, on one thread; returns its summary."""
     # what the solver does alone, nothing predicted
     with SolverHandle(Case.from_text("", [*options, "solver.threads=1"]).text) as solver:
+        solver.run()
+        return solver.summary()
+
+
+def solve_from_prediction(*options: str) -> dict[str, Any]:
+    """Solve the same from the prediction on; what that costs is in it."""
+    case = Case.from_text("", [*options, "solver.threads=1", "time.start=prediction"])
+    with SolverHandle(case.text) as solver:
+        hand_over(solver, case.resolve(), None, whole=True)
         solver.run()
         return solver.summary()
 

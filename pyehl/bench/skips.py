@@ -23,6 +23,7 @@ from pyehl.bench.comparison import (
     nothing,
     rounding,
     solve,
+    solve_from_prediction,
 )
 from pyehl.bench.unit import hertz
 from pyehl.case import Case
@@ -188,6 +189,15 @@ def _run_rows(scene: str, options: Sequence[str], repeats: int, *, symmetric: bo
             "mu_ratio",
             usual,
             lambda: solve(*options, "time.skip_start=.false."),
+            mean_tolerance,
+            repeats,
+        ),
+        compare(
+            scene,
+            "steps in which the roughness fills the contact: time.start = 'prediction'",
+            "mu_ratio",
+            lambda: solve_from_prediction(*options),
+            usual,
             mean_tolerance,
             repeats,
         ),

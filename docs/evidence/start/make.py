@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Scenes from the front and from the prediction: python make.py scenes.csv [POINTS [SCENE ...]].
+
+Each scene is run with time.start = 'front' and with 'prediction', on as many nodes a side (257).
+Rows are appended as they are done; those that are there are left alone.
+"""
+
+from __future__ import annotations
+
+import csv
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import pyehl
+
+COLUMNS = (
+    "scene",
+    "points",
+    "start",
+    "mu_ratio_front",
+    "mu_ratio",
+    "error_stop_front",
+    "error_stop",
+    "error_grid",
+    "steps_front",
+    "steps",
+)
+
+POINT = {"contact.moes_m": 1000.0, "contact.moes_l": 10.0}
+FRACTAL = {"surface.kind": "fractal"}
+
+
+def wave(amplitude: float, along: float, across: float, ratio: float) -> dict[str, Any]:
+    """Options of a wave."""
+    return POINT | {
+        "surface.kind": "harmonic",
+        "surface.amplitude": amplitude,
+        "surface.wavelength_x": along,
+        "surface.wavelength_y": across,
+        "surface.velocity_ratio": ratio,
+    }
+
+
+def scenes(folder: Path) -> dict[str, dict[str, Any]]:
+    """Options by name; a map is written into a folder."""
+    heights = 2e-8 * np.random.default_rng(1).standard_normal((32, 32))
+    np.save(folder / "map.npy", heights)
+    size = {"surface.length_x": 8.29e-4, "surface.length_y": 8.29e-4}
+    return {
+        "wave 0.5 a, U 1.01": wave(4e-3, 0.5, 0.5, 1.01),
+        "wave 0.5 a, U 1.1": wave(4e-3, 0.5, 0.5, 1.1),
+        "wave 0.5 a x 1 a, U 0.8": wave(4e-3, 0.5, 1.0, 0.8),
+        "wave 2 a, U 1.05": wave(4e-3, 2.0, 2.0, 1.05),
+        "wave 0.25 a, U 1.01": wave(3e-3, 0.25, 0.25, 1.01),
+        "wave 0.5 a, scheme of the paper": wave(4e-3, 0.5, 0.5, 1.01) | {"time.scheme": "paper"},
+        "wave 0.5 a, M = 200": wave(2e-2, 0.5, 0.5, 1.05) | {"contact.moes_m": 200.0},
+        "wave 0.5 a, two threads, whole domain": wave(4e-3, 0.5, 0.5, 1.05)
+        | {"solver.threads": 2, "solver.symmetry": "full"},
+        "fractal of Table 1": FRACTAL,
+        "fractal, seed 2, U 1.05": FRACTAL | {"surface.seed": 2, "surface.velocity_ratio": 1.05},
+        "fractal, seed 3, scheme of the paper": FRACTAL
+        | {"surface.seed": 3, "time.scheme": "paper"},
+        "map of 32 x 32 pixels": {"surface.kind": "map", "surface.file": folder / "map.npy"} | size,
+    }
+
+
+def row_of(name: str, points: int, options: dict[str, Any]) -> dict[str, Any]:
+    """Run a scene both ways."""
+    found = []
+    for start in ("front", "prediction"):
+        case = pyehl.Case.from_text("", options | {"grid.points": points, "time.start": start})
+        with pyehl.Solver(case) as solver:
+            solver.run()
+            found.append(solver.summary())
+    front, other = found
+    return {
+        "scene": name,
+        "points": points,
+        "start": other["start"],
+        "mu_ratio_front": front["mu_ratio"],
+        "mu_ratio": other["mu_ratio"],
+        "error_stop_front": front["mu_ratio_error_stop"],
+        "error_stop": other["mu_ratio_error_stop"],
+        "error_grid": front["mu_ratio_error_grid"],
+        "steps_front": front["steps"],
+        "steps": other["steps"],
+    }
+
+
+def main(table: Path, points: int, wanted: list[str]) -> None:
+    """Append the rows that are missing."""
+    done = set()
+    if table.is_file():
+        with table.open(newline="", encoding="utf-8") as file:
+            done = {(row["scene"], int(row["points"])) for row in csv.DictReader(file)}
+    with tempfile.TemporaryDirectory() as folder, table.open("a", newline="") as file:
+        writer = csv.DictWriter(file, COLUMNS)
+        if not done:
+            writer.writeheader()
+        for name, options in scenes(Path(folder)).items():
+            if (name, points) in done or (wanted and name not in wanted):
+                continue
+            writer.writerow(row_of(name, points, options))
+            file.flush()
+
+
+if __name__ == "__main__":
+    arguments = [*sys.argv[1:], "257"]
+    main(Path(sys.argv[1]), int(arguments[1]), sys.argv[3:])

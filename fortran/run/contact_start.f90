@@ -1,0 +1,92 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What time steps begin with: the smooth contact before a front, a prediction, or a state that was kept
+submodule (ehl_contact_run) ehl_contact_start
+   use ehl_film, only: refresh
+   use ehl_level_result, only: friction_error
+   use ehl_outcome, only: outcome_names
+   use ehl_status, only: ehl_bad_input
+   use ehl_time_levels, only: set_geometry
+   implicit none (type, external)
+
+contains
+
+   module subroutine begin_steps(self, n, status)
+      class(contact_run_t), intent(inout) :: self
+      integer, intent(in) :: n
+      type(status_t), intent(inout) :: status
+
+      associate (plan => self%plan, transient => self%transient, m => self%steady%results(n)%m)
+         ! where a feature passes once, the largest pressure and the least film are asked for, not the mean friction alone
+         call transient%accuracy%set(self%grid%hx, plan%accuracy, m%friction_newtonian, &
+                                     merge(0.0_dp, friction_error(self%steady%results, n), plan%surfaces%pass_once()))
+         call transient%policy%set(plan%step_cycle, plan%coarsening_may_change, plan%max_cycles)
+         call transient%start(self%hierarchy%levels(n), plan%contact, plan%surfaces, plan%skip_start, m%friction, status)
+         if (status%failed()) return
+         if (plan%predicted_start) call begin_filled(self, n, status)
+         if (status%failed()) return
+         call self%hierarchy%prepare_steps(n, plan%scheme, transient%time_step, status)
+      end associate
+      if (status%failed()) return
+      self%in_steps = .true.
+      call self%frames%start()
+      if (self%checkpoint%found()) call take_state(self, status)
+   end subroutine begin_steps
+
+   !> The predicted start, unless somebody has said why there is none
+   subroutine begin_filled(self, n, status)
+      class(contact_run_t), intent(inout) :: self
+      integer, intent(in) :: n
+      type(status_t), intent(inout) :: status
+      logical :: done
+
+      if (allocated(self%why_front)) return
+      if (.not. allocated(self%predicted%pressure)) then
+         call status%fail(ehl_bad_input, "time.start = 'prediction': this program predicts nothing"//new_line("a")// &
+                          "expected: time.start = 'front', or 'pyehl run'")
+         return
+      end if
+      call self%transient%fill(self%hierarchy%levels(n), self%plan%surfaces, self%predicted, done)
+      if (.not. done) self%why_front = "the film would be negative"
+      deallocate (self%predicted%pressure)
+   end subroutine begin_filled
+
+   module subroutine begin_again(self, status)
+      class(contact_run_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+
+      self%why_front = "the first steps from it ended with '"//trim(outcome_names(self%transient%state))//"'"
+      associate (level => self%hierarchy%levels(self%steady%n))
+         self%transient%rr = 0.0_dp
+         call set_geometry(level, self%plan%contact, self%transient%rr)
+         level%p = self%p_smooth
+         level%h00 = self%h00_smooth
+         call refresh(level)
+      end associate
+      call self%begin_history()
+      call begin_steps(self, self%steady%n, status)
+      self%outcome = outcome_running
+   end subroutine begin_again
+
+   !> The state that was kept takes the place of the start of the transient run
+   subroutine take_state(self, status)
+      class(contact_run_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
+      real(dp) :: numbers(3)
+      logical :: same
+
+      call self%checkpoint%read(self%transient, self%history, self%frames, self%grid, numbers, status)
+      if (status%failed()) return
+      self%seconds = numbers(1)
+      self%coarse_ratio = numbers(2)
+      self%coarse_outcome = nint(numbers(3))
+      if (self%plan%predicted_start .and. .not. (self%transient%mean%transit > 0.0_dp .or. allocated(self%why_front))) &
+         self%why_front = "the first steps from it failed"
+      call self%transient%restore(self%hierarchy%levels(self%steady%n), self%plan%surfaces, same)
+      if (.not. same) then
+         call status%fail(ehl_bad_input, self%checkpoint%path//": error: the film of this state does not follow from "// &
+                          "its pressure"//new_line("a")//"expected: the surface and the program that it was made with")
+         return
+      end if
+      self%outcome = transient_outcome(self%plan, self%transient)
+   end subroutine take_state
+end submodule ehl_contact_start

@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A rough run that starts where the prediction ends: the same mean in fewer steps."""
+
+from __future__ import annotations
+
+import json
+import math
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray
+
+import pyehl
+from pyehl.cli import main
+
+POINT = {"contact.moes_m": 1000.0, "contact.moes_l": 10.0}
+WAVE = POINT | {"surface.kind": "harmonic", "surface.amplitude": 4e-3}
+ALONE = {"grid.points": 129, "time.estimate_error": False}
+
+
+def run(settings: dict[str, Any], start: str = "prediction") -> xarray.Dataset:
+    """Run a case."""
+    return pyehl.solve(pyehl.Case.from_text("", ALONE | settings | {"time.start": start}))
+
+
+@pytest.fixture
+def tile(tmp_path: Path) -> dict[str, Any]:
+    """Options of a map of white noise, 20 nm rms."""
+    heights = 2e-8 * np.random.default_rng(1).standard_normal((32, 32))
+    np.save(tmp_path / "map.npy", heights)
+    size = {"surface.length_x": 8.29e-4, "surface.length_y": 8.29e-4}
+    return {"surface.kind": "map", "surface.file": tmp_path / "map.npy"} | size
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        WAVE,
+        WAVE | {"surface.velocity_ratio": 0.8, "surface.wavelength_y": 1.0},
+        WAVE | {"time.scheme": "paper"},
+        {"surface.kind": "fractal"},
+    ],
+    ids=["wave", "slow", "paper", "fractal"],
+)
+def test_same_mean_in_fewer_steps(settings: dict[str, Any]):
+    front, other = run(settings, "front"), run(settings)
+    assert (front.attrs["start"], other.attrs["start"]) == ("front", "prediction")
+    assert float(other.steps) <= 0.7 * float(front.steps)
+    stop = float(front.mu_ratio_error_stop) + float(other.mu_ratio_error_stop)
+    assert float(other.mu_ratio) == pytest.approx(float(front.mu_ratio), abs=stop)
+    # an error that says something
+    assert stop < 0.01 * float(front.mu_ratio)
+
+
+def test_every_surface_lies_where_the_prediction_has_it(tile: dict[str, Any]):
+    """Elsewhere the film of the first step would be that of twice the roughness."""
+    for settings in (
+        WAVE,
+        tile,
+        tile | {"surface.edges": "mirror", "surface.track": 1.3e-4},
+        tile | {"surface.edges": "periodic", "surface.track": 1.3e-4},
+    ):
+        found = run(settings)
+        assert found.attrs["start"] == "prediction"
+        first = float(found.history_mu_ratio[0])
+        rise = float(found.mu_ratio_max) - 1.0
+        assert (
+            float(found.mu_ratio_min) - 0.1 * rise < first < float(found.mu_ratio_max) + 0.1 * rise
+        )
+
+
+def test_heights_in_memory_start_there_too(tile: dict[str, Any]):
+    heights = np.load(tile["surface.file"])
+    size = (tile["surface.length_x"], tile["surface.length_y"])
+    case = pyehl.Case.from_text("", ALONE | {"time.start": "prediction"})
+    by_name = run(tile)
+    given = pyehl.solve(case, surface=pyehl.Topography(heights, size=size))
+    assert float(given.mu_ratio) == pytest.approx(float(by_name.mu_ratio), rel=1e-12)
+    assert given.attrs["start"] == "prediction"
+
+
+@pytest.mark.parametrize(
+    ("settings", "why"),
+    [
+        (WAVE | {"contact.moes_m": 20.0}, "moes_m outside the range of the prediction"),
+        (
+            POINT | {"surface.kind": "dent", "surface.amplitude": 1e-3},
+            "a single feature passes once",
+        ),
+        (WAVE | {"grid.target_error": 0.1}, "the grid of grid.target_error is not known before"),
+        (WAVE | {"surface.amplitude": 0.1}, "the pressures are beyond a linear response"),
+    ],
+    ids=["M", "dent", "target", "amplitude"],
+)
+def test_where_there_is_no_prediction_a_front_enters(settings: dict[str, Any], why: str):
+    case = pyehl.Case.from_text("", ALONE | settings | {"time.start": "prediction"})
+    with pyehl.Solver(case) as solver:
+        while "start" not in solver.summary() and not solver.done:
+            solver.advance()
+        summary = solver.summary()
+    assert summary["start"] == "front"
+    assert why in summary["start_note"]
+
+
+def test_steps_that_fail_begin_again_behind_a_front(tile: dict[str, Any]):
+    """On this grid the film of this tile becomes negative in the second step."""
+    turned = tile | {"surface.rotate": 90.0}
+    other, front = run(turned), run(turned, "front")
+    assert other.attrs["start"] == "front"
+    assert "negative film" in other.attrs["start_note"]
+    assert float(other.mu_ratio) == float(front.mu_ratio)
+    assert np.array_equal(other.history_mu_ratio, front.history_mu_ratio)
+
+
+def test_the_program_refuses_it(ehl: str, tmp_path: Path):
+    (tmp_path / "case.nml").write_text(
+        "&time start = 'prediction' /\n&surface kind = 'fractal' /\n"
+    )
+    words = [ehl, "case.nml", "-o", "out", "--set", "grid.points=129"]
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert "time.start = 'prediction'" in done.stderr
+    assert "expected: time.start = 'front', or 'pyehl run'" in done.stderr
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_run_that_is_stopped_is_resumed_to_the_same_bits(tmp_path: Path):
+    case = pyehl.Case.from_text("", ALONE | WAVE | {"time.start": "prediction"})
+    path = tmp_path / "case.nml"
+    path.write_text(case.text)
+    assert main(["run", str(path), "-o", str(tmp_path / "whole")]) == 0
+    with pyehl.Solver(case) as solver:
+        solver.keep(tmp_path / "part")
+        for step in solver:
+            if step.summary.get("steps") == 20:
+                break
+        solver.save_state(at_once=True)
+    assert main(["run", "--resume", str(tmp_path / "part")]) == 0
+    whole, part = (
+        json.loads((tmp_path / name / "summary.json").read_text()) for name in ("whole", "part")
+    )
+    assert math.isfinite(whole["mu_ratio"])
+    for name in ("start", "steps", "mu_ratio", "mu_ratio_error_stop"):
+        assert part[name] == whole[name]
