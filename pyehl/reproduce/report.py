@@ -83,9 +83,7 @@ def _html(folder: Path, results: Sequence[Result], level: Level, machine: Sequen
             )
         if r.checks:
             table = pd.DataFrame([check.row() for check in r.checks])
-            # whole sentences, which pandas would cut
-            with pd.option_context("display.max_colwidth", None):
-                out.append(table.to_html(index=False, border=0))
+            out.append(table.to_html(index=False, border=0))
         if r.notes:
             out.append("<ul>" + "".join(f"<li>{text(note)}</li>" for note in r.notes) + "</ul>")
         studies = ", ".join(f"studies/{made.name}" for made in r.studies) or "none"
