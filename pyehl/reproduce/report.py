@@ -82,7 +82,8 @@ def _html(folder: Path, results: Sequence[Result], level: Level, machine: Sequen
                 f"<br>{text(r.caption)}</p>"
             )
         if r.checks:
-            out.append(pd.DataFrame([check.row() for check in r.checks]).to_html(index=False))
+            table = pd.DataFrame([check.row() for check in r.checks])
+            out.append(table.to_html(index=False, border=0))
         if r.notes:
             out.append("<ul>" + "".join(f"<li>{text(note)}</li>" for note in r.notes) + "</ul>")
         studies = ", ".join(f"studies/{made.name}" for made in r.studies) or "none"

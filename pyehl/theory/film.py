@@ -18,6 +18,7 @@ __all__ = [
     "estimates",
     "hamrock_dowson",
     "nijenbanning_venner_moes",
+    "outside",
 ]
 
 # Conditions of the numerical cases behind the Hamrock-Dowson formulas (J. Lubr. Technol. 99,
@@ -84,9 +85,10 @@ def central_film(operating: OperatingPoint, lubricant: Lubricant) -> float:
     return h * operating.film_scale / float(lubricant.density_ratio(operating.hertz_pressure))
 
 
-def _outside(
+def outside(
     values: Mapping[str, float], bounds: Mapping[str, tuple[float, float]]
 ) -> tuple[str, ...]:
+    """Say which values lie outside of their bounds, in words; empty when none does."""
     return tuple(
         f"{name} = {values[name]:.4g} outside {low:g} ... {high:g}"
         for name, (low, high) in bounds.items()
@@ -100,7 +102,7 @@ def estimates(operating: OperatingPoint, lubricant: Lubricant) -> list[FilmEstim
     ugw = dict(zip(("U", "G", "W"), point, strict=True))
     ml = {"M": operating.moes_m, "L": operating.moes_l}
     radius = operating.radius
-    hd_outside = _outside(ugw, HAMROCK_DOWSON_RANGE)
+    hd_outside = outside(ugw, HAMROCK_DOWSON_RANGE)
     hd = hamrock_dowson(*point)
     ch = chittenden(*point)
     return [
@@ -109,7 +111,7 @@ def estimates(operating: OperatingPoint, lubricant: Lubricant) -> list[FilmEstim
             "Wear 176 (1994) 217, divided by rho(p_h)/rho0",
             central_film(operating, lubricant),
             math.nan,
-            _outside(ml, NIJENBANNING_RANGE),
+            outside(ml, NIJENBANNING_RANGE),
             "within 0.8 % of converged solutions for M = 500-2000, 2 % down to M = 20",
         ),
         FilmEstimate(

@@ -108,15 +108,9 @@ class Lubricant:
     ) -> Lubricant:
         """From the group ``lubricant`` of a resolved case; `viscosity_law` overrides the law."""
         group = settings["lubricant"]
-        return cls(
-            viscosity=float(group["viscosity"]),
-            pressure_viscosity=float(group["pressure_viscosity"]),
-            viscosity_law=viscosity_law or str(group["viscosity_law"]),
-            roelands_z=float(group.get("roelands_z", 0.0)),
-            roelands_p0=float(group["roelands_p0"]),
-            density_law=str(group["density_law"]),
-            shear=ShearLaw.from_settings(settings),
-        )
+        given = {name: group[name] for name in cls.__dataclass_fields__ if name in group}
+        given["viscosity_law"] = viscosity_law or group["viscosity_law"]
+        return cls(shear=ShearLaw.from_settings(settings), **given)
 
     def log_viscosity_ratio(self, pressure: ArrayLike) -> Array:
         """ln(eta/eta0) [-] at a pressure [Pa], any shape; NaN below -p0 (Roelands).

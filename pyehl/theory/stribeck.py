@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import InputError
+from pyehl.theory.film import outside
 
 __all__ = ["RANGE", "in_range", "relative_friction", "theta_2"]
 
@@ -56,14 +57,5 @@ def in_range(
     moes_m: float, moes_l: float, wavelength: float, film_over_amplitude: float
 ) -> list[str]:
     """Return what lies outside the range of the fit, in words; an empty list when nothing does."""
-    values = {
-        "moes_m": moes_m,
-        "moes_l": moes_l,
-        "wavelength": wavelength,
-        "film_over_amplitude": film_over_amplitude,
-    }
-    return [
-        f"{name} = {value:.4g} outside {RANGE[name][0]:g} ... {RANGE[name][1]:g}"
-        for name, value in values.items()
-        if not RANGE[name][0] <= value <= RANGE[name][1]
-    ]
+    values = (moes_m, moes_l, wavelength, film_over_amplitude)
+    return list(outside(dict(zip(RANGE, values, strict=True)), RANGE))

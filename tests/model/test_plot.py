@@ -254,7 +254,7 @@ def test_subcommand_at_other_resolutions_and_formats(settings, tmp_path, capsys)
     write(predict(settings), destination(tmp_path / "out"))
     assert run_subcommand(tmp_path / "out", None, "--dpi", "100") == 0
     data = (tmp_path / "out" / "roughness.png").read_bytes()
-    assert struct.unpack(">II", data[16:24]) == (800, 340)
+    assert struct.unpack(">II", data[16:24]) == (720, 340)
     assert run_subcommand(tmp_path / "out", None, "--dpi", "1") == 2
     assert "--dpi 1" in capsys.readouterr().err
     assert run_subcommand(tmp_path / "out", None, "--format", "svg") == 0

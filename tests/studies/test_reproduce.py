@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import ast
+import html
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -22,6 +23,7 @@ from pyehl.reproduce.level import FULL, QUICK, Level
 from pyehl.reproduce.parameter import SMALL_WAVES, response_parameter
 from pyehl.reproduce.piece import Check, Result
 from pyehl.reproduce.references import read_references
+from pyehl.reproduce.report import write_report
 from pyehl.studies.journal import NAME
 
 SMALL = Level("small", (257,), 97, 129, 129, (97, 129), 2, "most of it")
@@ -52,6 +54,13 @@ def test_table_1(tmp_path: Path):
         assert abs(check.deviation / check.expected) < least
     assert check_of(result, "moes_l").deviation == pytest.approx(0.0237, abs=1e-3)
     assert "pass: 17 of 17" in (tmp_path / "report.html").read_text()
+
+
+def test_no_sentence_of_the_page_is_cut(tmp_path: Path):
+    why = "a tenth of what the grid leaves open & more, " * 5
+    result = Result([Check("x", 2.0, 1.0, 0.5, why, "there")], name="figure 9", folder=tmp_path)
+    page = write_report(tmp_path, [result], SMALL, []).read_text()
+    assert html.escape(why.strip()) in page
 
 
 @pytest.mark.parametrize("name", ["hertz_pressure", "roelands_z", "rms_height", "load"])
