@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scenes from the front and from the prediction: python make.py scenes.csv [POINTS [SCENE ...]].
+"""Scenes from front and prediction: python make.py scenes.csv [POINTS [SCENE ...]].
 
-Each scene is run with time.start = 'front' and with 'prediction', on as many nodes a side (257).
-Rows are appended as they are done; those that are there are left alone.
+Each scene is run with time.start = 'front' and with 'prediction', on as many nodes a side.
+Rows are appended as they are done; those that are there are left alone. Without POINTS the lines of
+the table in README.md are printed.
 """
 
 from __future__ import annotations
@@ -91,12 +92,31 @@ def row_of(name: str, points: int, options: dict[str, Any]) -> dict[str, Any]:
     }
 
 
+def rows_of(table: Path) -> list[dict[str, Any]]:
+    """Rows of the table, numbers as numbers."""
+    if not table.is_file():
+        return []
+    with table.open(newline="", encoding="utf-8") as file:
+        words = ("scene", "start")
+        return [
+            {name: value if name in words else float(value or "nan") for name, value in row.items()}
+            for row in csv.DictReader(file)
+        ]
+
+
+def line_of(row: dict[str, Any]) -> str:
+    """Line of the table in README.md."""
+    return (
+        f"| {row['scene']} | {row['points']:.0f} | {row['mu_ratio_front']:.5f} | "
+        f"{row['mu_ratio']:.5f} | {row['mu_ratio'] - row['mu_ratio_front']:+.1e} | "
+        f"{row['error_stop']:.1e} | {row['error_grid']:.1e} | {row['steps_front']:.0f} | "
+        f"{row['steps']:.0f} | {row['steps'] / row['steps_front']:.2f} |"
+    )
+
+
 def main(table: Path, points: int, wanted: list[str]) -> None:
     """Append the rows that are missing."""
-    done = set()
-    if table.is_file():
-        with table.open(newline="", encoding="utf-8") as file:
-            done = {(row["scene"], int(row["points"])) for row in csv.DictReader(file)}
+    done = {(row["scene"], int(row["points"])) for row in rows_of(table)}
     with tempfile.TemporaryDirectory() as folder, table.open("a", newline="") as file:
         writer = csv.DictWriter(file, COLUMNS)
         if not done:
@@ -109,5 +129,7 @@ def main(table: Path, points: int, wanted: list[str]) -> None:
 
 
 if __name__ == "__main__":
-    arguments = [*sys.argv[1:], "257"]
-    main(Path(sys.argv[1]), int(arguments[1]), sys.argv[3:])
+    if len(sys.argv) > 2:
+        main(Path(sys.argv[1]), int(sys.argv[2]), sys.argv[3:])
+    else:
+        print("\n".join(map(line_of, rows_of(Path(sys.argv[1])))))
