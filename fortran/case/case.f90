@@ -24,8 +24,14 @@ module ehl_case
       real(dp) :: load = 600.0_dp
       !> [m/s] mean velocity of the surfaces (u1 + u2)/2, default 0.84
       real(dp) :: mean_velocity = 0.84_dp
-      !> [m] reduced radius R, default 0.018
+      !> [m] reduced radius R of a round contact, default 0.018
       real(dp) :: radius = 0.018_dp
+      !> Whether the case was given by `radius`. Not a key; set by the reader.
+      logical :: round = .true.
+      !> [m] reduced radii in the plane of the motion and across it; 0 (default): those of `radius`. Set by the reader.
+      real(dp) :: radius_x = 0.0_dp, radius_y = 0.0_dp
+      !> [-] radius_x/radius_y, default 1; set by the reader where the case was given in SI
+      real(dp) :: radius_ratio = 1.0_dp
       !> [Pa] reduced modulus E', 2/E' = sum of (1 - nu^2)/E of the bodies, default 2.26e11
       real(dp) :: reduced_modulus = 2.26e11_dp
       !> [-] slide-to-roll ratio (u1 - u2)/u, default 0.02; follows from surface velocity_ratio where that is given
@@ -78,8 +84,10 @@ module ehl_case
 
    !> &grid: the domain in Hertz radii a and its finest grid
    type :: grid_case_t
-      !> [-] nodes per side, odd and coarsenable, default 513
+      !> [-] nodes along X, odd and coarsenable, default 513
       integer :: points = 513
+      !> [-] nodes along Y; 0 (default): as many as along X in a round contact, else by the domain. Set by the reader.
+      integer :: points_y = 0
       !> [a] inlet boundary X, default -2.5
       real(dp) :: x_inlet = -2.5_dp
       !> [a] outlet boundary X, default 1.5

@@ -88,7 +88,9 @@ contains
 
       associate (g => input%grid)
          call self%integers("grid", "points", g%points, "[17, 4097]", &
-                            "nodes per side: odd, points - 1 halved must end even at 32 or less")
+                            "nodes along X: odd, points - 1 halved must end even at 32 or less")
+         call self%integers("grid", "points_y", g%points_y, "0 or [9, 40961]", &
+                            "nodes along Y, halved as often; default points in a round contact, else by the domain")
          call self%reals("grid", "x_inlet", g%x_inlet, "a", "[-1e4, -1.05]", "inlet boundary X; default by M and L")
          call self%reals("grid", "x_outlet", g%x_outlet, "a", "[1.05, 1e4]", "outlet boundary X; default by M and L")
          call self%reals("grid", "y_extent", g%y_extent, "a", "[1.05, 1e4]", &

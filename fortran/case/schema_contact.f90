@@ -15,7 +15,13 @@ contains
          call self%reals("contact", "load", c%load, "N", "(0, 1e5]", "load")
          call self%reals("contact", "mean_velocity", c%mean_velocity, "m/s", "(0, 200]", &
                          "mean velocity of the two surfaces")
-         call self%reals("contact", "radius", c%radius, "m", "[1e-5, 10]", "reduced radius")
+         call self%reals("contact", "radius_ratio", c%radius_ratio, "-", "[0.004, 250]", &
+                         "R_x/R_y of an elliptical contact, whose M and L are by R_x; 1: round")
+         call self%reals("contact", "radius", c%radius, "m", "[1e-5, 10]", "reduced radius of a round contact")
+         call self%reals("contact", "radius_x", c%radius_x, "m", "0 or [1e-5, 1000]", &
+                         "reduced radius in the plane of the motion; 0: radius")
+         call self%reals("contact", "radius_y", c%radius_y, "m", "0 or [1e-5, 1000]", &
+                         "reduced radius across the motion; both or none")
          call self%reals("contact", "reduced_modulus", c%reduced_modulus, "Pa", "[1e8, 2e12]", &
                          "E' with 2/E' = sum of (1 - nu^2)/E over the bodies")
          call self%reals("contact", "slide_to_roll", c%slide_to_roll, "-", "[-2, 2]", &

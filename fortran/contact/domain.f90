@@ -56,8 +56,8 @@ contains
       flooded_by_default = point%moes_m < first_usual
    end function flooded_by_default
 
-   !> The domain of a contact: that of Zhang et al. 2019, or with a flooded border one of its shape that is larger as the
-   !> film is thick. Cells are square, and X = 0 is a node of every grid of 32 n + 1 nodes.
+   !> The domain of a contact: that of Zhang et al. 2019, its sides further out around an ellipse, or with a flooded border
+   !> one of its shape that is larger as the film is thick. Cells are square, and X = 0 is a node of every grid of 32 n + 1 nodes.
    pure function needed_domain(contact, point, flooded) result(domain)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
@@ -65,6 +65,7 @@ contains
       type(domain_t) :: domain
       real(dp) :: cost(2), wanted, unit, width
 
+      domain%side = domain%side*max(1.0_dp, contact%ellipticity)
       if (.not. flooded) return
       wanted = 4.0_dp
       do
@@ -73,7 +74,7 @@ contains
          wanted = 1.02_dp*wanted
          unit = 0.32_dp*10.0_dp**max(0, floor(log10(0.25_dp*wanted)))
          width = unit*ceiling(wanted/unit)
-         domain = domain_t(-0.625_dp*width, 0.375_dp*width, 0.5_dp*width)
+         domain = domain_t(-0.625_dp*width, 0.375_dp*width, 0.5_dp*width*max(1.0_dp, contact%ellipticity))
       end do
    end function needed_domain
 
