@@ -93,7 +93,7 @@ contains
                             "nodes along Y, halved as often; default points in a round contact, else by the domain")
          call self%reals("grid", "x_inlet", g%x_inlet, "a", "[-1e4, -1.05]", "inlet boundary X; default by M and L")
          call self%reals("grid", "x_outlet", g%x_outlet, "a", "[1.05, 1e4]", "outlet boundary X; default by M and L")
-         call self%reals("grid", "y_extent", g%y_extent, "a", "[1.05, 1e4]", &
+         call self%reals("grid", "y_extent", g%y_extent, "a", "[0.03, 1e4]", &
                          "side boundaries Y = -y_extent and y_extent; default by M and L")
          call self%words("grid", "border", g%border, "flooded|zero", &
                          "pressure of a flooded contact, or P = 0; default by M: the former below 500")

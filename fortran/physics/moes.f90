@@ -12,6 +12,8 @@ module ehl_moes
    type :: operating_t
       !> Moes load M = W2 (2U)^(-3/4) and material L = G (2U)^(1/4) parameters
       real(dp) :: moes_m = 0.0_dp, moes_l = 0.0_dp
+      !> M of the round contact with the same speed parameter
+      real(dp) :: round_m = 0.0_dp
       !> alpha_bar = alpha p_h; circle: (L/pi) (3M/2)^(1/3)
       real(dp) :: alpha_bar = 0.0_dp
       !> Speed parameter lambda_bar = 12 eta0 u R_x^2/(a^3 p_h); circle: (128 pi^3/(3 M^4))^(1/3)
@@ -25,16 +27,16 @@ contains
       !> kappa and k_b of the contact
       real(dp), intent(in) :: moes_m, moes_l, ellipticity, kernel_factor
       type(operating_t) :: point
-      real(dp) :: ratio, m, l
+      real(dp) :: ratio, l
 
       ratio = kernel_factor/circle_factor
-      m = moes_m/(ellipticity*ratio**0.25_dp)
+      point%round_m = moes_m/(ellipticity*ratio**0.25_dp)
       l = moes_l*ratio**0.75_dp
 
       point%moes_m = moes_m
       point%moes_l = moes_l
-      point%alpha_bar = l/pi*(1.5_dp*m)**(1.0_dp/3.0_dp)
-      point%speed_parameter = (128.0_dp*pi**3/(3.0_dp*m**4))**(1.0_dp/3.0_dp)
+      point%alpha_bar = l/pi*(1.5_dp*point%round_m)**(1.0_dp/3.0_dp)
+      point%speed_parameter = (128.0_dp*pi**3/(3.0_dp*point%round_m**4))**(1.0_dp/3.0_dp)
    end function operating_from_moes
 
    !> Operating point from SI input; 2/E' = sum (1 - nu^2)/E (Zhang et al. 2019, notation)

@@ -286,6 +286,6 @@ contains
    pure real(dp) function relative_wedge_error(point, grid)
       type(operating_t), intent(in) :: point
       type(grid_t), intent(in) :: grid
-      relative_wedge_error = 0.16_dp*point%moes_m*grid%hx**2
+      relative_wedge_error = 0.16_dp*point%round_m*grid%hx**2
    end function relative_wedge_error
 end module ehl_plan
