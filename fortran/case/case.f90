@@ -22,7 +22,14 @@ module ehl_case
       real(dp) :: moes_l = 10.0_dp
       real(dp) :: load = 600.0_dp
       real(dp) :: mean_velocity = 0.84_dp
+      !> Of a round contact
       real(dp) :: radius = 0.018_dp
+      !> Whether the case was given by `radius`. Not a key; set by the reader.
+      logical :: round = .true.
+      !> Set by the reader, from `radius` where they are not given
+      real(dp) :: radius_x = 0.0_dp, radius_y = 0.0_dp
+      !> radius_x/radius_y, set by the reader where the case was given in SI
+      real(dp) :: radius_ratio = 1.0_dp
       real(dp) :: reduced_modulus = 2.26e11_dp
       real(dp) :: slide_to_roll = 0.02_dp
       integer :: rough_surface = 1
@@ -61,6 +68,8 @@ module ehl_case
    !> reader
    type :: grid_case_t
       integer :: points = 513
+      !> As many as along X in a round contact, else by the domain
+      integer :: points_y = 0
       real(dp) :: x_inlet = -2.5_dp
       real(dp) :: x_outlet = 1.5_dp
       real(dp) :: y_extent = 2.0_dp

@@ -6,6 +6,7 @@ module ehl_case_check
    use ehl_case_contact, only: check_contact_kind, check_operating_point, complete_domain, complete_kinematics
    use ehl_case_feature, only: check_feature
    use ehl_case_lubricant, only: check_shear_law, complete_lubricant
+   use ehl_case_radii, only: complete_radii
    use ehl_case_temperature, only: check_heat, complete_viscosity
    use ehl_files, only: absolute_path, file_exists, folder_of, is_file
    use ehl_grid, only: coarsest_most, find_levels
@@ -33,6 +34,7 @@ contains
       type(status_t), intent(inout) :: status
 
       call check_contact_kind(schema, input, sources, status)
+      call complete_radii(schema, input, sources, status)
       if (.not. status%failed()) call complete_viscosity(schema, input, sources, status)
       if (.not. status%failed()) call check_operating_point(schema, input, sources, status)
       if (.not. status%failed()) call complete_domain(schema, input)
@@ -50,9 +52,10 @@ contains
       type(schema_t), intent(in) :: schema
       type(case_t), intent(inout) :: input
       type(source_t), intent(in) :: sources(:)
-      type(status_t) :: ignored(4)
+      type(status_t) :: ignored(5)
 
       call check_contact_kind(schema, input, sources, ignored(1))
+      call complete_radii(schema, input, sources, ignored(5))
       call complete_viscosity(schema, input, sources, ignored(2))
       call complete_domain(schema, input)
       call complete_kinematics(schema, input, sources, ignored(3))
@@ -60,7 +63,7 @@ contains
       call complete_pattern(schema, input)
    end subroutine complete_case
 
-   !> Halving points - 1 must end at a grid that can be the coarsest one
+   !> Halving points - 1 must end at a grid that can be the coarsest one, and points_y - 1 must halve as often
    subroutine check_points(schema, input, sources, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(in) :: input
@@ -70,13 +73,16 @@ contains
       character(len=:), allocatable :: why
 
       points = input%grid%points
-      if (has_levels(points)) return
+      if (has_levels(points, points)) then
+         call check_rows(schema, input, sources, status)
+         return
+      end if
       below = points
-      do while (below > 17 .and. .not. has_levels(below))
+      do while (below > 17 .and. .not. has_levels(below, below))
          below = below - 1
       end do
       above = points
-      do while (.not. has_levels(above))
+      do while (.not. has_levels(above, above))
          above = above + 1
       end do
       why = "too few grids can be made by halving"
@@ -86,12 +92,31 @@ contains
          // "the nearest are " // to_text(below) // " and " // to_text(above), status)
    end subroutine check_points
 
+   !> Rows of a grid whose number of columns is good
+   subroutine check_rows(schema, input, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(in) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+      integer :: levels, intervals(2), step, below
+
+      associate (nx => input%grid%points, ny => input%grid%points_y)
+         call find_levels(nx, nx, levels, intervals)
+         step = 2*((nx - 1)/intervals(1))
+         if (mod(ny - 1, step) == 0 .and. has_levels(nx, ny)) return
+         below = max(4*step, ((ny - 1)/step)*step)
+         call refuse(schema, sources, "grid", "points_y", "grid.points_y = "//to_text(ny)//" with "//to_text(nx)// &
+                     " nodes along X", "points_y - 1 in multiples of "//to_text(step)//": the nearest are "// &
+                     to_text(below + 1)//" and "//to_text(below + step + 1), status)
+      end associate
+   end subroutine check_rows
+
    !> Whether a grid can be coarsened far enough
-   pure logical function has_levels(points)
-      integer, intent(in) :: points
+   pure logical function has_levels(nx, ny)
+      integer, intent(in) :: nx, ny
       integer :: levels, intervals(2)
 
-      call find_levels(points, points, levels, intervals)
+      call find_levels(nx, ny, levels, intervals)
       has_levels = levels > 0
    end function has_levels
 

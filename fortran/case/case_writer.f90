@@ -44,10 +44,14 @@ contains
       type(key_t), intent(in) :: key
 
       select case (key%full_name())
-      case ("contact.moes_m", "contact.moes_l")
+      case ("contact.moes_m", "contact.moes_l", "contact.radius_ratio")
          holds = .not. input%contact%si
-      case ("contact.load", "contact.mean_velocity", "contact.radius", "contact.reduced_modulus")
+      case ("contact.load", "contact.mean_velocity", "contact.reduced_modulus")
          holds = input%contact%si
+      case ("contact.radius")
+         holds = input%contact%si .and. input%contact%round
+      case ("contact.radius_x", "contact.radius_y")
+         holds = input%contact%si .and. .not. input%contact%round
       case ("surface.amplitude")
          holds = input%surface%amplitude_given
       case ("surface.amplitude_over_film")

@@ -22,7 +22,12 @@ contains
          call self%reals("moes_l", c%moes_l, "-", "[0, 100]", "Moes material parameter L")
          call self%reals("load", c%load, "N", "(0, 1e5]", "load")
          call self%reals("mean_velocity", c%mean_velocity, "m/s", "(0, 200]", "mean velocity of the two surfaces")
-         call self%reals("radius", c%radius, "m", "[1e-5, 10]", "reduced radius")
+         call self%reals("radius_ratio", c%radius_ratio, "-", "[0.004, 250]", &
+                         "R_x/R_y of an elliptical contact, whose M and L are by R_x; 1: round")
+         call self%reals("radius", c%radius, "m", "[1e-5, 10]", "reduced radius of a round contact")
+         call self%reals("radius_x", c%radius_x, "m", "0 or [1e-5, 1000]", &
+                         "reduced radius in the plane of the motion; 0: radius")
+         call self%reals("radius_y", c%radius_y, "m", "0 or [1e-5, 1000]", "reduced radius across the motion; both or none")
          call self%reals("reduced_modulus", c%reduced_modulus, "Pa", "[1e8, 2e12]", &
                          "E' with 2/E' = sum of (1 - nu^2)/E over the bodies")
          call self%reals("slide_to_roll", c%slide_to_roll, "-", "[-2, 2]", &
@@ -73,10 +78,12 @@ contains
       self%group = "grid"
       associate (g => input%grid)
          call self%integers("points", g%points, "[17, 4097]", &
-                            "nodes per side: odd, points - 1 halved must end even at 32 or less")
+                            "nodes along X: odd, points - 1 halved must end even at 32 or less")
+         call self%integers("points_y", g%points_y, "0 or [9, 40961]", &
+                            "nodes along Y, halved as often; default points in a round contact, else by the domain")
          call self%reals("x_inlet", g%x_inlet, "a", "[-1e4, -1.05]", "inlet boundary X; default by M and L")
          call self%reals("x_outlet", g%x_outlet, "a", "[1.05, 1e4]", "outlet boundary X; default by M and L")
-         call self%reals("y_extent", g%y_extent, "a", "[1.05, 1e4]", &
+         call self%reals("y_extent", g%y_extent, "a", "[0.03, 1e4]", &
                          "side boundaries Y = -y_extent and y_extent; default by M and L")
          call self%words("border", g%border, "flooded|zero", &
                          "pressure of a flooded contact, or P = 0; default by M: the former below 500")

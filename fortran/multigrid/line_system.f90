@@ -46,12 +46,13 @@ contains
 
    !> Changes of pressure on the lines rows(1), rows(2), ...: work%change(line, node) solves the
    !> linearised equation along X
-   subroutine solve_lines(level, dipole, near, near_dipole, rows, last, work)
+   subroutine solve_lines(level, dipole, shares, near, near_dipole, rows, last, work)
       type(level_t), intent(in) :: level
       !> 1 where a node changes distributively, else 0, shape (nx, ny)
       real(dp), contiguous, intent(in) :: dipole(:, :)
-      !> Kernel near the source: itself, and for the distributive change
-      real(dp), intent(in) :: near(-nr:nr), near_dipole(-nr:nr)
+      !> What a distributive change takes from the nodes beside it along X and along Y; kernel near the source: itself, and
+      !> for the distributive change
+      real(dp), intent(in) :: shares(2), near(-nr:nr), near_dipole(-nr:nr)
       !> Rows of the grid; unused places repeat a row
       integer, intent(in) :: rows(line_width)
       !> Last node that may change, see last_awake; changes of the nodes behind it are not set
@@ -59,7 +60,7 @@ contains
       type(line_work_t), intent(inout) :: work
 
       call gather(level, dipole, rows, min(last + near_reach, level%grid%nx), work%fields)
-      call eliminate(level, near, near_dipole - near, last, work%fields, work%upper, work%change)
+      call eliminate(level, shares, near, near_dipole - near, last, work%fields, work%upper, work%change)
       call substitute(last, work%upper, work%change)
    end subroutine solve_lines
 
@@ -115,10 +116,10 @@ contains
 
    !> Row i of a line couples the changes at nodes i-4 ... i+2; it is eliminated with the rows before
    !> it as soon as it is made, so that only the upper two diagonals are kept. The coefficients: see above.
-   pure subroutine eliminate(level, near, delta, furthest, g, upper, change)
+   pure subroutine eliminate(level, shares, near, delta, furthest, g, upper, change)
       type(level_t), intent(in) :: level
-      !> Kernel near the source, and what a distributive change adds to it
-      real(dp), intent(in) :: near(-nr:nr), delta(-nr:nr)
+      !> Shares of a distributive change; kernel near the source, and what a distributive change adds to it
+      real(dp), intent(in) :: shares(2), near(-nr:nr), delta(-nr:nr)
       !> Last node
       integer, intent(in) :: furthest
       real(dp), intent(in) :: g(line_width, line_fields, -1:level%grid%nx + 2)
@@ -141,7 +142,7 @@ contains
       do i = 1, furthest
          !$omp simd private(t)
          do l = 1, line_width
-            t = 0.25_dp*g(l, f_h_drho_dp, i)
+            t = shares(1)*g(l, f_h_drho_dp, i)
             s(l, -2, now) = g(l, f_rho, i)*(near(-2) + g(l, f_dipole, i - 2)*delta(-2))
             s(l, -1, now) = g(l, f_rho, i)*(near(-1) + g(l, f_dipole, i - 1)*delta(-1)) - g(l, f_dipole, i - 1)*t
             s(l, 0, now) = g(l, f_rho, i)*(near(0) + g(l, f_dipole, i)*delta(0)) + g(l, f_h_drho_dp, i)
@@ -164,7 +165,7 @@ contains
                d = active*r
                em4 = -active*c(2)*s(l, -2, former)
                em3 = -active*(c(1)*s(l, -2, last) + c(2)*s(l, -1, former))
-               em2 = -active*(0.25_dp*west*g(l, f_dipole, i - 2) + c(0)*s(l, -2, now) + c(1)*s(l, -1, last) &
+               em2 = -active*(shares(1)*west*g(l, f_dipole, i - 2) + c(0)*s(l, -2, now) + c(1)*s(l, -1, last) &
                               + c(2)*s(l, 0, former))
                em1 = active*(west*(1.0_dp + g(l, f_dipole, i - 1)) + rw*g(l, f_gain, i - 1)*pw &
                              - c(0)*s(l, -1, now) - c(1)*s(l, 0, last) - c(2)*s(l, 1, former))
@@ -173,7 +174,7 @@ contains
                             - c(0)*s(l, 0, now) - c(1)*s(l, 1, last) - c(2)*s(l, 2, former)) + (1.0_dp - active)
                e1 = active*(east*(1.0_dp + g(l, f_dipole, i + 1)) + re*g(l, f_gain, i + 1)*pe &
                             - c(0)*s(l, 1, now) - c(1)*s(l, 2, last))
-               e2 = -active*(0.25_dp*east*g(l, f_dipole, i + 2) + c(0)*s(l, 2, now))
+               e2 = -active*(shares(1)*east*g(l, f_dipole, i + 2) + c(0)*s(l, 2, now))
                em3 = em3 - em4*upper(l, 1, i - 4)
                em2 = em2 - em4*upper(l, 2, i - 4) - em3*upper(l, 1, i - 3)
                em1 = em1 - em3*upper(l, 2, i - 3) - em2*upper(l, 1, i - 2)

@@ -154,7 +154,7 @@ contains
          do l = 1, lines
             furthest = max(furthest, last_awake(level, rows(l)))
          end do
-         call solve_lines(level, space%dipole, space%near, space%near_dipole, rows, furthest, work)
+         call solve_lines(level, space%dipole, space%shares, space%near, space%near_dipole, rows, furthest, work)
          do l = 1, lines
             j = rows(l)
             space%change(furthest + 1:, j) = 0.0_dp
@@ -232,13 +232,15 @@ contains
       !$omp parallel do default(none) shared(level, space, first, last) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
-         call apply_row(space%change(:, level%grid%south(j)), space%change(:, j), space%change(:, j + 1), level%p(:, j))
+         call apply_row(space%shares, space%change(:, level%grid%south(j)), space%change(:, j), &
+                        space%change(:, j + 1), level%p(:, j))
       end do
       !$omp end parallel do
    end subroutine apply_dipoles
 
    !> The same of a row, from the changes of it and its neighbours
-   pure subroutine apply_row(south, change, north, p)
+   pure subroutine apply_row(shares, south, change, north, p)
+      real(dp), intent(in) :: shares(2)
       real(dp), contiguous, intent(in) :: south(:), change(:), north(:)
       real(dp), contiguous, intent(inout) :: p(:)
       real(dp) :: after(size(p))
@@ -246,7 +248,7 @@ contains
 
       nx = size(p)
       do i = 2, nx - 1
-         after(i) = p(i) + change(i) - 0.25_dp*(change(i - 1) + change(i + 1) + south(i) + north(i))
+         after(i) = p(i) + change(i) - (shares(1)*(change(i - 1) + change(i + 1)) + shares(2)*south(i) + shares(2)*north(i))
       end do
       call change_flowing(after(2:nx - 1), p(2:nx - 1))
    end subroutine apply_row

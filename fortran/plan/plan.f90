@@ -174,7 +174,7 @@ contains
 
       call find_contact(input, plan%contact, plan%scales, plan%point)
       plan%sliding = plan_sliding(input, plan%contact, plan%scales)
-      if (input%contact%si) plan%point = plan_point(input, plan%scales, plan%sliding)
+      if (input%contact%si) plan%point = plan_point(input, plan%contact, plan%scales, plan%sliding)
    end subroutine pick_contact
 
    !> Kind of cycle, for the smooth contact and for time steps
@@ -224,7 +224,7 @@ contains
 
       if (status%failed()) return
       mirror = input%solver%symmetry == "auto" .and. plan%surfaces%even_in_y()
-      call find_levels(input%grid%points, input%grid%points, plan%levels, intervals)
+      call find_levels(input%grid%points, input%grid%points_y, plan%levels, intervals)
       ! a coarsest grid that does not resolve a thick film corrects it at random
       film = sqrt(2.0_dp*plan%film_expected)
       if (plan%levels > 1 .and. 2*minval(intervals) <= coarsest_most .and. film > thick_film .and. &
@@ -263,6 +263,6 @@ contains
    pure real(dp) function relative_wedge_error(point, grid)
       type(operating_t), intent(in) :: point
       type(grid_t), intent(in) :: grid
-      relative_wedge_error = 0.16_dp*point%moes_m*grid%hx**2
+      relative_wedge_error = 0.16_dp*point%round_m*grid%hx**2
    end function relative_wedge_error
 end module ehl_plan

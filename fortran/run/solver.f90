@@ -166,6 +166,7 @@ contains
       input = self%input
       input%output%frame_interval = 0.0_dp
       input%grid%points = (self%grid%nx + 1)/2
+      input%grid%points_y = (self%grid%full_ny() + 1)/2
       input%grid%target_error = 0.0_dp
       input%time%estimate_error = .false.
       allocate (self%coarse)
