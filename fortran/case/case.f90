@@ -30,7 +30,7 @@ module ehl_case
       real(dp) :: reduced_modulus = 2.26e11_dp
       !> [-] slide-to-roll ratio (u1 - u2)/u, default 0.02; follows from surface velocity_ratio where that is given
       real(dp) :: slide_to_roll = 0.02_dp
-      !> Which surface is rough: 1 (default) or 2
+      !> Which body has &surface: 1 (default) or 2; the other one has &second_surface
       integer :: rough_surface = 1
       !> [W/(m K)] thermal conductivity of the solids, default 46 (bearing steel)
       real(dp) :: thermal_conductivity = 46.0_dp
@@ -95,7 +95,7 @@ module ehl_case
       integer :: max_points = 2049
    end type grid_case_t
 
-   !> &surface: the moving roughness
+   !> &surface and &second_surface: the moving roughness of a body
    type :: surface_case_t
       !> 'smooth' (default), 'harmonic', 'map', 'fractal'; 'dent', 'bump', 'ridge' or 'groove', which pass once
       character(len=word_length) :: kind = "smooth"
@@ -242,6 +242,8 @@ module ehl_case
       type(lubricant_case_t) :: lubricant
       type(grid_case_t) :: grid
       type(surface_case_t) :: surface
+      !> The surface of the other body
+      type(surface_case_t) :: second_surface
       type(time_case_t) :: time
       type(solver_case_t) :: solver
       type(psd_case_t) :: psd

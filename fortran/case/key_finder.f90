@@ -49,6 +49,7 @@ contains
             expected = "one of the keys " // join(schema%names_of(group), ", ") &
                        // "; '" // trim(schema%keys(k)%name) // "' belongs to &" &
                        // trim(schema%keys(k)%group)
+            exit
          end if
       end do
       call status%fail(ehl_bad_input, point_at(source, name%first, name%last, what, expected))

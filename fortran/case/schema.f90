@@ -48,14 +48,16 @@ module ehl_schema
       end subroutine add_lubricant_keys
 
       !> A height map: its size, and what is done to it before it is a tile
-      module subroutine add_map_keys(self, s)
+      module subroutine add_map_keys(self, group, s)
          class(schema_t), intent(inout) :: self
+         character(len=*), intent(in) :: group
          type(surface_case_t), intent(inout), target :: s
       end subroutine add_map_keys
 
       !> A single feature: its size and place
-      module subroutine add_feature_keys(self, s)
+      module subroutine add_feature_keys(self, group, s)
          class(schema_t), intent(inout) :: self
+         character(len=*), intent(in) :: group
          type(surface_case_t), intent(inout), target :: s
       end subroutine add_feature_keys
    end interface
@@ -72,7 +74,8 @@ contains
       call self%add_contact_keys(input)
       call self%add_lubricant_keys(input)
       call self%add_grid_keys(input)
-      call self%add_surface_keys(input)
+      call self%add_surface_keys("surface", input%surface)
+      call self%add_surface_keys("second_surface", input%second_surface)
       call self%add_time_keys(input)
       call self%add_psd_keys(input)
       call self%logicals("output", "fields", input%output%fields, "write the fields X, Y, P, H")
@@ -102,46 +105,46 @@ contains
       end associate
    end subroutine add_grid_keys
 
-   subroutine add_surface_keys(self, input)
+   !> One of the two surfaces, by the name of its group
+   subroutine add_surface_keys(self, group, s)
       class(schema_t), intent(inout) :: self
-      type(case_t), intent(inout), target :: input
+      character(len=*), intent(in) :: group
+      type(surface_case_t), intent(inout), target :: s
 
-      associate (s => input%surface)
-         call self%words("surface", "kind", s%kind, "smooth|harmonic|map|fractal|dent|bump|ridge|groove", &
-                         "the moving roughness; the last four pass once")
-         call self%reals("surface", "amplitude", s%amplitude, "a^2/R", "[0, 1]", &
-                         "amplitude A_i of a wave, height or depth of a feature; no default")
-         call self%reals("surface", "amplitude_over_film", s%amplitude_over_film, "-", "[0, 10]", &
-                         "the same as a share of the smooth central film, extrapolated to fine grids")
-         call self%reals("surface", "wavelength", s%wavelength, "a", "[0.01, 100]", &
-                         "harmonic wavelength")
-         call self%reals("surface", "wavelength_x", s%wavelength_x, "a", "[0.01, 100]", &
-                         "wavelength along X; default wavelength")
-         call self%reals("surface", "wavelength_y", s%wavelength_y, "a", "[0.01, 1e6]", &
-                         "wavelength along Y; default wavelength")
-         call self%reals("surface", "velocity_ratio", s%velocity_ratio, "-", "[0, 2]", &
-                         "velocity of the rough surface over the mean one; default 1 + SRR/2, surface 2: 1 - SRR/2")
-         call self%reals("surface", "x_start", s%x_start, "a", "[-1e5, 1e4]", &
-                         "where the roughness begins at time 0, at rest its origin; default x_inlet")
-         call self%add_feature_keys(s)
-         call self%texts("surface", "file", s%file, kind_path, "height map of kind 'map': .npy, text, instrument file")
-         call self%add_map_keys(s)
-         call self%reals("surface", "shortest_wavelength", s%shortest_wavelength, "m", "[0, 1]", &
-                         "waves of a map or fractal surface shorter than this are cut; 0: none")
-         call self%reals("surface", "longest_wavelength", s%longest_wavelength, "m", "[0, 1]", &
-                         "waves of a map or fractal surface longer than this are cut; 0: none")
-         call self%words("surface", "filter", s%filter, "sharp|gaussian", "how the spectrum is cut")
-         call self%reals("surface", "rms_height", s%rms_height, "m", "[0, 1e-4]", &
-                         "rms height of a fractal surface, before its spectrum is cut")
-         call self%reals("surface", "hurst", s%hurst, "-", "[0, 1]", "Hurst exponent")
-         call self%reals("surface", "rolloff_wavenumber", s%rolloff_wavenumber, "rad/m", &
-                         "[0, 1e11]", "the spectrum is flat below it; 0: no roll-off")
-         call self%integers("surface", "pixels", s%pixels, "[4, 8192]", &
-                            "pixels per side of a fractal surface")
-         call self%integers("surface", "seed", s%seed, "[0, 2147483647]", "seed of the random phases")
-         call self%words("surface", "modulus", s%modulus, "deterministic|gaussian", &
-                         "modulus of the Fourier components")
-      end associate
+      call self%words(group, "kind", s%kind, "smooth|harmonic|map|fractal|dent|bump|ridge|groove", &
+                      "the moving roughness; the last four pass once")
+      call self%reals(group, "amplitude", s%amplitude, "a^2/R", "[0, 1]", &
+                      "amplitude A_i of a wave, height or depth of a feature; no default")
+      call self%reals(group, "amplitude_over_film", s%amplitude_over_film, "-", "[0, 10]", &
+                      "the same as a share of the smooth central film, extrapolated to fine grids")
+      call self%reals(group, "wavelength", s%wavelength, "a", "[0.01, 100]", &
+                      "harmonic wavelength")
+      call self%reals(group, "wavelength_x", s%wavelength_x, "a", "[0.01, 100]", &
+                      "wavelength along X; default wavelength")
+      call self%reals(group, "wavelength_y", s%wavelength_y, "a", "[0.01, 1e6]", &
+                      "wavelength along Y; default wavelength")
+      call self%reals(group, "velocity_ratio", s%velocity_ratio, "-", "[0, 2]", &
+                      "velocity of the rough surface over the mean one; default 1 + SRR/2 on body 1, 1 - SRR/2 on body 2")
+      call self%reals(group, "x_start", s%x_start, "a", "[-1e5, 1e4]", &
+                      "where the roughness begins at time 0, at rest its origin; default x_inlet")
+      call self%add_feature_keys(group, s)
+      call self%texts(group, "file", s%file, kind_path, "height map of kind 'map': .npy, text, instrument file")
+      call self%add_map_keys(group, s)
+      call self%reals(group, "shortest_wavelength", s%shortest_wavelength, "m", "[0, 1]", &
+                      "waves of a map or fractal surface shorter than this are cut; 0: none")
+      call self%reals(group, "longest_wavelength", s%longest_wavelength, "m", "[0, 1]", &
+                      "waves of a map or fractal surface longer than this are cut; 0: none")
+      call self%words(group, "filter", s%filter, "sharp|gaussian", "how the spectrum is cut")
+      call self%reals(group, "rms_height", s%rms_height, "m", "[0, 1e-4]", &
+                      "rms height of a fractal surface, before its spectrum is cut")
+      call self%reals(group, "hurst", s%hurst, "-", "[0, 1]", "Hurst exponent")
+      call self%reals(group, "rolloff_wavenumber", s%rolloff_wavenumber, "rad/m", &
+                      "[0, 1e11]", "the spectrum is flat below it; 0: no roll-off")
+      call self%integers(group, "pixels", s%pixels, "[4, 8192]", &
+                         "pixels per side of a fractal surface")
+      call self%integers(group, "seed", s%seed, "[0, 2147483647]", "seed of the random phases")
+      call self%words(group, "modulus", s%modulus, "deterministic|gaussian", &
+                      "modulus of the Fourier components")
    end subroutine add_surface_keys
 
    subroutine add_time_keys(self, input)

@@ -19,8 +19,9 @@ contains
          call self%reals("contact", "reduced_modulus", c%reduced_modulus, "Pa", "[1e8, 2e12]", &
                          "E' with 2/E' = sum of (1 - nu^2)/E over the bodies")
          call self%reals("contact", "slide_to_roll", c%slide_to_roll, "-", "[-2, 2]", &
-                         "slide-to-roll ratio (u1 - u2)/u; follows from a given surface.velocity_ratio")
-         call self%integers("contact", "rough_surface", c%rough_surface, "[1, 2]", "which surface is the rough one")
+                         "slide-to-roll ratio (u1 - u2)/u; follows from a given velocity_ratio of a surface")
+         call self%integers("contact", "rough_surface", c%rough_surface, "[1, 2]", &
+                            "body with &surface; the other has &second_surface")
          call self%reals("contact", "thermal_conductivity", c%thermal_conductivity, "W/(m K)", "[0.1, 500]", &
                          "thermal conductivity of the solids, for the flash temperature")
          call self%reals("contact", "thermal_diffusivity", c%thermal_diffusivity, "m^2/s", "[1e-8, 1e-3]", &

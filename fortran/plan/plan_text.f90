@@ -1,13 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The plan of a run in words
 module ehl_plan_text
-   use ehl_feature, only: feature_t
    use ehl_cycle, only: coarsening_alcouffe, cycle_options_t
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_plan, only: plan_t
    use ehl_plan_need, only: need_lines
    use ehl_steady, only: largest_error
+   use ehl_surface_text, only: rest_lines, scene_lines, wave_lines
    use ehl_text, only: fixed, to_text
    use ehl_wedge, only: wedge_narrow
    implicit none (type, external)
@@ -126,107 +126,6 @@ contains
          end if
       end associate
    end function domain_lines
-
-   !> What moves: roughness without end, or a feature that passes once
-   function scene_lines(plan) result(text)
-      type(plan_t), intent(in) :: plan
-      character(len=:), allocatable :: text
-      character(len=128) :: line
-
-      select type (surface => plan%surfaces%of(1)%surface)
-      type is (feature_t)
-         write (line, "(a,f7.4,a,f7.4,a)") "scene      "//feature_words(surface)//" passes once, velocity ratio ", &
-            surface%velocity_ratio, ", its centre at X = 0 at T = ", (surface%reach - surface%x_start)/surface%velocity_ratio
-         text = trim(line)//new_line("a")//"           "//size_words(surface)//new_line("a")// &
-                "           the smooth contact is solved once, before"//new_line("a")
-      class default
-         write (line, "(a,f6.3,a,f7.4,a)") "scene      roughness on the move, period ", surface%period, &
-            " a, velocity ratio ", surface%velocity_ratio, "; the smooth contact is solved once, before"
-         text = trim(line)//new_line("a")
-      end select
-   end function scene_lines
-
-   !> What a feature is
-   pure function feature_words(feature) result(text)
-      type(feature_t), intent(in) :: feature
-      character(len=:), allocatable :: text
-
-      text = "a "
-      if (feature%is_line) then
-         text = text//trim(merge("ridge ", "groove", feature%sign > 0.0_dp))
-      else
-         text = text//merge("bump", "dent", feature%sign > 0.0_dp)
-      end if
-   end function feature_words
-
-   !> Size and place of a feature
-   function size_words(feature) result(text)
-      type(feature_t), intent(in) :: feature
-      character(len=:), allocatable :: text
-      character(len=128) :: line
-
-      write (line, "(f9.4,a)") feature%width, " a wide, without ends"
-      if (feature%length > 0.0_dp) write (line, "(f9.4,a,f9.4,a)") feature%width, " a wide and", feature%length, " a long"
-      text = trim(adjustl(line))
-      if (feature%amplitude > 0.0_dp) then
-         write (line, "(es10.3,a)") feature%amplitude, " a^2/R "//merge("high", "deep", feature%sign > 0.0_dp)
-         text = text//", "//trim(adjustl(line))
-      end if
-      write (line, "(f9.4)") feature%y_start
-      text = text//", at Y = "//trim(adjustl(line))
-   end function size_words
-
-   !> How much of the surface the finest grid carries
-   function wave_lines(plan) result(text)
-      type(plan_t), intent(in) :: plan
-      character(len=:), allocatable :: text
-      character(len=128) :: line
-
-      text = ""
-      if (plan%surfaces%pass_once()) then
-         write (line, "(a,es8.1,a)") "waves      with fewer than 8 nodes a period hold ", plan%surfaces%unresolved, &
-            " of the variance of its profile"
-         text = trim(line)//new_line("a")
-         return
-      end if
-      associate (surface => plan%surfaces%of(1)%surface)
-         if (surface%variance > 0.0_dp .and. plan%contact%film_scale > 0.0_dp) then
-            write (line, "(a,es9.2,a)") "surface    rms height ", sqrt(surface%variance)*plan%contact%film_scale, " m"
-            text = trim(line)
-            if (surface%variance < surface%variance_whole) then
-               write (line, "(a,es9.2,a)") ", of", sqrt(surface%variance_whole)*plan%contact%film_scale, &
-                  " m before its spectrum was cut"
-               text = text//trim(line)
-            end if
-            text = text//new_line("a")
-         end if
-      end associate
-      write (line, "(a,es8.1,a)") "waves      with fewer than 8 nodes a period hold ", plan%surfaces%unresolved, &
-         " of the variance of the surface;"
-      text = text//trim(line)
-      write (line, "(es8.1,a)") plan%surfaces%left_out, " of it, with 2 and fewer, is left out"
-      text = text//" "//trim(adjustl(line))//new_line("a")
-   end function wave_lines
-
-   !> A rough surface at rest: where it lies, and where the error comes from
-   function rest_lines(plan) result(text)
-      type(plan_t), intent(in) :: plan
-      character(len=:), allocatable :: text
-      character(len=128) :: line
-
-      select type (surface => plan%surfaces%of(1)%surface)
-      type is (feature_t)
-         write (line, "(a,f8.4)") "scene      "//feature_words(surface)//" at rest, steady; its centre at X = x_start = ", &
-            surface%x_start
-         text = trim(line)//new_line("a")//"           "//size_words(surface)
-      class default
-         write (line, "(a,f6.3,a,f8.4)") "scene      roughness at rest, steady; period ", surface%period, &
-            " a, it is everywhere, its origin at X = x_start = ", surface%x_start
-         text = trim(line)
-      end select
-      text = text//new_line("a")//"           the smooth contact is solved before"//new_line("a")
-      if (plan%coarse_run) text = text//"error      of the friction ratio: solved on the next coarser grid too"//new_line("a")
-   end function rest_lines
 
    !> Sliding and shear law, and the heat of the inlet where it counts
    function friction_lines(plan) result(text)

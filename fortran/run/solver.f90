@@ -177,23 +177,19 @@ module ehl_solver
 contains
 
    !> Plan the case and prepare the coarse grids
-   recursive subroutine start(self, input, status, heights)
+   recursive subroutine start(self, input, status, heights, second_heights)
       class(solver_t), intent(inout) :: self
       type(case_t), intent(in) :: input
       type(status_t), intent(inout) :: status
-      !> Heights of a map [m], X first, in place of a file; of size 0: none. They are no longer needed afterwards.
-      real(dp), intent(in), optional :: heights(:, :)
-      real(dp) :: none(0, 0)
+      !> Heights of the maps of both surfaces [m], X first, in place of files; of size 0: none. They are no longer needed
+      !> afterwards.
+      real(dp), intent(in), optional :: heights(:, :), second_heights(:, :)
       logical :: is_part
 
       self%input = input
       ! the run on the coarser grid was counted with the one it belongs to
       is_part = self%surfaces%rough()
-      if (present(heights)) then
-         call make_plan(input, heights, self%surfaces, self%plan, status)
-      else
-         call make_plan(input, none, self%surfaces, self%plan, status)
-      end if
+      call make_plan(input, self%surfaces, self%plan, status, heights, second_heights)
       if (.not. is_part) call check_need(self%plan, status)
       if (status%failed()) return
       associate (plan => self%plan)

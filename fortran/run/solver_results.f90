@@ -6,7 +6,7 @@ submodule (ehl_solver) ehl_solver_results
    use ehl_outcome, only: outcome_names, outcome_target_missed
    use ehl_plan_text, only: plan_text
    use ehl_conclusion, only: conclusion_of => conclusion
-   use ehl_ratio_error, only: ratio_error_t
+   use ehl_ratio_error, only: ratio_error_t, window_error
    use ehl_report, only: report_transient, report_rest, report_scene, report_waves
    use ehl_report_friction, only: report_friction
    use ehl_report_passage, only: report_passage
@@ -99,6 +99,8 @@ contains
       call record%set("mu_ratio_unresolved", waves%unresolved)
       call error%add(record, "mu_ratio_error_grid", grid, why)
       call error%add(record, "mu_ratio_error_stop", stop_error, why)
+      if (self%plan%surfaces%mismatch > 0.0_dp) call error%add(record, "mu_ratio_error_window", &
+         window_error(self%plan%surfaces%mismatch, self%transient%mean, ratio), why)
       call error%add(record, "mu_ratio_error_left_out", waves%left_out, waves%why)
       domain = nothing
       if (self%plan%domain_cost(1) < 1.0_dp) then

@@ -26,12 +26,16 @@ contains
       else if (self%in_steps) then
          call advance_step(self, status)
       else if (self%resting) then
-         call advance_rest(self)
+         call advance_rest(self, status)
       else
          call advance_cycle(self, status)
          if (status%failed() .or. self%steady%outcome /= outcome_converged) return
-         if (self%plan%surfaces%move()) call begin_transient(self, status)
-         if (self%plan%surfaces%rest()) call begin_rest(self, status)
+         if (self%plan%surfaces%rest() .or. self%plan%surfaces%some_rest()) then
+            call begin_rest(self, status)
+         else if (self%plan%surfaces%move()) then
+            call keep_smooth(self, status)
+            call begin_transient(self, status)
+         end if
       end if
    end subroutine advance
 
@@ -53,14 +57,14 @@ contains
       end associate
    end subroutine advance_cycle
 
-   !> The smooth contact is solved: let the roughness in
+   !> The smooth contact is solved, or the one with what is at rest: let the roughness in
    recursive subroutine begin_transient(self, status)
       type(solver_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
       integer :: n
 
+      if (status%failed()) return
       n = self%steady%n
-      call keep_smooth(self, status)
       ! where a feature passes once, the largest pressure and the least film are asked for, not the mean friction alone
       call self%transient%accuracy%set(self%grid%hx, self%plan%accuracy, self%steady%results(n)%m%friction_newtonian, &
                                        merge(0.0_dp, friction_error(self%steady%results, n), self%plan%surfaces%pass_once()))
@@ -71,6 +75,7 @@ contains
       call self%hierarchy%prepare_steps(n, self%plan%scheme, self%transient%time_step, status)
       if (status%failed()) return
       self%in_steps = .true.
+      self%resting = .false.
       call self%frames%start()
       if (self%checkpoint%found()) call take_state(self, status)
       if (status%failed()) return
@@ -126,10 +131,12 @@ contains
       type(status_t), intent(inout) :: status
       type(solver_t), allocatable :: finer
       type(case_t) :: input
+      integer :: k
 
       film = 0.0_dp
       input = self%input
       input%surface%kind = "smooth"
+      input%second_surface%kind = "smooth"
       ! the film is extrapolated: it is better than the grid
       input%grid%target_error = 0.9_dp*film_error
       allocate (finer)
@@ -140,10 +147,13 @@ contains
       if (status%failed()) return
       if (finer%converged()) film = known_film(finer)
       if (film > 0.0_dp) return
-      call status%fail(ehl_bad_input, "surface.amplitude_over_film = "//to_text(self%input%surface%amplitude_over_film)// &
-                       ": the film of the smooth contact is not known to "//to_text(100.0_dp*film_error)// &
-                       " % on grids of up to "//to_text(input%grid%max_points)//" points"//new_line("a")// &
-                       "expected: surface.amplitude, or a larger grid.max_points")
+      k = findloc(self%plan%surfaces%of%amplitude_over_film > 0.0_dp, .true., dim=1)
+      associate (member => self%plan%surfaces%of(k))
+         call status%fail(ehl_bad_input, trim(member%group)//".amplitude_over_film = "//to_text(member%amplitude_over_film)// &
+                          ": the film of the smooth contact is not known to "//to_text(100.0_dp*film_error)// &
+                          " % on grids of up to "//to_text(input%grid%max_points)//" points"//new_line("a")// &
+                          "expected: amplitude, or a larger grid.max_points")
+      end associate
    end function film_by_finer_grids
 
    !> The smooth contact is solved: put the rough surface at rest in its place
@@ -157,13 +167,18 @@ contains
       self%resting = .true.
    end subroutine begin_rest
 
-   !> One cycle of the contact with the rough surface at rest; when it is solved, on to the next coarser grid
-   recursive subroutine advance_rest(self)
+   !> One cycle of the contact with what is at rest; when it is solved, on to what moves or to the next coarser grid
+   recursive subroutine advance_rest(self, status)
       type(solver_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
       type(clock_t) :: clock
 
       clock = start_clock()
       call self%rest%advance(self%hierarchy, self%steady%n, self%plan%cycle)
+      if (self%plan%surfaces%move()) then
+         if (self%rest%outcome == outcome_converged) call begin_transient(self, status)
+         return
+      end if
       self%step_seconds = self%step_seconds + clock%seconds()
       associate (rest => self%rest, m => self%rest%m)
          call self%history%append([real(dp) :: rest%total_cycles, rest%share, m%friction/rest%friction_smooth, &
@@ -214,11 +229,6 @@ contains
       input%grid%points = (self%grid%nx + 1)/2
       input%grid%target_error = 0.0_dp
       input%time%estimate_error = .false.
-      ! the same roughness, not the same share of another film
-      if (self%plan%surfaces%needs_film()) then
-         input%surface%amplitude_given = .true.
-         input%surface%amplitude = self%plan%surfaces%of(1)%surface%amplitude
-      end if
       allocate (self%coarse, stat=stat)
       if (stat /= 0) then
          call status%fail(ehl_no_memory, "no memory for another solver")

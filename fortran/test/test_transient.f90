@@ -237,10 +237,9 @@ contains
       type(case_t), target :: input
       type(steady_t) :: steady
       type(moving_surfaces_t) :: no_surfaces
-      real(dp), parameter :: none(0, 0) = reshape([real(dp) ::], [0, 0])
 
       call read_case(text, "test", "", input, status)
-      call make_plan(input, none, no_surfaces, plan, status)
+      call make_plan(input, no_surfaces, plan, status)
       call hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, plan%engine, &
                            plan%threads, status)
       call steady%start(plan%contact, plan%film_expected, plan%start, plan%levels, plan%cycle, &

@@ -4,22 +4,26 @@ module ehl_friction_mean
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: friction_mean_t, start_up, periods_compared
+   public :: friction_mean_t, start_up, periods_compared, automatic_periods
 
-   !> The last period is compared with those that end this share of a period earlier, one by one
+   !> The last period is compared with those that end this share of a period earlier, one by one; where a period holds
+   !> several ones of the slowest surface, of such a period
    real(dp), parameter :: lags(*) = [0.125_dp, 0.25_dp, 0.375_dp, 0.5_dp]
    !> The mean is that of one period. Where it has not settled after so many of them it is that of all periods but the
    !> first ones, in which what is left of the start dies out: pressure peaks of single nodes carry the friction there,
    !> and since a period is no whole number of steps, each one meets other phases of them
    real(dp), parameter :: several = 20.0_dp
    integer, parameter :: start_up = 2
-   !> Periods until a mean can be compared with earlier ones
-   real(dp), parameter :: periods_compared = 1.0_dp + lags(size(lags))
+   !> Periods of the slowest surface after which a mean that has not settled is given up; the slowest known one settled
+   !> after 21
+   integer, parameter :: automatic_periods = 36
 
    !> Friction ratio at equidistant times
    type :: friction_mean_t
       !> Period and time between values
       real(dp) :: period = 0.0_dp, time_step = 0.0_dp
+      !> Periods of the slowest surface in it
+      integer :: repeats = 1
       !> Steps before the roughness fills the contact: they belong to no mean
       integer :: filled = 0
       integer :: n = 0
@@ -43,12 +47,22 @@ module ehl_friction_mean
 
 contains
 
+   !> Periods until a mean can be compared with earlier ones
+   pure real(dp) function periods_compared(repeats)
+      !> Periods of the slowest surface in a period
+      integer, intent(in) :: repeats
+      periods_compared = 1.0_dp + lags(size(lags))/repeats
+   end function periods_compared
+
    !> Forget all values; the roughness fills the contact after time_filled
-   subroutine start(self, period, time_step, time_filled)
+   subroutine start(self, period, repeats, time_step, time_filled)
       class(friction_mean_t), intent(inout) :: self
       real(dp), intent(in) :: period, time_step, time_filled
+      !> Periods of the slowest surface in a period
+      integer, intent(in) :: repeats
 
       self%period = period
+      self%repeats = repeats
       self%time_step = time_step
       self%filled = ceiling(time_filled/time_step)
       self%n = 0
@@ -108,7 +122,7 @@ contains
    !> Whether the mean can be compared with earlier ones
    pure logical function has_change(self)
       class(friction_mean_t), intent(in) :: self
-      has_change = self%periods() >= periods_compared
+      has_change = self%periods() >= periods_compared(self%repeats)
    end function has_change
 
    !> Mean over the whole periods that end `lag` before the last value: the exact integral of the
@@ -175,7 +189,7 @@ contains
       change = 0.0_dp
       if (self%periods() < several) then
          do k = 1, size(lags)
-            change = max(change, abs(self%mean(lags(k)*self%period) - self%mean(0.0_dp)))
+            change = max(change, abs(self%mean(lags(k)*self%period/self%repeats) - self%mean(0.0_dp)))
          end do
          return
       end if
