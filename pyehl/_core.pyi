@@ -15,7 +15,13 @@ _Indices = NDArray[np.int32]
 
 class _Solver:
     def open_case(
-        self, text: bytes, origin: bytes, has_heights: int, heights: _Array
+        self,
+        text: bytes,
+        origin: bytes,
+        has_heights: int,
+        heights: _Array,
+        has_second: int,
+        second: _Array,
     ) -> tuple[int, int, bytes]: ...
     def close_case(self, handle: int) -> tuple[int, bytes]: ...
     def advance(self, handle: int) -> tuple[int, int, int, bytes]: ...
@@ -34,7 +40,14 @@ class _Checkpoints:
     def checkpoint_case(self, results: bytes) -> tuple[bytes, int, bytes]: ...
     def resume(self, handle: int, results: bytes) -> tuple[bytes, int, bytes]: ...
     def keep(
-        self, handle: int, results: bytes, resumed: bytes, has_heights: int, heights: _Array
+        self,
+        handle: int,
+        results: bytes,
+        resumed: bytes,
+        has_heights: int,
+        heights: _Array,
+        has_second: int,
+        second: _Array,
     ) -> tuple[bytes, int, bytes]: ...
     def save_state(self, handle: int, at_once: int) -> tuple[int, int, bytes]: ...
     def end_keeping(self, handle: int) -> tuple[int, bytes]: ...

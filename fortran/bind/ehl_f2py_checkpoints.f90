@@ -12,19 +12,19 @@ module ehl_f2py_checkpoints
 
 contains
 
-   !> Case file of the run with these results, to resume it; its folder holds surface.npy as well when
-   !> the surface came from Python
+   !> Case file of the run with these results, to resume it; its folder holds surface.npy, and second_surface.npy, as well
+   !> when these surfaces came from Python
    subroutine checkpoint_case(results, path, stat, message)
       character(len=*), intent(in) :: results
       character(len=4096), intent(out) :: path
       integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message
-      real(c_double), allocatable :: heights(:, :)
+      real(c_double), allocatable :: heights(:, :), second(:, :)
       character(len=:), allocatable :: text
       type(status_t) :: status
 
       path = ""
-      call find_checkpoint(results, text, heights, status)
+      call find_checkpoint(results, text, heights, second, status)
       if (.not. status%failed()) path = text
       call reply(status, stat, message)
    end subroutine checkpoint_case
@@ -50,12 +50,13 @@ contains
    end subroutine resume
 
    !> Keep states of the run beside its results, at the interval of the case; `resumed` names the
-   !> results of the run that is resumed; with has_heights on the surface of open_case too
-   subroutine keep(handle, results, resumed, has_heights, nx, ny, heights, note, stat, message)
+   !> results of the run that is resumed; with has_heights and has_second on the surfaces of
+   !> open_case too
+   subroutine keep(handle, results, resumed, has_heights, nx, ny, heights, has_second, mx, my, second, note, stat, message)
       integer(c_int), intent(in) :: handle
       character(len=*), intent(in) :: results, resumed
-      integer(c_int), intent(in) :: has_heights, nx, ny
-      real(c_double), intent(inout) :: heights(nx, ny)
+      integer(c_int), intent(in) :: has_heights, nx, ny, has_second, mx, my
+      real(c_double), intent(inout) :: heights(nx, ny), second(mx, my)
       character(len=4096), intent(out) :: note
       integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message
@@ -66,8 +67,8 @@ contains
       note = ""
       call run_of(handle, run, status)
       if (.not. status%failed()) then
-         associate (n => merge(nx, 0, has_heights /= 0))
-            call run%checkpoints%open(results, run%input, run%solver, resumed, heights(:n, :), text, status)
+         associate (n => merge(nx, 0, has_heights /= 0), m => merge(mx, 0, has_second /= 0))
+            call run%checkpoints%open(results, run%input, run%solver, resumed, heights(:n, :), second(:m, :), text, status)
          end associate
          if (.not. status%failed()) note = text
       end if

@@ -23,12 +23,12 @@ module ehl_f2py_solver
 
 contains
 
-   !> Start a solver on the text of a case; with has_heights on the surface heights(nx, ny) [m]
-   !> in place of a file
-   subroutine open_case(text, origin, has_heights, nx, ny, heights, handle, stat, message)
+   !> Start a solver on the text of a case; with has_heights and has_second on the surfaces heights(nx, ny) and
+   !> second(mx, my) [m] in place of files
+   subroutine open_case(text, origin, has_heights, nx, ny, heights, has_second, mx, my, second, handle, stat, message)
       character(len=*), intent(in) :: text, origin
-      integer(c_int), intent(in) :: has_heights, nx, ny
-      real(c_double), intent(inout) :: heights(nx, ny)
+      integer(c_int), intent(in) :: has_heights, nx, ny, has_second, mx, my
+      real(c_double), intent(inout) :: heights(nx, ny), second(mx, my)
       integer(c_int), intent(out) :: handle, stat
       character(len=4096), intent(out) :: message
       type(case_t), target :: input
@@ -40,11 +40,9 @@ contains
       if (.not. status%failed()) call new_handle(handle, run, status)
       if (.not. status%failed()) then
          run%input = input
-         if (has_heights /= 0) then
-            call run%solver%start(input, status, heights)
-         else
-            call run%solver%start(input, status)
-         end if
+         associate (n => merge(nx, 0, has_heights /= 0), m => merge(mx, 0, has_second /= 0))
+            call run%solver%start(input, status, heights(:n, :), second(:m, :))
+         end associate
          if (status%failed()) call drop_handle(handle, closing)
       end if
       call reply(status, stat, message)

@@ -60,9 +60,10 @@ def predict(
             f"--tracks {tracks}: expected 1 to {MAX_TRACKS}; the mean over {MAX_TRACKS} is known "
             "to a hundredth of the spread"
         )
-    why = unpredictable(str(settings["surface"]["kind"]))
+    why = unpredictable(settings)
     if why:
         raise InputError(why)
+    settings = surfaces.one_rough(settings)
     operating = OperatingPoint.from_settings(settings)
     lubricant = Lubricant.from_settings(settings, str(settings["psd"]["viscosity_law"]))
     options = Options.from_settings(settings)
