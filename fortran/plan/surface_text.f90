@@ -6,9 +6,10 @@ module ehl_surface_text
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_plan, only: plan_t
    use ehl_surface, only: surface_t
+   use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: scene_lines, rest_lines, wave_lines
+   public :: scene_lines, rest_lines, wave_lines, window_words
 
 contains
 
@@ -21,7 +22,9 @@ contains
       associate (surfaces => plan%surfaces)
          text = surface_lines(surfaces)
          if (surfaces%count() > 1 .and. .not. surfaces%pass_once()) then
-            if (surfaces%mismatch > 0.0_dp) then
+            if (.not. surfaces%meets) then
+               line = "           "//window_words(surfaces)
+            else if (surfaces%mismatch > 0.0_dp) then
                write (line, "(a,i0,a,f9.4,a)") "           no common period: means over ", surfaces%repeats, &
                   " periods of the slowest, ", surfaces%period, " a/u,"
                text = text//trim(line)//new_line("a")
@@ -40,6 +43,15 @@ contains
          end if
       end associate
    end function scene_lines
+
+   !> Why the error of a mean over a time that is no common period is not known, and what would do
+   function window_words(surfaces) result(text)
+      type(moving_surfaces_t), intent(in) :: surfaces
+      character(len=:), allocatable :: text
+
+      text = "the mean holds "//to_text(surfaces%repeats)//" periods of the slowest surface, and both meet in few positions then"
+      if (surfaces%whole > 0) text = text//": time.max_periods = "//to_text(surfaces%whole)//" for all"
+   end function window_words
 
    !> Each surface, what it is and how it moves
    function surface_lines(surfaces) result(text)

@@ -1,13 +1,12 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The error of mu_ratio: parts under names of their own and their sum, or why it is not known
 module ehl_ratio_error
-   use ehl_friction_mean, only: friction_mean_t
    use ehl_kinds, only: dp
    use ehl_record, only: record_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
    private
-   public :: ratio_error_t, waves_t, window_error
+   public :: ratio_error_t, waves_t
 
    !> The sum so far. A part that is not known makes it unknown.
    type :: ratio_error_t
@@ -63,21 +62,4 @@ contains
          call record%set("mu_ratio_error_note", "")
       end if
    end subroutine report
-
-   !> Error of a mean over a time that is no common period of two surfaces. It is one of surfaces with velocities a little
-   !> apart, whose phases differ by half of what is missed at either end: over a period F rises and falls by its range, so
-   !> that a phase that is wrong by a quarter of that in the mean changes F by half of it times the range.
-   pure real(dp) function window_error(mismatch, mean, ratio)
-      !> Part of a period by which a surface misses its start
-      real(dp), intent(in) :: mismatch
-      type(friction_mean_t), intent(in) :: mean
-      !> NaN where it is not known
-      real(dp), intent(in) :: ratio
-      real(dp) :: range(2)
-
-      window_error = ratio
-      if (.not. ieee_is_finite(ratio)) return
-      range = mean%extremes()
-      window_error = 0.5_dp*mismatch*(range(2) - range(1))
-   end function window_error
 end module ehl_ratio_error

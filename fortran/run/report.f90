@@ -131,7 +131,8 @@ contains
       call record%set("scheme", trim(merge("narrow", "paper ", plan%scheme == wedge_narrow)))
       call record%set("T", transient%time)
       call record%set("T_period", transient%mean%period)
-      if (plan%surfaces%count() > 1) call record%set("T_mismatch", plan%surfaces%mismatch)
+      if (plan%surfaces%count() > 1) call record%set("T_mismatch", merge(plan%surfaces%mismatch, &
+         ieee_value(mean, ieee_quiet_nan), plan%surfaces%meets))
       call record%set("T_mean", merge(transient%mean%window(), 0.0_dp, transient%mean%has_mean()))
       call record%set("steps", transient%step)
       call record%set("steps_skipped", transient%skipped)

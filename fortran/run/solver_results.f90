@@ -6,13 +6,14 @@ submodule (ehl_solver) ehl_solver_results
    use ehl_outcome, only: outcome_names, outcome_target_missed
    use ehl_plan_text, only: plan_text
    use ehl_conclusion, only: conclusion_of => conclusion
-   use ehl_ratio_error, only: ratio_error_t, window_error
+   use ehl_ratio_error, only: ratio_error_t
    use ehl_report, only: report_transient, report_rest, report_scene, report_waves
    use ehl_report_friction, only: report_friction
    use ehl_report_passage, only: report_passage
    use ehl_report_smooth, only: report_smooth
    use ehl_skipped_work, only: skipped_work
    use ehl_status, only: ehl_bad_input, ehl_no_memory
+   use ehl_surface_text, only: window_words
    use ehl_text, only: newline
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    implicit none (type, external)
@@ -35,7 +36,7 @@ contains
       class(solver_t), intent(in) :: self
       type(record_t) :: record
       logical :: good
-      real(dp) :: bytes, ratio, stop_error
+      real(dp) :: ratio, stop_error
 
       call record%set("kind", "solution")
       call record%set("status", trim(outcome_names(self%stand())))
@@ -58,8 +59,7 @@ contains
       if (self%plan%surfaces%rough()) call report_ratio(self, record, ratio, stop_error)
       call summarise_friction(self, record, good)
       if (self%in_steps .and. self%done()) call record%set("skips", skipped_work(self%plan, self%transient, self%converged()))
-      bytes = real(self%hierarchy%bytes(), dp) + self%plan%surfaces%bytes()
-      call record%set("bytes", bytes)
+      call record%set("bytes", real(self%hierarchy%bytes(), dp) + self%plan%surfaces%bytes())
    end function summary
 
    module function conclusion(self) result(text)
@@ -99,8 +99,8 @@ contains
       call record%set("mu_ratio_unresolved", waves%unresolved)
       call error%add(record, "mu_ratio_error_grid", grid, why)
       call error%add(record, "mu_ratio_error_stop", stop_error, why)
-      if (self%plan%surfaces%mismatch > 0.0_dp) call error%add(record, "mu_ratio_error_window", &
-         window_error(self%plan%surfaces%mismatch, self%transient%mean, ratio), why)
+      if (self%plan%surfaces%mismatch > 0.0_dp .and. ieee_is_finite(ratio)) call error%add(record, "mu_ratio_error_window", &
+         merge(self%transient%mean%window_error(), nothing, self%plan%surfaces%meets), window_words(self%plan%surfaces))
       call error%add(record, "mu_ratio_error_left_out", waves%left_out, waves%why)
       domain = nothing
       if (self%plan%domain_cost(1) < 1.0_dp) then

@@ -25,7 +25,7 @@ contains
       type(friction_mean_t) :: mean
       integer :: k
 
-      call mean%start(period, 1, time_step, 0.0_dp)
+      call mean%start(period, 1, 0.0_dp, time_step, 0.0_dp)
       call mean%append(1.0e24_dp, 0.0_dp, 0.0_dp)
       do k = 1, nint(1.6_dp*period/time_step)
          call mean%append(1.0_dp, 0.0_dp, 0.0_dp)
@@ -74,7 +74,7 @@ contains
       type(friction_mean_t), intent(out) :: mean
       integer :: k
 
-      call mean%start(period, 1, time_step, 0.0_dp)
+      call mean%start(period, 1, 0.0_dp, time_step, 0.0_dp)
       do k = 1, nint(40.0_dp*period/time_step)
          call mean%append(signal(k*time_step/period, height), 0.0_dp, 0.0_dp)
          if (mean%settled(tolerance)) return

@@ -22,8 +22,9 @@ module ehl_friction_mean
    type :: friction_mean_t
       !> Period and time between values
       real(dp) :: period = 0.0_dp, time_step = 0.0_dp
-      !> Periods of the slowest surface in it
+      !> Periods of the slowest surface in it, and the part of a period by which another one misses its start after it
       integer :: repeats = 1
+      real(dp) :: mismatch = 0.0_dp
       !> Steps before the roughness fills the contact: they belong to no mean
       integer :: filled = 0
       integer :: n = 0
@@ -40,6 +41,7 @@ module ehl_friction_mean
       procedure :: change
       procedure :: has_change
       procedure :: settled
+      procedure :: window_error
       procedure :: periods
       procedure :: window
       procedure :: amplitude_ratio
@@ -55,14 +57,16 @@ contains
    end function periods_compared
 
    !> Forget all values; the roughness fills the contact after time_filled
-   subroutine start(self, period, repeats, time_step, time_filled)
+   subroutine start(self, period, repeats, mismatch, time_step, time_filled)
       class(friction_mean_t), intent(inout) :: self
       real(dp), intent(in) :: period, time_step, time_filled
-      !> Periods of the slowest surface in a period
+      !> Periods of the slowest surface in a period, and the part of a period by which another one misses its start after it
       integer, intent(in) :: repeats
+      real(dp), intent(in) :: mismatch
 
       self%period = period
       self%repeats = repeats
+      self%mismatch = mismatch
       self%time_step = time_step
       self%filled = ceiling(time_filled/time_step)
       self%n = 0
@@ -202,7 +206,7 @@ contains
    end function change
 
    !> Whether the mean changes no more than by this share of it; a mean over several periods, of what has peaks
-   !> of many times itself, by this share of the largest value
+   !> of many times itself, by this share of the largest value; without a common period, than by its window too
    pure logical function settled(self, tolerance)
       class(friction_mean_t), intent(in) :: self
       real(dp), intent(in) :: tolerance
@@ -215,6 +219,19 @@ contains
          range = self%extremes()
          scale = range(2)
       end if
-      settled = self%change() <= tolerance*scale
+      settled = self%change() <= tolerance*scale + self%window_error()
    end function settled
+
+   !> Error of a mean over a time that is no common period of two surfaces. What it takes the mean of worst is a product of
+   !> waves with one period in that time, of which it holds 1 - m or 1 + m, m being the mismatch. At most
+   !> sin(pi m)/(pi (1 - m)) of the amplitude is left, which is less than m times the range for m up to a quarter.
+   pure real(dp) function window_error(self)
+      class(friction_mean_t), intent(in) :: self
+      real(dp) :: range(2)
+
+      window_error = 0.0_dp
+      if (.not. self%mismatch > 0.0_dp .or. self%n == 0) return
+      range = self%extremes()
+      window_error = self%mismatch*(range(2) - range(1))
+   end function window_error
 end module ehl_friction_mean

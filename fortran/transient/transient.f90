@@ -71,8 +71,8 @@ contains
                       + merge(1.0_dp, periods_compared(surfaces%repeats), surfaces%pass_once())*surfaces%period)/time_step
    end function steps_needed
 
-   !> Begin from the solution of a level, smooth or with what is at rest, the roughness on the move riding on its film. Where the film is thick it changes
-   !> nothing: solving begins when the front, with half its length, reaches x_matters.
+   !> Begin from the solution of a level, smooth or with what is at rest, the roughness on the move riding on its film.
+   !> Where the film is thick it changes nothing: solving begins when the front, with half its length, reaches x_matters.
    subroutine start(self, level, contact, surfaces, skip, friction_smooth, status)
       class(transient_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
@@ -111,7 +111,8 @@ contains
       self%p_before = spread(level%p, 3, 3)
       self%h00_before = level%h00
       self%m = measure(level)
-      call self%mean%start(surfaces%period, surfaces%repeats, self%time_step, surfaces%time_to_mean(self%time))
+      call self%mean%start(surfaces%period, surfaces%repeats, surfaces%mismatch, self%time_step, &
+                           surfaces%time_to_mean(self%time))
       self%extremes = extremes_t()
    end subroutine start
 
