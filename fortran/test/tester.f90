@@ -14,6 +14,7 @@ program tester
    use test_record, only: run_record
    use test_report, only: run_report
    use test_solver, only: run_solver
+   use test_surfaces, only: run_surfaces
    use test_text, only: run_text
    use test_transient, only: run_transient
    implicit none (type, external)
@@ -37,6 +38,8 @@ program tester
       call run_alcouffe()
    case ("mean")
       call run_mean()
+   case ("surfaces")
+      call run_surfaces()
    case ("friction")
       call run_friction()
    case ("policy")
