@@ -157,7 +157,7 @@ contains
          call self%reals("time", "tolerance", t%tolerance, "-", "[1e-8, 0.5]", &
                          "stop when the period mean of mu_r/mu_s changes less, relatively")
          call self%integers("time", "max_periods", t%max_periods, "[0, 100000]", &
-                            "most periods; 0: 36")
+                            "most periods, of two surfaces those of the slower one; 0: 36")
          call self%logicals("time", "skip_start", t%skip_start, &
                             "solve nothing before the roughness comes near the contact")
          call self%logicals("time", "estimate_error", t%estimate_error, &

@@ -259,6 +259,22 @@ def test_waves_that_are_left_out_have_no_prediction(heights, tmp_path: Path):
     assert "two rough surfaces: the prediction knows one" in summary["mu_ratio_error_note"]
 
 
+def test_second_surface_as_a_map(heights, tmp_path: Path, monkeypatch, capsys):
+    """`pyehl surface --second` shows and writes the surface of the other body."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "case.nml").write_text(CONTACT + MAP.format("second_surface", "two", ""))
+    assert cli.main(["surface", "case.nml"]) == 2
+    assert "expected: surface.kind" in capsys.readouterr().err
+    words = ["surface", "case.nml", "--second", "-o", "tile.npy", "--no-plots"]
+    assert cli.main(words) == 0
+    values = heights["two"] - heights["two"].mean()
+    assert np.load("tile.npy") == pytest.approx(values, abs=1e-20)
+    made = Case.read("tile.npy.nml").resolve()
+    assert made["surface"]["velocity_ratio"] == 0.75
+    assert cli.main([*words[:3], "--set", "second_surface.kind=smooth"]) == 2
+    assert "expected: second_surface.kind" in capsys.readouterr().err
+
+
 def test_film_over_both():
     one = Case.from_text(CONTACT + FRACTAL.format("surface"))
     second = Case.from_text(CONTACT + FRACTAL.format("second_surface").replace("5e-9", "1.2e-8"))
