@@ -32,6 +32,7 @@ module ehl_case
       real(dp) :: radius_ratio = 1.0_dp
       real(dp) :: reduced_modulus = 2.26e11_dp
       real(dp) :: slide_to_roll = 0.02_dp
+      !> Which body has &surface; the other one has &second_surface
       integer :: rough_surface = 1
       !> Of bearing steel
       real(dp) :: thermal_conductivity = 46.0_dp
@@ -78,7 +79,7 @@ module ehl_case
       integer :: max_points = 2049
    end type grid_case_t
 
-   !> &surface: the moving roughness
+   !> &surface and &second_surface: the moving roughness of a body
    type :: surface_case_t
       character(len=word_length) :: kind = "smooth"
       !> Whether `amplitude` holds and not `amplitude_over_film`. Not a key; set by the reader.
@@ -177,6 +178,8 @@ module ehl_case
       type(lubricant_case_t) :: lubricant
       type(grid_case_t) :: grid
       type(surface_case_t) :: surface
+      !> The surface of the other body
+      type(surface_case_t) :: second_surface
       type(time_case_t) :: time
       type(solver_case_t) :: solver
       type(psd_case_t) :: psd

@@ -180,31 +180,62 @@ contains
       end do
    end function most_unusual
 
-   !> Of slide-to-roll ratio and velocity of the rough surface one follows from the other: surface 1 moves at
-   !> 1 + SRR/2, surface 2 at 1 - SRR/2 times the mean velocity
+   !> Of slide-to-roll ratio and velocities of the surfaces one gives the others: body 1 moves at 1 + SRR/2, body 2 at
+   !> 1 - SRR/2 times the mean velocity
    subroutine complete_kinematics(schema, input, sources, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(inout) :: input
       type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
-      real(dp) :: side, follows
+      real(dp) :: side
 
       side = merge(1.0_dp, -1.0_dp, input%contact%rough_surface == 1)
-      associate (ratio => input%surface%velocity_ratio, srr => input%contact%slide_to_roll)
-         follows = 1.0_dp + 0.5_dp*side*srr
-         if (.not. schema%given("surface", "velocity_ratio")) then
-            ratio = follows
-         else if (.not. schema%given("contact", "slide_to_roll")) then
-            srr = sliding(side, ratio)
-         else if (abs(ratio - follows) > rounding) then
-            call contradict(schema, sources, "surface.velocity_ratio", "contact.slide_to_roll", &
-               "one of the two, or slide_to_roll = " // to_text(sliding(side, ratio)) // " with this velocity_ratio", &
-               status, "with contact.slide_to_roll = " // to_text(srr) // ", surface " &
-               // to_text(input%contact%rough_surface) // ", the rough one, moves at " // to_text(follows) &
-               // " times the mean velocity, not at " // to_text(ratio))
+      associate (first => input%surface%velocity_ratio, second => input%second_surface%velocity_ratio, &
+                 srr => input%contact%slide_to_roll)
+         if (schema%given("surface", "velocity_ratio") .and. schema%given("second_surface", "velocity_ratio")) then
+            if (abs(first + second - 2.0_dp) > rounding) then
+               call contradict(schema, sources, "surface.velocity_ratio", "second_surface.velocity_ratio", &
+                  "one of the two, or velocity ratios that add up to 2: contact.mean_velocity is the mean of both bodies", &
+                  status, to_text(first) // " and " // to_text(second) // " add up to " // to_text(first + second))
+               return
+            end if
          end if
+         if (.not. schema%given("contact", "slide_to_roll")) then
+            if (schema%given("surface", "velocity_ratio")) then
+               srr = sliding(side, first)
+            else if (schema%given("second_surface", "velocity_ratio")) then
+               srr = sliding(-side, second)
+            end if
+         end if
+         call settle_velocity(schema, "surface", input%contact%rough_surface, srr, first, sources, status)
+         call settle_velocity(schema, "second_surface", 3 - input%contact%rough_surface, srr, second, sources, status)
       end associate
    end subroutine complete_kinematics
+
+   !> The velocity of a surface, which follows from the slide-to-roll ratio; one that was given must agree with it
+   subroutine settle_velocity(schema, group, body, srr, ratio, sources, status)
+      type(schema_t), intent(in) :: schema
+      character(len=*), intent(in) :: group
+      !> Which body the surface is on: 1 or 2
+      integer, intent(in) :: body
+      real(dp), intent(in) :: srr
+      real(dp), intent(inout) :: ratio
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+      real(dp) :: side, follows
+
+      side = merge(1.0_dp, -1.0_dp, body == 1)
+      follows = 1.0_dp + 0.5_dp*side*srr
+      if (.not. schema%given(group, "velocity_ratio")) then
+         ratio = follows
+      else if (schema%given("contact", "slide_to_roll") .and. abs(ratio - follows) > rounding .and. &
+               .not. status%failed()) then
+         call contradict(schema, sources, group // ".velocity_ratio", "contact.slide_to_roll", &
+            "one of the two, or slide_to_roll = " // to_text(sliding(side, ratio)) // " with this velocity_ratio", &
+            status, "with contact.slide_to_roll = " // to_text(srr) // ", &" // group // ", on body " // to_text(body) &
+            // ", moves at " // to_text(follows) // " times the mean velocity, not at " // to_text(ratio))
+      end if
+   end subroutine settle_velocity
 
    !> Slide-to-roll ratio from the velocity of the rough surface, free of the rounding of the difference: 0.02 for 1.01
    pure real(dp) function sliding(side, ratio)

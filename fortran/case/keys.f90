@@ -31,8 +31,8 @@ contains
          call self%reals("reduced_modulus", c%reduced_modulus, "Pa", "[1e8, 2e12]", &
                          "E' with 2/E' = sum of (1 - nu^2)/E over the bodies")
          call self%reals("slide_to_roll", c%slide_to_roll, "-", "[-2, 2]", &
-                         "slide-to-roll ratio (u1 - u2)/u; follows from a given surface.velocity_ratio")
-         call self%integers("rough_surface", c%rough_surface, "[1, 2]", "which surface is the rough one")
+                         "slide-to-roll ratio (u1 - u2)/u; follows from a given velocity_ratio of a surface")
+         call self%integers("rough_surface", c%rough_surface, "[1, 2]", "body with &surface; the other has &second_surface")
          call self%reals("thermal_conductivity", c%thermal_conductivity, "W/(m K)", "[0.1, 500]", &
                          "thermal conductivity of the solids, for the flash temperature")
          call self%reals("thermal_diffusivity", c%thermal_diffusivity, "m^2/s", "[1e-8, 1e-3]", &
@@ -93,13 +93,16 @@ contains
       end associate
       self%group = "surface"
       call add_surface_keys(self, input%surface)
+      self%group = "second_surface"
+      call add_surface_keys(self, input%second_surface)
       self%group = "time"
       associate (t => input%time)
          call self%words("scheme", t%scheme, "narrow|paper", &
                          "wedge and squeeze: along the characteristic, or each by itself")
          call self%reals("tolerance", t%tolerance, "-", "[1e-8, 0.5]", &
                          "stop when the period mean of mu_r/mu_s changes less, relatively")
-         call self%integers("max_periods", t%max_periods, "[0, 100000]", "most periods; 0: 36")
+         call self%integers("max_periods", t%max_periods, "[0, 100000]", &
+                            "most periods, of two surfaces those of the slower one; 0: 36")
          call self%words("start", t%start, "front|prediction", &
                          "roughness enters behind a front, or fills the contact as pyehl predicts")
          call self%logicals("skip_start", t%skip_start, "solve nothing before the roughness comes near the contact")
@@ -164,7 +167,7 @@ contains
       call self%reals("wavelength_x", s%wavelength_x, "a", "[0.01, 100]", "wavelength along X; default wavelength")
       call self%reals("wavelength_y", s%wavelength_y, "a", "[0.01, 1e6]", "wavelength along Y; default wavelength")
       call self%reals("velocity_ratio", s%velocity_ratio, "-", "[0, 2]", &
-                      "velocity of the rough surface over the mean one; default 1 + SRR/2, surface 2: 1 - SRR/2")
+                      "velocity of the rough surface over the mean one; default 1 + SRR/2 on body 1, 1 - SRR/2 on body 2")
       call self%reals("x_start", s%x_start, "a", "[-1e5, 1e4]", &
                       "where the roughness begins at time 0, at rest its origin; default x_inlet")
       call self%reals("height_m", s%height_m, "m", "0 or [1e-12, 1e-4]", &

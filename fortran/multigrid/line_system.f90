@@ -1,20 +1,21 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Line systems of the Reynolds equation (reynolds.f90) along X: the changes d(i) of the pressure of a row that its
-!> linearised equation asks for while the other rows stay. A node with D(i) = 1 changes distributively: -1/4 of its change
-!> goes to each of the four neighbours, else D(i) = 0. With r(i) the residual,
+!> linearised equation asks for while the other rows stay. A node with D(i) = 1 changes distributively: the share -a of its
+!> change goes to each neighbour along X, -b to each across it (workspace.f90; 1/4 on square cells), else D(i) = 0. With
+!> r(i) the residual,
 !>
 !>    em4 d(i-4) + em3 d(i-3) + em2 d(i-2) + em1 d(i-1) + e0 d(i) + e1 d(i+1) + e2 d(i+2) = r(i)
 !>
 !>    em4 = - c2 s(i-2, -2)
 !>    em3 = - c1 s(i-1, -2) - c2 s(i-2, -1)
-!>    em2 = - w D(i-2)/4 - c0 s(i, -2) - c1 s(i-1, -1) - c2 s(i-2, 0)
+!>    em2 = - w a D(i-2) - c0 s(i, -2) - c1 s(i-1, -1) - c2 s(i-2, 0)
 !>    em1 = w (1 + D(i-1)) + w' g(i-1) (P(i-1) - P(i)) - c0 s(i, -1) - c1 s(i-1, 0) - c2 s(i-2, 1)
 !>    e0  = (o - e - w) (1 + D(i)/4) + g(i) [e' (P(i+1) - P(i)) + w' (P(i-1) - P(i)) + o']
 !>          - c0 s(i, 0) - c1 s(i-1, 1) - c2 s(i-2, 2)
 !>    e1  = e (1 + D(i+1)) + e' g(i+1) (P(i+1) - P(i)) - c0 s(i, 1) - c1 s(i-1, 2)
-!>    e2  = - e D(i+2)/4 - c0 s(i, 2)
+!>    e2  = - e a D(i+2) - c0 s(i, 2)
 !>
-!>    s(i, l) = d(rho H)(i)/d d(i+l) = rho(i) K(l) + [H d rho/dP](i) (1 if l = 0, -D(i+l)/4 if |l| = 1, else 0)
+!>    s(i, l) = d(rho H)(i)/d d(i+l) = rho(i) K(l) + [H d rho/dP](i) (1 if l = 0, -a D(i+l) if |l| = 1, else 0)
 !>    g(i)    = (1 - D(i)) d eps(i)/dP
 !>
 !> e, w: couplings to the east and to the west, o: less the sum of those to other rows, e', w', o': their change with the

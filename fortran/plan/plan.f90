@@ -6,6 +6,7 @@ module ehl_plan
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
    use ehl_domain, only: domain_cost, domain_t
+   use ehl_friction_mean, only: automatic_periods
    use ehl_grid, only: coarsest_most, find_levels, grid_t, new_grid
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
@@ -83,14 +84,14 @@ module ehl_plan
 contains
 
    !> Decide how a case is solved
-   subroutine make_plan(input, heights, surfaces, plan, status)
+   subroutine make_plan(input, surfaces, plan, status, heights, second_heights)
       type(case_t), intent(in) :: input
-      !> Heights of a map [m] if they are not to be read from a file, else of size 0
-      real(dp), intent(in) :: heights(:, :)
       !> The surfaces, if they have been made already; the plan takes them over
       type(moving_surfaces_t), intent(inout) :: surfaces
       type(plan_t), intent(out) :: plan
       type(status_t), intent(inout) :: status
+      !> Heights of the maps of both surfaces [m], X first, in place of files; of size 0: none
+      real(dp), intent(in), optional :: heights(:, :), second_heights(:, :)
       real(dp) :: rho(1), slope(1)
 
       call pick_contact(input, plan)
@@ -112,19 +113,21 @@ contains
       if (surfaces%rough()) then
          call move_alloc(surfaces%of, plan%surfaces%of)
       else
-         call make_surfaces(input, plan%scales, heights, plan%surfaces, status)
+         call make_surfaces(input, plan%scales, plan%surfaces, status, heights, second_heights)
       end if
-      ! a feature passes once, and which grid an error asks for is not known before
+      ! a feature passes once, which grid an error asks for is not known before, and one rough surface alone is predicted
       plan%predicted_start = input%time%start == "prediction" .and. plan%surfaces%move() .and. &
-                             .not. plan%surfaces%pass_once() .and. .not. plan%target_error > 0.0_dp
+                             .not. plan%surfaces%pass_once() .and. .not. plan%target_error > 0.0_dp .and. &
+                             plan%surfaces%count() == 1
       call pick_cycle(input, plan)
       call pick_grids(input, plan, status)
       if (status%failed() .or. .not. plan%surfaces%rough()) return
       call plan%surfaces%use_threads(plan%threads)
+      call plan%surfaces%find_period(merge(plan%max_periods, automatic_periods, plan%max_periods > 0))
       plan%coarse_run = input%time%estimate_error .and. plan%levels > 2 .and. (plan%surfaces%rest() .or. plan%steps == 0)
       call plan%see_waves(plan%finest)
       call check_carried(plan%surfaces, plan%finest, status)
-      if (.not. status%failed()) call check_steps(input, plan, status)
+      if (.not. status%failed()) call check_steps(plan, status)
    end subroutine make_plan
 
    !> What of the surfaces a grid carries
@@ -141,15 +144,15 @@ contains
    end subroutine see_waves
 
    !> Refuse a surface so slow that the friction cannot be known within a sensible number of steps
-   subroutine check_steps(input, plan, status)
-      type(case_t), intent(in) :: input
+   subroutine check_steps(plan, status)
       type(plan_t), intent(in) :: plan
       type(status_t), intent(inout) :: status
       real(dp) :: steps
       integer :: most
+      character(len=:), allocatable :: what
 
       if (.not. plan%surfaces%move()) return
-      associate (ratio => input%surface%velocity_ratio)
+      associate (slowest => plan%surfaces%of(plan%surfaces%slowest()))
          most = merge(most_steps_asked_for, most_steps, plan%steps > 0)
          steps = steps_needed(plan%surfaces, plan%finest%hx, plan%skip_start, plan%predicted_start)
          if (steps <= most) then
@@ -158,11 +161,12 @@ contains
             steps = steps_needed(plan%surfaces, plan%finest%hx, .false., plan%predicted_start)
             if (steps <= most) return
          end if
+         what = trim(slowest%group)//".velocity_ratio = "//to_text(slowest%surface%velocity_ratio)//": so slow a surface needs "
+         if (plan%surfaces%repeats > 1) what = what//"by "//to_text(plan%surfaces%repeats)//" periods "
          ! rounded up: what is named will do
-         call status%fail(ehl_bad_input, "surface.velocity_ratio = "//to_text(ratio)//": so slow a surface needs "// &
-                          fixed(steps, "es12.2e3")//" time steps until its friction is known, more than "// &
+         call status%fail(ehl_bad_input, what//fixed(steps, "es12.2e3")//" time steps until its friction is known, more than "// &
                           to_text(most)//new_line("a")//"expected: a velocity ratio of at least "// &
-                          fixed(1.005_dp*steps*ratio/most, "es12.2e3")// &
+                          fixed(1.005_dp*steps*slowest%surface%velocity_ratio/most, "es12.2e3")// &
                           " on this grid, or 0: a rough surface at rest is a steady contact")
       end associate
    end subroutine check_steps

@@ -15,6 +15,7 @@ program tester
    use test_report, only: run_report
    use test_reynolds, only: run_reynolds
    use test_solver, only: run_solver
+   use test_surfaces, only: run_surfaces
    use test_text, only: run_text
    use test_transient, only: run_transient
    implicit none (type, external)
@@ -40,6 +41,8 @@ program tester
       call run_alcouffe()
    case ("mean")
       call run_mean()
+   case ("surfaces")
+      call run_surfaces()
    case ("friction")
       call run_friction()
    case ("policy")
