@@ -52,8 +52,10 @@ module ehl_case
       real(dp) :: roelands_p0 = 1.96e8_dp
       !> 'dowson-higginson' (default) or 'incompressible'
       character(len=word_length) :: density_law = "dowson-higginson"
-      !> 'newtonian' (default), 'eyring', 'limiting' or 'carreau': shear stress, for friction
+      !> 'newtonian' (default), 'eyring', 'limiting' or 'carreau': shear stress
       character(len=word_length) :: shear_law = "newtonian"
+      !> 'consistent' (default): the flow obeys the law too ('eyring', 'carreau'); 'newtonian': the friction alone
+      character(len=word_length) :: flow = "consistent"
       !> [Pa] Eyring stress, default 5e6
       real(dp) :: eyring_stress = 5.0e6_dp
       !> [Pa] limiting shear stress; 0 (default): limiting_coefficient times pressure

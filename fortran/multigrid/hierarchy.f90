@@ -69,7 +69,7 @@ contains
       end if
       do k = 1, n
          self%levels(k)%lubricant = lubricant
-         call new_flow(speed_parameter, self%levels(k)%flow)
+         call new_flow(lubricant, speed_parameter, self%levels(k)%flow)
       end do
       self%levels(1)%grid = coarsest
       call self%coarsest%setup(coarsest, status)

@@ -31,6 +31,7 @@ module ehl_thinning
    contains
       procedure :: thinness
       procedure :: sliding_stress
+      procedure :: curvature
    end type thinning_t
 
 contains
@@ -57,6 +58,13 @@ contains
          slope = (0.5_dp*(e + 1.0_dp/e) - f)/square
       end if
    end subroutine thinness
+
+   !> Of F at small stresses: F = 1 + curvature tau^2
+   pure real(dp) function curvature(self)
+      class(thinning_t), intent(in) :: self
+      curvature = 1.0_dp/6.0_dp
+      if (self%law == carreau) curvature = 0.5_dp*(1.0_dp - self%exponent)/self%exponent
+   end function curvature
 
    !> Stress of a film that only slides; a NaN where it is not found
    elemental real(dp) function sliding_stress(self, b) result(t)

@@ -37,6 +37,8 @@ contains
       if (.not. input%contact%si) return
       associate (l => input%lubricant, c => input%contact)
          shear%hertz_pressure = contact%pressure
+         shear%in_flow = l%flow == "consistent"
+         shear%gradient_scale = contact%pressure*contact%film_scale/contact%radius
          shear%scale = l%viscosity*abs(c%slide_to_roll)*c%mean_velocity/contact%film_scale
          select case (l%shear_law)
          case ("eyring")

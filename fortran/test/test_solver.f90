@@ -184,7 +184,7 @@ contains
 
       level%grid = new_grid(65, -2.5_dp, 1.5_dp, 2.0_dp, .false.)
       level%lubricant = new_lubricant(viscosity_roelands, density_dowson_higginson, 36.5_dp, 1.66e9_dp, 0.668_dp, 1.96e8_dp)
-      call new_flow(1.0e-3_dp, level%flow)
+      call new_flow(level%lubricant, 1.0e-3_dp, level%flow)
       call level%setup(status)
       call space%setup(level%grid, 1, status)
       do j = 2, level%grid%ny - 1
@@ -223,7 +223,7 @@ contains
       call ieee_set_halting_mode(ieee_invalid, .false.)
       level%grid = new_grid(33, -2.5_dp, 1.5_dp, 2.0_dp, .false.)
       level%lubricant = new_lubricant(viscosity_roelands, density_dowson_higginson, 36.5_dp, 1.66e9_dp, 0.668_dp, 1.96e8_dp)
-      call new_flow(1.0e-3_dp, level%flow)
+      call new_flow(level%lubricant, 1.0e-3_dp, level%flow)
       call level%setup(status)
       call space%setup(level%grid, 1, status)
       call space%prepare_steps(status)
