@@ -21,7 +21,7 @@
 module ehl_flow_factors
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use ehl_kinds, only: dp
-   use ehl_thinning, only: eyring, thinning_t
+   use ehl_thinning, only: eyring, slopes, thinning_t
    implicit none (type, external)
    private
    public :: factors_t, sliding_factors, exact_factors
@@ -53,31 +53,41 @@ module ehl_flow_factors
       real(dp) :: tangent(2) = 1.0_dp
       !> Mean stress along X, and its change with B
       real(dp) :: stress = 0.0_dp, stress_by_sliding = 1.0_dp
+      !> Relative error, at the most
+      real(dp) :: error = 0.0_dp
    end type factors_t
 
 contains
 
-   !> Factors of a film that slides under a small gradient of pressure
-   pure function sliding_factors(law, b) result(r)
+   !> Factors of a film that slides under a small gradient: to second order in S, their change with the sliding to none
+   pure function sliding_factors(law, b, s) result(r)
       type(thinning_t), intent(in) :: law
-      real(dp), intent(in) :: b
+      real(dp), intent(in) :: b, s(2)
       type(factors_t) :: r
-      real(dp) :: f, slope, t, m
+      !> F and its slopes in tau^2 at the stress t of the sliding alone; tau_mx - t and phi less that of the sliding alone,
+      !> each over the squares of S
+      real(dp) :: f(0:slopes), t, square, stress(2), phi_x(2), phi_y(2)
 
       t = law%sliding_stress(b)
-      call law%thinness(t**2, f, slope)
-      r%stress = t
-      r%phi = [f + slope*t**2, f]
-      r%tangent = r%phi
+      square = t**2
+      f = law%all_slopes(square)
+      r%error = law%error_of_second_order(t, s)
+      r%phi = [f(0) + 2.0_dp*f(1)*square, f(0)]
       r%stress_by_sliding = 1.0_dp/r%phi(1)
-      r%by_sliding(2) = slope*t**2/r%phi(1)
-      if (law%law == eyring) then
-         r%by_sliding(1) = (f*t/r%phi(1))**2
-      else
-         m = 0.5_dp*(1.0_dp - law%exponent)/law%exponent
-         r%by_sliding(1) = 2.0_dp*t**2*((m - 1.0_dp)/(1.0_dp + t**2) + (2.0_dp*m + 1.0_dp)/(1.0_dp + (2.0_dp*m + 1.0_dp)*t**2)) &
-                           *f/r%phi(1)
-      end if
+      r%by_sliding = 2.0_dp*square*[3.0_dp*f(1) + 2.0_dp*f(2)*square, f(1)]*f(0)/(r%phi(1)*r%phi)
+      r%by_sliding(2) = r%by_sliding(2)*r%phi(2)/f(0)
+      stress = -t/12.0_dp*[3.0_dp*f(1) + 2.0_dp*f(2)*square, f(1)]/r%phi(1)
+      phi_x = 2.0_dp*t*stress*(3.0_dp*f(1) + 2.0_dp*f(2)*square) &
+              + 0.15_dp*[f(1) + 2.0_dp*f(2)*square, f(1)] &
+              + square*[0.3_dp*f(2) + 0.2_dp*f(3)*square, 0.3_dp*f(2) - f(1)**2/(3.0_dp*f(0))]
+      phi_y = 2.0_dp*t*stress*f(1) + [0.15_dp*(f(1) + 2.0_dp*f(2)*square) - f(1)**2*square/(3.0_dp*f(0)), 0.15_dp*f(1)]
+      associate (sx => s(1)**2, sy => s(2)**2)
+         r%stress = t + stress(1)*sx + stress(2)*sy
+         r%tangent = r%phi + [3.0_dp*phi_x(1)*sx + phi_x(2)*sy, phi_y(1)*sx + 3.0_dp*phi_y(2)*sy]
+         r%by_gradient = 2.0_dp*[phi_x(1)*sx + phi_x(2)*sy, phi_y(1)*sx + phi_y(2)*sy]
+         r%phi = r%phi + 0.5_dp*r%by_gradient
+         r%by_gradient = r%by_gradient/r%phi
+      end associate
    end function sliding_factors
 
    !> Factors through the film for B >= 0 and a gradient S; NaNs where the mean stress is not found

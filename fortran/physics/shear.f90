@@ -95,7 +95,7 @@ contains
    !> Whether the lubricant thins in the flow; without sliding it does by the gradient of pressure
    pure logical function thins_flow(self)
       class(shear_law_t), intent(in) :: self
-      thins_flow = self%in_flow .and. any(self%law == [shear_eyring, shear_carreau])
+      thins_flow = self%in_flow .and. (self%law == shear_eyring .or. (self%law == shear_carreau .and. self%exponent < 1.0_dp))
    end function thins_flow
 
    !> From eta/(eta0 H) to the shear stress over `scale`, at pressures scaled by the Hertz pressure

@@ -14,14 +14,16 @@ module ehl_thinning
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: thinning_t, eyring, carreau
+   public :: thinning_t, eyring, carreau, slopes
 
    integer, parameter :: eyring = 1, carreau = 2
    !> Below this stress the Eyring law is summed as a series
    real(dp), parameter :: series_below = 0.5_dp
-   !> Steps of a Newton iteration, and the error at which it ends
+   !> Steps of an iteration, and the error before the last one at which it ends: the last leaves its cube
    integer, parameter :: most_steps = 50
-   real(dp), parameter :: enough = 1.0e-10_dp
+   real(dp), parameter :: enough = 1.0e-4_dp
+   !> Slopes of F in the square of the stress
+   integer, parameter :: slopes = 3
 
    !> A law with its parameter
    type :: thinning_t
@@ -30,6 +32,8 @@ module ehl_thinning
       real(dp) :: exponent = 1.0_dp
    contains
       procedure :: thinness
+      procedure :: all_slopes
+      procedure :: error_of_second_order
       procedure :: sliding_stress
       procedure :: curvature
    end type thinning_t
@@ -59,6 +63,48 @@ contains
       end if
    end subroutine thinness
 
+   !> F and its slopes in the square of the stress, d^k F/d(tau^2)^k
+   pure function all_slopes(self, square) result(f)
+      class(thinning_t), intent(in) :: self
+      real(dp), intent(in) :: square
+      !> 1/3, 1/(3 5), 1/(3 5 7): the slopes of Eyring at 0, times 2^k
+      real(dp), parameter :: at_zero(slopes) = [1.0_dp/3.0_dp, 1.0_dp/15.0_dp, 1.0_dp/105.0_dp]
+      real(dp) :: f(0:slopes), m
+      integer :: k
+
+      if (self%law == carreau) then
+         m = 0.5_dp*(1.0_dp - self%exponent)/self%exponent
+         f(0) = (1.0_dp + square)**m
+         do k = 1, slopes
+            f(k) = f(k - 1)*(m - (k - 1))/(1.0_dp + square)
+         end do
+      else
+         call self%thinness(square, f(0), f(1))
+         if (square < series_below**2) then
+            do k = 2, slopes
+               f(k) = at_zero(k)*(1.0_dp + 0.5_dp*square/(2*k + 3)*(1.0_dp + 0.25_dp*square/(2*k + 5)))
+            end do
+         else
+            f(2) = (f(0) - 3.0_dp*f(1))/square
+            f(3) = (f(1) - 5.0_dp*f(2))/square
+         end if
+         f(1:) = f(1:)*[0.5_dp, 0.25_dp, 0.125_dp]
+      end if
+   end function all_slopes
+
+   !> Relative error that factors of second order in the gradient S have at the stress of the sliding alone, at the most
+   !> (measured)
+   pure real(dp) function error_of_second_order(self, stress, s) result(error)
+      class(thinning_t), intent(in) :: self
+      real(dp), intent(in) :: stress, s(2)
+
+      if (self%law == eyring) then
+         error = 1.8e-3_dp*dot_product(s, s)**2
+      else
+         error = 0.8_dp*(max(self%curvature(), 0.1_dp)*dot_product(s, s)/(1.0_dp + stress**2))**2
+      end if
+   end function error_of_second_order
+
    !> Of F at small stresses: F = 1 + curvature tau^2
    pure real(dp) function curvature(self)
       class(thinning_t), intent(in) :: self
@@ -70,7 +116,7 @@ contains
    elemental real(dp) function sliding_stress(self, b) result(t)
       class(thinning_t), intent(in) :: self
       real(dp), intent(in) :: b
-      real(dp) :: m, u, f
+      real(dp) :: m, u, f, slope, wanted
       integer :: k
 
       if (self%law == eyring) then
@@ -79,14 +125,18 @@ contains
       end if
       t = b
       if (.not. abs(b) > tiny(1.0_dp)) return
-      ! u = ln|tau|: ln|B| is between a line of slope 1 and one of slope 1/n, so that the iteration cannot go astray
+      ! u = ln|tau|: ln|B| is between a line of slope 1 and one of slope 1/n, so that the iteration (Halley) cannot go astray
       m = 0.5_dp*(1.0_dp - self%exponent)/self%exponent
-      u = log(abs(b))
+      wanted = log(abs(b))
+      u = wanted
       if (u > 0.0_dp) u = self%exponent*u
+      if (abs(wanted) < 10.0_dp) u = wanted + 0.5_dp*(self%exponent - 1.0_dp)*log(1.0_dp + b**2)
       do k = 1, most_steps
          t = exp(2.0_dp*u)
-         f = u + m*log(1.0_dp + t) - log(abs(b))
-         u = u - f/(1.0_dp + 2.0_dp*m*t/(1.0_dp + t))
+         f = u + m*log(1.0_dp + t) - wanted
+         t = t/(1.0_dp + t)
+         slope = 1.0_dp + 2.0_dp*m*t
+         u = u - f*slope/(slope**2 - 2.0_dp*f*m*t*(1.0_dp - t))
          if (abs(f) < enough) then
             t = sign(exp(u), b)
             return

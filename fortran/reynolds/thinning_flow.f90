@@ -8,8 +8,8 @@
 !>    B = (eta/eta0) b0/H,   b0 = eta0 |u1 - u2|/(a^2/R) over the stress of the law,
 !>    S = s0 H grad P,       s0 = p_h a/R over the stress of the law,
 !>
-!> grad P by central differences. Node by node what is needed: no factors where they are 1 but for `negligible`, those of the
-!> sliding alone where the gradient changes them by less than `tolerance`, else those through the film.
+!> grad P by central differences. Node by node what is needed: no factors where they are 1 but for `negligible`, those of
+!> second order in the gradient where they are right to `tolerance`, else those through the film.
 module ehl_thinning_flow
    use ehl_flow, only: flow_t
    use ehl_flow_factors, only: exact_factors, factors_t, sliding_factors
@@ -24,8 +24,8 @@ module ehl_thinning_flow
    integer, parameter :: sideways = 2
    !> Factors that differ less from 1 than this are 1
    real(dp), parameter :: negligible = 1.0e-6_dp
-   !> Error of the factors of the sliding alone; it is some S^2/30 at the most
-   real(dp), parameter :: tolerance = 1.0e-4_dp, error_of_square = 1.0_dp/30.0_dp
+   !> Relative error of factors of second order
+   real(dp), parameter :: tolerance = 1.0e-4_dp
 
    type, extends(flow_t) :: thinning_flow_t
       private
@@ -91,16 +91,14 @@ contains
       class(thinning_flow_t), intent(in) :: self
       real(dp), intent(in) :: newtonian, s(2)
       type(factors_t) :: factors
-      real(dp) :: b, square
+      real(dp) :: b
 
       b = abs(self%sliding*newtonian)
-      square = dot_product(s, s)
-      if (self%law%curvature()*(3.0_dp*b**2 + 0.15_dp*square) < negligible) then
+      if (self%law%curvature()*(3.0_dp*b**2 + 0.15_dp*dot_product(s, s)) < negligible) then
          factors%stress = b
-      else if (square*error_of_square < tolerance) then
-         factors = sliding_factors(self%law, b)
       else
-         factors = exact_factors(self%law, b, s)
+         factors = sliding_factors(self%law, b, s)
+         if (factors%error > tolerance) factors = exact_factors(self%law, b, s)
       end if
    end function factors_at
 

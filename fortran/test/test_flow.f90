@@ -18,6 +18,7 @@ contains
       call values()
       call closed_forms()
       call limits()
+      call second_order()
       call changes_against_differences()
    end subroutine run_flow
 
@@ -78,7 +79,7 @@ contains
       do l = 1, 2
          law = merge(by_eyring, by_carreau, l == 1)
          do i = 1, size(b)
-            sliding = sliding_factors(law, b(i))
+            sliding = sliding_factors(law, b(i), [0.0_dp, 0.0_dp])
             call is_close(sliding%stress_by_sliding*sliding%phi(1), 1.0_dp, 1.0e-12_dp, "phi_x is dB/dtau")
             if (b(i) > 0.0_dp) call is_close(sliding%stress*sliding%phi(2)/b(i), 1.0_dp, 1.0e-9_dp, "phi_y is B/tau")
             exact = exact_factors(law, b(i), [1.0e-3_dp, 1.0e-3_dp])
@@ -97,6 +98,38 @@ contains
       end do
    end subroutine limits
 
+   !> Factors of second order in the gradient are as right as they say
+   subroutine second_order()
+      type(thinning_t), parameter :: laws(4) = [thinning_t(eyring, 1.0_dp), thinning_t(carreau, 0.2_dp), &
+                                                thinning_t(carreau, 0.5_dp), thinning_t(carreau, 0.9_dp)]
+      type(thinning_t) :: law
+      type(factors_t) :: exact, sliding
+      real(dp) :: error, worst(2)
+      integer :: i, k, l, m
+
+      do l = 1, size(laws)
+         law = laws(l)
+         worst = 0.0_dp
+         do i = -2, 8
+            do k = -4, 6
+               do m = 0, 4
+                  associate (s => 2.0_dp**k*[cos(0.4_dp*m), sin(0.4_dp*m)])
+                     sliding = sliding_factors(law, 10.0_dp**i, s)
+                     error = sliding%error
+                     if (error > 1.0e-3_dp) cycle
+                     exact = exact_factors(law, 10.0_dp**i, s)
+                     worst(1) = max(worst(1), maxval(abs(sliding%phi/exact%phi - 1.0_dp)) - error)
+                     worst(2) = max(worst(2), abs(sliding%stress/exact%stress - 1.0_dp) - error, &
+                                    maxval(abs(sliding%tangent/exact%tangent - 1.0_dp)) - 5.0_dp*error)
+                  end associate
+               end do
+            end do
+         end do
+         call is_close(worst(1), 0.0_dp, 1.0e-6_dp, "flow factors of second order")
+         call is_close(worst(2), 0.0_dp, 1.0e-6_dp, "mean stress and change of the flow of second order")
+      end do
+   end subroutine second_order
+
    !> Changes of ln(phi), of the flow and of the stress
    subroutine changes_against_differences()
       real(dp), parameter :: b(3) = [0.4_dp, 5.0_dp, 1.0e4_dp], step = 1.0e-4_dp
@@ -109,9 +142,9 @@ contains
       do l = 1, 2
          law = merge(by_eyring, by_carreau, l == 1)
          do i = 1, size(b)
-            up = sliding_factors(law, b(i)*exp(step))
-            down = sliding_factors(law, b(i)*exp(-step))
-            r = sliding_factors(law, b(i))
+            up = sliding_factors(law, b(i)*exp(step), [0.0_dp, 0.0_dp])
+            down = sliding_factors(law, b(i)*exp(-step), [0.0_dp, 0.0_dp])
+            r = sliding_factors(law, b(i), [0.0_dp, 0.0_dp])
             call is_close(maxval(abs(log(up%phi/down%phi)/(2.0_dp*step) - r%by_sliding)), 0.0_dp, 1.0e-6_dp, &
                           "change with the sliding alone")
             do k = 1, size(s, 2)

@@ -77,6 +77,7 @@ class SmoothContact:
 OF_SLIP = ("slide_to_roll", "rough_surface", "thermal_conductivity", "thermal_diffusivity")
 OF_SHEAR = (
     "shear_law",
+    "flow",
     "eyring_stress",
     "limiting_stress",
     "limiting_coefficient",
