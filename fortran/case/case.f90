@@ -49,6 +49,7 @@ module ehl_case
       real(dp) :: roelands_p0 = 1.96e8_dp
       character(len=word_length) :: density_law = "dowson-higginson"
       character(len=word_length) :: shear_law = "newtonian"
+      character(len=word_length) :: flow = "consistent"
       real(dp) :: eyring_stress = 5.0e6_dp
       real(dp) :: limiting_stress = 0.0_dp
       real(dp) :: limiting_coefficient = 0.06_dp

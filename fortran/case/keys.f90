@@ -49,7 +49,9 @@ contains
          call self%reals("roelands_p0", l%roelands_p0, "Pa", "[1e7, 1e10]", "Roelands reference pressure")
          call self%words("density_law", l%density_law, "dowson-higginson|incompressible", "density under pressure")
          call self%words("shear_law", l%shear_law, "newtonian|eyring|limiting|carreau", &
-                         "shear stress in the contact, for friction alone")
+                         "shear stress in the contact")
+         call self%words("flow", l%flow, "consistent|newtonian", &
+                         "whether eyring and carreau thin the flow that makes the film, too, or the friction alone")
          call self%reals("eyring_stress", l%eyring_stress, "Pa", "[1e4, 1e9]", "Eyring stress")
          call self%reals("limiting_stress", l%limiting_stress, "Pa", "0 or [1e5, 1e10]", &
                          "limiting shear stress; 0: limiting_coefficient times pressure")

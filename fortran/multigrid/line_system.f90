@@ -1,25 +1,26 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Line systems of the Reynolds equation (reynolds.f90) along X: the changes d(i) of the pressure of a row that its
-!> linearised equation asks for while the other rows stay. A node with D(i) = 1 changes distributively: the share -a of its
-!> change goes to each neighbour along X, -b to each across it (workspace.f90; 1/4 on square cells), else D(i) = 0. With
-!> r(i) the residual,
+!> linearised equation asks for while the other rows stay. A node with D(i) = 1 changes distributively: the share -q of its
+!> change goes to each neighbour along X, and a share to each across it (workspace.f90; 1/4 on square cells), else D(i) = 0.
+!> With r(i) the residual,
 !>
 !>    em4 d(i-4) + em3 d(i-3) + em2 d(i-2) + em1 d(i-1) + e0 d(i) + e1 d(i+1) + e2 d(i+2) = r(i)
 !>
 !>    em4 = - c2 s(i-2, -2)
 !>    em3 = - c1 s(i-1, -2) - c2 s(i-2, -1)
-!>    em2 = - w a D(i-2) - c0 s(i, -2) - c1 s(i-1, -1) - c2 s(i-2, 0)
-!>    em1 = w (1 + D(i-1)) + w' g(i-1) (P(i-1) - P(i)) - c0 s(i, -1) - c1 s(i-1, 0) - c2 s(i-2, 1)
+!>    em2 = - w q D(i-2) - c0 s(i, -2) - c1 s(i-1, -1) - c2 s(i-2, 0)
+!>    em1 = w (1 + D(i-1) a) + w' g(i-1) (P(i-1) - P(i)) - c0 s(i, -1) - c1 s(i-1, 0) - c2 s(i-2, 1)
 !>    e0  = (o - e - w) (1 + D(i)/4) + g(i) [e' (P(i+1) - P(i)) + w' (P(i-1) - P(i)) + o']
 !>          - c0 s(i, 0) - c1 s(i-1, 1) - c2 s(i-2, 2)
-!>    e1  = e (1 + D(i+1)) + e' g(i+1) (P(i+1) - P(i)) - c0 s(i, 1) - c1 s(i-1, 2)
-!>    e2  = - e a D(i+2) - c0 s(i, 2)
+!>    e1  = e (1 + D(i+1) a) + e' g(i+1) (P(i+1) - P(i)) - c0 s(i, 1) - c1 s(i-1, 2)
+!>    e2  = - e q D(i+2) - c0 s(i, 2)
 !>
-!>    s(i, l) = d(rho H)(i)/d d(i+l) = rho(i) K(l) + [H d rho/dP](i) (1 if l = 0, -a D(i+l) if |l| = 1, else 0)
+!>    s(i, l) = d(rho H)(i)/d d(i+l) = rho(i) K(l) + [H d rho/dP](i) (1 if l = 0, -q D(i+l) if |l| = 1, else 0)
 !>    g(i)    = (1 - D(i)) d eps(i)/dP
 !>
 !> e, w: couplings to the east and to the west, o: less the sum of those to other rows, e', w', o': their change with the
-!> conductance (poiseuille.f90, line_terms_t); c: wedge.f90; K(l): deflection at a distance of l nodes by the change of one,
+!> conductance (poiseuille.f90, line_terms_t); a: the mean of all four over that of e and w, 1 where the lubricant flows
+!> alike along and across; c: wedge.f90; K(l): deflection at a distance of l nodes by the change of one,
 !> nothing beyond |l| = 2. A cavitated node that is content (node_state.f90) has d(i) = 0.
 !>
 !> The systems are assembled and eliminated in one pass along X for `line_width` lines side by side.
@@ -129,14 +130,17 @@ contains
       !> Response of rho H at nodes i, i-1, i-2 to unit changes at their columns -2..2
       real(dp) :: s(line_width, -nr:nr, 0:2)
       real(dp) :: c(0:line_reach), c_first(0:line_reach), c_interior(0:line_reach)
-      real(dp) :: pivot(line_width)
+      real(dp) :: pivot(line_width), a(line_width)
       real(dp) :: east, west, re, rw, pe, pw, r, t, d, active, em4, em3, em2, em1, e0, e1, e2
       integer :: i, l, now, last, former
+      logical :: uneven
 
+      uneven = level%flow%across > along
       call level%wedge%line_weights(c_first, c_interior)
       upper(:, :, -3:1) = 0.0_dp
       change(:, -3:1) = 0.0_dp
       s = 0.0_dp
+      a = 1.0_dp
       now = 0
       last = 1
       former = 2
@@ -152,6 +156,7 @@ contains
          end do
          if (i > 1) then
             c = merge(c_first, c_interior, i == 2)
+            if (uneven) a = 0.5_dp - 0.5_dp*g(:, f_other, i)/(g(:, f_east, i) + g(:, f_east, i - 1) + tiny(1.0_dp))
             !$omp simd private(east, west, re, rw, pe, pw, r, t, d, active, em4, em3, em2, em1, e0, e1, e2)
             do l = 1, line_width
                re = g(l, f_east_rate, i)
@@ -168,12 +173,12 @@ contains
                em3 = -active*(c(1)*s(l, -2, last) + c(2)*s(l, -1, former))
                em2 = -active*(shares(1)*west*g(l, f_dipole, i - 2) + c(0)*s(l, -2, now) + c(1)*s(l, -1, last) &
                               + c(2)*s(l, 0, former))
-               em1 = active*(west*(1.0_dp + g(l, f_dipole, i - 1)) + rw*g(l, f_gain, i - 1)*pw &
+               em1 = active*(west*(1.0_dp + a(l)*g(l, f_dipole, i - 1)) + rw*g(l, f_gain, i - 1)*pw &
                              - c(0)*s(l, -1, now) - c(1)*s(l, 0, last) - c(2)*s(l, 1, former))
                e0 = active*((g(l, f_other, i) - east - west)*(1.0_dp + 0.25_dp*g(l, f_dipole, i)) &
                             + g(l, f_gain, i)*(re*pe + rw*pw + g(l, f_other_rate, i)) &
                             - c(0)*s(l, 0, now) - c(1)*s(l, 1, last) - c(2)*s(l, 2, former)) + (1.0_dp - active)
-               e1 = active*(east*(1.0_dp + g(l, f_dipole, i + 1)) + re*g(l, f_gain, i + 1)*pe &
+               e1 = active*(east*(1.0_dp + a(l)*g(l, f_dipole, i + 1)) + re*g(l, f_gain, i + 1)*pe &
                             - c(0)*s(l, 1, now) - c(1)*s(l, 2, last))
                e2 = -active*(shares(1)*east*g(l, f_dipole, i + 2) + c(0)*s(l, 2, now))
                em3 = em3 - em4*upper(l, 1, i - 4)

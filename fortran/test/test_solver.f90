@@ -191,7 +191,7 @@ contains
       level%grid = new_grid(65, 65, -2.5_dp, 1.5_dp, 2.0_dp, .false.)
       level%lubricant = new_lubricant(viscosity_roelands, density_dowson_higginson, 36.5_dp, 1.66e9_dp, 0.668_dp, 1.96e8_dp)
       level%kernel_factor = 2.0_dp/pi**2
-      call new_flow(1.0e-3_dp, level%flow)
+      call new_flow(level%lubricant, 1.0e-3_dp, level%flow)
       call level%setup(status)
       call space%setup(level%grid, level%kernel_factor, 1, status)
       do j = 2, level%grid%ny - 1
@@ -231,7 +231,7 @@ contains
       level%grid = new_grid(33, 33, -2.5_dp, 1.5_dp, 2.0_dp, .false.)
       level%lubricant = new_lubricant(viscosity_roelands, density_dowson_higginson, 36.5_dp, 1.66e9_dp, 0.668_dp, 1.96e8_dp)
       level%kernel_factor = 2.0_dp/pi**2
-      call new_flow(1.0e-3_dp, level%flow)
+      call new_flow(level%lubricant, 1.0e-3_dp, level%flow)
       call level%setup(status)
       call space%setup(level%grid, level%kernel_factor, 1, status)
       call space%prepare_steps(status)

@@ -7,6 +7,7 @@ program tester
    use test_sealed, only: run_sealed
    use test_case, only: run_case
    use test_deflection, only: run_deflection
+   use test_flow, only: run_flow
    use test_friction, only: run_friction
    use test_mean, only: run_mean
    use test_policy, only: run_policy
@@ -43,6 +44,8 @@ program tester
       call run_mean()
    case ("surfaces")
       call run_surfaces()
+   case ("flow")
+      call run_flow()
    case ("friction")
       call run_friction()
    case ("policy")
