@@ -15,13 +15,26 @@ _Indices = NDArray[np.int32]
 
 class _Solver:
     def open_case(
-        self, text: bytes, origin: bytes, has_heights: int, heights: _Array
+        self,
+        text: bytes,
+        origin: bytes,
+        has_heights: int,
+        heights: _Array,
+        has_second: int,
+        second: _Array,
     ) -> tuple[int, int, bytes]: ...
     def close_case(self, handle: int) -> tuple[int, bytes]: ...
     def advance(self, handle: int) -> tuple[int, int, int, bytes]: ...
     def act(self, handle: int, what: bytes, path: bytes) -> tuple[bytes, int, int, bytes]: ...
     def keep(
-        self, handle: int, results: bytes, resumed: bytes, has_heights: int, heights: _Array
+        self,
+        handle: int,
+        results: bytes,
+        resumed: bytes,
+        has_heights: int,
+        heights: _Array,
+        has_second: int,
+        second: _Array,
     ) -> tuple[bytes, int, bytes]: ...
     def describe(self, handle: int, what: bytes) -> tuple[bytes, int, bytes]: ...
     def work(self, handle: int) -> tuple[float, float, float, int, bytes]: ...

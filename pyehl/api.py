@@ -42,6 +42,7 @@ def solve(
     case: Case | str | os.PathLike[str],
     *options: Option,
     surface: Surface | None = None,
+    second_surface: Surface | None = None,
     output: str | os.PathLike[str] | None = None,
     force: bool = False,
     check: bool = True,
@@ -55,10 +56,10 @@ def solve(
         A case, or the path of a case file.
     *options
         Values that replace those of the case: dicts, or texts ``group.key=value``.
-    surface
-        Rough surface in place of that of the case: a `Topography`, or an array of heights [m] of
+    surface, second_surface
+        Rough surfaces in place of those of the case: a `Topography`, or an array of heights [m] of
         shape (nx, ny), peaks positive, with the size that the case says. Keys that prepare a map do
-        not apply to it. It is written beside the results.
+        not apply to them. They are written beside the results.
     output
         Result folder, as ``pyehl run -o`` writes it, with checkpoints of a transient run beside
         it; None: nothing is kept on disk.
@@ -100,14 +101,22 @@ def solve(
         check_kind(progress, bool, "progress", "True, False or a function")
         progress = ProgressBar().show if progress else lambda solver: None
     if output is None:
-        with Solver(case, surface=surface) as solver:
+        with Solver(case, surface=surface, second_surface=second_surface) as solver:
             while not solver.done:
                 solver.advance()
                 progress(solver)
             data = solver.dataset()
     else:
         output = path_of(output, "output")
-        outcome = run(case, output, advanced=progress, force=force, inputs=inputs, surface=surface)
+        outcome = run(
+            case,
+            output,
+            advanced=progress,
+            force=force,
+            inputs=inputs,
+            surface=surface,
+            second_surface=second_surface,
+        )
         if outcome.interrupted:
             raise KeyboardInterrupt
         # xarray takes long to import, and most functions do without it
@@ -174,7 +183,7 @@ def predict(
     """
     inputs, name = ([], "") if isinstance(case, Case) else ([case], path_of(case, "case"))
     case, tile = Case.of(case, *options), None
-    inputs.append(str(case.resolve()["surface"].get("file", "")))
+    inputs += [str(group.get("file", "")) for group in case.resolve().values()]
     if surface is not None:
         case, tile = with_surface(case, surface)
     check_kind(tracks, int, "tracks", "a whole number")

@@ -135,7 +135,10 @@ class Case:
         contact = groups["contact"]
         names = {"moes_m": "M", "moes_l": "L", "load": "load_N", "mean_velocity": "velocity_m_s"}
         facts = [f"{names[key]}={contact[key]:g}" for key in names if key in contact]
-        return [*facts, str(groups["surface"]["kind"]), f"{groups['grid']['points']} points"]
+        kinds = [
+            str(groups[name]["kind"]) for name in ("surface", "second_surface") if name in groups
+        ]
+        return [*facts, " and ".join(kinds), f"{groups['grid']['points']} points"]
 
     def resolve(self) -> dict[str, dict[str, Any]]:
         """Give all groups and values.
@@ -146,13 +149,13 @@ class Case:
         return namelist.values(self.text)
 
 
-def with_surface(case: Case, surface: Surface) -> tuple[Case, Topography]:
-    """Give a case with a surface in memory in place of its own, and that surface as a tile.
+def with_surface(case: Case, surface: Surface, group: str = "surface") -> tuple[Case, Topography]:
+    """Give a case with a surface in memory in place of that of a group, and it as a tile.
 
     InputError if it is none of heights, or the case does not say its size.
     """
     # surfaces take long to import, and most cases have none in memory
     from pyehl.surfaces import as_map, in_memory  # noqa: PLC0415
 
-    tile = in_memory(surface, case.resolve()["surface"])
-    return case.with_options(as_map(tile)), tile
+    tile = in_memory(surface, case.resolve().get(group, {}), group)
+    return case.with_options(as_map(tile, group)), tile

@@ -48,8 +48,23 @@ class Work(NamedTuple):
     latest: float
 
 
+def _in_order(heights: ArrayLike | None) -> Array | None:
+    return None if heights is None else np.asfortranarray(heights, dtype=np.float64)
+
+
+def _arguments(given: tuple[Array | None, Array | None]) -> tuple[int, Array, int, Array]:
+    """Tell the library of each surface whether it is given, and its heights."""
+    first, second = given
+    return (
+        int(first is not None),
+        NO_HEIGHTS if first is None else first,
+        int(second is not None),
+        NO_HEIGHTS if second is None else second,
+    )
+
+
 class SolverHandle:
-    """A solver on the text of a resolved case, with heights [m] (nx, ny) in place of a file.
+    """A solver on the text of a resolved case, with heights [m] (nx, ny) in place of files.
 
     It is closed at the end of a ``with`` block.
 
@@ -63,20 +78,22 @@ class SolverHandle:
 
     _handle = 0
     _calls = 0
-    # a surface in place of a file, until it is kept beside the results
-    _given: NDArray[np.float64] | None = None
+    # surfaces in place of files, until they are kept beside the results
+    _given: tuple[Array | None, Array | None] = (None, None)
     done = False
     converged = False
 
-    def __init__(self, text: str, heights: ArrayLike | None = None) -> None:
+    def __init__(
+        self,
+        text: str,
+        heights: ArrayLike | None = None,
+        second_heights: ArrayLike | None = None,
+    ) -> None:
         # a call may be made of several
         self._lock = threading.RLock()
-        self._given = None if heights is None else np.asfortranarray(heights, dtype=np.float64)
+        self._given = (_in_order(heights), _in_order(second_heights))
         handle, status, message = ehl.open_case(
-            text.encode(),
-            b"resolved case",
-            int(heights is not None),
-            NO_HEIGHTS if self._given is None else self._given,
+            text.encode(), b"resolved case", *_arguments(self._given)
         )
         check(status, message)
         self._handle = handle
@@ -101,7 +118,7 @@ class SolverHandle:
         with self._lock:
             self._call(ehl.close_case)
             self._handle = 0
-            self._given = None
+            self._given = (None, None)
 
     def __del__(self) -> None:
         # The constructor may have failed, and at exit the extension may be gone
@@ -165,10 +182,9 @@ class SolverHandle:
                 ehl.keep,
                 os.fsencode(path_of(results, "the result folder")),
                 os.fsencode(path_of(resumed, "the folder to resume")),
-                int(self._given is not None),
-                NO_HEIGHTS if self._given is None else self._given,
+                *_arguments(self._given),
             )
-            self._given = None
+            self._given = (None, None)
         return returned(*note)
 
     def save_state(self, *, at_once: bool = False) -> bool:

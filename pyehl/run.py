@@ -24,7 +24,7 @@ from pyehl.case import Case
 from pyehl.destination import Destination
 from pyehl.errors import FileError, InputError
 from pyehl.solver import Solver
-from pyehl.surfaces import Surface, for_solver
+from pyehl.surfaces import GROUPS, Surface, for_solver
 
 __all__ = ["Outcome", "resume", "run", "signals_to"]
 
@@ -111,24 +111,31 @@ def resume(
     )
 
 
-def _open(case: Case, resumed: AnyPath, surface: Surface | None) -> Solver:
-    """Open a solver on a case, with the surface that was kept if the run is resumed."""
+def _open(case: Case, resumed: AnyPath, given: tuple[Surface | None, Surface | None]) -> Solver:
+    """Open a solver on a case, with the surfaces that were kept if the run is resumed."""
     place = library.checkpoint_case(resumed) if os.fspath(resumed) else None
-    if place is None or not place.with_name("surface.npy").is_file():
-        return Solver(case, surface=surface)
-    kept = read_array(place.with_name("surface.npy"))
-    old = Case.read(place).resolve()["surface"]
-    size = [f"surface.{key}={old[key]!r}" for key in ("tile_x", "tile_y") if old[key]]
-    if old["tile_mirrored"]:
-        size.append("surface.tile_mirrored=.true.")
-    solver = Solver.open(case.with_options(*size) if size else case, kept)
-    try:
-        made = for_solver(case.resolve())
-    except (InputError, FileError):
-        # the file of the map is no longer needed
-        return solver
-    if made.heights is not None and np.array_equal(made.heights, kept):
-        solver.preparation, solver.tile = made.preparation, made.part
+    files = {g: place.with_name(f"{g}.npy") for g in GROUPS} if place else {}
+    kept = {group: read_array(path) for group, path in files.items() if path.is_file()}
+    if place is None or not kept:
+        return Solver(case, surface=given[0], second_surface=given[1])
+    sizes: list[str] = []
+    for group in kept:
+        old = Case.read(place).resolve()[group]
+        sizes += [f"{group}.{key}={old[key]!r}" for key in ("tile_x", "tile_y") if old[key]]
+        if old["tile_mirrored"]:
+            sizes.append(f"{group}.tile_mirrored=.true.")
+    changed = case.with_options(*sizes) if sizes else case
+    solver = Solver.open(changed, *(kept.get(group) for group in GROUPS))
+    for group, heights in kept.items():
+        try:
+            made = for_solver(case.resolve(), group)
+        except (InputError, FileError):
+            # the file of the map is no longer needed
+            continue
+        if made.heights is not None and np.array_equal(made.heights, heights):
+            solver.tile = made.part
+            if made.preparation:
+                solver.preparations[group] = made.preparation
     return solver
 
 
@@ -151,6 +158,7 @@ def run(
     force: bool = False,
     inputs: Iterable[AnyPath] = (),
     surface: Surface | None = None,
+    second_surface: Surface | None = None,
 ) -> Outcome:
     """Solve a case and write the result folder, however the run ends.
 
@@ -161,10 +169,11 @@ def run(
     holds something else than results, or cannot be written; EhlError if the solver failed: nothing
     is written then.
     """
-    sources = (*inputs, str(case.resolve()["surface"].get("file", "")))
+    settings = case.resolve()
+    sources = (*inputs, *(str(settings.get(group, {}).get("file", "")) for group in GROUPS))
     Destination(folder, "solution", inputs=sources, force=force).check()
     request = StopRequest()
-    with signals_to(request.take), _open(case, resumed, surface) as solver:
+    with signals_to(request.take), _open(case, resumed, (surface, second_surface)) as solver:
         say(solver.describe())
         if os.fspath(resumed):
             begins = "there is no state yet: the run begins at its beginning"

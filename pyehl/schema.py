@@ -120,6 +120,7 @@ s | rough_cycles | - | cycles of a rough surface at rest
 s | rough_parts | - | parts in which its roughness was raised
 s | rough_residual | - | its residual at the end
 s | x_start | a | origin of a rough surface at rest
+s | second_x_start | a | that of the second surface
 sp | mu_ratio | - | friction over that of the smooth contact: mean over a period or a passage
 sp | mu_ratio_min | - | its least value
 sp | mu_ratio_max | - | its largest value
@@ -128,6 +129,7 @@ s | mu_ratio_error | - | error of mu_ratio: the sum of its parts; null if one is
 s | mu_ratio_error_note | | why the error is not known; else empty
 s | mu_ratio_error_grid | - | part of the error from the grid, by two grids
 s | mu_ratio_error_stop | - | part of the error from the end of the run
+s | mu_ratio_error_window | - | part of it where two surfaces have no common period
 s | mu_ratio_error_domain | - | part of it from the borders of the domain
 s | mu_ratio_error_left_out | - | part of the error from waves that are left out, predicted
 s | mu_ratio_unresolved | - | predicted part of mu_ratio in waves that the grid does not resolve
@@ -150,14 +152,17 @@ s | inlet_viscosity_Pa_s | Pa s | viscosity of the inlet
 s | thermal_loading | - | loading parameter of shear heating
 spf | thermal_reduction | - | film over the isothermal one
 s | amplitude | a^2/R | amplitude A_i of a waviness, height or depth of a feature
+s | second_amplitude | a^2/R | that of the second surface
 s | amplitude_ratio | - | A_d/A_i at the centre
-s | surface_rms_m | m | rms height sigma of the surface that is solved, undeformed
+s | surface_rms_m | m | rms height sigma that is solved, undeformed; composite of two surfaces
+s | surface_slope | - | rms slope of it
 s | variance_cut | - | share of the height's variance that was cut on purpose
 s | variance_left_out | - | share of it in waves that the grid does not carry
 s | variance_unresolved | - | share of it in waves that the grid does not resolve
 s | scheme | | time scheme
 s | T | a/u | time at the end
-s | T_period | a/u | period of the roughness; time of the passage of a feature
+s | T_period | a/u | period of the roughness; common one of two; time of the passage of a feature
+s | T_mismatch | - | by what part of a period one of two surfaces misses its start after T_period
 s | T_mean | a/u | time that mu_ratio is the mean over
 s | steps | - | time steps
 s | start | | start of the time steps: 'front', or 'prediction': the contact is full
@@ -174,6 +179,7 @@ p | tracks | - | tracks of the tile that mu_ratio_tracks is over
 p | film_below_zero_share | - | share of the contact where the film would be below zero
 p | film_breakdown | | where the film ends, and what would carry
 sp | surface_preparation | | what was done to a measured map
+s | second_surface_preparation | | the same of the second surface
 p | positions | - | positions of the tile over a passage
 p | position_error | - | relative error that they leave
 p | reduction | | how waves are flattened

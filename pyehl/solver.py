@@ -11,22 +11,30 @@ import json
 import math
 import os
 import tempfile
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from pyehl import display
 from pyehl.case import Case, with_surface
 from pyehl.destination import Destination, write_json
-from pyehl.errors import EhlError, InputError
+from pyehl.errors import EhlError
 from pyehl.given import Option, heights_of, path_of
-from pyehl.handle import SolverHandle, Work
+from pyehl.handle import Array, SolverHandle, Work
 from pyehl.prediction.resolution import Resolution, resolution
-from pyehl.surfaces import Record, Surface, Topography, for_solver, given, keep_beside, moved
+from pyehl.surfaces import (
+    GROUPS,
+    Record,
+    Surface,
+    Topography,
+    gather,
+    keep_beside,
+    moved,
+    one_rough,
+)
 
 if TYPE_CHECKING:
     import xarray
@@ -80,9 +88,9 @@ class Solver(SolverHandle):
         A case, or the path of a case file.
     *options
         Values that replace those of the case: dicts, or texts ``group.key=value``.
-    surface
-        Rough surface in place of that of the case: a `pyehl.Topography`, or an array of heights
-        [m] with the size that the case says. Keys that prepare a map do not apply to it.
+    surface, second_surface
+        Rough surfaces in place of those of the case: a `pyehl.Topography`, or an array of heights
+        [m] with the size that the case says. Keys that prepare a map do not apply to them.
 
     Raises
     ------
@@ -108,26 +116,34 @@ class Solver(SolverHandle):
         case: Case | str | os.PathLike[str],
         *options: Option,
         surface: Surface | None = None,
+        second_surface: Surface | None = None,
     ) -> None:
         case = Case.of(case, *options)
-        if surface is None:
-            self._start(case, None)
-            return
-        case, tile = with_surface(case, surface)
-        self._start(case, moved(tile, case.resolve()["surface"]).heights, tile)
+        tiles = {}
+        for group, in_memory in zip(GROUPS, (surface, second_surface), strict=True):
+            if in_memory is not None:
+                case, tiles[group] = with_surface(case, in_memory, group)
+        settings = case.resolve()
+        heights = {group: moved(tile, settings[group]).heights for group, tile in tiles.items()}
+        self._start(case, heights, tiles)
 
     @classmethod
-    def open(cls, case: Case | str | os.PathLike[str], heights: ArrayLike | None = None) -> Self:
-        """Start a solver on a case with a surface that is given.
+    def open(
+        cls,
+        case: Case | str | os.PathLike[str],
+        heights: ArrayLike | None = None,
+        second_heights: ArrayLike | None = None,
+    ) -> Self:
+        """Start a solver on a case with surfaces that are given.
 
         Parameters
         ----------
         case
             A case, or the path of a case file.
-        heights
-            Surface [m], shape (nx, ny), peaks positive; for the kinds 'map' and 'fractal', in
-            place of the file or the generator. None: that of the case. Its size is `surface.tile_x`
-            and `tile_y` or, where these are 0, `surface.length_x` and `length_y`.
+        heights, second_heights
+            Surfaces [m], shape (nx, ny), peaks positive; for the kinds 'map' and 'fractal', in
+            place of the file or the generator. None: that of the case. Its size is `tile_x` and
+            `tile_y` of its group or, where these are 0, `length_x` and `length_y`.
 
         Raises
         ------
@@ -135,38 +151,28 @@ class Solver(SolverHandle):
             As the constructor.
         """
         solver = cls.__new__(cls)
-        solver._start(Case.of(case), None if heights is None else heights_of(heights))
+        both = zip(GROUPS, (heights, second_heights), strict=True)
+        solver._start(Case.of(case), {g: heights_of(h) for g, h in both if h is not None}, {})
         return solver
 
     def _start(
-        self, case: Case, heights: ArrayLike | None, surface: Topography | None = None
+        self, case: Case, heights: Mapping[str, Array], tiles: Mapping[str, Topography]
     ) -> None:
+        """Start on a case with heights by group in place of its surfaces, made of `tiles`."""
         self._case = case
-        made = surface.preparation if surface else None
-        self.preparation: Record | None = made.record if made else None
-        # what a prediction is made with, where it is not the surface of the case
-        self.tile: Topography | None = None
-        # one that was in memory alone
-        self._surface = surface
+        # those that were in memory alone
+        self._tiles = tiles
         self._resolution: Resolution | str | None = None
         self._predicted = self._told = False
+        own = gather(case.resolve(), heights, tiles)
+        # how maps became tiles, by group
+        self.preparations: dict[str, Record] = own.preparations
+        # what a prediction is made with, where it is not the surface of the case
+        self.tile: Topography | None = own.part
         # whether `tile` is not a part of the surface alone
-        self._whole = True
-        if heights is None:
-            own = for_solver(case.resolve())
-            self.preparation, self.tile = own.preparation, own.part
-            self._whole = own.part is None
-            text = case.with_options(*own.options).text if own.options else case.text
-            super().__init__(text, own.heights)
-        else:
-            group = case.resolve()["surface"]
-            if group["kind"] not in ("map", "fractal"):
-                raise InputError(
-                    "heights are given, and the surface of the case is none of heights\n"
-                    "expected: surface.kind = 'map' or 'fractal'"
-                )
-            super().__init__(case.text, heights)
-            self.tile = given(np.asarray(heights, dtype=np.float64), group)
+        self._whole = bool(heights) or own.part is None
+        text = case.with_options(*own.options).text if own.options else case.text
+        super().__init__(text, *own.heights)
 
     def advance(self) -> bool:
         """One cycle (steady) or step (moving surface); whether nothing is left to do."""
@@ -174,7 +180,7 @@ class Solver(SolverHandle):
             # most runs ask for nothing
             from pyehl.prediction.start import hand_over  # noqa: PLC0415
 
-            hand_over(self, self._case.resolve(), self.tile, whole=self._whole)
+            hand_over(self, one_rough(self._case.resolve()), self.tile, whole=self._whole)
         return super().advance()
 
     def __repr__(self) -> str:
@@ -206,7 +212,7 @@ class Solver(SolverHandle):
 
     def _lines(self, *, predict: bool = True) -> list[str]:
         """Tell how a map was prepared, and what the grid does not resolve."""
-        lines = self.preparation.report() if self.preparation else []
+        lines = [line for made in self.preparations.values() for line in made.report()]
         found = self._resolved() if predict else None
         if isinstance(found, str):
             return [*lines, f"predicted   {found}"]
@@ -240,9 +246,11 @@ class Solver(SolverHandle):
         """Give the scalar results as in ``summary.json``; None for a number that does not exist."""
         self._tell()
         values = super().summary()
-        if self.preparation:
-            values["surface_preparation"] = self.preparation.summary()
-        return values
+        return values | self._prepared()
+
+    def _prepared(self) -> dict[str, Any]:
+        """Tell what was done to measured maps, by the name in a summary."""
+        return {f"{name}_preparation": made.summary() for name, made in self.preparations.items()}
 
     def conclusion(self) -> str:
         """Tell the results of a run that has ended, with their errors, in a few lines."""
@@ -296,13 +304,11 @@ class Solver(SolverHandle):
             plan = folder / "plan.txt"
             told = plan.read_text(encoding="utf-8").rstrip("\n")
             plan.write_text("\n".join([told, *self._lines(), ""]), encoding="utf-8")
-        if not self.preparation and self._surface is None:
+        if not self.preparations and not self._tiles:
             return
         summary = folder / "summary.json"
-        values = json.loads(summary.read_text(encoding="utf-8"))
-        if self.preparation:
-            values["surface_preparation"] = self.preparation.summary()
-        if self._surface is not None:
-            name = keep_beside(self._surface, folder / "case.nml")
-            values["files"] = sorted([*values["files"], name])
+        values = json.loads(summary.read_text(encoding="utf-8")) | self._prepared()
+        names = [keep_beside(tile, folder / "case.nml", g) for g, tile in self._tiles.items()]
+        if names:
+            values["files"] = sorted([*values["files"], *names])
         write_json(summary, values)

@@ -3,7 +3,7 @@
 program ehl
    use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
    use ehl_arguments, only: arguments_t, get_arguments, help_text
-   use ehl_case, only: case_t
+   use ehl_case, only: case_t, surface_case_t
    use ehl_case_reader, only: read_case_file
    use ehl_case_writer, only: options_text
    use ehl_clock, only: clock_t, start_clock
@@ -32,7 +32,7 @@ program ehl
    type(status_t) :: status
    type(clock_t) :: clock
    character(len=:), allocatable :: note, case_file, fresh
-   real(dp), allocatable :: heights(:, :)
+   real(dp), allocatable :: heights(:, :), second_heights(:, :)
 
    call get_arguments(arguments, status)
    call end_if_failed()
@@ -45,7 +45,7 @@ program ehl
 
    clock = start_clock()
    if (arguments%resume /= "") then
-      call find_checkpoint(arguments%resume, case_file, heights, status)
+      call find_checkpoint(arguments%resume, case_file, heights, second_heights, status)
       call end_if_failed()
       if (arguments%case_file == "") arguments%case_file = case_file
    end if
@@ -54,17 +54,17 @@ program ehl
    destination%folder = arguments%folder
    destination%kind = "solution"
    destination%names = result_names
-   destination%inputs = arguments%case_file // newline // trim(input%surface%file) // newline
+   destination%inputs = arguments%case_file // newline // trim(input%surface%file) // newline // &
+                        trim(input%second_surface%file) // newline
    destination%kept = ""
    destination%force = arguments%force
    call destination%check(status)
    call end_if_failed()
    call watch_signals()
-   if (.not. allocated(heights)) allocate (heights(0, 0))
-   if (input%surface%kind == "fractal") then
-      if (making_need(input%surface%pixels) /= "") call say(making_need(input%surface%pixels))
-   end if
-   call solver%start(input, status, heights)
+   if (.not. allocated(heights)) allocate (heights(0, 0), second_heights(0, 0))
+   call say_making(input%surface)
+   call say_making(input%second_surface)
+   call solver%start(input, status, heights, second_heights)
    call end_if_failed()
    call say(plan_text(solver%plan))
    if (arguments%resume /= "") then
@@ -73,9 +73,9 @@ program ehl
       if (note == "") note = "there is no state yet: the run begins at its beginning"
       call say("resume: " // note)
    end if
-   call checkpoints%open(arguments%folder, input, solver, arguments%resume, heights, note, status)
+   call checkpoints%open(arguments%folder, input, solver, arguments%resume, heights, second_heights, note, status)
    call end_if_failed()
-   deallocate (heights)
+   deallocate (heights, second_heights)
    if (note /= "") call say("note: " // note)
    call advance_to_the_end()
    if (.not. solver%converged()) call keep_state(at_once=.true.)
@@ -131,6 +131,14 @@ contains
       end if
       if (saving%failed()) write (error_unit, "(a)") saving%message
    end subroutine keep_state
+
+   !> What it takes to make a fractal surface
+   subroutine say_making(s)
+      type(surface_case_t), intent(in) :: s
+
+      if (s%kind /= "fractal") return
+      if (making_need(s%pixels) /= "") call say(making_need(s%pixels))
+   end subroutine say_making
 
    !> A line to the terminal, unless it shall be quiet
    subroutine say(text)

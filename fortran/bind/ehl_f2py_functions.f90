@@ -43,19 +43,19 @@ contains
       call reply(status, stat, message)
    end subroutine resolve
 
-   !> Case file of the run with these results, to resume it; its folder holds surface.npy as well when
-   !> the surface came from Python
+   !> Case file of the run with these results, to resume it; its folder holds surface.npy, and second_surface.npy, as well
+   !> when these surfaces came from Python
    subroutine checkpoint_case(results, path, stat, message)
       character(len=*), intent(in) :: results
       character(len=4096), intent(out) :: path
       integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message
-      real(c_double), allocatable :: heights(:, :)
+      real(c_double), allocatable :: heights(:, :), second(:, :)
       character(len=:), allocatable :: text
       type(status_t) :: status
 
       path = ""
-      call find_checkpoint(results, text, heights, status)
+      call find_checkpoint(results, text, heights, second, status)
       if (.not. status%failed()) path = text
       call reply(status, stat, message)
    end subroutine checkpoint_case

@@ -26,12 +26,12 @@ module ehl_f2py_solver
 
 contains
 
-   !> Start a solver on the text of a case; with has_heights on the surface heights(nx, ny) [m]
-   !> in place of a file
-   subroutine open_case(text, origin, has_heights, nx, ny, heights, handle, stat, message)
+   !> Start a solver on the text of a case; with has_heights and has_second on the surfaces heights(nx, ny) and
+   !> second(mx, my) [m] in place of files
+   subroutine open_case(text, origin, has_heights, nx, ny, heights, has_second, mx, my, second, handle, stat, message)
       character(len=*), intent(in) :: text, origin
-      integer(c_int), intent(in) :: has_heights, nx, ny
-      real(c_double), intent(inout) :: heights(nx, ny)
+      integer(c_int), intent(in) :: has_heights, nx, ny, has_second, mx, my
+      real(c_double), intent(inout) :: heights(nx, ny), second(mx, my)
       integer(c_int), intent(out) :: handle, stat
       character(len=4096), intent(out) :: message
       type(case_t), target :: input
@@ -43,11 +43,9 @@ contains
       if (.not. status%failed()) call new_handle(handle, run, status)
       if (.not. status%failed()) then
          run%input = input
-         if (has_heights /= 0) then
-            call run%solver%start(input, status, heights)
-         else
-            call run%solver%start(input, status)
-         end if
+         associate (n => merge(nx, 0, has_heights /= 0), m => merge(mx, 0, has_second /= 0))
+            call run%solver%start(input, status, heights(:n, :), second(:m, :))
+         end associate
          if (status%failed()) call drop_handle(handle, closing)
       end if
       call reply(status, stat, message)
@@ -125,12 +123,13 @@ contains
    end subroutine act
 
    !> Keep states of the run beside its results, at the interval of the case; `resumed` names the
-   !> results of the run that is resumed; with has_heights on the surface of open_case too
-   subroutine keep(handle, results, resumed, has_heights, nx, ny, heights, note, stat, message)
+   !> results of the run that is resumed; with has_heights and has_second on the surfaces of
+   !> open_case too
+   subroutine keep(handle, results, resumed, has_heights, nx, ny, heights, has_second, mx, my, second, note, stat, message)
       integer(c_int), intent(in) :: handle
       character(len=*), intent(in) :: results, resumed
-      integer(c_int), intent(in) :: has_heights, nx, ny
-      real(c_double), intent(inout) :: heights(nx, ny)
+      integer(c_int), intent(in) :: has_heights, nx, ny, has_second, mx, my
+      real(c_double), intent(inout) :: heights(nx, ny), second(mx, my)
       character(len=4096), intent(out) :: note
       integer(c_int), intent(out) :: stat
       character(len=4096), intent(out) :: message
@@ -141,8 +140,8 @@ contains
       note = ""
       call run_of(handle, run, status)
       if (.not. status%failed()) then
-         associate (n => merge(nx, 0, has_heights /= 0))
-            call run%checkpoints%open(results, run%input, run%solver, resumed, heights(:n, :), text, status)
+         associate (n => merge(nx, 0, has_heights /= 0), m => merge(mx, 0, has_second /= 0))
+            call run%checkpoints%open(results, run%input, run%solver, resumed, heights(:n, :), second(:m, :), text, status)
          end associate
          if (.not. status%failed()) note = text
       end if

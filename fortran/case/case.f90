@@ -22,9 +22,17 @@ module ehl_case
       real(dp) :: moes_l = 10.0_dp
       real(dp) :: load = 600.0_dp
       real(dp) :: mean_velocity = 0.84_dp
+      !> Of a round contact
       real(dp) :: radius = 0.018_dp
+      !> Whether the case was given by `radius`. Not a key; set by the reader.
+      logical :: round = .true.
+      !> Set by the reader, from `radius` where they are not given
+      real(dp) :: radius_x = 0.0_dp, radius_y = 0.0_dp
+      !> radius_x/radius_y, set by the reader where the case was given in SI
+      real(dp) :: radius_ratio = 1.0_dp
       real(dp) :: reduced_modulus = 2.26e11_dp
       real(dp) :: slide_to_roll = 0.02_dp
+      !> Which body has &surface; the other one has &second_surface
       integer :: rough_surface = 1
       !> Of bearing steel
       real(dp) :: thermal_conductivity = 46.0_dp
@@ -41,6 +49,7 @@ module ehl_case
       real(dp) :: roelands_p0 = 1.96e8_dp
       character(len=word_length) :: density_law = "dowson-higginson"
       character(len=word_length) :: shear_law = "newtonian"
+      character(len=word_length) :: flow = "consistent"
       real(dp) :: eyring_stress = 5.0e6_dp
       real(dp) :: limiting_stress = 0.0_dp
       real(dp) :: limiting_coefficient = 0.06_dp
@@ -61,6 +70,8 @@ module ehl_case
    !> reader
    type :: grid_case_t
       integer :: points = 513
+      !> As many as along X in a round contact, else by the domain
+      integer :: points_y = 0
       real(dp) :: x_inlet = -2.5_dp
       real(dp) :: x_outlet = 1.5_dp
       real(dp) :: y_extent = 2.0_dp
@@ -69,7 +80,7 @@ module ehl_case
       integer :: max_points = 2049
    end type grid_case_t
 
-   !> &surface: the moving roughness
+   !> &surface and &second_surface: the moving roughness of a body
    type :: surface_case_t
       character(len=word_length) :: kind = "smooth"
       !> Whether `amplitude` holds and not `amplitude_over_film`. Not a key; set by the reader.
@@ -168,6 +179,8 @@ module ehl_case
       type(lubricant_case_t) :: lubricant
       type(grid_case_t) :: grid
       type(surface_case_t) :: surface
+      !> The surface of the other body
+      type(surface_case_t) :: second_surface
       type(time_case_t) :: time
       type(solver_case_t) :: solver
       type(psd_case_t) :: psd

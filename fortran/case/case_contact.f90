@@ -5,6 +5,7 @@ module ehl_case_contact
    use ehl_contact, only: contact_t
    use ehl_contact_factory, only: hertz_scales, new_contact
    use ehl_domain, only: domain_t, flooded_by_default, needed_domain
+   use ehl_grid, only: find_levels
    use ehl_kinds, only: dp
    use ehl_moes, only: operating_from_moes, operating_from_si, operating_t
    use ehl_refusal, only: contradict, first_given, is_before, refuse, short
@@ -18,9 +19,13 @@ module ehl_case_contact
    private
    public :: check_contact_kind, check_operating_point, complete_domain, complete_kinematics, find_contact
 
-   character(len=12), parameter :: moes_keys(2) = [character(len=12) :: "moes_m", "moes_l"]
-   character(len=16), parameter :: si_keys(4) = &
-      [character(len=16) :: "load", "mean_velocity", "radius", "reduced_modulus"]
+   character(len=12), parameter :: moes_keys(3) = [character(len=12) :: "moes_m", "moes_l", "radius_ratio"]
+   character(len=16), parameter :: si_keys(6) = &
+      [character(len=16) :: "load", "mean_velocity", "radius", "reduced_modulus", "radius_x", "radius_y"]
+   !> Fewest intervals along Y of a coarsest grid
+   integer, parameter :: fewest_rows = 8
+   !> Least and largest ratio of the sides of a cell
+   real(dp), parameter :: least_ratio = 0.25_dp, largest_ratio = 2.0_dp
    !> Difference of velocity ratios that is none
    real(dp), parameter :: rounding = 1.0e-9_dp
 
@@ -44,7 +49,7 @@ contains
          call status%fail(ehl_bad_input, point_at(sources(key%source), key%name_first, &
             key%name_last, key%full_name() // " contradicts " &
             // schema%keys(moes + si - later)%full_name(), &
-            "moes_m and moes_l, or load, mean_velocity, radius and reduced_modulus"))
+            "moes_m, moes_l and radius_ratio, or load, mean_velocity, reduced_modulus and radius or radius_x and radius_y"))
       end associate
    end subroutine check_contact_kind
 
@@ -67,8 +72,8 @@ contains
       if (scales%pressure < 1.0e5_dp .or. scales%pressure > 2.0e10_dp) then
          what = "the Hertz pressure is " // short(scales%pressure) // " Pa"
          expected = "values in SI units with a Hertz pressure between 1e5 and 2e10 Pa"
-      else if (scales%length > input%contact%radius) then
-         what = "the Hertz radius " // short(scales%length) // " m exceeds contact.radius"
+      else if (scales%length > input%contact%radius_x) then
+         what = "the Hertz radius " // short(scales%length) // " m exceeds that of the ball"
          expected = "values in SI units with a contact much smaller than the ball"
       else if (point%moes_m > 1.0e5_dp .or. point%moes_m < 0.1_dp) then
          what = "the Moes parameter M is " // short(point%moes_m)
@@ -92,14 +97,14 @@ contains
       type(scales_t), intent(out) :: scales
       type(operating_t), intent(out) :: point
 
-      call new_contact(contact)
+      call new_contact(input%contact%radius_ratio, contact)
       associate (c => input%contact, l => input%lubricant)
          if (c%si) then
-            scales = hertz_scales(c%load, c%radius, c%reduced_modulus)
-            point = operating_from_si(c%load, c%mean_velocity, c%radius, c%reduced_modulus, l%viscosity, &
-                                      l%pressure_viscosity, scales%pressure)
+            scales = hertz_scales(contact, c%load, c%radius_x, c%reduced_modulus)
+            point = operating_from_si(c%load, c%mean_velocity, c%radius_x, c%reduced_modulus, l%viscosity, &
+                                      l%pressure_viscosity, scales%pressure, contact%ellipticity, contact%kernel_factor())
          else
-            point = operating_from_moes(c%moes_m, c%moes_l)
+            point = operating_from_moes(c%moes_m, c%moes_l, contact%ellipticity, contact%kernel_factor())
             scales%pressure = point%alpha_bar/l%pressure_viscosity
          end if
       end associate
@@ -120,22 +125,49 @@ contains
       if (.not. schema%given("grid", "x_inlet")) input%grid%x_inlet = domain%inlet
       if (.not. schema%given("grid", "x_outlet")) input%grid%x_outlet = domain%outlet
       if (.not. schema%given("grid", "y_extent")) input%grid%y_extent = domain%side
+      if (.not. input%grid%points_y > 0) input%grid%points_y = rows(input, contact)
    end subroutine complete_domain
+
+   !> Nodes along Y: as many as along X in a round contact, else as many as make cells of the shape wanted
+   pure integer function rows(input, contact)
+      type(case_t), intent(in) :: input
+      class(contact_t), intent(in) :: contact
+      integer :: levels, intervals(2), halved
+
+      rows = input%grid%points
+      if (.not. abs(contact%radius_ratio - 1.0_dp) > 0.0_dp) return
+      call find_levels(rows, rows, levels, intervals)
+      if (levels == 0) return
+      halved = (rows - 1)/intervals(1)
+      associate (g => input%grid)
+         rows = 2*nint(g%y_extent*intervals(1)/(cell_ratio(contact%ellipticity)*(g%x_outlet - g%x_inlet)))
+      end associate
+      rows = max(fewest_rows, rows)*halved + 1
+   end function rows
+
+   !> Side of a cell along Y over that along X: cells longer along the longer axis reach the same error with fewer nodes, as
+   !> long as multigrid converges as on square ones
+   pure real(dp) function cell_ratio(ellipticity)
+      real(dp), intent(in) :: ellipticity
+      cell_ratio = min(largest_ratio, max(least_ratio, ellipticity))
+   end function cell_ratio
 
    !> Of the keys that were given and make the operating point the one whose value is the least usual
    integer function most_unusual(schema) result(culprit)
       type(schema_t), intent(in) :: schema
       type(case_t), target :: usual
       type(schema_t) :: defaults
-      character(len=9), parameter :: groups(6) = [character(len=9) :: "contact", "contact", "contact", "contact", &
-                                                  "lubricant", "lubricant"]
-      character(len=18), parameter :: names(6) = [character(len=18) :: si_keys, "viscosity", "pressure_viscosity"]
+      character(len=9), parameter :: groups(8) = [character(len=9) :: "contact", "contact", "contact", "contact", &
+                                                  "contact", "contact", "lubricant", "lubricant"]
+      character(len=18), parameter :: names(8) = [character(len=18) :: si_keys, "viscosity", "pressure_viscosity"]
       !> Powers of ten around their defaults that are common
-      real(dp), parameter :: common(6) = [3.0_dp, 2.0_dp, 1.0_dp, 0.5_dp, 2.0_dp, 0.5_dp]
+      real(dp), parameter :: common(8) = [3.0_dp, 2.0_dp, 1.0_dp, 0.5_dp, 1.0_dp, 1.0_dp, 2.0_dp, 0.5_dp]
       real(dp) :: unusual, most
       integer :: k, at
 
       call bind_keys(defaults, usual)
+      usual%contact%radius_x = usual%contact%radius
+      usual%contact%radius_y = usual%contact%radius
       culprit = schema%find("lubricant", "viscosity")
       most = -1.0_dp
       do k = 1, size(names)
@@ -148,31 +180,62 @@ contains
       end do
    end function most_unusual
 
-   !> Of slide-to-roll ratio and velocity of the rough surface one follows from the other: surface 1 moves at
-   !> 1 + SRR/2, surface 2 at 1 - SRR/2 times the mean velocity
+   !> Of slide-to-roll ratio and velocities of the surfaces one gives the others: body 1 moves at 1 + SRR/2, body 2 at
+   !> 1 - SRR/2 times the mean velocity
    subroutine complete_kinematics(schema, input, sources, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(inout) :: input
       type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
-      real(dp) :: side, follows
+      real(dp) :: side
 
       side = merge(1.0_dp, -1.0_dp, input%contact%rough_surface == 1)
-      associate (ratio => input%surface%velocity_ratio, srr => input%contact%slide_to_roll)
-         follows = 1.0_dp + 0.5_dp*side*srr
-         if (.not. schema%given("surface", "velocity_ratio")) then
-            ratio = follows
-         else if (.not. schema%given("contact", "slide_to_roll")) then
-            srr = sliding(side, ratio)
-         else if (abs(ratio - follows) > rounding) then
-            call contradict(schema, sources, "surface.velocity_ratio", "contact.slide_to_roll", &
-               "one of the two, or slide_to_roll = " // to_text(sliding(side, ratio)) // " with this velocity_ratio", &
-               status, "with contact.slide_to_roll = " // to_text(srr) // ", surface " &
-               // to_text(input%contact%rough_surface) // ", the rough one, moves at " // to_text(follows) &
-               // " times the mean velocity, not at " // to_text(ratio))
+      associate (first => input%surface%velocity_ratio, second => input%second_surface%velocity_ratio, &
+                 srr => input%contact%slide_to_roll)
+         if (schema%given("surface", "velocity_ratio") .and. schema%given("second_surface", "velocity_ratio")) then
+            if (abs(first + second - 2.0_dp) > rounding) then
+               call contradict(schema, sources, "surface.velocity_ratio", "second_surface.velocity_ratio", &
+                  "one of the two, or velocity ratios that add up to 2: contact.mean_velocity is the mean of both bodies", &
+                  status, to_text(first) // " and " // to_text(second) // " add up to " // to_text(first + second))
+               return
+            end if
          end if
+         if (.not. schema%given("contact", "slide_to_roll")) then
+            if (schema%given("surface", "velocity_ratio")) then
+               srr = sliding(side, first)
+            else if (schema%given("second_surface", "velocity_ratio")) then
+               srr = sliding(-side, second)
+            end if
+         end if
+         call settle_velocity(schema, "surface", input%contact%rough_surface, srr, first, sources, status)
+         call settle_velocity(schema, "second_surface", 3 - input%contact%rough_surface, srr, second, sources, status)
       end associate
    end subroutine complete_kinematics
+
+   !> The velocity of a surface, which follows from the slide-to-roll ratio; one that was given must agree with it
+   subroutine settle_velocity(schema, group, body, srr, ratio, sources, status)
+      type(schema_t), intent(in) :: schema
+      character(len=*), intent(in) :: group
+      !> Which body the surface is on: 1 or 2
+      integer, intent(in) :: body
+      real(dp), intent(in) :: srr
+      real(dp), intent(inout) :: ratio
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+      real(dp) :: side, follows
+
+      side = merge(1.0_dp, -1.0_dp, body == 1)
+      follows = 1.0_dp + 0.5_dp*side*srr
+      if (.not. schema%given(group, "velocity_ratio")) then
+         ratio = follows
+      else if (schema%given("contact", "slide_to_roll") .and. abs(ratio - follows) > rounding .and. &
+               .not. status%failed()) then
+         call contradict(schema, sources, group // ".velocity_ratio", "contact.slide_to_roll", &
+            "one of the two, or slide_to_roll = " // to_text(sliding(side, ratio)) // " with this velocity_ratio", &
+            status, "with contact.slide_to_roll = " // to_text(srr) // ", &" // group // ", on body " // to_text(body) &
+            // ", moves at " // to_text(follows) // " times the mean velocity, not at " // to_text(ratio))
+      end if
+   end subroutine settle_velocity
 
    !> Slide-to-roll ratio from the velocity of the rough surface, free of the rounding of the difference: 0.02 for 1.01
    pure real(dp) function sliding(side, ratio)

@@ -2,9 +2,11 @@
 !> Temperature of the lubricant: its viscosity from a data sheet, and shear heating of the inlet
 module ehl_case_temperature
    use ehl_case, only: case_t
-   use ehl_contact_factory, only: hertz_scales
+   use ehl_case_contact, only: find_contact
+   use ehl_contact, only: contact_t
    use ehl_heat, only: dynamic_viscosity, temperature_viscosity, thermal_loading, thermal_reduction
    use ehl_kinds, only: dp
+   use ehl_moes, only: operating_t
    use ehl_refusal, only: contradict, refuse, short
    use ehl_scales, only: scales_t
    use ehl_schema, only: schema_t
@@ -79,7 +81,9 @@ contains
       type(case_t), intent(in) :: input
       type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
+      class(contact_t), allocatable :: contact
       type(scales_t) :: scales
+      type(operating_t) :: point
       real(dp) :: loading, reduction
 
       associate (l => input%lubricant, c => input%contact)
@@ -95,7 +99,7 @@ contains
                         "temperature_viscosity, or kinematic_viscosity_40 and kinematic_viscosity_100", status)
             return
          end if
-         scales = hertz_scales(c%load, c%radius, c%reduced_modulus)
+         call find_contact(input, contact, scales, point)
          loading = thermal_loading(l%temperature_viscosity, l%viscosity, c%mean_velocity, l%thermal_conductivity)
          reduction = thermal_reduction(loading, scales%pressure/c%reduced_modulus, c%slide_to_roll)
          if (reduction > 0.0_dp) return

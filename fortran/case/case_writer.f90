@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The resolved case as namelist text, and the list of all options
 module ehl_case_writer
-   use ehl_case, only: case_t, is_feature
+   use ehl_case, only: case_t, is_feature, surface_case_t
    use ehl_case_key, only: key_t, mark_default, mark_derived
    use ehl_kinds, only: dp
    use ehl_keys, only: bind_keys
@@ -14,7 +14,8 @@ module ehl_case_writer
 contains
 
    !> A case as namelist text that reads back as the same case, every value spelled out. Of keys
-   !> that exclude each other only the one that holds is written. Values that were not given are marked.
+   !> that exclude each other only the one that holds is written. Values that were not given are marked. A second
+   !> surface that nobody asked for is left out.
    function case_text(input) result(text)
       type(case_t), intent(in) :: input
       character(len=:), allocatable :: text
@@ -28,6 +29,7 @@ contains
       call bind_keys(constant, defaults)
       text = ""
       do k = 1, size(schema%keys)
+         if (schema%keys(k)%group == "second_surface" .and. .not. has_second(input, schema)) cycle
          if (opens_group(schema, k)) text = text // "&" // trim(schema%keys(k)%group) // newline
          if (holds(input, schema%keys(k))) then
             mark = ""
@@ -38,33 +40,72 @@ contains
       end do
    end function case_text
 
+   !> Whether there is a second surface, or somebody has said something of one
+   pure logical function has_second(input, schema)
+      type(case_t), intent(in) :: input
+      type(schema_t), intent(in) :: schema
+
+      has_second = input%second_surface%kind /= "smooth"
+      if (allocated(input%given)) has_second = has_second .or. any(input%given .and. schema%keys%group == "second_surface")
+   end function has_second
+
    !> Whether a key carries a value, and its rival does not
    pure logical function holds(input, key)
       type(case_t), intent(in) :: input
       type(key_t), intent(in) :: key
 
-      select case (key%full_name())
-      case ("contact.moes_m", "contact.moes_l")
-         holds = .not. input%contact%si
-      case ("contact.load", "contact.mean_velocity", "contact.radius", "contact.reduced_modulus")
-         holds = input%contact%si
-      case ("surface.amplitude")
-         holds = input%surface%amplitude_given
-      case ("surface.amplitude_over_film")
-         holds = (input%surface%kind == "harmonic" .or. is_feature(input%surface%kind)) &
-                 .and. .not. input%surface%amplitude_given .and. .not. input%surface%height_m > 0.0_dp
-      case ("surface.width")
-         holds = .not. input%surface%width_m > 0.0_dp
-      case ("surface.length")
-         holds = .not. input%surface%length_m > 0.0_dp
-      case ("lubricant.temperature", "lubricant.density_15", "lubricant.thermal_expansion")
-         holds = input%lubricant%kinematic_viscosity_40 > 0.0_dp
-      case ("lubricant.limiting_coefficient")
-         holds = input%lubricant%limiting_stress <= 0.0_dp
+      select case (trim(key%group))
+      case ("surface")
+         holds = holds_of_surface(input%surface, key)
+      case ("second_surface")
+         holds = holds_of_surface(input%second_surface, key)
       case default
-         holds = .true.
+         holds = holds_elsewhere(input, key)
       end select
    end function holds
+
+   !> The same of a key of a surface
+   pure logical function holds_of_surface(s, key)
+      type(surface_case_t), intent(in) :: s
+      type(key_t), intent(in) :: key
+
+      select case (trim(key%name))
+      case ("amplitude")
+         holds_of_surface = s%amplitude_given
+      case ("amplitude_over_film")
+         holds_of_surface = (s%kind == "harmonic" .or. is_feature(s%kind)) .and. .not. s%amplitude_given .and. &
+                            .not. s%height_m > 0.0_dp
+      case ("width")
+         holds_of_surface = .not. s%width_m > 0.0_dp
+      case ("length")
+         holds_of_surface = .not. s%length_m > 0.0_dp
+      case default
+         holds_of_surface = .true.
+      end select
+   end function holds_of_surface
+
+   !> The same of any other key
+   pure logical function holds_elsewhere(input, key)
+      type(case_t), intent(in) :: input
+      type(key_t), intent(in) :: key
+
+      select case (key%full_name())
+      case ("contact.moes_m", "contact.moes_l", "contact.radius_ratio")
+         holds_elsewhere = .not. input%contact%si
+      case ("contact.load", "contact.mean_velocity", "contact.reduced_modulus")
+         holds_elsewhere = input%contact%si
+      case ("contact.radius")
+         holds_elsewhere = input%contact%si .and. input%contact%round
+      case ("contact.radius_x", "contact.radius_y")
+         holds_elsewhere = input%contact%si .and. .not. input%contact%round
+      case ("lubricant.temperature", "lubricant.density_15", "lubricant.thermal_expansion")
+         holds_elsewhere = input%lubricant%kinematic_viscosity_40 > 0.0_dp
+      case ("lubricant.limiting_coefficient")
+         holds_elsewhere = input%lubricant%limiting_stress <= 0.0_dp
+      case default
+         holds_elsewhere = .true.
+      end select
+   end function holds_elsewhere
 
    !> One key with its value and its meaning
    function key_line(key, mark) result(line)

@@ -22,12 +22,17 @@ contains
          call self%reals("moes_l", c%moes_l, "-", "[0, 100]", "Moes material parameter L")
          call self%reals("load", c%load, "N", "(0, 1e5]", "load")
          call self%reals("mean_velocity", c%mean_velocity, "m/s", "(0, 200]", "mean velocity of the two surfaces")
-         call self%reals("radius", c%radius, "m", "[1e-5, 10]", "reduced radius")
+         call self%reals("radius_ratio", c%radius_ratio, "-", "[0.004, 250]", &
+                         "R_x/R_y of an elliptical contact, whose M and L are by R_x; 1: round")
+         call self%reals("radius", c%radius, "m", "[1e-5, 10]", "reduced radius of a round contact")
+         call self%reals("radius_x", c%radius_x, "m", "0 or [1e-5, 1000]", &
+                         "reduced radius in the plane of the motion; 0: radius")
+         call self%reals("radius_y", c%radius_y, "m", "0 or [1e-5, 1000]", "reduced radius across the motion; both or none")
          call self%reals("reduced_modulus", c%reduced_modulus, "Pa", "[1e8, 2e12]", &
                          "E' with 2/E' = sum of (1 - nu^2)/E over the bodies")
          call self%reals("slide_to_roll", c%slide_to_roll, "-", "[-2, 2]", &
-                         "slide-to-roll ratio (u1 - u2)/u; follows from a given surface.velocity_ratio")
-         call self%integers("rough_surface", c%rough_surface, "[1, 2]", "which surface is the rough one")
+                         "slide-to-roll ratio (u1 - u2)/u; follows from a given velocity_ratio of a surface")
+         call self%integers("rough_surface", c%rough_surface, "[1, 2]", "body with &surface; the other has &second_surface")
          call self%reals("thermal_conductivity", c%thermal_conductivity, "W/(m K)", "[0.1, 500]", &
                          "thermal conductivity of the solids, for the flash temperature")
          call self%reals("thermal_diffusivity", c%thermal_diffusivity, "m^2/s", "[1e-8, 1e-3]", &
@@ -44,7 +49,9 @@ contains
          call self%reals("roelands_p0", l%roelands_p0, "Pa", "[1e7, 1e10]", "Roelands reference pressure")
          call self%words("density_law", l%density_law, "dowson-higginson|incompressible", "density under pressure")
          call self%words("shear_law", l%shear_law, "newtonian|eyring|limiting|carreau", &
-                         "shear stress in the contact, for friction alone")
+                         "shear stress in the contact")
+         call self%words("flow", l%flow, "consistent|newtonian", &
+                         "whether eyring and carreau thin the flow that makes the film, too, or the friction alone")
          call self%reals("eyring_stress", l%eyring_stress, "Pa", "[1e4, 1e9]", "Eyring stress")
          call self%reals("limiting_stress", l%limiting_stress, "Pa", "0 or [1e5, 1e10]", &
                          "limiting shear stress; 0: limiting_coefficient times pressure")
@@ -73,10 +80,12 @@ contains
       self%group = "grid"
       associate (g => input%grid)
          call self%integers("points", g%points, "[17, 4097]", &
-                            "nodes per side: odd, points - 1 halved must end even at 32 or less")
+                            "nodes along X: odd, points - 1 halved must end even at 32 or less")
+         call self%integers("points_y", g%points_y, "0 or [9, 40961]", &
+                            "nodes along Y, halved as often; default points in a round contact, else by the domain")
          call self%reals("x_inlet", g%x_inlet, "a", "[-1e4, -1.05]", "inlet boundary X; default by M and L")
          call self%reals("x_outlet", g%x_outlet, "a", "[1.05, 1e4]", "outlet boundary X; default by M and L")
-         call self%reals("y_extent", g%y_extent, "a", "[1.05, 1e4]", &
+         call self%reals("y_extent", g%y_extent, "a", "[0.03, 1e4]", &
                          "side boundaries Y = -y_extent and y_extent; default by M and L")
          call self%words("border", g%border, "flooded|zero", &
                          "pressure of a flooded contact, or P = 0; default by M: the former below 500")
@@ -86,13 +95,16 @@ contains
       end associate
       self%group = "surface"
       call add_surface_keys(self, input%surface)
+      self%group = "second_surface"
+      call add_surface_keys(self, input%second_surface)
       self%group = "time"
       associate (t => input%time)
          call self%words("scheme", t%scheme, "narrow|paper", &
                          "wedge and squeeze: along the characteristic, or each by itself")
          call self%reals("tolerance", t%tolerance, "-", "[1e-8, 0.5]", &
                          "stop when the period mean of mu_r/mu_s changes less, relatively")
-         call self%integers("max_periods", t%max_periods, "[0, 100000]", "most periods; 0: 36")
+         call self%integers("max_periods", t%max_periods, "[0, 100000]", &
+                            "most periods, of two surfaces those of the slower one; 0: 36")
          call self%words("start", t%start, "front|prediction", &
                          "roughness enters behind a front, or fills the contact as pyehl predicts")
          call self%logicals("skip_start", t%skip_start, "solve nothing before the roughness comes near the contact")
@@ -157,7 +169,7 @@ contains
       call self%reals("wavelength_x", s%wavelength_x, "a", "[0.01, 100]", "wavelength along X; default wavelength")
       call self%reals("wavelength_y", s%wavelength_y, "a", "[0.01, 1e6]", "wavelength along Y; default wavelength")
       call self%reals("velocity_ratio", s%velocity_ratio, "-", "[0, 2]", &
-                      "velocity of the rough surface over the mean one; default 1 + SRR/2, surface 2: 1 - SRR/2")
+                      "velocity of the rough surface over the mean one; default 1 + SRR/2 on body 1, 1 - SRR/2 on body 2")
       call self%reals("x_start", s%x_start, "a", "[-1e5, 1e4]", &
                       "where the roughness begins at time 0, at rest its origin; default x_inlet")
       call self%reals("height_m", s%height_m, "m", "0 or [1e-12, 1e-4]", &

@@ -4,10 +4,10 @@ module ehl_circular
    use ehl_contact, only: contact_t
    use ehl_film_formula, only: film_central_formula
    use ehl_kinds, only: dp, pi
-   use ehl_scales, only: scales_t
+   use ehl_scales, only: circle_factor
    implicit none (type, external)
    private
-   public :: circular_t, circular_scales
+   public :: circular_t
 
    type, extends(contact_t) :: circular_t
    contains
@@ -20,17 +20,6 @@ module ehl_circular
    end type circular_t
 
 contains
-
-   !> Scales: a = (3 w R/(2 E'))^(1/3), p_h = 3 w/(2 pi a^2)
-   pure function circular_scales(load, radius, reduced_modulus) result(scales)
-      !> Load [N], reduced radius R [m], reduced modulus E' [Pa]
-      real(dp), intent(in) :: load, radius, reduced_modulus
-      type(scales_t) :: scales
-
-      scales%length = (1.5_dp*load*radius/reduced_modulus)**(1.0_dp/3.0_dp)
-      scales%pressure = 1.5_dp*load/(pi*scales%length**2)
-      scales%film = scales%length**2/radius
-   end function circular_scales
 
    !> X^2/2 + Y^2/2
    pure subroutine gap_row(self, x, y, values)
@@ -67,7 +56,7 @@ contains
       class(circular_t), intent(in) :: self
       associate (unused => self)
       end associate
-      kernel_factor = 2.0_dp/pi**2
+      kernel_factor = circle_factor
    end function kernel_factor
 
    !> H00 of the dry contact, whose deflection at the centre is 1
@@ -84,6 +73,6 @@ contains
       real(dp), intent(in) :: moes_m, moes_l
       associate (unused => self)
       end associate
-      film_formula = film_central_formula(moes_m, moes_l)
+      film_formula = film_central_formula(moes_m, moes_l, 1.0_dp, 1.0_dp)
    end function film_formula
 end module ehl_circular

@@ -9,6 +9,8 @@ module ehl_contact
    public :: contact_t
 
    type, abstract :: contact_t
+      !> Semi-axis of the dry contact across the motion over that along it; D = R_x/R_y
+      real(dp) :: ellipticity = 1.0_dp, radius_ratio = 1.0_dp
    contains
       procedure(row), deferred :: gap_row
       procedure(row), deferred :: pressure_row

@@ -53,11 +53,11 @@ contains
    !> Whether the border has the pressure of a flooded contact unless the case says otherwise
    pure logical function flooded_by_default(point)
       type(operating_t), intent(in) :: point
-      flooded_by_default = point%moes_m < first_usual
+      flooded_by_default = point%round_m < first_usual
    end function flooded_by_default
 
-   !> The domain of a contact: that of Zhang et al. 2019, or with a flooded border one of its shape that is larger as the
-   !> film is thick. Cells are square, and X = 0 is a node of every grid of 32 n + 1 nodes.
+   !> The domain of a contact: that of Zhang et al. 2019, its sides further out around an ellipse, or with a flooded border
+   !> one of its shape that is larger as the film is thick. Cells are square, and X = 0 is a node of every grid of 32 n + 1 nodes.
    pure function needed_domain(contact, point, flooded) result(domain)
       class(contact_t), intent(in) :: contact
       type(operating_t), intent(in) :: point
@@ -65,6 +65,7 @@ contains
       type(domain_t) :: domain
       real(dp) :: cost(2), wanted, unit, width
 
+      domain%side = domain%side*sides_over_round(contact)
       if (.not. flooded) return
       wanted = 4.0_dp
       do
@@ -73,9 +74,16 @@ contains
          wanted = 1.02_dp*wanted
          unit = 0.32_dp*10.0_dp**max(0, floor(log10(0.25_dp*wanted)))
          width = unit*ceiling(wanted/unit)
-         domain = domain_t(-0.625_dp*width, 0.375_dp*width, 0.5_dp*width)
+         domain = domain_t(-0.625_dp*width, 0.375_dp*width, 0.5_dp*width*sides_over_round(contact))
       end do
    end function needed_domain
+
+   !> How much further out the sides are than those around a round contact: as the ends of a wide contact; less far than the
+   !> narrow one is narrower, because the gap opens more slowly there in terms of its semi-axis
+   pure real(dp) function sides_over_round(contact)
+      class(contact_t), intent(in) :: contact
+      sides_over_round = max(contact%ellipticity, sqrt(contact%ellipticity))
+   end function sides_over_round
 
    !> Shares of H_c and H_min of the flooded contact that a domain changes, as an upper estimate; 1 and more: nothing
    !> can be said
@@ -92,7 +100,7 @@ contains
          if (flooded) then
             length = sqrt(2.0_dp*film)
             load = lambda_bar*length**2*(load_by_sides/domain%side**3 + load_by_inlet/abs(domain%inlet)**3)
-            cost(1) = load*max(least_by_load, by_load/(1.0_dp + (point%moes_m/half_by_load)**2)) &
+            cost(1) = load*max(least_by_load, by_load/(1.0_dp + (point%round_m/half_by_load)**2)) &
                       + by_inlet*min(length, thin)**inlet_power*(2.5_dp/abs(domain%inlet))**5
             cost(2) = minimum_over_central*cost(1)
          else
@@ -101,7 +109,7 @@ contains
             sides = pressure_gain(domain%side, film)/whole
             load = lambda_bar*(load_beyond_inlet/abs(domain%inlet) + load_beyond_sides/domain%side)
             cost(1) = of_inlet*max(1.0_dp, (thin_film/film)**thin_power)*inlet + of_sides*sides &
-                      + load*max(sensitivity(contact, point), least_sensitivity*min(1.0_dp, (dented_below/point%moes_m)**6))
+                      + load*max(sensitivity(contact, point), least_sensitivity*min(1.0_dp, (dented_below/point%round_m)**6))
             cost(2) = cost(1) + of_sides_at_minimum*sides
          end if
       end associate

@@ -71,7 +71,7 @@ contains
       do k = 1, n
          self%levels(k)%lubricant = lubricant
          self%levels(k)%kernel_factor = kernel_factor
-         call new_flow(speed_parameter, self%levels(k)%flow)
+         call new_flow(lubricant, speed_parameter, self%levels(k)%flow)
       end do
       self%levels(1)%grid = coarsest
       call self%coarsest%setup(coarsest, kernel_factor, status)

@@ -1,24 +1,26 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Line systems of the Reynolds equation (reynolds.f90) along X: the changes d(i) of the pressure of a row that its
-!> linearised equation asks for while the other rows stay. A node with D(i) = 1 changes distributively: -1/4 of its change
-!> goes to each of the four neighbours, else D(i) = 0. With r(i) the residual,
+!> linearised equation asks for while the other rows stay. A node with D(i) = 1 changes distributively: the share -q of its
+!> change goes to each neighbour along X, and a share to each across it (workspace.f90; 1/4 on square cells), else D(i) = 0.
+!> With r(i) the residual,
 !>
 !>    em4 d(i-4) + em3 d(i-3) + em2 d(i-2) + em1 d(i-1) + e0 d(i) + e1 d(i+1) + e2 d(i+2) = r(i)
 !>
 !>    em4 = - c2 s(i-2, -2)
 !>    em3 = - c1 s(i-1, -2) - c2 s(i-2, -1)
-!>    em2 = - w D(i-2)/4 - c0 s(i, -2) - c1 s(i-1, -1) - c2 s(i-2, 0)
-!>    em1 = w (1 + D(i-1)) + w' g(i-1) (P(i-1) - P(i)) - c0 s(i, -1) - c1 s(i-1, 0) - c2 s(i-2, 1)
+!>    em2 = - w q D(i-2) - c0 s(i, -2) - c1 s(i-1, -1) - c2 s(i-2, 0)
+!>    em1 = w (1 + D(i-1) a) + w' g(i-1) (P(i-1) - P(i)) - c0 s(i, -1) - c1 s(i-1, 0) - c2 s(i-2, 1)
 !>    e0  = (o - e - w) (1 + D(i)/4) + g(i) [e' (P(i+1) - P(i)) + w' (P(i-1) - P(i)) + o']
 !>          - c0 s(i, 0) - c1 s(i-1, 1) - c2 s(i-2, 2)
-!>    e1  = e (1 + D(i+1)) + e' g(i+1) (P(i+1) - P(i)) - c0 s(i, 1) - c1 s(i-1, 2)
-!>    e2  = - e D(i+2)/4 - c0 s(i, 2)
+!>    e1  = e (1 + D(i+1) a) + e' g(i+1) (P(i+1) - P(i)) - c0 s(i, 1) - c1 s(i-1, 2)
+!>    e2  = - e q D(i+2) - c0 s(i, 2)
 !>
-!>    s(i, l) = d(rho H)(i)/d d(i+l) = rho(i) K(l) + [H d rho/dP](i) (1 if l = 0, -D(i+l)/4 if |l| = 1, else 0)
+!>    s(i, l) = d(rho H)(i)/d d(i+l) = rho(i) K(l) + [H d rho/dP](i) (1 if l = 0, -q D(i+l) if |l| = 1, else 0)
 !>    g(i)    = (1 - D(i)) d eps(i)/dP
 !>
 !> e, w: couplings to the east and to the west, o: less the sum of those to other rows, e', w', o': their change with the
-!> conductance (poiseuille.f90, line_terms_t); c: wedge.f90; K(l): deflection at a distance of l nodes by the change of one,
+!> conductance (poiseuille.f90, line_terms_t); a: the mean of all four over that of e and w, 1 where the lubricant flows
+!> alike along and across; c: wedge.f90; K(l): deflection at a distance of l nodes by the change of one,
 !> nothing beyond |l| = 2. A cavitated node that is content (node_state.f90) has d(i) = 0.
 !>
 !> The systems are assembled and eliminated in one pass along X for `line_width` lines side by side.
@@ -46,12 +48,13 @@ contains
 
    !> Changes of pressure on the lines rows(1), rows(2), ...: work%change(line, node) solves the
    !> linearised equation along X
-   subroutine solve_lines(level, dipole, near, near_dipole, rows, last, work)
+   subroutine solve_lines(level, dipole, shares, near, near_dipole, rows, last, work)
       type(level_t), intent(in) :: level
       !> 1 where a node changes distributively, else 0, shape (nx, ny)
       real(dp), contiguous, intent(in) :: dipole(:, :)
-      !> Kernel near the source: itself, and for the distributive change
-      real(dp), intent(in) :: near(-nr:nr), near_dipole(-nr:nr)
+      !> What a distributive change takes from the nodes beside it along X and along Y; kernel near the source: itself, and
+      !> for the distributive change
+      real(dp), intent(in) :: shares(2), near(-nr:nr), near_dipole(-nr:nr)
       !> Rows of the grid; unused places repeat a row
       integer, intent(in) :: rows(line_width)
       !> Last node that may change, see last_awake; changes of the nodes behind it are not set
@@ -59,7 +62,7 @@ contains
       type(line_work_t), intent(inout) :: work
 
       call gather(level, dipole, rows, min(last + near_reach, level%grid%nx), work%fields)
-      call eliminate(level, near, near_dipole - near, last, work%fields, work%upper, work%change)
+      call eliminate(level, shares, near, near_dipole - near, last, work%fields, work%upper, work%change)
       call substitute(last, work%upper, work%change)
    end subroutine solve_lines
 
@@ -115,10 +118,10 @@ contains
 
    !> Row i of a line couples the changes at nodes i-4 ... i+2; it is eliminated with the rows before
    !> it as soon as it is made, so that only the upper two diagonals are kept. The coefficients: see above.
-   pure subroutine eliminate(level, near, delta, furthest, g, upper, change)
+   pure subroutine eliminate(level, shares, near, delta, furthest, g, upper, change)
       type(level_t), intent(in) :: level
-      !> Kernel near the source, and what a distributive change adds to it
-      real(dp), intent(in) :: near(-nr:nr), delta(-nr:nr)
+      !> Shares of a distributive change; kernel near the source, and what a distributive change adds to it
+      real(dp), intent(in) :: shares(2), near(-nr:nr), delta(-nr:nr)
       !> Last node
       integer, intent(in) :: furthest
       real(dp), intent(in) :: g(line_width, line_fields, -1:level%grid%nx + 2)
@@ -127,21 +130,24 @@ contains
       !> Response of rho H at nodes i, i-1, i-2 to unit changes at their columns -2..2
       real(dp) :: s(line_width, -nr:nr, 0:2)
       real(dp) :: c(0:line_reach), c_first(0:line_reach), c_interior(0:line_reach)
-      real(dp) :: pivot(line_width)
+      real(dp) :: pivot(line_width), a(line_width)
       real(dp) :: east, west, re, rw, pe, pw, r, t, d, active, em4, em3, em2, em1, e0, e1, e2
       integer :: i, l, now, last, former
+      logical :: uneven
 
+      uneven = level%flow%across > along
       call level%wedge%line_weights(c_first, c_interior)
       upper(:, :, -3:1) = 0.0_dp
       change(:, -3:1) = 0.0_dp
       s = 0.0_dp
+      a = 1.0_dp
       now = 0
       last = 1
       former = 2
       do i = 1, furthest
          !$omp simd private(t)
          do l = 1, line_width
-            t = 0.25_dp*g(l, f_h_drho_dp, i)
+            t = shares(1)*g(l, f_h_drho_dp, i)
             s(l, -2, now) = g(l, f_rho, i)*(near(-2) + g(l, f_dipole, i - 2)*delta(-2))
             s(l, -1, now) = g(l, f_rho, i)*(near(-1) + g(l, f_dipole, i - 1)*delta(-1)) - g(l, f_dipole, i - 1)*t
             s(l, 0, now) = g(l, f_rho, i)*(near(0) + g(l, f_dipole, i)*delta(0)) + g(l, f_h_drho_dp, i)
@@ -150,6 +156,7 @@ contains
          end do
          if (i > 1) then
             c = merge(c_first, c_interior, i == 2)
+            if (uneven) a = 0.5_dp - 0.5_dp*g(:, f_other, i)/(g(:, f_east, i) + g(:, f_east, i - 1) + tiny(1.0_dp))
             !$omp simd private(east, west, re, rw, pe, pw, r, t, d, active, em4, em3, em2, em1, e0, e1, e2)
             do l = 1, line_width
                re = g(l, f_east_rate, i)
@@ -164,16 +171,16 @@ contains
                d = active*r
                em4 = -active*c(2)*s(l, -2, former)
                em3 = -active*(c(1)*s(l, -2, last) + c(2)*s(l, -1, former))
-               em2 = -active*(0.25_dp*west*g(l, f_dipole, i - 2) + c(0)*s(l, -2, now) + c(1)*s(l, -1, last) &
+               em2 = -active*(shares(1)*west*g(l, f_dipole, i - 2) + c(0)*s(l, -2, now) + c(1)*s(l, -1, last) &
                               + c(2)*s(l, 0, former))
-               em1 = active*(west*(1.0_dp + g(l, f_dipole, i - 1)) + rw*g(l, f_gain, i - 1)*pw &
+               em1 = active*(west*(1.0_dp + a(l)*g(l, f_dipole, i - 1)) + rw*g(l, f_gain, i - 1)*pw &
                              - c(0)*s(l, -1, now) - c(1)*s(l, 0, last) - c(2)*s(l, 1, former))
                e0 = active*((g(l, f_other, i) - east - west)*(1.0_dp + 0.25_dp*g(l, f_dipole, i)) &
                             + g(l, f_gain, i)*(re*pe + rw*pw + g(l, f_other_rate, i)) &
                             - c(0)*s(l, 0, now) - c(1)*s(l, 1, last) - c(2)*s(l, 2, former)) + (1.0_dp - active)
-               e1 = active*(east*(1.0_dp + g(l, f_dipole, i + 1)) + re*g(l, f_gain, i + 1)*pe &
+               e1 = active*(east*(1.0_dp + a(l)*g(l, f_dipole, i + 1)) + re*g(l, f_gain, i + 1)*pe &
                             - c(0)*s(l, 1, now) - c(1)*s(l, 2, last))
-               e2 = -active*(0.25_dp*east*g(l, f_dipole, i + 2) + c(0)*s(l, 2, now))
+               e2 = -active*(shares(1)*east*g(l, f_dipole, i + 2) + c(0)*s(l, 2, now))
                em3 = em3 - em4*upper(l, 1, i - 4)
                em2 = em2 - em4*upper(l, 2, i - 4) - em3*upper(l, 1, i - 3)
                em1 = em1 - em3*upper(l, 2, i - 3) - em2*upper(l, 1, i - 2)

@@ -18,8 +18,10 @@ module ehl_relaxation
    private
    public :: relax, full_trust
 
-   !> Largest conductance/mesh-size^2 of a distributive node's neighbourhood
-   real(dp), parameter :: switch = 0.1_dp
+   !> Largest conductance/mesh-size^2 of a distributive node's neighbourhood, and that of a lubricant that thins. The
+   !> conductance across counts: lines along X know what is along them, and a change that is smooth across them is held by
+   !> their coupling to other lines alone.
+   real(dp), parameter :: switch = 0.1_dp, switch_thinning = 0.25_dp
    !> Under-relaxation of distributive changes, and of Gauss-Seidel changes where the wedge and
    !> the Poiseuille term compete; the latter tends to 1 where conductance/mesh-size^2 passes `strong`
    real(dp), parameter :: omega_dipole = 0.7_dp, omega_line = 0.5_dp, strong = 10.0_dp
@@ -87,7 +89,7 @@ contains
       real(dp) :: limit, greatest(level%grid%nx)
       integer :: i, j, below
 
-      limit = switch*min(level%grid%hx, level%grid%hy)**2
+      limit = merge(switch_thinning, switch, level%flow%bends)*min(level%grid%hx, level%grid%hy)**2
       !$omp parallel do default(none) shared(level, space, first, last, limit) private(i, below, greatest) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
@@ -108,15 +110,17 @@ contains
       type(workspace_t), intent(inout) :: space
       integer, intent(in) :: first, last
       real(dp) :: scale, share, largest(level%grid%nx)
-      integer :: i, j, k, below, nx
+      integer :: i, j, k, below, nx, across
 
       nx = level%grid%nx
+      across = level%flow%across
       scale = 1.0_dp/(weak*level%wedge%squeeze*min(level%grid%hx, level%grid%hy)**2)
-      !$omp parallel do default(none) shared(level, space, first, last, scale, nx) private(i, k, below, share, largest) &
+      !$omp parallel do default(none) shared(level, space, first, last, scale, nx, across) &
+      !$omp private(i, k, below, share, largest) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
          below = level%grid%south(j)
-         largest = max(level%flow%eps(:, below, along), level%flow%eps(:, j, along), level%flow%eps(:, j + 1, along))
+         largest = max(level%flow%eps(:, below, across), level%flow%eps(:, j, across), level%flow%eps(:, j + 1, across))
          do i = 1 + around, nx - around
             share = largest(i)
             do k = 1, around
@@ -138,6 +142,7 @@ contains
       real(dp), intent(in) :: trust, part
       real(dp) :: scale, omega, omega_far, change
       real(dp), dimension(level%grid%nx) :: t, after
+      integer :: across
       logical :: time_step, limited
       integer :: rows(line_width), lines, furthest, i, j, l
 
@@ -147,6 +152,8 @@ contains
       time_step = level%wedge%squeeze > 0.0_dp
       ! a Galerkin operator does not change with the pressure
       limited = (time_step .or. trust < full_trust) .and. .not. level%poiseuille%frozen
+      ! across the motion the conductance changes the most with pressure
+      across = level%flow%across
       omega = merge(omega_step, omega_line, time_step)
       omega_far = merge(omega_step, omega_dipole, time_step)
       associate (work => space%lines(thread))
@@ -154,7 +161,7 @@ contains
          do l = 1, lines
             furthest = max(furthest, last_awake(level, rows(l)))
          end do
-         call solve_lines(level, space%dipole, space%near, space%near_dipole, rows, furthest, work)
+         call solve_lines(level, space%dipole, space%shares, space%near, space%near_dipole, rows, furthest, work)
          do l = 1, lines
             j = rows(l)
             space%change(furthest + 1:, j) = 0.0_dp
@@ -162,7 +169,7 @@ contains
             t(2:furthest) = level%flow%eps(2:furthest, j, along)*scale
             do i = 2, furthest
                change = part*work%change(l, i)
-               if (limited) change = change/max(1.0_dp, abs(level%flow%dlneps_dp(i, j, along)*change)/trust)
+               if (limited) change = change/max(1.0_dp, abs(level%flow%dlneps_dp(i, j, across)*change)/trust)
                space%change(i, j) = omega_far*space%dipole(i, j)*change
                after(i) = level%p(i, j) + (1.0_dp - space%dipole(i, j))*(omega + t(i))/(1.0_dp + t(i))*change
             end do
@@ -232,13 +239,15 @@ contains
       !$omp parallel do default(none) shared(level, space, first, last) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
-         call apply_row(space%change(:, level%grid%south(j)), space%change(:, j), space%change(:, j + 1), level%p(:, j))
+         call apply_row(space%shares, space%change(:, level%grid%south(j)), space%change(:, j), &
+                        space%change(:, j + 1), level%p(:, j))
       end do
       !$omp end parallel do
    end subroutine apply_dipoles
 
    !> The same of a row, from the changes of it and its neighbours
-   pure subroutine apply_row(south, change, north, p)
+   pure subroutine apply_row(shares, south, change, north, p)
+      real(dp), intent(in) :: shares(2)
       real(dp), contiguous, intent(in) :: south(:), change(:), north(:)
       real(dp), contiguous, intent(inout) :: p(:)
       real(dp) :: after(size(p))
@@ -246,7 +255,7 @@ contains
 
       nx = size(p)
       do i = 2, nx - 1
-         after(i) = p(i) + change(i) - 0.25_dp*(change(i - 1) + change(i + 1) + south(i) + north(i))
+         after(i) = p(i) + change(i) - (shares(1)*(change(i - 1) + change(i + 1)) + shares(2)*south(i) + shares(2)*north(i))
       end do
       call change_flowing(after(2:nx - 1), p(2:nx - 1))
    end subroutine apply_row

@@ -8,23 +8,31 @@ module ehl_film_formula
 
 contains
 
-   !> Central film of a circular contact, scaled by a^2/R, for an incompressible lubricant. Blends the
-   !> rigid/elastic, isoviscous/piezoviscous asymptotes, all in the Moes film H^M = (h/R)(2U)^(-1/2).
-   pure real(dp) function film_central_formula(moes_m, moes_l) result(film)
+   !> Central film scaled by a^2/R_x, for an incompressible lubricant. Blends the rigid/elastic,
+   !> isoviscous/piezoviscous asymptotes, all in the Moes film H^M = (h/R_x)(2U)^(-1/2). Shown accurate for
+   !> radius_ratio <= 1.
+   pure real(dp) function film_central_formula(moes_m, moes_l, radius_ratio, load_share) result(film)
       real(dp), intent(in) :: moes_m, moes_l
+      !> D = R_x/R_y; kappa k_b over that of a circle, so that a = (1.5 M/load_share)^(1/3) (2U)^(1/4) R_x
+      real(dp), intent(in) :: radius_ratio, load_share
       real(dp) :: rigid_isoviscous, elastic_isoviscous, rigid_piezoviscous, elastic_piezoviscous, &
-                  rigid_limit, s, isoviscous
+                  rigid_limit, s, isoviscous, elastic
 
-      rigid_isoviscous = 145.0_dp*1.796_dp**(-15.0_dp/7.0_dp)/moes_m**2
-      elastic_isoviscous = 3.18_dp*1.63_dp**(-14.0_dp/25.0_dp)*moes_m**(-2.0_dp/15.0_dp)
-      rigid_piezoviscous = 1.29_dp*1.691_dp**(-2.0_dp/3.0_dp)*moes_l**(2.0_dp/3.0_dp)
-      elastic_piezoviscous = 1.48_dp*1.63_dp**(-7.0_dp/20.0_dp)*moes_m**(-1.0_dp/12.0_dp)*moes_l**0.75_dp
-      rigid_limit = 1.8_dp
+      associate (d => radius_ratio)
+         elastic = 1.0_dp + 0.006_dp*log(d) + 0.63_dp*d**(4.0_dp/7.0_dp)
+         rigid_isoviscous = 145.0_dp*(1.0_dp + 0.796_dp*d**(14.0_dp/15.0_dp))**(-15.0_dp/7.0_dp)/(d*moes_m**2)
+         elastic_isoviscous = 3.18_dp*elastic**(-14.0_dp/25.0_dp)*d**(-1.0_dp/15.0_dp)*moes_m**(-2.0_dp/15.0_dp)
+         ! 1 + 0.691 d
+         rigid_piezoviscous = 1.29_dp*(1.691_dp + 0.691_dp*(d - 1.0_dp))**(-2.0_dp/3.0_dp)*moes_l**(2.0_dp/3.0_dp)
+         elastic_piezoviscous = 1.48_dp*elastic**(-7.0_dp/20.0_dp)*d**(-1.0_dp/24.0_dp)*moes_m**(-1.0_dp/12.0_dp) &
+                                *moes_l**0.75_dp
+         rigid_limit = 1.8_dp/d
+      end associate
       s = 1.5_dp*(1.0_dp + exp(-1.2_dp*elastic_isoviscous/rigid_isoviscous))
       isoviscous = rigid_isoviscous**1.5_dp &
                    + (elastic_isoviscous**(-4) + rigid_limit**(-4))**(-3.0_dp/8.0_dp)
       film = isoviscous**(2.0_dp*s/3.0_dp)
       if (moes_l > 0.0_dp) film = film + (rigid_piezoviscous**(-8) + elastic_piezoviscous**(-8))**(-s/8.0_dp)
-      film = film**(1.0_dp/s)*(1.5_dp*moes_m)**(-2.0_dp/3.0_dp)
+      film = film**(1.0_dp/s)*(1.5_dp*moes_m/load_share)**(-2.0_dp/3.0_dp)
    end function film_central_formula
 end module ehl_film_formula

@@ -1,7 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The operating point of a contact: Moes parameters and the groups of the dimensionless Reynolds equation
+!> The operating point of a contact: Moes parameters and the groups of the dimensionless Reynolds equation. Those of an
+!> ellipse are those of a circle with other M and L (Biboulet & Houpert 2010).
 module ehl_moes
    use ehl_kinds, only: dp, pi
+   use ehl_scales, only: circle_factor
    implicit none (type, external)
    private
    public :: operating_t, operating_from_moes, operating_from_si
@@ -10,33 +12,41 @@ module ehl_moes
    type :: operating_t
       !> Moes load M = W2 (2U)^(-3/4) and material L = G (2U)^(1/4) parameters
       real(dp) :: moes_m = 0.0_dp, moes_l = 0.0_dp
-      !> alpha_bar = alpha p_h = (L/pi) (3M/2)^(1/3)
+      !> M of the round contact with the same speed parameter
+      real(dp) :: round_m = 0.0_dp
+      !> alpha_bar = alpha p_h; circle: (L/pi) (3M/2)^(1/3)
       real(dp) :: alpha_bar = 0.0_dp
-      !> Speed parameter lambda_bar = 12 eta0 u R^2/(a^3 p_h) = (128 pi^3/(3 M^4))^(1/3)
+      !> Speed parameter lambda_bar = 12 eta0 u R_x^2/(a^3 p_h); circle: (128 pi^3/(3 M^4))^(1/3)
       real(dp) :: speed_parameter = 0.0_dp
    end type operating_t
 
 contains
 
-   !> Operating point from M and L
-   pure function operating_from_moes(moes_m, moes_l) result(point)
-      real(dp), intent(in) :: moes_m, moes_l
+   !> Operating point from M and L by R_x
+   pure function operating_from_moes(moes_m, moes_l, ellipticity, kernel_factor) result(point)
+      !> kappa and k_b of the contact
+      real(dp), intent(in) :: moes_m, moes_l, ellipticity, kernel_factor
       type(operating_t) :: point
+      real(dp) :: ratio, l
+
+      ratio = kernel_factor/circle_factor
+      point%round_m = moes_m/(ellipticity*ratio**0.25_dp)
+      l = moes_l*ratio**0.75_dp
 
       point%moes_m = moes_m
       point%moes_l = moes_l
-      point%alpha_bar = moes_l/pi*(1.5_dp*moes_m)**(1.0_dp/3.0_dp)
-      point%speed_parameter = (128.0_dp*pi**3/(3.0_dp*moes_m**4))**(1.0_dp/3.0_dp)
+      point%alpha_bar = l/pi*(1.5_dp*point%round_m)**(1.0_dp/3.0_dp)
+      point%speed_parameter = (128.0_dp*pi**3/(3.0_dp*point%round_m**4))**(1.0_dp/3.0_dp)
    end function operating_from_moes
 
    !> Operating point from SI input; 2/E' = sum (1 - nu^2)/E (Zhang et al. 2019, notation)
    pure function operating_from_si(load, mean_velocity, radius, reduced_modulus, viscosity, &
-                                   alpha, hertz_pressure) result(point)
+                                   alpha, hertz_pressure, ellipticity, kernel_factor) result(point)
       !> Normal load w [N]
       real(dp), intent(in) :: load
       !> Mean velocity (u1 + u2)/2 [m/s]
       real(dp), intent(in) :: mean_velocity
-      !> Reduced radius R [m]
+      !> Reduced radius R_x in the plane of the motion [m]
       real(dp), intent(in) :: radius
       !> Reduced modulus E' [Pa]
       real(dp), intent(in) :: reduced_modulus
@@ -44,13 +54,16 @@ contains
       real(dp), intent(in) :: viscosity, alpha
       !> Hertz pressure p_h [Pa]
       real(dp), intent(in) :: hertz_pressure
+      !> kappa and k_b of the contact
+      real(dp), intent(in) :: ellipticity, kernel_factor
       type(operating_t) :: point
       real(dp) :: speed, load_2d
 
       speed = viscosity*mean_velocity/(reduced_modulus*radius)
       load_2d = load/(reduced_modulus*radius**2)
       point = operating_from_moes(load_2d*(2.0_dp*speed)**(-0.75_dp), &
-                                  alpha*reduced_modulus*(2.0_dp*speed)**0.25_dp)
+                                  alpha*reduced_modulus*(2.0_dp*speed)**0.25_dp, ellipticity, &
+                                  kernel_factor)
       point%alpha_bar = alpha*hertz_pressure
    end function operating_from_si
 end module ehl_moes

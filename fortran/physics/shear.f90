@@ -1,9 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Shear stress of the lubricant in the contact, for friction. The flow that makes the film (Reynolds equation) is
-!> Newtonian whatever the law.
+!> Shear stress of the lubricant in the contact, for friction; whether the flow that makes the film obeys the same law
 module ehl_shear
    use, intrinsic :: iso_c_binding, only: c_double
    use ehl_kinds, only: dp
+   use ehl_thinning, only: carreau, thinning_t
    implicit none (type, external)
    private
    public :: shear_law_t, shear_stress
@@ -24,8 +24,12 @@ module ehl_shear
       real(dp) :: scale = 0.0_dp
       !> [Pa] Hertz pressure
       real(dp) :: hertz_pressure = 0.0_dp
+      !> Whether the flow obeys the law (Eyring and Carreau), and [Pa] p_h a/R: the stress that dP/dX = 1 makes across H = 1
+      logical :: in_flow = .false.
+      real(dp) :: gradient_scale = 0.0_dp
    contains
       procedure :: thins
+      procedure :: thins_flow
       procedure :: reduce
    end type shear_law_t
 
@@ -45,12 +49,16 @@ contains
    !>    Eyring    tau_0 asinh(tau_N/tau_0)                    (Johnson & Tevaarwerk 1977)
    !>    limiting  tau_L (1 - exp(-tau_N/tau_L))               (Bair & Winer 1979), tau_L constant or coefficient times p
    !>    Carreau   tau_N (1 + (tau_N/G)^2)^((n - 1)/2)         (Bair 2007; single Newtonian plateau)
+   !>    Carreau in the flow: tau (1 + (tau/G)^2)^((1 - n)/(2 n)) = tau_N, its stress form (thinning.f90)
    pure subroutine shear_stress(self, newtonian, pressure, stress)
       type(shear_law_t), intent(in) :: self
       real(dp), intent(in) :: newtonian(:), pressure(:)
       real(dp), intent(out) :: stress(:)
+      type(thinning_t) :: thinning
       real(dp) :: limit
       integer :: i
+
+      thinning = thinning_t(carreau, self%exponent)
 
       select case (self%law)
       case (shear_eyring)
@@ -65,6 +73,10 @@ contains
             if (limit > 0.0_dp) stress(i) = -limit*expm1(-newtonian(i)/limit)
          end do
       case (shear_carreau)
+         if (self%in_flow) then
+            stress = self%stress*thinning%sliding_stress(newtonian/self%stress)
+            return
+         end if
          do i = 1, size(stress)
             stress(i) = newtonian(i)*(1.0_dp + (newtonian(i)/self%stress)**2)**(0.5_dp*(self%exponent - 1.0_dp))
          end do
@@ -79,6 +91,12 @@ contains
       class(shear_law_t), intent(in) :: self
       thins = self%law /= shear_newtonian .and. self%scale > 0.0_dp
    end function thins
+
+   !> Whether the lubricant thins in the flow; without sliding it does by the gradient of pressure
+   pure logical function thins_flow(self)
+      class(shear_law_t), intent(in) :: self
+      thins_flow = self%in_flow .and. (self%law == shear_eyring .or. (self%law == shear_carreau .and. self%exponent < 1.0_dp))
+   end function thins_flow
 
    !> From eta/(eta0 H) to the shear stress over `scale`, at pressures scaled by the Hertz pressure
    pure subroutine reduce(self, p, values)

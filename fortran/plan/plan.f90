@@ -6,6 +6,7 @@ module ehl_plan
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
    use ehl_domain, only: domain_cost, domain_t
+   use ehl_friction_mean, only: automatic_periods
    use ehl_grid, only: coarsest_most, find_levels, grid_t, new_grid
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
@@ -85,14 +86,14 @@ module ehl_plan
 contains
 
    !> Decide how a case is solved
-   subroutine make_plan(input, heights, surfaces, plan, status)
+   subroutine make_plan(input, surfaces, plan, status, heights, second_heights)
       type(case_t), intent(in) :: input
-      !> Heights of a map [m] if they are not to be read from a file, else of size 0
-      real(dp), intent(in) :: heights(:, :)
       !> The surfaces, if they have been made already; the plan takes them over
       type(moving_surfaces_t), intent(inout) :: surfaces
       type(plan_t), intent(out) :: plan
       type(status_t), intent(inout) :: status
+      !> Heights of the maps of both surfaces [m], X first, in place of files; of size 0: none
+      real(dp), intent(in), optional :: heights(:, :), second_heights(:, :)
       real(dp) :: rho(1), slope(1)
 
       call pick_contact(input, plan)
@@ -114,17 +115,18 @@ contains
       if (surfaces%rough()) then
          call move_alloc(surfaces%of, plan%surfaces%of)
       else
-         call make_surfaces(input, plan%scales, heights, plan%surfaces, status)
+         call make_surfaces(input, plan%scales, plan%surfaces, status, heights, second_heights)
       end if
       if (input%time%start == "prediction" .and. plan%surfaces%move()) call pick_start(plan)
       call pick_cycle(input, plan)
       call pick_grids(input, plan, status)
       if (status%failed() .or. .not. plan%surfaces%rough()) return
       call plan%surfaces%use_threads(plan%threads)
+      call plan%surfaces%find_period(merge(plan%max_periods, automatic_periods, plan%max_periods > 0))
       plan%coarse_run = input%time%estimate_error .and. plan%levels > 2 .and. (plan%surfaces%rest() .or. plan%steps == 0)
       call plan%see_waves(plan%finest)
       call check_carried(plan%surfaces, plan%finest, status)
-      if (.not. status%failed()) call check_steps(input, plan, status)
+      if (.not. status%failed()) call check_steps(plan, status)
    end subroutine make_plan
 
    !> Begin with the contact full of roughness where that can be predicted
@@ -155,15 +157,15 @@ contains
    end subroutine see_waves
 
    !> Refuse a surface so slow that the friction cannot be known within a sensible number of steps
-   subroutine check_steps(input, plan, status)
-      type(case_t), intent(in) :: input
+   subroutine check_steps(plan, status)
       type(plan_t), intent(in) :: plan
       type(status_t), intent(inout) :: status
       real(dp) :: steps
       integer :: most
+      character(len=:), allocatable :: what
 
       if (.not. plan%surfaces%move()) return
-      associate (ratio => input%surface%velocity_ratio)
+      associate (slowest => plan%surfaces%of(plan%surfaces%slowest()))
          most = merge(most_steps_asked_for, most_steps, plan%steps > 0)
          steps = steps_needed(plan%surfaces, plan%finest%hx, plan%skip_start, plan%predicted_start)
          if (steps <= most) then
@@ -172,11 +174,12 @@ contains
             steps = steps_needed(plan%surfaces, plan%finest%hx, .false., plan%predicted_start)
             if (steps <= most) return
          end if
+         what = trim(slowest%group)//".velocity_ratio = "//to_text(slowest%surface%velocity_ratio)//": so slow a surface needs "
+         if (plan%surfaces%repeats > 1) what = what//"by "//to_text(plan%surfaces%repeats)//" periods "
          ! rounded up: what is named will do
-         call status%fail(ehl_bad_input, "surface.velocity_ratio = "//to_text(ratio)//": so slow a surface needs "// &
-                          fixed(steps, "es12.2e3")//" time steps until its friction is known, more than "// &
+         call status%fail(ehl_bad_input, what//fixed(steps, "es12.2e3")//" time steps until its friction is known, more than "// &
                           to_text(most)//new_line("a")//"expected: a velocity ratio of at least "// &
-                          fixed(1.005_dp*steps*ratio/most, "es12.2e3")// &
+                          fixed(1.005_dp*steps*slowest%surface%velocity_ratio/most, "es12.2e3")// &
                           " on this grid, or 0: a rough surface at rest is a steady contact")
       end associate
    end subroutine check_steps
@@ -188,7 +191,7 @@ contains
 
       call find_contact(input, plan%contact, plan%scales, plan%point)
       plan%sliding = plan_sliding(input, plan%contact, plan%scales)
-      if (input%contact%si) plan%point = plan_point(input, plan%scales, plan%sliding)
+      if (input%contact%si) plan%point = plan_point(input, plan%contact, plan%scales, plan%sliding)
    end subroutine pick_contact
 
    !> Kind of cycle, for the smooth contact and for time steps
@@ -238,7 +241,7 @@ contains
 
       if (status%failed()) return
       mirror = input%solver%symmetry == "auto" .and. plan%surfaces%even_in_y()
-      call find_levels(input%grid%points, input%grid%points, plan%levels, intervals)
+      call find_levels(input%grid%points, input%grid%points_y, plan%levels, intervals)
       ! a coarsest grid that does not resolve a thick film corrects it at random
       film = sqrt(2.0_dp*plan%film_expected)
       if (plan%levels > 1 .and. 2*minval(intervals) <= coarsest_most .and. film > thick_film .and. &
@@ -277,6 +280,6 @@ contains
    pure real(dp) function relative_wedge_error(point, grid)
       type(operating_t), intent(in) :: point
       type(grid_t), intent(in) :: grid
-      relative_wedge_error = 0.16_dp*point%moes_m*grid%hx**2
+      relative_wedge_error = 0.16_dp*point%round_m*grid%hx**2
    end function relative_wedge_error
 end module ehl_plan

@@ -56,23 +56,26 @@ contains
    end function plan_sliding
 
    !> Operating point of a contact in SI units, with the viscosity of its inlet
-   pure function plan_point(input, scales, sliding) result(point)
+   pure function plan_point(input, contact, scales, sliding) result(point)
       type(case_t), intent(in) :: input
+      class(contact_t), intent(in) :: contact
       type(scales_t), intent(in) :: scales
       type(sliding_t), intent(in) :: sliding
       type(operating_t) :: point
-      point = point_of(input, scales, sliding%inlet_viscosity)
+      point = point_of(input, contact, scales, sliding%inlet_viscosity)
    end function plan_point
 
-   pure function point_of(input, scales, viscosity) result(point)
+   pure function point_of(input, contact, scales, viscosity) result(point)
       type(case_t), intent(in) :: input
+      class(contact_t), intent(in) :: contact
       type(scales_t), intent(in) :: scales
       real(dp), intent(in) :: viscosity
       type(operating_t) :: point
 
       associate (c => input%contact)
-         point = operating_from_si(c%load, c%mean_velocity, c%radius, c%reduced_modulus, viscosity, &
-                                   input%lubricant%pressure_viscosity, scales%pressure)
+         point = operating_from_si(c%load, c%mean_velocity, c%radius_x, c%reduced_modulus, viscosity, &
+                                   input%lubricant%pressure_viscosity, scales%pressure, contact%ellipticity, &
+                                   contact%kernel_factor())
       end associate
    end function point_of
 
@@ -109,7 +112,7 @@ contains
       real(dp), intent(in) :: log_viscosity
       type(operating_t) :: point
 
-      point = point_of(input, scales, exp(log_viscosity))
+      point = point_of(input, contact, scales, exp(log_viscosity))
       film_at = contact%film_formula(point%moes_m, point%moes_l)
    end function film_at
 end module ehl_plan_friction

@@ -37,6 +37,8 @@ contains
       if (.not. input%contact%si) return
       associate (l => input%lubricant, c => input%contact)
          shear%hertz_pressure = scales%pressure
+         shear%in_flow = l%flow == "consistent"
+         shear%gradient_scale = scales%pressure*scales%film/scales%length
          shear%scale = l%viscosity*abs(c%slide_to_roll)*c%mean_velocity/scales%film
          select case (l%shear_law)
          case ("eyring")

@@ -26,70 +26,66 @@ module ehl_plan_surface
 contains
 
    !> The surfaces of a case
-   subroutine make_surfaces(input, scales, heights, surfaces, status)
+   subroutine make_surfaces(input, scales, surfaces, status, heights, second_heights)
       type(case_t), intent(in) :: input
       type(scales_t), intent(in) :: scales
-      !> Heights of a map [m] if they are not to be read from a file, else of size 0
-      real(dp), intent(in) :: heights(:, :)
       type(moving_surfaces_t), intent(inout) :: surfaces
       type(status_t), intent(inout) :: status
-      class(surface_t), allocatable :: surface
-      real(dp) :: amplitude_over_film
+      !> Heights of the maps of both [m], X first, in place of files; of size 0: none
+      real(dp), intent(in), optional :: heights(:, :), second_heights(:, :)
 
-      call make_surface(input, scales, heights, surface, amplitude_over_film, status)
-      if (allocated(surface)) call surfaces%add(surface, amplitude_over_film)
+      call add_surface("surface", input%surface, input%contact%si, scales, surfaces, status, heights)
+      call add_surface("second_surface", input%second_surface, input%contact%si, scales, surfaces, status, second_heights)
    end subroutine make_surfaces
 
-   !> The surface of a case; not allocated: smooth
-   subroutine make_surface(input, scales, heights, surface, amplitude_over_film, status)
-      type(case_t), intent(in) :: input
+   !> The surface of a group; none where it is smooth
+   subroutine add_surface(group, s, si, scales, surfaces, status, heights)
+      character(len=*), intent(in) :: group
+      type(surface_case_t), intent(in) :: s
+      !> Whether the contact is given in SI units
+      logical, intent(in) :: si
       type(scales_t), intent(in) :: scales
-      !> Heights of a map [m] if they are not to be read from a file, else of size 0
-      real(dp), intent(in) :: heights(:, :)
-      class(surface_t), allocatable, intent(out) :: surface
-      !> Amplitude of a waviness as a share of the smooth central film; 0: it is known already
-      real(dp), intent(out) :: amplitude_over_film
+      type(moving_surfaces_t), intent(inout) :: surfaces
       type(status_t), intent(inout) :: status
+      !> Heights of a map [m], X first, in place of a file; of size 0: none
+      real(dp), intent(in), optional :: heights(:, :)
+      class(surface_t), allocatable :: surface
+      !> Amplitude as a share of the smooth central film; 0: it is known already
+      real(dp) :: amplitude_over_film
       real(dp), allocatable :: tile(:, :)
+      logical :: has_heights
 
       amplitude_over_film = 0.0_dp
-      if (status%failed()) return
-      if (is_feature(input%surface%kind)) then
-         call make_feature(input%surface, scales, surface, amplitude_over_film, status)
-         return
+      has_heights = .false.
+      if (present(heights)) has_heights = size(heights) > 0
+      if (status%failed() .or. s%kind == "smooth") return
+      if (is_feature(s%kind)) then
+         call make_feature(group, s, scales, surface, amplitude_over_film, status)
+      else if (s%kind == "harmonic") then
+         allocate (surface, source=new_harmonic(s%amplitude, s%wavelength_x, s%wavelength_y, s%velocity_ratio, s%x_start))
+         if (.not. s%amplitude_given) amplitude_over_film = s%amplitude_over_film
+      else if (.not. si) then
+         call status%fail(ehl_bad_input, "a surface in metres needs a contact in SI units: give &contact load, "// &
+                          "mean_velocity, radius and reduced_modulus instead of moes_m and moes_l")
+      else if (has_heights) then
+         call make_map(group, s, scales, heights, surface, status)
+      else
+         call check_map(group, s, status)
+         if (status%failed()) return
+         if (s%kind == "map") then
+            call read_map(s%file, tile, status)
+         else
+            call generate(group, s, tile, status)
+         end if
+         if (.not. status%failed()) call make_map(group, s, scales, tile, surface, status)
       end if
-      associate (s => input%surface)
-         select case (s%kind)
-         case ("harmonic")
-            allocate (surface, source=new_harmonic(s%amplitude, s%wavelength_x, s%wavelength_y, s%velocity_ratio, s%x_start))
-            if (.not. s%amplitude_given) amplitude_over_film = s%amplitude_over_film
-         case ("map", "fractal")
-            if (.not. input%contact%si) then
-               call status%fail(ehl_bad_input, "a surface in metres needs a contact in SI units: give &contact load, "// &
-                                "mean_velocity, radius and reduced_modulus instead of moes_m and moes_l")
-               return
-            end if
-            if (size(heights) > 0) then
-               call make_map(s, scales, heights, surface, status)
-            else
-               call check_map(s, status)
-               if (.not. status%failed()) then
-                  if (s%kind == "map") then
-                     call read_map(s%file, tile, status)
-                  else
-                     call generate(s, tile, status)
-                  end if
-               end if
-               if (.not. status%failed()) call make_map(s, scales, tile, surface, status)
-            end if
-         case default
-            continue
-         end select
-      end associate
-   end subroutine make_surface
+      if (status%failed()) return
+      call surfaces%add(group, surface, amplitude_over_film)
+   end subroutine add_surface
 
    !> A single feature
-   subroutine make_feature(s, scales, surface, amplitude_over_film, status)
+   subroutine make_feature(group, s, scales, surface, amplitude_over_film, status)
+      character(len=*), intent(in) :: group
       type(surface_case_t), intent(in) :: s
       type(scales_t), intent(in) :: scales
       class(surface_t), allocatable, intent(out) :: surface
@@ -107,66 +103,68 @@ contains
       feature = new_feature(s%kind == "bump" .or. s%kind == "ridge", s%kind == "ridge" .or. s%kind == "groove", amplitude, &
                             size(1), size(2), s%angle, s%y_start, s%velocity_ratio, s%x_start)
       if (.not. feature%at_rest() .and. .not. feature%reach < huge(1.0_dp)) then
-         call status%fail(ehl_bad_input, "surface.kind = '"//trim(s%kind)//"' without ends along the motion never leaves "// &
-                          "the contact"//new_line("a")//"expected: surface.length, another surface.angle, or "// &
-                          "surface.velocity_ratio = 0")
+         call status%fail(ehl_bad_input, group//".kind = '"//trim(s%kind)//"' without ends along the motion never leaves "// &
+                          "the contact"//new_line("a")//"expected: a length, another angle, or a velocity_ratio of 0")
          return
       end if
       allocate (surface, source=feature)
    end subroutine make_feature
 
    !> Refuse a map that has to be prepared, or has no size
-   subroutine check_map(s, status)
+   subroutine check_map(group, s, status)
+      character(len=*), intent(in) :: group
       type(surface_case_t), intent(in) :: s
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: why, what
 
-      why = map_needs(s)
+      why = map_needs(group, s)
       what = trim(s%file)
-      if (s%kind == "fractal") what = "surface.kind = 'fractal'"
+      if (s%kind == "fractal") what = group//".kind = 'fractal'"
       if (why /= "") then
          call status%fail(ehl_bad_input, what//": error: the surface has to be prepared by pyehl: "//why//new_line("a")// &
                           "expected: 'pyehl run' in place of 'ehl'; or the tile that 'pyehl surface CASE.nml -o prepared.npy' "// &
                           "writes, by the case prepared.npy.nml beside it")
       else if (s%length_x <= 0.0_dp .or. s%length_y <= 0.0_dp) then
          call status%fail(ehl_bad_input, what//": error: the size of the map is not known"//new_line("a")// &
-                          "expected: surface.length_x and surface.length_y [m]")
+                          "expected: "//group//".length_x and length_y [m]")
       end if
    end subroutine check_map
 
    !> Why pyehl has to prepare a map, for a message; empty when the solver can read it
-   function map_needs(s) result(why)
+   function map_needs(group, s) result(why)
+      character(len=*), intent(in) :: group
       type(surface_case_t), intent(in) :: s
       character(len=:), allocatable :: why
       real(dp) :: moved
 
       why = ""
       if (s%kind /= "map") then
-         if (abs(s%track) > 0.0_dp) why = "surface.track"
+         if (abs(s%track) > 0.0_dp) why = group//".track"
          return
       end if
       moved = abs(s%crop_x_min) + abs(s%crop_x_max) + abs(s%crop_y_min) + abs(s%crop_y_max)
       if (s%detrend /= "auto" .and. s%detrend /= "none") then
-         why = "surface.detrend = '"//trim(s%detrend)//"'"
+         why = group//".detrend = '"//trim(s%detrend)//"'"
       else if (s%edges /= "auto" .and. s%edges /= "periodic") then
-         why = "surface.edges = '"//trim(s%edges)//"'"
+         why = group//".edges = '"//trim(s%edges)//"'"
       else if (moved > 0.0_dp) then
-         why = "surface.crop_x_min, crop_x_max, crop_y_min or crop_y_max"
+         why = group//".crop_x_min, crop_x_max, crop_y_min or crop_y_max"
       else if (s%outliers > 0.0_dp) then
-         why = "surface.outliers"
+         why = group//".outliers"
       else if (abs(s%rotate) > 0.0_dp) then
-         why = "surface.rotate"
+         why = group//".rotate"
       else if (s%sign /= 1) then
-         why = "surface.sign"
+         why = group//".sign"
       else if (abs(s%track) > 0.0_dp) then
-         why = "surface.track"
+         why = group//".track"
       else if (index(s%file, ".npy", back=.true.) /= len_trim(s%file) - 3) then
          why = "it is no .npy array"
       end if
    end function map_needs
 
    !> A tile of heights [m]
-   subroutine make_map(s, scales, heights, surface, status)
+   subroutine make_map(group, s, scales, heights, surface, status)
+      character(len=*), intent(in) :: group
       type(surface_case_t), intent(in) :: s
       type(scales_t), intent(in) :: scales
       real(dp), intent(in) :: heights(:, :)
@@ -187,7 +185,7 @@ contains
       call placed%setup(heights, 1.0_dp/scales%film, length, made .and. s%tile_mirrored, filter, map_front, status)
       if (status%failed()) return
       if (placed%variance_whole > 0.0_dp .and. .not. placed%variance > 1.0e-24_dp*placed%variance_whole) then
-         call status%fail(ehl_bad_input, "surface.shortest_wavelength and surface.longest_wavelength leave nothing of the "// &
+         call status%fail(ehl_bad_input, group//".shortest_wavelength and longest_wavelength leave nothing of the "// &
                           "surface"//new_line("a")//"expected: wavelengths [m] with waves of the surface between them")
          return
       end if
@@ -195,7 +193,8 @@ contains
    end subroutine make_map
 
    !> Heights of a fractal surface [m], X first
-   subroutine generate(s, tile, status)
+   subroutine generate(group, s, tile, status)
+      character(len=*), intent(in) :: group
       type(surface_case_t), intent(in) :: s
       real(dp), allocatable, intent(out) :: tile(:, :)
       type(status_t), intent(inout) :: status
@@ -203,7 +202,7 @@ contains
       real(dp), allocatable :: rows(:, :)
       integer :: stat
 
-      call check_heights("surface.pixels = "//to_text(s%pixels), [s%pixels, s%pixels], status)
+      call check_heights(group//".pixels = "//to_text(s%pixels), [s%pixels, s%pixels], status)
       if (status%failed()) return
       what = fractal_t(s%length_x, s%length_y, s%rms_height, s%hurst, s%rolloff_wavenumber, [int(s%seed, int32)], &
                        s%modulus == "gaussian")

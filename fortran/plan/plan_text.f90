@@ -1,13 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The plan of a run in words
 module ehl_plan_text
-   use ehl_feature, only: feature_t
    use ehl_cycle, only: coarsening_alcouffe, cycle_options_t
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_plan, only: plan_t
    use ehl_plan_need, only: need_lines
    use ehl_steady, only: largest_error
+   use ehl_surface_text, only: scene_lines, wave_lines
    use ehl_text, only: fixed, newline, to_text
    use ehl_wedge, only: wedge_narrow
    implicit none (type, external)
@@ -31,10 +31,10 @@ contains
                                             fixed(plan%scales%pressure, "es10.4")//" Pa")
       call tell_friction()
       if (plan%surfaces%rough()) then
-         call tell_scene()
+         call add(scene_lines(plan%surfaces))
          if (plan%surfaces%move()) call tell_time()
          if (plan%coarse_run) call add("error      of the friction ratio: computed on the next coarser grid too")
-         call tell_waves()
+         call add(wave_lines(plan))
       else
          call add("scene      smooth and steady: no time levels, no roughness")
       end if
@@ -79,32 +79,6 @@ contains
          end associate
       end subroutine tell_friction
 
-      !> What moves or lies in the contact: roughness without end, or a single feature
-      subroutine tell_scene()
-         character(len=:), allocatable :: velocity
-
-         velocity = ", velocity ratio "//fixed(plan%surfaces%of(1)%surface%velocity_ratio, "f7.4")
-         select type (surface => plan%surfaces%of(1)%surface)
-         type is (feature_t)
-            if (plan%surfaces%rest()) then
-               call add("scene      "//feature_words(surface)//" at rest, steady; its centre at X = x_start = "// &
-                        fixed(surface%x_start, "f8.4"))
-            else
-               call add("scene      "//feature_words(surface)//" passes once"//velocity//", its centre at X = 0 at T = "// &
-                        fixed((surface%reach - surface%x_start)/surface%velocity_ratio, "f7.4"))
-            end if
-            call add("           "//size_words(surface))
-         class default
-            if (plan%surfaces%rest()) then
-               call add("scene      roughness at rest, steady; period "//fixed(surface%period, "f6.3")// &
-                        " a, it is everywhere, its origin at X = x_start = "//fixed(surface%x_start, "f8.4"))
-            else
-               call add("scene      roughness on the move, period "//fixed(surface%period, "f6.3")//" a"//velocity)
-            end if
-         end select
-         call add("           the smooth contact is solved once, before")
-      end subroutine tell_scene
-
       !> Steps in time, and their end
       subroutine tell_time()
          call add("time       "//trim(merge("narrow upstream", "as in the paper", plan%scheme == wedge_narrow))// &
@@ -121,27 +95,6 @@ contains
                      fixed(plan%time_tolerance, "es8.1"))
          end if
       end subroutine tell_time
-
-      !> How much of the surface the finest grid carries
-      subroutine tell_waves()
-         character(len=:), allocatable :: cut, waves
-
-         waves = "waves      with fewer than 8 nodes a period hold "//fixed(plan%surfaces%unresolved, "es8.1")// &
-                 " of the variance of "
-         associate (s => plan%surfaces%of(1)%surface)
-            if (s%passes_once) then
-               call add(waves//"its profile")
-               return
-            end if
-            if (s%variance > 0.0_dp .and. plan%scales%film > 0.0_dp) then
-               cut = ""
-               if (s%variance < s%variance_whole) cut = ", of "// &
-                  fixed(sqrt(s%variance_whole)*plan%scales%film, "es9.2")//" m before its spectrum was cut"
-               call add("surface    rms height "//fixed(sqrt(s%variance)*plan%scales%film, "es9.2")//" m"//cut)
-            end if
-            call add(waves//"the surface; "//fixed(plan%surfaces%left_out, "es8.1")//" of it, with 2 and fewer, is left out")
-         end associate
-      end subroutine tell_waves
 
       !> Borders, what they cost, and whether half of it is enough
       subroutine tell_domain()
@@ -187,34 +140,6 @@ contains
          if (level == plan%start) words = "solution, from the Hertz pressure"
       end function use_of
    end function plan_text
-
-   !> What a feature is
-   pure function feature_words(feature) result(text)
-      type(feature_t), intent(in) :: feature
-      character(len=:), allocatable :: text
-
-      if (feature%is_line) then
-         text = "a "//trim(merge("ridge ", "groove", feature%sign > 0.0_dp))
-      else
-         text = "a "//merge("bump", "dent", feature%sign > 0.0_dp)
-      end if
-   end function feature_words
-
-   !> Size and place of a feature
-   function size_words(feature) result(text)
-      type(feature_t), intent(in) :: feature
-      character(len=:), allocatable :: text
-
-      text = fixed(feature%width, "f9.4")//" a wide"
-      if (feature%length > 0.0_dp) then
-         text = text//" and "//fixed(feature%length, "f9.4")//" a long"
-      else
-         text = text//", without ends"
-      end if
-      if (feature%amplitude > 0.0_dp) text = text//", "//fixed(feature%amplitude, "es10.3")//" a^2/R "// &
-                                             merge("high", "deep", feature%sign > 0.0_dp)
-      text = text//", at Y = "//fixed(feature%y_start, "f9.4")
-   end function size_words
 
    !> Sweeps before and after the coarse grids: '(2,1)'
    function sweeps_of(cycle) result(text)

@@ -37,19 +37,16 @@ contains
       type(level_t), intent(in) :: level
       type(contact_results_t) :: m
       real(dp), dimension(level%grid%ny) :: smallest, largest, friction, newtonian
-      real(dp) :: stress(level%grid%nx)
+      real(dp), dimension(level%grid%nx) :: viscous, stress
       integer :: j
 
-      !$omp parallel do default(none) shared(level, smallest, largest, friction, newtonian) private(stress) &
+      !$omp parallel do default(none) shared(level, smallest, largest, friction, newtonian) private(viscous, stress) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
          smallest(j) = minval(level%h(:, j))
          largest(j) = maxval(level%p(:, j))
-         call level%flow%stress_row(level%h(:, j), level%rho(:, j), j, stress)
-         newtonian(j) = sum(stress)*level%grid%weight(j)
-         friction(j) = newtonian(j)
-         if (.not. level%lubricant%shear%thins()) cycle
-         call level%lubricant%shear%reduce(level%p(:, j), stress)
+         call level%flow%stress_row(level%lubricant, level%p, level%h, level%rho(:, j), j, viscous, stress)
+         newtonian(j) = sum(viscous)*level%grid%weight(j)
          friction(j) = sum(stress)*level%grid%weight(j)
       end do
       !$omp end parallel do

@@ -4,7 +4,7 @@
 !>    q_x = -eps_x dP/dX,   q_y = -eps_y dP/dY
 !>
 !> with q the Poiseuille part of the mass flow, and how they change with P and H. What a kind of flow has to say is in the
-!> file of that kind (newtonian_flow.f90); flow_factory.f90 chooses. Everything else asks here.
+!> file of that kind (newtonian_flow.f90, thinning_flow.f90); flow_factory.f90 chooses. Everything else asks here.
 module ehl_flow
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_grid, only: grid_t
@@ -27,6 +27,11 @@ module ehl_flow
       real(dp) :: inverse_speed = 0.0_dp
       !> Conductance, and d ln(eps)/dP at constant film
       real(dp), allocatable :: eps(:, :, :), dlneps_dp(:, :, :)
+      !> Whether the conductance depends on the gradient of pressure; then -dq/d(grad P), for linear systems, and
+      !> d ln(eps)/d ln(H), else not allocated
+      logical :: bends = .false.
+      real(dp), allocatable :: tangent(:, :, :), powers(:, :, :)
+      type(grid_t) :: grid
    contains
       procedure :: setup
       procedure(find_row), deferred :: find_row
@@ -58,15 +63,19 @@ module ehl_flow
          integer, intent(in) :: i, j, direction
       end function film_power
 
-      !> eta/(eta0 H) of row j: the shear stress of the sliding over that of eta = eta0 and H = 1 in a Newtonian lubricant
-      pure subroutine stress_row(self, h, rho, j, stress)
-         import :: dp, flow_t
+      !> Shear stress of the sliding in row j, over that of a Newtonian lubricant with eta = eta0 and H = 1: of a Newtonian
+      !> lubricant with this viscosity, eta/(eta0 H), and the real one
+      pure subroutine stress_row(self, lubricant, p, h, rho, j, newtonian, stress)
+         import :: dp, flow_t, lubricant_t
          implicit none (type, external)
          class(flow_t), intent(in) :: self
-         !> Film and density of the row, shape (nx)
-         real(dp), intent(in) :: h(:), rho(:)
+         type(lubricant_t), intent(in) :: lubricant
+         !> Pressure and film, shape (nx, ny)
+         real(dp), intent(in) :: p(:, :), h(:, :)
+         !> Density of the row, shape (nx)
+         real(dp), intent(in) :: rho(:)
          integer, intent(in) :: j
-         real(dp), intent(out) :: stress(:)
+         real(dp), intent(out) :: newtonian(:), stress(:)
       end subroutine stress_row
    end interface
 
@@ -80,12 +89,14 @@ contains
       integer :: stat
 
       if (status%failed()) return
+      self%grid = grid
       allocate (self%eps(grid%nx, grid%ny, self%across), self%dlneps_dp(grid%nx, grid%ny, self%across), source=0.0_dp, &
                 stat=stat)
+      if (stat == 0 .and. self%bends) allocate (self%tangent, self%powers, source=self%eps, stat=stat)
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the conductances of a grid level")
    end subroutine setup
 
-   !> Largest conductance of each node of row j and its four neighbours, in columns 2 to nx-1
+   !> Largest conductance across of each node of row j and its four neighbours, in columns 2 to nx-1
    pure subroutine greatest_around(self, j, south, values)
       class(flow_t), intent(in) :: self
       !> The row, and the one below it
@@ -95,8 +106,8 @@ contains
       integer :: i
 
       do i = 2, size(values) - 1
-         values(i) = max(self%eps(i, j, along), self%eps(i - 1, j, along), self%eps(i + 1, j, along), &
-                         self%eps(i, j + 1, along), self%eps(i, south, along))
+         values(i) = max(self%eps(i, j, self%across), self%eps(i - 1, j, self%across), self%eps(i + 1, j, self%across), &
+                         self%eps(i, j + 1, self%across), self%eps(i, south, self%across))
       end do
    end subroutine greatest_around
 
@@ -105,5 +116,6 @@ contains
       class(flow_t), intent(in) :: self
       bytes = 0
       if (allocated(self%eps)) bytes = 16*size(self%eps, kind=int64)
+      if (allocated(self%tangent)) bytes = 2*bytes
    end function bytes
 end module ehl_flow

@@ -3,7 +3,11 @@
 module ehl_flow_factory
    use ehl_flow, only: flow_t
    use ehl_kinds, only: dp
+   use ehl_lubricant, only: lubricant_t
    use ehl_newtonian_flow, only: newtonian_flow_t
+   use ehl_shear, only: shear_carreau
+   use ehl_thinning, only: carreau, eyring, thinning_t
+   use ehl_thinning_flow, only: new_thinning_flow
    implicit none (type, external)
    private
    public :: new_flow
@@ -11,12 +15,21 @@ module ehl_flow_factory
 contains
 
    !> A flow, without its arrays yet
-   subroutine new_flow(speed_parameter, flow)
+   subroutine new_flow(lubricant, speed_parameter, flow)
+      type(lubricant_t), intent(in) :: lubricant
       !> lambda_bar
       real(dp), intent(in) :: speed_parameter
       class(flow_t), allocatable, intent(out) :: flow
 
-      allocate (newtonian_flow_t :: flow)
+      associate (shear => lubricant%shear)
+         if (shear%thins_flow()) then
+            allocate (flow, source=new_thinning_flow(thinning_t(merge(carreau, eyring, shear%law == shear_carreau), &
+                                                                shear%exponent), &
+                                                     shear%scale/shear%stress, shear%gradient_scale/shear%stress))
+         else
+            allocate (newtonian_flow_t :: flow)
+         end if
+      end associate
       flow%inverse_speed = 1.0_dp/speed_parameter
    end subroutine new_flow
 end module ehl_flow_factory

@@ -54,13 +54,19 @@ contains
       film_power = 3.0_dp
    end function film_power
 
-   !> eta/(eta0 H) of row j, from the conductance
-   pure subroutine stress_row(self, h, rho, j, stress)
+   !> Newtonian and real shear stress of row j; the viscosity from the conductance
+   pure subroutine stress_row(self, lubricant, p, h, rho, j, newtonian, stress)
       class(newtonian_flow_t), intent(in) :: self
-      !> Film and density of the row, shape (nx)
-      real(dp), intent(in) :: h(:), rho(:)
+      type(lubricant_t), intent(in) :: lubricant
+      !> Pressure and film, shape (nx, ny)
+      real(dp), intent(in) :: p(:, :), h(:, :)
+      !> Density of the row, shape (nx)
+      real(dp), intent(in) :: rho(:)
       integer, intent(in) :: j
-      real(dp), intent(out) :: stress(:)
-      stress = self%inverse_speed*rho*h**2/self%eps(:, j, along)
+      real(dp), intent(out) :: newtonian(:), stress(:)
+
+      newtonian = self%inverse_speed*rho*h(:, j)**2/self%eps(:, j, along)
+      stress = newtonian
+      if (lubricant%shear%thins()) call lubricant%shear%reduce(p(:, j), stress)
    end subroutine stress_row
 end module ehl_newtonian_flow

@@ -136,7 +136,35 @@ contains
             terms%other_rate(k) = ry*(pn + ps)
          end do
       end associate
+      if (flow%bends) call line_of_tangents(self, flow, j, first, last, terms)
    end subroutine line_row
+
+   !> The couplings of a line system where the conductances depend on the gradient of pressure, and those along and across
+   !> change differently
+   pure subroutine line_of_tangents(self, flow, j, first, last, terms)
+      type(poiseuille_t), intent(in) :: self
+      class(flow_t), intent(in) :: flow
+      integer, intent(in) :: j, first, last
+      type(line_terms_t), intent(inout) :: terms
+      real(dp) :: rx, ry
+      integer :: i, k, below
+
+      below = self%grid%south(j)
+      rx = 0.5_dp/self%grid%hx**2
+      ry = 0.5_dp/self%grid%hy**2
+      associate (tx => flow%tangent(:, :, along), ty => flow%tangent(:, :, flow%across), &
+                 ey => flow%eps(:, :, flow%across), slope => flow%dlneps_dp(:, :, flow%across))
+         do i = max(first - 1, 1), min(last, self%grid%nx - 1)
+            terms%east(i - first + 1) = rx*(tx(i + 1, j) + tx(i, j))
+         end do
+         do i = max(first, 2), min(last, self%grid%nx - 1)
+            k = i - first + 1
+            terms%other(k) = terms%other_rate(k)*ey(i, j)*slope(i, j) &
+                             - ry*(ty(i, j + 1) + 2.0_dp*ty(i, j) + ty(i, below))
+            terms%other_rate(k) = 0.0_dp
+         end do
+      end associate
+   end subroutine line_of_tangents
 
    !> The same for a Galerkin product: the couplings as they are, and no change of them
    pure subroutine frozen_line_row(self, p, rhs, j, first, last, terms)
@@ -172,8 +200,8 @@ contains
       end associate
    end subroutine frozen_line_row
 
-   !> Neighbours of node (i, j), the couplings to them, which conductance they are made of, their change with that of
-   !> either node, and the excess of the node over the sum of its couplings
+   !> Of the linearised term: neighbours of node (i, j), the couplings to them, which conductance they are made of, their
+   !> change with that of either node, and the excess of the node over the sum of its couplings
    pure subroutine couplings(self, flow, i, j, n, neighbour, direction, coupling, rate, excess)
       class(poiseuille_t), intent(in) :: self
       class(flow_t), intent(in) :: flow
@@ -197,6 +225,8 @@ contains
             sum_eps = flow%eps(i, j, direction(m)) + flow%eps(neighbour(1, m), neighbour(2, m), direction(m))
             coupling(m) = coupling(m)*sum_eps
             rate(m) = coupling(m)/sum_eps
+            if (flow%bends) coupling(m) = rate(m)*(flow%tangent(i, j, direction(m)) &
+                                                                + flow%tangent(neighbour(1, m), neighbour(2, m), direction(m)))
          end do
          return
       end if
@@ -213,7 +243,7 @@ contains
       end associate
    end subroutine couplings
 
-   !> The five-point difference as an operator integrated over the cells; rows from `first` to `last`
+   !> The five-point difference, linearised, as an operator integrated over the cells; rows from `first` to `last`
    pure subroutine integrate(self, flow, first, last, a)
       class(poiseuille_t), intent(in) :: self
       class(flow_t), intent(in) :: flow
@@ -225,6 +255,13 @@ contains
       do j = first, last
          rx = 0.5_dp*self%grid%cell(j)/self%grid%hx**2
          ry = 0.5_dp*self%grid%hx/self%grid%hy
+         if (flow%bends) then
+            do i = 1, self%grid%nx - 1
+               a%east(i, j) = rx*(flow%tangent(i, j, along) + flow%tangent(i + 1, j, along))
+               a%north(i, j) = ry*(flow%tangent(i, j, flow%across) + flow%tangent(i, j + 1, flow%across))
+            end do
+            cycle
+         end if
          do i = 1, self%grid%nx - 1
             a%east(i, j) = rx*(flow%eps(i, j, along) + flow%eps(i + 1, j, along))
             a%north(i, j) = ry*(flow%eps(i, j, flow%across) + flow%eps(i, j + 1, flow%across))

@@ -19,11 +19,12 @@ module ehl_checkpoint_folder
    public :: checkpoint_folder_t, find_checkpoint, checkpoint_path
 
    character(len=*), parameter :: suffix = ".checkpoint", case_file = "case.nml", surface_file = "surface.npy", &
+      second_file = "second_surface.npy", &
       ! first line of the case, by which the folder is known
       mark = "! Case of a transient run whose states are beside it; removed with them"
    !> States of the run and of that on the coarser grid, and all that belongs to them but frames
    character(len=*), parameter :: states(*) = [character(len=32) :: state_files, coarser//state_files], &
-      files(*) = [character(len=32) :: states, surface_file, case_file]
+      files(*) = [character(len=32) :: states, surface_file, second_file, case_file]
 
    !> Writes the state now and then
    type :: checkpoint_folder_t
@@ -49,16 +50,16 @@ contains
       folder = full_path(results)//suffix//"/"
    end function checkpoint_path
 
-   !> What a run with these results left to go on with: its case file, and its surface [m] (of size 0 when
-   !> the case has all of it)
-   subroutine find_checkpoint(results, path, heights, status)
+   !> What a run with these results left to go on with: its case file, and its surfaces [m] (of size 0 when
+   !> the case has all of them)
+   subroutine find_checkpoint(results, path, heights, second_heights, status)
       character(len=*), intent(in) :: results
       character(len=:), allocatable, intent(out) :: path
-      real(dp), allocatable, intent(out) :: heights(:, :)
+      real(dp), allocatable, intent(out) :: heights(:, :), second_heights(:, :)
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: folder, hint
 
-      allocate (heights(0, 0))
+      allocate (heights(0, 0), second_heights(0, 0))
       folder = checkpoint_path(results)
       path = folder//case_file
       if (.not. file_exists(path)) then
@@ -69,20 +70,21 @@ contains
          return
       end if
       if (file_exists(folder//surface_file)) call read_npy(folder//surface_file, heights, status)
+      if (file_exists(folder//second_file)) call read_npy(folder//second_file, second_heights, status)
    end subroutine find_checkpoint
 
    !> Make the folder of a transient run, unless the case wants none; refuse one with anything else in it. States
    !> of an earlier run give way to those of this one, unless it goes on with them: they are kept under the name that
    !> the note tells.
-   subroutine open_folder(self, results, input, solver, resumed, heights, note, status)
+   subroutine open_folder(self, results, input, solver, resumed, heights, second_heights, note, status)
       class(checkpoint_folder_t), intent(inout) :: self
       character(len=*), intent(in) :: results
       type(case_t), intent(in) :: input
       type(solver_t), intent(in) :: solver
       !> Results of the run whose states are gone on with; empty: none
       character(len=*), intent(in) :: resumed
-      !> Heights of a map [m] that did not come from its file; of size 0: none
-      real(dp), intent(in) :: heights(:, :)
+      !> Heights of the maps of both surfaces [m] that did not come from their files; of size 0: none
+      real(dp), intent(in) :: heights(:, :), second_heights(:, :)
       character(len=:), allocatable, intent(out) :: note
       type(status_t), intent(inout) :: status
       logical :: same
@@ -108,10 +110,8 @@ contains
       if (.not. file_exists(place)) then
          if (.not. make_folder(place)) call status%fail(ehl_file, self%folder//": error: cannot make this folder")
       end if
-      if (size(heights) > 0 .and. .not. status%failed()) then
-         call write_npy(place//surface_file//".new", heights, status)
-         if (.not. status%failed()) call put(place//surface_file, status)
-      end if
+      call put_heights(place//surface_file, heights, status)
+      call put_heights(place//second_file, second_heights, status)
       if (.not. status%failed()) call write_text(place//case_file//".new", mark//newline//case_text(input), status)
       if (.not. status%failed()) call put(place//case_file, status)
       if (status%failed() .or. place == self%folder) return
@@ -217,6 +217,17 @@ contains
          call status%fail(ehl_file, aside//": error: cannot keep the state of an earlier run here")
       end if
    end subroutine set_aside
+
+   !> Write the heights of a surface; of size 0: none
+   subroutine put_heights(path, heights, status)
+      character(len=*), intent(in) :: path
+      real(dp), intent(in) :: heights(:, :)
+      type(status_t), intent(inout) :: status
+
+      if (size(heights) == 0 .or. status%failed()) return
+      call write_npy(path//".new", heights, status)
+      if (.not. status%failed()) call put(path, status)
+   end subroutine put_heights
 
    !> A file that is written takes its name
    subroutine put(path, status)

@@ -63,7 +63,7 @@ module ehl_contact_run
 
    ! in contact_start.f90
    interface
-      !> From the smooth contact on level n to time steps, or to the state that was kept
+      !> From the contact on level n, smooth or with what is at rest, to time steps, or to the state that was kept
       module subroutine begin_steps(self, n, status)
          class(contact_run_t), intent(inout) :: self
          integer, intent(in) :: n
@@ -121,7 +121,7 @@ contains
       if (self%in_steps) then
          call advance_step(self, status)
       else if (self%resting) then
-         call advance_rest(self)
+         call advance_rest(self, status)
       else
          call advance_smooth(self, status)
       end if
@@ -166,7 +166,7 @@ contains
          self%p_smooth = self%hierarchy%levels(n)%p
          self%h_smooth = self%hierarchy%levels(n)%h
          self%h00_smooth = self%hierarchy%levels(n)%h00
-         if (plan%surfaces%rest()) then
+         if (plan%surfaces%rest() .or. plan%surfaces%some_rest()) then
             call self%rest%start(self%hierarchy%levels(n), n, plan%contact, plan%surfaces, plan%steady_options_t, status)
             self%resting = .true.
          else
@@ -175,13 +175,22 @@ contains
       end associate
    end subroutine begin_rough
 
-   !> One cycle of the contact with the rough surface at rest
-   subroutine advance_rest(self)
+   !> One cycle of the contact with what is at rest; when it is solved, on to what moves
+   subroutine advance_rest(self, status)
       class(contact_run_t), intent(inout) :: self
+      type(status_t), intent(inout) :: status
       type(clock_t) :: clock
 
       clock = start_clock()
       call self%rest%advance(self%hierarchy)
+      if (self%plan%surfaces%move()) then
+         if (self%rest%outcome == outcome_converged) then
+            call begin_steps(self, self%steady%n, status)
+         else
+            self%outcome = self%rest%outcome
+         end if
+         return
+      end if
       self%seconds = self%seconds + clock%seconds()
       self%outcome = self%rest%outcome
       associate (rest => self%rest, m => self%rest%m)

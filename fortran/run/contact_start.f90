@@ -28,6 +28,7 @@ contains
       end associate
       if (status%failed()) return
       self%in_steps = .true.
+      self%resting = .false.
       call self%frames%start()
       if (self%checkpoint%found()) call take_state(self, status)
    end subroutine begin_steps

@@ -131,6 +131,8 @@ contains
       call record%set("scheme", trim(merge("narrow", "paper ", plan%scheme == wedge_narrow)))
       call record%set("T", transient%time)
       call record%set("T_period", transient%mean%period)
+      if (plan%surfaces%count() > 1) call record%set("T_mismatch", merge(plan%surfaces%mismatch, &
+         ieee_value(mean, ieee_quiet_nan), plan%surfaces%meets))
       call record%set("T_mean", merge(transient%mean%window(), 0.0_dp, transient%mean%has_mean()))
       call record%set("steps", transient%step)
       call record%set("steps_skipped", transient%skipped)
@@ -140,15 +142,29 @@ contains
       call record%set("step_residual_allowed", transient%accuracy%largest)
    end subroutine report_transient
 
-   !> Amplitude of a wave, height or depth of a feature
+   !> Amplitudes of waves, heights or depths of features
    subroutine report_amplitude(record, surfaces)
       type(record_t), intent(inout) :: record
       type(moving_surfaces_t), intent(in) :: surfaces
+      integer :: k
 
-      associate (amplitude => surfaces%of(1)%surface%amplitude)
-         if (amplitude >= 0.0_dp) call record%set("amplitude", amplitude)
-      end associate
+      do k = 1, surfaces%count()
+         associate (amplitude => surfaces%of(k)%surface%amplitude)
+            if (amplitude >= 0.0_dp) call record%set(named(surfaces, k, "amplitude"), amplitude)
+         end associate
+      end do
    end subroutine report_amplitude
+
+   !> Name of a quantity of a surface: 'second_' before that of the second one
+   function named(surfaces, k, name)
+      type(moving_surfaces_t), intent(in) :: surfaces
+      integer, intent(in) :: k
+      character(len=*), intent(in) :: name
+      character(len=:), allocatable :: named
+
+      named = name
+      if (surfaces%of(k)%group == "second_surface") named = "second_"//name
+   end function named
 
    !> Least film of the rough contact
    subroutine report_rough_film(record, plan, film)
@@ -166,19 +182,23 @@ contains
       type(plan_t), intent(in) :: plan
       !> The smooth contact
       type(contact_results_t), intent(in) :: m
-      real(dp) :: sigma
+      real(dp) :: sigma, variance(2)
+      integer :: k
 
       sigma = plan%surfaces%rms_height()
       if (sigma > 0.0_dp) then
-         if (plan%scales%has_size()) call record%set("surface_rms_m", sigma*plan%scales%film)
+         if (plan%scales%has_size()) then
+            call record%set("surface_rms_m", sigma*plan%scales%film)
+            call record%set("surface_slope", plan%surfaces%rms_slope()*plan%scales%film/plan%scales%length)
+         end if
          call record%set("lambda_ratio", m%film_minimum/sigma)
          call record%set("lambda_ratio_central", m%film_central/sigma)
       end if
-      associate (surface => plan%surfaces%of(1)%surface)
-         if (surface%variance > 0.0_dp) then
-            call record%set("variance_cut", max(0.0_dp, 1.0_dp - surface%variance/surface%variance_whole))
-         end if
-      end associate
+      variance = 0.0_dp
+      do k = 1, plan%surfaces%count()
+         variance = variance + [plan%surfaces%of(k)%surface%variance, plan%surfaces%of(k)%surface%variance_whole]
+      end do
+      if (variance(1) > 0.0_dp) call record%set("variance_cut", max(0.0_dp, 1.0_dp - variance(1)/variance(2)))
       call record%set("variance_unresolved", plan%surfaces%unresolved)
       call record%set("variance_left_out", plan%surfaces%left_out)
    end subroutine report_waves
@@ -192,6 +212,7 @@ contains
       !> Friction ratio, and its algebraic error
       real(dp), intent(out) :: ratio, algebraic
       real(dp) :: nothing
+      integer :: k
 
       nothing = ieee_value(nothing, ieee_quiet_nan)
       ratio = merge(rest%mu_ratio(), nothing, good)
@@ -200,7 +221,9 @@ contains
       call record%set("H_c_rough", merge(rest%m%film_central, nothing, good))
       call report_rough_film(record, plan, merge(rest%m%film_minimum, nothing, good))
       call record%set("P_max_rough", merge(rest%m%pressure_maximum, nothing, good))
-      call record%set("x_start", plan%surfaces%of(1)%surface%x_start)
+      do k = 1, plan%surfaces%count()
+         call record%set(named(plan%surfaces, k, "x_start"), plan%surfaces%of(k)%surface%x_start)
+      end do
       call report_amplitude(record, plan%surfaces)
       call record%set("rough_cycles", rest%total_cycles)
       call record%set("rough_parts", rest%parts)

@@ -34,7 +34,8 @@ contains
       if (transient%skipped > 0) call add(to_text(transient%skipped)//" steps before the roughness came near the contact")
       periods = merge(plan%max_periods, fixed_periods, plan%max_periods > 0)
       ! beyond the largest integer with many periods of a slow surface
-      left = ceiling(max(transient%mean%filled, 0) + periods*transient%mean%period/transient%time_step, int64) - transient%step
+      left = ceiling(max(transient%mean%filled, 0) + periods*transient%mean%period/transient%mean%repeats/transient%time_step, &
+                     int64) - transient%step
       if (good .and. plan%steps == 0 .and. left > 0 .and. .not. plan%surfaces%pass_once()) then
          call add(to_text(left)//" steps up to the end of period "//to_text(periods)//": the mean of mu_r/mu_s had settled")
       end if

@@ -37,21 +37,24 @@ contains
    end function known_film
 
    !> The film by a run of the smooth contact alone on as many nodes as that takes [a^2/R]
-   real(dp) function film_by_finer_grids(rough, status) result(film)
+   real(dp) function film_by_finer_grids(rough, surfaces, status) result(film)
       type(case_t), intent(in) :: rough
+      !> Those that ask for it
+      type(moving_surfaces_t), intent(in) :: surfaces
       type(status_t), intent(inout) :: status
       type(contact_run_t), allocatable :: run
       type(moving_surfaces_t) :: no_surfaces
       type(case_t) :: input
-      real(dp) :: none(0, 0)
+      integer :: k
 
       film = 0.0_dp
       input = rough
       input%surface%kind = "smooth"
+      input%second_surface%kind = "smooth"
       ! the film is extrapolated: it is better than the grid
       input%grid%target_error = 0.9_dp*film_error
       allocate (run)
-      call make_plan(input, none, no_surfaces, run%plan, status)
+      call make_plan(input, no_surfaces, run%plan, status)
       call check_need(run%plan, status)
       call run%begin(status)
       do while (run%outcome == outcome_running .and. .not. status%failed())
@@ -60,9 +63,12 @@ contains
       if (status%failed()) return
       if (run%outcome == outcome_converged) film = known_film(run%steady)
       if (film > 0.0_dp) return
-      call status%fail(ehl_bad_input, "surface.amplitude_over_film = "//to_text(input%surface%amplitude_over_film)// &
-                       ": the film of the smooth contact is not known to "//to_text(100.0_dp*film_error)// &
-                       " % on grids of up to "//to_text(input%grid%max_points)//" points"//new_line("a")// &
-                       "expected: surface.amplitude, or a larger grid.max_points")
+      k = findloc(surfaces%of%amplitude_over_film > 0.0_dp, .true., dim=1)
+      associate (member => surfaces%of(k))
+         call status%fail(ehl_bad_input, trim(member%group)//".amplitude_over_film = "//to_text(member%amplitude_over_film)// &
+                          ": the film of the smooth contact is not known to "//to_text(100.0_dp*film_error)// &
+                          " % on grids of up to "//to_text(input%grid%max_points)//" points"//new_line("a")// &
+                          "expected: amplitude, or a larger grid.max_points")
+      end associate
    end function film_by_finer_grids
 end module ehl_smooth_film

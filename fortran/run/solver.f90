@@ -97,20 +97,19 @@ module ehl_solver
 contains
 
    !> Plan the case and prepare the coarse grids
-   subroutine start(self, input, status, heights)
+   subroutine start(self, input, status, heights, second_heights)
       class(solver_t), intent(inout) :: self
       type(case_t), intent(in) :: input
       type(status_t), intent(inout) :: status
-      !> Heights of a map [m], X first, in place of a file; of size 0: none. They are no longer needed afterwards.
-      real(dp), intent(in), optional :: heights(:, :)
+      !> Heights of the maps of both surfaces [m], X first, in place of files; of size 0: none. They are no longer needed
+      !> afterwards.
+      real(dp), intent(in), optional :: heights(:, :), second_heights(:, :)
       type(moving_surfaces_t) :: to_make
-      real(dp) :: none(0, 0)
 
       self%input = input
-      if (present(heights)) then
-         call make_plan(input, heights, to_make, self%plan, status)
-      else
-         call make_plan(input, none, to_make, self%plan, status)
+      call make_plan(input, to_make, self%plan, status, heights, second_heights)
+      if (input%time%start == "prediction" .and. self%plan%surfaces%count() > 1) then
+         self%why_front = "of two rough surfaces no pressure is predicted"
       end if
       call check_need(self%plan, status)
       call self%begin(status)
@@ -120,20 +119,21 @@ contains
    !>
    !>    the smooth contact
    !>    at rest:     the rough contact; both on the next coarser grid
-   !>    on the move: both on the next coarser grid; time steps
+   !>    on the move: with what is at rest, if there is any; all that on the next coarser grid; time steps
    subroutine advance(self, status)
       class(solver_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
-      logical :: both
+      logical :: both, in_steps
 
       if (self%done()) return
       if (allocated(self%coarse)) then
          call advance_coarse(self)
          return
       end if
+      in_steps = self%in_steps
       call self%contact_run_t%advance(status)
       if (status%failed()) return
-      both = self%resting .and. self%outcome == outcome_converged
+      both = (self%resting .and. self%outcome == outcome_converged) .or. (self%in_steps .and. .not. in_steps)
       if (self%roughness_is_due()) then
          if (self%plan%surfaces%needs_film()) call set_amplitude(self, status)
          if (.not. status%failed()) call self%begin_rough(status)
@@ -151,7 +151,7 @@ contains
       real(dp) :: film
 
       film = known_film(self%steady)
-      if (.not. film > 0.0_dp) film = film_by_finer_grids(self%input, status)
+      if (.not. film > 0.0_dp) film = film_by_finer_grids(self%input, self%plan%surfaces, status)
       call self%plan%surfaces%take_film(film)
    end subroutine set_amplitude
 
@@ -161,17 +161,17 @@ contains
       type(status_t) :: status
       type(case_t) :: input
       type(moving_surfaces_t) :: surfaces
-      real(dp) :: none(0, 0)
 
       input = self%input
       input%output%frame_interval = 0.0_dp
       input%grid%points = (self%grid%nx + 1)/2
+      input%grid%points_y = (self%grid%full_ny() + 1)/2
       input%grid%target_error = 0.0_dp
       input%time%estimate_error = .false.
       allocate (self%coarse)
       ! the same roughness, not the same share of another film
       call self%plan%surfaces%hand_over(surfaces)
-      call make_plan(input, none, surfaces, self%coarse%plan, status)
+      call make_plan(input, surfaces, self%coarse%plan, status)
       call self%coarse%begin(status)
       self%coarse%checkpoint = self%coarse_checkpoint
       self%coarse%predicted = self%predicted%coarser()

@@ -11,6 +11,7 @@ submodule (ehl_solver) ehl_solver_results
    use ehl_report_smooth, only: report_smooth
    use ehl_skipped_work, only: skipped_work
    use ehl_status, only: ehl_bad_input, ehl_no_memory
+   use ehl_surface_text, only: window_words
    use ehl_text, only: newline
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    implicit none (type, external)
@@ -25,7 +26,7 @@ contains
 
    module procedure summary
       logical :: good
-      real(dp) :: bytes, ratio, stop_error
+      real(dp) :: ratio, stop_error
 
       call record%set("kind", "solution")
       call record%set("status", trim(outcome_names(self%stand())))
@@ -49,9 +50,7 @@ contains
       if (self%plan%surfaces%rough()) call report_ratio(self, record, ratio, stop_error)
       call summarise_friction(self, record, good)
       if (self%in_steps .and. self%done()) call record%set("skips", skipped_work(self%plan, self%transient, self%converged()))
-      bytes = real(self%hierarchy%bytes(), dp)
-      bytes = bytes + self%plan%surfaces%bytes()
-      call record%set("bytes", bytes)
+      call record%set("bytes", real(self%hierarchy%bytes(), dp) + self%plan%surfaces%bytes())
    end procedure summary
 
    !> What the time steps began with
@@ -98,6 +97,8 @@ contains
       call record%set("mu_ratio_unresolved", waves%unresolved)
       call error%add(record, "mu_ratio_error_grid", grid, why)
       call error%add(record, "mu_ratio_error_stop", stop_error, why)
+      if (self%plan%surfaces%mismatch > 0.0_dp .and. ieee_is_finite(ratio)) call error%add(record, "mu_ratio_error_window", &
+         merge(self%transient%mean%window_error(), nothing, self%plan%surfaces%meets), window_words(self%plan%surfaces))
       call error%add(record, "mu_ratio_error_left_out", waves%left_out, waves%why)
       domain = nothing
       if (self%plan%domain_cost(1) < 1.0_dp) then
@@ -147,8 +148,8 @@ contains
          if (self%plan%surfaces%unresolved > rounding) waves%unresolved = ieee_value(waves%unresolved, ieee_quiet_nan)
          waves%left_out = waves%unresolved
          waves%why = "waves that the grid leaves out are not in it: pyehl run predicts what they add"
-         if (self%plan%surfaces%rest()) waves%why = "waves that the grid leaves out are not in it: what they add is predicted "// &
-                                            "for surfaces on the move alone"
+         if (self%plan%surfaces%rest() .or. self%plan%surfaces%count() > 1) waves%why = &
+            "waves that the grid leaves out are not in it: what they add is predicted for one surface on the move alone"
       end if
       if (.not. (self%plan%surfaces%left_out > rounding .and. self%plan%surfaces%has_spectrum())) waves%left_out = 0.0_dp
    end function waves_of

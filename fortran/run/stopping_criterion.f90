@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> When a transient run ends
 module ehl_stopping_criterion
-   use ehl_friction_mean, only: friction_mean_t
+   use ehl_friction_mean, only: automatic_periods, friction_mean_t, periods_compared
    use ehl_kinds, only: dp
    use ehl_outcome, only: outcome_converged, outcome_running, outcome_unsettled
    use ehl_plan, only: plan_t
@@ -9,9 +9,6 @@ module ehl_stopping_criterion
    implicit none (type, external)
    private
    public :: transient_outcome, least_periods, most_periods
-
-   !> Periods after which a mean that has not settled is given up; the slowest known one settled after 21
-   integer, parameter :: automatic_periods = 36
 
 contains
 
@@ -43,9 +40,14 @@ contains
    end function least_periods
 
    !> Periods after which a transient run ends at the latest
-   pure integer function most_periods(plan)
+   pure real(dp) function most_periods(plan)
       type(plan_t), intent(in) :: plan
-      most_periods = merge(plan%max_periods, automatic_periods, plan%max_periods > 0)
-      if (plan%surfaces%pass_once()) most_periods = 1
+
+      associate (most => merge(plan%max_periods, automatic_periods, plan%max_periods > 0), repeats => plan%surfaces%repeats)
+         most_periods = most
+         ! of several surfaces one period of all may be as long as that
+         if (repeats > 1) most_periods = max(real(most, dp)/repeats, periods_compared(repeats))
+      end associate
+      if (plan%surfaces%pass_once()) most_periods = 1.0_dp
    end function most_periods
 end module ehl_stopping_criterion

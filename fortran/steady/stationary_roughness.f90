@@ -79,7 +79,7 @@ contains
          call status%fail(ehl_no_memory, "no memory for the roughness at rest")
          return
       end if
-      call surfaces%roughness(level%grid, 0.0_dp, self%rr)
+      call surfaces%roughness(level%grid, 0.0_dp, self%rr, moving=.false.)
       self%m = measure(level)
       self%friction_smooth = self%m%friction
    end subroutine start

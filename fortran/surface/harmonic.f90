@@ -16,6 +16,7 @@ module ehl_harmonic
       procedure :: height
       procedure :: unresolved
       procedure :: rms_height
+      procedure :: rms_slope
    end type harmonic_t
 
 contains
@@ -51,6 +52,12 @@ contains
       class(harmonic_t), intent(in) :: self
       rms_height = 0.5_dp*self%amplitude
    end function rms_height
+
+   !> Of a product of two cosines
+   pure real(dp) function rms_slope(self)
+      class(harmonic_t), intent(in) :: self
+      rms_slope = self%rms_height()*hypot(2.0_dp*pi/self%wavelength_x, 2.0_dp*pi/self%wavelength_y)
+   end function rms_slope
 
    !> Roughness at the nodes, at time T
    subroutine height(self, grid, time, rr)

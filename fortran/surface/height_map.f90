@@ -75,6 +75,7 @@ contains
       self%variance_whole = self%waves%variance(all_waves)
       call self%waves%cut(filter)
       self%variance = self%waves%variance(all_waves)
+      self%slope = sqrt(self%waves%mean_square_slope())
       if (allocated(self%refined)) deallocate (self%refined)
    end subroutine setup
 

@@ -1,128 +1,48 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The rough surfaces of a contact and their motion: what a run asks of all of them together
+!> The rough surfaces of a contact on the move: when they come near it, fill it, repeat and leave it
 module ehl_moving_surfaces
-   use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
-   use ehl_status, only: ehl_no_memory, status_t
-   use ehl_surface, only: aliased_below, resolved_from, surface_t
+   use ehl_rough_surfaces, only: rough_surfaces_t
    implicit none (type, external)
    private
    public :: moving_surfaces_t
 
-   !> One of them
-   type :: member_t
-      class(surface_t), allocatable :: surface
-      !> Amplitude as a share of the smooth central film; 0: it is known already
-      real(dp) :: amplitude_over_film = 0.0_dp
-   end type member_t
+   !> Difference of periods, as a part of one, and of velocity ratios that is none
+   real(dp), parameter :: same = 1.0e-9_dp
+   !> Where there is no common period: part of a period by which surfaces should miss their start, and may at the most
+   real(dp), parameter :: near = 0.02_dp, farthest = 0.25_dp
+   !> Least number of positions in which they meet, those of both: n periods of one and m of the other, without a common
+   !> factor, take the mean of all products of their waves but those of order n + m
+   integer, parameter :: fewest = 5
+   !> Longest common period that is looked for to be named
+   integer, parameter :: most_named = 10000
 
-   !> Any number of rough surfaces; none: the contact is smooth. Their heights add up.
-   type :: moving_surfaces_t
-      type(member_t), allocatable :: of(:)
-      !> Shares of the variance: in waves that the grid would alias, which are left out; in waves with fewer than eight
-      !> nodes a period, those included
-      real(dp) :: left_out = 0.0_dp, unresolved = 0.0_dp
-      !> Heights of one of several, (nx, ny)
-      real(dp), allocatable, private :: part(:, :)
+   !> All that a run asks of the surfaces
+   type, extends(rough_surfaces_t) :: moving_surfaces_t
+      !> Time in which the friction repeats, see find_period; of what passes once the time of the passage
+      real(dp) :: period = 0.0_dp
+      !> Periods of the slowest surface in it, and by what part of a period another one misses its start then
+      integer :: repeats = 1
+      real(dp) :: mismatch = 0.0_dp
+      !> Whether they meet in enough positions in that time for a mean; how many periods of the slowest would hold whole
+      !> ones of all, where that is known and more; 0: it is not
+      logical :: meets = .true.
+      integer :: whole = 0
    contains
-      procedure :: add
-      procedure :: count => count_surfaces
-      procedure :: rough
       procedure :: move
       procedure :: rest
+      procedure :: some_rest
       procedure :: pass_once
-      procedure :: even_in_y
-      procedure :: has_spectrum
-      procedure :: same_on_grids
-      procedure :: use_threads
-      procedure :: see
-      procedure :: most_unresolved
-      procedure :: prepare
-      procedure :: hand_over
-      procedure :: roughness
-      procedure :: bytes
-      procedure :: bytes_on
-      procedure :: needs_film
-      procedure :: take_film
       procedure :: velocities
+      procedure :: slowest
       procedure :: begin
-      procedure :: time_to_mean
       procedure :: time_filled
-      procedure :: period
+      procedure :: time_to_mean
+      procedure :: find_period
       procedure :: end_of_passage
-      procedure :: rms_height
    end type moving_surfaces_t
 
-   ! in motion.f90
-   interface
-      !> Velocities over the mean velocity of what moves
-      pure module function velocities(self) result(ratios)
-         class(moving_surfaces_t), intent(in) :: self
-         real(dp), allocatable :: ratios(:)
-      end function velocities
-
-      !> Time at which the first of them comes near the contact, and not before 0; steps until then change nothing
-      pure real(dp) module function begin(self)
-         class(moving_surfaces_t), intent(in) :: self
-      end function begin
-
-      !> Time from a time on until friction belongs to a mean; negative when that was before
-      pure real(dp) module function time_to_mean(self, time)
-         class(moving_surfaces_t), intent(in) :: self
-         real(dp), intent(in) :: time
-      end function time_to_mean
-
-      !> Time at which the fronts of all that move have passed X
-      pure real(dp) module function time_filled(self, x)
-         class(moving_surfaces_t), intent(in) :: self
-         real(dp), intent(in) :: x
-      end function time_filled
-
-      !> Time in which the friction repeats; of what passes once the time of the passage
-      pure real(dp) module function period(self)
-         class(moving_surfaces_t), intent(in) :: self
-      end function period
-
-      !> Time at which what passes once has left the contact
-      pure real(dp) module function end_of_passage(self)
-         class(moving_surfaces_t), intent(in) :: self
-      end function end_of_passage
-   end interface
-
 contains
-
-   !> Take over another surface
-   subroutine add(self, surface, amplitude_over_film)
-      class(moving_surfaces_t), intent(inout) :: self
-      class(surface_t), allocatable, intent(inout) :: surface
-      !> Amplitude as a share of the smooth central film; 0: it is known already
-      real(dp), intent(in) :: amplitude_over_film
-      type(member_t), allocatable :: more(:)
-      integer :: k, n
-
-      n = self%count()
-      allocate (more(n + 1))
-      do k = 1, n
-         call move_alloc(self%of(k)%surface, more(k)%surface)
-         more(k)%amplitude_over_film = self%of(k)%amplitude_over_film
-      end do
-      call move_alloc(surface, more(n + 1)%surface)
-      more(n + 1)%amplitude_over_film = amplitude_over_film
-      call move_alloc(more, self%of)
-   end subroutine add
-
-   !> Number of surfaces
-   pure integer function count_surfaces(self)
-      class(moving_surfaces_t), intent(in) :: self
-      count_surfaces = 0
-      if (allocated(self%of)) count_surfaces = size(self%of)
-   end function count_surfaces
-
-   !> Whether there is a rough surface
-   pure logical function rough(self)
-      class(moving_surfaces_t), intent(in) :: self
-      rough = self%count() > 0
-   end function rough
 
    !> Whether a rough surface is on the move: time steps
    pure logical function move(self)
@@ -137,166 +57,207 @@ contains
       rest = self%rough() .and. .not. self%move()
    end function rest
 
+   !> Whether one is at rest while another one moves: the steady contact with the roughness at rest comes first
+   pure logical function some_rest(self)
+      class(moving_surfaces_t), intent(in) :: self
+      integer :: k
+
+      some_rest = self%move() .and. any([(self%of(k)%surface%at_rest(), k=1, self%count())])
+   end function some_rest
+
    !> Whether something passes the contact once: the run ends when it has left
    pure logical function pass_once(self)
       class(moving_surfaces_t), intent(in) :: self
       integer :: k
-      pass_once = any([(self%of(k)%surface%passes_once, k=1, self%count())])
+      pass_once = any([(self%of(k)%surface%passes_once .and. .not. (self%move() .and. self%of(k)%surface%at_rest()), &
+                        k=1, self%count())])
    end function pass_once
 
-   !> Whether half the domain is enough
-   pure logical function even_in_y(self)
+   !> Different velocities over the mean velocity of what moves, the least first
+   pure function velocities(self) result(ratios)
       class(moving_surfaces_t), intent(in) :: self
-      integer :: k
-      even_in_y = all([(self%of(k)%surface%even_in_y, k=1, self%count())])
-   end function even_in_y
-
-   !> Whether one has waves that a grid can leave out
-   pure logical function has_spectrum(self)
-      class(moving_surfaces_t), intent(in) :: self
-      integer :: k
-      has_spectrum = any([(self%of(k)%surface%variance > 0.0_dp, k=1, self%count())])
-   end function has_spectrum
-
-   !> Whether all are single waves or features, which are the same on every grid that carries them
-   pure logical function same_on_grids(self)
-      class(moving_surfaces_t), intent(in) :: self
-      integer :: k
-      same_on_grids = all([(self%of(k)%surface%amplitude > 0.0_dp, k=1, self%count())])
-   end function same_on_grids
-
-   !> Threads for heights; they do not depend on it
-   subroutine use_threads(self, threads)
-      class(moving_surfaces_t), intent(inout) :: self
-      integer, intent(in) :: threads
+      real(dp), allocatable :: ratios(:)
       integer :: k
 
+      allocate (ratios(0))
       do k = 1, self%count()
-         self%of(k)%surface%threads = threads
-      end do
-   end subroutine use_threads
-
-   !> What of the surfaces a grid carries: `left_out` and `unresolved`
-   subroutine see(self, grid)
-      class(moving_surfaces_t), intent(inout) :: self
-      type(grid_t), intent(in) :: grid
-
-      self%left_out = self%most_unresolved(grid, aliased_below)
-      self%unresolved = self%most_unresolved(grid, resolved_from)
-   end subroutine see
-
-   !> Share of the variance in waves with fewer nodes a period than that, see surface_t: that of the surface with the
-   !> largest share
-   pure real(dp) function most_unresolved(self, grid, nodes)
-      class(moving_surfaces_t), intent(in) :: self
-      type(grid_t), intent(in) :: grid
-      real(dp), intent(in) :: nodes
-      integer :: k
-
-      most_unresolved = 0.0_dp
-      do k = 1, self%count()
-         most_unresolved = max(most_unresolved, self%of(k)%surface%unresolved(grid, nodes))
-      end do
-   end function most_unresolved
-
-   !> Get ready for a grid: once, before heights are asked for
-   subroutine prepare(self, grid, status)
-      class(moving_surfaces_t), intent(inout) :: self
-      type(grid_t), intent(in) :: grid
-      type(status_t), intent(inout) :: status
-      integer :: k, stat
-
-      do k = 1, self%count()
-         call self%of(k)%surface%prepare(grid, status)
-      end do
-      if (self%count() < 2 .or. status%failed()) return
-      if (allocated(self%part)) deallocate (self%part)
-      allocate (self%part(grid%nx, grid%ny), stat=stat)
-      if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the heights of several surfaces")
-   end subroutine prepare
-
-   !> Surfaces like these for another grid; what these have been prepared for stays
-   subroutine hand_over(self, other)
-      class(moving_surfaces_t), intent(inout) :: self
-      type(moving_surfaces_t), intent(out) :: other
-      class(surface_t), allocatable :: surface
-      integer :: k
-
-      do k = 1, self%count()
-         call self%of(k)%surface%hand_over(surface)
-         call other%add(surface, 0.0_dp)
-      end do
-   end subroutine hand_over
-
-   !> rr(nx, ny): sum of all heights at the nodes, at time T [a^2/R]
-   subroutine roughness(self, grid, time, rr)
-      class(moving_surfaces_t), intent(inout) :: self
-      type(grid_t), intent(in) :: grid
-      real(dp), intent(in) :: time
-      real(dp), intent(out) :: rr(:, :)
-      integer :: k
-
-      call self%of(1)%surface%height(grid, time, rr)
-      do k = 2, self%count()
-         call self%of(k)%surface%height(grid, time, self%part)
-         rr = rr + self%part
-      end do
-   end subroutine roughness
-
-   !> Bytes of their arrays
-   pure real(dp) function bytes(self)
-      class(moving_surfaces_t), intent(in) :: self
-      integer :: k
-
-      bytes = 0.0_dp
-      if (allocated(self%part)) bytes = 8.0_dp*size(self%part)
-      do k = 1, self%count()
-         bytes = bytes + self%of(k)%surface%bytes()
-      end do
-   end function bytes
-
-   !> Bytes that they will take when they are prepared for a grid
-   pure real(dp) function bytes_on(self, grid)
-      class(moving_surfaces_t), intent(in) :: self
-      type(grid_t), intent(in) :: grid
-      integer :: k
-
-      bytes_on = 0.0_dp
-      if (self%count() > 1) bytes_on = 8.0_dp*grid%nx*grid%ny
-      do k = 1, self%count()
-         bytes_on = bytes_on + self%of(k)%surface%bytes_on(grid)
-      end do
-   end function bytes_on
-
-   !> Whether an amplitude was given as a share of the smooth central film
-   pure logical function needs_film(self)
-      class(moving_surfaces_t), intent(in) :: self
-      needs_film = .false.
-      if (self%rough()) needs_film = any(self%of%amplitude_over_film > 0.0_dp)
-   end function needs_film
-
-   !> The smooth central film [a^2/R], for amplitudes that are a share of it
-   subroutine take_film(self, film)
-      class(moving_surfaces_t), intent(inout) :: self
-      real(dp), intent(in) :: film
-      integer :: k
-
-      do k = 1, self%count()
-         associate (member => self%of(k))
-            if (member%amplitude_over_film > 0.0_dp) member%surface%amplitude = member%amplitude_over_film*film
+         associate (surface => self%of(k)%surface)
+            if (surface%at_rest() .or. any(abs(ratios - surface%velocity_ratio) <= same)) cycle
+            ! in an order that does not depend on which surface is the first
+            ratios = [pack(ratios, ratios < surface%velocity_ratio), surface%velocity_ratio, &
+                      pack(ratios, ratios > surface%velocity_ratio)]
          end associate
       end do
-   end subroutine take_film
+   end function velocities
 
-   !> Root mean square of the composite heights [a^2/R], as of surfaces that have nothing in common; 0 where it is not
-   !> known, or means nothing
-   pure real(dp) function rms_height(self)
+   !> Number of the slowest of those that move
+   pure integer function slowest(self)
       class(moving_surfaces_t), intent(in) :: self
       integer :: k
 
-      rms_height = 0.0_dp
+      slowest = minloc([(self%of(k)%surface%velocity_ratio, k=1, self%count())], dim=1, &
+                       mask=[(.not. self%of(k)%surface%at_rest(), k=1, self%count())])
+   end function slowest
+
+   !> Time at which the first of them comes near the contact, and not before 0; steps until then change nothing
+   pure real(dp) function begin(self)
+      class(moving_surfaces_t), intent(in) :: self
+      integer :: k
+
+      begin = huge(1.0_dp)
       do k = 1, self%count()
-         rms_height = hypot(rms_height, self%of(k)%surface%rms_height())
+         associate (surface => self%of(k)%surface)
+            if (.not. surface%at_rest()) begin = min(begin, surface%time_near())
+         end associate
       end do
-   end function rms_height
+      begin = max(0.0_dp, begin)
+   end function begin
+
+   !> Time at which the fronts of all that move have passed X
+   pure real(dp) function time_filled(self, x)
+      class(moving_surfaces_t), intent(in) :: self
+      real(dp), intent(in) :: x
+      integer :: k
+
+      time_filled = -huge(1.0_dp)
+      do k = 1, self%count()
+         associate (surface => self%of(k)%surface)
+            if (.not. surface%at_rest()) time_filled = max(time_filled, (x - surface%x_start)/surface%velocity_ratio)
+         end associate
+      end do
+   end function time_filled
+
+   !> Time from a time on until friction belongs to a mean; negative when that was before
+   pure real(dp) function time_to_mean(self, time)
+      class(moving_surfaces_t), intent(in) :: self
+      real(dp), intent(in) :: time
+      real(dp), allocatable :: times(:)
+      integer :: k
+
+      allocate (times(0))
+      do k = 1, self%count()
+         if (counts(self, k)) times = [times, self%of(k)%surface%time_to_mean(time)]
+      end do
+      if (self%pass_once()) then
+         time_to_mean = minval(times)
+      else
+         time_to_mean = maxval(times)
+      end if
+   end function time_to_mean
+
+   !> Time at which what passes once has left the contact
+   pure real(dp) function end_of_passage(self)
+      class(moving_surfaces_t), intent(in) :: self
+      end_of_passage = self%time_to_mean(0.0_dp) + self%period
+   end function end_of_passage
+
+   !> Whether a surface rules the mean: it moves, and it passes once if anything does
+   pure logical function counts(self, k)
+      type(moving_surfaces_t), intent(in) :: self
+      integer, intent(in) :: k
+      counts = .not. self%of(k)%surface%at_rest() .and. (self%of(k)%surface%passes_once .or. .not. self%pass_once())
+   end function counts
+
+   !> Find the time in which the friction repeats: the least one that holds whole periods of all surfaces. Where none
+   !> with so many periods of the slowest one does, a time after which all are nearly where they began; `mismatch` tells
+   !> by how much they are not. Of what passes once, the time from when it comes near until it has left, in whole periods
+   !> of roughness on the other body.
+   pure subroutine find_period(self, most)
+      class(moving_surfaces_t), intent(inout) :: self
+      !> Most periods of the slowest surface
+      integer, intent(in) :: most
+      real(dp), allocatable :: periods(:), others(:)
+      real(dp) :: passage
+      integer :: k
+
+      self%repeats = 1
+      self%mismatch = 0.0_dp
+      self%meets = .true.
+      self%whole = 0
+      self%period = 0.0_dp
+      allocate (periods(0), others(0))
+      do k = 1, self%count()
+         associate (surface => self%of(k)%surface)
+            if (surface%at_rest()) cycle
+            if (counts(self, k)) then
+               periods = [periods, surface%time_period()]
+            else
+               others = [others, surface%time_period()]
+            end if
+         end associate
+      end do
+      if (size(periods) == 0) return
+      self%period = maxval(periods)
+      if (self%pass_once()) then
+         if (size(periods) > 1) then
+            passage = 0.0_dp
+            do k = 1, self%count()
+               if (counts(self, k)) passage = max(passage, self%of(k)%surface%time_to_mean(0.0_dp) &
+                                                  + self%of(k)%surface%time_period())
+            end do
+            self%period = passage - self%time_to_mean(0.0_dp)
+         end if
+         if (size(others) > 0) self%period = ceiling(self%period/maxval(others) - same)*maxval(others)
+         return
+      end if
+      if (size(periods) == 1) return
+      self%repeats = common(periods, most)
+      if (self%repeats == 0) call find_near(self, periods, most)
+      self%period = self%repeats*maxval(periods)
+   end subroutine find_period
+
+   !> Least number of the longest of some periods that holds whole periods of all; 0: none up to so many
+   pure integer function common(periods, most)
+      real(dp), intent(in) :: periods(:)
+      integer, intent(in) :: most
+
+      do common = 1, most
+         if (missed(common*maxval(periods), periods) <= common*same) return
+      end do
+      common = 0
+   end function common
+
+   !> A number of the longest period after which all are nearly where they began, and have met in several positions: with 4
+   !> periods to 4 of nearly the same length they have hardly moved against each other
+   pure subroutine find_near(self, periods, most)
+      class(moving_surfaces_t), intent(inout) :: self
+      real(dp), intent(in) :: periods(:)
+      integer, intent(in) :: most
+      real(dp) :: mismatch
+      integer :: n
+
+      self%repeats = most
+      self%mismatch = farthest
+      self%meets = .false.
+      do n = 1, most
+         mismatch = missed(n*maxval(periods), periods)
+         if (positions(n, nint(n*maxval(periods)/minval(periods))) < fewest .or. mismatch >= self%mismatch) cycle
+         self%repeats = n
+         self%mismatch = mismatch
+         self%meets = .true.
+         if (mismatch <= near) exit
+      end do
+      self%whole = common(periods, most_named)
+   end subroutine find_near
+
+   !> Positions in which one surface meets another one in so many periods of both
+   pure integer function positions(n, m)
+      integer, intent(in) :: n, m
+      integer :: a, b, rest
+
+      a = n
+      b = m
+      do while (b > 0)
+         rest = modulo(a, b)
+         a = b
+         b = rest
+      end do
+      positions = (n + m)/a
+   end function positions
+
+   !> By what part of a period one of them misses its start after a time
+   pure real(dp) function missed(time, periods)
+      real(dp), intent(in) :: time, periods(:)
+      missed = maxval(abs(time/periods - anint(time/periods)))
+   end function missed
 end module ehl_moving_surfaces

@@ -36,6 +36,8 @@ module ehl_surface
       real(dp) :: amplitude = -1.0_dp
       !> Variance of the heights [(a^2/R)^2], and before their spectrum was cut; 0: not known
       real(dp) :: variance = 0.0_dp, variance_whole = 0.0_dp
+      !> Root mean square of the gradient of the heights [a/R]; 0: not known
+      real(dp) :: slope = 0.0_dp
       !> Threads to use; the heights do not depend on it
       integer :: threads = 1
    contains
@@ -48,6 +50,7 @@ module ehl_surface
       procedure :: meshes
       procedure :: bytes
       procedure :: rms_height
+      procedure :: rms_slope
       procedure :: bytes_on
       !> Position of the front at time T
       procedure :: front_position
@@ -56,7 +59,6 @@ module ehl_surface
       procedure :: at_rest
       procedure :: time_near
       procedure :: time_to_mean
-      procedure :: end_of_passage
       procedure :: share
    end type surface_t
 
@@ -117,6 +119,12 @@ contains
       rms_height = sqrt(self%variance)
    end function rms_height
 
+   !> Root mean square of the gradient of the heights [a/R]; 0 where it is not known, or means nothing
+   pure real(dp) function rms_slope(self)
+      class(surface_t), intent(in) :: self
+      rms_slope = self%slope
+   end function rms_slope
+
    !> Bytes that it will take when it is prepared for a grid
    pure real(dp) function bytes_on(self, grid)
       class(surface_t), intent(in) :: self
@@ -165,12 +173,6 @@ contains
       real(dp), intent(in) :: time
       time_to_mean = (merge(x_matters, x_filled, self%passes_once) - self%front_position(time))/self%velocity_ratio
    end function time_to_mean
-
-   !> Time at which what passes once has left the contact
-   pure real(dp) function end_of_passage(self)
-      class(surface_t), intent(in) :: self
-      end_of_passage = (x_matters - self%x_start + self%period)/self%velocity_ratio
-   end function end_of_passage
 
    !> Share of the roughness at a distance ahead of the front; at rest there is no front
    elemental real(dp) function share(self, distance)

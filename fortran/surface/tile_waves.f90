@@ -27,6 +27,7 @@ module ehl_tile_waves
       procedure :: take
       procedure :: cut
       procedure :: variance
+      procedure :: mean_square_slope
       procedure :: column
       procedure :: give_to
       procedure :: are_here
@@ -134,6 +135,41 @@ contains
       end if
       variance = sum(sums)
    end function variance
+
+   !> Mean square of the gradient of the heights
+   pure real(dp) function mean_square_slope(self)
+      class(tile_waves_t), intent(in) :: self
+      real(dp) :: sums(self%pixels(2))
+      integer :: i, j, l, nx, ny
+
+      nx = self%pixels(1)
+      ny = self%pixels(2)
+      sums = 0.0_dp
+      if (self%mirrored) then
+         do j = 1, ny/2
+            do i = 1, nx/2
+               sums(j) = sums(j) + merge(2, 1, i > 1)*merge(2, 1, j > 1)*self%cosines(i, j)**2*square(i - 1, j - 1)
+            end do
+         end do
+      else
+         do j = 1, ny
+            l = min(j - 1, ny + 1 - j)
+            do i = 1, nx/2 + 1
+               ! components with q_x < 0 are not stored
+               sums(j) = sums(j) + merge(2, 1, i > 1 .and. 2*(i - 1) < nx)*abs(self%spectrum(i, j))**2*square(i - 1, l)
+            end do
+         end do
+      end if
+      mean_square_slope = sum(sums)
+
+   contains
+
+      !> |q|^2 of a wave with so many periods in the tile along X and along Y
+      pure real(dp) function square(k, l)
+         integer, intent(in) :: k, l
+         square = (2.0_dp*pi)**2*((k/self%length(1))**2 + (l/self%length(2))**2)
+      end function square
+   end function mean_square_slope
 
    !> The waves with k periods along X and -most ... most along Y; of the shortest one, which travels half with q and
    !> half with -q, a half

@@ -41,7 +41,7 @@ contains
       level%lubricant = new_lubricant(viscosity_barus, density_dowson_higginson, alpha_bar, hertz_pressure, 0.6_dp, 1.96e8_dp)
       level%lubricant%shear = shear_law_t(law, stress, coefficient, exponent, factor*scale, hertz_pressure)
       level%load = 1.0_dp
-      call new_flow(1.0_dp/700.0_dp, level%flow)
+      call new_flow(level%lubricant, 1.0_dp/700.0_dp, level%flow)
       call level%setup(status)
       level%p = p
       level%h = h

@@ -18,14 +18,40 @@ contains
       call smooth_signal_settles_at_once()
       call peaks_between_steps_take_several_periods()
       call values_before_the_window_have_no_part()
+      call two_periods_that_do_not_meet()
    end subroutine run_mean
+
+   !> A product of two waves whose beat the window holds 1 - 0.2 or 1 + 0.2 times, at every phase of it: the stated error
+   !> covers what is left of it, and the mean counts as settled within that
+   subroutine two_periods_that_do_not_meet()
+      type(friction_mean_t) :: mean
+      real(dp), parameter :: mismatch = 0.2_dp
+      real(dp) :: beats, worst, stated
+      integer :: k, j, side
+
+      do side = -1, 1, 2
+         beats = 1.0_dp + side*mismatch
+         worst = 0.0_dp
+         stated = huge(1.0_dp)
+         do j = 0, 11
+            call mean%start(period, 5, mismatch, time_step, 0.0_dp)
+            do k = 1, ceiling(1.2_dp*period/time_step)
+               call mean%append(1.0_dp + 0.1_dp*cos(2.0_dp*pi*(beats*k*time_step/period + j/12.0_dp)), 0.0_dp, 0.0_dp)
+            end do
+            worst = max(worst, abs(mean%mean(0.0_dp) - 1.0_dp))
+            stated = min(stated, mean%window_error())
+            call is_true(mean%settled(1.0e-12_dp), "settled within the error of its window")
+         end do
+         call is_true(worst > 0.01_dp .and. worst <= stated .and. stated < 4.0_dp*worst, "what is left is stated")
+      end do
+   end subroutine two_periods_that_do_not_meet
 
    !> A peak of the start, be it larger than the mean by more than the digits of a number, leaves the mean as it is
    subroutine values_before_the_window_have_no_part()
       type(friction_mean_t) :: mean
       integer :: k
 
-      call mean%start(period, time_step, 0.0_dp)
+      call mean%start(period, 1, 0.0_dp, time_step, 0.0_dp)
       call mean%append(1.0e24_dp, 0.0_dp, 0.0_dp)
       do k = 1, nint(1.6_dp*period/time_step)
          call mean%append(1.0_dp, 0.0_dp, 0.0_dp)
@@ -74,7 +100,7 @@ contains
       type(friction_mean_t), intent(out) :: mean
       integer :: k
 
-      call mean%start(period, time_step, 0.0_dp)
+      call mean%start(period, 1, 0.0_dp, time_step, 0.0_dp)
       do k = 1, nint(40.0_dp*period/time_step)
          call mean%append(signal(k*time_step/period, height), 0.0_dp, 0.0_dp)
          if (mean%settled(tolerance)) return

@@ -31,7 +31,7 @@ contains
       level%grid = new_grid(33, 33, -2.0_dp, 2.0_dp, 1.0_dp, .false.)
       call level%poiseuille%setup(level%grid)
       allocate (level%p(33, 33), source=0.0_dp)
-      call new_flow(1.0_dp, level%flow)
+      call new_flow(level%lubricant, 1.0_dp, level%flow)
       call level%flow%setup(level%grid, status)
       do k = 1, 2
          moves = k == 1

@@ -39,7 +39,10 @@ contains
 
    subroutine run_solver()
       call operating_point_of_table_1()
-      call shapes_are_consistent()
+      call shapes_are_consistent(1.0_dp)
+      call shapes_are_consistent(0.35177164_dp)
+      call shapes_are_consistent(36.536094_dp)
+      call shapes_are_consistent(0.004_dp)
       call lubricant_laws()
       call smooth_against_reference()
       call half_is_whole("", 1.0e-10_dp)
@@ -54,10 +57,13 @@ contains
    !> Zhang et al. 2019, Table 1: a = 0.41540 mm, p_h = 1.6602 GPa, M = 1000.0, L = 10.024
    subroutine operating_point_of_table_1()
       type(operating_t) :: point
+      class(contact_t), allocatable :: contact
       type(scales_t) :: scales
 
-      scales = hertz_scales(600.0_dp, 0.018_dp, 2.26e11_dp)
-      point = operating_from_si(600.0_dp, 0.84_dp, 0.018_dp, 2.26e11_dp, 0.04_dp, 2.2e-8_dp, scales%pressure)
+      call new_contact(1.0_dp, contact)
+      scales = hertz_scales(contact, 600.0_dp, 0.018_dp, 2.26e11_dp)
+      point = operating_from_si(600.0_dp, 0.84_dp, 0.018_dp, 2.26e11_dp, 0.04_dp, 2.2e-8_dp, scales%pressure, &
+                                contact%ellipticity, contact%kernel_factor())
       call is_close(scales%length, 4.1540e-4_dp, 1.0e-8_dp, "Hertz radius")
       call is_close(scales%pressure, 1.6602e9_dp, 1.0e5_dp, "Hertz pressure")
       call is_close(point%moes_m, 1000.0_dp, 0.05_dp, "M")
@@ -66,7 +72,8 @@ contains
    end subroutine operating_point_of_table_1
 
    !> The pressure of the dry contact carries its load, and the deflection that it causes fills its gap
-   subroutine shapes_are_consistent()
+   subroutine shapes_are_consistent(radius_ratio)
+      real(dp), intent(in) :: radius_ratio
       class(contact_t), allocatable :: contact
       class(deflection_t), allocatable :: engine
       type(grid_t) :: grid
@@ -74,14 +81,14 @@ contains
       real(dp), allocatable :: gap(:, :), p(:, :), w(:, :)
       integer :: j
 
-      call new_contact(contact)
-      grid = new_grid(129, 129, -1.5_dp, 1.5_dp, 1.5_dp, .false.)
+      call new_contact(radius_ratio, contact)
+      grid = new_grid(129, 129, -1.5_dp, 1.5_dp, 1.5_dp*contact%ellipticity, .false.)
       allocate (gap(129, 129), p(129, 129), w(129, 129))
       do j = 1, grid%ny
          call contact%gap_row(grid%columns(), grid%y(j), gap(:, j))
          call contact%pressure_row(grid%columns(), grid%y(j), p(:, j))
       end do
-      call is_close(sum(p)*grid%hx*grid%hy, contact%load(), 1.0e-3_dp, "load of the dry contact")
+      call is_close(sum(p)*grid%hx*grid%hy/contact%load(), 1.0_dp, 1.0e-3_dp, "load of the dry contact")
       call new_deflection("fft", engine, status)
       call engine%setup(grid, contact%kernel_factor(), 1.0e-8_dp, 1, status)
       call engine%apply(p, w)
@@ -184,7 +191,7 @@ contains
       level%grid = new_grid(65, 65, -2.5_dp, 1.5_dp, 2.0_dp, .false.)
       level%lubricant = new_lubricant(viscosity_roelands, density_dowson_higginson, 36.5_dp, 1.66e9_dp, 0.668_dp, 1.96e8_dp)
       level%kernel_factor = 2.0_dp/pi**2
-      call new_flow(1.0e-3_dp, level%flow)
+      call new_flow(level%lubricant, 1.0e-3_dp, level%flow)
       call level%setup(status)
       call space%setup(level%grid, level%kernel_factor, 1, status)
       do j = 2, level%grid%ny - 1
@@ -201,9 +208,9 @@ contains
          rows = [(k + l - 1, l=1, line_width)]
          furthest = maxval([(last_awake(level, rows(l)), l=1, line_width)])
          asleep = asleep + level%grid%nx - 1 - furthest
-         call solve_lines(level, space%dipole, space%near, space%near_dipole, rows, furthest, space%lines(1))
+         call solve_lines(level, space%dipole, space%shares, space%near, space%near_dipole, rows, furthest, space%lines(1))
          short = space%lines(1)%change
-         call solve_lines(level, space%dipole, space%near, space%near_dipole, rows, level%grid%nx - 1, space%lines(1))
+         call solve_lines(level, space%dipole, space%shares, space%near, space%near_dipole, rows, level%grid%nx - 1, space%lines(1))
          long = space%lines(1)%change
          call is_true(.not. any(abs(long(:, 2:furthest) - short(:, 2:furthest)) > 0.0_dp), "lines that are awake")
          call is_true(.not. any(abs(long(:, furthest + 1:level%grid%nx - 1)) > 0.0_dp), "sleeping nodes stay")
@@ -224,7 +231,7 @@ contains
       level%grid = new_grid(33, 33, -2.5_dp, 1.5_dp, 2.0_dp, .false.)
       level%lubricant = new_lubricant(viscosity_roelands, density_dowson_higginson, 36.5_dp, 1.66e9_dp, 0.668_dp, 1.96e8_dp)
       level%kernel_factor = 2.0_dp/pi**2
-      call new_flow(1.0e-3_dp, level%flow)
+      call new_flow(level%lubricant, 1.0e-3_dp, level%flow)
       call level%setup(status)
       call space%setup(level%grid, level%kernel_factor, 1, status)
       call space%prepare_steps(status)

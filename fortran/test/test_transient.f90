@@ -221,10 +221,9 @@ contains
       type(status_t), intent(inout) :: status
       type(case_t), target :: input
       type(moving_surfaces_t) :: no_surfaces
-      real(dp) :: none(0, 0)
 
       call read_case(text, "test", "", input, status)
-      call make_plan(input, none, no_surfaces, run%plan, status)
+      call make_plan(input, no_surfaces, run%plan, status)
       call run%begin(status)
       do while (run%outcome == outcome_running .and. .not. (run%roughness_is_due() .or. status%failed()))
          call run%advance(status)

@@ -7,6 +7,7 @@ program tester
    use test_sealed, only: run_sealed
    use test_case, only: run_case
    use test_deflection, only: run_deflection
+   use test_flow, only: run_flow
    use test_friction, only: run_friction
    use test_mean, only: run_mean
    use test_policy, only: run_policy
@@ -15,6 +16,7 @@ program tester
    use test_report, only: run_report
    use test_reynolds, only: run_reynolds
    use test_solver, only: run_solver
+   use test_surfaces, only: run_surfaces
    use test_text, only: run_text
    use test_transient, only: run_transient
    implicit none (type, external)
@@ -40,6 +42,10 @@ program tester
       call run_alcouffe()
    case ("mean")
       call run_mean()
+   case ("surfaces")
+      call run_surfaces()
+   case ("flow")
+      call run_flow()
    case ("friction")
       call run_friction()
    case ("policy")

@@ -4,10 +4,11 @@ module ehl_friction_mean
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: friction_mean_t, start_up, periods_compared
+   public :: friction_mean_t, start_up, periods_compared, automatic_periods
 
    !> The last period is compared with those that end earlier, one by one, by these shares of the longest lag: half a
-   !> period, or what a run that begins with the contact full of roughness asks for
+   !> period, where a period holds several ones of the slowest surface half of such a one, or what a run that begins with
+   !> the contact full of roughness asks for
    real(dp), parameter :: lags(*) = [0.25_dp, 0.5_dp, 0.75_dp, 1.0_dp]
    real(dp), parameter :: longest_lag = 0.5_dp
    !> The mean is that of one period. Where it has not settled after so many of them it is that of all periods but the
@@ -15,13 +16,17 @@ module ehl_friction_mean
    !> and since a period is no whole number of steps, each one meets other phases of them
    real(dp), parameter :: several = 20.0_dp
    integer, parameter :: start_up = 2
-   !> Periods until a mean can be compared with earlier ones
-   real(dp), parameter :: periods_compared = 1.0_dp + longest_lag
+   !> Periods of the slowest surface after which a mean that has not settled is given up; the slowest known one settled
+   !> after 21
+   integer, parameter :: automatic_periods = 36
 
    !> Friction ratio at equidistant times
    type :: friction_mean_t
       !> Period and time between values
       real(dp) :: period = 0.0_dp, time_step = 0.0_dp
+      !> Periods of the slowest surface in it, and the part of a period by which another one misses its start after it
+      integer :: repeats = 1
+      real(dp) :: mismatch = 0.0_dp
       !> Longest time between means that are compared, in periods
       real(dp) :: lag = longest_lag
       !> Time after which nothing is left of what the run began with; 0: it does not count
@@ -43,6 +48,7 @@ module ehl_friction_mean
       procedure :: has_change
       procedure :: settled
       procedure :: uncertainty
+      procedure :: window_error
       procedure :: periods
       procedure :: window
       procedure :: amplitude_ratio
@@ -50,18 +56,30 @@ module ehl_friction_mean
 
 contains
 
+   !> Periods until a mean can be compared with earlier ones
+   pure real(dp) function periods_compared(repeats)
+      !> Periods of the slowest surface in a period
+      integer, intent(in) :: repeats
+      periods_compared = 1.0_dp + longest_lag/repeats
+   end function periods_compared
+
    !> Forget all values; the roughness fills the contact after time_filled
-   subroutine start(self, period, time_step, time_filled, lag, transit)
+   subroutine start(self, period, repeats, mismatch, time_step, time_filled, lag, transit)
       class(friction_mean_t), intent(inout) :: self
       real(dp), intent(in) :: period, time_step, time_filled
-      !> Longest time between means that are compared; half a period at the most, which is the default
+      !> Periods of the slowest surface in a period, and the part of a period by which another one misses its start after it
+      integer, intent(in) :: repeats
+      real(dp), intent(in) :: mismatch
+      !> Longest time between means that are compared; half a period of the slowest at the most, which is the default
       real(dp), intent(in), optional :: lag
       !> Time after which nothing is left of what the run began with
       real(dp), intent(in), optional :: transit
 
       self%period = period
-      self%lag = longest_lag
-      if (present(lag)) self%lag = min(longest_lag, lag/period)
+      self%repeats = repeats
+      self%mismatch = mismatch
+      self%lag = longest_lag/repeats
+      if (present(lag)) self%lag = min(self%lag, lag/period)
       self%transit = 0.0_dp
       if (present(transit)) self%transit = transit
       self%time_step = time_step
@@ -209,7 +227,7 @@ contains
    end function uncertainty
 
    !> Whether the mean changes no more than by this share of it; a mean over several periods, of what has peaks
-   !> of many times itself, by this share of the largest value
+   !> of many times itself, by this share of the largest value; without a common period, than by its window too
    pure logical function settled(self, tolerance)
       class(friction_mean_t), intent(in) :: self
       real(dp), intent(in) :: tolerance
@@ -222,6 +240,19 @@ contains
          range = self%extremes()
          scale = range(2)
       end if
-      settled = self%change() <= tolerance*scale
+      settled = self%change() <= tolerance*scale + self%window_error()
    end function settled
+
+   !> Error of a mean over a time that is no common period of two surfaces. What it takes the mean of worst is a product of
+   !> waves with one period in that time, of which it holds 1 - m or 1 + m, m being the mismatch. At most
+   !> sin(pi m)/(pi (1 - m)) of the amplitude is left, which is less than m times the range for m up to a quarter.
+   pure real(dp) function window_error(self)
+      class(friction_mean_t), intent(in) :: self
+      real(dp) :: range(2)
+
+      window_error = 0.0_dp
+      if (.not. self%mismatch > 0.0_dp .or. self%n == 0) return
+      range = self%extremes()
+      window_error = self%mismatch*(range(2) - range(1))
+   end function window_error
 end module ehl_friction_mean

@@ -72,16 +72,16 @@ contains
       real(dp) :: from
 
       if (filled) then
-         steps_needed = (first_mean + start_lag + surfaces%period())/time_step
+         steps_needed = (first_mean + start_lag + surfaces%period)/time_step
          return
       end if
       from = merge(surfaces%begin(), 0.0_dp, skip)
       steps_needed = (max(0.0_dp, surfaces%time_to_mean(from)) &
-                      + merge(1.0_dp, periods_compared, surfaces%pass_once())*surfaces%period())/time_step
+                      + merge(1.0_dp, periods_compared(surfaces%repeats), surfaces%pass_once())*surfaces%period)/time_step
    end function steps_needed
 
-   !> Begin from the smooth solution of a level, the roughness riding on its film. Where the film is thick it changes
-   !> nothing: solving begins when the front, with half its length, reaches x_matters.
+   !> Begin from the solution of a level, smooth or with what is at rest, the roughness on the move riding on its film.
+   !> Where the film is thick it changes nothing: solving begins when the front, with half its length, reaches x_matters.
    subroutine start(self, level, contact, surfaces, skip, friction_smooth, status)
       class(transient_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
@@ -113,13 +113,14 @@ contains
       call self%predictor%setup(level%grid%nx, level%grid%ny, surfaces%velocities()*self%time_step/level%grid%hx, status)
       if (status%failed()) return
       do k = old_times, 1, -1
-         call surfaces%roughness(level%grid, self%time - (k - 1)*self%time_step, self%rr)
+         call surfaces%roughness(level%grid, self%time - (k - 1)*self%time_step, self%rr, moving=.true.)
          self%mass_content(:, :, k) = level%rho*(level%h - self%rr)
       end do
       self%p_before = spread(level%p, 3, 3)
       self%h00_before = level%h00
       self%m = measure(level)
-      call self%mean%start(surfaces%period(), self%time_step, surfaces%time_to_mean(self%time))
+      call self%mean%start(surfaces%period, surfaces%repeats, surfaces%mismatch, self%time_step, &
+                           surfaces%time_to_mean(self%time))
       self%extremes = extremes_t()
    end subroutine start
 
@@ -160,7 +161,8 @@ contains
       if (done) then
          self%skipped = nint(from%time/self%time_step)
          self%time = self%skipped*self%time_step
-         call self%mean%start(surfaces%period(), self%time_step, first_mean, start_lag, transit)
+         call self%mean%start(surfaces%period, surfaces%repeats, surfaces%mismatch, self%time_step, first_mean, start_lag, &
+                              transit)
       else
          self%mass_content = mass_content
          self%p_before = spread(self%p_before(:, :, 1), 3, 3)

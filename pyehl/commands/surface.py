@@ -11,6 +11,7 @@ import hashlib
 from collections.abc import Sequence
 from pathlib import Path
 
+from pyehl import namelist
 from pyehl.case import Case
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.destination import check_files, made_by, mark, new_file
@@ -48,6 +49,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "MAP.png, are written beside it",
     )
     parser.add_argument(
+        "--second", action="store_true", help="the second surface of a case, not the first"
+    )
+    parser.add_argument(
         "--plots",
         action=argparse.BooleanOptionalAction,
         default=True,
@@ -60,6 +64,8 @@ def execute(args: argparse.Namespace) -> int:
     is_case = Path(args.case).suffix.lower() == ".nml"
     if is_case:
         case = Case.read(args.case, args.overrides)
+        if args.second:
+            case = _exchanged(case)
     else:
         name = str(Path(args.case).absolute()).replace("'", "''")
         text = f"&surface kind = 'map' file = '{name}' /"
@@ -67,9 +73,10 @@ def execute(args: argparse.Namespace) -> int:
     settings = case.resolve()
     kind = settings["surface"]["kind"]
     if kind in ("smooth", *FEATURES):
+        group = "second_surface" if args.second else "surface"
         raise InputError(
-            f"{args.case}: surface.kind = '{kind}' is no tile of heights\n"
-            "expected: surface.kind = 'harmonic', 'map', 'fractal'"
+            f"{args.case}: {group}.kind = '{kind}' is no tile of heights\n"
+            f"expected: {group}.kind = 'harmonic', 'map', 'fractal'"
         )
     if args.output is not None and args.output.suffix not in SUFFIXES:
         raise InputError(
@@ -96,6 +103,15 @@ def execute(args: argparse.Namespace) -> int:
         for path in _write(surface, case, args.output, conditions if known else None, args.plots):
             print(path)
     return 0
+
+
+def _exchanged(case: Case) -> Case:
+    """Give the case with its surfaces, and their bodies, exchanged."""
+    groups = case.resolve()
+    contact = {**groups["contact"], "rough_surface": 3 - groups["contact"]["rough_surface"]}
+    second = groups.get("second_surface", {"kind": "smooth"})
+    groups |= {"contact": contact, "surface": second, "second_surface": groups["surface"]}
+    return Case.from_text(namelist.text_of(groups), origin="case with its surfaces exchanged")
 
 
 def _lines(surface: Topography) -> list[str]:

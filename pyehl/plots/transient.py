@@ -54,11 +54,13 @@ def eq_16(summary: Mapping[str, Any], settings: Mapping[str, Mapping[str, Any]])
     Returns
     -------
     float or None
-        None when the run is none that the equation is for: equal wavelengths along X and Y,
-        inside the range of the fit.
+        None when the run is none that the equation is for: one rough surface, equal wavelengths
+        along X and Y, inside the range of the fit.
     """
     surface = settings["surface"]
     film, amplitude = summary.get("H_c"), summary.get("amplitude")
+    if settings.get("second_surface", {}).get("kind", "smooth") != "smooth":
+        return None
     if surface["kind"] != "harmonic" or not film or not amplitude:
         return None
     wavelength = float(surface["wavelength_x"])

@@ -60,14 +60,21 @@ def sheet(settings: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
             for f in films
         ],
     }
-    surface = settings["surface"]
-    kind = str(surface["kind"])
-    result["surface"] = kind
-    if kind != "smooth" and kind not in surfaces.FEATURES:
-        rough = surfaces.from_settings(settings, operating, h_c)
-        result["rms_height_m"] = rough.rms_height
-        result["lambda_ratio_central"] = h_c / rough.rms_height if rough.rms_height > 0.0 else None
-    if kind == "harmonic":
+    both = [settings[group] for group in surfaces.rough_groups(settings)]
+    kinds = [str(surface["kind"]) for surface in both]
+    result["surface"] = " and ".join(kinds) or "smooth"
+    if both and not set(kinds) & set(surfaces.FEATURES):
+        # composite, as of surfaces that have nothing in common
+        sigma = math.hypot(
+            *(
+                surfaces.from_settings({**settings, "surface": surface}, operating, h_c).rms_height
+                for surface in both
+            )
+        )
+        result["rms_height_m"] = sigma
+        result["lambda_ratio_central"] = h_c / sigma if sigma > 0.0 else None
+    if kinds == ["harmonic"]:
+        surface, settings = both[0], surfaces.one_rough(settings)
         amplitude = surfaces.harmonic_amplitude(settings, operating, h_c)
         wavelength = min(float(surface["wavelength_x"]), float(surface["wavelength_y"]))
         ratio = h_c / amplitude

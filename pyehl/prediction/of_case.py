@@ -55,6 +55,7 @@ def predict(
     """
     start = time.perf_counter()
     options = _options(settings, tracks)
+    settings = surfaces.one_rough(settings)
     operating = OperatingPoint.from_settings(settings)
     lubricant = Lubricant.from_settings(settings, str(settings["psd"]["viscosity_law"]))
     velocity_ratio = float(settings["surface"]["velocity_ratio"])
@@ -113,7 +114,7 @@ def _options(settings: Mapping[str, Mapping[str, Any]], tracks: int) -> Options:
             f"--tracks {tracks}: expected 1 to {MAX_TRACKS}; the mean over {MAX_TRACKS} is known "
             "to a hundredth of the spread"
         )
-    why = unpredictable(str(settings["surface"]["kind"]))
+    why = unpredictable(settings)
     if why:
         raise InputError(why)
     options = Options.from_settings(settings)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import Any
 
-from pyehl.surfaces import FEATURES
+from pyehl.surfaces import FEATURES, one_rough, rough_groups
 
 __all__ = ["MAX_POSITIONS", "Options", "unpredictable"]
 
@@ -15,8 +15,15 @@ MAX_POSITIONS = 4096
 """Most positions of a passage, as the schema of cases has it."""
 
 
-def unpredictable(kind: str) -> str:
-    """Tell why nothing is predicted of a kind of surface; '' where something is."""
+def unpredictable(settings: Mapping[str, Mapping[str, Any]]) -> str:
+    """Tell why nothing is predicted of the surfaces of a resolved case; '' where something is."""
+    if len(rough_groups(settings)) > 1:
+        return (
+            "two rough surfaces: the prediction knows one. What is missing: the response of the "
+            "contact to roughness at each of two velocities, and the cross terms of second order "
+            "between the surfaces\nexpected: 'pyehl run', or second_surface.kind = 'smooth'"
+        )
+    kind = str(one_rough(settings)["surface"]["kind"])
     if kind == "smooth":
         return "surface.kind = 'smooth': a prediction needs a rough surface"
     if kind in FEATURES:

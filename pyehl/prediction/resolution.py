@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 from pyehl import surfaces
 from pyehl.case import Case
-from pyehl.errors import EhlError
+from pyehl.errors import EhlError, InputError
 from pyehl.prediction.by_response import RoughPassage
-from pyehl.prediction.options import Options
+from pyehl.prediction.options import Options, unpredictable
 from pyehl.prediction.smooth import solve_contact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import Topography
@@ -84,12 +84,16 @@ def resolution(case: Case, tile: Topography | None = None) -> Resolution | None:
     grid does not resolve. `tile` is the surface on its track, of a large one a part, before the
     spectrum is cut; None: made as the case says, of a large one the part of
     :func:`pyehl.surfaces.part_of`. EhlError if the smooth contact has no solution, or the
-    prediction gives no ratio; InputError or FileError if the surface is not usable.
+    prediction gives no ratio; InputError or FileError if the surface is not usable, InputError if
+    there are two rough ones and one is such a tile.
     """
-    settings = case.resolve()
-    ratio = float(settings["surface"]["velocity_ratio"])
-    if settings["surface"]["kind"] not in ("map", "fractal") or ratio == 0.0:
+    settings = surfaces.one_rough(case.resolve())
+    rough = [settings[group] for group in surfaces.rough_groups(settings)]
+    if not any(s["kind"] in ("map", "fractal") and s["velocity_ratio"] != 0.0 for s in rough):
         return None
+    if len(rough) > 1:
+        raise InputError(unpredictable(settings))
+    ratio = float(settings["surface"]["velocity_ratio"])
     operating = OperatingPoint.from_settings(settings)
     lubricant = Lubricant.from_settings(settings)
     grid = settings["grid"]

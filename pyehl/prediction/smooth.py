@@ -84,6 +84,7 @@ def _linear(places: Array, axis: Array) -> tuple[NDArray[np.intp], Array]:
 OF_SLIP = ("slide_to_roll", "rough_surface", "thermal_conductivity", "thermal_diffusivity")
 OF_SHEAR = (
     "shear_law",
+    "flow",
     "eyring_stress",
     "limiting_stress",
     "limiting_coefficient",

@@ -151,8 +151,13 @@ def plan_curve(
 def _check(settings: Settings, seeds: int, ehl: int) -> None:
     """Refuse what no curve can be made of."""
     kind = settings["surface"]["kind"]
+    if "second_surface" in surfaces.rough_groups(settings):
+        raise InputError(
+            "second_surface: a curve is predicted, and a prediction knows one rough surface\n"
+            "expected: second_surface.kind = 'smooth'"
+        )
     if kind in surfaces.FEATURES:
-        raise InputError(unpredictable(str(kind)))
+        raise InputError(unpredictable(settings))
     if kind == "smooth" and ehl:
         raise InputError(f"--ehl {ehl}: surface.kind = 'smooth' has no passage to solve")
     if seeds > 1 and kind != "fractal":

@@ -14,7 +14,7 @@ from typing import Any
 from pyehl.case import Case
 from pyehl.prediction.smooth import POINTS, smooth_case
 from pyehl.studies.tasks import Task
-from pyehl.surfaces import FEATURES
+from pyehl.surfaces import FEATURES, one_rough, rough_groups
 from pyehl.theory.operating import OperatingPoint
 
 __all__ = ["TaskList", "seconds_of", "smooth_seconds"]
@@ -44,8 +44,8 @@ def seconds_of(settings: Settings, run: str, *, shared: bool = False, full: bool
     """
     if run == "film":
         return FILM
-    surface = settings["surface"]
     if run == "predict":
+        surface = one_rough(settings)["surface"]
         pixels = int(surface["pixels"]) if surface["kind"] == "fractal" else 256
         alone = (PREDICTION + PREDICTION_PIXEL * pixels**2) * (FULL if full else 1.0)
         solved = settings["psd"]["smooth"] == "solved" and not shared
@@ -53,22 +53,24 @@ def seconds_of(settings: Settings, run: str, *, shared: bool = False, full: bool
     grid = settings["grid"]
     points = int(grid["points"])
     smooth = smooth_seconds(points)
-    velocity = float(surface["velocity_ratio"])
-    if surface["kind"] == "smooth" or velocity == 0.0:
+    rough = [settings[group] for group in rough_groups(settings)]
+    moving = [surface for surface in rough if float(surface["velocity_ratio"]) > 0.0]
+    if not moving:
         return smooth
     mesh = (float(grid["x_outlet"]) - float(grid["x_inlet"])) / (points - 1)
-    steps = int(settings["time"]["steps"]) or _time_to_settle(settings) / mesh
-    hard = 1.0 if surface["kind"] == "harmonic" else MANY_WAVES
+    # of two surfaces, whose common period may be longer, as of the slower one
+    longest = max(_time_to_settle(surface, settings) for surface in moving)
+    steps = int(settings["time"]["steps"]) or longest / mesh
+    hard = 1.0 if all(surface["kind"] == "harmonic" for surface in moving) else MANY_WAVES
     coarser = 9.0 / 8.0 if settings["time"]["estimate_error"] else 1.0
     return smooth + hard * coarser * STEP_NODE * points**2 * steps
 
 
-def _time_to_settle(settings: Settings) -> float:
+def _time_to_settle(surface: Mapping[str, Any], settings: Settings) -> float:
     """Time in a/u until the friction is known: the way into the contact and three periods.
 
     Of a single feature its way through it.
     """
-    surface = settings["surface"]
     if surface["kind"] in FEATURES:
         # from where it matters until it has left
         return (2.3 + 1.2 * float(surface.get("width", 0.5))) / float(surface["velocity_ratio"])

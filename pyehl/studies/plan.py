@@ -33,7 +33,7 @@ MOST, PATIENCE = 5000, 5.0
 CASE_BYTES = 12_000
 """Memory of a case that waits, most of it its resolved text."""
 # What may make a case that can be read one that cannot be solved
-GROUPS = ("grid", "surface", "time", "solver")
+GROUPS = ("grid", *surfaces.GROUPS, "time", "solver")
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,8 +129,8 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None, *, brief: boo
         settings = case.resolve()
         with study.named(point):
             _check(study, case, settings, checked)
-        if settings["surface"]["kind"] == "map":
-            maps[str(settings["surface"]["file"])] = None
+        both = [settings[group] for group in surfaces.GROUPS if group in settings]
+        maps |= {str(surface["file"]): None for surface in both if surface["kind"] == "map"}
         folder = "" if keep is None else str(Path(keep) / f"{point.number + 1:0{digits}d}")
         points.append(point)
         tasks.add(number, case, study.run, folder=folder, tracks=study.tracks)
@@ -145,7 +145,7 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None, *, brief: boo
 
 def _check(study: Study, case: Case, settings: Settings, checked: set[str]) -> None:
     """Refuse a case that can be read but not done, as its run would do."""
-    groups = json.dumps([settings[group] for group in GROUPS], default=str)
+    groups = json.dumps([settings.get(group) for group in GROUPS], default=str)
     known = groups in checked
     checked.add(groups)
     if study.run == "solve":
@@ -153,12 +153,13 @@ def _check(study: Study, case: Case, settings: Settings, checked: set[str]) -> N
             with Solver(case):
                 pass
         return
-    why = unpredictable(str(settings["surface"]["kind"]))
+    why = unpredictable(settings)
     if study.run == "predict" and why:
         raise InputError(why)
     film = formula_film(settings)
-    if settings["surface"]["kind"] == "map" and not known:
-        surfaces.from_settings(settings, *film)
+    for group in surfaces.rough_groups(settings):
+        if settings[group]["kind"] == "map" and not known:
+            surfaces.from_settings({**settings, "surface": settings[group]}, *film)
 
 
 def formula_film(settings: Settings) -> tuple[OperatingPoint, float]:

@@ -11,10 +11,13 @@ from pyehl.surfaces.generators import FEATURES, fractal, harmonic
 from pyehl.surfaces.in_memory import Surface, as_map, given, in_memory, keep_beside, part_of
 from pyehl.surfaces.interpolation import interpolated, resampled, shifted
 from pyehl.surfaces.of_case import (
+    GROUPS,
     finished,
     from_settings,
     harmonic_amplitude,
     moved,
+    one_rough,
+    rough_groups,
     tile_of,
     track_offsets,
     without_spikes,
@@ -22,19 +25,21 @@ from pyehl.surfaces.of_case import (
 from pyehl.surfaces.options import Options
 from pyehl.surfaces.prepare import Preparation, prepare
 from pyehl.surfaces.reading import Scan, read_scan
-from pyehl.surfaces.solver_surface import SolverSurface, for_solver
+from pyehl.surfaces.solver_surface import SolverSurface, SolverSurfaces, for_solver, gather
 from pyehl.surfaces.spectra import psd_2d, psd_isotropic, wavenumbers
 from pyehl.surfaces.tile import MAX_PIXELS, Topography
 from pyehl.surfaces.working_map import Record
 
 __all__ = [
     "FEATURES",
+    "GROUPS",
     "MAX_PIXELS",
     "Options",
     "Preparation",
     "Record",
     "Scan",
     "SolverSurface",
+    "SolverSurfaces",
     "Surface",
     "Topography",
     "as_map",
@@ -43,6 +48,7 @@ __all__ = [
     "for_solver",
     "fractal",
     "from_settings",
+    "gather",
     "given",
     "harmonic",
     "harmonic_amplitude",
@@ -50,12 +56,14 @@ __all__ = [
     "interpolated",
     "keep_beside",
     "moved",
+    "one_rough",
     "part_of",
     "prepare",
     "psd_2d",
     "psd_isotropic",
     "read_scan",
     "resampled",
+    "rough_groups",
     "shifted",
     "tile_of",
     "track_offsets",

@@ -22,7 +22,11 @@ __all__ = ["READY", "Surface", "as_map", "given", "in_memory", "keep_beside", "p
 Surface = Topography | ArrayLike
 """A tile, or heights [m] of shape (nx, ny) that have the size that the case says."""
 
-IN_MEMORY = "heights in memory"
+IN_MEMORY = {
+    "surface": "heights in memory",
+    "second_surface": "heights of the second surface in memory",
+}
+"""What a surface in memory is called in place of a file, by the group of the case."""
 READY: Mapping[str, Any] = {
     "surface.kind": "map",
     "surface.channel": "''",
@@ -44,44 +48,46 @@ LARGE_PIXELS, PART_PIXELS = 2**20, 2**18
 """Pixels of the largest tile that is looked at as a whole, and of a part of a larger one."""
 
 
-def in_memory(surface: Surface, group: Mapping[str, Any]) -> Topography:
-    """Give a surface about its mean, of an array with the size in the group ``surface``.
+def in_memory(surface: Surface, group: Mapping[str, Any], name: str = "surface") -> Topography:
+    """Give a surface about its mean, of an array with the size in the group of that name.
 
     InputError if it is none of heights, or the case does not say its size.
     """
     if not isinstance(surface, Topography):
         heights = heights_of(surface)
         size = tuple(float(group.get(f"tile_{k}") or group.get(f"length_{k}") or 0.0) for k in "xy")
-        if group["kind"] not in ("map", "fractal") or not all(size):
+        if group.get("kind") not in ("map", "fractal") or not all(size):
             raise InputError(
                 "heights are given, and the case does not say their size\n"
-                "expected: surface.kind = 'map' or 'fractal' with surface.length_x and length_y, "
+                f"expected: {name}.kind = 'map' or 'fractal' with {name}.length_x and length_y, "
                 "or pyehl.Topography(heights, size)"
             )
         surface = Topography(heights, (size[0], size[1]))
     heights = surface.heights - surface.heights.mean()
-    return replace(surface, heights=heights, origin=surface.origin or IN_MEMORY)
+    return replace(surface, heights=heights, origin=surface.origin or IN_MEMORY[name])
 
 
-def as_map(tile: Topography) -> dict[str, Any]:
+def as_map(tile: Topography, group: str = "surface") -> dict[str, Any]:
     """Options of a case with a tile in memory; they leave its track and the cut of its spectrum."""
     length_x, length_y = tile.size
-    return {
+    options = {
         **READY,
-        "surface.file": IN_MEMORY,
+        "surface.file": IN_MEMORY[group],
         "surface.tile_x": length_x,
         "surface.tile_y": length_y,
         "surface.length_x": length_x,
         "surface.length_y": length_y,
     }
+    return {key.replace("surface", group, 1): value for key, value in options.items()}
 
 
-def keep_beside(tile: Topography, case: Path) -> str:
+def keep_beside(tile: Topography, case: Path, group: str = "surface") -> str:
     """Write a tile beside a resolved case, which then names it; returns the name of the file."""
-    name = "surface.npy"
+    name = f"{group}.npy"
     np.save(case.with_name(name), tile.heights)
     text = case.read_text(encoding="utf-8")
-    changed = re.sub(rf"^(\s*file = )'.*{IN_MEMORY}'", rf"\1'{name}'", text, flags=re.MULTILINE)
+    called = IN_MEMORY[group]
+    changed = re.sub(rf"^(\s*file = )'[^']*/{called}'", rf"\1'{name}'", text, flags=re.MULTILINE)
     case.write_text(changed, encoding="utf-8")
     return name
 

@@ -22,16 +22,22 @@ from pyehl.surfaces.tile import Topography
 from pyehl.theory.operating import OperatingPoint
 
 __all__ = [
+    "GROUPS",
     "finished",
     "from_settings",
     "harmonic_amplitude",
     "moved",
+    "one_rough",
+    "rough_groups",
     "scan_of",
     "tile_of",
     "track_offsets",
     "whole",
     "without_spikes",
 ]
+
+GROUPS = ("surface", "second_surface")
+"""Groups of a case that describe a surface each."""
 
 FEWER = "fewer pixels: surface.pixels"
 # Least pixels per wavelength, and per Hertz radius, of a sampled harmonic pattern
@@ -51,6 +57,22 @@ FRACTAL = (
     "seed",
     "modulus",
 )
+
+
+def rough_groups(settings: Mapping[str, Mapping[str, Any]]) -> list[str]:
+    """Name the groups of a resolved case that describe a rough surface."""
+    return [name for name in GROUPS if settings.get(name, {}).get("kind", "smooth") != "smooth"]
+
+
+def one_rough(settings: Mapping[str, Mapping[str, Any]]) -> Mapping[str, Mapping[str, Any]]:
+    """Give a resolved case whose only rough surface is that of the group ``surface``."""
+    if rough_groups(settings) != ["second_surface"]:
+        return settings
+    return {
+        **settings,
+        "surface": settings["second_surface"],
+        "second_surface": settings["surface"],
+    }
 
 
 def harmonic_amplitude(

@@ -12,9 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl import library
-from pyehl.surfaces.in_memory import part_of
+from pyehl.errors import InputError
+from pyehl.surfaces.in_memory import given, part_of
 from pyehl.surfaces.interpolation import shift_across
-from pyehl.surfaces.of_case import moved, scan_of, whole
+from pyehl.surfaces.of_case import GROUPS, moved, scan_of, whole
 from pyehl.surfaces.options import NEUTRAL, Options
 from pyehl.surfaces.prepare import consume
 from pyehl.surfaces.reading import plain_array
@@ -23,7 +24,7 @@ from pyehl.surfaces.tile import Topography
 from pyehl.surfaces.working_map import Record
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["SolverSurface", "for_solver"]
+__all__ = ["SolverSurface", "SolverSurfaces", "for_solver", "gather"]
 
 LOG = logging.getLogger(__name__)
 
@@ -43,18 +44,64 @@ class SolverSurface:
     part: Topography | None = None
 
 
-def for_solver(settings: Mapping[str, Mapping[str, Any]]) -> SolverSurface:
-    """Make what the solver needs from Python for a resolved case.
+@dataclass(frozen=True, slots=True)
+class SolverSurfaces:
+    """What the solver needs from Python for both surfaces of a case."""
+
+    # (nx, ny) [m]; None where the solver makes or reads the surface itself
+    heights: tuple[NDArray[np.float64] | None, ...]
+    options: tuple[str, ...]  # as those of `SolverSurface`
+    preparations: dict[str, Record]  # how maps became tiles, by group
+    part: Topography | None  # what a prediction is made with, where it is not the case's surface
+
+
+def gather(
+    settings: Mapping[str, Mapping[str, Any]],
+    heights: Mapping[str, NDArray[np.float64]],
+    tiles: Mapping[str, Topography],
+) -> SolverSurfaces:
+    """Make what the solver needs from Python for both surfaces of a resolved case.
+
+    `heights` [m] by group stand in for the surfaces of the case; `tiles` are what they were made
+    of. InputError if a surface that they stand in for is none of heights; else as `for_solver`.
+    """
+    both: dict[str, SolverSurface] = {}
+    for group in GROUPS:
+        if group not in heights:
+            both[group] = for_solver(settings, group)
+            continue
+        if settings.get(group, {}).get("kind") not in ("map", "fractal"):
+            raise InputError(
+                "heights are given, and the surface of the case is none of heights\n"
+                f"expected: {group}.kind = 'map' or 'fractal'"
+            )
+        made = tiles[group].preparation if group in tiles else None
+        stand_in = given(np.asarray(heights[group], dtype=np.float64), settings[group])
+        both[group] = SolverSurface(heights[group], (), made.record if made else None, stand_in)
+    return SolverSurfaces(
+        heights=tuple(own.heights for own in both.values()),
+        options=tuple(option for own in both.values() for option in own.options),
+        preparations={group: own.preparation for group, own in both.items() if own.preparation},
+        part=next((own.part for own in both.values() if own.part is not None), None),
+    )
+
+
+def for_solver(settings: Mapping[str, Mapping[str, Any]], group: str = "surface") -> SolverSurface:
+    """Make what the solver needs from Python for the surface of a group of a resolved case.
 
     The solver makes harmonic patterns and fractal surfaces, reads arrays that need no preparation,
     and cuts their spectra itself: so these give the same bits by the program `ehl`. Only what it
     cannot read or prepare comes from here, before its spectrum is cut. InputError if a map is not
     usable; OSError if it cannot be opened.
     """
-    surface = settings["surface"]
+    if group not in settings:
+        return SolverSurface()
+    surface = settings[group]
     if surface["kind"] == "fractal" and surface.get("track"):
         # the film is the scale of harmonic patterns alone
-        made = whole(settings, OperatingPoint.from_settings(settings), film=0.0)
+        made = whole(
+            {**settings, "surface": surface}, OperatingPoint.from_settings(settings), film=0.0
+        )
         return SolverSurface(np.asfortranarray(moved(made, surface).heights))
     if surface["kind"] == "fractal":
         need = library.returned(library.surface_functions.making(int(surface["pixels"])))
@@ -63,8 +110,8 @@ def for_solver(settings: Mapping[str, Mapping[str, Any]]) -> SolverSurface:
     if surface["kind"] != "map":
         return SolverSurface()
     scan, options = scan_of(surface), Options.from_settings(surface)
-    given = surface.get("length_x") and surface.get("length_y")
-    changed = surface.get("track") or not scan.is_array or not given
+    sized = surface.get("length_x") and surface.get("length_y")
+    changed = surface.get("track") or not scan.is_array or not sized
     changed = changed or not plain_array(str(surface["file"]))
     # a large map is in memory once
     heights, record = consume(scan, options)
@@ -75,10 +122,10 @@ def for_solver(settings: Mapping[str, Mapping[str, Any]]) -> SolverSurface:
     part = part_of(heights, pixel, record.file, images=images)
     if not changed and options == NEUTRAL and not record.missing:
         return SolverSurface(preparation=record, part=part)
-    sizes = [f"surface.tile_x={x!r}", f"surface.tile_y={y!r}"]
+    sizes = [f"{group}.tile_x={x!r}", f"{group}.tile_y={y!r}"]
     if surface.get("track"):
         heights = mirrored(heights) if images else heights
         shift_across(heights, y, -float(surface["track"]))
     elif images:
-        sizes.append("surface.tile_mirrored=.true.")
+        sizes.append(f"{group}.tile_mirrored=.true.")
     return SolverSurface(np.asfortranarray(heights), tuple(sizes), record, part)

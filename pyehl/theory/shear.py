@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Shear stress of the lubricant in the contact, for friction.
 
-The same laws as in ``fortran/physics/shear.f90``. They enter friction alone: the flow that makes
-the film (the Reynolds equation) is Newtonian whatever the law.
+The same laws as in ``fortran/physics/shear.f90``, for the prediction: its film and its waves are
+those of a Newtonian lubricant, whatever the law.
 """
 
 from __future__ import annotations

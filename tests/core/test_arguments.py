@@ -159,7 +159,7 @@ def test_faults_of_the_package_stay_what_they_are(cases: Path, monkeypatch):
         with pytest.raises(ValueError, match="a fault") as caught:
             cli.main([words[0], str(cases / "table1.nml"), *words[1:]])
         assert not isinstance(caught.value, pyehl.EhlError)
-    monkeypatch.setattr("pyehl.solver.for_solver", broken)
+    monkeypatch.setattr("pyehl.solver.gather", broken)
     with pytest.raises(ValueError, match="a fault") as caught:
         pyehl.Solver(cases / "quick.nml")
     assert not isinstance(caught.value, pyehl.EhlError)

@@ -39,6 +39,7 @@ DOMAIN = "&grid points = 33 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
 MOES = f"&contact moes_m = 100.0 moes_l = 5.0 /\n{DOMAIN}"
 SI = f"&contact load = 20.0 /\n{DOMAIN}"
 WAVE = "&surface kind = 'harmonic' amplitude_over_film = 0.1 wavelength = 1.0 {} /\n"
+SECOND = WAVE.format("").replace("surface", "second_surface")
 HEATED = (
     "&lubricant thermal_reduction = .true. temperature = 60.0 kinematic_viscosity_40 = 68.0 "
     "kinematic_viscosity_100 = 8.7 density_15 = 880.0 /\n"
@@ -57,6 +58,14 @@ SOLUTIONS = {
     "at rest": SI + WAVE.format("velocity_ratio = 0.0"),
     "dent": f"{SI}&surface kind = 'dent' amplitude_over_film = 0.3 width = 1.0 /\n",
     "map": f"{SI}&surface {MAP} detrend = 'tilt' /\n&time steps = 2 /\n",
+    "two maps": (
+        f"{SI}&surface {MAP} detrend = 'tilt' /\n&second_surface {MAP} detrend = 'tilt' /\n"
+        "&time steps = 2 /\n"
+    ),
+    "two waves without a common period": (
+        f"{MOES}{WAVE.format('velocity_ratio = 1.3137')}{SECOND}&time max_periods = 6 /\n"
+    ),
+    "second surface at rest alone": f"{MOES}{SECOND.replace('0.1', '0.1 velocity_ratio = 0')}",
 }
 
 
@@ -65,7 +74,7 @@ def test_solutions(tmp_path: Path):
     np.save(tmp_path / "map.npy", 1e-9 * np.random.default_rng(1).standard_normal((16, 16)))
     written = set()
     for name, text in SOLUTIONS.items():
-        case = pyehl.Case.from_text(text.format(tmp_path / "map.npy"))
+        case = pyehl.Case.from_text(text.format(tmp_path / "map.npy", tmp_path / "map.npy"))
         pyehl.solve(case, output=tmp_path / name, check=False)
         written |= set(json.loads((tmp_path / name / "summary.json").read_text()))
     assert written == names("solution")

@@ -1,0 +1,173 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The two surfaces of a case: defaults that depend on other keys, and what each kind needs
+module ehl_case_surface
+   use ehl_case, only: case_t, is_feature, path_length, surface_case_t
+   use ehl_case_feature, only: check_arrival, check_feature, late_start
+   use ehl_files, only: absolute_path, file_exists, folder_of, is_file
+   use ehl_kinds, only: dp
+   use ehl_refusal, only: contradict, refuse, short
+   use ehl_schema, only: schema_t
+   use ehl_source, only: source_t
+   use ehl_status, only: status_t
+   use ehl_text, only: to_text
+   implicit none (type, external)
+   private
+   public :: complete_surfaces, check_surfaces
+
+   !> Size of the tile of Table 1 of Zhang et al. 2019 [m]
+   real(dp), parameter :: fractal_length = 8.29e-4_dp
+
+contains
+
+   !> Defaults of both that depend on other keys
+   subroutine complete_surfaces(schema, input)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(inout) :: input
+
+      call complete_pattern(schema, "surface", input%grid%x_inlet, input%surface)
+      call complete_pattern(schema, "second_surface", input%grid%x_inlet, input%second_surface)
+      if (.not. schema%given("surface", "x_start")) call late_start(input%surface, input%second_surface)
+      if (.not. schema%given("second_surface", "x_start")) call late_start(input%second_surface, input%surface)
+   end subroutine complete_surfaces
+
+   !> What the kinds of both need
+   subroutine check_surfaces(schema, input, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(inout) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+
+      associate (si => input%contact%si)
+         call check_surface(schema, "surface", input%surface, si, sources, status)
+         if (.not. status%failed()) call check_surface(schema, "second_surface", input%second_surface, si, sources, status)
+      end associate
+      call check_arrival(schema, "surface", input%surface, input%second_surface, sources, status)
+      call check_arrival(schema, "second_surface", input%second_surface, input%surface, sources, status)
+   end subroutine check_surfaces
+
+   !> Defaults of one that depend on other keys
+   subroutine complete_pattern(schema, group, x_inlet, s)
+      type(schema_t), intent(in) :: schema
+      character(len=*), intent(in) :: group
+      real(dp), intent(in) :: x_inlet
+      type(surface_case_t), intent(inout) :: s
+
+      if (s%kind == "fractal") then
+         if (.not. s%length_x > 0.0_dp) s%length_x = fractal_length
+         if (.not. s%length_y > 0.0_dp) s%length_y = fractal_length
+      end if
+      if (.not. schema%given(group, "wavelength_x")) s%wavelength_x = s%wavelength
+      if (.not. schema%given(group, "wavelength_y")) s%wavelength_y = s%wavelength
+      if (.not. schema%given(group, "x_start")) s%x_start = x_inlet
+      s%amplitude_given = schema%given(group, "amplitude")
+   end subroutine complete_pattern
+
+   !> What the kinds of surfaces need
+   subroutine check_surface(schema, group, s, si, sources, status)
+      type(schema_t), intent(in) :: schema
+      character(len=*), intent(in) :: group
+      type(surface_case_t), intent(inout) :: s
+      !> Whether the contact is given in SI units
+      logical, intent(in) :: si
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+
+      if (s%amplitude_given .and. schema%given(group, "amplitude_over_film")) then
+         call contradict(schema, sources, group//".amplitude", group//".amplitude_over_film", "one of the two", status)
+         return
+      end if
+      call check_feature(schema, group, s, si, sources, status)
+      if (.not. status%failed()) call check_filter(schema, group, s, sources, status)
+      if (status%failed()) return
+      if (s%kind == "map" .and. s%file == "") then
+         call refuse(schema, sources, group, "kind", group//".kind = 'map' without " &
+            // group//".file", "file = '...', a height map: .npy, text or a file of an instrument", status)
+         return
+      end if
+      call check_map_keys(schema, group, s, sources, status)
+      if (status%failed()) return
+      if (s%file /= "") call find_map(schema, group, s, sources, status)
+   end subroutine check_surface
+
+   !> A single wave or feature has no spectrum to cut, and something must be left of others
+   subroutine check_filter(schema, group, s, sources, status)
+      type(schema_t), intent(in) :: schema
+      character(len=*), intent(in) :: group
+      type(surface_case_t), intent(in) :: s
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+      character(len=20), parameter :: names(2) = [character(len=20) :: "shortest_wavelength", "longest_wavelength"]
+      real(dp) :: limits(2)
+      integer :: k
+
+      limits = [s%shortest_wavelength, s%longest_wavelength]
+      do k = 1, 2
+         if (.not. limits(k) > 0.0_dp) cycle
+         if (is_feature(s%kind)) then
+            call refuse(schema, sources, group, trim(names(k)), group//"."//trim(names(k))//": a "// &
+                        trim(s%kind)//" has a closed form, there is no spectrum to cut", &
+                        "0, or "//group//".kind = 'map' or 'fractal'", status)
+            return
+         end if
+         if (s%kind /= "harmonic") cycle
+         call refuse(schema, sources, group, trim(names(k)), group//"."//trim(names(k))// &
+                     ": a harmonic surface is a single wave, there is no spectrum to cut", &
+                     "0, or "//group//".kind = 'map' or 'fractal'", status)
+         return
+      end do
+      if (.not. limits(2) > 0.0_dp .or. limits(1) < limits(2)) return
+      call refuse(schema, sources, group, "longest_wavelength", group//".longest_wavelength = "// &
+                  short(limits(2))//" m is not longer than "//group//".shortest_wavelength = "//short(limits(1))//" m", &
+                  "a longest wavelength above the shortest one, or 0", status)
+   end subroutine check_filter
+
+   !> Keys of a map that do not go together
+   subroutine check_map_keys(schema, group, s, sources, status)
+      type(schema_t), intent(in) :: schema
+      character(len=*), intent(in) :: group
+      type(surface_case_t), intent(in) :: s
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+
+      if (s%sign == 0) then
+         call refuse(schema, sources, group, "sign", group//".sign = 0", "1 or -1", status)
+      else if (s%crop_x_max > 0.0_dp .and. s%crop_x_max <= s%crop_x_min) then
+         call refuse(schema, sources, group, "crop_x_max", group//".crop_x_max is not beyond crop_x_min", &
+                     "a larger value [m], or 0 for the end of the map", status)
+      else if (s%crop_y_max > 0.0_dp .and. s%crop_y_max <= s%crop_y_min) then
+         call refuse(schema, sources, group, "crop_y_max", group//".crop_y_max is not beyond crop_y_min", &
+                     "a larger value [m], or 0 for the end of the map", status)
+      end if
+   end subroutine check_map_keys
+
+   !> Make the name of the height map absolute; it must be there when it is used
+   subroutine find_map(schema, group, s, sources, status)
+      type(schema_t), intent(in) :: schema
+      character(len=*), intent(in) :: group
+      type(surface_case_t), intent(inout) :: s
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: path
+
+      path = trim(s%file)
+      ! A name in the case file starts at the folder of that file, an option at the working one
+      if (path(1:1) /= "/" .and. schema%keys(schema%find(group, "file"))%source == 1) then
+         path = folder_of(sources(1)%name) // path
+      end if
+      path = absolute_path(path)
+      if (len(path) > path_length) then
+         call refuse(schema, sources, group, "file", group//".file: the full name is longer " &
+            // "than " // to_text(path_length) // " characters", "a shorter path", status)
+      else if (s%kind == "map") then
+         ! the heights of a tile that pyehl has made come from it, or are kept beside the results
+         if (.not. file_exists(path) .and. .not. s%tile_x > 0.0_dp) then
+            call refuse(schema, sources, group, "file", group//".file: there is no file " // path, &
+               "a height map: .npy, text or a file of an instrument", status)
+         else if (file_exists(path)) then
+            if (.not. is_file(path)) call refuse(schema, sources, group, "file", group//".file: " // path &
+               // " is a folder, a device or a pipe", "a height map: .npy, text or a file of an instrument", status)
+         end if
+      end if
+      if (.not. status%failed()) s%file = path
+   end subroutine find_map
+end module ehl_case_surface

@@ -1,0 +1,115 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The elliptical contact of bodies with two radii (Hertz 1881; Johnson 1985, section 4.2)
+!>
+!> Lengths are scaled by the semi-axis a along the motion, the other one is kappa a. The Hertz pressure on this ellipse has
+!> the potential iint P/r = l - c_x X^2 - c_y Y^2 on it, with
+!>
+!>    c_x = pi kappa/3 R_D(0, kappa^2, 1),  c_y = pi kappa/3 R_D(0, 1, kappa^2),  l = pi kappa R_F(0, 1, kappa^2),
+!>
+!> and fills the gap X^2/2 + D Y^2/2 where the factor of the deflection is k_b = 1/(2 c_x) and R_x/R_y is D = c_y/c_x.
+module ehl_elliptical
+   use ehl_contact, only: contact_t
+   use ehl_elliptic, only: complete_rd, complete_rf
+   use ehl_film_formula, only: film_central_formula
+   use ehl_kinds, only: dp, pi
+   use ehl_scales, only: circle_factor
+   implicit none (type, external)
+   private
+   public :: elliptical_t, new_elliptical
+
+   type, extends(contact_t) :: elliptical_t
+      private
+      !> k_b, and H00 of the dry contact
+      real(dp) :: factor = 0.0_dp, separation = 0.0_dp
+   contains
+      procedure :: gap_row
+      procedure :: pressure_row
+      procedure :: load
+      procedure :: kernel_factor
+      procedure :: dry_separation
+      procedure :: film_formula
+   end type elliptical_t
+
+contains
+
+   !> The contact of a ratio of radii
+   pure function new_elliptical(radius_ratio) result(contact)
+      !> D = R_x/R_y, R_x in the plane of the motion
+      real(dp), intent(in) :: radius_ratio
+      type(elliptical_t) :: contact
+
+      contact%radius_ratio = radius_ratio
+      contact%ellipticity = ellipticity_of(radius_ratio)
+      associate (k => contact%ellipticity)
+         contact%factor = 0.5_dp/(pi*k/3.0_dp*complete_rd(k**2, 1.0_dp))
+         contact%separation = -contact%factor*pi*k*complete_rf(1.0_dp, k**2)
+      end associate
+   end function new_elliptical
+
+   !> kappa of D = R_D(0, 1, kappa^2)/R_D(0, kappa^2, 1), which falls with it: bisection of its logarithm
+   pure real(dp) function ellipticity_of(radius_ratio)
+      real(dp), intent(in) :: radius_ratio
+      real(dp) :: low, high, middle
+      integer :: k
+
+      ! kappa is D^(-2/3) within a factor of 4 for all D that the keys allow
+      middle = -2.0_dp/3.0_dp*log(radius_ratio)
+      low = middle - log(4.0_dp)
+      high = middle + log(4.0_dp)
+      do k = 1, 60
+         middle = 0.5_dp*(low + high)
+         associate (square => exp(2.0_dp*middle))
+            if (complete_rd(1.0_dp, square) > radius_ratio*complete_rd(square, 1.0_dp)) then
+               low = middle
+            else
+               high = middle
+            end if
+         end associate
+      end do
+      ellipticity_of = exp(0.5_dp*(low + high))
+   end function ellipticity_of
+
+   !> X^2/2 + D Y^2/2
+   pure subroutine gap_row(self, x, y, values)
+      class(elliptical_t), intent(in) :: self
+      real(dp), intent(in) :: x(:), y
+      real(dp), intent(out) :: values(:)
+
+      values = 0.5_dp*(x**2 + self%radius_ratio*y**2)
+   end subroutine gap_row
+
+   !> sqrt(1 - X^2 - (Y/kappa)^2), zero outside
+   pure subroutine pressure_row(self, x, y, values)
+      class(elliptical_t), intent(in) :: self
+      real(dp), intent(in) :: x(:), y
+      real(dp), intent(out) :: values(:)
+
+      values = sqrt(max(0.0_dp, 1.0_dp - x**2 - (y/self%ellipticity)**2))
+   end subroutine pressure_row
+
+   !> iint P dX dY
+   pure real(dp) function load(self)
+      class(elliptical_t), intent(in) :: self
+      load = 2.0_dp*pi/3.0_dp*self%ellipticity
+   end function load
+
+   !> 1/(2 c_x)
+   pure real(dp) function kernel_factor(self)
+      class(elliptical_t), intent(in) :: self
+      kernel_factor = self%factor
+   end function kernel_factor
+
+   !> H00 of the dry contact
+   pure real(dp) function dry_separation(self)
+      class(elliptical_t), intent(in) :: self
+      dry_separation = self%separation
+   end function dry_separation
+
+   !> Nijenbanning, Venner & Moes (1994)
+   pure real(dp) function film_formula(self, moes_m, moes_l)
+      class(elliptical_t), intent(in) :: self
+      real(dp), intent(in) :: moes_m, moes_l
+      film_formula = film_central_formula(moes_m, moes_l, self%radius_ratio, &
+                                          self%ellipticity*self%factor/circle_factor)
+   end function film_formula
+end module ehl_elliptical

@@ -1,0 +1,228 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Flow factors of a lubricant that thins by shear, exact through the film: how much more of it a gradient of pressure drives
+!> along X, the direction of the sliding, and along Y than of a Newtonian lubricant of its low-shear viscosity.
+!>
+!> With xi = z/h from -1/2 to 1/2 and stresses in units of the law's, the stress is tau(xi) = tau_m + xi S, where
+!> S = (h/stress) grad p. Its mean part follows from the sliding,
+!>
+!>    int F(|tau|) tau_x dxi = B,   int F(|tau|) tau_y dxi = 0,   B = eta |u1 - u2|/(h stress),
+!>
+!> and the factors from the flow Q = int xi F(|tau|) tau dxi:  phi_x = 12 Q_x/S_x,  phi_y = 12 Q_y/S_y.
+!>
+!> With J0 = int F, J2 = int xi^2 F, int xi F = K tau_m.S and the second of the two equations this is
+!>
+!>    phi_x = 12 [J2 + tau_mx^2 K J0/(J0 + S_y^2 K)],   phi_y = 12 [J2 - J0 (S_x tau_mx K/(J0 + S_y^2 K))^2],
+!>
+!> which holds for S_x = 0 and S_y = 0 too; K is made of divided differences of F. Limits: S -> 0 (sliding alone)
+!> phi_x = dB/dtau, phi_y = B/tau; B = 0, one direction, Eyring: 3 (s cosh s - sinh s)/s^3, s = S/2 (Conry 1981).
+!>
+!> Changes: with A, C, D = int (1, xi, xi^2) d(F tau)/dtau dxi (2 x 2) and M = D - C A^-1 C,
+!> dQ = C A^-1 (dB, 0) + M dS.
+module ehl_flow_factors
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use ehl_kinds, only: dp
+   use ehl_thinning, only: eyring, slopes, thinning_t
+   implicit none (type, external)
+   private
+   public :: factors_t, sliding_factors, exact_factors
+
+   !> Gauss points of a half of the film, and their weights
+   integer, parameter :: points = 3
+   real(dp), parameter :: xi(points) = 0.5_dp*[0.238619186083196909_dp, 0.661209386466264514_dp, 0.932469514203152028_dp]
+   real(dp), parameter :: w(points) = 0.5_dp*[0.467913934572691047_dp, 0.360761573048138608_dp, 0.171324492379170345_dp]
+   !> Steps of the Newton iteration for the mean stress; relative error of B at which it ends: the next step would leave its
+   !> square
+   integer, parameter :: most_steps = 200
+   real(dp), parameter :: enough = 1.0e-7_dp
+   !> A step is halved where the slope at its end is that of its start times this, the other way round
+   real(dp), parameter :: overshoot = 0.5_dp
+   !> Longest step where the stress is less than that
+   real(dp), parameter :: longest = 4.0_dp
+   !> Two stresses that are closer than this have a slope of F in common
+   real(dp), parameter :: close = 1.0e-4_dp
+   !> A smaller part of S counts as one of this size, which the factors notice by its square only, so that their changes are
+   !> no quotients of nothing
+   real(dp), parameter :: least_gradient = 1.0e-4_dp
+
+   type :: factors_t
+      !> phi_x, phi_y
+      real(dp) :: phi(2) = 1.0_dp
+      !> d ln(phi)/d ln(B); d ln(phi)/d ln(S) at a fixed direction of S
+      real(dp) :: by_sliding(2) = 0.0_dp, by_gradient(2) = 0.0_dp
+      !> d(phi_x S_x)/dS_x, d(phi_y S_y)/dS_y
+      real(dp) :: tangent(2) = 1.0_dp
+      !> Mean stress along X, and its change with B
+      real(dp) :: stress = 0.0_dp, stress_by_sliding = 1.0_dp
+      !> Relative error, at the most
+      real(dp) :: error = 0.0_dp
+   end type factors_t
+
+contains
+
+   !> Factors of a film that slides under a small gradient: to second order in S, their change with the sliding to none
+   pure function sliding_factors(law, b, s) result(r)
+      type(thinning_t), intent(in) :: law
+      real(dp), intent(in) :: b, s(2)
+      type(factors_t) :: r
+      !> F and its slopes in tau^2 at the stress t of the sliding alone; tau_mx - t and phi less that of the sliding alone,
+      !> each over the squares of S
+      real(dp) :: f(0:slopes), t, square, stress(2), phi_x(2), phi_y(2)
+
+      t = law%sliding_stress(b)
+      square = t**2
+      f = law%all_slopes(square)
+      r%error = law%error_of_second_order(t, s)
+      r%phi = [f(0) + 2.0_dp*f(1)*square, f(0)]
+      r%stress_by_sliding = 1.0_dp/r%phi(1)
+      r%by_sliding = 2.0_dp*square*[3.0_dp*f(1) + 2.0_dp*f(2)*square, f(1)]*f(0)/(r%phi(1)*r%phi)
+      r%by_sliding(2) = r%by_sliding(2)*r%phi(2)/f(0)
+      stress = -t/12.0_dp*[3.0_dp*f(1) + 2.0_dp*f(2)*square, f(1)]/r%phi(1)
+      phi_x = 2.0_dp*t*stress*(3.0_dp*f(1) + 2.0_dp*f(2)*square) &
+              + 0.15_dp*[f(1) + 2.0_dp*f(2)*square, f(1)] &
+              + square*[0.3_dp*f(2) + 0.2_dp*f(3)*square, 0.3_dp*f(2) - f(1)**2/(3.0_dp*f(0))]
+      phi_y = 2.0_dp*t*stress*f(1) + [0.15_dp*(f(1) + 2.0_dp*f(2)*square) - f(1)**2*square/(3.0_dp*f(0)), 0.15_dp*f(1)]
+      associate (sx => s(1)**2, sy => s(2)**2)
+         r%stress = t + stress(1)*sx + stress(2)*sy
+         r%tangent = r%phi + [3.0_dp*phi_x(1)*sx + phi_x(2)*sy, phi_y(1)*sx + 3.0_dp*phi_y(2)*sy]
+         r%by_gradient = 2.0_dp*[phi_x(1)*sx + phi_x(2)*sy, phi_y(1)*sx + phi_y(2)*sy]
+         r%phi = r%phi + 0.5_dp*r%by_gradient
+         r%by_gradient = r%by_gradient/r%phi
+      end associate
+   end function sliding_factors
+
+   !> Factors through the film for B >= 0 and a gradient S; NaNs where the mean stress is not found
+   pure function exact_factors(law, b, gradient) result(r)
+      type(thinning_t), intent(in) :: law
+      real(dp), intent(in) :: b, gradient(2)
+      type(factors_t) :: r
+      !> A, C and D as xx, xy, yy; J0 and J2
+      real(dp) :: a(3), c(3), d(3), s(2), j(0:1), k, mean(2), off(2), change(2), slope, reduced
+      integer :: step
+
+      s = sign(max(abs(gradient), least_gradient), gradient)
+      mean = [first_guess(law, b, s), 0.0_dp]
+      change = 0.0_dp
+      slope = 0.0_dp
+      do step = 1, most_steps
+         call integrals(law, mean, s, j, k, a, c, d)
+         ! without sliding the mean stress is none, by symmetry
+         if (.not. b > 0.0_dp) exit
+         off = [b, 0.0_dp] - mean*j(0) - s*k*dot_product(mean, s)
+         if (all(abs(off) <= enough*b)) then
+            ! the last step, small as it is
+            mean = mean + solve(a, off)
+            exit
+         end if
+         ! the equations are the slope of a convex function: too far along the change is where that rises steeply
+         if (dot_product(off, change) < -overshoot*slope) then
+            change = 0.5_dp*change
+            slope = 0.5_dp*slope
+            mean = mean - change
+            cycle
+         end if
+         change = solve(a, off)
+         change = change*min(1.0_dp, max(longest, norm2(mean))/norm2(change))
+         slope = dot_product(off, change)
+         mean = mean + change
+      end do
+      if (step > most_steps) then
+         r%phi = ieee_value(b, ieee_quiet_nan)
+         r%stress = r%phi(1)
+         return
+      end if
+      r%stress = mean(1)
+      reduced = mean(1)*k/(j(0) + s(2)**2*k)
+      r%phi(1) = 12.0_dp*(j(1) + mean(1)*reduced*j(0))
+      r%phi(2) = 12.0_dp*(j(1) - j(0)*(s(1)*reduced)**2)
+      call changes(b, s, a, c, d, r)
+   end function exact_factors
+
+   !> A mean stress along X that is about right
+   pure real(dp) function first_guess(law, b, s)
+      type(thinning_t), intent(in) :: law
+      real(dp), intent(in) :: b, s(2)
+      real(dp) :: half(2), f, slope
+
+      half = 0.5_dp*abs(s)
+      if (law%law == eyring) then
+         ! exact where S has no part along Y: int sinh(t + xi S) dxi = sinh(t) sinh(S/2)/(S/2)
+         call law%thinness(half(1)**2, f, slope)
+         first_guess = law%sliding_stress(b/f)
+         if (half(2) < first_guess) then
+            first_guess = sqrt(first_guess**2 - half(2)**2/3.0_dp)
+         else
+            call law%thinness(half(2)**2, f, slope)
+            first_guess = first_guess/f
+         end if
+      else
+         call law%thinness(dot_product(half, half)/3.0_dp, f, slope)
+         first_guess = law%sliding_stress(b/f)
+      end if
+   end function first_guess
+
+   !> Integrals over the film at a mean stress: J0 and J2, K, and A, C, D
+   pure subroutine integrals(law, mean, s, j, k, a, c, d)
+      type(thinning_t), intent(in) :: law
+      real(dp), intent(in) :: mean(2), s(2)
+      real(dp), intent(out) :: j(0:1), k, a(3), c(3), d(3)
+      real(dp) :: up(2), down(2), square(2), f(2), slope(2), t(2), g(3, 2)
+      integer :: p
+
+      j = 0.0_dp
+      k = 0.0_dp
+      a = 0.0_dp
+      c = 0.0_dp
+      d = 0.0_dp
+      do p = 1, points
+         up = mean + xi(p)*s
+         down = mean - xi(p)*s
+         square = [dot_product(up, up), dot_product(down, down)]
+         call law%thinness(square(1), f(1), slope(1))
+         call law%thinness(square(2), f(2), slope(2))
+         j = j + w(p)*[1.0_dp, xi(p)**2]*(f(1) + f(2))
+         t = sqrt(square)
+         if (abs(t(1) - t(2)) > close) then
+            k = k + w(p)*4.0_dp*xi(p)**2*(f(1) - f(2))/((t(1) - t(2))*(t(1) + t(2)))
+         else
+            k = k + w(p)*xi(p)**2*(slope(1) + slope(2))
+         end if
+         g(:, 1) = [f(1) + slope(1)*up(1)**2, slope(1)*up(1)*up(2), f(1) + slope(1)*up(2)**2]
+         g(:, 2) = [f(2) + slope(2)*down(1)**2, slope(2)*down(1)*down(2), f(2) + slope(2)*down(2)**2]
+         a = a + w(p)*(g(:, 1) + g(:, 2))
+         c = c + w(p)*xi(p)*(g(:, 1) - g(:, 2))
+         d = d + w(p)*xi(p)**2*(g(:, 1) + g(:, 2))
+      end do
+   end subroutine integrals
+
+   !> A^-1 v
+   pure function solve(a, v) result(x)
+      real(dp), intent(in) :: a(3), v(2)
+      real(dp) :: x(2), q
+
+      ! by elimination: the determinant of A may overflow
+      q = a(2)/a(1)
+      x(2) = (v(2) - q*v(1))/(a(3) - q*a(2))
+      x(1) = (v(1) - a(2)*x(2))/a(1)
+   end function solve
+
+   !> How the factors change
+   pure subroutine changes(b, s, a, c, d, r)
+      real(dp), intent(in) :: b, s(2), a(3), c(3), d(3)
+      type(factors_t), intent(inout) :: r
+      !> A^-1 e_x, A^-1 C, M
+      real(dp) :: by_b(2), ac(2, 2), m(3), part
+      integer :: i
+
+      by_b = solve(a, [1.0_dp, 0.0_dp])
+      ac(:, 1) = solve(a, c(1:2))
+      ac(:, 2) = solve(a, c(2:3))
+      m = d - [c(1)*ac(1, 1) + c(2)*ac(2, 1), c(1)*ac(1, 2) + c(2)*ac(2, 2), c(2)*ac(1, 2) + c(3)*ac(2, 2)]
+      r%stress_by_sliding = by_b(1)
+      r%tangent = 12.0_dp*m([1, 3])
+      do i = 1, 2
+         part = c(i)*by_b(1) + c(i + 1)*by_b(2)
+         r%by_sliding(i) = 12.0_dp*b*part/(r%phi(i)*s(i))
+         r%by_gradient(i) = (r%tangent(i) + 12.0_dp*m(2)*s(3 - i)/s(i))/r%phi(i) - 1.0_dp
+      end do
+   end subroutine changes
+end module ehl_flow_factors

@@ -1,0 +1,274 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The rough surfaces of a contact: the sum of their heights, what a grid carries of them, what they are together
+module ehl_rough_surfaces
+   use ehl_grid, only: grid_t
+   use ehl_kinds, only: dp
+   use ehl_status, only: ehl_no_memory, status_t
+   use ehl_surface, only: aliased_below, resolved_from, surface_t
+   implicit none (type, external)
+   private
+   public :: rough_surfaces_t
+
+   !> One of them
+   type :: member_t
+      !> Group of the case that describes it
+      character(len=16) :: group = ""
+      class(surface_t), allocatable :: surface
+      !> Amplitude as a share of the smooth central film; 0: it is known already
+      real(dp) :: amplitude_over_film = 0.0_dp
+   end type member_t
+
+   !> Any number of rough surfaces; none: the contact is smooth. Their heights add up.
+   type :: rough_surfaces_t
+      type(member_t), allocatable :: of(:)
+      !> Shares of the variance: in waves that the grid would alias, which are left out; in waves with fewer than eight
+      !> nodes a period, those included
+      real(dp) :: left_out = 0.0_dp, unresolved = 0.0_dp
+      !> Heights of one of several, (nx, ny)
+      real(dp), allocatable, private :: part(:, :)
+   contains
+      procedure :: add
+      procedure :: count => count_surfaces
+      procedure :: rough
+      procedure :: even_in_y
+      procedure :: has_spectrum
+      procedure :: same_on_grids
+      procedure :: use_threads
+      procedure :: see
+      procedure :: most_unresolved
+      procedure :: prepare
+      procedure :: hand_over
+      procedure :: roughness
+      procedure :: bytes
+      procedure :: bytes_on
+      procedure :: needs_film
+      procedure :: take_film
+      procedure :: rms_height
+      procedure :: rms_slope
+   end type rough_surfaces_t
+
+contains
+
+   !> Take over another surface
+   subroutine add(self, group, surface, amplitude_over_film)
+      class(rough_surfaces_t), intent(inout) :: self
+      !> Group of the case that describes it
+      character(len=*), intent(in) :: group
+      class(surface_t), allocatable, intent(inout) :: surface
+      !> Amplitude as a share of the smooth central film; 0: it is known already
+      real(dp), intent(in) :: amplitude_over_film
+      type(member_t), allocatable :: more(:)
+      integer :: k, n
+
+      n = self%count()
+      allocate (more(n + 1))
+      do k = 1, n
+         call move_alloc(self%of(k)%surface, more(k)%surface)
+         more(k)%group = self%of(k)%group
+         more(k)%amplitude_over_film = self%of(k)%amplitude_over_film
+      end do
+      call move_alloc(surface, more(n + 1)%surface)
+      more(n + 1)%group = group
+      more(n + 1)%amplitude_over_film = amplitude_over_film
+      call move_alloc(more, self%of)
+   end subroutine add
+
+   !> Number of surfaces
+   pure integer function count_surfaces(self)
+      class(rough_surfaces_t), intent(in) :: self
+      count_surfaces = 0
+      if (allocated(self%of)) count_surfaces = size(self%of)
+   end function count_surfaces
+
+   !> Whether there is a rough surface
+   pure logical function rough(self)
+      class(rough_surfaces_t), intent(in) :: self
+      rough = self%count() > 0
+   end function rough
+
+   !> Whether half the domain is enough
+   pure logical function even_in_y(self)
+      class(rough_surfaces_t), intent(in) :: self
+      integer :: k
+      even_in_y = all([(self%of(k)%surface%even_in_y, k=1, self%count())])
+   end function even_in_y
+
+   !> Whether one has waves that a grid can leave out
+   pure logical function has_spectrum(self)
+      class(rough_surfaces_t), intent(in) :: self
+      integer :: k
+      has_spectrum = any([(self%of(k)%surface%variance > 0.0_dp, k=1, self%count())])
+   end function has_spectrum
+
+   !> Whether all are single waves or features, which are the same on every grid that carries them
+   pure logical function same_on_grids(self)
+      class(rough_surfaces_t), intent(in) :: self
+      integer :: k
+      same_on_grids = all([(self%of(k)%surface%amplitude > 0.0_dp, k=1, self%count())])
+   end function same_on_grids
+
+   !> Threads for heights; they do not depend on it
+   subroutine use_threads(self, threads)
+      class(rough_surfaces_t), intent(inout) :: self
+      integer, intent(in) :: threads
+      integer :: k
+
+      do k = 1, self%count()
+         self%of(k)%surface%threads = threads
+      end do
+   end subroutine use_threads
+
+   !> What of the surfaces a grid carries: `left_out` and `unresolved`
+   subroutine see(self, grid)
+      class(rough_surfaces_t), intent(inout) :: self
+      type(grid_t), intent(in) :: grid
+
+      self%left_out = share_unresolved(self, grid, aliased_below)
+      self%unresolved = share_unresolved(self, grid, resolved_from)
+   end subroutine see
+
+   !> Share of the variance of all in waves with fewer nodes a period than that; where a variance is not known the
+   !> largest share of one
+   pure real(dp) function share_unresolved(self, grid, nodes)
+      class(rough_surfaces_t), intent(in) :: self
+      type(grid_t), intent(in) :: grid
+      real(dp), intent(in) :: nodes
+      real(dp) :: variance(self%count()), share(self%count())
+      integer :: k
+
+      do k = 1, self%count()
+         share(k) = self%of(k)%surface%unresolved(grid, nodes)
+         variance(k) = self%of(k)%surface%rms_height()**2
+      end do
+      share_unresolved = maxval(share)
+      if (self%count() > 1 .and. all(variance > 0.0_dp)) share_unresolved = sum(variance*share)/sum(variance)
+   end function share_unresolved
+
+   !> Share of the variance in waves with fewer nodes a period than that, see surface_t: that of the surface with the
+   !> largest share
+   pure real(dp) function most_unresolved(self, grid, nodes)
+      class(rough_surfaces_t), intent(in) :: self
+      type(grid_t), intent(in) :: grid
+      real(dp), intent(in) :: nodes
+      integer :: k
+
+      most_unresolved = 0.0_dp
+      do k = 1, self%count()
+         most_unresolved = max(most_unresolved, self%of(k)%surface%unresolved(grid, nodes))
+      end do
+   end function most_unresolved
+
+   !> Get ready for a grid: once, before heights are asked for
+   subroutine prepare(self, grid, status)
+      class(rough_surfaces_t), intent(inout) :: self
+      type(grid_t), intent(in) :: grid
+      type(status_t), intent(inout) :: status
+      integer :: k, stat
+
+      do k = 1, self%count()
+         call self%of(k)%surface%prepare(grid, status)
+      end do
+      if (self%count() < 2 .or. status%failed()) return
+      if (allocated(self%part)) deallocate (self%part)
+      allocate (self%part(grid%nx, grid%ny), stat=stat)
+      if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the heights of several surfaces")
+   end subroutine prepare
+
+   !> Surfaces like these for another grid; what these have been prepared for stays
+   subroutine hand_over(self, other)
+      class(rough_surfaces_t), intent(inout) :: self
+      !> Has none yet
+      class(rough_surfaces_t), intent(inout) :: other
+      class(surface_t), allocatable :: surface
+      integer :: k
+
+      do k = 1, self%count()
+         call self%of(k)%surface%hand_over(surface)
+         call other%add(self%of(k)%group, surface, 0.0_dp)
+      end do
+   end subroutine hand_over
+
+   !> rr(nx, ny): sum of the heights at the nodes, at time T [a^2/R]
+   subroutine roughness(self, grid, time, rr, moving)
+      class(rough_surfaces_t), intent(inout) :: self
+      type(grid_t), intent(in) :: grid
+      real(dp), intent(in) :: time
+      real(dp), intent(out) :: rr(:, :)
+      !> Of those alone that move, or that are at rest; at least one
+      logical, intent(in), optional :: moving
+      logical :: wanted(self%count())
+      integer :: k, first
+
+      wanted = .true.
+      if (present(moving)) wanted = [(self%of(k)%surface%at_rest() .neqv. moving, k=1, self%count())]
+      first = findloc(wanted, .true., dim=1)
+      call self%of(first)%surface%height(grid, time, rr)
+      do k = first + 1, self%count()
+         if (.not. wanted(k)) cycle
+         call self%of(k)%surface%height(grid, time, self%part)
+         rr = rr + self%part
+      end do
+   end subroutine roughness
+
+   !> Bytes of their arrays
+   pure real(dp) function bytes(self)
+      class(rough_surfaces_t), intent(in) :: self
+      integer :: k
+
+      bytes = sum([(self%of(k)%surface%bytes(), k=1, self%count())])
+      if (allocated(self%part)) bytes = bytes + 8.0_dp*size(self%part)
+   end function bytes
+
+   !> Bytes that they will take when they are prepared for a grid
+   pure real(dp) function bytes_on(self, grid)
+      class(rough_surfaces_t), intent(in) :: self
+      type(grid_t), intent(in) :: grid
+      integer :: k
+
+      bytes_on = sum([(self%of(k)%surface%bytes_on(grid), k=1, self%count())])
+      if (self%count() > 1) bytes_on = bytes_on + 8.0_dp*grid%nx*grid%ny
+   end function bytes_on
+
+   !> Whether an amplitude was given as a share of the smooth central film
+   pure logical function needs_film(self)
+      class(rough_surfaces_t), intent(in) :: self
+      needs_film = .false.
+      if (self%rough()) needs_film = any(self%of%amplitude_over_film > 0.0_dp)
+   end function needs_film
+
+   !> The smooth central film [a^2/R], for amplitudes that are a share of it
+   subroutine take_film(self, film)
+      class(rough_surfaces_t), intent(inout) :: self
+      real(dp), intent(in) :: film
+      integer :: k
+
+      do k = 1, self%count()
+         associate (member => self%of(k))
+            if (member%amplitude_over_film > 0.0_dp) member%surface%amplitude = member%amplitude_over_film*film
+         end associate
+      end do
+   end subroutine take_film
+
+   !> Root mean square of the composite heights [a^2/R], as of surfaces that have nothing in common; 0 where it is not
+   !> known, or means nothing
+   pure real(dp) function rms_height(self)
+      class(rough_surfaces_t), intent(in) :: self
+      integer :: k
+
+      rms_height = 0.0_dp
+      do k = 1, self%count()
+         rms_height = hypot(rms_height, self%of(k)%surface%rms_height())
+      end do
+   end function rms_height
+
+   !> Root mean square slope of the composite heights [a/R], as rms_height
+   pure real(dp) function rms_slope(self)
+      class(rough_surfaces_t), intent(in) :: self
+      integer :: k
+
+      rms_slope = 0.0_dp
+      do k = 1, self%count()
+         rms_slope = hypot(rms_slope, self%of(k)%surface%rms_slope())
+      end do
+   end function rms_slope
+end module ehl_rough_surfaces

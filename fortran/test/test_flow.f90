@@ -1,0 +1,173 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Flow factors of lubricants that thin: values of an independent program, closed forms, limits, and changes against
+!> differences
+module test_flow
+   use check, only: is_close, is_true
+   use ehl_flow_factors, only: exact_factors, factors_t, sliding_factors
+   use ehl_kinds, only: dp
+   use ehl_thinning, only: carreau, eyring, thinning_t
+   implicit none (type, external)
+   private
+   public :: run_flow
+
+   type(thinning_t), parameter :: by_eyring = thinning_t(eyring, 1.0_dp), by_carreau = thinning_t(carreau, 0.5_dp)
+
+contains
+
+   subroutine run_flow()
+      call values()
+      call closed_forms()
+      call limits()
+      call second_order()
+      call changes_against_differences()
+   end subroutine run_flow
+
+   !> phi_x, phi_y and the mean stress by an independent program
+   subroutine values()
+      call agree(by_eyring, 0.0_dp, [5.0_dp, 3.0_dp], [2.15284_dp, 2.15284_dp, 0.0_dp])
+      call agree(by_eyring, 1.0_dp, [2.0_dp, 2.0_dp], [1.53059_dp, 1.31352_dp, 0.743382_dp])
+      call agree(by_eyring, 100.0_dp, [1.0_dp, 1.0_dp], [97.7339_dp, 18.3347_dp, 5.25087_dp])
+      call agree(by_eyring, 1.0e5_dp, [3.0_dp, 1.0_dp], [87420.0_dp, 5744.4_dp, 11.8536_dp])
+      call agree(by_carreau, 2.0_dp, [5.0_dp, 5.0_dp], [3.06463_dp, 2.8926_dp, 0.712669_dp])
+      call agree(by_carreau, 50.0_dp, [3.0_dp, 1.0_dp], [13.9482_dp, 6.96058_dp, 6.97932_dp])
+   end subroutine values
+
+   subroutine agree(law, b, s, wanted)
+      type(thinning_t), intent(in) :: law
+      real(dp), intent(in) :: b, s(2), wanted(3)
+      type(factors_t) :: r
+
+      r = exact_factors(law, b, s)
+      call is_close(r%phi(1)/wanted(1), 1.0_dp, 1.0e-5_dp, "phi_x by another program")
+      call is_close(r%phi(2)/wanted(2), 1.0_dp, 1.0e-5_dp, "phi_y by another program")
+      call is_close(r%stress, wanted(3), 1.0e-5_dp*max(1.0_dp, wanted(3)), "mean stress by another program")
+   end subroutine agree
+
+   !> One direction, Eyring: int sinh(t + xi S) dxi and int xi sinh(t + xi S) dxi by hand
+   subroutine closed_forms()
+      real(dp), parameter :: b(4) = [0.0_dp, 1.0_dp, 1.0e3_dp, 1.0e12_dp], s(3) = [0.2_dp, 2.0_dp, 5.0_dp]
+      type(factors_t) :: r
+      real(dp) :: h, stress, phi
+      integer :: i, k
+
+      do k = 1, size(s)
+         h = 0.5_dp*s(k)
+         do i = 1, size(b)
+            stress = asinh(b(i)*h/sinh(h))
+            ! six points: the last digits go as S rises
+            phi = 3.0_dp*(h*cosh(h) - sinh(h))/h**3*cosh(stress)
+            r = exact_factors(by_eyring, b(i), [s(k), 0.0_dp])
+            call is_close(r%stress, stress, 1.0e-7_dp, "mean stress, Eyring, one direction")
+            call is_close(r%phi(1)/phi, 1.0_dp, 3.0e-7_dp, "flow factor, Eyring, one direction")
+         end do
+      end do
+      ! Newtonian: n = 1
+      r = exact_factors(thinning_t(carreau, 1.0_dp), 7.0_dp, [3.0_dp, 4.0_dp])
+      call is_close(maxval(abs(r%phi - 1.0_dp)), 0.0_dp, 1.0e-12_dp, "n = 1 is Newtonian")
+      call is_close(maxval(abs([r%by_sliding, r%by_gradient, r%tangent - 1.0_dp])), 0.0_dp, 1.0e-10_dp, "and does not change")
+      call is_close(r%stress, 7.0_dp, 1.0e-10_dp, "nor is its stress less")
+   end subroutine closed_forms
+
+   !> Little gradient: the sliding alone decides; whatever the numbers, nothing overflows and factors are at least 1
+   subroutine limits()
+      real(dp), parameter :: b(6) = [0.0_dp, 1.0e-6_dp, 0.3_dp, 20.0_dp, 1.0e6_dp, 1.0e12_dp]
+      real(dp), parameter :: s(5) = [0.0_dp, 1.0e-9_dp, 1.0_dp, 30.0_dp, 300.0_dp]
+      type(thinning_t) :: law
+      type(factors_t) :: exact, sliding
+      integer :: i, k, l, m
+
+      do l = 1, 2
+         law = merge(by_eyring, by_carreau, l == 1)
+         do i = 1, size(b)
+            sliding = sliding_factors(law, b(i), [0.0_dp, 0.0_dp])
+            call is_close(sliding%stress_by_sliding*sliding%phi(1), 1.0_dp, 1.0e-12_dp, "phi_x is dB/dtau")
+            if (b(i) > 0.0_dp) call is_close(sliding%stress*sliding%phi(2)/b(i), 1.0_dp, 1.0e-9_dp, "phi_y is B/tau")
+            exact = exact_factors(law, b(i), [1.0e-3_dp, 1.0e-3_dp])
+            call is_close(maxval(abs(exact%phi/sliding%phi - 1.0_dp)), 0.0_dp, 1.0e-6_dp, "a small gradient")
+            call is_close(maxval(abs(exact%by_sliding - sliding%by_sliding)), 0.0_dp, 2.0e-6_dp, "its change with the sliding")
+            call is_close(maxval(abs(exact%tangent/sliding%phi - 1.0_dp)), 0.0_dp, 2.0e-6_dp, "its change with the gradient")
+            do k = 1, size(s)
+               do m = 1, size(s)
+                  exact = exact_factors(law, b(i), [s(k), s(m)])
+                  call is_true(all(exact%phi > 1.0_dp - 1.0e-12_dp) .and. maxval(exact%phi) < 1.0e95_dp, "a lubricant that thins")
+                  call is_true(exact%phi(1) > exact%phi(2)*(1.0_dp - 1.0e-9_dp), "it flows the easiest along the sliding")
+                  call is_true(all(exact%tangent > 0.0_dp), "more gradient, more flow")
+               end do
+            end do
+         end do
+      end do
+   end subroutine limits
+
+   !> Factors of second order in the gradient are as right as they say
+   subroutine second_order()
+      type(thinning_t), parameter :: laws(4) = [thinning_t(eyring, 1.0_dp), thinning_t(carreau, 0.2_dp), &
+                                                thinning_t(carreau, 0.5_dp), thinning_t(carreau, 0.9_dp)]
+      type(thinning_t) :: law
+      type(factors_t) :: exact, sliding
+      real(dp) :: error, worst(2)
+      integer :: i, k, l, m
+
+      do l = 1, size(laws)
+         law = laws(l)
+         worst = 0.0_dp
+         do i = -2, 8
+            do k = -4, 6
+               do m = 0, 4
+                  associate (s => 2.0_dp**k*[cos(0.4_dp*m), sin(0.4_dp*m)])
+                     sliding = sliding_factors(law, 10.0_dp**i, s)
+                     error = sliding%error
+                     if (error > 1.0e-3_dp) cycle
+                     exact = exact_factors(law, 10.0_dp**i, s)
+                     worst(1) = max(worst(1), maxval(abs(sliding%phi/exact%phi - 1.0_dp)) - error)
+                     worst(2) = max(worst(2), abs(sliding%stress/exact%stress - 1.0_dp) - error, &
+                                    maxval(abs(sliding%tangent/exact%tangent - 1.0_dp)) - 5.0_dp*error)
+                  end associate
+               end do
+            end do
+         end do
+         call is_close(worst(1), 0.0_dp, 1.0e-6_dp, "flow factors of second order")
+         call is_close(worst(2), 0.0_dp, 1.0e-6_dp, "mean stress and change of the flow of second order")
+      end do
+   end subroutine second_order
+
+   !> Changes of ln(phi), of the flow and of the stress
+   subroutine changes_against_differences()
+      real(dp), parameter :: b(3) = [0.4_dp, 5.0_dp, 1.0e4_dp], step = 1.0e-4_dp
+      real(dp), parameter :: s(2, 4) = reshape([1.0_dp, 2.0_dp, -3.0_dp, 0.5_dp, 4.0_dp, 0.0_dp, 0.0_dp, 3.0_dp], [2, 4])
+      type(thinning_t) :: law
+      type(factors_t) :: r, up, down
+      real(dp) :: change(2)
+      integer :: i, k, l
+
+      do l = 1, 2
+         law = merge(by_eyring, by_carreau, l == 1)
+         do i = 1, size(b)
+            up = sliding_factors(law, b(i)*exp(step), [0.0_dp, 0.0_dp])
+            down = sliding_factors(law, b(i)*exp(-step), [0.0_dp, 0.0_dp])
+            r = sliding_factors(law, b(i), [0.0_dp, 0.0_dp])
+            call is_close(maxval(abs(log(up%phi/down%phi)/(2.0_dp*step) - r%by_sliding)), 0.0_dp, 1.0e-6_dp, &
+                          "change with the sliding alone")
+            do k = 1, size(s, 2)
+               r = exact_factors(law, b(i), s(:, k))
+               up = exact_factors(law, b(i)*exp(step), s(:, k))
+               down = exact_factors(law, b(i)*exp(-step), s(:, k))
+               call is_close(maxval(abs(log(up%phi/down%phi)/(2.0_dp*step) - r%by_sliding)), 0.0_dp, 1.0e-6_dp, &
+                             "change with the sliding")
+               call is_close((up%stress - down%stress)/(2.0_dp*step)/(b(i)*r%stress_by_sliding), 1.0_dp, 1.0e-6_dp, &
+                             "change of the stress")
+               up = exact_factors(law, b(i), s(:, k)*exp(step))
+               down = exact_factors(law, b(i), s(:, k)*exp(-step))
+               call is_close(maxval(abs(log(up%phi/down%phi)/(2.0_dp*step) - r%by_gradient)), 0.0_dp, 1.0e-6_dp, &
+                             "change with the gradient")
+               up = exact_factors(law, b(i), s(:, k) + [step, 0.0_dp])
+               down = exact_factors(law, b(i), s(:, k) - [step, 0.0_dp])
+               change(1) = (up%phi(1)*(s(1, k) + step) - down%phi(1)*(s(1, k) - step))/(2.0_dp*step)
+               up = exact_factors(law, b(i), s(:, k) + [0.0_dp, step])
+               down = exact_factors(law, b(i), s(:, k) - [0.0_dp, step])
+               change(2) = (up%phi(2)*(s(2, k) + step) - down%phi(2)*(s(2, k) - step))/(2.0_dp*step)
+               call is_close(maxval(abs(change/r%tangent - 1.0_dp)), 0.0_dp, 1.0e-6_dp, "change of the flow")
+            end do
+         end do
+      end do
+   end subroutine changes_against_differences
+end module test_flow

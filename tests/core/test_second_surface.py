@@ -1,0 +1,303 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The second surface of a case: its motion, both drivers, heights in memory, states, messages."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pyehl
+from pyehl import Case, Solver, cli
+from pyehl.errors import InputError
+
+CONTACT = (
+    "&contact load = 20.0 slide_to_roll = 0.5 /\n"
+    "&grid points = 65 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+)
+FRACTAL = "&{} kind = 'fractal' pixels = 32 length_x = 1e-4 length_y = 1e-4 rms_height = 5e-9 /\n"
+MAP = "&{} kind = 'map' file = '{}.npy' length_x = 8e-5 length_y = 1e-4 {} /\n"
+WAVE = "&{} kind = 'harmonic' amplitude = 2e-3 wavelength = 1 {} /\n"
+STEPS = "&time steps = {} /\n"
+
+
+@pytest.fixture
+def heights(tmp_path: Path) -> dict[str, np.ndarray]:
+    """Two maps [m], in files of their names too."""
+    rng = np.random.default_rng(5)
+    made = {name: rng.normal(scale=3e-9, size=(16, 20)) for name in ("one", "two")}
+    for name, values in made.items():
+        np.save(tmp_path / f"{name}.npy", values)
+    return made
+
+
+@pytest.mark.parametrize(
+    ("keys", "velocities", "slide_to_roll"),
+    [
+        ("", (1.01, 0.99), 0.02),
+        ("contact.rough_surface=2", (0.99, 1.01), 0.02),
+        ("contact.slide_to_roll=-0.5", (0.75, 1.25), -0.5),
+        ("surface.velocity_ratio=1.3", (1.3, 0.7), 0.6),
+        ("second_surface.velocity_ratio=1.3", (0.7, 1.3), -0.6),
+        ("contact.rough_surface=2 second_surface.velocity_ratio=1.3", (0.7, 1.3), 0.6),
+        ("surface.velocity_ratio=0.7 second_surface.velocity_ratio=1.3", (0.7, 1.3), -0.6),
+    ],
+)
+def test_velocities_follow(keys: str, velocities: tuple[float, float], slide_to_roll: float):
+    case = Case.from_text(WAVE.format("second_surface", ""), keys.split())
+    groups = case.resolve()
+    found = [groups[name]["velocity_ratio"] for name in ("surface", "second_surface")]
+    assert found == pytest.approx(velocities, rel=1e-15)
+    assert groups["contact"]["slide_to_roll"] == slide_to_roll
+    assert Case.from_text(case.text).text == case.text
+    # what followed follows anew
+    if not keys:
+        changed = case.with_options("contact.slide_to_roll=1").resolve()
+        assert changed["second_surface"]["velocity_ratio"] == 0.5
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (
+            "&surface velocity_ratio = 1.2 /\n&second_surface velocity_ratio = 0.9 /\n",
+            ["2:17", "second_surface.velocity_ratio", "1.2 and 0.9 add up to 2.1", "add up to 2"],
+        ),
+        (
+            "&contact slide_to_roll = 0.1 /\n&second_surface velocity_ratio = 0.9 /\n",
+            ["2:17", "contradicts contact.slide_to_roll", "on body 2, moves at 0.95", "= 0.2"],
+        ),
+        (
+            "&second_surface kind = 'map' file = 'missing.npy' length_x = 1e-4 length_y = 1e-4 /\n",
+            ["1:37", "second_surface.file", "missing.npy"],
+        ),
+        ("&second_surface kind = 'map' /\n", ["second_surface.kind", "second_surface.file"]),
+        ("&second_surface knid = 'map' /\n", ["1:17", "&second_surface", "'kind'"]),
+        ("&seconds_surface kind = 'map' /\n", ["1:1", "'&second_surface'"]),
+        (
+            "&second_surface kind = 'dent' height_m = 1e-7 /\n&contact moes_m = 200 /\n",
+            ["second_surface.height_m", "second_surface.amplitude"],
+        ),
+        (
+            "&contact slide_to_roll = 0.5 /\n&surface kind = 'harmonic' /\n"
+            "&second_surface kind = 'dent' x_start = -2 /\n",
+            ["3:41", "second_surface.x_start", "fills the contact", "at most"],
+        ),
+    ],
+    ids=["sum", "slip", "no file", "no name", "key", "group", "metres", "arrival"],
+)
+def test_messages(text: str, words: list[str], tmp_path: Path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(InputError) as caught:
+        Case.from_text(text)
+    for word in words:
+        assert word in str(caught.value)
+
+
+def test_feature_waits_for_the_roughness():
+    """Its front comes to X = -1.25 two a/u after that of the roughness has passed X = 1.05."""
+    text = "&contact slide_to_roll = 0.5 /\n" + WAVE.format("surface", "x_start = -3")
+    groups = Case.from_text(text + "&second_surface kind = 'ridge' length = 1 /\n").resolve()
+    arrival = (-1.25 - groups["second_surface"]["x_start"]) / 0.75
+    assert arrival == pytest.approx((1.05 + 3.0) / 1.25 + 2.0, rel=1e-14)
+    at_rest = ["contact.slide_to_roll=2", "surface.x_start=0"]
+    still = Case.from_text(text + "&second_surface kind = 'dent' /\n", at_rest).resolve()
+    assert still["second_surface"]["x_start"] == still["grid"]["x_inlet"]
+
+
+def test_too_long_a_way(heights, tmp_path: Path):
+    """What is refused names the slower surface and the periods that it takes."""
+    text = CONTACT.replace("0.5", "1.99998") + FRACTAL.format("surface")
+    case = Case.from_text(text + FRACTAL.format("second_surface"))
+    with pytest.raises(InputError, match=r"second_surface\.velocity_ratio = ") as caught:
+        Solver(case)
+    assert "expected: a velocity ratio of at least" in str(caught.value)
+
+
+SCENES = {
+    "fractal and map": FRACTAL.format("surface") + MAP.format("second_surface", "two", ""),
+    "two maps": MAP.format("surface", "one", "") + MAP.format("second_surface", "two", ""),
+    "map at rest": WAVE.format("surface", "")
+    + MAP.format("second_surface", "two", "velocity_ratio = 0"),
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_both_drivers_give_the_same_bits(drive, heights, tmp_path: Path, name: str):
+    contact = CONTACT.replace("slide_to_roll = 0.5 ", "") if "rest" in name else CONTACT
+    (tmp_path / "case.nml").write_text(contact + SCENES[name] + STEPS.format(6))
+    for driver in ("ehl", "pyehl"):
+        done = drive(driver, "case.nml", "-o", driver)
+        assert (done.returncode, done.stderr) == (1, "")
+    assert json.loads((tmp_path / "ehl" / "summary.json").read_text())["steps"] == 6
+    rr = np.load(tmp_path / "ehl" / "RR.npy")
+    assert np.ptp(rr) > 0.0
+    for field in ("RR", "P", "H", "A_d"):
+        one, other = (np.load(tmp_path / driver / f"{field}.npy") for driver in ("ehl", "pyehl"))
+        assert np.array_equal(one, other), field
+
+
+@pytest.mark.parametrize("name", ["fractal and map", "map at rest"])
+def test_resumed_to_the_same_bits(drive, heights, tmp_path: Path, name: str):
+    contact = CONTACT.replace("slide_to_roll = 0.5 ", "") if "rest" in name else CONTACT
+    (tmp_path / "case.nml").write_text(contact + SCENES[name])
+    often = ["--set", "output.checkpoint_interval=1e-3"]
+    assert drive("ehl", "case.nml", "-o", "whole", "--set", "time.steps=9").returncode == 1
+    assert drive("ehl", "case.nml", "-o", "out", *often, "--set", "time.steps=5").returncode == 1
+    shutil.copytree(tmp_path / "out.checkpoint", tmp_path / "two.checkpoint")
+    for driver, place in (("ehl", "out"), ("pyehl", "two")):
+        done = drive(driver, "--resume", place, "--set", "time.steps=9")
+        assert (done.returncode, done.stderr) == (1, "")
+        assert "after step 5" in done.stdout
+        for file in ("history.csv", "P.npy", "RR.npy"):
+            unbroken = (tmp_path / "whole" / file).read_bytes()
+            assert (tmp_path / place / file).read_bytes() == unbroken, file
+
+
+def test_heights_in_memory(heights, tmp_path: Path, monkeypatch):
+    """Arrays in place of both surfaces: as from files, and the folder solves itself again."""
+    monkeypatch.chdir(tmp_path)
+    text = CONTACT + SCENES["two maps"] + STEPS.format(4)
+    read = pyehl.solve(Case.from_text(text), check=False)
+    size = "length_x = 8e-5 length_y = 1e-4 pixels = 8 /\n"
+    empty = f"&surface kind = 'fractal' {size}&second_surface kind = 'fractal' {size}"
+    given = pyehl.solve(
+        Case.from_text(CONTACT + empty + STEPS.format(4)),
+        surface=heights["one"],
+        second_surface=pyehl.Topography(heights["two"], (8e-5, 1e-4)),
+        output=tmp_path / "out",
+        check=False,
+    )
+    # the mean is taken off in another order
+    assert given.RR.values == pytest.approx(read.RR.values, abs=1e-15)
+    assert given.P.values == pytest.approx(read.P.values, abs=1e-9)
+    files = json.loads((tmp_path / "out" / "summary.json").read_text())["files"]
+    assert {"surface.npy", "second_surface.npy"} <= set(files)
+    again = pyehl.solve(tmp_path / "out" / "case.nml", check=False)
+    assert np.array_equal(again.RR.values, given.RR.values)
+    # one alone
+    alone = Case.from_text(CONTACT + SCENES["two maps"] + STEPS.format(4))
+    other = pyehl.solve(alone, second_surface=heights["one"], check=False)
+    assert not np.array_equal(other.RR.values, read.RR.values)
+    with pytest.raises(InputError, match=r"second_surface\.length_x"):
+        Solver(Case.from_text(CONTACT), second_surface=heights["one"])
+    with pytest.raises(InputError, match=r"second_surface\.kind = 'map' or 'fractal'"):
+        Solver.open(Case.from_text(CONTACT), second_heights=heights["one"])
+
+
+def test_given_surfaces_are_kept_for_both_drivers(drive, heights, tmp_path: Path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "case.nml").write_text(CONTACT + SCENES["two maps"])
+    swapped = [heights["two"], heights["one"]]
+    with Solver.open(Case.read("case.nml"), *swapped) as solver:
+        solver.keep(tmp_path / "out")
+        while solver.summary().get("steps", 0) < 3:
+            solver.advance()
+        assert solver.save_state(at_once=True)
+    for name, values in zip(("surface", "second_surface"), swapped, strict=True):
+        assert np.array_equal(np.load(tmp_path / "out.checkpoint" / f"{name}.npy"), values)
+    shutil.copytree(tmp_path / "out.checkpoint", tmp_path / "two.checkpoint")
+    fields = []
+    for driver, place in (("ehl", "out"), ("pyehl", "two")):
+        done = drive(driver, "--resume", place, "--set", "time.steps=5")
+        assert (done.returncode, done.stderr) == (1, "")
+        fields.append(np.load(tmp_path / place / "RR.npy"))
+    assert np.array_equal(*fields)
+
+
+def test_maps_are_prepared(heights, tmp_path: Path, monkeypatch, capsys):
+    """Each map by its own keys; the plan and the summary tell of both."""
+    monkeypatch.chdir(tmp_path)
+    text = CONTACT + MAP.format("surface", "one", "detrend = 'tilt'")
+    text += MAP.format("second_surface", "two", "edges = 'mirror' track = 1e-5 sign = -1")
+    (tmp_path / "case.nml").write_text(text + STEPS.format(3))
+    assert cli.main(["run", "case.nml", "-o", "out"]) == 1
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert summary["surface_preparation"]["edges"] == "periodic"
+    assert summary["second_surface_preparation"]["edges"] == "mirror"
+    assert (tmp_path / "out" / "plan.txt").read_text().count("pixels") >= 2
+    # the same heights, prepared before
+    assert summary["surface_rms_m"] > 0.0
+    alone = Case.from_text(text + STEPS.format(3), {"surface.kind": "smooth"})
+    with Solver(alone) as solver:
+        assert list(solver.preparations) == ["second_surface"]
+
+
+def test_prediction_knows_one(heights, tmp_path: Path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    both = CONTACT + FRACTAL.format("surface") + FRACTAL.format("second_surface")
+    for words in (["predict"], ["sweep", "--run", "predict", "--vary", "contact.load=20,30"]):
+        (tmp_path / "case.nml").write_text(both)
+        assert cli.main([*words, "case.nml", "-o", "out"]) == 2
+        told = capsys.readouterr().err
+        assert "two rough surfaces" in told
+        assert "cross terms of second order" in told
+        assert not (tmp_path / "out").exists()
+    assert cli.main(["stribeck", "case.nml", "--speed", "1", "-o", "out"]) == 2
+    assert "second_surface.kind = 'smooth'" in capsys.readouterr().err
+    # one on body 2 is predicted by either name
+    second = Case.from_text(CONTACT + FRACTAL.format("second_surface"))
+    first = Case.from_text(CONTACT + FRACTAL.format("surface"), ["contact.rough_surface=2"])
+    assert pyehl.predict(second).mu_ratio == pyehl.predict(first).mu_ratio
+
+
+def test_waves_that_are_left_out_have_no_prediction(heights, tmp_path: Path):
+    """A run with two rough surfaces says that nothing is known of them."""
+    text = (
+        CONTACT.replace("65", "33") + FRACTAL.format("surface") + WAVE.format("second_surface", "")
+    )
+    with Solver(Case.from_text(text + "&time max_periods = 3 tolerance = 0.3 /\n")) as solver:
+        solver.run()
+        summary = solver.summary()
+    assert summary["status"] == "converged"
+    assert summary["variance_left_out"] > 0.1
+    assert summary["mu_ratio_error"] is None
+    assert summary["mu_ratio_error_left_out"] is None
+    assert "two rough surfaces: the prediction knows one" in summary["mu_ratio_error_note"]
+
+
+def test_second_surface_as_a_map(heights, tmp_path: Path, monkeypatch, capsys):
+    """`pyehl surface --second` shows and writes the surface of the other body."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "case.nml").write_text(CONTACT + MAP.format("second_surface", "two", ""))
+    assert cli.main(["surface", "case.nml"]) == 2
+    assert "expected: surface.kind" in capsys.readouterr().err
+    words = ["surface", "case.nml", "--second", "-o", "tile.npy", "--no-plots"]
+    assert cli.main(words) == 0
+    values = heights["two"] - heights["two"].mean()
+    assert np.load("tile.npy") == pytest.approx(values, abs=1e-20)
+    made = Case.read("tile.npy.nml").resolve()
+    assert made["surface"]["velocity_ratio"] == 0.75
+    assert cli.main([*words[:3], "--set", "second_surface.kind=smooth"]) == 2
+    assert "expected: second_surface.kind" in capsys.readouterr().err
+
+
+def test_film_over_both():
+    one = Case.from_text(CONTACT + FRACTAL.format("surface"))
+    second = Case.from_text(CONTACT + FRACTAL.format("second_surface").replace("5e-9", "1.2e-8"))
+    both = Case.from_text(one.text, {f"second_surface.{k}": v for k, v in {
+        "kind": "fractal", "pixels": 32, "length_x": 1e-4, "length_y": 1e-4, "rms_height": 1.2e-8,
+    }.items()})  # fmt: skip
+    sheets = [pyehl.film(case) for case in (one, second, both)]
+    assert [s["surface"] for s in sheets] == ["fractal", "fractal", "fractal and fractal"]
+    sigma = [s["rms_height_m"] for s in sheets]
+    assert sigma == pytest.approx([5e-9, 1.2e-8, 1.3e-8], rel=1e-9)
+    films = [s["lambda_ratio_central"] * s["rms_height_m"] for s in sheets]
+    assert films == pytest.approx([films[0]] * 3, rel=1e-12)
+
+
+def test_pictures(heights, tmp_path: Path, monkeypatch):
+    """The deformed roughness is that of both; eq. 16, which knows one, is left out."""
+    monkeypatch.chdir(tmp_path)
+    text = CONTACT + WAVE.format("surface", "") + WAVE.format("second_surface", "")
+    data = pyehl.solve(Case.from_text(text), {"time.estimate_error": False}, output="out")
+    assert data.attrs["status"] == "converged"
+    x = data.X.values[:, None]
+    ahead = [u * data.attrs["T"] - 2.5 for u in (1.25, 0.75)]
+    k, y = 2.0 * np.pi, data.Y.values
+    expected = sum(2e-3 * np.cos(k * (x - front)) for front in ahead) * np.cos(k * y)
+    assert data.RR.values == pytest.approx(expected, abs=1e-14)
+    assert {"deformed_roughness", "friction"} <= set(pyehl.plot("out"))
