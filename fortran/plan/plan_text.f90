@@ -32,6 +32,7 @@ contains
             plan%scales%pressure, " Pa"
          text = text//trim(line)//new_line("a")
       end if
+      if (.not. plan%contact%is_round()) text = text//ellipse_lines(plan)
       text = text//friction_lines(plan)
       if (plan%rests()) then
          text = text//rest_lines(plan)
@@ -98,6 +99,22 @@ contains
          if (level == plan%start) words = "solution, from the Hertz pressure"
       end function use_of
    end function plan_text
+
+   !> Shape of a contact that is not round, and of the cells of its grid
+   function ellipse_lines(plan) result(text)
+      type(plan_t), intent(in) :: plan
+      character(len=:), allocatable :: text
+      character(len=160) :: line
+
+      associate (contact => plan%contact, grid => plan%finest)
+         write (line, "(a,g0.5,a,g0.5)") "ellipse    semi-axis across the motion over a, that along it: ", contact%ellipticity, &
+            "; R_x/R_y = ", contact%radius_ratio
+         text = trim(line)//new_line("a")
+         write (line, "(a,g0.4,a)") "cells      ", grid%hy/grid%hx, " times as long across the motion as along it: "// &
+            to_text(grid%nx)//" x "//to_text(grid%full_ny())//" nodes"
+         text = text//trim(line)//new_line("a")
+      end associate
+   end function ellipse_lines
 
    !> Borders, what they cost, and whether half of it is enough
    function domain_lines(plan) result(text)

@@ -81,6 +81,12 @@ contains
          call record%set("hertz_radius_m", plan%scales%length)
          call record%set("film_scale_m", plan%scales%film)
       end if
+      if (.not. plan%contact%is_round()) then
+         call record%set("radius_ratio", plan%contact%radius_ratio)
+         call record%set("ellipticity", plan%contact%ellipticity)
+         if (plan%scales%has_size()) call record%set("semi_axis_y_m", plan%contact%ellipticity*plan%scales%length)
+         call record%set("points_y", grid%full_ny())
+      end if
       call record%set("points", grid%nx)
       call record%set("x_mesh", grid%hx)
       call record%set("y_mesh", grid%hy)

@@ -3,7 +3,7 @@
 module ehl_steady
    use ehl_contact, only: contact_t
    use ehl_cycle, only: careful_cycle, cycle_options_t
-   use ehl_far_field, only: set_far_field
+   use ehl_far_field, only: far_field_t
    use ehl_film, only: balance_load, film_residual, update_residual
    use ehl_first_approximation, only: begin_level
    use ehl_hierarchy, only: hierarchy_t
@@ -51,8 +51,9 @@ module ehl_steady
       !> Levels; central film expected [a^2/R]; algebraic error as a share of the discretisation error; relative
       !> error of H_c at which to stop, 0: on the finest grid; most cycles on a level
       integer :: levels = 0, max_cycles = 0
-      !> Whether the border has the pressure of a flooded contact
+      !> Whether the border has the pressure of a flooded contact, and which that is
       logical :: flooded = .false.
+      type(far_field_t) :: far_field
       !> Whether what fails on the finest level may begin again with care
       logical :: may_restart = .false.
       real(dp) :: film_expected = 0.0_dp, accuracy = 0.0_dp, target_error = 0.0_dp
@@ -111,6 +112,7 @@ contains
       self%target_error = target_error
       self%max_cycles = max_cycles
       self%flooded = flooded
+      if (flooded) call self%far_field%setup(contact)
       self%may_restart = may_restart
       self%first = first
       self%n = first
@@ -134,7 +136,7 @@ contains
       if (status%failed()) return
       associate (result => self%results(self%n), level => hierarchy%levels(self%n))
          before = result%m
-         if (self%flooded) call set_far_field(level, self%contact%load())
+         if (self%flooded) call self%far_field%set_border(level, self%contact%load())
          call hierarchy%cycle(self%n, self%next_cycle(), residual)
          result%cycles = result%cycles + 1
          result%m = measure(level)
