@@ -26,7 +26,7 @@ contains
       integer, intent(in) :: stand
       character(len=:), allocatable :: text
 
-      text = to_text(grid%nx)//" x "//to_text(grid%nx)//"  cycle "//to_text(result%cycles)// &
+      text = to_text(grid%nx)//" x "//to_text(grid%full_ny())//"  cycle "//to_text(result%cycles)// &
              "  H_c "//fixed(result%m%film_central, "f10.6")//"  H_min "//fixed(result%m%film_minimum, "f10.6")// &
              ending(result%residual, stand)
    end function cycle_line
@@ -52,7 +52,7 @@ contains
       integer, intent(in) :: stand
       character(len=:), allocatable :: text
 
-      text = to_text(grid%nx)//" x "//to_text(grid%nx)//"  cycle "//to_text(rest%total_cycles)// &
+      text = to_text(grid%nx)//" x "//to_text(grid%full_ny())//"  cycle "//to_text(rest%total_cycles)// &
              "  mu_r/mu_s "//fixed(rest%mu_ratio(), "f9.5")//"  H_c "//fixed(rest%m%film_central, "f10.6")// &
              "  H_min "//fixed(rest%m%film_minimum, "f10.6")//ending(rest%residual, stand)
       if (rest%share < 1.0_dp .and. .not. rest%smooth) text = text//", share of the roughness "//fixed(rest%share, "f7.4")

@@ -60,6 +60,10 @@ def sheet(settings: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
             for f in films
         ],
     }
+    if operating.radius_ratio != 1.0:
+        result["radius_ratio"] = operating.radius_ratio
+        result["ellipticity"] = operating.ellipse.ellipticity
+        result["semi_axis_y_m"] = operating.semi_axis_y
     surface = settings["surface"]
     kind = str(surface["kind"])
     result["surface"] = kind
@@ -67,7 +71,7 @@ def sheet(settings: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
         rough = surfaces.from_settings(settings, operating, h_c)
         result["rms_height_m"] = rough.rms_height
         result["lambda_ratio_central"] = h_c / rough.rms_height if rough.rms_height > 0.0 else None
-    if kind == "harmonic":
+    if kind == "harmonic" and operating.radius_ratio == 1.0:
         amplitude = surfaces.harmonic_amplitude(settings, operating, h_c)
         wavelength = min(float(surface["wavelength_x"]), float(surface["wavelength_y"]))
         ratio = h_c / amplitude

@@ -64,6 +64,7 @@ def predict(
     if why:
         raise InputError(why)
     operating = OperatingPoint.from_settings(settings)
+    operating.need_round("the prediction")
     lubricant = Lubricant.from_settings(settings, str(settings["psd"]["viscosity_law"]))
     options = Options.from_settings(settings)
     if not options.as_in_paper and (options.load_balance or options.stiffness == "paper"):

@@ -91,6 +91,7 @@ def resolution(case: Case, tile: Topography | None = None) -> Resolution | None:
     if settings["surface"]["kind"] not in ("map", "fractal") or ratio == 0.0:
         return None
     operating = OperatingPoint.from_settings(settings)
+    operating.need_round("the prediction of waves that the grid does not resolve")
     lubricant = Lubricant.from_settings(settings)
     grid = settings["grid"]
     mesh = max(float(grid["x_outlet"]) - float(grid["x_inlet"]), 2.0 * float(grid["y_extent"])) / (
