@@ -29,6 +29,7 @@ contains
              fixed(plan%point%speed_parameter, "es9.3")
       if (plan%scales%has_size()) call add("           a = "//fixed(plan%scales%length, "es10.4")//" m, p_h = "// &
                                             fixed(plan%scales%pressure, "es10.4")//" Pa")
+      if (.not. plan%contact%is_round()) call tell_ellipse()
       call tell_friction()
       if (plan%surfaces%rough()) then
          call add(scene_lines(plan%surfaces))
@@ -63,6 +64,16 @@ contains
          character(len=*), intent(in) :: line
          text = text//newline//line
       end subroutine add
+
+      !> Shape of a contact that is not round, and of the cells of its grid
+      subroutine tell_ellipse()
+         associate (contact => plan%contact, g => plan%finest)
+            call add("ellipse    semi-axis across the motion over a, that along it: "//fixed(contact%ellipticity, "g0.5")// &
+                     "; R_x/R_y = "//fixed(contact%radius_ratio, "g0.5"))
+            call add("cells      "//fixed(g%hy/g%hx, "g0.4")//" times as long across the motion as along it: "// &
+                     to_text(g%nx)//" x "//to_text(g%full_ny())//" nodes")
+         end associate
+      end subroutine tell_ellipse
 
       !> Sliding and shear law, and the heat of the inlet where it counts
       subroutine tell_friction()
