@@ -123,14 +123,17 @@ contains
       character(len=:), allocatable :: text
       character(len=128) :: line
       integer :: k
+      logical :: known
 
       text = ""
       associate (surfaces => plan%surfaces)
+         ! an amplitude that is a share of the film is not known at first
+         known = all([(surfaces%of(k)%surface%rms_height() > 0.0_dp, k=1, surfaces%count())])
          if (surfaces%has_spectrum() .and. plan%contact%has_size()) then
             do k = 1, surfaces%count()
                text = text//height_line(surfaces%of(k)%surface, plan%contact%film_scale)
             end do
-            if (surfaces%count() > 1 .and. surfaces%rms_height() > 0.0_dp) then
+            if (surfaces%count() > 1 .and. known) then
                write (line, "(a,es9.2,a,f8.5)") "surface    composite rms height ", surfaces%rms_height()*plan%contact%film_scale, &
                   " m, rms slope ", surfaces%rms_slope()*plan%contact%film_scale/plan%contact%radius
                text = text//trim(line)//new_line("a")

@@ -108,6 +108,8 @@ contains
       if (.not. film > 0.0_dp) film = film_by_finer_grids(self, status)
       if (status%failed()) return
       call self%plan%surfaces%take_film(film)
+      ! shares of the variance of both know both amplitudes now
+      call self%plan%surfaces%see(self%grid)
    end subroutine set_amplitude
 
    !> Extrapolated central film of the smooth contact; 0 where its grid error is too large for that
