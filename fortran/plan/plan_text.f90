@@ -239,7 +239,11 @@ contains
             write (line, "(a,es10.3,a)") " (", abs(s%slide_to_roll)*s%mean_velocity, " m/s)"
             text = text//trim(line)
          end if
-         text = text//"; the flow is Newtonian"//new_line("a")
+         if (plan%lubricant%shear%thins_flow()) then
+            text = text//"; the flow obeys it, too"//new_line("a")
+         else
+            text = text//"; the flow is Newtonian"//new_line("a")
+         end if
          if (.not. s%loading > 0.0_dp) return
          write (line, "(a,f7.4,a,es10.3,a)") "heat       shear heating of the inlet (Gupta et al. 1992): film times ", &
             s%reduction, " by an inlet viscosity of ", s%inlet_viscosity, " Pa s, which M and L belong to"
