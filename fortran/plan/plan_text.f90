@@ -77,13 +77,15 @@ contains
 
       !> Sliding and shear law, and the heat of the inlet where it counts
       subroutine tell_friction()
-         character(len=:), allocatable :: speed
+         character(len=:), allocatable :: speed, flow
 
          associate (s => plan%sliding)
+            flow = "the flow is Newtonian"
+            if (plan%lubricant%shear%thins_flow()) flow = "the flow obeys it, too"
             speed = ""
             if (s%mean_velocity > 0.0_dp) speed = " ("//fixed(abs(s%slide_to_roll)*s%mean_velocity, "es10.3")//" m/s)"
             call add("friction   "//trim(s%law)//" shear stress, slide-to-roll ratio "//fixed(s%slide_to_roll, "f8.4")// &
-                     speed//"; the flow is Newtonian")
+                     speed//"; "//flow)
             if (s%loading > 0.0_dp) call add("heat       shear heating of the inlet (Gupta et al. 1992): film times "// &
                fixed(s%reduction, "f7.4")//" by an inlet viscosity of "//fixed(s%inlet_viscosity, "es10.3")// &
                " Pa s, which M and L belong to")
