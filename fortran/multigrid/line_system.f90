@@ -110,10 +110,12 @@ contains
       !> Response of rho H at nodes i, i-1, i-2 to unit changes at their columns -2..2
       real(dp) :: s(line_width, -nr:nr, 0:2)
       real(dp) :: c(0:line_reach), c_first(0:line_reach), c_interior(0:line_reach)
-      real(dp) :: pivot(line_width)
+      real(dp) :: pivot(line_width), apart(2)
       real(dp) :: east, west, re, rw, pe, pw, r, t, d, active, em4, em3, em2, em1, e0, e1, e2
       integer :: i, l, now, last, former
 
+      ! nothing where cells are square
+      apart = shares - 0.25_dp
       call level%wedge%line_weights(c_first, c_interior)
       upper(:, :, -3:1) = 0.0_dp
       change(:, -3:1) = 0.0_dp
@@ -153,7 +155,8 @@ contains
                              - c(0)*s(l, -1, now) - c(1)*s(l, 0, last) - c(2)*s(l, 1, former))
                e0 = active*((g(l, f_other, i) - east - west)*(1.0_dp + 0.25_dp*g(l, f_dipole, i)) &
                             + g(l, f_gain, i)*(re*pe + rw*pw + g(l, f_other_rate, i)) &
-                            - c(0)*s(l, 0, now) - c(1)*s(l, 1, last) - c(2)*s(l, 2, former)) + (1.0_dp - active)
+                            - c(0)*s(l, 0, now) - c(1)*s(l, 1, last) - c(2)*s(l, 2, former)) &
+                     + ((1.0_dp - active) + active*g(l, f_dipole, i)*(apart(2)*g(l, f_other, i) - apart(1)*(east + west)))
                e1 = active*(east*(1.0_dp + g(l, f_dipole, i + 1)) + re*g(l, f_gain, i + 1)*pe &
                             - c(0)*s(l, 1, now) - c(1)*s(l, 2, last))
                e2 = -active*(shares(1)*east*g(l, f_dipole, i + 2) + c(0)*s(l, 2, now))
