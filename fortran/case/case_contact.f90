@@ -28,7 +28,7 @@ module ehl_case_contact
    !> Fewest intervals along Y of a coarsest grid
    integer, parameter :: fewest_rows = 8
    !> Least and largest ratio of the sides of a cell
-   real(dp), parameter :: least_ratio = 0.25_dp, largest_ratio = 2.0_dp
+   real(dp), parameter :: least_ratio = 0.25_dp, largest_ratio = 1.5_dp
    !> Difference of velocity ratios that is none
    real(dp), parameter :: rounding = 1.0e-9_dp
 
