@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import check
 from pyehl.given import path_of, text_of
-from pyehl.library import ehl, returned
+from pyehl.library import ehl, predicted, returned
 
 __all__ = ["SolverHandle", "Work"]
 
@@ -250,11 +250,11 @@ class SolverHandle:
         why
             Why there is none.
         """
-        self._call(ehl.take_prediction, left_out, unresolved, why.encode())
+        self._call(predicted.take_prediction, left_out, unresolved, why.encode())
 
     def start_fronts(self) -> list[float]:
         """Positions of the front [a] at which `take_start` is to give a pressure; mostly none."""
-        fronts, n = self._call(ehl.start_fronts)
+        fronts, n = self._call(predicted.start_fronts)
         return [float(x) for x in fronts[:n]]
 
     def take_start(self, pressure: Array | None, why: str = "") -> None:
@@ -268,7 +268,7 @@ class SolverHandle:
             Why there is none.
         """
         given = np.zeros((1, 1, 4), order="F") if pressure is None else pressure
-        self._call(ehl.take_start, why.encode(), given)
+        self._call(predicted.take_start, why.encode(), given)
 
     def _write(self, folder: str | os.PathLike[str]) -> None:
         self._act("write", folder)

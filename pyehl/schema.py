@@ -41,12 +41,15 @@ spfr | moes_l | - | Moes material number L
 sf | alpha_bar | - | alpha p_h
 sf | speed_parameter | - | 12 eta0 u R^2/(a^3 p_h)
 spf | hertz_pressure_Pa | Pa | p_h
-spf | hertz_radius_m | m | a
+spf | hertz_radius_m | m | a, of an ellipse its semi-axis along the motion
 spf | film_scale_m | m | a^2/R
+sf | radius_ratio | - | R_x/R_y of an elliptical contact
+sf | ellipticity | - | semi-axis of the dry contact across the motion over that along it
+sf | semi_axis_y_m | m | semi-axis of the dry contact across the motion
 pf | si | | whether the case was given in SI units
 f | load_N | N | load w
 f | mean_velocity_m_per_s | m/s | mean velocity u
-f | radius_m | m | reduced radius R
+f | radius_m | m | reduced radius R, of an elliptical contact R_x
 f | reduced_modulus_Pa | Pa | E', 2/E' = sum of (1 - nu^2)/E
 f | viscosity_Pa_s | Pa s | viscosity eta0 of the inlet
 f | viscosity_ambient_Pa_s | Pa s | viscosity at the inlet temperature, without shear heating
@@ -54,7 +57,8 @@ f | pressure_viscosity_per_Pa | 1/Pa | alpha
 f | U | - | eta0 u/(E' R)
 f | G | - | alpha E'
 f | W | - | w/(E' R^2)
-s | points | - | nodes per side
+s | points | - | nodes along X, and per side in a round contact
+s | points_y | - | nodes along Y in an elliptical contact
 s | x_mesh | a | mesh size along X
 s | y_mesh | a | mesh size along Y
 s | half_domain | | whether only Y >= 0 was solved

@@ -14,14 +14,12 @@ module ehl_f2py_solver
    use ehl_grid, only: grid_t
    use ehl_handles, only: drop_handle, new_handle, reply, run_of, run_t
    use ehl_plan_text, only: plan_text
-   use ehl_predicted_start, only: fronts_at_start => start_fronts
    use ehl_result_folder, only: write_results
-   use ehl_ratio_error, only: waves_t
    use ehl_record, only: record_t
    use ehl_status, only: ehl_bad_input, ehl_internal, status_t
    implicit none (type, external)
    private
-   public :: open_case, close_case, advance, act, keep, describe, work, take_prediction, start_fronts, take_start
+   public :: open_case, close_case, advance, act, keep, describe, work
    public :: grid_shape, axes, field
 
 contains
@@ -194,70 +192,6 @@ contains
       if (.not. status%failed()) call run%solver%work(done, earliest, latest)
       call reply(status, stat, message)
    end subroutine work
-
-   !> Hand over what is predicted of mu_ratio: its parts in waves that the grid leaves out, and in those that it does not
-   !> resolve; NaN where there is no prediction, and why
-   subroutine take_prediction(handle, left_out, unresolved, why, stat, message)
-      integer(c_int), intent(in) :: handle
-      real(c_double), intent(in) :: left_out, unresolved
-      character(len=*), intent(in) :: why
-      integer(c_int), intent(out) :: stat
-      character(len=4096), intent(out) :: message
-      type(run_t), pointer :: run
-      type(status_t) :: status
-
-      call run_of(handle, run, status)
-      if (.not. status%failed()) run%solver%waves = waves_t(.true., left_out, unresolved, why)
-      call reply(status, stat, message)
-   end subroutine take_prediction
-
-   !> Positions of the front [a] for which the pressure that the roughness adds is asked, to begin time steps with; n is 0
-   !> where nothing is asked
-   subroutine start_fronts(handle, fronts, n, stat, message)
-      integer(c_int), intent(in) :: handle
-      real(c_double), intent(out) :: fronts(4)
-      integer(c_int), intent(out) :: n, stat
-      character(len=4096), intent(out) :: message
-      type(run_t), pointer :: run
-      type(status_t) :: status
-
-      n = 0
-      fronts = 0.0_c_double
-      call run_of(handle, run, status)
-      if (.not. status%failed()) then
-         associate (plan => run%solver%plan)
-            if (plan%predicted_start) then
-               n = size(fronts)
-               fronts = fronts_at_start(plan%surfaces, plan%finest)
-            end if
-         end associate
-      end if
-      call reply(status, stat, message)
-   end subroutine start_fronts
-
-   !> Hand that pressure [p_h] over, on the whole finest grid, or why there is none
-   subroutine take_start(handle, why, nx, ny, pressure, stat, message)
-      integer(c_int), intent(in) :: handle, nx, ny
-      character(len=*), intent(in) :: why
-      real(c_double), intent(inout) :: pressure(nx, ny, 4)
-      integer(c_int), intent(out) :: stat
-      character(len=4096), intent(out) :: message
-      type(run_t), pointer :: run
-      type(status_t) :: status
-
-      call run_of(handle, run, status)
-      if (why == "" .and. .not. status%failed()) call check_shape(run, nx, ny, status)
-      if (.not. status%failed()) then
-         associate (solver => run%solver)
-            if (why /= "") then
-               solver%why_front = why
-            else
-               call solver%predicted%take(solver%plan%surfaces, solver%plan%finest, pressure)
-            end if
-         end associate
-      end if
-      call reply(status, stat, message)
-   end subroutine take_start
 
    !> Nodes of the whole (unfolded) finest grid
    subroutine grid_shape(handle, nx, ny, stat, message)

@@ -3,7 +3,8 @@
 !> keys, and operating points that cannot be meant
 module ehl_case_check
    use ehl_case, only: case_t
-   use ehl_case_contact, only: check_contact_kind, check_operating_point, complete_domain, complete_kinematics
+   use ehl_case_contact, only: check_contact_kind, check_extent, check_operating_point, complete_domain, &
+                               complete_kinematics
    use ehl_case_lubricant, only: check_shear_law, complete_lubricant
    use ehl_case_radii, only: complete_radii
    use ehl_case_surface, only: check_surfaces, complete_surfaces
@@ -33,6 +34,7 @@ contains
       if (.not. status%failed()) call complete_viscosity(schema, input, sources, status)
       if (.not. status%failed()) call check_operating_point(schema, input, sources, status)
       if (.not. status%failed()) call complete_domain(schema, input)
+      if (.not. status%failed()) call check_extent(schema, input, sources, status)
       if (.not. status%failed()) call complete_kinematics(schema, input, sources, status)
       if (.not. status%failed()) call complete_lubricant(schema, input, sources, status)
       if (.not. status%failed()) call check_shear_law(schema, input, sources, status)

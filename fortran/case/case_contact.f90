@@ -17,15 +17,18 @@ module ehl_case_contact
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: check_contact_kind, check_operating_point, complete_domain, complete_kinematics, find_contact
+   public :: check_contact_kind, check_operating_point, check_extent, complete_domain, complete_kinematics, &
+             find_contact
 
    character(len=12), parameter :: moes_keys(3) = [character(len=12) :: "moes_m", "moes_l", "radius_ratio"]
    character(len=16), parameter :: si_keys(6) = &
       [character(len=16) :: "load", "mean_velocity", "radius", "reduced_modulus", "radius_x", "radius_y"]
+   !> Least distance of the sides of the domain, in terms of the contact
+   real(dp), parameter :: beyond_contact = 1.05_dp
    !> Fewest intervals along Y of a coarsest grid
    integer, parameter :: fewest_rows = 8
    !> Least and largest ratio of the sides of a cell
-   real(dp), parameter :: least_ratio = 0.25_dp, largest_ratio = 2.0_dp
+   real(dp), parameter :: least_ratio = 0.25_dp, largest_ratio = 1.5_dp
    !> Difference of velocity ratios that is none
    real(dp), parameter :: rounding = 1.0e-9_dp
 
@@ -110,6 +113,24 @@ contains
       end associate
    end subroutine find_contact
 
+   !> The domain must hold the contact
+   subroutine check_extent(schema, input, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(in) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+      class(contact_t), allocatable :: contact
+      type(scales_t) :: scales
+      type(operating_t) :: point
+
+      call find_contact(input, contact, scales, point)
+      associate (least => beyond_contact*contact%ellipticity)
+         if (input%grid%y_extent >= least) return
+         call refuse(schema, sources, "grid", "y_extent", "grid.y_extent = " // to_text(input%grid%y_extent) // " a, and the " &
+                     // "contact reaches to Y = " // short(contact%ellipticity) // " a", "at least " // short(least), status)
+      end associate
+   end subroutine check_extent
+
    !> Border and domain follow from the operating point, side by side, unless they are given
    subroutine complete_domain(schema, input)
       type(schema_t), intent(in) :: schema
@@ -135,7 +156,7 @@ contains
       integer :: levels, intervals(2), halved
 
       rows = input%grid%points
-      if (.not. abs(contact%radius_ratio - 1.0_dp) > 0.0_dp) return
+      if (contact%is_round()) return
       call find_levels(rows, rows, levels, intervals)
       if (levels == 0) return
       halved = (rows - 1)/intervals(1)

@@ -12,6 +12,7 @@ module ehl_contact
       !> Semi-axis of the dry contact across the motion over that along it; D = R_x/R_y
       real(dp) :: ellipticity = 1.0_dp, radius_ratio = 1.0_dp
    contains
+      procedure :: is_round
       procedure(row), deferred :: gap_row
       procedure(row), deferred :: pressure_row
       procedure(number), deferred :: load
@@ -47,4 +48,12 @@ module ehl_contact
          real(dp), intent(in) :: moes_m, moes_l
       end function film
    end interface
+
+contains
+
+   !> Whether nothing tells X from Y
+   pure logical function is_round(self)
+      class(contact_t), intent(in) :: self
+      is_round = .not. abs(self%radius_ratio - 1.0_dp) > 0.0_dp
+   end function is_round
 end module ehl_contact

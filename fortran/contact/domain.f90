@@ -15,6 +15,7 @@ module ehl_domain
    use ehl_contact, only: contact_t
    use ehl_kinds, only: dp, pi
    use ehl_moes, only: operating_t
+   use ehl_scales, only: circle_factor
    implicit none (type, external)
    private
    public :: domain_t, flooded_by_default, needed_domain, domain_cost, ratio_cost, too_small
@@ -45,6 +46,9 @@ module ehl_domain
    !> formula has none and the elastic dent counts
    real(dp), parameter :: load_beyond_inlet = 1.0_dp, load_beyond_sides = 0.25_dp, least_sensitivity = 0.5_dp, &
                           dented_below = 5.5_dp
+   !> Around an ellipse the bodies are deflected as much further out as kappa k_b is larger than that of a round contact:
+   !> what that costs with a flooded border, at the most, and with P = 0, where a narrow contact costs more, too
+   real(dp), parameter :: most_wide = 4.0_dp, wide_power = 0.25_dp
    !> Points of an integral
    integer, parameter :: points = 100
 
@@ -93,23 +97,26 @@ contains
       type(domain_t), intent(in) :: domain
       logical, intent(in) :: flooded
       real(dp) :: cost(2)
-      real(dp) :: film, length, whole, inlet, load, sides
+      real(dp) :: film, length, whole, inlet, load, sides, side, width
 
+      side = domain%side/sides_over_round(contact)
+      width = contact%ellipticity*contact%kernel_factor()/circle_factor
       film = contact%film_formula(point%moes_m, point%moes_l)
       associate (lambda_bar => point%speed_parameter)
          if (flooded) then
             length = sqrt(2.0_dp*film)
-            load = lambda_bar*length**2*(load_by_sides/domain%side**3 + load_by_inlet/abs(domain%inlet)**3)
+            load = lambda_bar*length**2*(load_by_sides/side**3 + load_by_inlet/abs(domain%inlet)**3)
             cost(1) = load*max(least_by_load, by_load/(1.0_dp + (point%round_m/half_by_load)**2)) &
-                      + by_inlet*min(length, thin)**inlet_power*(2.5_dp/abs(domain%inlet))**5
+                      + by_inlet*min(most_wide, max(1.0_dp, width))*min(length, thin)**inlet_power*(2.5_dp/abs(domain%inlet))**5
             cost(2) = minimum_over_central*cost(1)
          else
             whole = pressure_gain(1.0_dp, film)
             inlet = pressure_gain(-domain%inlet, film)/whole
-            sides = pressure_gain(domain%side, film)/whole
-            load = lambda_bar*(load_beyond_inlet/abs(domain%inlet) + load_beyond_sides/domain%side)
+            sides = pressure_gain(side, film)/whole
+            load = lambda_bar*(load_beyond_inlet/abs(domain%inlet) + load_beyond_sides/side)
             cost(1) = of_inlet*max(1.0_dp, (thin_film/film)**thin_power)*inlet + of_sides*sides &
                       + load*max(sensitivity(contact, point), least_sensitivity*min(1.0_dp, (dented_below/point%round_m)**6))
+            cost(1) = cost(1)*merge(width**wide_power, 1.0_dp/width, width >= 1.0_dp)
             cost(2) = cost(1) + of_sides_at_minimum*sides
          end if
       end associate

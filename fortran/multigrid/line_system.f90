@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Line systems of the Reynolds equation (reynolds.f90) along X: the changes d(i) of the pressure of a row that its
 !> linearised equation asks for while the other rows stay. A node with D(i) = 1 changes distributively: the share -q of its
-!> change goes to each neighbour along X, and a share to each across it (workspace.f90; 1/4 on square cells), else D(i) = 0.
-!> With r(i) the residual,
+!> change goes to each neighbour along X, -b to each across it (workspace.f90; 1/4 on square cells), else D(i) = 0. With
+!> r(i) the residual,
 !>
 !>    em4 d(i-4) + em3 d(i-3) + em2 d(i-2) + em1 d(i-1) + e0 d(i) + e1 d(i+1) + e2 d(i+2) = r(i)
 !>
@@ -10,7 +10,7 @@
 !>    em3 = - c1 s(i-1, -2) - c2 s(i-2, -1)
 !>    em2 = - w q D(i-2) - c0 s(i, -2) - c1 s(i-1, -1) - c2 s(i-2, 0)
 !>    em1 = w (1 + D(i-1) a) + w' g(i-1) (P(i-1) - P(i)) - c0 s(i, -1) - c1 s(i-1, 0) - c2 s(i-2, 1)
-!>    e0  = (o - e - w) (1 + D(i)/4) + g(i) [e' (P(i+1) - P(i)) + w' (P(i-1) - P(i)) + o']
+!>    e0  = o - e - w + D(i) [b o - q (e + w)] + g(i) [e' (P(i+1) - P(i)) + w' (P(i-1) - P(i)) + o']
 !>          - c0 s(i, 0) - c1 s(i-1, 1) - c2 s(i-2, 2)
 !>    e1  = e (1 + D(i+1) a) + e' g(i+1) (P(i+1) - P(i)) - c0 s(i, 1) - c1 s(i-1, 2)
 !>    e2  = - e q D(i+2) - c0 s(i, 2)
@@ -130,12 +130,14 @@ contains
       !> Response of rho H at nodes i, i-1, i-2 to unit changes at their columns -2..2
       real(dp) :: s(line_width, -nr:nr, 0:2)
       real(dp) :: c(0:line_reach), c_first(0:line_reach), c_interior(0:line_reach)
-      real(dp) :: pivot(line_width), a(line_width)
+      real(dp) :: pivot(line_width), a(line_width), apart(2)
       real(dp) :: east, west, re, rw, pe, pw, r, t, d, active, em4, em3, em2, em1, e0, e1, e2
       integer :: i, l, now, last, former
       logical :: uneven
 
       uneven = level%flow%across > along
+      ! nothing where cells are square
+      apart = shares - 0.25_dp
       call level%wedge%line_weights(c_first, c_interior)
       upper(:, :, -3:1) = 0.0_dp
       change(:, -3:1) = 0.0_dp
@@ -177,7 +179,8 @@ contains
                              - c(0)*s(l, -1, now) - c(1)*s(l, 0, last) - c(2)*s(l, 1, former))
                e0 = active*((g(l, f_other, i) - east - west)*(1.0_dp + 0.25_dp*g(l, f_dipole, i)) &
                             + g(l, f_gain, i)*(re*pe + rw*pw + g(l, f_other_rate, i)) &
-                            - c(0)*s(l, 0, now) - c(1)*s(l, 1, last) - c(2)*s(l, 2, former)) + (1.0_dp - active)
+                            - c(0)*s(l, 0, now) - c(1)*s(l, 1, last) - c(2)*s(l, 2, former)) &
+                      + ((1.0_dp - active) + active*g(l, f_dipole, i)*(apart(2)*g(l, f_other, i) - apart(1)*(east + west)))
                e1 = active*(east*(1.0_dp + a(l)*g(l, f_dipole, i + 1)) + re*g(l, f_gain, i + 1)*pe &
                             - c(0)*s(l, 1, now) - c(1)*s(l, 2, last))
                e2 = -active*(shares(1)*east*g(l, f_dipole, i + 2) + c(0)*s(l, 2, now))

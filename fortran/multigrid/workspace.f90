@@ -31,8 +31,8 @@ module ehl_workspace
       !> changes in a sweep, and their smooth part after its first pass
       real(dp), allocatable :: share(:, :), rough(:, :), smooth(:, :)
       !> A distributive change takes from the nodes beside it along X and along Y these shares of what it gives to its own.
-      !> More from the nearer ones: a quarter from each would leave a deflection that falls off slowly along the longer side
-      !> of a cell. Shares as 1/h converge on cells of up to 2 to 1 as on square ones, as 1/h^2 they do not.
+      !> On cells that are longer across the lines less goes to their far neighbours: a quarter to each would leave a
+      !> deflection that falls off slowly along them. Measured on cells of 1 to 1/4, 1.5 and 2.
       real(dp) :: shares(2) = 0.25_dp
       !> Kernel near the source: itself, and for the distributive (dipole) change
       real(dp) :: near(-near_reach:near_reach) = 0.0_dp, near_dipole(-near_reach:near_reach) = 0.0_dp
@@ -73,7 +73,7 @@ contains
          return
       end if
       associate (hx => grid%hx, hy => grid%hy)
-         self%shares = 0.5_dp*([hy, hx]/(hx + hy))
+         self%shares = 0.5_dp*([max(hx, hy), hx]/(hx + max(hx, hy)))
          do d = -near_reach, near_reach
             self%near(d) = kernel_coefficient(factor, d, 0, hx, hy)
             self%near_dipole(d) = self%near(d) - (self%shares(1)*(kernel_coefficient(factor, d - 1, 0, hx, hy) &

@@ -97,11 +97,13 @@ contains
    pure real(dp) function error_of_second_order(self, stress, s) result(error)
       class(thinning_t), intent(in) :: self
       real(dp), intent(in) :: stress, s(2)
+      real(dp) :: m
 
       if (self%law == eyring) then
          error = 1.8e-3_dp*dot_product(s, s)**2
       else
-         error = 0.8_dp*(max(self%curvature(), 0.1_dp)*dot_product(s, s)/(1.0_dp + stress**2))**2
+         m = self%curvature()
+         error = (0.04_dp*m + 0.17_dp*m**3)*(dot_product(s, s)/(1.0_dp + stress**2))**2
       end if
    end function error_of_second_order
 

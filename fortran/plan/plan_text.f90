@@ -29,6 +29,7 @@ contains
              fixed(plan%point%speed_parameter, "es9.3")
       if (plan%scales%has_size()) call add("           a = "//fixed(plan%scales%length, "es10.4")//" m, p_h = "// &
                                             fixed(plan%scales%pressure, "es10.4")//" Pa")
+      if (.not. plan%contact%is_round()) call tell_ellipse()
       call tell_friction()
       if (plan%surfaces%rough()) then
          call add(scene_lines(plan%surfaces))
@@ -64,15 +65,27 @@ contains
          text = text//newline//line
       end subroutine add
 
+      !> Shape of a contact that is not round, and of the cells of its grid
+      subroutine tell_ellipse()
+         associate (contact => plan%contact, g => plan%finest)
+            call add("ellipse    semi-axis across the motion over a, that along it: "//fixed(contact%ellipticity, "g0.5")// &
+                     "; R_x/R_y = "//fixed(contact%radius_ratio, "g0.5"))
+            call add("cells      "//fixed(g%hy/g%hx, "g0.4")//" times as long across the motion as along it: "// &
+                     to_text(g%nx)//" x "//to_text(g%full_ny())//" nodes")
+         end associate
+      end subroutine tell_ellipse
+
       !> Sliding and shear law, and the heat of the inlet where it counts
       subroutine tell_friction()
-         character(len=:), allocatable :: speed
+         character(len=:), allocatable :: speed, flow
 
          associate (s => plan%sliding)
+            flow = "the flow is Newtonian"
+            if (plan%lubricant%shear%thins_flow()) flow = "the flow obeys it, too"
             speed = ""
             if (s%mean_velocity > 0.0_dp) speed = " ("//fixed(abs(s%slide_to_roll)*s%mean_velocity, "es10.3")//" m/s)"
             call add("friction   "//trim(s%law)//" shear stress, slide-to-roll ratio "//fixed(s%slide_to_roll, "f8.4")// &
-                     speed//"; the flow is Newtonian")
+                     speed//"; "//flow)
             if (s%loading > 0.0_dp) call add("heat       shear heating of the inlet (Gupta et al. 1992): film times "// &
                fixed(s%reduction, "f7.4")//" by an inlet viscosity of "//fixed(s%inlet_viscosity, "es10.3")// &
                " Pa s, which M and L belong to")

@@ -121,14 +121,17 @@ contains
       type(plan_t), intent(in) :: plan
       character(len=:), allocatable :: text
       integer :: k
+      logical :: known
 
       text = ""
       associate (surfaces => plan%surfaces, scales => plan%scales)
+         ! an amplitude that is a share of the film is not known at first
+         known = all([(surfaces%of(k)%surface%rms_height() > 0.0_dp, k=1, surfaces%count())])
          if (surfaces%has_spectrum() .and. scales%has_size()) then
             do k = 1, surfaces%count()
                text = text//height_line(surfaces%of(k)%surface, scales%film)
             end do
-            if (surfaces%count() > 1 .and. surfaces%rms_height() > 0.0_dp) then
+            if (surfaces%count() > 1 .and. known) then
                text = text//"surface    composite rms height "//fixed(surfaces%rms_height()*scales%film, "es9.2")// &
                       " m, rms slope "//fixed(surfaces%rms_slope()*scales%film/scales%length, "f8.5")//newline
             end if

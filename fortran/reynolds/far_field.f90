@@ -1,29 +1,89 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What lies beyond the border of the domain: the pressure of a fully flooded contact, and the load that it carries there.
 !>
-!> Far away the bodies are rigid, the lubricant is that at P = 0, and H = r^2/2 has no length of its own, so that
-!> P = lambda_bar g(angle)/r^3. The Reynolds equation then is g'' - 9 g = -8 cos(angle), the angle counted from the inlet,
-!> with the solution g = 0.8 cos(angle) + share cosh(3 angle). The first part is that of Kapitza (1955), exact as
-!> r/(4 H^2) also where H = c + r^2/2; the second one lets g and g' vanish where the film ruptures. What else a contact
-!> adds dies away with the sixth power of the distance.
+!> Far away the bodies are rigid, the lubricant is that at P = 0, and H = r^2 f/2 has no length of its own, with
+!> f = cos^2 + D sin^2 of the angle, which is counted from the inlet, so that P = lambda_bar g(angle)/r^3. The Reynolds
+!> equation then is (f^3 g')' - 9 f^3 g = -8 cos(angle) with the solution g = 4 cos(angle)/((3 + 2 D) f^2) + share u(angle),
+!> (f^3 u')' = 9 f^3 u; in a round contact f = 1 and u = cosh(3 angle). The first part is that of Kapitza (1955), exact with
+!> r/(4 H^2) in place of 1/(r^3 f^2) also where H = c + r^2 f/2; the second one lets g and g' vanish where the film
+!> ruptures. What else a contact adds dies away with the sixth power of the distance.
 module ehl_far_field
+   use ehl_contact, only: contact_t
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp, pi
    use ehl_level, only: level_t
    implicit none (type, external)
    private
-   public :: set_far_field
+   public :: far_field_t
 
-   !> Angle from the inlet at which the film ruptures, tan(angle) = -3 tanh(3 angle), and the share of cosh(3 angle) that
-   !> lets pressure and slope vanish there
-   real(dp), parameter :: rupture = 1.8925539054585183_dp, share = 1.7311986173015447e-03_dp
+   !> Of a round contact: angle from the inlet at which the film ruptures, tan(angle) = -3 tanh(3 angle), and the share of
+   !> cosh(3 angle) that lets pressure and slope vanish there
+   real(dp), parameter :: round_rupture = 1.8925539054585183_dp, round_share = 1.7311986173015447e-03_dp
+   !> Steps from 0 to pi in the table of u; it grows to 1e4, and by 2e-3 a step
+   integer, parameter :: steps = 8000
    !> Angles, and points along the inverse distance, of the integral beyond the border
    integer, parameter :: angles = 64, distances = 8
 
+   type :: far_field_t
+      private
+      !> D = R_x/R_y; where the film ruptures, and the share of u
+      real(dp) :: radius_ratio = 1.0_dp, rupture = round_rupture, share = round_share
+      !> u at equal steps of the angle; not allocated in a round contact
+      real(dp), allocatable :: u(:)
+   contains
+      procedure :: setup
+      procedure :: set_border
+      procedure, private :: pressure
+      procedure, private :: around
+      procedure, private :: opening
+      procedure, private :: load_beyond
+   end type far_field_t
+
 contains
 
+   !> What does not depend on the grid
+   pure subroutine setup(self, contact)
+      class(far_field_t), intent(inout) :: self
+      class(contact_t), intent(in) :: contact
+      real(dp) :: state(2), k(2, 4), angle, ratio, step
+      integer :: n
+
+      self%radius_ratio = contact%radius_ratio
+      if (contact%is_round()) return
+      if (allocated(self%u)) deallocate (self%u)
+      allocate (self%u(0:steps))
+      step = pi/steps
+      state = [1.0_dp, 0.0_dp]
+      self%share = 0.0_dp
+      do n = 0, steps
+         angle = n*step
+         self%u(n) = state(1)
+         ! g > 0 before the rupture, where share u touches what takes away from it
+         ratio = -4.0_dp*cos(angle)/((3.0_dp + 2.0_dp*self%radius_ratio)*self%opening(angle)**2*state(1))
+         if (ratio > self%share) then
+            self%share = ratio
+            self%rupture = angle
+         end if
+         k(:, 1) = slope(state, angle)
+         k(:, 2) = slope(state + 0.5_dp*step*k(:, 1), angle + 0.5_dp*step)
+         k(:, 3) = slope(state + 0.5_dp*step*k(:, 2), angle + 0.5_dp*step)
+         k(:, 4) = slope(state + step*k(:, 3), angle + step)
+         state = state + step*(k(:, 1) + 2.0_dp*k(:, 2) + 2.0_dp*k(:, 3) + k(:, 4))/6.0_dp
+      end do
+
+   contains
+
+      !> Change of u and of f^3 u' with the angle
+      pure function slope(at, angle) result(change)
+         real(dp), intent(in) :: at(2), angle
+         real(dp) :: change(2)
+         change = [at(2)/self%opening(angle)**3, 9.0_dp*self%opening(angle)**3*at(1)]
+      end function slope
+   end subroutine setup
+
    !> Give the border the pressure of a flooded contact, and leave to the nodes the load that is not carried beyond it
-   subroutine set_far_field(level, load)
+   subroutine set_border(self, level, load)
+      class(far_field_t), intent(in) :: self
       type(level_t), intent(inout) :: level
       !> Load of the contact, iint P dX dY
       real(dp), intent(in) :: load
@@ -34,33 +94,55 @@ contains
       associate (grid => level%grid)
          do j = 1, grid%ny
             do i = 1, grid%nx, merge(1, grid%nx - 1, grid%is_border(j))
-               level%p(i, j) = speed_parameter*pressure(grid%x(i), grid%y(j), level%h(i, j))
+               level%p(i, j) = speed_parameter*self%pressure(grid%x(i), grid%y(j), level%h(i, j))
             end do
          end do
          j = 1 + nint((0.0_dp - grid%y0)/grid%hy)
-         level%load = load - speed_parameter*load_beyond(grid, level%h(1, j) - 0.5_dp*grid%x0**2)
+         level%load = load - speed_parameter*self%load_beyond(grid, level%h(1, j) - 0.5_dp*grid%x0**2)
       end associate
-   end subroutine set_far_field
+   end subroutine set_border
 
-   !> Pressure far from the contact over lambda_bar: r/(4 H^2) g
-   pure real(dp) function pressure(x, y, film)
+   !> Pressure far from the contact over lambda_bar: r/(4 H^2) f^2 g
+   pure real(dp) function pressure(self, x, y, film)
+      class(far_field_t), intent(in) :: self
       real(dp), intent(in) :: x, y, film
-      pressure = 0.25_dp*hypot(x, y)/film**2*around(atan2(abs(y), -x))
+      pressure = 0.25_dp*hypot(x, y)/film**2*self%around(atan2(abs(y), -x))
    end function pressure
 
-   !> g: what the pressure is around the contact, by the angle from the inlet
-   pure real(dp) function around(angle)
+   !> f^2 g: what the pressure is around the contact, by the angle from the inlet
+   pure real(dp) function around(self, angle)
+      class(far_field_t), intent(in) :: self
       real(dp), intent(in) :: angle
+      integer :: n
+      real(dp) :: t
+
       around = 0.0_dp
-      if (angle < rupture) around = 0.8_dp*cos(angle) + share*cosh(3.0_dp*angle)
+      if (.not. angle < self%rupture) return
+      if (allocated(self%u)) then
+         t = angle/pi*steps
+         n = min(int(t), steps - 1)
+         t = t - n
+         around = 4.0_dp/(3.0_dp + 2.0_dp*self%radius_ratio)*cos(angle) &
+                  + self%share*((1.0_dp - t)*self%u(n) + t*self%u(n + 1))*self%opening(angle)**2
+      else
+         around = 0.8_dp*cos(angle) + self%share*cosh(3.0_dp*angle)
+      end if
    end function around
 
-   !> Load beyond the cells of the grid over lambda_bar, H = c + r^2/2: with u = 1/r the integral over the angle of
-   !> g int du/(1 + 2 c u^2)^2 from 0 to the border
-   pure real(dp) function load_beyond(grid, c)
+   !> f: the gap of the rigid bodies over r^2/2
+   pure real(dp) function opening(self, angle)
+      class(far_field_t), intent(in) :: self
+      real(dp), intent(in) :: angle
+      opening = cos(angle)**2 + self%radius_ratio*sin(angle)**2
+   end function opening
+
+   !> Load beyond the cells of the grid over lambda_bar, H = c + r^2 f/2: with u = 1/r the integral over the angle of
+   !> g int du/(1 + 2 c/f u^2)^2 from 0 to the border
+   pure real(dp) function load_beyond(self, grid, c)
+      class(far_field_t), intent(in) :: self
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: c
-      real(dp) :: angle, inlet, outlet, side, last, u, along
+      real(dp) :: angle, inlet, outlet, side, last, u, along, f
       integer :: k, l
 
       inlet = -(grid%x0 - 0.5_dp*grid%hx)
@@ -68,15 +150,17 @@ contains
       side = grid%y(grid%ny) + 0.5_dp*grid%hy
       load_beyond = 0.0_dp
       do k = 1, angles
-         angle = (k - 0.5_dp)/angles*rupture
+         angle = (k - 0.5_dp)/angles*self%rupture
+         f = 1.0_dp
+         if (allocated(self%u)) f = self%opening(angle)
          last = max(cos(angle)/inlet, sin(angle)/side, -cos(angle)/outlet)
          along = 0.0_dp
          do l = 1, distances
             u = (l - 0.5_dp)/distances*last
-            along = along + last/(1.0_dp + 2.0_dp*c*u**2)**2
+            along = along + last/(1.0_dp + 2.0_dp*(c/f)*u**2)**2
          end do
-         load_beyond = load_beyond + around(angle)*along
+         load_beyond = load_beyond + self%around(angle)/f**2*along
       end do
-      load_beyond = load_beyond*2.0_dp*rupture/(angles*distances)
+      load_beyond = load_beyond*2.0_dp*self%rupture/(angles*distances)
    end function load_beyond
 end module ehl_far_field

@@ -27,7 +27,7 @@ contains
       integer, intent(in) :: stand
       character(len=:), allocatable :: text
 
-      text = to_text(grid%nx)//" x "//to_text(grid%nx)//"  cycle "//to_text(result%cycles)// &
+      text = to_text(grid%nx)//" x "//to_text(grid%full_ny())//"  cycle "//to_text(result%cycles)// &
              "  H_c "//fixed(result%m%film_central, "f10.6")//"  H_min "//fixed(result%m%film_minimum, "f10.6")// &
              ending(result%residual, stand)
    end function cycle_line
@@ -53,7 +53,7 @@ contains
       integer, intent(in) :: stand
       character(len=:), allocatable :: text
 
-      text = to_text(grid%nx)//" x "//to_text(grid%nx)//"  cycle "//to_text(rest%total_cycles)// &
+      text = to_text(grid%nx)//" x "//to_text(grid%full_ny())//"  cycle "//to_text(rest%total_cycles)// &
              "  mu_r/mu_s "//fixed(rest%mu_ratio(), "f9.5")//"  H_c "//fixed(rest%m%film_central, "f10.6")// &
              "  H_min "//fixed(rest%m%film_minimum, "f10.6")//ending(rest%residual, stand)
       if (rest%share < 1.0_dp .and. .not. rest%smooth) text = text//", share of the roughness "//fixed(rest%share, "f7.4")
@@ -81,6 +81,12 @@ contains
       if (plan%scales%has_size()) then
          call record%set("hertz_radius_m", plan%scales%length)
          call record%set("film_scale_m", plan%scales%film)
+      end if
+      if (.not. plan%contact%is_round()) then
+         call record%set("radius_ratio", plan%contact%radius_ratio)
+         call record%set("ellipticity", plan%contact%ellipticity)
+         if (plan%scales%has_size()) call record%set("semi_axis_y_m", plan%contact%ellipticity*plan%scales%length)
+         call record%set("points_y", grid%full_ny())
       end if
       call record%set("points", grid%nx)
       call record%set("x_mesh", grid%hx)

@@ -46,6 +46,7 @@ contains
             if (shear%thins() .or. stress <= s%newtonian_limit) then
                mu_smooth = friction*shear%scale*plan%scales%length**2/s%load
                note = "isothermal: the oil is not thinned by the flash temperature (Tian & Kennedy 1994)"
+               if (.not. plan%contact%is_round()) note = note//", which is known of round contacts alone"
             else
                note = "a ratio alone: the Newtonian shear stress reaches "//fixed(stress, "es8.1e2")// &
                       " Pa, and oils shear thin above some "//to_text(s%newtonian_limit)// &
@@ -53,9 +54,11 @@ contains
             end if
          end if
          mu = ratio*mu_smooth
-         if (ieee_is_finite(mu)) rise = flash_temperature(mu*s%load*speed/(pi*plan%scales%length**2), &
-            plan%scales%length, s%mean_velocity*(1.0_dp + [0.5_dp, -0.5_dp]*s%slide_to_roll), s%conductivity, &
-            s%diffusivity)
+         if (ieee_is_finite(mu) .and. plan%contact%is_round()) then
+            rise = flash_temperature(mu*s%load*speed/(pi*plan%scales%length**2), plan%scales%length, &
+                                     s%mean_velocity*(1.0_dp + [0.5_dp, -0.5_dp]*s%slide_to_roll), s%conductivity, &
+                                     s%diffusivity)
+         end if
          call record%set("shear_law", trim(s%law))
          call record%set("slide_to_roll", s%slide_to_roll)
          call record%set("mu", mu)

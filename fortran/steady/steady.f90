@@ -4,7 +4,7 @@ module ehl_steady
    use ehl_contact, only: contact_t
    use ehl_contact_results, only: contact_results_t, load_tolerance, measure
    use ehl_cycle, only: careful_cycle, cycle_options_t, prolong_solution
-   use ehl_far_field, only: set_far_field
+   use ehl_far_field, only: far_field_t
    use ehl_film, only: refresh
    use ehl_hierarchy, only: hierarchy_t
    use ehl_iteration, only: iteration_t, reduction
@@ -60,6 +60,8 @@ module ehl_steady
    type, extends(iteration_t) :: steady_t
       class(contact_t), allocatable, private :: contact
       type(steady_options_t), private :: how
+      !> What is at a flooded border
+      type(far_field_t), private :: far_field
       !> How all of it stands
       integer :: outcome = outcome_running
       !> Whether level n has a first approximation, whether cycles are made with care
@@ -86,6 +88,7 @@ contains
 
       self%contact = contact
       self%how = how
+      if (how%flooded) call self%far_field%setup(contact)
       self%max_cycles = how%max_cycles
       self%of_film = .true.
       self%n = how%start
@@ -116,7 +119,7 @@ contains
       if (self%outcome /= outcome_running) return
       if (.not. self%entered) call enter_level(self, hierarchy, status)
       if (status%failed()) return
-      if (self%how%flooded) call set_far_field(hierarchy%levels(self%n), self%contact%load())
+      if (self%how%flooded) call self%far_field%set_border(hierarchy%levels(self%n), self%contact%load())
       self%options = next_cycle(self)
       call self%improve(hierarchy)
       finest = self%n == self%how%levels

@@ -28,11 +28,25 @@ def report(values: Mapping[str, Any]) -> str:
     """Return the page that ``pyehl film`` prints, from a :func:`pyehl.film`."""
     v = values
     origin = "" if v["si"] else "  (made from M and L with the radius and modulus of a steel ball)"
+    along, across = "R  ", []
+    axes = [f"  contact radius       a      {v['hertz_radius_m'] * 1e3:12.5g} mm"]
+    if "radius_ratio" in v:
+        along = "R_x"
+        across = [
+            f"                       R_y    {v['radius_m'] / v['radius_ratio'] * 1e3:12.5g} mm"
+            f"    R_x/R_y = {v['radius_ratio']:.5g}"
+        ]
+        axes = [
+            f"  semi-axis, motion    a      {v['hertz_radius_m'] * 1e3:12.5g} mm",
+            f"  semi-axis, across    b      {v['semi_axis_y_m'] * 1e3:12.5g} mm"
+            f"    b/a = {v['ellipticity']:.5g}",
+        ]
     lines = [
         f"Contact{origin}",
         f"  load                 w      {v['load_N']:12.5g} N",
         f"  mean velocity        u      {v['mean_velocity_m_per_s']:12.5g} m/s",
-        f"  reduced radius       R      {v['radius_m'] * 1e3:12.5g} mm",
+        f"  reduced radius       {along}    {v['radius_m'] * 1e3:12.5g} mm",
+        *across,
         f"  reduced modulus      E'     {v['reduced_modulus_Pa'] * 1e-9:12.5g} GPa"
         "    2/E' = sum (1 - nu^2)/E",
         f"  viscosity            eta0   {v['viscosity_Pa_s']:12.5g} Pa s",
@@ -47,8 +61,8 @@ def report(values: Mapping[str, Any]) -> str:
         "",
         "Dry contact (Hertz)",
         f"  maximum pressure     p_h    {v['hertz_pressure_Pa'] * 1e-9:12.5g} GPa",
-        f"  contact radius       a      {v['hertz_radius_m'] * 1e3:12.5g} mm",
-        f"  film unit            a^2/R  {v['film_scale_m'] * 1e6:12.5g} um",
+        *axes,
+        f"  film unit            a^2/{along:4} {v['film_scale_m'] * 1e6:12.5g} um",
         "",
         f"Film thickness {'h_c [um]':>23}{'h_min [um]':>12}{'H_c':>11}{'H_min':>11}   range",
     ]

@@ -103,6 +103,7 @@ def measure(
     fails: those that have ended stay.
     """
     settings = case.resolve()
+    OperatingPoint.from_settings(settings).need_round("the response of the contact")
     ratio = float(settings["surface"]["velocity_ratio"])
     if not ratio > 0.0:
         raise InputError(

@@ -13,7 +13,7 @@ import numpy as np
 import scipy
 from matplotlib import colormaps
 from matplotlib.axes import Axes
-from matplotlib.patches import Circle
+from matplotlib.patches import Ellipse
 from numpy.typing import NDArray
 
 from pyehl.plots.style import (
@@ -55,6 +55,7 @@ def pressure_and_film(
     scales: Scales | None = None,
     *,
     name: str = "x",
+    half: float = 1.0,
     ax: Axes | None = None,
 ) -> Axes:
     """Pressure and film on a line through the centre, with the Hertz pressure.
@@ -67,6 +68,8 @@ def pressure_and_film(
         P and H, (n,), in Hertz units.
     name
         Of the coordinate, 'x' or 'y'.
+    half
+        Half of the dry contact on this line.
     ax
         Where to draw; None: a new figure. The film has a second axis on the right.
     """
@@ -75,7 +78,14 @@ def pressure_and_film(
     unit_p, label_p = pressure_unit(scales)
     unit_h, label_h = film_unit(scales)
     hertz = np.linspace(-1.0, 1.0, 401)
-    ax.plot(hertz * unit, np.sqrt(1.0 - hertz**2) * unit_p, "--", color=GREY, lw=0.9, label="Hertz")
+    ax.plot(
+        half * hertz * unit,
+        np.sqrt(1.0 - hertz**2) * unit_p,
+        "--",
+        color=GREY,
+        lw=0.9,
+        label="Hertz",
+    )
     ax.plot(along * unit, pressure * unit_p, color=BLUE, lw=1.4, label="pressure")
     twin = ax.twinx()
     twin.plot(along * unit, film * unit_h, color=VERMILLION, lw=1.4, label="film")
@@ -135,18 +145,20 @@ def _central(x: Array, y: Array, h: Array) -> float:
     return central
 
 
-def _frame(ax: Axes, x: Array, y: Array, scales: Scales | None) -> None:
-    """Hertz circle, limits and labels of a map."""
+def _frame(ax: Axes, x: Array, y: Array, scales: Scales | None, ellipticity: float) -> None:
+    """Hertz ellipse, limits and labels of a map."""
     unit, label_x = axis_unit(scales, "x")
     _, label_y = axis_unit(scales, "y")
-    ax.add_patch(Circle((0.0, 0.0), unit, fill=False, ls="--", lw=0.9, ec=VERMILLION))
+    size = 2.0 * unit, 2.0 * ellipticity * unit
+    ax.add_patch(Ellipse((0.0, 0.0), *size, fill=False, ls="--", lw=0.9, ec=VERMILLION))
     ax.set_aspect("equal")
     ax.set_xlim(max(x[0], -VIEW) * unit, min(x[-1], VIEW) * unit)
-    ax.set_ylim(max(y[0], -VIEW) * unit, min(y[-1], VIEW) * unit)
+    view = VIEW * ellipticity
+    ax.set_ylim(max(y[0], -view) * unit, min(y[-1], view) * unit)
     ax.set_xlabel(label_x)
     ax.set_ylabel(label_y)
     if scales is None:
-        hertz_ticks(ax)
+        hertz_ticks(ax, ellipticity)
 
 
 def interferogram(
@@ -156,6 +168,7 @@ def interferogram(
     scales: Scales | None = None,
     *,
     fringes: tuple[float, float, str] | None = None,
+    ellipticity: float = 1.0,
     ax: Axes | None = None,
 ) -> Axes:
     """Film as interference fringes in red and green.
@@ -171,6 +184,8 @@ def interferogram(
         is too thin or too thick for them. Else they are a share of the central film.
     fringes
         As `fringe_spacings` gives them, for several films in the same light; None: for this film.
+    ellipticity
+        Of the Hertz ellipse: its semi-axis across the motion over that along it.
 
     Raises
     ------
@@ -182,7 +197,7 @@ def interferogram(
     unit, _ = axis_unit(scales, "x")
     h = film * unit_h
     red, green, caption = fringes or fringe_spacings(_central(x, y, h), scales)
-    inner_x, inner_y = np.abs(x) <= VIEW, np.abs(y) <= VIEW
+    inner_x, inner_y = np.abs(x) <= VIEW, np.abs(y) <= VIEW * ellipticity
     view = h[np.ix_(inner_x, inner_y)]
     factor = max(1, math.ceil(900 / max(view.shape)))
     fine = scipy.ndimage.zoom(view, factor, order=1, grid_mode=True, mode="nearest")
@@ -193,7 +208,7 @@ def interferogram(
         0.03, 0.03, caption, transform=ax.transAxes, fontsize="small",
         bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 2.0},
     )  # fmt: skip
-    _frame(ax, x, y, scales)
+    _frame(ax, x, y, scales, ellipticity)
     return ax
 
 
@@ -204,7 +219,13 @@ def _round_step(value: float) -> float:
 
 
 def contours(
-    x: Array, y: Array, film: Array, scales: Scales | None = None, *, ax: Axes | None = None
+    x: Array,
+    y: Array,
+    film: Array,
+    scales: Scales | None = None,
+    *,
+    ellipticity: float = 1.0,
+    ax: Axes | None = None,
 ) -> Axes:
     """Film as contours with a colour bar; what is thicker is the gap around, left white.
 
@@ -214,6 +235,8 @@ def contours(
         (nx,), (ny,) in Hertz radii.
     film
         H (nx, ny) in Hertz units.
+    ellipticity
+        Of the Hertz ellipse: its semi-axis across the motion over that along it.
 
     Raises
     ------
@@ -232,5 +255,5 @@ def contours(
     filled = ax.contourf(x * unit, y * unit, h.T, levels=levels, cmap=shades, extend="max")
     ax.contour(x * unit, y * unit, h.T, levels=levels, colors="black", linewidths=0.3, alpha=0.6)
     colour_bar(filled, ax, label, shrink=0.9)
-    _frame(ax, x, y, scales)
+    _frame(ax, x, y, scales, ellipticity)
     return ax

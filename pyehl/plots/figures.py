@@ -65,6 +65,16 @@ def scales_of(data: xr.Dataset, units: str = "auto") -> Scales | None:
     return None
 
 
+def ellipticity_of(data: xr.Dataset) -> float:
+    """Semi-axis of the dry contact across the motion over that along it; 1 for a circle."""
+    return float(data.attrs.get("ellipticity", 1.0))
+
+
+def _stretch(data: xr.Dataset) -> float:
+    """How much higher maps of a wide contact are, to be as broad as those of a circle."""
+    return min(2.0, max(1.0, ellipticity_of(data)))
+
+
 def _row(
     count: int,
     size: tuple[float, float],
@@ -119,7 +129,9 @@ def _centre_lines(data: xr.Dataset, scales: Scales | None, title: str) -> Figure
     x, y, p, h = (data[name].values for name in "XYPH")
     i, j = nearest(x, 0.0), nearest(y, 0.0)
     contact.pressure_and_film(x, p[:, j], h[:, j], scales, name="x", ax=left)
-    contact.pressure_and_film(y, p[i, :], h[i, :], scales, name="y", ax=right)
+    contact.pressure_and_film(
+        y, p[i, :], h[i, :], scales, name="y", half=ellipticity_of(data), ax=right
+    )
     twins = [ax for ax in figure.axes if ax not in (left, right)]
     lines = [*left.get_lines(), *twins[0].get_lines()]
     figure.legend(handles=lines, loc="outside lower center", ncols=3)
@@ -127,7 +139,7 @@ def _centre_lines(data: xr.Dataset, scales: Scales | None, title: str) -> Figure
 
 
 def _film(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
-    figure = _row(2, (7.2, 3.6), title, sharey=True)
+    figure = _row(2, (7.2, 3.6 * _stretch(data)), title, sharey=True)
     left, right = figure.axes
     x, y, film = (data[name].values for name in "XYH")
     fringes = None
@@ -136,19 +148,24 @@ def _film(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
             float(data.H_smooth.values[nearest(x, 0.0), nearest(y, 0.0)]) * film_unit(scales)[0],
             scales,
         )
-    contact.interferogram(x, y, film, scales, fringes=fringes, ax=left)
-    contact.contours(x, y, film, scales, ax=right)
+    shape = ellipticity_of(data)
+    contact.interferogram(x, y, film, scales, fringes=fringes, ellipticity=shape, ax=left)
+    contact.contours(x, y, film, scales, ellipticity=shape, ax=right)
     right.set_ylabel("")
     return figure
 
 
 def _deformed(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
-    figure = _row(2, (8.2, 3.6), title, sharey=True)
+    figure = _row(2, (8.2, 3.6 * _stretch(data)), title, sharey=True)
     x, y, rough, deformed = (data[name].values for name in ("X", "Y", "RR", "A_d"))
-    top = transient.roughness_top(x, y, rough, deformed)
+    shape = ellipticity_of(data)
+    top = transient.roughness_top(x, y, rough, deformed, ellipticity=shape)
     names = ("(a) undeformed,", "(b) deformed,")
     for ax, field, name in zip(list(figure.axes), (rough, deformed), names, strict=True):
-        transient.roughness(x, y, field, scales, top=top, name=name, bar=field is deformed, ax=ax)
+        transient.roughness(
+            x, y, field, scales,
+            top=top, name=name, bar=field is deformed, ellipticity=shape, ax=ax,
+        )  # fmt: skip
     figure.axes[1].set_ylabel("")
     return figure
 

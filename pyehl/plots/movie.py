@@ -12,7 +12,7 @@ from matplotlib.artist import Artist
 from pyehl.destination import check_files, mark, new_file
 from pyehl.errors import InputError
 from pyehl.plots import contact
-from pyehl.plots.figures import headline, scales_of
+from pyehl.plots.figures import ellipticity_of, headline, scales_of
 from pyehl.plots.style import film_unit, nearest, new_figure
 
 __all__ = ["movie"]
@@ -47,7 +47,9 @@ def movie(data: xr.Dataset, target: Path, suffix: str = "gif", units: str = "aut
         figure.clear()
         left, right = figure.subplots(1, 2)
         pressure, film = (data[name].values[:, :, frame] for name in ("frame_P", "frame_H"))
-        contact.interferogram(x, y, film, scales, fringes=fringes, ax=left)
+        contact.interferogram(
+            x, y, film, scales, fringes=fringes, ellipticity=ellipticity_of(data), ax=left
+        )
         contact.pressure_and_film(x, pressure[:, row], film[:, row], scales, ax=right)
         right.set_ylim(0.0, most * (1.0 if scales is None else scales.pressure * 1e-9))
         right.set_xlim(left.get_xlim())

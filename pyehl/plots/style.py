@@ -20,7 +20,7 @@ from matplotlib.axis import Axis
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle
+from matplotlib.patches import Ellipse
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
@@ -68,7 +68,7 @@ POWERS = FuncFormatter(lambda value, _: "10" + f"{math.log10(value):.0f}".transl
 
 @dataclass(frozen=True, slots=True)
 class Scales:
-    """What turns Hertz units into SI: a [m], p_h [Pa], a^2/R [m]."""
+    """What turns Hertz units into SI: a [m], p_h [Pa], a^2/R_x [m]."""
 
     radius: float
     pressure: float
@@ -115,21 +115,23 @@ def contact_heights(
     name: str,
     bar: bool,
     ax: Axes,
+    ellipticity: float = 1.0,
 ) -> None:
-    """Draw heights inside the Hertz circle, with a colour bar or not; the title gives their rms.
+    """Draw heights inside the Hertz ellipse, with a colour bar or not; the title gives their rms.
 
-    Heights (nx, ny) are in `unit`, NaN outside of the circle, `top` is the largest of the scale;
-    outer edges of the map and Hertz radius in the unit of the axes.
+    Heights (nx, ny) are in `unit`, NaN outside of the ellipse, `top` is the largest of the scale;
+    outer edges of the map and semi-axis along the motion in the unit of the axes.
     """
     image = ax.imshow(
         heights.T, origin="lower", extent=extent, cmap=DIVERGING, vmin=-top, vmax=top,
         interpolation="nearest",
     )  # fmt: skip
-    ax.add_patch(Circle((0.0, 0.0), radius, fill=False, lw=0.8, ec=GREY))
+    across = ellipticity * radius
+    ax.add_patch(Ellipse((0.0, 0.0), 2 * radius, 2 * across, fill=False, lw=0.8, ec=GREY))
     rms = float(np.nanstd(heights))
     ax.set_title(f"{name} rms {rms:.3g} {unit}".strip(), loc="left", fontsize="medium", y=1.0)
     ax.set_xlim(-1.05 * radius, 1.05 * radius)
-    ax.set_ylim(-1.05 * radius, 1.05 * radius)
+    ax.set_ylim(-1.05 * across, 1.05 * across)
     if bar:
         colour_bar(image, ax, f"height [{unit}]", shrink=0.85)
 
@@ -185,10 +187,13 @@ def film_unit(scales: Scales | None) -> tuple[float, str]:
     return scales.film * 1e6, r"$h$ [$\mu$m]"
 
 
-def hertz_ticks(ax: Axes) -> None:
-    """Mark the contact radius and its half on both axes."""
+def hertz_ticks(ax: Axes, ellipticity: float = 1.0) -> None:
+    """Mark the contact radius and its half on both axes, of an ellipse the ends of its axes."""
     ax.set_xticks([-1.0, -0.5, 0.0, 0.5, 1.0])
-    ax.set_yticks([-1.0, -0.5, 0.0, 0.5, 1.0])
+    if ellipticity == 1.0:
+        ax.set_yticks([-1.0, -0.5, 0.0, 0.5, 1.0])
+    else:
+        ax.set_yticks([-ellipticity, 0.0, ellipticity])
 
 
 def label_log_ticks(ax: Axes) -> None:

@@ -177,9 +177,9 @@ def _inside(x: Array, y: Array) -> tuple[tuple[Any, ...], NDArray[np.bool_]]:
     return np.ix_(inner_x, inner_y), circle
 
 
-def roughness_top(x: Array, y: Array, *fields: Array) -> float:
-    """Largest height of several fields inside the Hertz circle, for a common scale."""
-    at, circle = _inside(x, y)
+def roughness_top(x: Array, y: Array, *fields: Array, ellipticity: float = 1.0) -> float:
+    """Largest height of several fields inside the Hertz ellipse, for a common scale."""
+    at, circle = _inside(x, y / ellipticity)
     return max(float(np.abs(field[at][circle]).max()) for field in fields)
 
 
@@ -192,9 +192,10 @@ def roughness(
     top: float = 0.0,
     name: str = "",
     bar: bool = True,
+    ellipticity: float = 1.0,
     ax: Axes | None = None,
 ) -> Axes:
-    """Heights inside the Hertz circle as a map with a colour bar (Fig. 6, left).
+    """Heights inside the Hertz ellipse as a map with a colour bar (Fig. 6, left).
 
     Parameters
     ----------
@@ -208,10 +209,12 @@ def roughness(
         What the field is called in the title, which also gives its rms.
     bar
         Whether it has a colour bar.
+    ellipticity
+        Of the Hertz ellipse: its semi-axis across the motion over that along it.
     """
     ax = axes_or_new(ax, 4.0, 3.4)
-    at, circle = _inside(x, y)
-    top = top or roughness_top(x, y, heights)
+    at, circle = _inside(x, y / ellipticity)
+    top = top or roughness_top(x, y, heights, ellipticity=ellipticity)
     if scales is None:
         unit, label = 1e3, r"$10^{-3}\,a^2/R$"
     else:
@@ -219,14 +222,17 @@ def roughness(
         unit *= scales.film
     unit_x, label_x = axis_unit(scales, "x")
     _, label_y = axis_unit(scales, "y")
-    within_x, within_y = x[np.abs(x) <= 1.0], y[np.abs(y) <= 1.0]
+    within_x, within_y = x[np.abs(x) <= 1.0], y[np.abs(y / ellipticity) <= 1.0]
     extent = extent_of(within_x, within_y, unit_x)
     shown = np.where(circle, heights[at], np.nan) * unit
-    contact_heights(shown, extent, unit_x, top * unit, label, name=name, bar=bar, ax=ax)
+    contact_heights(
+        shown, extent, unit_x, top * unit, label,
+        name=name, bar=bar, ax=ax, ellipticity=ellipticity,
+    )  # fmt: skip
     ax.set_xlabel(label_x)
     ax.set_ylabel(label_y)
     if scales is None:
-        hertz_ticks(ax)
+        hertz_ticks(ax, ellipticity)
     return ax
 
 

@@ -60,6 +60,10 @@ def sheet(settings: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
             for f in films
         ],
     }
+    if operating.radius_ratio != 1.0:
+        result["radius_ratio"] = operating.radius_ratio
+        result["ellipticity"] = operating.ellipse.ellipticity
+        result["semi_axis_y_m"] = operating.semi_axis_y
     both = [settings[group] for group in surfaces.rough_groups(settings)]
     kinds = [str(surface["kind"]) for surface in both]
     result["surface"] = " and ".join(kinds) or "smooth"
@@ -73,7 +77,7 @@ def sheet(settings: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
         )
         result["rms_height_m"] = sigma
         result["lambda_ratio_central"] = h_c / sigma if sigma > 0.0 else None
-    if kinds == ["harmonic"]:
+    if kinds == ["harmonic"] and operating.radius_ratio == 1.0:
         surface, settings = both[0], surfaces.one_rough(settings)
         amplitude = surfaces.harmonic_amplitude(settings, operating, h_c)
         wavelength = min(float(surface["wavelength_x"]), float(surface["wavelength_y"]))

@@ -57,6 +57,7 @@ def predict(
     options = _options(settings, tracks)
     settings = surfaces.one_rough(settings)
     operating = OperatingPoint.from_settings(settings)
+    operating.need_round("the prediction")
     lubricant = Lubricant.from_settings(settings, str(settings["psd"]["viscosity_law"]))
     velocity_ratio = float(settings["surface"]["velocity_ratio"])
     if smooth is None:

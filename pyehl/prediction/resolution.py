@@ -95,6 +95,7 @@ def resolution(case: Case, tile: Topography | None = None) -> Resolution | None:
         raise InputError(unpredictable(settings))
     ratio = float(settings["surface"]["velocity_ratio"])
     operating = OperatingPoint.from_settings(settings)
+    operating.need_round("the prediction of waves that the grid does not resolve")
     lubricant = Lubricant.from_settings(settings)
     grid = settings["grid"]
     mesh = max(float(grid["x_outlet"]) - float(grid["x_inlet"]), 2.0 * float(grid["y_extent"])) / (

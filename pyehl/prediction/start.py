@@ -122,6 +122,7 @@ def hand_over(
 
 def _passage(settings: Mapping[str, Mapping[str, Any]], tile: Topography | None) -> RoughPassage:
     operating = OperatingPoint.from_settings(settings)
+    operating.need_round("the prediction")
     lubricant = Lubricant.from_settings(settings)
     contact = solve_contact(settings)
     if tile is None:

@@ -165,5 +165,6 @@ def _check(settings: Settings, seeds: int, ehl: int) -> None:
     if "load" not in settings["contact"]:
         raise InputError("a Stribeck curve needs a contact in SI units (load, mean_velocity)")
     film = formula_film(settings)
+    film[0].need_round("a Stribeck curve")
     if kind == "map":
         surfaces.from_settings(settings, *film)

@@ -1,30 +1,37 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Central film of a circular contact in Moes numbers, and the viscosity that a film belongs to."""
+"""Central film of a point contact in Moes numbers, and the viscosity that a film belongs to."""
 
 from __future__ import annotations
 
 import math
 
 from pyehl.errors import InputError
+from pyehl.theory.ellipse import Ellipse, ellipse
 
 __all__ = ["inlet_viscosity_ratio", "nijenbanning_venner_moes"]
 
+CIRCLE = ellipse(1.0)
 
-def nijenbanning_venner_moes(moes_m: float, moes_l: float) -> float:
-    """H_c = h_c R/a^2 [-] of a circular contact with an incompressible lubricant.
 
-    Nijenbanning, Venner & Moes 1994, Wear 176, 217-229, for R_x = R_y: the rigid-isoviscous,
-    elastic-isoviscous, rigid-piezoviscous and elastic-piezoviscous asymptotes, joined. Divide by
-    the density ratio at p_h for a compressible lubricant. InputError if M is not positive or L is
-    negative.
+def nijenbanning_venner_moes(moes_m: float, moes_l: float, shape: Ellipse = CIRCLE) -> float:
+    """H_c = h_c R_x/a^2 [-] of a contact with an incompressible lubricant, M and L by R_x.
+
+    Nijenbanning, Venner & Moes 1994, Wear 176, 217-229: the rigid-isoviscous, elastic-isoviscous,
+    rigid-piezoviscous and elastic-piezoviscous asymptotes, joined; shown accurate for R_x <= R_y.
+    Divide by the density ratio at p_h for a compressible lubricant. InputError if M is not positive
+    or L is negative.
     """
     if not (moes_m > 0.0 and moes_l >= 0.0):
         raise InputError(f"need M > 0 and L >= 0, not M = {moes_m:g}, L = {moes_l:g}")
-    rigid_iso = 145.0 * 1.796 ** (-15 / 7) * moes_m**-2
-    elastic_iso = 3.18 * 1.63 ** (-14 / 25) * moes_m ** (-2 / 15)
-    rigid_piezo = 1.29 * 1.691 ** (-2 / 3) * moes_l ** (2 / 3)
-    elastic_piezo = 1.48 * 1.63 ** (-7 / 20) * moes_m ** (-1 / 12) * moes_l**0.75
-    flat = 1.8
+    d = shape.radius_ratio
+    elastic = 1.0 + 0.006 * math.log(d) + 0.63 * d ** (4 / 7)
+    rigid_iso = 145.0 * (1.0 + 0.796 * d ** (14 / 15)) ** (-15 / 7) / d * moes_m**-2
+    elastic_iso = 3.18 * elastic ** (-14 / 25) * d ** (-1 / 15) * moes_m ** (-2 / 15)
+    rigid_piezo = 1.29 * (1.691 + 0.691 * (d - 1.0)) ** (-2 / 3) * moes_l ** (2 / 3)
+    elastic_piezo = (
+        1.48 * elastic ** (-7 / 20) * d ** (-1 / 24) * moes_m ** (-1 / 12) * moes_l**0.75
+    )
+    flat = 1.8 / d
     s = 1.5 * (1.0 + math.exp(-1.2 * elastic_iso / rigid_iso))
     isoviscous = rigid_iso**1.5 + (elastic_iso**-4 + flat**-4) ** (-3 / 8)
     piezoviscous = 0.0
@@ -32,10 +39,12 @@ def nijenbanning_venner_moes(moes_m: float, moes_l: float) -> float:
         piezoviscous = (rigid_piezo**-8 + elastic_piezo**-8) ** (-s / 8)
     h_m = (isoviscous ** (2 * s / 3) + piezoviscous) ** (1 / s)
     # from the Moes film number h/R (2U)^(-1/2) to h R/a^2
-    return float(h_m * (1.5 * moes_m) ** (-2 / 3))
+    return float(h_m * (1.5 * moes_m / shape.load_share) ** (-2 / 3))
 
 
-def inlet_viscosity_ratio(moes_m: float, moes_l: float, share: float) -> float:
+def inlet_viscosity_ratio(
+    moes_m: float, moes_l: float, share: float, shape: Ellipse = CIRCLE
+) -> float:
     """Viscosity over that of (M, L) [-] at which the formula gives `share` of the film.
 
     The form in which shear heating of the inlet enters: the film is that of the warmer oil. M and
@@ -43,12 +52,12 @@ def inlet_viscosity_ratio(moes_m: float, moes_l: float, share: float) -> float:
     """
     if share == 1.0:
         return 1.0
-    wanted = share * nijenbanning_venner_moes(moes_m, moes_l)
+    wanted = share * nijenbanning_venner_moes(moes_m, moes_l, shape)
     # the film rises with viscosity, nowhere by less than its 0.4th power
     low, high = 2.5 * math.log(share), 0.0
     for _ in range(60):
         middle = 0.5 * (low + high)
         ratio = math.exp(middle)
-        film = nijenbanning_venner_moes(moes_m * ratio**-0.75, moes_l * ratio**0.25)
+        film = nijenbanning_venner_moes(moes_m * ratio**-0.75, moes_l * ratio**0.25, shape)
         low, high = (middle, high) if film < wanted else (low, middle)
     return math.exp(0.5 * (low + high))

@@ -14,6 +14,7 @@ from typing import Any
 
 from pyehl.errors import InputError
 from pyehl.given import positive
+from pyehl.theory.ellipse import Ellipse, ellipse
 from pyehl.theory.heat import thermal_loading, thermal_reduction
 from pyehl.theory.moes_film import inlet_viscosity_ratio
 
@@ -27,7 +28,7 @@ REFERENCE_MODULUS = 2.26e11
 
 @dataclass(frozen=True, slots=True)
 class OperatingPoint:
-    """A circular contact under load, with what follows from it.
+    """A contact under load, with what follows from it: circular, or elliptical.
 
     Attributes
     ----------
@@ -36,7 +37,7 @@ class OperatingPoint:
     mean_velocity
         (u1 + u2)/2 [m/s].
     radius
-        Reduced radius R [m].
+        Reduced radius R [m]; of an elliptical contact R_x, in the plane of the motion.
     reduced_modulus
         E' [Pa], 2/E' = sum of (1 - nu^2)/E.
     viscosity
@@ -52,6 +53,8 @@ class OperatingPoint:
         Of the solids [W/(m K)], [m^2/s].
     thermal_reduction
         Film over the isothermal one [-], which `viscosity` contains; 1 where it is not counted.
+    radius_ratio
+        R_x/R_y [-]; 1: circular.
 
     Raises
     ------
@@ -80,12 +83,14 @@ class OperatingPoint:
     thermal_conductivity: float = 46.0
     thermal_diffusivity: float = 1.25e-5
     thermal_reduction: float = 1.0
+    radius_ratio: float = 1.0
 
     def __post_init__(self) -> None:
         """Check the numbers."""
         positive("load", self.load, "N")
         positive("mean_velocity", self.mean_velocity, "m/s")
         positive("radius", self.radius, "m")
+        positive("radius_ratio", self.radius_ratio, "-")
         positive("reduced_modulus", self.reduced_modulus, "Pa")
         positive("viscosity", self.viscosity, "Pa s")
         if not (math.isfinite(self.pressure_viscosity) and self.pressure_viscosity >= 0.0):
@@ -105,6 +110,7 @@ class OperatingPoint:
         pressure_viscosity: float = 2.2e-8,
         radius: float = REFERENCE_RADIUS,
         slide_to_roll: float = 0.02,
+        radius_ratio: float = 1.0,
     ) -> OperatingPoint:
         """Return the contact that has the given M and L, for a lubricant and a radius [m].
 
@@ -130,6 +136,7 @@ class OperatingPoint:
             pressure_viscosity=pressure_viscosity,
             si=False,
             slide_to_roll=slide_to_roll,
+            radius_ratio=radius_ratio,
         )
 
     @classmethod
@@ -149,17 +156,23 @@ class OperatingPoint:
                 viscosity=viscosity,
                 pressure_viscosity=alpha,
                 slide_to_roll=slide_to_roll,
+                radius_ratio=float(contact.get("radius_ratio", 1.0)),
             )
+        radii = (
+            float(contact.get("radius_x", contact.get("radius", 0.0))),
+            float(contact.get("radius_y", contact.get("radius", 0.0))),
+        )
         point = cls(
             load=float(contact["load"]),
             mean_velocity=float(contact["mean_velocity"]),
-            radius=float(contact["radius"]),
+            radius=radii[0],
             reduced_modulus=float(contact["reduced_modulus"]),
             viscosity=viscosity,
             pressure_viscosity=alpha,
             slide_to_roll=slide_to_roll,
             thermal_conductivity=float(contact.get("thermal_conductivity", 46.0)),
             thermal_diffusivity=float(contact.get("thermal_diffusivity", 1.25e-5)),
+            radius_ratio=radii[0] / radii[1],
         )
         if not lubricant.get("thermal_reduction", False):
             return point
@@ -171,7 +184,7 @@ class OperatingPoint:
         )
         pressure = point.hertz_pressure / point.reduced_modulus
         share = thermal_reduction(loading, pressure, slide_to_roll)
-        ratio = inlet_viscosity_ratio(point.moes_m, point.moes_l, share)
+        ratio = inlet_viscosity_ratio(point.moes_m, point.moes_l, share, point.ellipse)
         return replace(point, viscosity=viscosity * ratio, thermal_reduction=share)
 
     @property
@@ -180,14 +193,34 @@ class OperatingPoint:
         return abs(self.slide_to_roll) * self.mean_velocity
 
     @property
+    def ellipse(self) -> Ellipse:
+        """Shape of the dry contact."""
+        return ellipse(self.radius_ratio)
+
+    @property
     def hertz_radius(self) -> float:
-        """Radius a of the dry contact [m], a^3 = 3 w R/(2 E')."""
-        return float((1.5 * self.load * self.radius / self.reduced_modulus) ** (1.0 / 3.0))
+        """Radius a of the dry contact [m], a^3 = 3 w R/(2 E'); its semi-axis along the motion."""
+        modulus = self.reduced_modulus * self.ellipse.load_share
+        return float((1.5 * self.load * self.radius / modulus) ** (1.0 / 3.0))
+
+    @property
+    def semi_axis_y(self) -> float:
+        """Semi-axis of the dry contact across the motion [m]."""
+        return self.ellipse.ellipticity * self.hertz_radius
 
     @property
     def hertz_pressure(self) -> float:
-        """Maximum pressure p_h of the dry contact [Pa], 3 w/(2 pi a^2)."""
-        return 1.5 * self.load / (math.pi * self.hertz_radius**2)
+        """Maximum pressure p_h of the dry contact [Pa], 3 w/(2 pi a b) with its semi-axes."""
+        return 1.5 * self.load / (math.pi * self.ellipse.ellipticity * self.hertz_radius**2)
+
+    def need_round(self, what: str) -> None:
+        """Raise InputError unless the contact is circular, naming what knows no ellipse."""
+        if self.radius_ratio != 1.0:
+            raise InputError(
+                f"{what} is for circular contacts, and this one has R_x/R_y = "
+                f"{self.radius_ratio:.4g}\nexpected: contact.radius, or radius_ratio = 1; 'pyehl "
+                "run' solves elliptical contacts"
+            )
 
     @property
     def speed(self) -> float:
@@ -216,12 +249,12 @@ class OperatingPoint:
 
     @property
     def alpha_bar(self) -> float:
-        """Pressure-viscosity number alpha p_h = (L/pi)(3M/2)^(1/3) [-]."""
+        """Pressure-viscosity number alpha p_h = [-], for a circle (L/pi)(3M/2)^(1/3)."""
         return self.pressure_viscosity * self.hertz_pressure
 
     @property
     def speed_parameter(self) -> float:
-        """lambda_bar = 12 eta0 u R^2/(a^3 p_h) = (128 pi^3/(3 M^4))^(1/3) [-]."""
+        """lambda_bar = 12 eta0 u R^2/(a^3 p_h) [-], for a circle (128 pi^3/(3 M^4))^(1/3)."""
         return (
             12.0
             * self.viscosity

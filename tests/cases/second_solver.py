@@ -8,7 +8,7 @@ the linear systems by GMRES, with the LU factors of an earlier, full matrix as p
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -126,8 +126,7 @@ class SecondSolver:
         """Deflection of nodes by the pressure of nodes and of their mirror images."""
         across = abs(self.column[of] - self.column[by])
         image = self.cells[across, self.row[of] + self.row[by]] * (self.row[by] > 0)
-        answer: Array = self.cells[across, abs(self.row[of] - self.row[by])] + image
-        return answer
+        return np.asarray(self.cells[across, abs(self.row[of] - self.row[by])] + image)
 
     def deflect(self, p: Array) -> Array:
         """Deflection of all nodes."""
@@ -135,15 +134,16 @@ class SecondSolver:
         whole = np.concatenate([half[:0:-1], half]).T
         size = (2 * self.points, 2 * self.points)
         w = scipy.fft.irfft2(scipy.fft.rfft2(whole, s=size) * self.transform, s=size)
-        answer: Array = w[: self.points, self.rows - 1 : self.points].T.ravel()
-        return answer
+        return np.asarray(w[: self.points, self.rows - 1 : self.points].T.ravel())
 
-    def wave(self, wave: Wave, time: float) -> Array:
-        """Heights of eq. 15."""
-        along = (self.x - self.start - wave.velocity * time) / wave.length_x
-        fade = 10.0 ** (-10.0 * np.maximum(0.0, along) ** 2)
-        across = np.cos(2.0 * np.pi * self.y / wave.length_y)
-        answer: Array = wave.amplitude * fade * np.cos(2.0 * np.pi * along) * across
+    def rough(self, waves: Iterable[Wave], step: int) -> Array:
+        """Heights of eq. 15, summed over waves."""
+        answer: Array = np.zeros_like(self.x)
+        for wave in waves:
+            along = (self.x - self.start - wave.velocity * step * self.h) / wave.length_x
+            fade = 10.0 ** (-10.0 * np.maximum(0.0, along) ** 2)
+            across = np.cos(2.0 * np.pi * self.y / wave.length_y)
+            answer += wave.amplitude * fade * np.cos(2.0 * np.pi * along) * across
         return answer
 
     def viscosity(self, p: Array) -> tuple[Array, Array]:
@@ -230,8 +230,7 @@ class SecondSolver:
             )
             if not failed:
                 break
-        answer: Array = change
-        return answer
+        return np.asarray(change)
 
     def factor(
         self, by_film: sparse.sparray, by_p: sparse.sparray, nodes: NDArray[np.intp]
@@ -274,13 +273,14 @@ class SecondSolver:
                 break
         return p, h00, film
 
-    def steps(self, wave: Wave) -> Iterator[tuple[float, Array]]:
-        """mu_r/mu_s and the film of one step after the other, the step being the mesh size."""
+    def steps(self, *waves: Wave) -> Iterator[tuple[float, Array]]:
+        """mu_r/mu_s and the film after each step, of the mesh size, of a sum of waves."""
         shape = 0.5 * (self.x**2 + self.y**2)
         p, h00, film = self.smooth()
         smooth = self.friction(p, film)
-        step = max(0, int((X_MATTERS - 0.5 * wave.length_x - self.start) / wave.velocity / self.h))
-        mass = [self.density(p)[0] * (film - self.wave(wave, (step - k) * self.h)) for k in (0, 1)]
+        ways = [(X_MATTERS - 0.5 * w.length_x - self.start) / w.velocity for w in waves]
+        step = max(0, int(min(ways) / self.h))
+        mass = [self.density(p)[0] * (film - self.rough(waves, step - k)) for k in (0, 1)]
         order = np.where(self.first, 0.0, 1.0)
         if self.narrow:
             transport = sparse.diags_array((1.0 + 0.5 * order) / self.h)
@@ -288,7 +288,7 @@ class SecondSolver:
             transport = self.upstream() + 1.5 / self.h * sparse.eye_array(p.size)
         while True:
             step += 1
-            separation = shape - self.wave(wave, step * self.h)
+            separation = shape - self.rough(waves, step)
             if self.narrow:
                 known = -(1.0 + order) * (self.at(-1, 0) @ mass[0])
                 known = (known + 0.5 * order * (self.at(-2, 0) @ mass[1])) / self.h

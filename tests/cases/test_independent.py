@@ -62,6 +62,25 @@ def test_same_friction(
     assert done.history["mu_ratio"] == pytest.approx(ratios, rel=1e-4)
 
 
+def test_same_friction_of_two_waves(solve):
+    """One wave on each body, at 1.25 and at 0.75 times the mean velocity."""
+    waves = options(1.0, amplitude=0.02) | {
+        "contact.slide_to_roll": 0.5,
+        "surface.velocity_ratio": 1.25,
+        "second_surface.kind": "harmonic",
+        "second_surface.amplitude": 0.015,
+        "second_surface.wavelength": 0.8,
+        "time.steps": 60,
+        "solver.deflection": "fft",
+        "solver.accuracy": 0.0005,
+    }
+    done = solve((500.0, 5.0), 65, waves)
+    both = Wave(0.02, 1.0, 1.0, 1.25), Wave(0.015, 0.8, 0.8, 0.75)
+    ratios = np.array([ratio for ratio, _ in islice(SecondSolver(500.0, 5.0, 65).steps(*both), 60)])
+    assert np.ptp(ratios) > 0.1
+    assert done.history["mu_ratio"] == pytest.approx(ratios, rel=1e-4)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("point", "over_film", "wavelength", "scheme"),

@@ -234,3 +234,17 @@ def test_composite_statistics(solve):
     sigma = both["surface_rms_m"] / height
     assert both["lambda_ratio"] == pytest.approx(both["H_min"] / sigma, rel=1e-12)
     assert "composite rms height" in (both.folder / "plan.txt").read_text()
+
+
+def test_amplitude_by_the_film(solve):
+    """Shares of the variance know an amplitude that is given as a share of the film."""
+    si = {"contact.load": 120.0, "contact.slide_to_roll": 0.5, "time.steps": 2}
+    tile = {"kind": "fractal", "pixels": 32, "rms_height": 3e-8}
+    wave = {"kind": "harmonic", "wavelength": 1.0}
+    share = solve(None, POINTS, scene(tile, wave | {"amplitude_over_film": 0.2}) | si)
+    amplitude = share["second_amplitude"]
+    given = solve(None, POINTS, scene(tile, wave | {"amplitude": amplitude}) | si)
+    alone = solve(None, POINTS, scene(tile, {}) | si)
+    assert 0.0 < given["variance_unresolved"] < alone["variance_unresolved"]
+    for name in ("variance_unresolved", "variance_left_out", "surface_rms_m", "mu_ratio_min"):
+        assert share[name] == given[name], name

@@ -53,6 +53,7 @@ SOLUTIONS = {
     ),
     "no solution": f"{MOES}&solver max_cycles = 1 /\n",
     "heated": SI + HEATED,
+    "ellipse": "&contact load = 20.0 radius_x = 0.01 radius_y = 0.02 /\n&grid points = 33 /\n",
     "wave": SI + WAVE.format(""),
     "mean that has not settled": f"{MOES}{WAVE.format('')}&time max_periods = 1 /\n",
     "at rest": SI + WAVE.format("velocity_ratio = 0.0"),
@@ -88,8 +89,9 @@ def test_predictions(tmp_path: Path):
 
 def test_film_sheets():
     written = set()
-    for kind in ("smooth", "harmonic", "fractal"):
-        written |= set(sheet(pyehl.Case.from_text(f"&surface kind = '{kind}' /").resolve()))
+    ellipse = "&contact radius_x = 0.01 radius_y = 0.02 /"
+    for text in (*(f"&surface kind = '{k}' /" for k in ("smooth", "harmonic", "fractal")), ellipse):
+        written |= set(sheet(pyehl.Case.from_text(text).resolve()))
     assert written == names("film")
 
 

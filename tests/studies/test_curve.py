@@ -90,7 +90,7 @@ def test_columns(wave: tuple[Path, str], cases: Path):
 def test_film_is_that_of_the_solved_contact(wave: tuple[Path, str], cases: Path):
     row = table(wave[0])[1]
     with pyehl.Solver(
-        cases / "table1.nml", "surface.kind=smooth", "grid.points=129", f"{KEY}=1.6"
+        cases / "table1.nml", "surface.kind=smooth", *WAVE[5::2], f"{KEY}=1.6"
     ) as solver:
         solver.run()
         alone = solver.summary()

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The Hertz ellipse of a ratio of radii."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+from pyehl.given import positive
+
+__all__ = ["Ellipse", "ellipse"]
+
+
+@dataclass(frozen=True, slots=True)
+class Ellipse:
+    """Shape of a dry contact, in terms of its semi-axis a along the motion.
+
+    Attributes
+    ----------
+    radius_ratio
+        D = R_x/R_y [-], R_x in the plane of the motion.
+    ellipticity
+        kappa [-], the semi-axis across the motion over a.
+    kernel_ratio
+        Factor k_b of the deflection over 2/pi^2, that of a circle [-].
+    """
+
+    radius_ratio: float
+    ellipticity: float
+    kernel_ratio: float
+
+    @property
+    def load_share(self) -> float:
+        """Product kappa k_b over that of a circle [-]: a^3 = 3 w R_x/(2 E' load_share)."""
+        return self.ellipticity * self.kernel_ratio
+
+
+@lru_cache(maxsize=64)
+def ellipse(radius_ratio: float) -> Ellipse:
+    """Return the ellipse of R_x/R_y = `radius_ratio` [-]; a circle where it is 1.
+
+    Hertz 1881, in Carlson's form of the elliptic integrals: D = R_D(0, 1, kappa^2)/R_D(0, kappa^2,
+    1), and k_b = 3/(2 pi kappa R_D(0, kappa^2, 1)).
+
+    Raises
+    ------
+    InputError
+        For a ratio that is not positive.
+
+    Examples
+    --------
+    >>> from pyehl.theory.ellipse import ellipse
+    >>> round(ellipse(0.35177164).ellipticity, 6)
+    2.0
+    """
+    ratio = positive("radius_ratio", radius_ratio, "-")
+    if ratio == 1.0:
+        return Ellipse(1.0, 1.0, 1.0)
+    from scipy.optimize import brentq  # noqa: PLC0415 (takes as long to load as all the rest)
+    from scipy.special import elliprd  # noqa: PLC0415
+
+    def miss(log_kappa: float) -> float:
+        square = math.exp(2.0 * log_kappa)
+        return math.log(elliprd(0.0, 1.0, square) / elliprd(0.0, square, 1.0) / ratio)
+
+    # kappa is D^(-2/3) within a factor of 4 as far as the keys of a case go, and further
+    middle = -2.0 / 3.0 * math.log(ratio)
+    kappa = math.exp(brentq(miss, middle - math.log(4.0), middle + math.log(4.0), xtol=1e-15))
+    factor = 1.5 / (math.pi * kappa * float(elliprd(0.0, kappa**2, 1.0)))
+    return Ellipse(ratio, kappa, factor * math.pi**2 / 2.0)
