@@ -26,10 +26,11 @@ module ehl_flow_factors
    private
    public :: factors_t, sliding_factors, exact_factors
 
-   !> Gauss points of a half of the film, and their weights
-   integer, parameter :: points = 3
-   real(dp), parameter :: xi(points) = 0.5_dp*[0.238619186083196909_dp, 0.661209386466264514_dp, 0.932469514203152028_dp]
-   real(dp), parameter :: w(points) = 0.5_dp*[0.467913934572691047_dp, 0.360761573048138608_dp, 0.171324492379170345_dp]
+   !> Gauss points through the film, those of one half before their mirror images, and their weights
+   integer, parameter :: half = 3, points = 2*half
+   real(dp), parameter :: upper(half) = 0.5_dp*[0.238619186083196909_dp, 0.661209386466264514_dp, 0.932469514203152028_dp]
+   real(dp), parameter :: weight(half) = 0.5_dp*[0.467913934572691047_dp, 0.360761573048138608_dp, 0.171324492379170345_dp]
+   real(dp), parameter :: z(points) = [upper, -upper], w(points) = [weight, weight]
    !> Steps of the Newton iteration for the mean stress; relative error of B at which it ends: the next step would leave its
    !> square
    integer, parameter :: most_steps = 200
@@ -43,6 +44,11 @@ module ehl_flow_factors
    !> A smaller part of S counts as one of this size, which the factors notice by its square only, so that their changes are
    !> no quotients of nothing
    real(dp), parameter :: least_gradient = 1.0e-4_dp
+
+   !> Stress along X and along Y at the points of a film, its square, F and its slope (thinning.f90)
+   type :: film_t
+      real(dp), dimension(points) :: x, y, square, f, slope
+   end type film_t
 
    type :: factors_t
       !> phi_x, phi_y
@@ -95,8 +101,9 @@ contains
       type(thinning_t), intent(in) :: law
       real(dp), intent(in) :: b, gradient(2)
       type(factors_t) :: r
-      !> A, C and D as xx, xy, yy; J0 and J2
-      real(dp) :: a(3), c(3), d(3), s(2), j(0:1), k, mean(2), off(2), change(2), slope, reduced
+      type(film_t) :: film
+      !> A, C and D as xx, xy, yy
+      real(dp) :: a(3), c(3), d(3), j0, j2, k, s(2), mean(2), off(2), change(2), slope, reduced
       integer :: step
 
       s = sign(max(abs(gradient), least_gradient), gradient)
@@ -104,10 +111,11 @@ contains
       change = 0.0_dp
       slope = 0.0_dp
       do step = 1, most_steps
-         call integrals(law, mean, s, j, k, a, c, d)
+         call through_film(law, mean, s, film)
+         call balance(film, j0, k, a)
          ! without sliding the mean stress is none, by symmetry
          if (.not. b > 0.0_dp) exit
-         off = [b, 0.0_dp] - mean*j(0) - s*k*dot_product(mean, s)
+         off = [b, 0.0_dp] - mean*j0 - s*k*dot_product(mean, s)
          if (all(abs(off) <= enough*b)) then
             ! the last step, small as it is
             mean = mean + solve(a, off)
@@ -131,9 +139,10 @@ contains
          return
       end if
       r%stress = mean(1)
-      reduced = mean(1)*k/(j(0) + s(2)**2*k)
-      r%phi(1) = 12.0_dp*(j(1) + mean(1)*reduced*j(0))
-      r%phi(2) = 12.0_dp*(j(1) - j(0)*(s(1)*reduced)**2)
+      call moments(film, j2, c, d)
+      reduced = mean(1)*k/(j0 + s(2)**2*k)
+      r%phi(1) = 12.0_dp*(j2 + mean(1)*reduced*j0)
+      r%phi(2) = 12.0_dp*(j2 - j0*(s(1)*reduced)**2)
       call changes(b, s, a, c, d, r)
    end function exact_factors
 
@@ -141,58 +150,70 @@ contains
    pure real(dp) function first_guess(law, b, s)
       type(thinning_t), intent(in) :: law
       real(dp), intent(in) :: b, s(2)
-      real(dp) :: half(2), f, slope
+      real(dp) :: ends(2), f, slope
 
-      half = 0.5_dp*abs(s)
+      ends = 0.5_dp*abs(s)
       if (law%law == eyring) then
          ! exact where S has no part along Y: int sinh(t + xi S) dxi = sinh(t) sinh(S/2)/(S/2)
-         call law%thinness(half(1)**2, f, slope)
+         call law%thinness(ends(1)**2, f, slope)
          first_guess = law%sliding_stress(b/f)
-         if (half(2) < first_guess) then
-            first_guess = sqrt(first_guess**2 - half(2)**2/3.0_dp)
+         if (ends(2) < first_guess) then
+            first_guess = sqrt(first_guess**2 - ends(2)**2/3.0_dp)
          else
-            call law%thinness(half(2)**2, f, slope)
+            call law%thinness(ends(2)**2, f, slope)
             first_guess = first_guess/f
          end if
       else
-         call law%thinness(dot_product(half, half)/3.0_dp, f, slope)
+         call law%thinness(dot_product(ends, ends)/3.0_dp, f, slope)
          first_guess = law%sliding_stress(b/f)
       end if
    end function first_guess
 
-   !> Integrals over the film at a mean stress: J0 and J2, K, and A, C, D
-   pure subroutine integrals(law, mean, s, j, k, a, c, d)
+   !> Stress and F at the points of the film, for a mean stress
+   pure subroutine through_film(law, mean, s, film)
       type(thinning_t), intent(in) :: law
       real(dp), intent(in) :: mean(2), s(2)
-      real(dp), intent(out) :: j(0:1), k, a(3), c(3), d(3)
-      real(dp) :: up(2), down(2), square(2), f(2), slope(2), t(2), g(3, 2)
-      integer :: p
+      type(film_t), intent(out) :: film
 
-      j = 0.0_dp
-      k = 0.0_dp
-      a = 0.0_dp
-      c = 0.0_dp
-      d = 0.0_dp
-      do p = 1, points
-         up = mean + xi(p)*s
-         down = mean - xi(p)*s
-         square = [dot_product(up, up), dot_product(down, down)]
-         call law%thinness(square(1), f(1), slope(1))
-         call law%thinness(square(2), f(2), slope(2))
-         j = j + w(p)*[1.0_dp, xi(p)**2]*(f(1) + f(2))
-         t = sqrt(square)
-         if (abs(t(1) - t(2)) > close) then
-            k = k + w(p)*4.0_dp*xi(p)**2*(f(1) - f(2))/((t(1) - t(2))*(t(1) + t(2)))
-         else
-            k = k + w(p)*xi(p)**2*(slope(1) + slope(2))
-         end if
-         g(:, 1) = [f(1) + slope(1)*up(1)**2, slope(1)*up(1)*up(2), f(1) + slope(1)*up(2)**2]
-         g(:, 2) = [f(2) + slope(2)*down(1)**2, slope(2)*down(1)*down(2), f(2) + slope(2)*down(2)**2]
-         a = a + w(p)*(g(:, 1) + g(:, 2))
-         c = c + w(p)*xi(p)*(g(:, 1) - g(:, 2))
-         d = d + w(p)*xi(p)**2*(g(:, 1) + g(:, 2))
-      end do
-   end subroutine integrals
+      film%x = mean(1) + z*s(1)
+      film%y = mean(2) + z*s(2)
+      film%square = film%x**2 + film%y**2
+      call law%thinness(film%square, film%f, film%slope)
+   end subroutine through_film
+
+   !> J0, K and A
+   pure subroutine balance(film, j0, k, a)
+      type(film_t), intent(in) :: film
+      real(dp), intent(out) :: j0, k, a(3)
+      real(dp) :: t(points), apart(half), difference(half)
+      logical :: far(half)
+
+      j0 = sum(w*film%f)
+      t = sqrt(film%square)
+      associate (up => film%f(:half), down => film%f(half + 1:))
+         apart = t(:half) - t(half + 1:)
+         far = abs(apart) > close
+         ! of F in tau^2 between two points
+         difference = merge(up - down, 0.25_dp*(film%slope(:half) + film%slope(half + 1:)), far) &
+                      /merge(apart*(t(:half) + t(half + 1:)), 1.0_dp, far)
+      end associate
+      k = sum(4.0_dp*w(:half)*z(:half)**2*difference)
+      a = [j0 + sum(w*film%slope*film%x**2), sum(w*film%slope*film%x*film%y), j0 + sum(w*film%slope*film%y**2)]
+   end subroutine balance
+
+   !> J2, C and D
+   pure subroutine moments(film, j2, c, d)
+      type(film_t), intent(in) :: film
+      real(dp), intent(out) :: j2, c(3), d(3)
+      real(dp) :: xx(points), xy(points), yy(points)
+
+      xx = w*z*(film%f + film%slope*film%x**2)
+      xy = w*z*film%slope*film%x*film%y
+      yy = w*z*(film%f + film%slope*film%y**2)
+      j2 = sum(w*z**2*film%f)
+      c = [sum(xx), sum(xy), sum(yy)]
+      d = [sum(z*xx), sum(z*xy), sum(z*yy)]
+   end subroutine moments
 
    !> A^-1 v
    pure function solve(a, v) result(x)

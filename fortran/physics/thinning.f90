@@ -41,7 +41,7 @@ module ehl_thinning
 contains
 
    !> F at the square of a stress, and its slope (dF/d|tau|)/|tau|
-   pure subroutine thinness(self, square, f, slope)
+   elemental subroutine thinness(self, square, f, slope)
       class(thinning_t), intent(in) :: self
       real(dp), intent(in) :: square
       real(dp), intent(out) :: f, slope
