@@ -18,7 +18,7 @@ MARK = "§"
 # Name, case with mark, --set options, what the message must hold
 FAULTS: list[tuple[str, str, list[str], list[str]]] = [
     ("unknown key", "&grid\n  §pionts = 65\n/\n", [], ["'pionts'", "'points'", "&grid"]),
-    ("unknown key, nothing near", "&grid §qqq = 1 /", [], ["'qqq'", "points, x_inlet"]),
+    ("unknown key, nothing near", "&grid §qqq = 1 /", [], ["'qqq'", "points, points_y, x_inlet"]),
     ("key of another group", "&psd §slide_to_roll = 0.01 /", [], ["belongs to &contact"]),
     ("its option", "", ["psd.limiting_coefficient=0.1"], ["belongs to &lubricant"]),
     (
