@@ -133,9 +133,7 @@ def _open(case: Case, resumed: AnyPath, given: tuple[Surface | None, Surface | N
             # the file of the map is no longer needed
             continue
         if made.heights is not None and np.array_equal(made.heights, heights):
-            solver.tile = made.part
-            if made.preparation:
-                solver.preparations[group] = made.preparation
+            solver.take_preparation(group, made)
     return solver
 
 

@@ -8,7 +8,6 @@ Hertz pressure p_h, lengths by the Hertz radius a, films by a^2/R.
 from __future__ import annotations
 
 import json
-import math
 import os
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping
@@ -21,19 +20,18 @@ from numpy.typing import ArrayLike
 from pyehl import display
 from pyehl.case import Case, with_surface
 from pyehl.destination import Destination, write_json
-from pyehl.errors import EhlError
 from pyehl.given import Option, heights_of, path_of
 from pyehl.handle import Array, SolverHandle, Work
-from pyehl.prediction.resolution import Resolution, resolution
+from pyehl.prediction.of_solver import Predictions
 from pyehl.surfaces import (
     GROUPS,
     Record,
+    SolverSurface,
     Surface,
     Topography,
     gather,
     keep_beside,
     moved,
-    one_rough,
 )
 
 if TYPE_CHECKING:
@@ -162,25 +160,24 @@ class Solver(SolverHandle):
         self._case = case
         # those that were in memory alone
         self._tiles = tiles
-        self._resolution: Resolution | str | None = None
-        self._predicted = self._told = False
         own = gather(case.resolve(), heights, tiles)
         # how maps became tiles, by group
         self.preparations: dict[str, Record] = own.preparations
-        # what a prediction is made with, where it is not the surface of the case
-        self.tile: Topography | None = own.part
-        # whether `tile` is not a part of the surface alone
-        self._whole = bool(heights) or own.part is None
+        whole = bool(heights) or own.part is None
+        self._predictions = Predictions(case, own.part, whole=whole)
         text = case.with_options(*own.options).text if own.options else case.text
         super().__init__(text, *own.heights)
 
+    def take_preparation(self, group: str, made: SolverSurface) -> None:
+        """Take how the surface of a group was prepared, which came as heights of an earlier run."""
+        self._predictions = Predictions(self._case, made.part, whole=made.part is None)
+        if made.preparation:
+            self.preparations[group] = made.preparation
+
     def advance(self) -> bool:
         """One cycle (steady) or step (moving surface); whether nothing is left to do."""
-        if not self._calls and self.start_fronts():
-            # most runs ask for nothing
-            from pyehl.prediction.start import hand_over  # noqa: PLC0415
-
-            hand_over(self, one_rough(self._case.resolve()), self.tile, whole=self._whole)
+        if not self._calls:
+            self._predictions.begin(self)
         return super().advance()
 
     def __repr__(self) -> str:
@@ -213,38 +210,11 @@ class Solver(SolverHandle):
     def _lines(self, *, predict: bool = True) -> list[str]:
         """Tell how a map was prepared, and what the grid does not resolve."""
         lines = [line for made in self.preparations.values() for line in made.report()]
-        found = self._resolved() if predict else None
-        if isinstance(found, str):
-            return [*lines, f"predicted   {found}"]
-        return lines + (found.report() if found else [])
-
-    def _resolved(self) -> Resolution | str | None:
-        """Predict once what the grid does not resolve; text: why there is no prediction."""
-        if not self._predicted:
-            try:
-                self._resolution = resolution(self._case, self.tile)
-            except (EhlError, ValueError, ArithmeticError, OSError, MemoryError) as error:
-                why = str(error) or type(error).__name__
-                self._resolution = f"no mu_r/mu_s: {why.replace(chr(10), ' ')}"
-            self._predicted = True
-        return self._resolution
-
-    def _tell(self) -> None:
-        """Tell the library what is predicted, as soon as the error of mu_ratio asks for it."""
-        values = super().summary()
-        if self._told or values.get("mu_ratio") is None or not values["variance_unresolved"]:
-            return
-        found = self._resolved()
-        if isinstance(found, Resolution):
-            self.take_prediction(found.left_out, found.unresolved, "")
-        elif found is not None:
-            why = f"waves that the grid leaves out are not in it: {found}"
-            self.take_prediction(math.nan, math.nan, why)
-        self._told = True
+        return lines + (self._predictions.lines() if predict else [])
 
     def summary(self) -> dict[str, Any]:
         """Give the scalar results as in ``summary.json``; None for a number that does not exist."""
-        self._tell()
+        self._predictions.tell(self, super().summary())
         values = super().summary()
         return values | self._prepared()
 
@@ -254,7 +224,7 @@ class Solver(SolverHandle):
 
     def conclusion(self) -> str:
         """Tell the results of a run that has ended, with their errors, in a few lines."""
-        self._tell()
+        self._predictions.tell(self, super().summary())
         return self._text("conclusion")
 
     def dataset(self) -> xarray.Dataset:
@@ -298,7 +268,7 @@ class Solver(SolverHandle):
 
     def _fill(self, folder: Path) -> None:
         """Write all files into an empty folder, with what the library does not know."""
-        self._tell()
+        self._predictions.tell(self, super().summary())
         self._write(folder)
         if self._lines():
             plan = folder / "plan.txt"

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is predicted for a run: what it begins with, and what its grid does not resolve."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from pyehl.case import Case
+from pyehl.errors import EhlError
+from pyehl.handle import SolverHandle
+from pyehl.prediction.resolution import Resolution, resolution
+from pyehl.surfaces import Topography, one_rough
+
+__all__ = ["Predictions"]
+
+
+class Predictions:
+    """The predictions for a run, each made once and when it is asked for.
+
+    Parameters
+    ----------
+    case
+        The case of the run.
+    tile
+        Its surface, where it is not made as the case says; of a large one a part.
+    whole
+        Whether `tile` is not a part of the surface alone.
+    """
+
+    def __init__(self, case: Case, tile: Topography | None, *, whole: bool) -> None:
+        self._case, self._tile, self._whole = case, tile, whole
+        self._resolution: Resolution | str | None = None
+        self._resolved = self._told = False
+
+    def begin(self, solver: SolverHandle) -> None:
+        """Hand a solver the start that it asks for; mostly it asks for none."""
+        if solver.start_fronts():
+            from pyehl.prediction.start import hand_over  # noqa: PLC0415
+
+            hand_over(solver, one_rough(self._case.resolve()), self._tile, whole=self._whole)
+
+    def _resolution_once(self) -> Resolution | str | None:
+        """Predict what the grid does not resolve; text: why there is no prediction."""
+        if not self._resolved:
+            try:
+                self._resolution = resolution(self._case, self._tile)
+            except (EhlError, ValueError, ArithmeticError, OSError, MemoryError) as error:
+                why = str(error) or type(error).__name__
+                self._resolution = f"no mu_r/mu_s: {why.replace(chr(10), ' ')}"
+            self._resolved = True
+        return self._resolution
+
+    def lines(self) -> list[str]:
+        """Lines of the plan: what the grid does not resolve."""
+        found = self._resolution_once()
+        if isinstance(found, str):
+            return [f"predicted   {found}"]
+        return found.report() if found else []
+
+    def tell(self, solver: SolverHandle, summary: Mapping[str, Any]) -> None:
+        """Tell a solver what is predicted, as soon as the error of mu_ratio asks for it."""
+        if self._told or summary.get("mu_ratio") is None or not summary["variance_unresolved"]:
+            return
+        found = self._resolution_once()
+        if isinstance(found, Resolution):
+            solver.take_prediction(found.left_out, found.unresolved, "")
+        elif found is not None:
+            why = f"waves that the grid leaves out are not in it: {found}"
+            solver.take_prediction(math.nan, math.nan, why)
+        self._told = True
