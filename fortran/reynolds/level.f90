@@ -74,7 +74,7 @@ contains
    pure integer(int64) function bytes(self)
       class(level_t), intent(in) :: self
 
-      bytes = self%poiseuille%bytes()
+      bytes = self%poiseuille%product%bytes()
       if (allocated(self%p)) bytes = bytes + self%flow%bytes() + 8*8*size(self%p, kind=int64)
    end function bytes
 end module ehl_level

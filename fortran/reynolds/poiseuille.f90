@@ -3,7 +3,6 @@
 !> arithmetic means of the conductances between nodes (Zhang et al. 2019, eqs. 7 and 8; reynolds.f90), and the nine-point
 !> Galerkin product of a finer grid's term, frozen while P and H change. No other module knows the stencil.
 module ehl_poiseuille
-   use, intrinsic :: iso_fortran_env, only: int64
    use ehl_flow, only: along, flow_t
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
@@ -34,7 +33,6 @@ module ehl_poiseuille
       procedure :: integrate
       procedure :: flow_row
       procedure :: flow_rate
-      procedure :: bytes
    end type poiseuille_t
 
    !> What a line system along X takes from a stretch of a row; nodes are numbered from 1. Zero where the row has a border
@@ -169,8 +167,7 @@ contains
    !> The same for a Galerkin product: the couplings as they are, and no change of them
    pure subroutine frozen_line_row(self, p, rhs, j, first, last, terms)
       type(poiseuille_t), intent(in) :: self
-      real(dp), contiguous, intent(in) :: p(:, :)
-      real(dp), contiguous, intent(in) :: rhs(:)
+      real(dp), contiguous, intent(in) :: p(:, :), rhs(:)
       integer, intent(in) :: j, first, last
       type(line_terms_t), intent(inout) :: terms
       real(dp) :: cell, q, term
@@ -294,10 +291,4 @@ contains
       class(poiseuille_t), intent(in) :: self
       flow_rate = 2.0_dp/self%grid%hx**2 + 2.0_dp/self%grid%hy**2
    end function flow_rate
-
-   !> Allocated bytes
-   pure integer(int64) function bytes(self)
-      class(poiseuille_t), intent(in) :: self
-      bytes = self%product%bytes()
-   end function bytes
 end module ehl_poiseuille

@@ -72,14 +72,8 @@ class RoughPassage:
             zone = zone_of(self.contact, o, self.lubricant)
             moes = o.moes_m, o.moes_l
             newtonian = self.lubricant.shear.law == "newtonian"
-            return Transfer.of(
-                spectrum,
-                zone,
-                moes,
-                self.velocity_ratio,
-                at_amplitude=newtonian,
-                mesh=self.mesh,
-            )
+            u, mesh = self.velocity_ratio, self.mesh
+            return Transfer.of(spectrum, zone, moes, u, at_amplitude=newtonian, mesh=mesh)
         ratio = component_amplitude_ratio(
             spectrum.qx[:, np.newaxis],
             spectrum.qy[np.newaxis, :],
@@ -298,11 +292,9 @@ class RoughPassage:
             fewer_pixels(n, pixel * n, limit)
             for n, pixel in zip(spectrum.shape, spectrum.pixel, strict=True)
         )
-        nx, ny = shape[0], shape[1]
-        rows: NDArray[np.int_] = np.arange(nx // 2 + 1)
-        columns = np.rint(np.fft.fftfreq(ny, 1.0 / ny)).astype(np.int_) % spectrum.shape[1]
-        part = spectrum.kept((rows, columns), (nx, ny))
+        index = spectrum.longest(shape[0], shape[1])
+        part = spectrum.kept(index, (shape[0], shape[1]))
         part.values[part.q >= limit] = 0.0
         power = np.where(spectrum.q < limit, spectrum.power, 0.0)
-        contact = self._contact(part, transfer.kept((rows, columns)), edge.below(limit), power)
-        return short_mean(contact, nx)
+        contact = self._contact(part, transfer.kept(index), edge.below(limit), power)
+        return short_mean(contact, shape[0])

@@ -55,6 +55,11 @@ class Spectrum:
         nx, ny = self.shape
         return 2.0 * np.pi / (self.qx[1] * nx), 2.0 * np.pi / (self.qy[1] * ny)
 
+    def longest(self, nx: int, ny: int) -> tuple[Indices, Indices]:
+        """Rows and columns of `values` that a tile of nx x ny pixels, no more than here, has."""
+        columns = np.rint(np.fft.fftfreq(ny, 1.0 / ny)).astype(np.int_) % self.shape[1]
+        return np.arange(nx // 2 + 1), columns
+
     def kept(self, index: tuple[Indices, Indices], shape: tuple[int, int]) -> Spectrum:
         """Return the components at rows and columns of `values` as a tile of fewer pixels."""
         values = self.values[np.ix_(*index)] * (shape[0] * shape[1] / np.prod(self.shape))

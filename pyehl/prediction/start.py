@@ -212,6 +212,5 @@ def _on_fewer_pixels(
         min(n, 4 * (int(limit * pixel * n / (2.0 * math.pi)) + 1))
         for n, pixel, limit in zip(spectrum.shape, spectrum.pixel, limits, strict=True)
     )
-    rows: NDArray[np.int_] = np.arange(nx // 2 + 1)
-    columns = np.rint(np.fft.fftfreq(ny, 1.0 / ny)).astype(np.int_) % spectrum.shape[1]
-    return spectrum.kept((rows, columns), (nx, ny)), transfer.kept((rows, columns))
+    index = spectrum.longest(nx, ny)
+    return spectrum.kept(index, (nx, ny)), transfer.kept(index)
