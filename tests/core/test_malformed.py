@@ -25,13 +25,13 @@ FAULTS: list[tuple[str, str, list[str], list[str]]] = [
         "two velocities",
         "&contact slide_to_roll = 0.1 / &surface §velocity_ratio = 1.01 /",
         [],
-        ["contact.slide_to_roll = 0.1", "surface 1", "1.05", "1.01", "slide_to_roll = 0.02 "],
+        ["contact.slide_to_roll = 0.1", "&surface, on body 1", "1.05", "1.01", "slide_to_roll = 0.02 "],
     ),
     (
         "two velocities, surface 2",
         "&surface velocity_ratio = 1.05 / &contact rough_surface = 2 §slide_to_roll = 0.1 /",
         [],
-        ["surface 2", "0.95", "1.05"],
+        ["&surface, on body 2", "0.95", "1.05"],
     ),
     ("two limits", "&lubricant limiting_stress = 1e8 §limiting_coefficient = 0.1 /", [], ["one of"]),
     (
