@@ -20,10 +20,10 @@ contains
       associate (c => input%contact)
          call self%reals("moes_m", c%moes_m, "-", "(0, 1e5]", "Moes load parameter M")
          call self%reals("moes_l", c%moes_l, "-", "[0, 100]", "Moes material parameter L")
-         call self%reals("load", c%load, "N", "(0, 1e5]", "load")
-         call self%reals("mean_velocity", c%mean_velocity, "m/s", "(0, 200]", "mean velocity of the two surfaces")
          call self%reals("radius_ratio", c%radius_ratio, "-", "[0.004, 250]", &
                          "R_x/R_y of an elliptical contact, whose M and L are by R_x; 1: round")
+         call self%reals("load", c%load, "N", "(0, 1e5]", "load")
+         call self%reals("mean_velocity", c%mean_velocity, "m/s", "(0, 200]", "mean velocity of the two surfaces")
          call self%reals("radius", c%radius, "m", "[1e-5, 10]", "reduced radius of a round contact")
          call self%reals("radius_x", c%radius_x, "m", "0 or [1e-5, 1000]", &
                          "reduced radius in the plane of the motion; 0: radius")

@@ -48,7 +48,7 @@ module ehl_domain
                           dented_below = 5.5_dp
    !> Around an ellipse the bodies are deflected as much further out as kappa k_b is larger than that of a round contact:
    !> what that costs with a flooded border, at the most, and with P = 0, where a narrow contact costs more, too
-   real(dp), parameter :: most_wide = 4.0_dp, wide_power = 0.25_dp
+   real(dp), parameter :: most_wide = 4.0_dp, wide_power = 0.4_dp
    !> Points of an integral
    integer, parameter :: points = 100
 

@@ -47,7 +47,7 @@ module ehl_flow_factors
 
    !> Stress along X and along Y at the points of a film, its square, F and its slope (thinning.f90)
    type :: film_t
-      real(dp), dimension(points) :: x, y, square, f, slope
+      real(dp), dimension(points) :: tau_x, tau_y, square, f, slope
    end type film_t
 
    type :: factors_t
@@ -175,9 +175,9 @@ contains
       real(dp), intent(in) :: mean(2), s(2)
       type(film_t), intent(out) :: film
 
-      film%x = mean(1) + z*s(1)
-      film%y = mean(2) + z*s(2)
-      film%square = film%x**2 + film%y**2
+      film%tau_x = mean(1) + z*s(1)
+      film%tau_y = mean(2) + z*s(2)
+      film%square = film%tau_x**2 + film%tau_y**2
       call law%thinness(film%square, film%f, film%slope)
    end subroutine through_film
 
@@ -198,7 +198,7 @@ contains
                       /merge(apart*(t(:half) + t(half + 1:)), 1.0_dp, far)
       end associate
       k = sum(4.0_dp*w(:half)*z(:half)**2*difference)
-      a = [j0 + sum(w*film%slope*film%x**2), sum(w*film%slope*film%x*film%y), j0 + sum(w*film%slope*film%y**2)]
+      a = [j0 + sum(w*film%slope*film%tau_x**2), sum(w*film%slope*film%tau_x*film%tau_y), j0 + sum(w*film%slope*film%tau_y**2)]
    end subroutine balance
 
    !> J2, C and D
@@ -207,9 +207,9 @@ contains
       real(dp), intent(out) :: j2, c(3), d(3)
       real(dp) :: xx(points), xy(points), yy(points)
 
-      xx = w*z*(film%f + film%slope*film%x**2)
-      xy = w*z*film%slope*film%x*film%y
-      yy = w*z*(film%f + film%slope*film%y**2)
+      xx = w*z*(film%f + film%slope*film%tau_x**2)
+      xy = w*z*film%slope*film%tau_x*film%tau_y
+      yy = w*z*(film%f + film%slope*film%tau_y**2)
       j2 = sum(w*z**2*film%f)
       c = [sum(xx), sum(xy), sum(yy)]
       d = [sum(z*xx), sum(z*xy), sum(z*yy)]

@@ -80,8 +80,9 @@ contains
       self%seconds = numbers(1)
       self%coarse_ratio = numbers(2)
       self%coarse_outcome = nint(numbers(3))
-      if (self%plan%predicted_start .and. .not. (self%transient%mean%transit > 0.0_dp .or. allocated(self%why_front))) &
+      if (self%plan%predicted_start .and. .not. (self%transient%mean%transit > 0.0_dp .or. allocated(self%why_front))) then
          self%why_front = "the first steps from it failed"
+      end if
       call self%transient%restore(self%hierarchy%levels(self%steady%n), self%plan%surfaces, same)
       if (.not. same) then
          call status%fail(ehl_bad_input, self%checkpoint%path//": error: the film of this state does not follow from "// &

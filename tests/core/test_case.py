@@ -26,9 +26,10 @@ def test_resolved_case_reads_back(path: Path):
     groups = case.resolve()
     excluded = {
         "contact.moes_m", "contact.moes_l", "contact.load", "contact.mean_velocity",
-        "contact.radius", "contact.reduced_modulus", "surface.amplitude",
-        "surface.amplitude_over_film", "surface.width", "lubricant.temperature",
-        "lubricant.density_15", "lubricant.thermal_expansion",
+        "contact.radius", "contact.reduced_modulus", "contact.radius_x", "contact.radius_y",
+        "contact.radius_ratio", "surface.amplitude", "surface.amplitude_over_film",
+        "surface.width", "lubricant.temperature", "lubricant.density_15",
+        "lubricant.thermal_expansion",
     }  # fmt: skip
     names = {f"{group}.{key}" for group, keys in groups.items() for key in keys}
     missing = {key.name for key in library.keys()} - names
@@ -84,6 +85,7 @@ def test_moes_numbers_default_to_each_other():
     assert Case.from_text("&contact moes_l = 5 /").resolve()["contact"] == {
         "moes_m": 1000.0,
         "moes_l": 5.0,
+        "radius_ratio": 1.0,
         "slide_to_roll": 0.02,
         "rough_surface": 1,
         "thermal_conductivity": 46.0,

@@ -88,13 +88,13 @@ def test_numerics_does_not_know_cases(root: Path):
 OWNED = [
     ("reynolds/poiseuille.f90", r"/[\w%]*h[xy]\s*\*\*\s*2"),
     ("reynolds/poiseuille.f90", r"\be(?:ps|x)?\(i [+-] 1, j\) \+"),
-    ("reynolds/poiseuille.f90", r"%product%?\w*\(|%north_east\(i"),
+    ("reynolds/poiseuille.f90", r"%product%?(?!bytes)\w*\(|%north_east\(i"),
     ("reynolds/wedge.f90", r"1\.5_dp, -2\.0_dp, 0\.5_dp"),
     ("reynolds/wedge.f90", r"1\.5_dp/\w*time_step"),
     ("reynolds/wedge.f90", r"c\(1\)\*\w+\(i - 1"),
     (
-        "contact/circular.f90",
-        r"pi/3\.0_dp|sqrt\(max\(0\.0_dp, 1\.0_dp - x|\bx\w*(?:\(i\))?\*\*2 \+ ",
+        "contact/circular.f90 contact/elliptical.f90",
+        r"pi/3\.0_dp|sqrt\(max\(0\.0_dp, 1\.0_dp - x|(?<!%)\bx\w*(?:\(i\))?\*\*2 \+ ",
     ),
     ("grid/grid.f90", r"merge\(2, j - 1, j == 1\)"),
 ]
@@ -114,7 +114,7 @@ def test_one_owner(root: Path, owner: str, pattern: str):
         for line in path.read_text().splitlines()
         if re.search(pattern, line.split("!")[0])
     }
-    assert found == {owner}
+    assert found == set(owner.split())
 
 
 def test_module_is_named_as_its_file(root: Path):

@@ -18,20 +18,20 @@ MARK = "§"
 # Name, case with mark, --set options, what the message must hold
 FAULTS: list[tuple[str, str, list[str], list[str]]] = [
     ("unknown key", "&grid\n  §pionts = 65\n/\n", [], ["'pionts'", "'points'", "&grid"]),
-    ("unknown key, nothing near", "&grid §qqq = 1 /", [], ["'qqq'", "points, x_inlet"]),
+    ("unknown key, nothing near", "&grid §qqq = 1 /", [], ["'qqq'", "points, points_y, x_inlet"]),
     ("key of another group", "&psd §slide_to_roll = 0.01 /", [], ["belongs to &contact"]),
     ("its option", "", ["psd.limiting_coefficient=0.1"], ["belongs to &lubricant"]),
     (
         "two velocities",
         "&contact slide_to_roll = 0.1 / &surface §velocity_ratio = 1.01 /",
         [],
-        ["contact.slide_to_roll = 0.1", "surface 1", "1.05", "1.01", "slide_to_roll = 0.02 "],
+        ["contact.slide_to_roll = 0.1", "&surface, on body 1", "1.05", "1.01", "slide_to_roll = 0.02 "],
     ),
     (
         "two velocities, surface 2",
         "&surface velocity_ratio = 1.05 / &contact rough_surface = 2 §slide_to_roll = 0.1 /",
         [],
-        ["surface 2", "0.95", "1.05"],
+        ["&surface, on body 2", "0.95", "1.05"],
     ),
     ("two limits", "&lubricant limiting_stress = 1e8 §limiting_coefficient = 0.1 /", [], ["one of"]),
     (

@@ -141,7 +141,7 @@ def test_a_prediction_that_fails_makes_no_error_smaller(monkeypatch, tmp_path: P
     def fails(*_: object) -> None:
         raise errors.EhlError("film breakdown: no full film")
 
-    monkeypatch.setattr("pyehl.solver.resolution", fails)
+    monkeypatch.setattr("pyehl.prediction.of_solver.resolution", fails)
     with Solver(Case.from_text(LEFT_OUT)) as solver:
         assert "predicted   no mu_r/mu_s: film breakdown: no full film" in solver.describe()
         solver.run()
