@@ -20,7 +20,7 @@ contains
       character(len=:), allocatable :: text
       type(case_t), target :: copy, defaults
       type(schema_t) :: schema, constant
-      character(len=:), allocatable :: mark
+      character(len=:), allocatable :: mark, lines
       integer :: k
 
       copy = input
@@ -28,13 +28,14 @@ contains
       call constant%bind(defaults)
       text = ""
       do k = 1, size(schema%keys)
-         if (opens_group(schema, k)) text = text // "&" // trim(schema%keys(k)%group) // newline
+         if (opens_group(schema, k)) lines = ""
          if (holds(input, schema%keys(k))) then
             mark = ""
             if (allocated(input%given)) mark = mark_of(schema%keys(k), constant%keys(k), input%given(k))
-            text = text // key_line(schema%keys(k), mark) // newline
+            lines = lines // key_line(schema%keys(k), mark) // newline
          end if
-         if (closes_group(schema, k)) text = text // "/" // newline
+         if (closes_group(schema, k) .and. lines /= "") text = text // "&" // trim(schema%keys(k)%group) // newline // lines &
+                                                                // "/" // newline
       end do
    end function case_text
 
@@ -52,6 +53,9 @@ contains
          holds = input%contact%si .and. input%contact%round
       case ("contact.radius_x", "contact.radius_y")
          holds = input%contact%si .and. .not. input%contact%round
+      case ("bodies.radius_x1", "bodies.radius_y1", "bodies.radius_x2", "bodies.radius_y2", "bodies.modulus_1", &
+            "bodies.modulus_2", "bodies.poisson_1", "bodies.poisson_2")
+         holds = input%bodies%given
       case ("surface.amplitude")
          holds = input%surface%amplitude_given
       case ("surface.amplitude_over_film")
