@@ -150,6 +150,8 @@ sp | mu_note | | what mu leaves out
 sp | flash_temperature_K | K | rise of temperature that mu leaves out
 sp | shear_rate_mean_per_s | 1/s | mean shear rate
 sp | shear_stress_max_Pa | Pa | largest shear stress
+s | rolling_moment | p_h a^3 | iint H/2 dP/dX of the smooth contact, which resists the rolling
+s | rolling_moment_N_m | N m | the same
 sp | shear_law | | law of the shear stress
 sp | slide_to_roll | - | (u1 - u2)/u
 s | inlet_viscosity_Pa_s | Pa s | viscosity of the inlet

@@ -39,6 +39,16 @@ module ehl_case
       real(dp) :: thermal_diffusivity = 1.25e-5_dp
    end type contact_case_t
 
+   !> &bodies: what makes the reduced radii and the reduced modulus; it rules where one of its keys is given
+   type :: bodies_case_t
+      !> Of body 1 and of body 2
+      real(dp) :: radius_x1 = 0.0_dp, radius_y1 = 0.0_dp, radius_x2 = 0.0_dp, radius_y2 = 0.0_dp
+      !> Of steel
+      real(dp) :: modulus_1 = 2.06e11_dp, modulus_2 = 2.06e11_dp, poisson_1 = 0.3_dp, poisson_2 = 0.3_dp
+      !> Whether they hold. Not a key; set by the reader.
+      logical :: given = .false.
+   end type bodies_case_t
+
    !> &lubricant: viscosity and density under pressure, shear stress, temperature
    type :: lubricant_case_t
       real(dp) :: viscosity = 0.04_dp
@@ -176,6 +186,7 @@ module ehl_case
    !> A whole case
    type :: case_t
       type(contact_case_t) :: contact
+      type(bodies_case_t) :: bodies
       type(lubricant_case_t) :: lubricant
       type(grid_case_t) :: grid
       type(surface_case_t) :: surface

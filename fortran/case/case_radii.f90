@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The radii of a contact in SI units: one of a round contact, or two
+!> The radii of a contact in SI units: one of a round contact, two, or those of both bodies
 module ehl_case_radii
    use ehl_case, only: case_t
    use ehl_kinds, only: dp
@@ -23,6 +23,8 @@ contains
       integer :: one
 
       associate (c => input%contact)
+         if (status%failed()) return
+         call complete_bodies(schema, input, sources, status)
          if (status%failed() .or. .not. c%si) return
          c%round = .not. (c%radius_x > 0.0_dp .or. c%radius_y > 0.0_dp)
          if (c%round) then
@@ -47,4 +49,66 @@ contains
          end associate
       end associate
    end subroutine complete_radii
+
+   !> Reduced radii and reduced modulus of the bodies, if one of their keys was given
+   subroutine complete_bodies(schema, input, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(inout) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+      character(len=15), parameter :: rivals(7) = [character(len=15) :: "radius", "radius_x", "radius_y", &
+                                                   "reduced_modulus", "moes_m", "moes_l", "radius_ratio"]
+      integer :: k, first
+
+      first = findloc(schema%keys%given .and. schema%keys%group == "bodies", .true., dim=1)
+      input%bodies%given = first > 0
+      if (first == 0) return
+      do k = 1, size(rivals)
+         if (.not. schema%given("contact", trim(rivals(k)))) cycle
+         call contradict(schema, sources, schema%keys(first)%full_name(), "contact."//trim(rivals(k)), &
+                         "the bodies, or reduced radii and modulus, or Moes numbers", status)
+         return
+      end do
+      associate (b => input%bodies, c => input%contact)
+         c%reduced_modulus = 2.0_dp/((1.0_dp - b%poisson_1**2)/b%modulus_1 + (1.0_dp - b%poisson_2**2)/b%modulus_2)
+         c%radius_x = reduced_radius([b%radius_x1, b%radius_x2])
+         c%radius_y = reduced_radius([b%radius_y1, b%radius_y2])
+         call check_closed(schema, sources, "radius_x", [b%radius_x1, b%radius_x2], c%radius_x, status)
+         call check_closed(schema, sources, "radius_y", [b%radius_y1, b%radius_y2], c%radius_y, status)
+      end associate
+   end subroutine complete_bodies
+
+   !> R with 1/R = 1/R_1 + 1/R_2, a flat body being 0; 0 where the gap does not open
+   pure real(dp) function reduced_radius(radii)
+      real(dp), intent(in) :: radii(2)
+      real(dp) :: curvature
+      integer :: k
+
+      curvature = 0.0_dp
+      do k = 1, 2
+         if (abs(radii(k)) > 0.0_dp) curvature = curvature + 1.0_dp/radii(k)
+      end do
+      reduced_radius = 0.0_dp
+      if (curvature > 0.0_dp) reduced_radius = 1.0_dp/curvature
+   end function reduced_radius
+
+   !> Refuse bodies whose gap does not open in one direction, or hardly does
+   subroutine check_closed(schema, sources, name, radii, reduced, status)
+      type(schema_t), intent(in) :: schema
+      type(source_t), intent(in) :: sources(:)
+      !> Name of the reduced radius; its value, and those of the bodies [m]
+      character(len=*), intent(in) :: name
+      real(dp), intent(in) :: radii(2), reduced
+      type(status_t), intent(inout) :: status
+      character(len=1) :: concave
+
+      if (status%failed()) return
+      associate (key => schema%keys(schema%find("contact", name)))
+         if (reduced > 0.0_dp .and. key%allows(reduced)) return
+      end associate
+      concave = merge("1", "2", radii(1) < 0.0_dp)
+      call refuse(schema, sources, "bodies", name//concave, "bodies."//name//"1 = "//short(radii(1))//" and "//name//"2 = "// &
+                  short(radii(2))//": the gap does not open in this direction", "a convex body, and a concave one (negative) "// &
+                  "only with a larger radius than the convex one", status)
+   end subroutine check_closed
 end module ehl_case_radii

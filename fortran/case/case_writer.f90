@@ -21,7 +21,7 @@ contains
       character(len=:), allocatable :: text
       type(case_t), target :: copy, defaults
       type(schema_t) :: schema, constant
-      character(len=:), allocatable :: mark
+      character(len=:), allocatable :: mark, lines
       integer :: k
 
       copy = input
@@ -30,13 +30,14 @@ contains
       text = ""
       do k = 1, size(schema%keys)
          if (schema%keys(k)%group == "second_surface" .and. .not. has_second(input, schema)) cycle
-         if (opens_group(schema, k)) text = text // "&" // trim(schema%keys(k)%group) // newline
+         if (opens_group(schema, k)) lines = ""
          if (holds(input, schema%keys(k))) then
             mark = ""
             if (allocated(input%given)) mark = mark_of(schema%keys(k), constant%keys(k), input%given(k))
-            text = text // key_line(schema%keys(k), mark) // newline
+            lines = lines // key_line(schema%keys(k), mark) // newline
          end if
-         if (closes_group(schema, k)) text = text // "/" // newline
+         if (closes_group(schema, k) .and. lines /= "") text = text // "&" // trim(schema%keys(k)%group) // newline // lines &
+                                                                // "/" // newline
       end do
    end function case_text
 
@@ -55,6 +56,8 @@ contains
       type(key_t), intent(in) :: key
 
       select case (trim(key%group))
+      case ("bodies")
+         holds = input%bodies%given
       case ("surface")
          holds = holds_of_surface(input%surface, key)
       case ("second_surface")

@@ -38,6 +38,18 @@ contains
          call self%reals("thermal_diffusivity", c%thermal_diffusivity, "m^2/s", "[1e-8, 1e-3]", &
                          "thermal diffusivity of the solids, for the flash temperature")
       end associate
+      self%group = "bodies"
+      associate (b => input%bodies)
+         call self%reals("radius_x1", b%radius_x1, "m", "[-1e3, 1e3]", &
+                         "radius of body 1 in the plane of the motion; negative: concave, 0: flat")
+         call self%reals("radius_y1", b%radius_y1, "m", "[-1e3, 1e3]", "radius of body 1 across the motion")
+         call self%reals("radius_x2", b%radius_x2, "m", "[-1e3, 1e3]", "radius of body 2 in the plane of the motion")
+         call self%reals("radius_y2", b%radius_y2, "m", "[-1e3, 1e3]", "radius of body 2 across the motion")
+         call self%reals("modulus_1", b%modulus_1, "Pa", "[1e5, 2e12]", "Young's modulus of body 1")
+         call self%reals("modulus_2", b%modulus_2, "Pa", "[1e5, 2e12]", "Young's modulus of body 2")
+         call self%reals("poisson_1", b%poisson_1, "-", "[-0.5, 0.5]", "Poisson's ratio of body 1")
+         call self%reals("poisson_2", b%poisson_2, "-", "[-0.5, 0.5]", "Poisson's ratio of body 2")
+      end associate
       self%group = "lubricant"
       associate (l => input%lubricant)
          call self%reals("viscosity", l%viscosity, "Pa s", "[1e-4, 10]", "viscosity at ambient pressure")

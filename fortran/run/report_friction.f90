@@ -24,7 +24,7 @@ contains
       !> Pressure and film of the smooth contact, its friction integral, and the friction over it (1: smooth); nan:
       !> not known
       real(dp), intent(in) :: p(:, :), h(:, :), friction, ratio
-      real(dp) :: nothing, mu_smooth, mu, rate, stress, rise, speed
+      real(dp) :: nothing, mu_smooth, mu, rate, stress, rise, speed, moment
       character(len=:), allocatable :: note
 
       nothing = ieee_value(nothing, ieee_quiet_nan)
@@ -59,6 +59,10 @@ contains
                                      s%mean_velocity*(1.0_dp + [0.5_dp, -0.5_dp]*s%slide_to_roll), s%conductivity, &
                                      s%diffusivity)
          end if
+         moment = nothing
+         if (ieee_is_finite(friction)) moment = rolling_moment(grid, p, h)
+         call record%set("rolling_moment", moment)
+         if (plan%scales%has_size()) call record%set("rolling_moment_N_m", moment*plan%scales%pressure*plan%scales%length**3)
          call record%set("shear_law", trim(s%law))
          call record%set("slide_to_roll", s%slide_to_roll)
          call record%set("mu", mu)
@@ -74,6 +78,20 @@ contains
          end if
       end associate
    end subroutine report_friction
+
+   !> iint H/2 dP/dX, the moment of the pressure flow on each surface, which resists the rolling [p_h a^3]; a long inlet
+   !> has a good part of it (Biboulet & Houpert 2010)
+   pure real(dp) function rolling_moment(grid, p, h)
+      type(grid_t), intent(in) :: grid
+      real(dp), intent(in) :: p(:, :), h(:, :)
+      integer :: j, n
+
+      rolling_moment = 0.0_dp
+      n = grid%nx
+      do j = 1, grid%ny
+         rolling_moment = rolling_moment + 0.25_dp*grid%weight(j)/grid%hx*sum((h(:n - 1, j) + h(2:, j))*(p(2:, j) - p(:n - 1, j)))
+      end do
+   end function rolling_moment
 
    !> Mean of 1/H over the dry contact
    pure real(dp) function mean_inverse(contact, grid, h)

@@ -135,6 +135,51 @@ def test_numbers_of_python_are_those_of_the_program(solve):
         assert load == pytest.approx(50.0, rel=1e-12)
 
 
+def test_bodies_make_reduced_radii_and_modulus(ehl: str, tmp_path: Path):
+    """A ball in a groove; the case that the run writes does the same."""
+    ball, ring, groove = 0.004, 0.0125, -0.00413
+    bodies = {
+        "bodies.radius_x1": ball,
+        "bodies.radius_y1": ball,
+        "bodies.radius_x2": ring,
+        "bodies.radius_y2": groove,
+        "bodies.modulus_2": 3e11,
+        "bodies.poisson_2": 0.2,
+    }
+    contact = pyehl.Case.from_text("", bodies).resolve()["contact"]
+    assert contact["radius_x"] == pytest.approx(1.0 / (1.0 / ball + 1.0 / ring), rel=1e-14)
+    assert contact["radius_y"] == pytest.approx(1.0 / (1.0 / ball + 1.0 / groove), rel=1e-12)
+    modulus = 2.0 / ((1.0 - 0.3**2) / 2.06e11 + (1.0 - 0.2**2) / 3e11)
+    assert contact["reduced_modulus"] == pytest.approx(modulus, rel=1e-14)
+    (tmp_path / "case.nml").write_text("")
+    options = [f"{key}={value}" for key, value in bodies.items()]
+    sets = [word for o in (*options, "contact.load=20", "grid.points=65") for word in ("--set", o)]
+    first, again = tmp_path / "first", tmp_path / "again"
+    subprocess.run([ehl, tmp_path / "case.nml", "-o", first, *sets], check=True)
+    subprocess.run([ehl, first / "case.nml", "-o", again], check=True)
+    assert np.array_equal(np.load(first / "H.npy"), np.load(again / "H.npy"))
+    changed = pyehl.Case.read(first / "case.nml", "bodies.radius_x2=0").resolve()["contact"]
+    assert changed["radius_x"] == ball
+
+
+def test_rolling_moment(solve):
+    """As the fields have it; in a wide contact near the asymptote of Biboulet & Houpert 2010."""
+    kappa, m = 5.0, 1000.0
+    shape = ellipse(0.08455531)
+    assert shape.ellipticity == pytest.approx(kappa, rel=1e-3)
+    done = solve(
+        (m * shape.ellipticity * shape.kernel_ratio**0.25, 10.0 / shape.kernel_ratio**0.75),
+        257,
+        {"contact.radius_ratio": 0.08455531, "grid.x_inlet": -5.0, "grid.x_outlet": 3.0},
+        fields=True,
+    )
+    p, h = done.field("P"), done.field("H")
+    slope = np.diff(p, axis=0) * 0.5 * (h[1:] + h[:-1])
+    moment = 0.5 * float(slope.sum()) * done["y_mesh"]
+    assert done["rolling_moment"] == pytest.approx(moment, rel=1e-10)
+    assert done["rolling_moment"] == pytest.approx(7.5 * kappa / m, rel=0.1)
+
+
 def test_si_and_moes_numbers_are_one_contact(solve):
     given = solve(None, 65, ROUND | {"contact.radius_x": 0.01, "contact.radius_y": 0.03})
     same = solve(
@@ -238,6 +283,11 @@ def test_resolved_case_gives_the_same_bits(ehl: str, tmp_path: Path):
         (["contact.radius_x=-0.01", "contact.radius_y=0.01"], "out of range"),
         (["contact.radius_ratio=2", "contact.load=10"], "contradicts contact.radius_ratio"),
         (["contact.radius_x=100", "contact.radius_y=0.01"], "radius_x/radius_y is"),
+        (["bodies.radius_x1=0.01", "contact.radius=0.01"], "contact.radius contradicts bodies"),
+        (
+            ["bodies.radius_x1=0.01", "bodies.radius_y1=0.01", "bodies.radius_y2=-0.009"],
+            "bodies.radius_y1 .* the gap does not open",
+        ),
         (["contact.radius_ratio=0.2", "grid.y_extent=1.2"], "the contact reaches to Y"),
         (["contact.radius_ratio=0.2", "grid.points=65", "grid.points_y=67"], "65 nodes along X"),
     ],

@@ -12,8 +12,8 @@ import pyehl
 from pyehl import schema
 from pyehl.prediction.film_sheet import sheet
 
-UNITS = {"_Pa_s": "Pa s", "_per_Pa": "1/Pa", "_m_per_s": "m/s", "_per_s": "1/s", "_Pa": "Pa",
-         "_seconds": "s", "_N": "N", "_K": "K", "_m": "m"}  # fmt: skip
+UNITS = {"_N_m": "N m", "_Pa_s": "Pa s", "_per_Pa": "1/Pa", "_m_per_s": "m/s", "_per_s": "1/s",
+         "_Pa": "Pa", "_seconds": "s", "_N": "N", "_K": "K", "_m": "m"}  # fmt: skip
 
 
 def names(kind: str) -> set[str]:
