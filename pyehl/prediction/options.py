@@ -9,7 +9,7 @@ from typing import Any
 
 from pyehl.surfaces import FEATURES, one_rough, rough_groups
 
-__all__ = ["MAX_POSITIONS", "Options", "unpredictable"]
+__all__ = ["MAX_POSITIONS", "Options", "thinning_flow", "unpredictable"]
 
 MAX_POSITIONS = 4096
 """Most positions of a passage, as the schema of cases has it."""
@@ -33,6 +33,15 @@ def unpredictable(settings: Mapping[str, Mapping[str, Any]]) -> str:
             "surface.kind = 'harmonic', 'map' or 'fractal'"
         )
     return ""
+
+
+def thinning_flow(settings: Mapping[str, Mapping[str, Any]]) -> str:
+    """Tell why the flow of a resolved case is not predicted; '' where it is Newtonian."""
+    lubricant = settings["lubricant"]
+    law = str(lubricant["shear_law"])
+    if lubricant["flow"] != "consistent" or law not in ("eyring", "carreau"):
+        return ""
+    return f"lubricant.flow = 'consistent': waves in a flow that obeys {law} are not predicted"
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,7 +16,7 @@ from pyehl.prediction.bands import Band
 from pyehl.prediction.breakdown import Advice, BelowZero
 from pyehl.prediction.errors import cutoff_error, model_error, outside_range
 from pyehl.prediction.friction import TRACKS, RoughFriction
-from pyehl.prediction.options import Options
+from pyehl.prediction.options import Options, thinning_flow
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.friction import absolute_friction
 from pyehl.theory.lubricant import Lubricant
@@ -43,6 +43,10 @@ BAND_COLUMNS = {
 NEWTONIAN_NOTE = (
     "Newtonian: a ratio at this slip, no absolute coefficient; shear thinning brings it close to "
     "1, see lubricant.shear_law"
+)
+THINNING_NOTE = (
+    "; film and waves are those of a Newtonian flow: where the oil thins in it, too, the ratio is "
+    "nearer to 1, see lubricant.flow"
 )
 STRESS_NOTE = "ratio of friction coefficients at the given slide-to-roll ratio"
 
@@ -125,6 +129,12 @@ class Prediction:
     def thins(self) -> bool:
         """Whether the shear stress is another than the Newtonian one."""
         return self.lubricant.shear.law != "newtonian" and self.operating.sliding_speed > 0.0
+
+    @property
+    def note(self) -> str:
+        """What `mu_ratio` is."""
+        note = STRESS_NOTE if self.thins else NEWTONIAN_NOTE
+        return note + THINNING_NOTE if thinning_flow(self.settings) else note
 
     @property
     def mu_ratio(self) -> float:
@@ -229,7 +239,7 @@ class Prediction:
             "film_below_zero_share": self.below.share if self.below else None,
             "film_breakdown": self.advice.summary() if self.advice else None,
             "positions": int(f.passage.size),
-            "note": STRESS_NOTE if self.thins else NEWTONIAN_NOTE,
+            "note": self.note,
             "reduction": self.options.reduction,
             "smooth": self.options.smooth,
             "velocity_ratio": self.velocity_ratio,

@@ -124,3 +124,22 @@ def test_page_of_the_theory_prints_the_table(root, table):
         assert mean == pytest.approx(sum(ours) / len(part), abs=0.06)
         assert largest == pytest.approx(max(map(abs, ours)), abs=0.06)
         assert mean_paper == pytest.approx(sum(paper) / len(part), abs=0.06)
+
+
+def test_starts_from_the_prediction(root: Path):
+    """The table is that of scenes.csv, and holds what the text says of all scenes."""
+    folder = root / "docs" / "evidence" / "start"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(str(folder))
+        import make
+
+        sys.modules.pop("make")
+    rows = make.rows_of(folder / "scenes.csv")
+    text = (folder / "README.md").read_text()
+    assert len(rows) == 15
+    for row in rows:
+        assert make.line_of(row) in text
+        assert row["start"] == "prediction"
+        stop = row["error_stop"] + row["error_stop_front"]
+        assert abs(row["mu_ratio"] - row["mu_ratio_front"]) <= stop
+        assert 0.54 < row["steps"] / row["steps_front"] < 0.695
