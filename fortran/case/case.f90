@@ -34,6 +34,8 @@ module ehl_case
       real(dp) :: radius_ratio = 1.0_dp
       !> [Pa] reduced modulus E', 2/E' = sum of (1 - nu^2)/E of the bodies, default 2.26e11
       real(dp) :: reduced_modulus = 2.26e11_dp
+      !> [deg] angle of the plane of radius_x against that of the motion, counter-clockwise, default 0
+      real(dp) :: angle = 0.0_dp
       !> [-] slide-to-roll ratio (u1 - u2)/u, default 0.02; follows from surface velocity_ratio where that is given
       real(dp) :: slide_to_roll = 0.02_dp
       !> Which surface is rough: 1 (default) or 2

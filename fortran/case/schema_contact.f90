@@ -24,6 +24,8 @@ contains
                          "reduced radius across the motion; both or none")
          call self%reals("contact", "reduced_modulus", c%reduced_modulus, "Pa", "[1e8, 2e12]", &
                          "E' with 2/E' = sum of (1 - nu^2)/E over the bodies")
+         call self%reals("contact", "angle", c%angle, "deg", "[-90, 90]", &
+                         "an elliptical contact is turned counter-clockwise against the motion")
          call self%reals("contact", "slide_to_roll", c%slide_to_roll, "-", "[-2, 2]", &
                          "slide-to-roll ratio (u1 - u2)/u; follows from a given surface.velocity_ratio")
          call self%integers("contact", "rough_surface", c%rough_surface, "[1, 2]", "which surface is the rough one")

@@ -247,6 +247,7 @@ contains
 
       if (status%failed()) return
       mirror = input%solver%symmetry == "auto"
+      mirror = mirror .and. plan%contact%is_even()
       if (mirror .and. allocated(plan%surface)) mirror = plan%surface%even_in_y
       call find_levels(input%grid%points, input%grid%points_y, plan%levels, intervals)
       ! a coarsest grid that does not resolve a thick film corrects it at random
