@@ -6,7 +6,7 @@ module ehl_case_contact
    use ehl_contact_factory, only: hertz_scales, new_contact
    use ehl_domain, only: domain_t, flooded_by_default, needed_domain
    use ehl_grid, only: find_levels
-   use ehl_kinds, only: dp
+   use ehl_kinds, only: dp, pi
    use ehl_moes, only: operating_from_moes, operating_from_si, operating_t
    use ehl_refusal, only: contradict, first_given, is_before, refuse, short
    use ehl_keys, only: bind_keys
@@ -100,7 +100,7 @@ contains
       type(scales_t), intent(out) :: scales
       type(operating_t), intent(out) :: point
 
-      call new_contact(input%contact%radius_ratio, contact)
+      call new_contact(input%contact%radius_ratio, input%contact%angle*pi/180.0_dp, contact)
       associate (c => input%contact, l => input%lubricant)
          if (c%si) then
             scales = hertz_scales(contact, c%load, c%radius_x, c%reduced_modulus)
@@ -122,13 +122,25 @@ contains
       class(contact_t), allocatable :: contact
       type(scales_t) :: scales
       type(operating_t) :: point
+      character(len=8), parameter :: borders(3) = [character(len=8) :: "x_inlet", "x_outlet", "y_extent"]
+      real(dp) :: ends(3)
+      integer :: axis, k
 
       call find_contact(input, contact, scales, point)
-      associate (least => beyond_contact*contact%ellipticity)
-         if (input%grid%y_extent >= least) return
-         call refuse(schema, sources, "grid", "y_extent", "grid.y_extent = " // to_text(input%grid%y_extent) // " a, and the " &
-                     // "contact reaches to Y = " // short(contact%ellipticity) // " a", "at least " // short(least), status)
-      end associate
+      if (input%grid%border == "flooded" .and. .not. contact%is_even()) then
+         call refuse(schema, sources, "grid", "border", "grid.border = 'flooded' with contact.angle = " &
+                     // to_text(input%contact%angle), "'zero': the pressure far from a turned contact is not known", status)
+         return
+      end if
+      ends = [-input%grid%x_inlet, input%grid%x_outlet, input%grid%y_extent]
+      do k = 1, 3
+         axis = merge(2, 1, k == 3)
+         if (ends(k) >= beyond_contact*contact%reach(axis)) cycle
+         call refuse(schema, sources, "grid", trim(borders(k)), "grid." // trim(borders(k)) // " is " // short(ends(k)) &
+                     // " a from the centre, and the contact reaches to " // short(contact%reach(axis)) // " a", "at least " &
+                     // short(beyond_contact*contact%reach(axis)) // " a", status)
+         return
+      end do
    end subroutine check_extent
 
    !> Border and domain follow from the operating point, side by side, unless they are given
@@ -141,7 +153,9 @@ contains
       type(domain_t) :: domain
 
       call find_contact(input, contact, scales, point)
-      if (.not. schema%given("grid", "border") .and. flooded_by_default(point)) input%grid%border = "flooded"
+      if (.not. schema%given("grid", "border") .and. flooded_by_default(point) .and. contact%is_even()) then
+        input%grid%border = "flooded"
+      end if
       domain = needed_domain(contact, point, input%grid%border == "flooded")
       if (.not. schema%given("grid", "x_inlet")) input%grid%x_inlet = domain%inlet
       if (.not. schema%given("grid", "x_outlet")) input%grid%x_outlet = domain%outlet
@@ -161,16 +175,16 @@ contains
       if (levels == 0) return
       halved = (rows - 1)/intervals(1)
       associate (g => input%grid)
-         rows = 2*nint(g%y_extent*intervals(1)/(cell_ratio(contact%ellipticity)*(g%x_outlet - g%x_inlet)))
+         rows = 2*nint(g%y_extent*intervals(1)/(cell_ratio(contact%reach(2)/contact%reach(1))*(g%x_outlet - g%x_inlet)))
       end associate
       rows = max(fewest_rows, rows)*halved + 1
    end function rows
 
    !> Side of a cell along Y over that along X: cells longer along the longer axis reach the same error with fewer nodes, as
    !> long as multigrid converges as on square ones
-   pure real(dp) function cell_ratio(ellipticity)
-      real(dp), intent(in) :: ellipticity
-      cell_ratio = min(largest_ratio, max(least_ratio, ellipticity))
+   pure real(dp) function cell_ratio(elongation)
+      real(dp), intent(in) :: elongation
+      cell_ratio = min(largest_ratio, max(least_ratio, elongation))
    end function cell_ratio
 
    !> Of the keys that were given and make the operating point the one whose value is the least usual

@@ -11,8 +11,11 @@ module ehl_contact
    type, abstract :: contact_t
       !> Semi-axis of the dry contact across the motion over that along it; D = R_x/R_y
       real(dp) :: ellipticity = 1.0_dp, radius_ratio = 1.0_dp
+      !> Angle of the principal axes against X and Y [rad], counter-clockwise; how far the dry contact reaches along X and Y
+      real(dp) :: angle = 0.0_dp, reach(2) = 1.0_dp
    contains
       procedure :: is_round
+      procedure :: is_even
       procedure(row), deferred :: gap_row
       procedure(row), deferred :: pressure_row
       procedure(number), deferred :: load
@@ -56,4 +59,10 @@ contains
       class(contact_t), intent(in) :: self
       is_round = .not. abs(self%radius_ratio - 1.0_dp) > 0.0_dp
    end function is_round
+
+   !> Whether Y > 0 is the mirror image of Y < 0
+   pure logical function is_even(self)
+      class(contact_t), intent(in) :: self
+      is_even = .not. abs(self%angle) > 0.0_dp
+   end function is_even
 end module ehl_contact

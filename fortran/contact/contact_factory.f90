@@ -13,13 +13,13 @@ module ehl_contact_factory
 contains
 
    !> The shape of a contact: round where both radii are the same
-   subroutine new_contact(radius_ratio, contact)
-      !> D = R_x/R_y, R_x in the plane of the motion
-      real(dp), intent(in) :: radius_ratio
+   subroutine new_contact(radius_ratio, angle, contact)
+      !> D = R_x/R_y; angle of the plane of R_x against that of the motion [rad]
+      real(dp), intent(in) :: radius_ratio, angle
       class(contact_t), allocatable, intent(out) :: contact
 
       if (abs(radius_ratio - 1.0_dp) > 0.0_dp) then
-         allocate (contact, source=new_elliptical(radius_ratio))
+         allocate (contact, source=new_elliptical(radius_ratio, angle))
       else
          allocate (circular_t :: contact)
       end if

@@ -70,6 +70,8 @@ contains
       real(dp) :: cost(2), wanted, unit, width
 
       domain%side = domain%side*sides_over_round(contact)
+      domain%inlet = domain%inlet*contact%reach(1)
+      domain%outlet = domain%outlet*contact%reach(1)
       if (.not. flooded) return
       wanted = 4.0_dp
       do
@@ -86,7 +88,7 @@ contains
    !> narrow one is narrower, because the gap opens more slowly there in terms of its semi-axis
    pure real(dp) function sides_over_round(contact)
       class(contact_t), intent(in) :: contact
-      sides_over_round = max(contact%ellipticity, sqrt(contact%ellipticity))
+      sides_over_round = max(contact%reach(2), sqrt(contact%reach(1)*contact%reach(2)))
    end function sides_over_round
 
    !> Shares of H_c and H_min of the flooded contact that a domain changes, as an upper estimate; 1 and more: nothing
@@ -111,7 +113,7 @@ contains
             cost(2) = minimum_over_central*cost(1)
          else
             whole = pressure_gain(1.0_dp, film)
-            inlet = pressure_gain(-domain%inlet, film)/whole
+            inlet = pressure_gain(-domain%inlet/contact%reach(1), film)/whole
             sides = pressure_gain(side, film)/whole
             load = lambda_bar*(load_beyond_inlet/abs(domain%inlet) + load_beyond_sides/side)
             cost(1) = of_inlet*max(1.0_dp, (thin_film/film)**thin_power)*inlet + of_sides*sides &

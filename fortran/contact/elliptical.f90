@@ -1,7 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The elliptical contact of bodies with two radii (Hertz 1881; Johnson 1985, section 4.2)
 !>
-!> Lengths are scaled by the semi-axis a along the motion, the other one is kappa a. The Hertz pressure on this ellipse has
+!> Lengths are scaled by the semi-axis a along the motion, or along the axis that is turned against it by an angle; the other
+!> one is kappa a. The Hertz pressure on this ellipse has
 !> the potential iint P/r = l - c_x X^2 - c_y Y^2 on it, with
 !>
 !>    c_x = pi kappa/3 R_D(0, kappa^2, 1),  c_y = pi kappa/3 R_D(0, 1, kappa^2),  l = pi kappa R_F(0, 1, kappa^2),
@@ -21,6 +22,11 @@ module ehl_elliptical
       private
       !> k_b, and H00 of the dry contact
       real(dp) :: factor = 0.0_dp, separation = 0.0_dp
+      !> Direction of the axis of R_x
+      real(dp) :: along = 1.0_dp, across = 0.0_dp
+      !> Of the contact with the same curvatures along the motion and across it, and its axes there: radius along the motion
+      !> over R_x, ratio of the radii, kappa k_b over that of a circle
+      real(dp) :: radius = 1.0_dp, ratio = 1.0_dp, load_share = 1.0_dp
    contains
       procedure :: gap_row
       procedure :: pressure_row
@@ -33,9 +39,9 @@ module ehl_elliptical
 contains
 
    !> The contact of a ratio of radii
-   pure function new_elliptical(radius_ratio) result(contact)
-      !> D = R_x/R_y, R_x in the plane of the motion
-      real(dp), intent(in) :: radius_ratio
+   pure function new_elliptical(radius_ratio, angle) result(contact)
+      !> D = R_x/R_y; angle of the plane of R_x against that of the motion [rad], counter-clockwise
+      real(dp), intent(in) :: radius_ratio, angle
       type(elliptical_t) :: contact
 
       contact%radius_ratio = radius_ratio
@@ -43,6 +49,15 @@ contains
       associate (k => contact%ellipticity)
          contact%factor = 0.5_dp/(pi*k/3.0_dp*complete_rd(k**2, 1.0_dp))
          contact%separation = -contact%factor*pi*k*complete_rf(1.0_dp, k**2)
+         contact%angle = angle
+         contact%along = cos(angle)
+         contact%across = sin(angle)
+         contact%reach = sqrt([contact%along**2 + (k*contact%across)**2, contact%across**2 + (k*contact%along)**2])
+      end associate
+      contact%radius = 1.0_dp/(contact%along**2 + radius_ratio*contact%across**2)
+      contact%ratio = (contact%across**2 + radius_ratio*contact%along**2)*contact%radius
+      associate (k => ellipticity_of(contact%ratio))
+         contact%load_share = 1.5_dp/(pi*complete_rd(k**2, 1.0_dp))/circle_factor
       end associate
    end function new_elliptical
 
@@ -75,7 +90,7 @@ contains
       real(dp), intent(in) :: x(:), y
       real(dp), intent(out) :: values(:)
 
-      values = 0.5_dp*(x**2 + self%radius_ratio*y**2)
+      values = 0.5_dp*((self%along*x + self%across*y)**2 + self%radius_ratio*(self%along*y - self%across*x)**2)
    end subroutine gap_row
 
    !> sqrt(1 - X^2 - (Y/kappa)^2), zero outside
@@ -84,7 +99,8 @@ contains
       real(dp), intent(in) :: x(:), y
       real(dp), intent(out) :: values(:)
 
-      values = sqrt(max(0.0_dp, 1.0_dp - x**2 - (y/self%ellipticity)**2))
+      values = sqrt(max(0.0_dp, 1.0_dp - (self%along*x + self%across*y)**2 &
+                        - ((self%along*y - self%across*x)/self%ellipticity)**2))
    end subroutine pressure_row
 
    !> iint P dX dY
@@ -105,11 +121,15 @@ contains
       dry_separation = self%separation
    end function dry_separation
 
-   !> Nijenbanning, Venner & Moes (1994)
+   !> Nijenbanning, Venner & Moes (1994), with the curvatures along the motion and across it: M goes with R^(-5/4), L with
+   !> R^(-1/4), and films with a^2/R
    pure real(dp) function film_formula(self, moes_m, moes_l)
       class(elliptical_t), intent(in) :: self
       real(dp), intent(in) :: moes_m, moes_l
-      film_formula = film_central_formula(moes_m, moes_l, self%radius_ratio, &
-                                          self%ellipticity*self%factor/circle_factor)
+      real(dp) :: length
+
+      length = (self%radius*self%ellipticity*self%factor/circle_factor/self%load_share)**(1.0_dp/3.0_dp)
+      film_formula = film_central_formula(moes_m*self%radius**(-1.25_dp), moes_l*self%radius**(-0.25_dp), self%ratio, &
+                                          self%load_share)*length**2/self%radius
    end function film_formula
 end module ehl_elliptical

@@ -240,7 +240,7 @@ contains
       real(dp) :: film
 
       if (status%failed()) return
-      mirror = input%solver%symmetry == "auto" .and. plan%surfaces%even_in_y()
+      mirror = input%solver%symmetry == "auto" .and. plan%contact%is_even() .and. plan%surfaces%even_in_y()
       call find_levels(input%grid%points, input%grid%points_y, plan%levels, intervals)
       ! a coarsest grid that does not resolve a thick film corrects it at random
       film = sqrt(2.0_dp*plan%film_expected)

@@ -27,7 +27,7 @@ contains
          if (surfaces%count() > 1) label = label//"&"//trim(surfaces%of(k)%group)//": "
          text = text//label//surface_words(surfaces%of(k)%surface)//newline
       end do
-      if (surfaces%count() > 1 .and. surfaces%move() .and. .not. surfaces%pass_once()) then
+      if (surfaces%count() > 1 .and. .not. (surfaces%rest() .or. surfaces%some_rest() .or. surfaces%pass_once())) then
          text = text//indent//meeting_words(surfaces)//newline
       end if
       if (surfaces%some_rest()) then

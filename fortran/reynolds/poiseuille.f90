@@ -144,21 +144,18 @@ contains
       class(flow_t), intent(in) :: flow
       integer, intent(in) :: j, first, last
       type(line_terms_t), intent(inout) :: terms
-      real(dp) :: rx, ry
       integer :: i, k, below
 
       below = self%grid%south(j)
-      rx = 0.5_dp/self%grid%hx**2
-      ry = 0.5_dp/self%grid%hy**2
       associate (tx => flow%tangent(:, :, along), ty => flow%tangent(:, :, flow%across), &
                  ey => flow%eps(:, :, flow%across), slope => flow%dlneps_dp(:, :, flow%across))
          do i = max(first - 1, 1), min(last, self%grid%nx - 1)
-            terms%east(i - first + 1) = rx*(tx(i + 1, j) + tx(i, j))
+            terms%east(i - first + 1) = 0.5_dp/self%grid%hx**2*(tx(i + 1, j) + tx(i, j))
          end do
          do i = max(first, 2), min(last, self%grid%nx - 1)
             k = i - first + 1
             terms%other(k) = terms%other_rate(k)*ey(i, j)*slope(i, j) &
-                             - ry*(ty(i, j + 1) + 2.0_dp*ty(i, j) + ty(i, below))
+                             - 0.5_dp/self%grid%hy**2*(ty(i, j + 1) + 2.0_dp*ty(i, j) + ty(i, below))
             terms%other_rate(k) = 0.0_dp
          end do
       end associate

@@ -2,7 +2,7 @@
 !> What a run says: lines of progress, and its results by name
 module ehl_report
    use ehl_grid, only: grid_t
-   use ehl_kinds, only: dp
+   use ehl_kinds, only: dp, pi
    use ehl_contact_results, only: contact_results_t
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_outcome, only: outcome_names
@@ -84,6 +84,7 @@ contains
       end if
       if (.not. plan%contact%is_round()) then
          call record%set("radius_ratio", plan%contact%radius_ratio)
+         call record%set("angle_deg", plan%contact%angle*180.0_dp/pi)
          call record%set("ellipticity", plan%contact%ellipticity)
          if (plan%scales%has_size()) call record%set("semi_axis_y_m", plan%contact%ellipticity*plan%scales%length)
          call record%set("points_y", grid%full_ny())

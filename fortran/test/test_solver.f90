@@ -39,10 +39,11 @@ contains
 
    subroutine run_solver()
       call operating_point_of_table_1()
-      call shapes_are_consistent(1.0_dp)
-      call shapes_are_consistent(0.35177164_dp)
-      call shapes_are_consistent(36.536094_dp)
-      call shapes_are_consistent(0.004_dp)
+      call shapes_are_consistent(1.0_dp, 0.0_dp)
+      call shapes_are_consistent(0.35177164_dp, 0.0_dp)
+      call shapes_are_consistent(36.536094_dp, 0.0_dp)
+      call shapes_are_consistent(0.004_dp, 0.0_dp)
+      call shapes_are_consistent(0.35177164_dp, 0.6_dp)
       call lubricant_laws()
       call smooth_against_reference()
       call half_is_whole("", 1.0e-10_dp)
@@ -60,7 +61,7 @@ contains
       class(contact_t), allocatable :: contact
       type(scales_t) :: scales
 
-      call new_contact(1.0_dp, contact)
+      call new_contact(1.0_dp, 0.0_dp, contact)
       scales = hertz_scales(contact, 600.0_dp, 0.018_dp, 2.26e11_dp)
       point = operating_from_si(600.0_dp, 0.84_dp, 0.018_dp, 2.26e11_dp, 0.04_dp, 2.2e-8_dp, scales%pressure, &
                                 contact%ellipticity, contact%kernel_factor())
@@ -72,8 +73,8 @@ contains
    end subroutine operating_point_of_table_1
 
    !> The pressure of the dry contact carries its load, and the deflection that it causes fills its gap
-   subroutine shapes_are_consistent(radius_ratio)
-      real(dp), intent(in) :: radius_ratio
+   subroutine shapes_are_consistent(radius_ratio, angle)
+      real(dp), intent(in) :: radius_ratio, angle
       class(contact_t), allocatable :: contact
       class(deflection_t), allocatable :: engine
       type(grid_t) :: grid
@@ -81,8 +82,8 @@ contains
       real(dp), allocatable :: gap(:, :), p(:, :), w(:, :)
       integer :: j
 
-      call new_contact(radius_ratio, contact)
-      grid = new_grid(129, 129, -1.5_dp, 1.5_dp, 1.5_dp*contact%ellipticity, .false.)
+      call new_contact(radius_ratio, angle, contact)
+      grid = new_grid(129, 129, -1.5_dp*contact%reach(1), 1.5_dp*contact%reach(1), 1.5_dp*contact%reach(2), .false.)
       allocate (gap(129, 129), p(129, 129), w(129, 129))
       do j = 1, grid%ny
          call contact%gap_row(grid%columns(), grid%y(j), gap(:, j))

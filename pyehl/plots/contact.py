@@ -13,9 +13,9 @@ import numpy as np
 import scipy
 from matplotlib import colormaps
 from matplotlib.axes import Axes
-from matplotlib.patches import Ellipse
 from numpy.typing import NDArray
 
+from pyehl.plots.outline import CIRCLE, Outline
 from pyehl.plots.style import (
     BLUE,
     GREY,
@@ -145,20 +145,19 @@ def _central(x: Array, y: Array, h: Array) -> float:
     return central
 
 
-def _frame(ax: Axes, x: Array, y: Array, scales: Scales | None, ellipticity: float) -> None:
+def _frame(ax: Axes, x: Array, y: Array, scales: Scales | None, outline: Outline) -> None:
     """Hertz ellipse, limits and labels of a map."""
     unit, label_x = axis_unit(scales, "x")
     _, label_y = axis_unit(scales, "y")
-    size = 2.0 * unit, 2.0 * ellipticity * unit
-    ax.add_patch(Ellipse((0.0, 0.0), *size, fill=False, ls="--", lw=0.9, ec=VERMILLION))
+    ax.add_patch(outline.patch(unit, ls="--", lw=0.9, ec=VERMILLION))
+    along, across = (VIEW * reach for reach in outline.reach)
     ax.set_aspect("equal")
-    ax.set_xlim(max(x[0], -VIEW) * unit, min(x[-1], VIEW) * unit)
-    view = VIEW * ellipticity
-    ax.set_ylim(max(y[0], -view) * unit, min(y[-1], view) * unit)
+    ax.set_xlim(max(x[0], -along) * unit, min(x[-1], along) * unit)
+    ax.set_ylim(max(y[0], -across) * unit, min(y[-1], across) * unit)
     ax.set_xlabel(label_x)
     ax.set_ylabel(label_y)
     if scales is None:
-        hertz_ticks(ax, ellipticity)
+        hertz_ticks(ax, outline)
 
 
 def interferogram(
@@ -168,7 +167,7 @@ def interferogram(
     scales: Scales | None = None,
     *,
     fringes: tuple[float, float, str] | None = None,
-    ellipticity: float = 1.0,
+    outline: Outline = CIRCLE,
     ax: Axes | None = None,
 ) -> Axes:
     """Film as interference fringes in red and green.
@@ -184,8 +183,8 @@ def interferogram(
         is too thin or too thick for them. Else they are a share of the central film.
     fringes
         As `fringe_spacings` gives them, for several films in the same light; None: for this film.
-    ellipticity
-        Of the Hertz ellipse: its semi-axis across the motion over that along it.
+    outline
+        Of the dry contact.
 
     Raises
     ------
@@ -197,7 +196,9 @@ def interferogram(
     unit, _ = axis_unit(scales, "x")
     h = film * unit_h
     red, green, caption = fringes or fringe_spacings(_central(x, y, h), scales)
-    inner_x, inner_y = np.abs(x) <= VIEW, np.abs(y) <= VIEW * ellipticity
+    inner_x, inner_y = (
+        np.abs(place) <= VIEW * reach for place, reach in zip((x, y), outline.reach, strict=True)
+    )
     view = h[np.ix_(inner_x, inner_y)]
     factor = max(1, math.ceil(900 / max(view.shape)))
     fine = scipy.ndimage.zoom(view, factor, order=1, grid_mode=True, mode="nearest")
@@ -208,7 +209,7 @@ def interferogram(
         0.03, 0.03, caption, transform=ax.transAxes, fontsize="small",
         bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 2.0},
     )  # fmt: skip
-    _frame(ax, x, y, scales, ellipticity)
+    _frame(ax, x, y, scales, outline)
     return ax
 
 
@@ -224,7 +225,7 @@ def contours(
     film: Array,
     scales: Scales | None = None,
     *,
-    ellipticity: float = 1.0,
+    outline: Outline = CIRCLE,
     ax: Axes | None = None,
 ) -> Axes:
     """Film as contours with a colour bar; what is thicker is the gap around, left white.
@@ -235,8 +236,8 @@ def contours(
         (nx,), (ny,) in Hertz radii.
     film
         H (nx, ny) in Hertz units.
-    ellipticity
-        Of the Hertz ellipse: its semi-axis across the motion over that along it.
+    outline
+        Of the dry contact.
 
     Raises
     ------
@@ -255,5 +256,5 @@ def contours(
     filled = ax.contourf(x * unit, y * unit, h.T, levels=levels, cmap=shades, extend="max")
     ax.contour(x * unit, y * unit, h.T, levels=levels, colors="black", linewidths=0.3, alpha=0.6)
     colour_bar(filled, ax, label, shrink=0.9)
-    _frame(ax, x, y, scales, ellipticity)
+    _frame(ax, x, y, scales, outline)
     return ax

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from pyehl import namelist
 from pyehl.plots import contact, surface, transient
+from pyehl.plots.outline import Outline
 from pyehl.plots.style import (
     BLUE,
     VERMILLION,
@@ -65,14 +66,10 @@ def scales_of(data: xr.Dataset, units: str = "auto") -> Scales | None:
     return None
 
 
-def ellipticity_of(data: xr.Dataset) -> float:
-    """Semi-axis of the dry contact across the motion over that along it; 1 for a circle."""
-    return float(data.attrs.get("ellipticity", 1.0))
-
-
 def _stretch(data: xr.Dataset) -> float:
     """How much higher maps of a wide contact are, to be as broad as those of a circle."""
-    return min(2.0, max(1.0, ellipticity_of(data)))
+    along, across = Outline.of(data).reach
+    return min(2.0, max(1.0, across / along))
 
 
 def _row(
@@ -128,9 +125,11 @@ def _centre_lines(data: xr.Dataset, scales: Scales | None, title: str) -> Figure
     left, right = figure.axes
     x, y, p, h = (data[name].values for name in "XYPH")
     i, j = nearest(x, 0.0), nearest(y, 0.0)
-    contact.pressure_and_film(x, p[:, j], h[:, j], scales, name="x", ax=left)
     contact.pressure_and_film(
-        y, p[i, :], h[i, :], scales, name="y", half=ellipticity_of(data), ax=right
+        x, p[:, j], h[:, j], scales, name="x", half=Outline.of(data).chords[0], ax=left
+    )
+    contact.pressure_and_film(
+        y, p[i, :], h[i, :], scales, name="y", half=Outline.of(data).chords[1], ax=right
     )
     twins = [ax for ax in figure.axes if ax not in (left, right)]
     lines = [*left.get_lines(), *twins[0].get_lines()]
@@ -148,9 +147,9 @@ def _film(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
             float(data.H_smooth.values[nearest(x, 0.0), nearest(y, 0.0)]) * film_unit(scales)[0],
             scales,
         )
-    shape = ellipticity_of(data)
-    contact.interferogram(x, y, film, scales, fringes=fringes, ellipticity=shape, ax=left)
-    contact.contours(x, y, film, scales, ellipticity=shape, ax=right)
+    outline = Outline.of(data)
+    contact.interferogram(x, y, film, scales, fringes=fringes, outline=outline, ax=left)
+    contact.contours(x, y, film, scales, outline=outline, ax=right)
     right.set_ylabel("")
     return figure
 
@@ -158,13 +157,13 @@ def _film(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
 def _deformed(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
     figure = _row(2, (8.2, 3.6 * _stretch(data)), title, sharey=True)
     x, y, rough, deformed = (data[name].values for name in ("X", "Y", "RR", "A_d"))
-    shape = ellipticity_of(data)
-    top = transient.roughness_top(x, y, rough, deformed, ellipticity=shape)
+    outline = Outline.of(data)
+    top = transient.roughness_top(x, y, rough, deformed, outline=outline)
     names = ("(a) undeformed,", "(b) deformed,")
     for ax, field, name in zip(list(figure.axes), (rough, deformed), names, strict=True):
         transient.roughness(
             x, y, field, scales,
-            top=top, name=name, bar=field is deformed, ellipticity=shape, ax=ax,
+            top=top, name=name, bar=field is deformed, outline=outline, ax=ax,
         )  # fmt: skip
     figure.axes[1].set_ylabel("")
     return figure

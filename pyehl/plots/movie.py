@@ -12,7 +12,8 @@ from matplotlib.artist import Artist
 from pyehl.destination import check_files, mark, new_file
 from pyehl.errors import InputError
 from pyehl.plots import contact
-from pyehl.plots.figures import ellipticity_of, headline, scales_of
+from pyehl.plots.figures import headline, scales_of
+from pyehl.plots.outline import Outline
 from pyehl.plots.style import film_unit, nearest, new_figure
 
 __all__ = ["movie"]
@@ -48,7 +49,7 @@ def movie(data: xr.Dataset, target: Path, suffix: str = "gif", units: str = "aut
         left, right = figure.subplots(1, 2)
         pressure, film = (data[name].values[:, :, frame] for name in ("frame_P", "frame_H"))
         contact.interferogram(
-            x, y, film, scales, fringes=fringes, ellipticity=ellipticity_of(data), ax=left
+            x, y, film, scales, fringes=fringes, outline=Outline.of(data), ax=left
         )
         contact.pressure_and_film(x, pressure[:, row], film[:, row], scales, ax=right)
         right.set_ylim(0.0, most * (1.0 if scales is None else scales.pressure * 1e-9))

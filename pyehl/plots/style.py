@@ -20,11 +20,11 @@ from matplotlib.axis import Axis
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
-from matplotlib.patches import Ellipse
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
 from pyehl.destination import mark, new_file
+from pyehl.plots.outline import CIRCLE, Outline
 
 __all__ = [
     "BLUE",
@@ -115,7 +115,7 @@ def contact_heights(
     name: str,
     bar: bool,
     ax: Axes,
-    ellipticity: float = 1.0,
+    outline: Outline = CIRCLE,
 ) -> None:
     """Draw heights inside the Hertz ellipse, with a colour bar or not; the title gives their rms.
 
@@ -126,12 +126,12 @@ def contact_heights(
         heights.T, origin="lower", extent=extent, cmap=DIVERGING, vmin=-top, vmax=top,
         interpolation="nearest",
     )  # fmt: skip
-    across = ellipticity * radius
-    ax.add_patch(Ellipse((0.0, 0.0), 2 * radius, 2 * across, fill=False, lw=0.8, ec=GREY))
+    ax.add_patch(outline.patch(radius, lw=0.8, ec=GREY))
     rms = float(np.nanstd(heights))
     ax.set_title(f"{name} rms {rms:.3g} {unit}".strip(), loc="left", fontsize="medium", y=1.0)
-    ax.set_xlim(-1.05 * radius, 1.05 * radius)
-    ax.set_ylim(-1.05 * across, 1.05 * across)
+    along, across = outline.reach
+    ax.set_xlim(-1.05 * along * radius, 1.05 * along * radius)
+    ax.set_ylim(-1.05 * across * radius, 1.05 * across * radius)
     if bar:
         colour_bar(image, ax, f"height [{unit}]", shrink=0.85)
 
@@ -187,13 +187,15 @@ def film_unit(scales: Scales | None) -> tuple[float, str]:
     return scales.film * 1e6, r"$h$ [$\mu$m]"
 
 
-def hertz_ticks(ax: Axes, ellipticity: float = 1.0) -> None:
-    """Mark the contact radius and its half on both axes, of an ellipse the ends of its axes."""
-    ax.set_xticks([-1.0, -0.5, 0.0, 0.5, 1.0])
-    if ellipticity == 1.0:
+def hertz_ticks(ax: Axes, outline: Outline = CIRCLE) -> None:
+    """Mark the contact radius and its half on both axes, of an ellipse how far it reaches."""
+    if outline == CIRCLE:
+        ax.set_xticks([-1.0, -0.5, 0.0, 0.5, 1.0])
         ax.set_yticks([-1.0, -0.5, 0.0, 0.5, 1.0])
     else:
-        ax.set_yticks([-ellipticity, 0.0, ellipticity])
+        along, across = outline.reach
+        ax.set_xticks([-along, 0.0, along], [f"{-along:.3g}", "0", f"{along:.3g}"])
+        ax.set_yticks([-across, 0.0, across], [f"{-across:.3g}", "0", f"{across:.3g}"])
 
 
 def label_log_ticks(ax: Axes) -> None:

@@ -14,6 +14,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, NDArray
 
+from pyehl.plots.outline import CIRCLE, Outline
 from pyehl.plots.style import (
     BLUE,
     GREEN,
@@ -170,16 +171,21 @@ def extremes_history(
     return ax
 
 
-def _inside(x: Array, y: Array) -> tuple[tuple[Any, ...], NDArray[np.bool_]]:
-    """Index of the square around the contact, and which of its nodes are in the circle."""
-    inner_x, inner_y = np.abs(x) <= 1.0, np.abs(y) <= 1.0
-    circle = x[inner_x][:, None] ** 2 + y[inner_y][None, :] ** 2 <= 1.0
-    return np.ix_(inner_x, inner_y), circle
+def _around(x: Array, y: Array, outline: Outline) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Which columns and rows the contact has."""
+    along, across = outline.reach
+    return np.abs(x) <= along, np.abs(y) <= across
 
 
-def roughness_top(x: Array, y: Array, *fields: Array, ellipticity: float = 1.0) -> float:
+def _inside(x: Array, y: Array, outline: Outline) -> tuple[tuple[Any, ...], NDArray[np.bool_]]:
+    """Index of the box around the contact, and which of its nodes are in it."""
+    inner_x, inner_y = _around(x, y, outline)
+    return np.ix_(inner_x, inner_y), outline.inside(x[inner_x], y[inner_y])
+
+
+def roughness_top(x: Array, y: Array, *fields: Array, outline: Outline = CIRCLE) -> float:
     """Largest height of several fields inside the Hertz ellipse, for a common scale."""
-    at, circle = _inside(x, y / ellipticity)
+    at, circle = _inside(x, y, outline)
     return max(float(np.abs(field[at][circle]).max()) for field in fields)
 
 
@@ -192,7 +198,7 @@ def roughness(
     top: float = 0.0,
     name: str = "",
     bar: bool = True,
-    ellipticity: float = 1.0,
+    outline: Outline = CIRCLE,
     ax: Axes | None = None,
 ) -> Axes:
     """Heights inside the Hertz ellipse as a map with a colour bar (Fig. 6, left).
@@ -209,12 +215,12 @@ def roughness(
         What the field is called in the title, which also gives its rms.
     bar
         Whether it has a colour bar.
-    ellipticity
-        Of the Hertz ellipse: its semi-axis across the motion over that along it.
+    outline
+        Of the dry contact.
     """
     ax = axes_or_new(ax, 4.0, 3.4)
-    at, circle = _inside(x, y / ellipticity)
-    top = top or roughness_top(x, y, heights, ellipticity=ellipticity)
+    at, circle = _inside(x, y, outline)
+    top = top or roughness_top(x, y, heights, outline=outline)
     if scales is None:
         unit, label = 1e3, r"$10^{-3}\,a^2/R$"
     else:
@@ -222,17 +228,17 @@ def roughness(
         unit *= scales.film
     unit_x, label_x = axis_unit(scales, "x")
     _, label_y = axis_unit(scales, "y")
-    within_x, within_y = x[np.abs(x) <= 1.0], y[np.abs(y / ellipticity) <= 1.0]
+    columns, rows = _around(x, y, outline)
+    within_x, within_y = x[columns], y[rows]
     extent = extent_of(within_x, within_y, unit_x)
     shown = np.where(circle, heights[at], np.nan) * unit
     contact_heights(
-        shown, extent, unit_x, top * unit, label,
-        name=name, bar=bar, ax=ax, ellipticity=ellipticity,
-    )  # fmt: skip
+        shown, extent, unit_x, top * unit, label, name=name, bar=bar, ax=ax, outline=outline
+    )
     ax.set_xlabel(label_x)
     ax.set_ylabel(label_y)
     if scales is None:
-        hertz_ticks(ax, ellipticity)
+        hertz_ticks(ax, outline)
     return ax
 
 

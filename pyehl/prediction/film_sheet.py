@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from pyehl import surfaces
+from pyehl.errors import InputError
 from pyehl.theory import film, stribeck
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -22,6 +23,12 @@ def sheet(settings: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
     ratio and (harmonic only) theta_2 with eq. 16.
     """
     operating = OperatingPoint.from_settings(settings)
+    turned = float(settings["contact"].get("angle", 0.0))
+    if turned != 0.0 and operating.radius_ratio != 1.0:
+        raise InputError(
+            f"contact.angle = {turned:g}: film formulas are for a contact with an axis along the "
+            "motion\nexpected: contact.angle = 0"
+        )
     lubricant = Lubricant.from_settings(settings)
     films = film.estimates(operating, lubricant)
     h_c = films[0].h_c

@@ -162,6 +162,26 @@ def test_bodies_make_reduced_radii_and_modulus(ehl: str, tmp_path: Path):
     assert changed["radius_x"] == ball
 
 
+def test_turned_by_a_right_angle_radii_change_places(solve):
+    """The same contact in other words; in between, angles of both signs are mirror images."""
+    keys = ROUND | {"grid.points": 129, "grid.border": "zero", "solver.deflection": "fft"}
+    radii = {"contact.radius_x": 0.01, "contact.radius_y": 0.03}
+    swapped = {"contact.radius_x": 0.03, "contact.radius_y": 0.01}
+    straight = solve(None, 129, keys | radii)
+    turned = solve(None, 129, keys | swapped | {"contact.angle": 90.0})
+    assert not turned["half_domain"]
+    for name in ("h_c_m", "h_min_m", "p_max_Pa", "hertz_pressure_Pa"):
+        assert turned[name] == pytest.approx(straight[name], rel=2e-4), name
+    left, right, other = (
+        solve(None, 129, keys | given | {"contact.angle": angle}, fields=True)
+        for given, angle in ((radii, 30.0), (radii, -30.0), (swapped, -60.0))
+    )
+    assert np.allclose(left.field("H"), right.field("H")[:, ::-1], rtol=1e-5, atol=0.0)
+    for name in ("h_c_m", "h_min_m"):
+        assert other[name] == pytest.approx(left[name], rel=1e-3), name
+    assert left["h_min_m"] < 0.95 * straight["h_min_m"]
+
+
 def test_rolling_moment(solve):
     """As the fields have it; in a wide contact near the asymptote of Biboulet & Houpert 2010."""
     kappa, m = 5.0, 1000.0
@@ -288,7 +308,18 @@ def test_resolved_case_gives_the_same_bits(ehl: str, tmp_path: Path):
             ["bodies.radius_x1=0.01", "bodies.radius_y1=0.01", "bodies.radius_y2=-0.009"],
             "bodies.radius_y1 .* the gap does not open",
         ),
-        (["contact.radius_ratio=0.2", "grid.y_extent=1.2"], "the contact reaches to Y"),
+        (
+            ["contact.radius_ratio=0.2", "contact.angle=20", "grid.border=flooded"],
+            "a turned contact is not known",
+        ),
+        (
+            ["contact.radius_ratio=0.2", "contact.angle=80", "grid.x_outlet=1.5"],
+            "grid.x_outlet is .* the contact reaches to",
+        ),
+        (
+            ["contact.radius_ratio=0.2", "grid.y_extent=1.2"],
+            "y_extent is .* the contact reaches to",
+        ),
         (["contact.radius_ratio=0.2", "grid.points=65", "grid.points_y=67"], "65 nodes along X"),
     ],
 )

@@ -232,14 +232,14 @@ def test_part_of_a_large_map(tmp_path: Path, monkeypatch):
     np.save(tmp_path / "map.npy", heights())
     size = f"length_x = {LENGTH} length_y = {LENGTH} edges = 'mirror'"
     case = Case.read(write_case(tmp_path / "case.nml", "map.npy", size))
-    with Solver(case) as solver:
-        assert solver.tile is None
+    assert surfaces.for_solver(case.resolve()).part is None
     # a function has the name of the module
     module = sys.modules["pyehl.surfaces.in_memory"]
     monkeypatch.setattr(module, "LARGE_PIXELS", 4000)
     monkeypatch.setattr(module, "PART_PIXELS", 1024)
+    part = surfaces.for_solver(case.resolve()).part
     with Solver(case) as solver:
-        part, plan = solver.tile, solver.describe()
+        plan = solver.describe()
     assert part is not None
     assert part.shape == (32, 32)
     assert part.pixel == pytest.approx((LENGTH / 32, LENGTH / 32))
