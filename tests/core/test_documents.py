@@ -147,7 +147,7 @@ def test_two_commands_of_the_readme(root: Path):
     assert len(lines) == 2
     main, tests = lines
     assert all(part.startswith(".venv/bin/pyehl ") for part in parts(main)[1:])
-    assert parts(tests) == [INSTALL, ".venv/bin/pytest"]
+    assert parts(tests) == [INSTALL, ".venv/bin/pytest -n auto"]
     assert (root / ".ci" / "install").is_file()
 
 
