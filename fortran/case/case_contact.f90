@@ -154,7 +154,7 @@ contains
 
       call find_contact(input, contact, scales, point)
       if (.not. schema%given("grid", "border") .and. flooded_by_default(point) .and. contact%is_even()) then
-        input%grid%border = "flooded"
+         input%grid%border = "flooded"
       end if
       domain = needed_domain(contact, point, input%grid%border == "flooded")
       if (.not. schema%given("grid", "x_inlet")) input%grid%x_inlet = domain%inlet

@@ -84,11 +84,11 @@ contains
       end do
    end function needed_domain
 
-   !> How much further out the sides are than those around a round contact: as the ends of a wide contact; less far than the
-   !> narrow one is narrower, because the gap opens more slowly there in terms of its semi-axis
+   !> How much further out the sides are than those around a round contact: as the ends of a wide contact, and around a narrow
+   !> one no less far, because in terms of its semi-axis the gap opens slowly there
    pure real(dp) function sides_over_round(contact)
       class(contact_t), intent(in) :: contact
-      sides_over_round = max(contact%reach(2), sqrt(contact%reach(1)*contact%reach(2)))
+      sides_over_round = maxval(contact%reach)
    end function sides_over_round
 
    !> Shares of H_c and H_min of the flooded contact that a domain changes, as an upper estimate; 1 and more: nothing
