@@ -152,8 +152,9 @@ contains
       type(domain_t) :: domain
 
       call find_contact(input, contact, scales, point)
-      if (.not. schema%given("grid", "border") .and. flooded_by_default(point) .and. contact%is_even()) &
+      if (.not. schema%given("grid", "border") .and. flooded_by_default(point) .and. contact%is_even()) then
          input%grid%border = "flooded"
+      end if
       domain = needed_domain(contact, point, input%grid%border == "flooded")
       if (.not. schema%given("grid", "x_inlet")) input%grid%x_inlet = domain%inlet
       if (.not. schema%given("grid", "x_outlet")) input%grid%x_outlet = domain%outlet

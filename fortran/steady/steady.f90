@@ -98,10 +98,9 @@ contains
       real(dp), intent(in) :: accuracy, target_error
       !> Most cycles on a level
       integer, intent(in) :: max_cycles
-      !> Whether the border has the pressure of a flooded contact, else 0
-      logical, intent(in) :: flooded
-      !> Whether what fails on the finest level may begin again with care
-      logical, intent(in) :: may_restart
+      !> Whether the border has the pressure of a flooded contact, else 0; whether what fails on the finest level may begin
+      !> again with care
+      logical, intent(in) :: flooded, may_restart
 
       self%contact = contact
       self%film_expected = film_expected
