@@ -27,6 +27,7 @@ RESOLVED = {
         "roelands_p0": 1.96e8,
         "density_law": "dowson-higginson",
         "shear_law": "newtonian",
+        "flow": "consistent",
         "eyring_stress": 5e6,
         "limiting_stress": 0.0,
         "limiting_coefficient": 0.06,
