@@ -126,14 +126,10 @@ def test_page_of_the_theory_prints_the_table(root, table):
         assert mean_paper == pytest.approx(sum(paper) / len(part), abs=0.06)
 
 
-def test_starts_from_the_prediction(root: Path):
+def test_starts_from_the_prediction(root: Path, script):
     """The table is that of scenes.csv, and holds what the text says of all scenes."""
     folder = root / "docs" / "evidence" / "start"
-    with pytest.MonkeyPatch.context() as patch:
-        patch.syspath_prepend(str(folder))
-        import make
-
-        sys.modules.pop("make")
+    make = script("docs/evidence/start/make.py")
     rows = make.rows_of(folder / "scenes.csv")
     text = (folder / "README.md").read_text()
     assert len(rows) == 15

@@ -183,4 +183,5 @@ def test_cases_differ_by_their_keys():
         # a default follows other values, one that was given does not
         "contact.load: there 600.0, here 600.0 (default)",
         "grid.points: there 65, here 129",
+        "grid.points_y: there 65 (derived), here 129 (derived)",
     ]
