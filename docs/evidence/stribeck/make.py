@@ -57,6 +57,8 @@ def curve(
     """Run ``pyehl stribeck`` for a surface and a shear law; the rows of its table."""
     place = folder / f"{surface} {law}".replace(" ", "_")
     settings = [*options_of(surface, folder), f"lubricant.shear_law={law}", "grid.points=257"]
+    # the prediction is that of a Newtonian flow, so the smooth contact has one, too
+    settings.append("lubricant.flow=newtonian")
     # the curves were made on the domain of the paper
     settings += ["grid.x_inlet=-2.5", "grid.x_outlet=1.5", "grid.y_extent=2.0"]
     words = [word for text in settings for word in ("--set", text)]
