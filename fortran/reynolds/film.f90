@@ -3,9 +3,10 @@
 !>
 !>    H(X, Y) = H00 + G(X, Y) + (K P)(X, Y)
 !>
-!> with H00 the rigid separation, G the gap of the undeformed bodies less the roughness (X^2/2 + Y^2/2 - RR for a ball on a
-!> flat; on a coarse level it holds the restricted film as well), and K P the elastic deflection
-!> 2/pi^2 iint P dX' dY'/r of the level's engine. Peaks of the roughness are positive and thin the film.
+!> with H00 the rigid separation, G the gap of the undeformed bodies less the roughness (X^2/2 + D Y^2/2 - RR with the ratio
+!> of radii D, 1 for a ball on a flat; on a coarse level it holds the restricted film as well), and K P the elastic deflection
+!> k_b iint P dX' dY'/r of the level's engine, k_b = 2/pi^2 in a round contact. Peaks of the roughness are positive and thin
+!> the film.
 module ehl_film
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
