@@ -28,9 +28,9 @@ module ehl_flow
       !> Conductance, and d ln(eps)/dP at constant film
       real(dp), allocatable :: eps(:, :, :), dlneps_dp(:, :, :)
       !> Whether the conductance depends on the gradient of pressure; then -dq/d(grad P), for linear systems, and
-      !> d ln(eps)/d ln(H), else not allocated
+      !> d ln(eps)/d ln(H), and the shear stress of the sliding (nx, ny) as stress_row has it; else not allocated
       logical :: bends = .false.
-      real(dp), allocatable :: tangent(:, :, :), powers(:, :, :)
+      real(dp), allocatable :: tangent(:, :, :), powers(:, :, :), stress(:, :)
       type(grid_t) :: grid
    contains
       procedure :: setup
@@ -93,6 +93,7 @@ contains
       allocate (self%eps(grid%nx, grid%ny, self%across), self%dlneps_dp(grid%nx, grid%ny, self%across), source=0.0_dp, &
                 stat=stat)
       if (stat == 0 .and. self%bends) allocate (self%tangent, self%powers, source=self%eps, stat=stat)
+      if (stat == 0 .and. self%bends) allocate (self%stress(grid%nx, grid%ny), source=0.0_dp, stat=stat)
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the conductances of a grid level")
    end subroutine setup
 
@@ -116,6 +117,6 @@ contains
       class(flow_t), intent(in) :: self
       bytes = 0
       if (allocated(self%eps)) bytes = 16*size(self%eps, kind=int64)
-      if (allocated(self%tangent)) bytes = 2*bytes
+      if (allocated(self%tangent)) bytes = 2*bytes + 8*size(self%stress, kind=int64)
    end function bytes
 end module ehl_flow

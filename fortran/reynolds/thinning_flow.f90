@@ -66,7 +66,7 @@ contains
       integer, intent(in) :: j, last
       type(factors_t) :: factors
       real(dp), dimension(size(p, 1)) :: log_eta, slope
-      real(dp) :: s(2, size(p, 1)), newtonian
+      real(dp) :: s(2, size(p, 1)), eta, newtonian
       integer :: i
 
       call lubricant%log_viscosity(p(:last, j), log_eta(:last), slope(:last))
@@ -77,12 +77,19 @@ contains
       end if
       call self%gradients(p, h, j, s)
       do i = 1, size(p, 1)
-         newtonian = rho(i)*h(i, j)**3*exp(-log_eta(i))*self%inverse_speed
-         factors = self%factors_at(exp(log_eta(i))/h(i, j), s(:, i))
+         eta = exp(log_eta(i))
+         newtonian = rho(i)*h(i, j)**3/eta*self%inverse_speed
+         factors = self%factors_at(eta/h(i, j), s(:, i))
          self%eps(i, j, :) = factors%phi*newtonian
          self%tangent(i, j, :) = factors%tangent*newtonian
          self%powers(i, j, :) = 3.0_dp - factors%by_sliding + factors%by_gradient
          self%dlneps_dp(i, j, :) = drho_dp(i)/rho(i) - slope(i)*(1.0_dp - factors%by_sliding)
+         if (self%sliding > 0.0_dp) then
+            self%stress(i, j) = factors%stress/self%sliding
+         else
+            ! in the limit of vanishing sliding
+            self%stress(i, j) = eta/h(i, j)*factors%stress_by_sliding
+         end if
       end do
    end subroutine find_row
 
@@ -134,7 +141,7 @@ contains
       film_power = self%powers(i, j, direction)
    end function film_power
 
-   !> Newtonian and real shear stress of row j
+   !> Newtonian and real shear stress of row j, the latter as find_row left it
    pure subroutine stress_row(self, lubricant, p, h, rho, j, newtonian, stress)
       class(thinning_flow_t), intent(in) :: self
       type(lubricant_t), intent(in) :: lubricant
@@ -144,24 +151,12 @@ contains
       real(dp), intent(in) :: rho(:)
       integer, intent(in) :: j
       real(dp), intent(out) :: newtonian(:), stress(:)
-      type(factors_t) :: factors
       real(dp), dimension(size(p, 1)) :: log_eta, slope
-      real(dp) :: s(2, size(p, 1))
-      integer :: i
 
       associate (unused => rho)
       end associate
       call lubricant%log_viscosity(p(:, j), log_eta, slope)
-      call self%gradients(p, h, j, s)
-      do i = 1, size(p, 1)
-         newtonian(i) = exp(log_eta(i))/h(i, j)
-         factors = self%factors_at(newtonian(i), s(:, i))
-         if (self%sliding > 0.0_dp) then
-            stress(i) = factors%stress/self%sliding
-         else
-            ! in the limit of vanishing sliding
-            stress(i) = newtonian(i)*factors%stress_by_sliding
-         end if
-      end do
+      newtonian = exp(log_eta)/h(:, j)
+      stress = self%stress(:, j)
    end subroutine stress_row
 end module ehl_thinning_flow
