@@ -48,7 +48,6 @@ contains
       end if
       call self%transient%fill(self%hierarchy%levels(n), self%plan%surfaces, self%predicted, done)
       if (.not. done) self%why_front = "the film would be negative"
-      deallocate (self%predicted%pressure)
    end subroutine begin_filled
 
    module subroutine begin_again(self, status)

@@ -141,6 +141,7 @@ contains
       end if
       if (status%failed() .or. .not. both) return
       if (self%plan%coarse_run .and. self%coarse_outcome == outcome_running) call begin_coarse(self)
+      if (allocated(self%predicted%pressure)) deallocate (self%predicted%pressure)
    end subroutine advance
 
    !> The amplitude that was given as a share of the film. It belongs to the case and not to the grid: a grid error of

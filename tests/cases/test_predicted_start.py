@@ -55,6 +55,19 @@ def test_same_mean_in_fewer_steps(settings: dict[str, Any]):
     assert stop < 0.01 * float(front.mu_ratio)
 
 
+def test_the_run_on_the_coarser_grid_starts_there_too():
+    """Its mean, and so the grid error, is that of the run behind a front."""
+    wave = {"surface.kind": "harmonic", "surface.amplitude": 5e-3, "time.estimate_error": True}
+    point = {"contact.moes_m": 200.0, "contact.moes_l": 10.0}
+    front, other = run(point | wave, "front"), run(point | wave)
+    assert other.attrs["start"] == "prediction"
+    stop = float(front.mu_ratio_error_stop) + float(other.mu_ratio_error_stop)
+    assert float(other.mu_ratio_error_grid) > 0.0
+    assert float(other.mu_ratio_error_grid) == pytest.approx(
+        float(front.mu_ratio_error_grid), abs=2.0 * stop
+    )
+
+
 def test_every_surface_lies_where_the_prediction_has_it(tile: dict[str, Any]):
     """Elsewhere the film of the first step would be that of twice the roughness."""
     for settings in (
