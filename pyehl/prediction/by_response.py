@@ -34,9 +34,10 @@ from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["STIFFER", "RoughPassage"]
+__all__ = ["STIFFER", "Parts", "RoughPassage"]
 
 Array = NDArray[np.float64]
+Parts = tuple[Topography, Spectrum, Transfer, Edge]
 
 # Points per Hertz radius at which the shear stress is taken: the tile is finer, and its other
 # pixels are met at other positions
@@ -127,7 +128,7 @@ class RoughPassage:
         t = self._transfer(spectrum).at_centre(spectrum, self.velocity_ratio)
         return np.asarray(spectrum.tile(t) * self.operating.film_scale)
 
-    def parts(self) -> tuple[Topography, Spectrum, Transfer, Edge]:
+    def parts(self) -> Parts:
         """Tile on the grid that is worked on, its components, and what becomes of them."""
         grid = working_grid(self.topography, self.operating, self.options.positions)
         spectrum = self._spectrum(grid)
@@ -135,9 +136,9 @@ class RoughPassage:
         edge = Edge.of(spectrum, 1.0 - transfer.at_centre(spectrum, self.velocity_ratio))
         return grid, spectrum, transfer, edge
 
-    def mean(self) -> float:
-        """mu_r/mu_s over a few positions of the passage [-]; NaN where the film ends."""
-        grid, spectrum, transfer, edge = self.parts()
+    def mean(self, parts: Parts | None = None) -> float:
+        """mu_r/mu_s over a few positions [-], by its `parts`; NaN where the film ends."""
+        grid, spectrum, transfer, edge = parts or self.parts()
         with np.errstate(over="ignore", invalid="ignore"):
             contact = self._contact(spectrum, transfer, edge)
             return short_mean(contact, grid.shape[0])

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from pyehl import surfaces
 from pyehl.errors import EhlError, InputError
 from pyehl.handle import SolverHandle
-from pyehl.prediction.by_response import RoughPassage
+from pyehl.prediction.by_response import Parts, RoughPassage
 from pyehl.prediction.errors import model_error, outside_range
 from pyehl.prediction.options import Options, thinning_flow
 from pyehl.prediction.rough_contact import (
@@ -89,9 +89,10 @@ def starting_pressure(
     beyond = outside_range(passage.operating, passage.velocity_ratio, passage.options)
     if beyond:
         raise InputError(f"{', '.join(beyond)} outside the range of the prediction")
-    if not math.isfinite(model_error(passage.mean())):
+    parts = passage.parts()
+    if not math.isfinite(model_error(passage.mean(parts))):
         raise InputError("the pressures are beyond a linear response")
-    waves = _Waves(passage, x, y)
+    waves = _Waves(passage, parts, x, y)
     pressure = np.zeros((x.size, y.size, len(fronts)), order="F")
     for k, front in enumerate(fronts):
         pressure[(*waves.place, k)] = waves.pressure(front)
@@ -140,13 +141,13 @@ def _passage(settings: Mapping[str, Mapping[str, Any]], tile: Topography | None)
 class _Waves:
     """The waves of a tile on the nodes of a grid that lie in the contact."""
 
-    def __init__(self, passage: RoughPassage, x: Array, y: Array) -> None:
+    def __init__(self, passage: RoughPassage, parts: Parts, x: Array, y: Array) -> None:
         rows, columns = (np.flatnonzero(np.abs(v) < REACH) for v in (x, y))
         # the nodes are the product of these rows and columns of the grid
         self.place = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
         self.x, self.y = x[rows, np.newaxis], y[np.newaxis, columns]
         ratio = passage.velocity_ratio
-        _, spectrum, transfer, edge = passage.parts()
+        _, spectrum, transfer, edge = parts
         mesh = (x[1] - x[0]) * max(1.0, ratio), y[1] - y[0]
         limits = math.pi / mesh[0] * BELOW, math.pi / mesh[1] * BELOW
         spectrum.values[spectrum.qx >= limits[0]] = 0.0
