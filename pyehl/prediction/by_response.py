@@ -71,10 +71,9 @@ class RoughPassage:
         o = self.operating
         if self.options.reduction == "response":
             zone = zone_of(self.contact, o, self.lubricant)
-            moes = o.moes_m, o.moes_l
+            moes, u = (o.moes_m, o.moes_l), self.velocity_ratio
             newtonian = self.lubricant.shear.law == "newtonian"
-            u, mesh = self.velocity_ratio, self.mesh
-            return Transfer.of(spectrum, zone, moes, u, at_amplitude=newtonian, mesh=mesh)
+            return Transfer.of(spectrum, zone, moes, u, at_amplitude=newtonian, mesh=self.mesh)
         ratio = component_amplitude_ratio(
             spectrum.qx[:, np.newaxis],
             spectrum.qy[np.newaxis, :],
@@ -116,8 +115,8 @@ class RoughPassage:
 
     def _stride(self, spectrum: Spectrum) -> int:
         """Every so many-th pixel across the motion is a point of the contact."""
-        every = self.options.as_in_paper
-        stride = 1 if every else max(1, int(1.0 / (POINTS * max(spectrum.pixel))))
+        wanted = int(1.0 / (POINTS * max(spectrum.pixel)))
+        stride = 1 if self.options.as_in_paper else max(1, wanted)
         while spectrum.shape[1] % stride:
             stride -= 1
         return stride
@@ -289,13 +288,13 @@ class RoughPassage:
 
     def _below(self, spectrum: Spectrum, transfer: Transfer, edge: Edge, limit: float) -> float:
         """mu_r/mu_s of the waves with |q| below a limit [1/a], on as few pixels as they need."""
-        shape = tuple(
+        nx, ny = (
             fewer_pixels(n, pixel * n, limit)
             for n, pixel in zip(spectrum.shape, spectrum.pixel, strict=True)
         )
-        index = spectrum.longest(shape[0], shape[1])
-        part = spectrum.kept(index, (shape[0], shape[1]))
+        index = spectrum.longest(nx, ny)
+        part = spectrum.kept(index, (nx, ny))
         part.values[part.q >= limit] = 0.0
         power = np.where(spectrum.q < limit, spectrum.power, 0.0)
         contact = self._contact(part, transfer.kept(index), edge.below(limit), power)
-        return short_mean(contact, shape[0])
+        return short_mean(contact, nx)
