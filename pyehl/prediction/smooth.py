@@ -21,6 +21,8 @@ from pyehl.errors import EhlError, InputError
 from pyehl.handle import SolverHandle
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.shear import ShearLaw
+from pyehl.theory.thinning import FlowFactors, flow_factors
 from pyehl.theory.transport import Zone
 
 __all__ = [
@@ -96,12 +98,15 @@ OF_SHEAR = (
 def smooth_case(settings: Mapping[str, Mapping[str, Any]]) -> str:
     """Text of the case whose solution is the smooth contact under a resolved case.
 
-    Cases that differ in their surface, their slip or their shear law alone have the same.
+    Cases that differ in their surface alone have the same; where the flow is Newtonian and the inlet
+    not heated by shear, so have those that differ in their slip or their shear law.
     """
     contact, lubricant = dict(settings["contact"]), dict(settings["lubricant"])
-    for key in OF_SHEAR:
-        lubricant.pop(key, None)
-    if not lubricant.get("thermal_reduction", False):
+    thins = ShearLaw.from_settings(settings).in_flow
+    if not thins:
+        for key in OF_SHEAR:
+            lubricant.pop(key, None)
+    if not (thins or lubricant.get("thermal_reduction", False)):
         for key in OF_SLIP:
             contact.pop(key, None)
     domain = {key: settings["grid"][key] for key in ("x_inlet", "x_outlet", "y_extent")}
@@ -218,6 +223,9 @@ def zone_on(
     )
     rho, eta = lubricant.density_ratio(p), lubricant.viscosity_ratio(p)
     denser, thinner = lubricant.density_ratio(higher), lubricant.density_ratio(lower)
+    factors = None
+    if lubricant.shear.in_flow:
+        factors = _factors(film, np.gradient(pressure, x), eta, operating, lubricant)
     return Zone(
         x,
         pressure,
@@ -227,4 +235,17 @@ def zone_on(
         (denser - 2.0 * rho + thinner) / (step**2 * rho),
         np.log(lubricant.viscosity_ratio(higher) / eta) / step,
         rho * film**3 / (eta * operating.speed_parameter),
+        factors,
     )
+
+
+def _factors(
+    film: Array, slope: Array, eta: Array, operating: OperatingPoint, lubricant: Lubricant
+) -> FlowFactors:
+    """Flow factors of films H [a^2/R] by dP/dX [p_h/a] and eta/eta0 [-], (n,) each."""
+    shear = lubricant.shear
+    h = film * operating.film_scale
+    newtonian = eta * lubricant.viscosity * operating.sliding_speed / h
+    gradient = h * slope * (operating.hertz_pressure / operating.hertz_radius)
+    parts = gradient / shear.scale, 0.0 * gradient
+    return flow_factors(shear.law, shear.carreau_exponent, newtonian / shear.scale, parts)

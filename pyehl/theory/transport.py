@@ -31,6 +31,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pyehl.theory.thinning import FlowFactors
+
 __all__ = [
     "INLET",
     "Zone",
@@ -72,6 +74,8 @@ class Zone:
     curvature: Array  # (d^2 rho/dP^2)/rho [-]
     thickening: Array  # d ln eta/dP [-]
     conductance: Array  # eps = rho H^3/(eta lambda) [-]
+    # How much more than a Newtonian lubricant flows, and how that changes; None: Newtonian
+    factors: FlowFactors | None = None
 
 
 class _Flow:
@@ -86,11 +90,21 @@ class _Flow:
         inside = np.where((places >= zone.x[0]) & (places <= OUTLET), 1.0, 0.0)
         self.film, self.density = at(zone.film), at(zone.density)
         self.compressibility = at(zone.compressibility)
-        self.softening = at(zone.compressibility - zone.thickening)
-        self.conductance = np.exp(at(logarithm))
-        slope = inside * self.conductance
-        self.slope = slope * at(np.gradient(logarithm, zone.x))
-        self.gradient = slope * at(np.gradient(zone.pressure, zone.x))
+        f = zone.factors or _newtonian(zone.x)
+        self.softening = at(zone.compressibility - zone.thickening * (1.0 - f.along_by_sliding))
+        self.power = at(3.0 - f.along_by_sliding + f.along_by_gradient)
+        self.across = np.exp(at(logarithm + np.log(f.across)))
+        along = logarithm + np.log(f.tangent)
+        self.along = np.exp(at(along))
+        self.slope = inside * self.along * at(np.gradient(along, zone.x))
+        flow = inside * np.exp(at(logarithm + np.log(f.along)))
+        self.gradient = flow * at(np.gradient(zone.pressure, zone.x))
+
+
+def _newtonian(x: Array) -> FlowFactors:
+    """Flow factors of a Newtonian lubricant at places (n,)."""
+    one, none = np.ones_like(x), np.zeros_like(x)
+    return FlowFactors(one, one, none, none, none, one, none)
 
 
 class _Waves:
@@ -100,8 +114,9 @@ class _Waves:
         cells = 0.5 * spacing / np.pi
         along, across = np.sinc(cells * qx), np.sinc(cells * qy)
         squared = qx * qx + qy * qy
-        # div grad of the pressure, by differences
-        self.squared = np.square(along * qx) + np.square(across * qy)
+        # div grad of the pressure, by differences, and its part along X
+        self.squared_along = np.square(along * qx)
+        self.squared = self.squared_along + np.square(across * qy)
         self.k = stiffness(np.sqrt(squared)) / (along * across)
         self.turned = 1j * qx
         self.slip = self.turned * (velocity_ratio - 1.0)
@@ -109,18 +124,20 @@ class _Waves:
 
     def at(self, flow: _Flow, i: int) -> tuple[Complex, Complex, Complex, Complex]:
         """Give a, b, t, s of mu' = a mu + b and T = t mu + s at the place i."""
-        e, h, rho, k = flow.conductance[i], flow.film[i], flow.density[i], self.k
+        e, h, rho, k = flow.along[i], flow.film[i], flow.density[i], self.k
         held = flow.compressibility[i] * h
         soft, slope, gradient = flow.softening[i], flow.slope[i], flow.gradient[i]
-        by_pressure = e * self.squared - self.turned * (slope + soft * gradient)
-        by_film = (3.0 / h * gradient) * self.turned
+        leak = flow.across[i] * self.squared + (e - flow.across[i]) * self.squared_along
+        by_pressure = leak - self.turned * (slope + soft * gradient)
+        bending = flow.power[i] / h * gradient
+        by_film = bending * self.turned
         by_change = -slope - (2.0 * e) * self.turned - soft * gradient
         share = 1.0 / (1.0 + k * held)
         # as if the amplitude did not change, then with its change
         t, s = share / rho + 0j, k * held * share + 0j
         p, r = -k * t, k * share + 0j
         for change in (self.changing, None):
-            left = 1.0 - by_change * p - (3.0 / h * gradient) * t
+            left = 1.0 - by_change * p - bending * t
             whole = self.slip + by_pressure * p + by_film * t
             # of e p a^2 + left a = whole the root that is whole/left where little leaks
             root = 2.0 / (left + np.sqrt(left * left + (4.0 * e) * p * whole))
