@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from pyehl.prediction.bands import Band, octaves
 from pyehl.prediction.carrying import confirmed
 from pyehl.prediction.contact import HertzContact, Response
+from pyehl.prediction.deformed import film_levels
 from pyehl.prediction.errors import KNOWN_RATIO, model_error
 from pyehl.prediction.friction import RoughFriction, passed
 from pyehl.prediction.options import Options
@@ -157,6 +158,7 @@ class RoughPassage:
         grid, spectrum, transfer, edge = self.parts()
         with np.errstate(over="ignore", invalid="ignore"):
             contact = self._contact(spectrum, transfer, edge)
+            contact.watch(self._levels(spectrum, transfer))
             passage = friction_along(contact, grid.shape[0], self.options.positions, LARGEST_RATIO)
             found = self._result(contact, grid, (spectrum, transfer, edge), passage, brief)
             if found.status != "predicted":
@@ -170,6 +172,12 @@ class RoughPassage:
             bands = self._bands(spectrum, transfer, edge, found.mu_ratio, brief)
         over = (float(ratios.mean()), float(ratios.std())) if tracks else (math.nan, math.nan)
         return found, over, bands
+
+    def _levels(self, spectrum: Spectrum, transfer: Transfer) -> tuple[float, ...]:
+        """Films of which the share below is told [a^2/R]."""
+        t = transfer.at_centre(spectrum, self.velocity_ratio)
+        rms = math.sqrt(float((spectrum.power * np.square(np.abs(t))).sum()))
+        return film_levels(self.options.film_limit / self.operating.film_scale, rms)
 
     def _tracks(self, grid: Topography, stride: int, tracks: int) -> list[tuple[float, int]]:
         """Offsets of the tracks [m], and in pixels that are multiples of the stride."""

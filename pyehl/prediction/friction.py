@@ -41,7 +41,14 @@ class RoughFriction:
     # Friction coefficient of the smooth contact at the slide-to-roll ratio [-]; without meaning for
     # a Newtonian lubricant
     mu_smooth: float
-    film_min: float  # least h_c - rr_d of the tile [m]
+    film_min: float  # least film over the passage [m]
+    # Greatest rise of the pressure over the passage, within :data:`~pyehl.prediction.contact.INNER`
+    # [Pa]
+    rise_max: float
+    # Mean share of the contact with less film than psd.film_limit [-], and what the error of the
+    # film makes of it; NaN without a limit
+    below_limit: float
+    below_limit_error: float
     cavitated_share: float  # mean share of the contact where p_s + delta p <= 0 [-]
     cavitated_friction: float  # bound of the share of the friction that comes from there [-]
     # Greatest |integral of delta p|/w over the passage [-], before any load balance
@@ -64,6 +71,7 @@ def passed(
     motion and the unit of films are in m.
     """
     steps, ratios, error = passage
+    low, share, high = contact.shares() if contact.levels else (math.nan,) * 3
     status, message = outcome
     mean = least = greatest = math.nan
     if status == "predicted":
@@ -80,6 +88,9 @@ def passed(
         passage=ratios,
         mu_smooth=contact.mu_smooth(),
         film_min=float(contact.thinnest) * film_unit,
+        rise_max=contact.greatest_rise * contact.operating.hertz_pressure,
+        below_limit=float(share),
+        below_limit_error=0.5 * float(high - low),
         cavitated_share=contact.cavitated / max(1, contact.count * contact.points),
         cavitated_friction=contact.cavitated_bound(least) if status == "predicted" else math.nan,
         load_error=contact.imbalance,

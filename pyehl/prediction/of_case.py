@@ -64,6 +64,8 @@ def predict(
         contact = _smooth_contact(settings, operating, lubricant, options)
     else:
         contact = read_contact(Path(smooth), operating)
+        if lubricant.shear.in_flow:
+            contact = replace(contact, thinning=solve_contact(settings).thinning)
     film = contact.central_film * operating.film_scale
     if surface is None:
         surface = surfaces.from_settings(settings, operating, film)

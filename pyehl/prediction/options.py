@@ -9,7 +9,7 @@ from typing import Any
 
 from pyehl.surfaces import FEATURES, one_rough, rough_groups
 
-__all__ = ["MAX_POSITIONS", "Options", "thinning_flow", "unpredictable"]
+__all__ = ["MAX_POSITIONS", "Options", "unpredictable"]
 
 MAX_POSITIONS = 4096
 """Most positions of a passage, as the schema of cases has it."""
@@ -35,15 +35,6 @@ def unpredictable(settings: Mapping[str, Mapping[str, Any]]) -> str:
     return ""
 
 
-def thinning_flow(settings: Mapping[str, Mapping[str, Any]]) -> str:
-    """Tell why the flow of a resolved case is not predicted; '' where it is Newtonian."""
-    lubricant = settings["lubricant"]
-    law = str(lubricant["shear_law"])
-    if lubricant["flow"] != "consistent" or law not in ("eyring", "carreau"):
-        return ""
-    return f"lubricant.flow = 'consistent': waves in a flow that obeys {law} are not predicted"
-
-
 @dataclass(frozen=True, slots=True)
 class Options:
     """How the model is read: the group ``psd`` of a case, whose schema has the allowed words."""
@@ -59,6 +50,8 @@ class Options:
     # Whether the semi-ellipse gives up the load that delta p carries inside the contact: a Hertz
     # contact under the remaining load, p_h and a scaled by its cube root
     load_balance: bool = False
+    # Film below which the share of the contact is told [m]; 0: none
+    film_limit: float = 0.0
     # Positions of the surface over one passage; 0: doubled until mu_r/mu_s is resolved
     positions: int = 0
 

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl import library
-from pyehl.prediction.contact import ShearedContact
+from pyehl.prediction.contact import INNER, ShearedContact
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import OFF_CENTRE, STATIONS
@@ -124,6 +124,7 @@ class RoughContact(ShearedContact):
         radius = np.hypot(self.x[:, np.newaxis], self.y[np.newaxis, :])
         self.inside = (radius < REACH) & (self.pressure > 0.0)
         self.points = int(np.count_nonzero(self.inside))
+        self.inner = self.inside & (radius < INNER)
         self.weights = station_weights(self.x).astype(np.float32)
         self.off = away_from_centre(self.y).astype(np.float32)
         # the free wave is that of the roughness where it was when the inlet made it; without a bend
@@ -194,6 +195,8 @@ class RoughContact(ShearedContact):
             return math.nan
         self.cavitated += int(np.count_nonzero((pressure <= 0.0) & self.inside))
         # outside nothing is counted: any film and pressure will do
+        film[~self.inside] = math.inf
+        self.meet(change[..., 1], film, self.inner)
         film[~self.inside] = 1.0
         np.maximum(pressure, 0.0, out=pressure)
         with np.errstate(over="ignore"):

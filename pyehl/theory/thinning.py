@@ -65,8 +65,8 @@ def flow_factors(law: str, exponent: float, sliding: ArrayLike, gradient: ArrayL
     library.thinning.flow_factors(CODES[law], exponent, b.ravel().copy(), s, found)
     if not np.all(np.isfinite(found)):
         raise EhlError(f"no flow factors of a film that obeys {law} at a stress beyond all bounds")
-    along, across, *slopes, _, tangent, _, stress = (row.reshape(b.shape) for row in found)
-    return FlowFactors(along, across, *slopes, tangent, stress)
+    rows = [row.reshape(b.shape) for row in found]
+    return FlowFactors(*rows[:5], tangent=rows[6], stress=rows[8])
 
 
 def sliding_stress(law: str, exponent: float, sliding: ArrayLike) -> Array:

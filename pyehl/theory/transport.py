@@ -22,11 +22,17 @@ which compressibility leaves with the roughness. eps |q|^2 Pi, the leak by visco
 (Morales-Espejel & Brizmer 2011), matters for short waves and low pressures; the terms behind it,
 what the flow of the smooth contact does to the wave, where it leaks a lot. In the inlet, where eps
 falls by orders of magnitude, the coefficients change slowly for short waves only: `upstream`.
+
+A lubricant that thins by shear flows phi_x times as easily along the motion and phi_y times across
+(:mod:`pyehl.theory.thinning`). Then eps |q|^2 is eps_t k^2 + eps_y k_Y^2 with eps_t = -dq_x/d(P'),
+eps' and eps'' terms have eps_t, eps P' is eps_x P', and of delta ln eps_x = g the part of the
+pressure is c - (d ln eta/dP) (1 - d ln phi_x/d ln B), that of the film 3 - d ln phi_x/d ln B +
+d ln phi_x/d ln S.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -37,6 +43,7 @@ __all__ = [
     "INLET",
     "Zone",
     "free_stiffness",
+    "kept_of_inlet",
     "stiffness",
     "transport",
     "upstream",
@@ -76,6 +83,8 @@ class Zone:
     conductance: Array  # eps = rho H^3/(eta lambda) [-]
     # How much more than a Newtonian lubricant flows, and how that changes; None: Newtonian
     factors: FlowFactors | None = None
+    # Viscosity at low shear over that of a Newtonian lubricant with as thick a film [-]
+    thinning: float = 1.0
 
 
 class _Flow:
@@ -90,7 +99,7 @@ class _Flow:
         inside = np.where((places >= zone.x[0]) & (places <= OUTLET), 1.0, 0.0)
         self.film, self.density = at(zone.film), at(zone.density)
         self.compressibility = at(zone.compressibility)
-        f = zone.factors or _newtonian(zone.x)
+        f = zone.factors or _constant(zone.x, 1.0)
         self.softening = at(zone.compressibility - zone.thickening * (1.0 - f.along_by_sliding))
         self.power = at(3.0 - f.along_by_sliding + f.along_by_gradient)
         self.across = np.exp(at(logarithm + np.log(f.across)))
@@ -101,10 +110,10 @@ class _Flow:
         self.gradient = flow * at(np.gradient(zone.pressure, zone.x))
 
 
-def _newtonian(x: Array) -> FlowFactors:
-    """Flow factors of a Newtonian lubricant at places (n,)."""
-    one, none = np.ones_like(x), np.zeros_like(x)
-    return FlowFactors(one, one, none, none, none, one, none)
+def _constant(x: Array, factor: float) -> FlowFactors:
+    """Flow factors at places (n,) of a Newtonian lubricant whose viscosity is less by a factor."""
+    phi, none = np.full_like(x, factor), np.zeros_like(x)
+    return FlowFactors(phi, phi, none, none, none, phi, none)
 
 
 class _Waves:
@@ -196,6 +205,32 @@ def upstream(
         mu = mu * grown + (b * h) * way
     back = np.exp(-waves.slip * (INLET + 1.0))
     return np.asarray(mu * back / np.interp(INLET, zone.x, zone.density))
+
+
+def kept_of_inlet(
+    zone: Zone, qx: ArrayLike, qy: ArrayLike, velocity_ratio: float, spacing: float = 0.0
+) -> Array:
+    """Share of what an inlet adds to the transport equation that a thinning flow keeps (m,) [-].
+
+    The part that is fitted (:mod:`pyehl.theory.response`) arises where the leak lets go of the wave
+    in a Newtonian lubricant with as thick a film, spread as what is left of a wave from there at
+    INLET. A lubricant that thins leaks longer, so that the wave forgets it again: its modulus falls
+    by the difference of the two leaks on the rest of the way. Parameters as of `upstream`.
+    """
+    kx, ky = np.asarray(qx, dtype=float), np.asarray(qy, dtype=float)
+    lengths = np.diff(APPROACH)
+    places = APPROACH[:-1] + 0.5 * lengths
+    waves = _Waves(kx, ky, velocity_ratio, spacing)
+    like = replace(zone, factors=_constant(zone.x, zone.thinning))
+    rates = [
+        np.array([h * waves.at(flow, i)[0].real for i, h in enumerate(lengths)])
+        for flow in (_Flow(like, places), _Flow(zone, places))
+    ]
+    # of a wave from the start of each step, and from the end of all
+    ways = [np.vstack([np.cumsum(r[::-1], 0)[::-1], np.zeros((1, kx.size))]) for r in rates]
+    left, less = np.exp(ways[0]), np.exp(ways[1] - ways[0])
+    arising = np.diff(left, axis=0)
+    return np.asarray((0.5 * arising * (less[1:] + less[:-1])).sum(0) / arising.sum(0))
 
 
 def _grown(turn: Complex) -> tuple[Complex, Complex]:

@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measure waves in lubricants that thin: ``runs/NAME.npz``, one file per run of `PLAN`.
+"""Measure waves in lubricants that thin: ``NAME.npz``, one file per run of `PLAN`.
 
     python docs/evidence/thinning/waves.py FOLDER [NAME ...]
 
-Each run is a tile of 4 a with 26 waves of small amplitude on 257 x 257 nodes, as those of
-docs/evidence/response; a run whose file is there is not made again.
+Each run is a tile of 4 a with 25 waves of small amplitude on 257 x 257 nodes, as those of
+docs/evidence/response, and each has a twin with Newtonian flow, ``NAME-newtonian``; a run whose
+file is there is not made again.
 """
 
 from __future__ import annotations
 
 import math
 import sys
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -94,6 +95,20 @@ PLAN = {
 }
 
 
+def twin(run: Run) -> Run:
+    """Return the same contact with Newtonian flow."""
+    return replace(run, lubricant=f"{run.lubricant} flow = 'newtonian'")
+
+
+def runs() -> dict[str, Run]:
+    """All runs by their names."""
+    return {
+        f"{name}{end}": run if not end else twin(run)
+        for name, run in PLAN.items()
+        for end in ("", "-newtonian")
+    }
+
+
 def waves_of(run: Run) -> WaveSet:
     """Waves of a run."""
     angles = ANGLES[run.angles]
@@ -118,11 +133,11 @@ def main(arguments: list[str]) -> None:
     """Measure what is not there."""
     folder = Path(arguments[0])
     folder.mkdir(parents=True, exist_ok=True)
-    for name in arguments[1:] or PLAN:
+    for name, run in runs().items():
         path = folder / f"{name}.npz"
-        if path.exists():
+        if path.exists() or (arguments[1:] and name not in arguments[1:]):
             continue
-        run, waves = PLAN[name], waves_of(PLAN[name])
+        waves = waves_of(run)
         print(name, flush=True)
         found = superpose(
             case_of(run).resolve(),
