@@ -12,19 +12,19 @@ module ehl_f2py_thinning
 
 contains
 
-   !> Flow factors through the film, n times: phi_x, phi_y, their d ln(phi)/d ln(B) and d ln(phi)/d ln(S), d(phi S)/dS
-   !> along X and Y, and the mean stress along X; NaNs where they are not found
+   !> Flow factors through the film, n times: phi_x, phi_y, and of phi_x d ln(phi)/d ln(B), d ln(phi)/d ln(S) and
+   !> d(phi S)/dS; NaNs where they are not found
    subroutine flow_factors(n, law, exponent, b, gradient, found)
       integer(c_int), intent(in) :: n, law
       real(c_double), intent(in) :: exponent
-      real(c_double), intent(inout) :: b(n), gradient(2, n), found(9, n)
+      real(c_double), intent(inout) :: b(n), gradient(2, n), found(5, n)
       type(factors_t) :: factors
       integer :: i
       !f2py threadsafe
 
       do i = 1, n
          factors = exact_factors(thinning_t(law, exponent), b(i), gradient(:, i))
-         found(:, i) = [factors%phi, factors%by_sliding, factors%by_gradient, factors%tangent, factors%stress]
+         found(:, i) = [factors%phi, factors%by_sliding(1), factors%by_gradient(1), factors%tangent(1)]
       end do
    end subroutine flow_factors
 

@@ -26,18 +26,13 @@ CODES = {"eyring": 1, "carreau": 2}
 
 @dataclass(frozen=True, slots=True)
 class FlowFactors:
-    """Flow factors of a film and how they change, all of one shape [-].
-
-    `by_sliding` are d ln(phi)/d ln(B) along X and Y, `by_gradient` is d ln(phi_x)/d ln(S).
-    """
+    """Flow factors of films and how that along X changes, all of one shape [-]."""
 
     along: Array  # phi_x
     across: Array  # phi_y
-    along_by_sliding: Array
-    across_by_sliding: Array
-    along_by_gradient: Array
+    by_sliding: Array  # d ln(phi_x)/d ln(B)
+    by_gradient: Array  # d ln(phi_x)/d ln(S)
     tangent: Array  # d(phi_x S_x)/dS_x
-    stress: Array  # mean stress along X over that of the law
 
 
 def flow_factors(law: str, exponent: float, sliding: ArrayLike, gradient: ArrayLike) -> FlowFactors:
@@ -61,12 +56,11 @@ def flow_factors(law: str, exponent: float, sliding: ArrayLike, gradient: ArrayL
     s = np.empty((2, b.size), order="F")
     for i, part in enumerate(np.asarray(gradient, dtype=float)):
         s[i] = np.broadcast_to(part, b.shape).ravel()
-    found = np.empty((9, b.size), order="F")
+    found = np.empty((5, b.size), order="F")
     library.thinning.flow_factors(CODES[law], exponent, b.ravel().copy(), s, found)
     if not np.all(np.isfinite(found)):
         raise EhlError(f"no flow factors of a film that obeys {law} at a stress beyond all bounds")
-    rows = [row.reshape(b.shape) for row in found]
-    return FlowFactors(*rows[:5], tangent=rows[6], stress=rows[8])
+    return FlowFactors(*(row.reshape(b.shape) for row in found))
 
 
 def sliding_stress(law: str, exponent: float, sliding: ArrayLike) -> Array:

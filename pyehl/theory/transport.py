@@ -100,8 +100,8 @@ class _Flow:
         self.film, self.density = at(zone.film), at(zone.density)
         self.compressibility = at(zone.compressibility)
         f = zone.factors or _constant(zone.x, 1.0)
-        self.softening = at(zone.compressibility - zone.thickening * (1.0 - f.along_by_sliding))
-        self.power = at(3.0 - f.along_by_sliding + f.along_by_gradient)
+        self.softening = at(zone.compressibility - zone.thickening * (1.0 - f.by_sliding))
+        self.power = at(3.0 - f.by_sliding + f.by_gradient)
         self.across = np.exp(at(logarithm + np.log(f.across)))
         along = logarithm + np.log(f.tangent)
         self.along = np.exp(at(along))
@@ -113,7 +113,7 @@ class _Flow:
 def _constant(x: Array, factor: float) -> FlowFactors:
     """Flow factors at places (n,) of a Newtonian lubricant whose viscosity is less by a factor."""
     phi, none = np.full_like(x, factor), np.zeros_like(x)
-    return FlowFactors(phi, phi, none, none, none, phi, none)
+    return FlowFactors(phi, phi, none, none, phi)
 
 
 class _Waves:
