@@ -15,8 +15,8 @@ __all__ = ["deformed_surface", "film_levels"]
 
 # Errors against the full simulation, measured in docs/evidence/thinning: relative, and of a film
 # beside that of the smooth contact by the rms height of the deformed roughness
-RMS_DEFORMED, RMS_PRESSURE, RISE = 0.06, 0.06, 0.15
-FILM = 0.25
+RMS_DEFORMED, RMS_PRESSURE, RISE = 0.07, 0.07, 0.12
+FILM = 0.3
 
 
 def film_levels(limit: float, rms_deformed: float) -> tuple[float, ...]:
