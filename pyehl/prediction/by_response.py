@@ -39,7 +39,7 @@ __all__ = ["STIFFER", "Parts", "RoughPassage"]
 Array = NDArray[np.float64]
 Parts = tuple[Topography, Spectrum, Transfer, Edge]
 
-# Points per Hertz radius at which the shear stress is taken: the tile is finer, and its other
+# Points per shorter semi-axis at which the shear stress is taken: the tile is finer, and its other
 # pixels are met at other positions
 POINTS = 60
 # Eq. 11 with wavelength 2 pi/|q| over E'|q|/4 (see `pyehl.prediction`)
@@ -71,7 +71,7 @@ class RoughPassage:
         o = self.operating
         if self.options.reduction == "response":
             zone = zone_of(self.contact, o, self.lubricant)
-            moes, u = (o.moes_m, o.moes_l), self.velocity_ratio
+            moes, u = o.equivalent_moes, self.velocity_ratio
             newtonian = self.lubricant.shear.law == "newtonian"
             return Transfer.of(spectrum, zone, moes, u, at_amplitude=newtonian, mesh=self.mesh)
         ratio = component_amplitude_ratio(
@@ -115,7 +115,8 @@ class RoughPassage:
 
     def _stride(self, spectrum: Spectrum) -> int:
         """Every so many-th pixel across the motion is a point of the contact."""
-        wanted = int(1.0 / (POINTS * max(spectrum.pixel)))
+        short = min(1.0, self.operating.ellipse.ellipticity)
+        wanted = int(short / (POINTS * max(spectrum.pixel)))
         stride = 1 if self.options.as_in_paper else max(1, wanted)
         while spectrum.shape[1] % stride:
             stride -= 1
@@ -132,7 +133,8 @@ class RoughPassage:
         grid = working_grid(self.topography, self.operating, self.options.positions)
         spectrum = self._spectrum(grid)
         transfer = self._transfer(spectrum)
-        edge = Edge.of(spectrum, 1.0 - transfer.at_centre(spectrum, self.velocity_ratio))
+        flattened = 1.0 - transfer.at_centre(spectrum, self.velocity_ratio)
+        edge = Edge.of(spectrum, flattened, self.operating.ellipse)
         return grid, spectrum, transfer, edge
 
     def mean(self, parts: Parts | None = None) -> float:
@@ -288,9 +290,10 @@ class RoughPassage:
 
     def _below(self, spectrum: Spectrum, transfer: Transfer, edge: Edge, limit: float) -> float:
         """mu_r/mu_s of the waves with |q| below a limit [1/a], on as few pixels as they need."""
+        axes = 1.0, self.operating.ellipse.ellipticity
         nx, ny = (
-            fewer_pixels(n, pixel * n, limit)
-            for n, pixel in zip(spectrum.shape, spectrum.pixel, strict=True)
+            fewer_pixels(n, pixel * n, limit, axis)
+            for n, pixel, axis in zip(spectrum.shape, spectrum.pixel, axes, strict=True)
         )
         index = spectrum.longest(nx, ny)
         part = spectrum.kept(index, (nx, ny))
