@@ -22,15 +22,21 @@ from pyehl.prediction.carrying import confirmed
 from pyehl.prediction.contact import HertzContact, Response
 from pyehl.prediction.deformed import film_levels
 from pyehl.prediction.errors import KNOWN_RATIO, model_error
-from pyehl.prediction.friction import RoughFriction, passed
+from pyehl.prediction.friction import LARGEST_RATIO, RoughFriction, outcome, passed
 from pyehl.prediction.options import Options
-from pyehl.prediction.passage import fewer_pixels, friction_along, short_mean, working_grid
+from pyehl.prediction.passage import (
+    fewer_pixels,
+    friction_along,
+    short_mean,
+    tracks_of,
+    working_grid,
+)
 from pyehl.prediction.rough_contact import Edge, RoughContact
 from pyehl.prediction.smooth import SmoothContact, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.prediction.waves import Waves
-from pyehl.surfaces import Topography, filtered, track_offsets
+from pyehl.surfaces import Topography, filtered
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -40,13 +46,11 @@ __all__ = ["STIFFER", "Parts", "RoughPassage"]
 Array = NDArray[np.float64]
 Parts = tuple[Topography, Spectrum, Transfer, Edge]
 
-# Points per Hertz radius at which the shear stress is taken: the tile is finer, and its other
+# Points per shorter semi-axis at which the shear stress is taken: the tile is finer, and its other
 # pixels are met at other positions
 POINTS = 60
 # Eq. 11 with wavelength 2 pi/|q| over E'|q|/4 (see `pyehl.prediction`)
 STIFFER = math.sqrt(2.0)
-# Largest mu_r/mu_s that is told
-LARGEST_RATIO = 10.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +76,7 @@ class RoughPassage:
         o = self.operating
         if self.options.reduction == "response":
             zone = zone_of(self.contact, o, self.lubricant)
-            moes, u = (o.moes_m, o.moes_l), self.velocity_ratio
+            moes, u = o.equivalent_moes, self.velocity_ratio
             newtonian = self.lubricant.shear.law == "newtonian"
             return Transfer.of(spectrum, zone, moes, u, at_amplitude=newtonian, mesh=self.mesh)
         ratio = component_amplitude_ratio(
@@ -116,7 +120,8 @@ class RoughPassage:
 
     def _stride(self, spectrum: Spectrum) -> int:
         """Every so many-th pixel across the motion is a point of the contact."""
-        wanted = int(1.0 / (POINTS * max(spectrum.pixel)))
+        short = min(1.0, self.operating.ellipse.ellipticity)
+        wanted = int(short / (POINTS * max(spectrum.pixel)))
         stride = 1 if self.options.as_in_paper else max(1, wanted)
         while spectrum.shape[1] % stride:
             stride -= 1
@@ -133,7 +138,8 @@ class RoughPassage:
         grid = working_grid(self.topography, self.operating, self.options.positions)
         spectrum = self._spectrum(grid)
         transfer = self._transfer(spectrum)
-        edge = Edge.of(spectrum, 1.0 - transfer.at_centre(spectrum, self.velocity_ratio))
+        flattened = 1.0 - transfer.at_centre(spectrum, self.velocity_ratio)
+        edge = Edge.of(spectrum, flattened, self.operating.ellipse)
         return grid, spectrum, transfer, edge
 
     def mean(self, parts: Parts | None = None) -> float:
@@ -158,7 +164,9 @@ class RoughPassage:
         grid, spectrum, transfer, edge = self.parts()
         with np.errstate(over="ignore", invalid="ignore"):
             contact = self._contact(spectrum, transfer, edge)
-            contact.watch(self._levels(spectrum, transfer))
+            t = transfer.at_centre(spectrum, self.velocity_ratio)
+            limit = self.options.film_limit / self.operating.film_scale
+            contact.watch(film_levels(limit, spectrum.power, np.abs(t)))
             passage = friction_along(contact, grid.shape[0], self.options.positions, LARGEST_RATIO)
             found = self._result(contact, grid, (spectrum, transfer, edge), passage, brief)
             if found.status != "predicted":
@@ -166,23 +174,14 @@ class RoughPassage:
             ratios = np.array(
                 [
                     found.mu_ratio if offset == 0.0 else short_mean(contact, grid.shape[0], track)
-                    for offset, track in self._tracks(grid, self._stride(spectrum), tracks)
+                    for offset, track in tracks_of(
+                        self.topography, grid, self._stride(spectrum), tracks
+                    )
                 ]
             )
             bands = self._bands(spectrum, transfer, edge, found.mu_ratio, brief)
         over = (float(ratios.mean()), float(ratios.std())) if tracks else (math.nan, math.nan)
         return found, over, bands
-
-    def _levels(self, spectrum: Spectrum, transfer: Transfer) -> tuple[float, ...]:
-        """Films of which the share below is told [a^2/R]."""
-        t = transfer.at_centre(spectrum, self.velocity_ratio)
-        rms = math.sqrt(float((spectrum.power * np.square(np.abs(t))).sum()))
-        return film_levels(self.options.film_limit / self.operating.film_scale, rms)
-
-    def _tracks(self, grid: Topography, stride: int, tracks: int) -> list[tuple[float, int]]:
-        """Offsets of the tracks [m], and in pixels that are multiples of the stride."""
-        offsets = track_offsets(self.topography, tracks) if tracks else []
-        return [(d, round(d / (stride * grid.pixel[1])) * stride) for d in offsets]
 
     def below(self, shortest: float) -> float:
         """mu_r/mu_s without the waves shorter than a length [a], over a few positions [-]."""
@@ -198,32 +197,15 @@ class RoughPassage:
         passage: tuple[NDArray[np.int_], Array, float],
         brief: bool,
     ) -> RoughFriction:
-        ratios = passage[1]
-        o = self.operating
-        status, message = "predicted", "full film throughout the passage"
-        if contact.thinnest <= 0.0:
-            status = "film breakdown"
-            depth = -contact.thinnest * o.film_scale
-            message = (
-                f"deformed roughness reaches {depth:.3g} m through the film at a point of the "
-                "contact: no full film, no ratio"
-            )
-        elif self.options.load_balance and contact.imbalance >= 1.0:
-            status, message = "load lost", "the roughness pressure exceeds the load"
-        elif not np.all(np.isfinite(ratios)):
-            status, message = "overflow", "the viscosity at p_s + delta p is not a number"
-        elif float(ratios.mean()) > LARGEST_RATIO:
-            status = "beyond linear response"
-            high = f"{float(ratios.mean()):.3g}"
-            message = f"pressures that raise mu_r/mu_s to {high} are beyond a linear response"
-            if not brief:
-                message += self._carried(*parts)
+        status, message = outcome(contact, passage[1], load_balance=self.options.load_balance)
+        if status == "beyond linear response" and not brief:
+            message += self._carried(*parts)
         return passed(
             contact,
             (status, message),
             passage,
             pixel=grid.pixel[0],
-            film_unit=o.film_scale,
+            film_unit=self.operating.film_scale,
             response=self._tiles(*parts[:2], grid.shape == self.topography.shape),
         )
 
@@ -296,9 +278,10 @@ class RoughPassage:
 
     def _below(self, spectrum: Spectrum, transfer: Transfer, edge: Edge, limit: float) -> float:
         """mu_r/mu_s of the waves with |q| below a limit [1/a], on as few pixels as they need."""
+        axes = 1.0, self.operating.ellipse.ellipticity
         nx, ny = (
-            fewer_pixels(n, pixel * n, limit)
-            for n, pixel in zip(spectrum.shape, spectrum.pixel, strict=True)
+            fewer_pixels(n, pixel * n, limit, axis)
+            for n, pixel, axis in zip(spectrum.shape, spectrum.pixel, axes, strict=True)
         )
         index = spectrum.longest(nx, ny)
         part = spectrum.kept(index, (nx, ny))

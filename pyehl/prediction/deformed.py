@@ -4,14 +4,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
+from statistics import fmean
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from pyehl.prediction.friction import RoughFriction
 
-__all__ = ["deformed_surface", "film_levels"]
+__all__ = ["deformed_surface", "deformed_surfaces", "error_name", "film_levels"]
+
+Array = NDArray[np.float64]
 
 # Errors against the full simulation, measured in docs/evidence/thinning: relative, and of a film
 # beside that of the smooth contact by the rms height of the deformed roughness
@@ -19,9 +24,13 @@ RMS_DEFORMED, RMS_PRESSURE, RISE = 0.07, 0.07, 0.12
 FILM = 0.3
 
 
-def film_levels(limit: float, rms_deformed: float) -> tuple[float, ...]:
-    """Film limit less its error, itself, and with its error; () without a limit."""
-    margin = FILM * rms_deformed
+def film_levels(limit: float, power: Array, ratio: Array) -> tuple[float, ...]:
+    """Film limit less its error, itself, and with its error; () without a limit.
+
+    `power` is the mean square of the components of the roughness, in the square of the unit of the
+    limit, `ratio` how much of each the contact leaves.
+    """
+    margin = FILM * math.sqrt(float((power * np.square(ratio)).sum()))
     return (limit - margin, limit, limit + margin) if limit > 0.0 else ()
 
 
@@ -49,13 +58,36 @@ def deformed_surface(
     }
     found: dict[str, Any] = {"film_limit_m": film_limit or None}
     for name, (value, error) in values.items():
-        found |= {name: value, _error(name): error if known else math.nan}
+        found |= {name: value, error_name(name): error if known else math.nan}
     return found
 
 
-def _error(name: str) -> str:
-    """Give the name of an error: before the unit."""
+def error_name(name: str) -> str:
+    """Give the name of the error of a quantity: before the unit."""
     for unit in ("_m", "_Pa", "_share"):
         if name.endswith(unit):
             return f"{name.removesuffix(unit)}_error{unit.replace('_share', '')}"
     return f"{name}_error"
+
+
+def deformed_surfaces(rows: Sequence[Mapping[str, Any]]) -> dict[str, float | None]:
+    """Give the same over the summaries of several surfaces.
+
+    Means, the greatest rise of the pressure, the least film; the largest of each error. None where
+    one of the surfaces has none.
+    """
+    names = (
+        "lambda_ratio_deformed",
+        "rms_deformed_m",
+        "rms_pressure_Pa",
+        "p_rise_max_Pa",
+        "h_min_rough_m",
+        "film_below_limit_share",
+    )
+    over = {"p_rise_max_Pa": max, "h_min_rough_m": min}
+    found: dict[str, float | None] = {}
+    for name in names:
+        for key, of_all in ((name, over.get(name, fmean)), (error_name(name), max)):
+            numbers = [row.get(key) for row in rows]
+            found[key] = None if None in numbers else of_all(float(str(v)) for v in numbers)
+    return found

@@ -28,6 +28,8 @@ CONSTANT_THINNING = 0.004
 SHARE_THINNING = 0.1
 # Largest ratio at which it was measured
 KNOWN_RATIO = 5.0
+# Ellipticities between which it was
+ELLIPTICITY = [0.39, 4.1]
 
 
 def model_error(mu_ratio: float, *, thins: bool = False) -> float:
@@ -55,13 +57,18 @@ def cutoff_error(bands: Sequence[Band]) -> float:
 
 
 def outside_range(operating: OperatingPoint, velocity_ratio: float, options: Options) -> list[str]:
-    """Names of the numbers that lie outside the range in which the response was measured."""
+    """Names of the numbers that lie outside the range in which the response was measured.
+
+    `moes_m` and `moes_l` of an elliptical contact are those of the circle with the same inlet.
+    """
     if options.reduction != "response":
         return []
+    moes_m, moes_l = operating.equivalent_moes
     values = {
-        "moes_m": operating.moes_m,
-        "moes_l": operating.moes_l,
+        "moes_m": moes_m,
+        "moes_l": moes_l,
         "velocity_ratio": velocity_ratio,
+        "ellipticity": operating.ellipse.ellipticity,
     }
-    limits = fitted_range()
+    limits = fitted_range() | {"ellipticity": ELLIPTICITY}
     return [name for name, v in values.items() if not limits[name][0] <= v <= limits[name][1]]

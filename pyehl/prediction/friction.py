@@ -12,12 +12,16 @@ from numpy.typing import NDArray
 from pyehl.prediction.contact import Response, ShearedContact
 from pyehl.surfaces import interpolated
 
-__all__ = ["TRACKS", "RoughFriction", "broken", "passed"]
+__all__ = ["LARGEST_RATIO", "TRACKS", "RoughFriction", "broken", "outcome", "passed"]
 
 Array = NDArray[np.float64]
 
 TRACKS = 8
 """Tracks over which mean and spread are taken unless asked for otherwise."""
+
+
+LARGEST_RATIO = 10.0
+"""Largest mu_r/mu_s that is told."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +58,25 @@ class RoughFriction:
     # Greatest |integral of delta p|/w over the passage [-], before any load balance
     load_error: float
     response: Response  # delta p and deformed roughness on the grid of the given tile
+
+
+def outcome(contact: ShearedContact, ratios: Array, *, load_balance: bool) -> tuple[str, str]:
+    """Give status and message of a passage by mu_r/mu_s at its positions (n,)."""
+    if contact.thinnest <= 0.0:
+        depth = -contact.thinnest * contact.operating.film_scale
+        return "film breakdown", (
+            f"deformed roughness reaches {depth:.3g} m through the film at a point of the "
+            "contact: no full film, no ratio"
+        )
+    if load_balance and contact.imbalance >= 1.0:
+        return "load lost", "the roughness pressure exceeds the load"
+    if not np.all(np.isfinite(ratios)):
+        return "overflow", "the viscosity at p_s + delta p is not a number"
+    mean = float(ratios.mean())
+    if mean > LARGEST_RATIO:
+        message = f"pressures that raise mu_r/mu_s to {mean:.3g} are beyond a linear response"
+        return "beyond linear response", message
+    return "predicted", "full film throughout the passage"
 
 
 def passed(

@@ -57,7 +57,6 @@ def predict(
     options = _options(settings, tracks)
     settings = surfaces.one_rough(settings)
     operating = OperatingPoint.from_settings(settings)
-    operating.need_round("the prediction")
     lubricant = Lubricant.from_settings(settings, str(settings["psd"]["viscosity_law"]))
     velocity_ratio = float(settings["surface"]["velocity_ratio"])
     if smooth is None:
@@ -79,9 +78,7 @@ def predict(
         a = operating.hertz_radius
         return contact.at(x / a, y / a)[1] * operating.film_scale
 
-    below = below_zero(
-        friction.response.deformed, surface.pixel, operating.hertz_radius, smooth_film
-    )
+    below = below_zero(friction.response.deformed, surface.pixel, operating.semi_axes, smooth_film)
     advice = None
     if friction.status == "predicted" and below.deepest <= 0.0:
         # the positions of the passage have missed it
@@ -121,6 +118,13 @@ def _options(settings: Mapping[str, Mapping[str, Any]], tracks: int) -> Options:
     if why:
         raise InputError(why)
     options = Options.from_settings(settings)
+    if OperatingPoint.from_settings(settings).radius_ratio != 1.0 and options != Options(
+        positions=options.positions
+    ):
+        raise InputError(
+            "psd: the model of the paper, and what is between it and the response, is for circular "
+            "contacts\nexpected: contact.radius, or the group psd as by default"
+        )
     if not options.as_in_paper and (options.load_balance or options.stiffness == "paper"):
         raise InputError(
             "psd.load_balance and psd.stiffness = 'paper' belong to the model of the paper: "
@@ -135,7 +139,7 @@ def _advice(passage: RoughPassage, group: Mapping[str, Any], smooth_film: Smooth
     return advise(
         surface,
         lambda tile: replace(passage, topography=tile).deformed(),
-        passage.operating.hertz_radius,
+        passage.operating.semi_axes,
         smooth_film,
         lambda tile, shortest: surfaces.filtered(tile, shortest, kind=kind),
         lambda threshold: surfaces.without_spikes(surface, threshold, group),

@@ -8,15 +8,18 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from pyehl.surfaces import FEATURES, one_rough, rough_groups
+from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["MAX_POSITIONS", "Options", "unpredictable"]
+__all__ = ["MAX_POSITIONS", "Options", "turned", "unpredictable"]
 
 MAX_POSITIONS = 4096
 """Most positions of a passage, as the schema of cases has it."""
 
 
 def unpredictable(settings: Mapping[str, Mapping[str, Any]]) -> str:
-    """Tell why nothing is predicted of the surfaces of a resolved case; '' where something is."""
+    """Tell why nothing is predicted of a resolved case; '' where something is."""
+    if turned(settings):
+        return turned(settings)
     if len(rough_groups(settings)) > 1:
         return (
             "two rough surfaces: the prediction knows one. What is missing: the response of the "
@@ -33,6 +36,19 @@ def unpredictable(settings: Mapping[str, Mapping[str, Any]]) -> str:
             "surface.kind = 'harmonic', 'map' or 'fractal'"
         )
     return ""
+
+
+def turned(settings: Mapping[str, Mapping[str, Any]]) -> str:
+    """Tell why an elliptical contact has no response; '' where an axis lies along the motion."""
+    contact = settings["contact"]
+    angle = float(contact.get("angle", 0.0))
+    if angle == 0.0 or OperatingPoint.from_settings(settings).radius_ratio == 1.0:
+        return ""
+    return (
+        f"contact.angle = {angle:g}: the response of an elliptical contact is known where an axis "
+        "lies along the motion. What is missing: an inlet that is oblique on the centre line\n"
+        "expected: contact.angle = 0 (at 90 degrees with the radii exchanged), or 'pyehl run'"
+    )
 
 
 @dataclass(frozen=True, slots=True)

@@ -165,9 +165,7 @@ class Prediction:
     @property
     def case_text(self) -> str:
         """The resolved case as namelist text."""
-        if self.text:
-            return self.text
-        return namelist.text_of(self.settings)
+        return self.text or namelist.text_of(self.settings)
 
     @property
     def arrays(self) -> dict[str, Array]:

@@ -49,7 +49,8 @@ class SecondOrder:
         kx, ky = table.coarse(COARSER)
         # a wave stands for +-k_Y, too
         pairs = [
-            stiffness(np.hypot(kx[:, np.newaxis] + i * kx, ky[:, np.newaxis] + j * ky))
+            zone.stiffness
+            * stiffness(np.hypot(kx[:, np.newaxis] + i * kx, ky[:, np.newaxis] + j * ky))
             for i in (1, -1)
             for j in (1, -1)
         ]

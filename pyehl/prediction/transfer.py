@@ -29,9 +29,9 @@ MIDDLE = 1
 """The one of them at X = 0."""
 CENTRE = STATIONS[: MIDDLE + 1]
 OFF_CENTRE = 0.5
-"""The second distance from the centre line at which the free wave is made [a]."""
+"""The second distance from the centre line at which the free wave is made [semi-axis]."""
 
-# Standard deviation of the friction over Y [a], and the phase that may be interpolated over it
+# Standard deviation of the friction over Y [semi-axis], and the phase that may be interpolated
 FRICTION_LINES = 0.24
 BENDING = 0.2
 
@@ -76,7 +76,7 @@ class Transfer:
     bent: bool
     # The pressure of second order; None where the waves move with the roughness as they are
     second: SecondOrder | None = None
-    stiffening: float = 1.0  # stiffness over that of the half-space
+    stiffening: float = 1.0  # stiffness over that of the half-space under a circle
 
     @classmethod
     def of(
@@ -89,7 +89,9 @@ class Transfer:
         at_amplitude: bool = False,
         mesh: float = 0.0,
     ) -> Transfer:
-        """Of a tile in a contact, from a table over |q| and direction; `moes` are M, L.
+        """Of a tile in a contact, from a table over |q| and direction.
+
+        `moes` are M, L of the circular contact with the same inlet.
 
         `at_amplitude`: the waves leak as those of the amplitude of the tile
         (:func:`_at_amplitude`), not as small ones. `mesh` [a]: they leak as on a grid.
@@ -109,13 +111,16 @@ class Transfer:
             carried = coarsened(inlet[0], 1) * np.exp(1j * few[0] * slip)
             for _ in range(REPETITIONS):
                 driven, free = transport(leaking, *few, velocity_ratio, CENTRE, mesh)[MIDDLE]
-                pressure = wave_pressure(*few, velocity_ratio, driven, free * carried)
+                pressure = zone.stiffness * wave_pressure(
+                    *few, velocity_ratio, driven, free * carried
+                )
                 leaking = _at_amplitude(zone, float(power @ np.square(np.abs(pressure))))
         stations = transport(leaking, kx, ky, velocity_ratio, STATIONS, mesh)
         turned = [np.exp(1j * kx * slip * (x + 1.0)) for x in STATIONS]
         parts = [(d, f * inlet[0] * t) for (d, f), t in zip(stations, turned, strict=True)]
         ratios = np.array([d + f for d, f in parts])
-        pressures = np.array([wave_pressure(kx, ky, velocity_ratio, d, f) for d, f in parts])
+        raised = [wave_pressure(kx, ky, velocity_ratio, d, f) for d, f in parts]
+        pressures = np.asarray(zone.stiffness * np.array(raised), dtype=complex)
         found = table.spread(
             [driven for driven, _ in stations]
             + [free * inlet[0] for _, free in stations]
@@ -123,7 +128,7 @@ class Transfer:
         )
         count = STATIONS.size
         second = SecondOrder(zone, STATIONS, table, ratios, pressures)
-        return cls(found[:count], found[count:-1], found[-1], bent, second)
+        return cls(found[:count], found[count:-1], found[-1], bent, second, zone.stiffness)
 
     @classmethod
     def carried(cls, ratio: Array, stiffening: float = 1.0) -> Transfer:
