@@ -71,8 +71,8 @@ def test_sliding_stress_solves_the_law():
     np.testing.assert_allclose(sliding_stress("eyring", 1.0, b), np.arcsinh(b), rtol=1e-12)
 
 
-def waves_at(case: Case) -> tuple[np.ndarray, np.ndarray]:
-    """T at the centre of a few waves, and the zone's flow factor along the motion there."""
+def waves_at(case: Case) -> tuple[np.ndarray, float]:
+    """T at the centre of a few waves, and by how much the lubricant is thinner for the inlet."""
     settings = case.resolve()
     o, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
     zone = zone_of(solve_contact(settings), o, oil)
@@ -84,11 +84,14 @@ def waves_at(case: Case) -> tuple[np.ndarray, np.ndarray]:
 
 
 def test_a_law_at_low_stress_is_newtonian():
-    thin, share = waves_at(table_1("lubricant.eyring_stress=1e16"))
-    newtonian, one = waves_at(table_1("lubricant.flow='newtonian'"))
+    light = "contact.load=20"
+    thin, share = waves_at(table_1(light, "lubricant.eyring_stress=1e9"))
+    newtonian, one = waves_at(table_1(light, "lubricant.flow='newtonian'"))
     assert one == 1.0
-    assert share == pytest.approx(1.0, abs=1e-6)
-    np.testing.assert_allclose(thin, newtonian, atol=1e-5)
+    assert share == pytest.approx(1.0, abs=1e-4)
+    np.testing.assert_allclose(thin, newtonian, atol=1e-3)
+    less, _ = waves_at(table_1(light, "lubricant.eyring_stress=1e6"))
+    assert np.abs(less - newtonian).max() > 0.02
 
 
 def test_short_waves_of_an_oil_that_thins_are_not_flattened():
@@ -195,8 +198,8 @@ def test_waves_that_a_grid_leaves_out():
 
 
 def test_start_from_the_prediction():
-    x = np.linspace(-2.5, 1.5, 65)
-    y = np.linspace(0.0, 2.0, 33)
+    x = np.linspace(-2.5, 1.5, 129)
+    y = np.linspace(0.0, 2.0, 65)
     thin, newtonian = (
         starting_pressure(table_1(*options).resolve(), None, x, y, [0.0])
         for options in ((), ("lubricant.flow='newtonian'",))

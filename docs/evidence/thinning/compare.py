@@ -3,11 +3,13 @@
 
     python docs/evidence/thinning/compare.py [FOLDER]
 
-FOLDER has the runs of ``waves.py``; without it the measured waves are those of ``waves.csv``. T is predicted with pressure and film of the smooth contact on
-257 x 257 nodes, so that the error of that grid in the smooth contact is not in the comparison. What
-the grid does to the wave in the inlet is not in it either: the part of the inlet that is fitted,
-for a grid without error, is multiplied by what the Newtonian twin of a run shows to be the ratio of
-the two. ``waves.csv`` has T with and without that.
+FOLDER has the runs of ``waves.py``; without it the measured waves are those of ``waves.csv``.
+
+T is predicted with pressure and film of the smooth contact on 257 x 257 nodes, so that the error of
+that grid in the smooth contact is not in the comparison. What the grid does to the wave in the
+inlet is not in it either: the part of the inlet that is fitted, for a grid without error, is
+multiplied by what the Newtonian twin of a run shows to be the ratio of the two. ``waves.csv`` has T
+with and without that.
 """
 
 from __future__ import annotations
