@@ -30,13 +30,16 @@ __all__ = [
     "REACH",
     "Edge",
     "RoughContact",
+    "WavyContact",
     "away_from_centre",
+    "pairs",
     "slipped",
     "station_weights",
 ]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+Single = NDArray[np.float32]
 
 REACH = 1.0
 """Friction is taken within this distance from the centre [a]."""
@@ -98,92 +101,59 @@ class Edge:
         return np.asarray((self.coefficients @ phase).real)
 
 
-class RoughContact(ShearedContact):
-    """Points of a contact with waves: pressures in p_h, films in a^2/R."""
+class WavyContact(ShearedContact):
+    """Points of a contact that waves change: pressures in p_h, films in a^2/R.
+
+    At places x (m,), y (n,) [a]; a point stands for an `area` [m^2]. `second`: gamma and s^2 of the
+    pressure of second order at the stations.
+    """
 
     def __init__(
         self,
-        waves: Waves,
-        edge: Edge,
         contact: SmoothContact,
+        x: Array,
+        y: Array,
         *,
-        pixel: tuple[float, float],
-        stride: int,
+        area: float,
         operating: OperatingPoint,
         lubricant: Lubricant,
-        velocity_ratio: float,
         second: tuple[Array, Array] | None = None,
     ) -> None:
         super().__init__(operating, lubricant)
-        self.waves, self.edge, self.pixel = waves, edge, pixel
-        half = [int(REACH / (stride * p)) for p in pixel]
-        self.rows, self.columns = (np.arange(-n, n + 1, dtype=np.int32) * stride for n in half)
-        self.x = np.asarray(self.rows * pixel[0], dtype=float)
-        self.y = np.asarray(self.columns * pixel[1], dtype=float)
+        self.x, self.y, self.area = x, y, area
         self.pressure, self.film = contact.at(self.x, self.y)
-        radius = np.hypot(self.x[:, np.newaxis], self.y[np.newaxis, :])
-        self.inside = (radius < REACH) & (self.pressure > 0.0)
+        self.radius = np.hypot(self.x[:, np.newaxis], self.y[np.newaxis, :])
+        self.inside = (self.radius < REACH) & (self.pressure > 0.0)
         self.points = int(np.count_nonzero(self.inside))
         self.weights = station_weights(self.x).astype(np.float32)
         self.off = away_from_centre(self.y).astype(np.float32)
-        # the free wave is that of the roughness where it was when the inlet made it; without a bend
-        # it is so on all lines
-        lines = self.y if waves.bent else np.zeros(1)
-        way = slipped(self.x[:, np.newaxis], lines, velocity_ratio, bent=waves.bent)
-        place = (self.x[:, np.newaxis] + way) / pixel[0] * REFINEMENT
-        self.free_rows = np.floor(place).astype(np.int32)
-        self.between = (place - self.free_rows).astype(np.float32)
-        held = np.minimum(1.0, EDGE_RADIUS / np.maximum(radius, 1e-12))
+        held = np.minimum(1.0, EDGE_RADIUS / np.maximum(self.radius, 1e-12))
         grid = np.meshgrid(self.x, self.y, indexing="ij")
         x, y = (held * values for values in grid)
         # (28, m n): what is summed over them is read in order
         self.monomials = monomials(x, y, axis=0).reshape(-1, held.size).astype(np.float32)
         # of the pressure of second order
         self.second = second and [np.interp(self.x, STATIONS, v)[:, np.newaxis] for v in second]
-        self.area = stride**2 * pixel[0] * pixel[1] * operating.hertz_radius**2
         self.smooth = float(self.stress(self.pressure, self.film)[self.inside].sum())
         self.thinnest = float(self.film[self.inside].min())
 
-    def change(self, shift: int, track: int = 0) -> Array:
-        """Loss of film [a^2/R] and gain of pressure [p_h] at the points, (m, n, 2).
-
-        The tile has moved by `shift` and `track` pixels along and across the motion; `track` is a
-        multiple of the stride of the waves.
-        """
-        waves = self.waves
-        columns = (self.columns - track) // waves.stride % waves.driven.shape[2]
-        columns = columns.astype(np.int32)
-        total = np.zeros((*self.film.shape, 2), dtype=np.float32)
-        library.waves.driven_waves(
-            _pairs(waves.driven), self.rows, columns, self.weights.T, shift, _pairs(total)
-        )
-        for tile, weights, part in (
-            (waves.free, self.weights, np.ones_like(self.off)),
-            (waves.off_centre, np.ones_like(self.weights[:, :1]), self.off),
-        ):
-            if tile is not None:
-                library.waves.free_waves(
-                    _pairs(tile),
-                    self.free_rows.T,
-                    columns,
-                    self.between.T,
-                    weights.T,
-                    part,
-                    shift * REFINEMENT,
-                    _pairs(total),
-                )
-        edge = self.edge.at(shift * self.pixel[0], track * self.pixel[1])
+    def add_edge(self, total: Single, edge: Array) -> None:
+        """Add what the edge of the contact does, by its coefficients (28,), to the pressure."""
         # threads of a product of matrices cost more than they bring
         wide = np.einsum("k,kn->n", edge.astype(np.float32), self.monomials)
         total[..., 1] += wide.reshape(self.film.shape)
+
+    def add_second(self, total: Single) -> None:
+        """Add the pressure of second order to that of the waves."""
         if self.second:
             gain, variance = self.second
             total[..., 1] += gain * (np.square(total[..., 1]) - variance)
-        return np.asarray(total)
 
-    def friction(self, shift: int, track: int = 0) -> float:
-        """Friction over that of the smooth contact; NaN where the film is not positive."""
-        change = self.change(shift, track)
+    def sheared(self, change: Single) -> float:
+        """Friction over that of the smooth contact, film and pressure changed by (m, n, 2).
+
+        NaN where the film is not positive.
+        """
         film = self.film - change[..., 0]
         pressure = self.pressure + change[..., 1]
         self.count += 1
@@ -200,6 +170,79 @@ class RoughContact(ShearedContact):
             return float(self.stress(pressure, film).sum(where=self.inside)) / self.smooth
 
 
-def _pairs(values: NDArray[np.float32]) -> NDArray[np.complex64]:
+class RoughContact(WavyContact):
+    """Points of a contact at pixels of one tile with waves."""
+
+    def __init__(
+        self,
+        waves: Waves,
+        edge: Edge,
+        contact: SmoothContact,
+        *,
+        pixel: tuple[float, float],
+        stride: int,
+        operating: OperatingPoint,
+        lubricant: Lubricant,
+        velocity_ratio: float,
+        second: tuple[Array, Array] | None = None,
+    ) -> None:
+        self.waves, self.edge, self.pixel = waves, edge, pixel
+        half = [int(REACH / (stride * p)) for p in pixel]
+        self.rows, self.columns = (np.arange(-n, n + 1, dtype=np.int32) * stride for n in half)
+        super().__init__(
+            contact,
+            np.asarray(self.rows * pixel[0], dtype=float),
+            np.asarray(self.columns * pixel[1], dtype=float),
+            area=stride**2 * pixel[0] * pixel[1] * operating.hertz_radius**2,
+            operating=operating,
+            lubricant=lubricant,
+            second=second,
+        )
+        # the free wave is that of the roughness where it was when the inlet made it; without a bend
+        # it is so on all lines
+        lines = self.y if waves.bent else np.zeros(1)
+        way = slipped(self.x[:, np.newaxis], lines, velocity_ratio, bent=waves.bent)
+        place = (self.x[:, np.newaxis] + way) / pixel[0] * REFINEMENT
+        self.free_rows = np.floor(place).astype(np.int32)
+        self.between = (place - self.free_rows).astype(np.float32)
+
+    def change(self, shift: int, track: int = 0) -> Single:
+        """Loss of film [a^2/R] and gain of pressure [p_h] at the points, (m, n, 2).
+
+        The tile has moved by `shift` and `track` pixels along and across the motion; `track` is a
+        multiple of the stride of the waves.
+        """
+        waves = self.waves
+        columns = (self.columns - track) // waves.stride % waves.driven.shape[2]
+        columns = columns.astype(np.int32)
+        total = np.zeros((*self.film.shape, 2), dtype=np.float32)
+        library.waves.driven_waves(
+            pairs(waves.driven), self.rows, columns, self.weights.T, shift, pairs(total)
+        )
+        for tile, weights, part in (
+            (waves.free, self.weights, np.ones_like(self.off)),
+            (waves.off_centre, np.ones_like(self.weights[:, :1]), self.off),
+        ):
+            if tile is not None:
+                library.waves.free_waves(
+                    pairs(tile),
+                    self.free_rows.T,
+                    columns,
+                    self.between.T,
+                    weights.T,
+                    part,
+                    shift * REFINEMENT,
+                    pairs(total),
+                )
+        self.add_edge(total, self.edge.at(shift * self.pixel[0], track * self.pixel[1]))
+        self.add_second(total)
+        return total
+
+    def friction(self, shift: int, track: int = 0) -> float:
+        """Friction over that of the smooth contact; NaN where the film is not positive."""
+        return self.sheared(self.change(shift, track))
+
+
+def pairs(values: NDArray[np.float32]) -> NDArray[np.complex64]:
     """Film and pressure of the last dimension as one number, the dimensions reversed."""
     return values.view(np.complex64)[..., 0].T
