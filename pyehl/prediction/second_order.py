@@ -16,7 +16,9 @@ point; s^2 is the variance of P1 and
 
 For Gaussian P1 the mean of P2 exp(b P1), and with it the friction, is then that of the convolution
 for every b. Of two rough surfaces P1 holds the waves of both, and the sum the pairs of one wave of
-each, too: they meet in all positions, so that no product of two has a mean. Lengths along the surface are scaled by a, heights by a^2/R, pressures by p_h.
+each, too: they meet in all positions, so that no product of two has a mean.
+
+Lengths along the surface are scaled by a, heights by a^2/R, pressures by p_h.
 """
 
 from __future__ import annotations

@@ -66,14 +66,15 @@ def test_cut_off_that_carries_is_found():
     short = LENGTH / 32
     tile = Topography(wave(LENGTH / 4, 0.5) + wave(short, 1.0), (LENGTH, LENGTH))
 
-    def carries(other):
-        return np.abs(other.heights).max() < 0.8
+    def carries(shortest):
+        return np.abs(filtered(tile, shortest).heights).max() < 0.8
 
-    found = carrying_wavelength(tile, filtered, carries)
-    assert carries(filtered(tile, found))
-    assert not carries(filtered(tile, 0.9 * found))
+    limits = 2.0 * LENGTH / 256, LENGTH
+    found = carrying_wavelength(*limits, carries)
+    assert carries(found)
+    assert not carries(0.9 * found)
     assert short < found < 1.15 * short
-    assert carrying_wavelength(tile, filtered, lambda other: False) is None
+    assert carrying_wavelength(*limits, lambda shortest: False) is None
 
 
 def test_threshold_that_carries_is_found():
