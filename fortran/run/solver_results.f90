@@ -16,6 +16,9 @@ submodule (ehl_solver) ehl_solver_results
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    implicit none (type, external)
 
+   !> Rises of temperature of the film and of the walls
+   character(len=field_length), parameter :: temperatures(3) = [character(len=field_length) :: &
+      "temperature_rise_K", "temperature_rise_wall_1_K", "temperature_rise_wall_2_K"]
    !> Shares of a variance below this one are rounding
    real(dp), parameter :: rounding = 1.0e-14_dp
    !> Largest change of mu_ratio from grid to grid, over mu_ratio, that tells of a limit; and largest rise with a single
@@ -200,40 +203,48 @@ contains
       type(record_t), intent(inout) :: record
       !> Whether the smooth contact is converged
       logical, intent(in) :: good
-      real(dp) :: nothing, friction, ratio
+      real(dp) :: nothing, friction, ratio, heat_ratio
 
       nothing = ieee_value(nothing, ieee_quiet_nan)
       friction = merge(self%steady%results(self%level())%m%friction, nothing, good)
       ratio = 1.0_dp
       if (self%plan%surfaces%rough()) ratio = nothing
-      if ((self%in_steps .or. self%resting) .and. self%converged()) ratio = self%mu_ratio()
+      heat_ratio = nothing
+      if ((self%in_steps .or. self%resting) .and. self%converged()) then
+         ratio = self%mu_ratio()
+         if (self%plan%heat%counts) heat_ratio = self%heat_ratio()
+      end if
       if (self%in_steps .or. self%resting) then
-         call report_friction(record, self%plan, self%grid, self%p_smooth, self%h_smooth, friction, ratio)
+         call report_friction(record, self%plan, self%grid, self%p_smooth, self%h_smooth, friction, ratio, &
+                              self%smooth_heat, self%rough_heat, heat_ratio)
       else
          associate (level => self%hierarchy%levels(self%level()))
-            call report_friction(record, self%plan, level%grid, level%p, level%h, friction, ratio)
+            call report_friction(record, self%plan, level%grid, level%p, level%h, friction, ratio, &
+                                 self%smooth_heat, self%rough_heat, heat_ratio)
          end associate
       end if
    end subroutine summarise_friction
 
    module procedure field_names
       if (self%in_steps .or. self%resting) then
-         names = [character(len=8) :: "P", "H", "P_smooth", "H_smooth", "RR", "A_d"]
+         names = [character(len=field_length) :: "P", "H", "P_smooth", "H_smooth", "RR", "A_d"]
       else
-         names = [character(len=8) :: "P", "H"]
+         names = [character(len=field_length) :: "P", "H"]
       end if
+      if (allocated(self%smooth_heat%rise) .or. allocated(self%rough_heat%rise)) names = [names, temperatures]
    end procedure field_names
 
    module procedure field
-      character(len=8), allocatable :: names(:)
+      character(len=field_length), allocatable :: names(:)
       real(dp), allocatable :: own(:, :)
-      integer :: stat
+      integer :: stat, k
 
       values = 0.0_dp
       call self%field_names(names)
       if (all(names /= name)) then
          call status%fail(ehl_bad_input, "field '"//name//"' is not known: 'P' or 'H' was expected, with a rough "// &
-                          "surface also 'P_smooth', 'H_smooth', 'RR' or 'A_d'")
+                          "surface also 'P_smooth', 'H_smooth', 'RR' or 'A_d'; where the heat of friction counts also '"// &
+                          trim(temperatures(1))//"', '"//trim(temperatures(2))//"' or '"//trim(temperatures(3))//"'")
          return
       end if
       associate (level => self%hierarchy%levels(self%level()))
@@ -257,8 +268,15 @@ contains
             else
                call level%grid%unfold(self%transient%rr, own)
             end if
-         case default
+         case ("A_d")
             call level%grid%unfold(self%h_smooth - level%h, own)
+         case default
+            k = findloc(temperatures, name, dim=1)
+            if (allocated(self%rough_heat%rise)) then
+               call level%grid%unfold(self%rough_heat%rise(:, :, k), own)
+            else
+               call level%grid%unfold(self%smooth_heat%rise(:, :, k), own)
+            end if
          end select
       end associate
       call refine(own, values)

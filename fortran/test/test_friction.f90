@@ -114,15 +114,15 @@ contains
    subroutine flash()
       real(dp), parameter :: flux = 1.0e8_dp, a = 2.0e-4_dp, k = 46.0_dp, kappa = 1.25e-5_dp, fast = 1.0e6_dp
       !> Largest over s of the integral of sqrt(1 - x^2)/sqrt(s - x) over x from -1 to s, by quadrature
-      real(dp), parameter :: integral = 2.18830_dp
+      real(dp), parameter :: integral = 2.18830_dp, both(2) = 1.0_dp
 
-      call is_close(flash_temperature(flux, a, [0.0_dp, 0.0_dp], k, kappa)/(0.5_dp*flux*a/k), 1.5_dp*pi/4.0_dp, 2.0e-3_dp, &
+      call is_close(flash_temperature(flux, a, [0.0_dp, 0.0_dp], both*k, both*kappa)/(0.5_dp*flux*a/k), 1.5_dp*pi/4.0_dp, 2.0e-3_dp, &
                     "two surfaces at rest under the same heat")
-      call is_close(flash_temperature(flux, a, [fast, fast], k, kappa)/(0.75_dp*flux/k*sqrt(kappa*a/(pi*fast))*integral), &
+      call is_close(flash_temperature(flux, a, [fast, fast], both*k, both*kappa)/(0.75_dp*flux/k*sqrt(kappa*a/(pi*fast))*integral), &
                     1.0_dp, 2.0e-3_dp, "two fast surfaces")
       ! shared so that both are as hot: 1/T is the sum of those of each surface under all the heat
-      call is_close(1.0_dp/flash_temperature(flux, a, [0.0_dp, fast], k, kappa), &
-                    0.5_dp/flash_temperature(flux, a, [0.0_dp, 0.0_dp], k, kappa) &
-                    + 0.5_dp/flash_temperature(flux, a, [fast, fast], k, kappa), 1.0e-10_dp, "the heat is shared")
+      call is_close(1.0_dp/flash_temperature(flux, a, [0.0_dp, fast], both*k, both*kappa), &
+                    0.5_dp/flash_temperature(flux, a, [0.0_dp, 0.0_dp], both*k, both*kappa) &
+                    + 0.5_dp/flash_temperature(flux, a, [fast, fast], both*k, both*kappa), 1.0e-10_dp, "the heat is shared")
    end subroutine flash
 end module test_friction
