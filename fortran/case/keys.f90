@@ -76,7 +76,7 @@ contains
          call self%reals("carreau_exponent", l%carreau_exponent, "-", "0 or [0.05, 1]", &
                          "power-law exponent n of Carreau; no default")
          call self%reals("temperature", l%temperature, "degC", "[-60, 250]", &
-                         "temperature of the inlet; needs the kinematic viscosities")
+                         "temperature of the inlet; needs the kinematic viscosities or temperature_viscosity")
          call self%reals("kinematic_viscosity_40", l%kinematic_viscosity_40, "mm^2/s", "0 or [1, 1e5]", &
                          "at 40 degC, as on data sheets; viscosity then follows. 0: not known")
          call self%reals("kinematic_viscosity_100", l%kinematic_viscosity_100, "mm^2/s", "0 or [0.5, 1e4]", &
