@@ -39,10 +39,12 @@ contains
       if (all(sheet <= 0.0_dp)) then
          do k = 1, size(sheet_keys)
             if (.not. schema%given("lubricant", trim(sheet_keys(k)))) cycle
-            if (sheet_keys(k) == "temperature" .and. input%lubricant%temperature_viscosity > 0.0_dp) cycle
+            ! these serve the law of viscosity and density under temperature as well
+            if (sheet_keys(k) /= "density_15" .and. input%lubricant%temperature_viscosity > 0.0_dp) cycle
             call refuse(schema, sources, "lubricant", trim(sheet_keys(k)), "lubricant." // trim(sheet_keys(k)) &
                         // " without the viscosities of the data sheet", "kinematic_viscosity_40 and " &
-                        // "kinematic_viscosity_100 beside it, or viscosity at the inlet temperature alone", status)
+                        // "kinematic_viscosity_100 beside it, temperature_viscosity, or viscosity at the inlet temperature " &
+                        // "alone", status)
             return
          end do
          return
