@@ -19,9 +19,9 @@ module ehl_heated_friction
 
    !> Heat that warms neither film nor walls by more than this [K] is left out
    real(dp), parameter :: negligible = 1.0e-4_dp
-   !> Relative error of the heat of a node, and most steps to it; bisection alone needs 34
-   real(dp), parameter :: tolerance = 1.0e-10_dp
-   integer, parameter :: most_steps = 100
+   !> Relative error of the heat of a node, and most steps to it, some of them bisections: 27 of these would do
+   real(dp), parameter :: tolerance = 1.0e-8_dp
+   integer, parameter :: most_steps = 200, bisect_after = 6
 
    !> What the heat of a contact needs to know
    type :: film_heat_t
@@ -57,7 +57,7 @@ contains
    end function ratio
 
    !> Friction and temperature of a contact
-   subroutine heat_film(heat, grid, lubricant, p, h, keep, found, flow, rho)
+   subroutine heat_film(heat, grid, lubricant, p, h, keep, threads, found, flow, rho)
       type(film_heat_t), intent(in) :: heat
       type(grid_t), intent(in) :: grid
       type(lubricant_t), intent(in) :: lubricant
@@ -65,6 +65,7 @@ contains
       real(dp), intent(in) :: p(:, :), h(:, :)
       !> Whether the rises at the nodes are wanted
       logical, intent(in) :: keep
+      integer, intent(in) :: threads
       type(heated_t), intent(out) :: found
       !> The flow with its stress of the isothermal contact, and the density (nx, ny); not given: the law at the sliding
       class(flow_t), intent(in), optional :: flow
@@ -78,7 +79,8 @@ contains
       call walls%start(grid%nx, grid%hx*heat%length, heat%strengths)
       if (keep) allocate (found%rise(grid%nx, grid%ny, 3))
       !$omp parallel do default(none) shared(heat, grid, lubricant, p, h, keep, found, flow, rho, walls, friction, &
-      !$omp isothermal, greatest, solved) private(rise, newtonian, stress) schedule(dynamic)
+      !$omp isothermal, greatest, solved) private(rise, newtonian, stress) &
+      !$omp num_threads(threads) if(threads > 1) schedule(dynamic)
       do j = 1, grid%ny
          if (present(flow)) then
             call flow%stress_row(lubricant, p, h, rho(:, j), j, newtonian, stress)
@@ -111,7 +113,7 @@ contains
       logical, intent(out) :: solved
       type(share_t) :: share
       !> Heat into each wall; heat of a node over the stress that the law has at its pressure and film
-      real(dp) :: into(size(p), 2), factor(size(p)), flux, warms, before(2), q, difference
+      real(dp) :: into(size(p), 2), factor(size(p)), flux, warms, before(2), left, q, difference
       logical :: good
       integer :: i, k, first, last
 
@@ -126,7 +128,10 @@ contains
          last = findloc(counts, .true., dim=1, back=.true.)
       end associate
       if (first == 0) return
-      factor(first:last) = flux*stress(first:last)/law_stress(lubricant, p(first:last), h(first:last), rise(first:last, 1))
+      factor = law_stress(lubricant, p, h, rise(:, 1))
+      ! a limiting stress is none where there is no pressure
+      where (factor > 0.0_dp) factor = flux*stress/factor
+      left = 1.0_dp
       do i = first, size(p)
          do k = 1, 2
             before(k) = walls%history(k, into(:, k), first, min(i - 1, last), i)
@@ -134,7 +139,7 @@ contains
          share = walls%share(before, heat%film*h(i), heat%conductivity)
          q = 0.0_dp
          if (i <= last) then
-            call heat_node(lubricant, p(i), h(i), factor(i), share%film, q, good)
+            call heat_node(lubricant, p(i), h(i), factor(i), share%film, left, q, good)
             solved = solved .and. good
             stress(i) = q/flux
             difference = share%difference(1) + share%difference(2)*q
@@ -146,40 +151,44 @@ contains
    end subroutine heat_row
 
    !> Heat q [W/m^2] of a node that is `factor` times the stress of the law at the temperature that it makes,
-   !> film(1) + film(2) q, by false position (the Illinois variant) in a bracket
-   pure subroutine heat_node(lubricant, p, h, factor, film, q, solved)
+   !> film(1) + film(2) q. By the secant method in a bracket, from the share of the heat without that of its own that is
+   !> left at the node before.
+   pure subroutine heat_node(lubricant, p, h, factor, film, left, q, solved)
       type(lubricant_t), intent(in) :: lubricant
       real(dp), intent(in) :: p, h, factor, film(2)
+      real(dp), intent(inout) :: left
       real(dp), intent(out) :: q
       logical, intent(out) :: solved
-      real(dp) :: low, high, f_low, f_high, f
-      integer :: k, side
+      real(dp) :: most, low, high, before, f, f_before, next
+      integer :: k
 
-      side = 0
+      most = heat_at(0.0_dp)
+      q = most
+      solved = .true.
+      if (.not. most > 0.0_dp) return
       low = 0.0_dp
-      high = heat_at(0.0_dp)
-      q = high
-      f_low = -high
-      f_high = high - heat_at(high)
-      solved = f_high <= tolerance*high
+      high = most
+      before = 0.0_dp
+      f_before = -most
+      q = left*most
       do k = 1, most_steps
-         if (solved) return
-         q = (low*f_high - high*f_low)/(f_high - f_low)
          f = q - heat_at(q)
-         solved = abs(f) <= tolerance*high
-         ! an end that stays twice is taken for half as far off
+         solved = abs(f) <= tolerance*most
+         if (solved) exit
          if (f > 0.0_dp) then
-            if (side > 0) f_low = 0.5_dp*f_low
             high = q
-            f_high = f
-            side = 1
          else
-            if (side < 0) f_high = 0.5_dp*f_high
             low = q
-            f_low = f
-            side = -1
          end if
+         next = 0.5_dp*(low + high)
+         ! a step of the secant that leaves the bracket, or many of them, are worse than half of it
+         if (abs(f - f_before) > 0.0_dp .and. mod(k, bisect_after) > 0) next = q - f*(q - before)/(f - f_before)
+         if (.not. (next >= low .and. next <= high)) next = 0.5_dp*(low + high)
+         before = q
+         f_before = f
+         q = next
       end do
+      left = q/most
 
    contains
 

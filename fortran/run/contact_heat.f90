@@ -12,7 +12,8 @@ contains
 
    module procedure add_heat
       associate (level => self%hierarchy%levels(n))
-         call heat_film(self%plan%heat%film, level%grid, level%lubricant, level%p, level%h, keep, found, level%flow, level%rho)
+         call heat_film(self%plan%heat%film, level%grid, level%lubricant, level%p, level%h, keep, level%threads, found, &
+                        level%flow, level%rho)
       end associate
    end procedure add_heat
 
