@@ -64,7 +64,8 @@ contains
                           /(1.0_dp + 0.213_dp*(1.0_dp + 2.23_dp*abs(slide_to_roll)**0.83_dp)*loading**0.64_dp)
    end function thermal_reduction
 
-   !> Greatest temperature rise [K] of two surfaces that move at `speeds` [m/s] through the heat of a Hertz contact, semi-elliptic over its circle: Tian & Kennedy 1994, J. Tribol. 116, 167, for one surface; the heat
+   !> Greatest temperature rise [K] of two surfaces that move at `speeds` [m/s] through the heat of a Hertz contact,
+   !> semi-elliptic over its circle: Tian & Kennedy 1994, J. Tribol. 116, 167, for one surface; the heat
    !> is shared so that both become as hot (Blok 1937)
    pure real(dp) function flash_temperature(flux, radius, speeds, conductivity, diffusivity)
       !> Mean heat flux [W/m^2], Hertz radius [m], of the solids: conductivity [W/(m K)], diffusivity [m^2/s]

@@ -2,18 +2,21 @@
 !> Whether the heat of sliding counts for the friction of a case, and what it needs to know then
 module ehl_plan_heat
    use ehl_case, only: case_t
+   use ehl_case_contact, only: find_contact
    use ehl_contact, only: contact_t
    use ehl_heat, only: flash_temperature
    use ehl_heated_friction, only: film_heat_t
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
-   use ehl_plan_friction, only: sliding_t
+   use ehl_moes, only: operating_t
+   use ehl_plan_friction, only: plan_point, plan_sliding, sliding_t
+   use ehl_plan_lubricant, only: plan_lubricant
    use ehl_scales, only: scales_t
    use ehl_text, only: fixed
    use ehl_wall_heat, only: speed_of_rest, wall_strength
    implicit none (type, external)
    private
-   public :: heat_plan_t, plan_heat
+   public :: heat_plan_t, plan_heat, plan_given
 
    !> Relative change of the stress under the Hertz pressure below which heat is left out
    real(dp), parameter :: least_change = 1.0e-3_dp
@@ -97,6 +100,25 @@ contains
          stress_at = lubricant%shear%scale*values(1)
       end function stress_at
    end function plan_heat
+
+   !> The same, and the lubricant, of a case whose pressure and film are known already
+   subroutine plan_given(input, plan, lubricant)
+      type(case_t), intent(in) :: input
+      type(heat_plan_t), intent(out) :: plan
+      type(lubricant_t), intent(out) :: lubricant
+      class(contact_t), allocatable :: contact
+      type(scales_t) :: scales
+      type(operating_t) :: point
+      type(sliding_t) :: sliding
+      real(dp) :: rho(1), slope(1)
+
+      call find_contact(input, contact, scales, point)
+      sliding = plan_sliding(input, contact, scales)
+      if (input%contact%si) point = plan_point(input, contact, scales, sliding)
+      lubricant = plan_lubricant(input, point, scales)
+      call lubricant%density([1.0_dp], rho, slope)
+      plan = plan_heat(input, contact, scales, sliding, lubricant, contact%film_formula(point%moes_m, point%moes_l)/rho(1))
+   end subroutine plan_given
 
    !> Whether a case tells how the viscosity falls with temperature
    pure logical function knows_temperature(input)

@@ -164,8 +164,9 @@ contains
       if (status%failed()) return
       self%grid = self%hierarchy%levels(n)%grid
       if (.not. self%roughness_is_due()) self%outcome = self%steady%outcome
-      if (self%plan%heat%counts .and. any(self%steady%outcome == [outcome_converged, outcome_target_missed])) &
-         call add_heat(self, n, .not. self%plan%surfaces%rough(), self%smooth_heat)
+      if (self%plan%heat%counts .and. any(self%steady%outcome == [outcome_converged, outcome_target_missed])) then
+        call add_heat(self, n, .not. self%plan%surfaces%rough(), self%smooth_heat)
+      end if
       if (self%plan%surfaces%rough()) return
       associate (result => self%steady%results(n))
          call self%history%append([real(dp) :: n, self%grid%nx, result%cycles, result%m%film_central, &
@@ -221,8 +222,9 @@ contains
       end if
       self%seconds = self%seconds + clock%seconds()
       self%outcome = self%rest%outcome
-      if (self%plan%heat%counts .and. self%outcome == outcome_converged) &
-         call add_heat(self, self%steady%n, .true., self%rough_heat)
+      if (self%plan%heat%counts .and. self%outcome == outcome_converged) then
+        call add_heat(self, self%steady%n, .true., self%rough_heat)
+      end if
       associate (rest => self%rest, m => self%rest%m)
          call self%history%append([real(dp) :: rest%total_cycles, rest%share, rest%mu_ratio(), m%film_central, &
                                    m%film_minimum, m%pressure_maximum, m%load_error, rest%residual])
@@ -253,8 +255,9 @@ contains
          call self%history%append(row)
          if (self%plan%surfaces%pass_once()) call transient%extremes%see(level, self%p_smooth, self%h_smooth, transient%time)
          self%outcome = transient_outcome(self%plan, transient)
-         if (self%plan%heat%counts .and. self%outcome == outcome_converged) &
-            call add_heat(self, self%steady%n, .true., self%rough_heat)
+         if (self%plan%heat%counts .and. self%outcome == outcome_converged) then
+           call add_heat(self, self%steady%n, .true., self%rough_heat)
+         end if
          call self%frames%keep(level, transient%time, transient%time_step, self%plan%frame_interval, status)
       end associate
    end subroutine advance_step

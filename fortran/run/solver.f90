@@ -71,7 +71,7 @@ module ehl_solver
       end subroutine work
    end interface
 
-   ! in solver_results.f90
+   ! in solver_results.f90 and solver_fields.f90
    interface
       !> All results but fields, by name; dimensionless but for the SI values. Only a converged run has
       !> results: otherwise they are null, and the last iterate stands under names that begin with "last_".

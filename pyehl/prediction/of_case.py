@@ -19,6 +19,7 @@ from pyehl.errors import InputError
 from pyehl.prediction.breakdown import Advice, SmoothFilm, advise, below_zero
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.friction import TRACKS, broken
+from pyehl.prediction.heated import heat_of
 from pyehl.prediction.options import Options, unpredictable
 from pyehl.prediction.result import Prediction
 from pyehl.prediction.smooth import SmoothContact, hertz_contact, read_contact, solve_contact
@@ -105,6 +106,7 @@ def predict(
         track_count=0 if brief else tracks,
         below=below,
         advice=advice,
+        heat=heat_of(settings, contact, lubricant),
     )
 
 

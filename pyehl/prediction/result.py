@@ -19,6 +19,7 @@ from pyehl.prediction.friction import TRACKS, RoughFriction
 from pyehl.prediction.options import Options, thinning_flow
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.friction import absolute_friction
+from pyehl.theory.heat import Heat
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
@@ -87,6 +88,8 @@ class Prediction:
         Where the film is below zero, and on which share of the contact.
     advice
         With the status ``"film breakdown"``: where the film ends, and what would carry.
+    heat
+        What the heat of sliding makes of friction; None: nothing.
 
     Examples
     --------
@@ -115,6 +118,7 @@ class Prediction:
     track_count: int = TRACKS
     below: BelowZero | None = None
     advice: Advice | None = None
+    heat: Heat | None = None
 
     def __repr__(self) -> str:
         """Give the ratio and the status in one line."""
@@ -250,9 +254,7 @@ class Prediction:
             "load_balance": self.options.load_balance,
             "shear_law": self.lubricant.shear.law,
             "slide_to_roll": o.slide_to_roll,
-            **absolute_friction(
-                o, self.lubricant, film=self.film, mu_smooth=f.mu_smooth, mu_ratio=f.mu_ratio
-            ),
+            **absolute_friction(o, self.lubricant, self.film, f.mu_smooth, f.mu_ratio, self.heat),
             "thermal_reduction": o.thermal_reduction,
             "h_c_m": self.film,
             "h_c_source": self.film_source,
