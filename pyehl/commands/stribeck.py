@@ -172,14 +172,14 @@ def draw(
             if beyond := measured.outside(key, places, those):
                 words = f"{beyond} of {len(measured.places)} measured points are beyond the curve"
                 print(f"note: {words}", file=sys.stderr)
-            over = {name: measured.over(name, key, places, those) for name in ABSCISSAE}
+            over = {name: measured.over(name, key, places, those) for name in (*ABSCISSAE, key)}
             overlay = Points(over, measured.friction, measured.error)
     surface = plan.points[0].settings["surface"]
     count = f", {plan.surfaces} surfaces" if plan.surfaces > 1 else ""
     words = f"surface '{surface['kind']}'{count}"
     if absolute and key == SLIP:
         slips = [places for _, places, _ in curves_of(plan, rows)]
-        save(draw_traction(curves, slips, words, measured), path, dpi)
+        save(draw_traction(curves, slips, words, overlay), path, dpi)
         return
     law = "" if plan.load_share is None else plan.load_share.words
     save(draw_stribeck(curves, words, overlay, law), path, dpi)

@@ -9,9 +9,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from pyehl.plots.stribeck import COLOURS, Curve, bars
+from pyehl.plots.stribeck import COLOURS, Curve, Points, bars
 from pyehl.plots.style import letter, new_figure
-from pyehl.studies.measured_friction import Measured
 
 __all__ = ["draw_traction"]
 
@@ -19,7 +18,7 @@ Array = NDArray[np.float64]
 
 
 def draw_traction(
-    curves: Sequence[Curve], slips: Sequence[Array], surface: str, measured: Measured | None = None
+    curves: Sequence[Curve], slips: Sequence[Array], surface: str, measured: Points | None = None
 ) -> Figure:
     """Draw coefficients of friction, and the greatest temperature rise where it was computed.
 
@@ -48,9 +47,9 @@ def draw_traction(
             rise = np.where(resting, 0.0, curve.column("temperature_rise_max_K"))
             known = np.isfinite(rise)
             axes[1].plot(slip[known], rise[known], "o-", ms=3, lw=1.2, color=colour)
-    if measured is not None and measured.abscissa == "contact.slide_to_roll":
+    if measured is not None:
         axes[0].errorbar(
-            measured.places,
+            measured.places["contact.slide_to_roll"],
             measured.friction,
             bars(measured.error),
             fmt="k^",
