@@ -20,6 +20,7 @@ from pyehl.prediction.bands import Band
 from pyehl.prediction.breakdown import Advice, BelowZero, SmoothFilm, advise, below_zero
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.friction import TRACKS, RoughFriction, SecondPassage, broken
+from pyehl.prediction.heated import heat_of
 from pyehl.prediction.options import Options, unpredictable
 from pyehl.prediction.pair import RoughPair
 from pyehl.prediction.pair_breakdown import (
@@ -121,6 +122,7 @@ def predict(
         below=below,
         advice=advice,
         second=second,
+        heat=heat_of(settings, contact, lubricant),
     )
 
 

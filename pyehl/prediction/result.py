@@ -22,6 +22,7 @@ from pyehl.prediction.pair_breakdown import PairAdvice, PairBelowZero
 from pyehl.prediction.sides import SecondSurface, arrays, statistics
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.friction import absolute_friction
+from pyehl.theory.heat import Heat
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
@@ -92,6 +93,8 @@ class Prediction:
         With the status ``"film breakdown"``: where the film ends, and what would carry.
     second
         The second rough surface; None: there is one.
+    heat
+        What the heat of sliding makes of friction; None: nothing.
 
     Examples
     --------
@@ -121,6 +124,7 @@ class Prediction:
     below: BelowZero | PairBelowZero | None = None
     advice: Advice | PairAdvice | None = None
     second: SecondSurface | None = None
+    heat: Heat | None = None
 
     def __repr__(self) -> str:
         """Give the ratio and the status in one line."""
@@ -259,9 +263,7 @@ class Prediction:
             "load_balance": self.options.load_balance,
             "shear_law": self.lubricant.shear.law,
             "slide_to_roll": o.slide_to_roll,
-            **absolute_friction(
-                o, self.lubricant, film=self.film, mu_smooth=f.mu_smooth, mu_ratio=f.mu_ratio
-            ),
+            **absolute_friction(o, self.lubricant, self.film, f.mu_smooth, f.mu_ratio, self.heat),
             "thermal_reduction": o.thermal_reduction,
             "h_c_m": self.film,
             "h_c_source": self.film_source,
