@@ -35,6 +35,7 @@ SUBCOMMANDS = {
     "surface": "write the surface of a case as a height map",
     "film": "film formulas side by side for a case",
     "plot": "pictures of a result folder",
+    "report": "one HTML page about a result, to send",
     "export": "a result folder as netCDF",
     "bench": "time and error of the parts, side by side",
     "info": "versions, compiler, machine",

@@ -7,6 +7,7 @@ else in Hertz units.
 
 from __future__ import annotations
 
+import io
 import math
 import zlib
 from collections.abc import Sequence
@@ -49,6 +50,7 @@ __all__ = [
     "letter",
     "nearest",
     "new_figure",
+    "png",
     "pressure_unit",
     "save",
 ]
@@ -156,6 +158,14 @@ def save(figure: Figure, path: str | Path, dpi: int = DPI, command: str = "plot"
     with new_file(path) as partial:
         figure.savefig(partial, dpi=dpi, **options)
     return path
+
+
+def png(figure: Figure, dpi: int) -> bytes:
+    """Give a figure as the bytes of a PNG."""
+    stream = io.BytesIO()
+    # small rather than quick: it goes into a page
+    figure.savefig(stream, format="png", dpi=dpi, pil_kwargs={"optimize": True})
+    return stream.getvalue()
 
 
 def letter(axes: Sequence[Axes]) -> None:

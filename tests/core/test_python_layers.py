@@ -29,6 +29,7 @@ LAYERS = [
     ["api"],
     ["studies"],
     ["measured_response"],
+    ["reports"],
     ["bench", "reproduce"],
     ["commands"],
     ["cli"],
