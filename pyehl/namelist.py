@@ -33,15 +33,18 @@ def values(resolved: str) -> dict[str, dict[str, Any]]:
     return groups
 
 
-def given(resolved: str) -> str:
+def given(resolved: str, *, comments: bool = True) -> str:
     """Give what was given of a resolved case: the text without defaults and what follows.
 
-    Read again it is the same case.
+    Read again it is the same case. `comments`: with the meaning of each key.
     """
     blocks = []
     for block in resolved.split(END):
         name, *lines = block.strip().splitlines() or [""]
         kept = [line for line in lines if not line.endswith(("! default", "! derived"))]
+        if not comments:
+            found = (match for line in kept if (match := LINE.fullmatch(line)))
+            kept = [f"   {match[1]} = {match[2]}" for match in found]
         if kept:
             blocks.append("\n".join([name, *kept]) + END)
     return "".join(blocks)

@@ -30,7 +30,7 @@ LAYERS = [
     ["studies"],
     ["measured_response"],
     ["reports"],
-    ["bench", "reproduce"],
+    ["app", "bench", "reproduce"],
     ["commands"],
     ["cli"],
     ["__init__", "__main__"],
