@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import io
 import tempfile
+import threading
 import zipfile
-from collections.abc import Callable
 from pathlib import Path
 
 from pyehl import api
@@ -15,6 +15,9 @@ from pyehl.plots.folder import plot
 from pyehl.reports.folder import report
 
 __all__ = ["figures", "report_page"]
+
+# The settings of matplotlib are those of the process: one thread draws at a time
+_DRAWING = threading.Lock()
 
 
 def _results(position: Position, points: int, folder: Path) -> Path:
@@ -31,7 +34,8 @@ def report_page(position: Position, points: int) -> bytes:
     """Give the report of a position, as ``pyehl report`` writes it. EhlError if there is none."""
     with tempfile.TemporaryDirectory(prefix="pyehl-") as name:
         place = _results(position, points, Path(name))
-        return report(place).read_bytes()
+        with _DRAWING:
+            return report(place).read_bytes()
 
 
 def figures(position: Position, points: int, suffix: str, width: float) -> bytes:
@@ -39,13 +43,14 @@ def figures(position: Position, points: int, suffix: str, width: float) -> bytes
     with tempfile.TemporaryDirectory(prefix="pyehl-") as name:
         place = _results(position, points, Path(name))
         made = Path(name) / "figures"
-        plot(place, made, format=suffix, width=width)
-        return _zipped(made, lambda path: path.name)
+        with _DRAWING:
+            plot(place, made, format=suffix, width=width)
+        return _zipped(made)
 
 
-def _zipped(folder: Path, named: Callable[[Path], str]) -> bytes:
+def _zipped(folder: Path) -> bytes:
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
         for path in sorted(folder.iterdir()):
-            archive.write(path, named(path))
+            archive.write(path, path.name)
     return stream.getvalue()

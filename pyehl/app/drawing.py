@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 VIEW = 1.3
 # Pixels a side of the fringes
 PIXELS = 300
-LEVELS = 12
+LEVELS = 20
 
 
 class Map(NamedTuple):

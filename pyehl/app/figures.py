@@ -75,7 +75,8 @@ class Pictures:
     def _film_maps(self) -> tuple[Any, Any]:
         """Fringes and contours of the film."""
         place = {"x": "x", "y": "y", "dw": "dw", "dh": "dh"}
-        fringes = _map("film as fringes, motion →")
+        fringes = _map("")
+        fringes.xaxis[0].axis_label = "x [mm], motion →"
         fringes.image_rgba("colours", source=self.film, **place)
         contour = _figure(
             "film h [nm]", "x [mm]", "y [mm]", match_aspect=True, width=SIDE + 60,
@@ -172,12 +173,14 @@ class Pictures:
         self.edge.data = {"x": x, "y": y}
         point = found.point
         about = f"M = {point.moes_m:.4g}, L = {point.moes_l:.4g}"
-        self.fringes.title.text = f"{about}; fringes {made.caption}; motion →"
+        self.fringes.title.text = f"{about}; {made.caption}"
         self.contour.title.text = f"{about}, p_h = {point.hertz_pressure * 1e-9:.3g} GPa; h [nm]"
         _fit(self.fringes, made)
         for name, line in drawing.centre_lines(found).items():
             self.lines[name].data = line
             picture = self.along if name == "x" else self.across
+            way = "along" if name == "x" else "across"
+            picture.title.text = f"{about}; {way} the motion, Hertz dashed"
             picture.extra_y_ranges["film"].end = 5.0 * central
             picture.x_range.update(start=float(line["place"][0]), end=float(line["place"][-1]))
             highest = max(float(line["pressure"].max()), point.hertz_pressure * 1e-9)
@@ -201,6 +204,12 @@ class Pictures:
         for picture in (self.before, self.after):
             picture.x_range.update(start=0.0, end=width)
             picture.y_range.update(start=0.0, end=height)
+        point = made.operating
+        about = f"M = {point.moes_m:.4g}, L = {point.moes_l:.4g}"
+        self.before.title.text = f"{about}; surface [nm]"
+        self.after.title.text = f"{about}; in the contact [nm]"
+        self.bands.title.text = f"{about}; what octaves add"
+        self.over.title.text = f"{about}; over the passage"
         octaves = self.octaves.data = drawing.octaves(made)
         if octaves["rise"]:
             self.bands.x_range.update(start=min(octaves["left"]), end=max(octaves["right"]))
