@@ -81,6 +81,17 @@ class _Functions:
         threads: int,
         repeats: int,
     ) -> tuple[float, float, int, bytes]: ...
+    def heated(
+        self,
+        text: bytes,
+        p: _Array,
+        h: _Array,
+        x0: float,
+        y0: float,
+        hx: float,
+        hy: float,
+        mirror: int,
+    ) -> tuple[int, float, _Array, bytes, int, bytes]: ...
 
 class _Surfaces:
     def making(self, pixels: int) -> bytes: ...

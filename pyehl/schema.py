@@ -145,10 +145,15 @@ p | mu_ratio_tracks_spread | - | standard deviation between the tracks
 f | mu_ratio_eq_16 | - | mu_ratio by eq. 16 of Zhang et al. 2019
 f | theta_2 | - | theta_2 of that equation
 f | theta_2_outside | | what lies outside of its range
-sp | mu | - | coefficient of friction of the rough contact
-sp | mu_smooth | - | coefficient of friction of the smooth contact
-sp | mu_note | | what mu leaves out
-sp | flash_temperature_K | K | rise of temperature that mu leaves out
+sp | mu | - | coefficient of friction of the rough contact, with heat where it counts
+sp | mu_smooth | - | coefficient of friction of the smooth contact, with heat where it counts
+sp | mu_isothermal | - | mu without heat
+sp | mu_smooth_isothermal | - | mu_smooth without heat
+sp | temperature_rise_max_K | K | largest mean rise across the film; rough: at the end of a run
+sp | temperature_rise_wall_1_max_K | K | the same of the surface of body 1
+sp | temperature_rise_wall_2_max_K | K | the same of the surface of body 2
+sp | mu_note | | what mu holds and leaves out
+sp | flash_temperature_K | K | largest rise of the surfaces by a formula (Tian & Kennedy), at mu
 sp | shear_rate_mean_per_s | 1/s | mean shear rate
 sp | shear_stress_max_Pa | Pa | largest shear stress
 s | rolling_moment | p_h a^3 | iint H/2 dP/dX of the smooth contact, which resists the rolling

@@ -48,7 +48,7 @@ def report(prediction: Prediction) -> str:
         if values["mu"] is not None:
             lines.append(
                 f"mu          {values['mu']:.4f}, smooth mu_s {values['mu_smooth']:.4f}; "
-                f"{values['mu_note']}: {values['flash_temperature_K']:.2g} K"
+                f"{values['mu_note']}; flash temperature {values['flash_temperature_K']:.2g} K"
             )
         strongest = sorted(prediction.bands, key=lambda band: -abs(band.rise))[:3]
         parts = ", ".join(

@@ -17,16 +17,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pyehl.prediction.bands import Band, octaves
-from pyehl.prediction.carrying import confirmed
+from pyehl.prediction.bands import Band, joining
+from pyehl.prediction.carrying import confirmed, within_range
 from pyehl.prediction.contact import HertzContact, Response
 from pyehl.prediction.deformed import film_levels
 from pyehl.prediction.errors import KNOWN_RATIO, model_error
-from pyehl.prediction.friction import LARGEST_RATIO, RoughFriction, outcome, passed
+from pyehl.prediction.friction import BEYOND, LARGEST_RATIO, RoughFriction, outcome, passed
 from pyehl.prediction.options import Options
 from pyehl.prediction.passage import (
-    fewer_pixels,
     friction_along,
+    longer_waves,
     short_mean,
     tracks_of,
     working_grid,
@@ -41,7 +41,7 @@ from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["STIFFER", "Parts", "RoughPassage"]
+__all__ = ["LARGEST_RATIO", "STIFFER", "Parts", "RoughPassage"]
 
 Array = NDArray[np.float64]
 Parts = tuple[Topography, Spectrum, Transfer, Edge]
@@ -67,12 +67,14 @@ class RoughPassage:
     velocity_ratio: float  # velocity of the rough surface over the mean velocity [-]
     mesh: float = 0.0  # mesh size on which its waves leak [a]; 0: as in nature
 
-    def _spectrum(self, tile: Topography) -> Spectrum:
+    def spectrum(self, tile: Topography) -> Spectrum:
+        """Components of a tile, in the units of the contact."""
         o = self.operating
         lengths = tile.length_x / o.hertz_radius, tile.length_y / o.hertz_radius
         return Spectrum.of(tile.heights / o.film_scale, *lengths)
 
-    def _transfer(self, spectrum: Spectrum) -> Transfer:
+    def transfer(self, spectrum: Spectrum) -> Transfer:
+        """Find what the contact makes of components."""
         o = self.operating
         if self.options.reduction == "response":
             zone = zone_of(self.contact, o, self.lubricant)
@@ -129,15 +131,15 @@ class RoughPassage:
 
     def deformed(self) -> Array:
         """Deformed roughness (nx, ny) [m] at the centre of the contact, on the pixels given."""
-        spectrum = self._spectrum(self.topography)
-        t = self._transfer(spectrum).at_centre(spectrum, self.velocity_ratio)
+        spectrum = self.spectrum(self.topography)
+        t = self.transfer(spectrum).at_centre(spectrum, self.velocity_ratio)
         return np.asarray(spectrum.tile(t) * self.operating.film_scale)
 
     def parts(self) -> Parts:
         """Tile on the grid that is worked on, its components, and what becomes of them."""
         grid = working_grid(self.topography, self.operating, self.options.positions)
-        spectrum = self._spectrum(grid)
-        transfer = self._transfer(spectrum)
+        spectrum = self.spectrum(grid)
+        transfer = self.transfer(spectrum)
         flattened = 1.0 - transfer.at_centre(spectrum, self.velocity_ratio)
         edge = Edge.of(spectrum, flattened, self.operating.ellipse)
         return grid, spectrum, transfer, edge
@@ -166,7 +168,7 @@ class RoughPassage:
             contact = self._contact(spectrum, transfer, edge)
             t = transfer.at_centre(spectrum, self.velocity_ratio)
             limit = self.options.film_limit / self.operating.film_scale
-            contact.watch(film_levels(limit, spectrum.power, np.abs(t)))
+            contact.watch(film_levels(limit, [(spectrum.power, np.abs(t))]))
             passage = friction_along(contact, grid.shape[0], self.options.positions, LARGEST_RATIO)
             found = self._result(contact, grid, (spectrum, transfer, edge), passage, brief)
             if found.status != "predicted":
@@ -197,27 +199,27 @@ class RoughPassage:
         passage: tuple[NDArray[np.int_], Array, float],
         brief: bool,
     ) -> RoughFriction:
-        status, message = outcome(contact, passage[1], load_balance=self.options.load_balance)
-        if status == "beyond linear response" and not brief:
+        ratios = passage[1]
+        status, message = outcome(contact, ratios, load_balance=self.options.load_balance)
+        if status == BEYOND and not brief:
             message += self._carried(*parts)
         return passed(
             contact,
             (status, message),
-            passage,
-            pixel=grid.pixel[0],
+            (np.asarray(passage[0] * grid.pixel[0], dtype=float), ratios, passage[2]),
             film_unit=self.operating.film_scale,
             response=self._tiles(*parts[:2], grid.shape == self.topography.shape),
         )
 
     def _carried(self, spectrum: Spectrum, transfer: Transfer, edge: Edge) -> str:
         """Say which cut-off would bring the ratio into the range of the model; '' for none."""
-        low, high = min(spectrum.pixel), 2.0 * math.pi / float(spectrum.q[spectrum.q > 0].min())
-        if not self._below(spectrum, transfer, edge, 2.0 * math.pi / high) <= KNOWN_RATIO:
+        high = within_range(
+            lambda shortest: self._below(spectrum, transfer, edge, 2.0 * math.pi / shortest),
+            min(spectrum.pixel),
+            2.0 * math.pi / float(spectrum.q[spectrum.q > 0].min()),
+        )
+        if high is None:
             return ""
-        while high > 1.1 * low:
-            middle = math.sqrt(low * high)
-            known = self._below(spectrum, transfer, edge, 2.0 * math.pi / middle) <= KNOWN_RATIO
-            low, high = (low, middle) if known else (middle, high)
         longest = max(self.topography.length_x, self.topography.length_y)
         cut = confirmed(high * self.operating.hertz_radius, longest, self._known)
         if cut is None:
@@ -233,8 +235,8 @@ class RoughPassage:
     def _tiles(self, spectrum: Spectrum, transfer: Transfer, same: bool) -> Response:
         """Pressure and deformed roughness at the centre of the contact, on the pixels given."""
         if not same:
-            spectrum = self._spectrum(self.topography)
-            transfer = self._transfer(spectrum)
+            spectrum = self.spectrum(self.topography)
+            transfer = self.transfer(spectrum)
         t = transfer.at_centre(spectrum, self.velocity_ratio)
         o = self.operating
         pressure = transfer.pressure_at_centre(spectrum, self.velocity_ratio)
@@ -247,45 +249,19 @@ class RoughPassage:
         self, spectrum: Spectrum, transfer: Transfer, edge: Edge, total: float, brief: bool
     ) -> list[Band]:
         """Return what each octave, or the last one alone, adds when it joins all longer ones."""
-        o = self.operating
         t = transfer.at_centre(spectrum, self.velocity_ratio)
-        power = spectrum.power
         pressure = np.abs(transfer.pressure_at_centre(spectrum, self.velocity_ratio))
-        found: list[Band] = []
-        before = 1.0
-        for longest, inside, last in octaves(spectrum.q, power, only=2 if brief else 0):
-            ratio = total if last else self._below(spectrum, transfer, edge, 4.0 * np.pi / longest)
-            if brief and not last:
-                before = ratio
-                continue
-            rms = (
-                math.sqrt(float((power * np.square(factor))[inside].sum()))
-                for factor in (np.ones_like(pressure), np.abs(t), pressure)
-            )
-            heights, deformed, stress = rms
-            found.append(
-                Band(
-                    longest=longest * o.hertz_radius,
-                    shortest=0.5 * longest * o.hertz_radius,
-                    rms_height=heights * o.film_scale,
-                    rms_deformed=deformed * o.film_scale,
-                    rms_pressure=stress * o.hertz_pressure,
-                    rise=ratio - before,
-                )
-            )
-            before = ratio
-        return found
+        return joining(
+            (spectrum.q, spectrum.power, np.abs(t), pressure),
+            lambda limit: self._below(spectrum, transfer, edge, limit),
+            total,
+            self.operating,
+            brief=brief,
+        )
 
     def _below(self, spectrum: Spectrum, transfer: Transfer, edge: Edge, limit: float) -> float:
         """mu_r/mu_s of the waves with |q| below a limit [1/a], on as few pixels as they need."""
-        axes = 1.0, self.operating.ellipse.ellipticity
-        nx, ny = (
-            fewer_pixels(n, pixel * n, limit, axis)
-            for n, pixel, axis in zip(spectrum.shape, spectrum.pixel, axes, strict=True)
-        )
-        index = spectrum.longest(nx, ny)
-        part = spectrum.kept(index, (nx, ny))
-        part.values[part.q >= limit] = 0.0
+        part, index = longer_waves(spectrum, limit, self.operating.ellipse.ellipticity)
         power = np.where(spectrum.q < limit, spectrum.power, 0.0)
         contact = self._contact(part, transfer.kept(index), edge.below(limit), power)
-        return short_mean(contact, nx)
+        return short_mean(contact, part.shape[0])

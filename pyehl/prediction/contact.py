@@ -19,6 +19,7 @@ from pyehl.theory.shear import shear_stress
 __all__ = ["INNER", "HertzContact", "Response", "ShearedContact"]
 
 Array = NDArray[np.float64]
+Single = NDArray[np.float32]
 
 INNER = 0.8
 """Pressures are told within this distance from the centre: at the rim the roughness moves the edge
@@ -59,7 +60,7 @@ class ShearedContact:
         """Count from now on how many points have less film than each of some levels."""
         self.levels, self.below = levels, np.zeros(len(levels), dtype=np.int64)
 
-    def meet(self, rise: Array, film: Array, inner: NDArray[np.bool_]) -> None:
+    def meet(self, rise: Array | Single, film: Array, inner: NDArray[np.bool_]) -> None:
         """Note what a position has: rise of the pressure and film at points within the contact."""
         greatest = float(rise.max(where=inner, initial=-math.inf))
         self.greatest_rise = max(self.greatest_rise, greatest)

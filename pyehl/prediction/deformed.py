@@ -24,13 +24,14 @@ RMS_DEFORMED, RMS_PRESSURE, RISE = 0.07, 0.07, 0.12
 FILM = 0.3
 
 
-def film_levels(limit: float, power: Array, ratio: Array) -> tuple[float, ...]:
+def film_levels(limit: float, waves: Sequence[tuple[Array, Array]]) -> tuple[float, ...]:
     """Film limit less its error, itself, and with its error; () without a limit.
 
-    `power` is the mean square of the components of the roughness, in the square of the unit of the
-    limit, `ratio` how much of each the contact leaves.
+    Of each surface `waves` has the mean square of the components of the roughness, in the square of
+    the unit of the limit, and how much of each the contact leaves.
     """
-    margin = FILM * math.sqrt(float((power * np.square(ratio)).sum()))
+    left = sum(float((power * np.square(ratio)).sum()) for power, ratio in waves)
+    margin = FILM * math.sqrt(left)
     return (limit - margin, limit, limit + margin) if limit > 0.0 else ()
 
 
@@ -44,12 +45,14 @@ def deformed_surface(
     """
     deformed = float(np.std(friction.response.deformed))
     pressure = float(np.std(friction.response.pressure))
-    ratio = film_minimum / deformed if deformed > 0.0 else math.nan
+    both = [friction.response, *([friction.second.response] if friction.second else [])]
+    of_all = math.hypot(*(float(np.std(response.deformed)) for response in both))
+    ratio = film_minimum / of_all if of_all > 0.0 else math.nan
     rise, share, share_error = friction.rise_max, friction.below_limit, friction.below_limit_error
     if friction.status != "predicted":
         rise = share = share_error = math.nan
     values = {
-        "h_min_rough_m": (friction.film_min, FILM * deformed),
+        "h_min_rough_m": (friction.film_min, FILM * of_all),
         "rms_deformed_m": (deformed, RMS_DEFORMED * deformed),
         "lambda_ratio_deformed": (ratio, RMS_DEFORMED * ratio),
         "rms_pressure_Pa": (pressure, RMS_PRESSURE * pressure),
