@@ -126,6 +126,7 @@ module ehl_case
       real(dp) :: crop_x_max = 0.0_dp
       real(dp) :: crop_y_min = 0.0_dp
       real(dp) :: crop_y_max = 0.0_dp
+      character(len=word_length) :: height_unit = "m"
       integer :: sign = 1
       real(dp) :: outliers = 0.0_dp
       character(len=word_length) :: fill = "harmonic"

@@ -19,6 +19,8 @@ CONSTANT = 0.01
 SHARE_OF_RISE = 0.07
 # Largest ratio at which it was measured
 KNOWN_RATIO = 5.0
+# Ellipticities between which it was
+ELLIPTICITY = [0.39, 4.1]
 
 
 def model_error(mu_ratio: float) -> float:
@@ -42,13 +44,18 @@ def cutoff_error(bands: Sequence[Band]) -> float:
 
 
 def outside_range(operating: OperatingPoint, velocity_ratio: float, options: Options) -> list[str]:
-    """Names of the numbers that lie outside the range in which the response was measured."""
+    """Names of the numbers that lie outside the range in which the response was measured.
+
+    `moes_m` and `moes_l` of an elliptical contact are those of the circle with the same inlet.
+    """
     if options.reduction != "response":
         return []
+    moes_m, moes_l = operating.equivalent_moes
     values = {
-        "moes_m": operating.moes_m,
-        "moes_l": operating.moes_l,
+        "moes_m": moes_m,
+        "moes_l": moes_l,
         "velocity_ratio": velocity_ratio,
+        "ellipticity": operating.ellipse.ellipticity,
     }
-    limits = fitted_range()
+    limits = fitted_range() | {"ellipticity": ELLIPTICITY}
     return [name for name, v in values.items() if not limits[name][0] <= v <= limits[name][1]]

@@ -7,32 +7,44 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import Any
 
-from pyehl.surfaces import FEATURES, one_rough, rough_groups
+from pyehl.surfaces import FEATURES, rough_groups
+from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["MAX_POSITIONS", "Options", "thinning_flow", "unpredictable"]
+__all__ = ["MAX_POSITIONS", "Options", "thinning_flow", "turned", "unpredictable"]
 
 MAX_POSITIONS = 4096
 """Most positions of a passage, as the schema of cases has it."""
 
 
 def unpredictable(settings: Mapping[str, Mapping[str, Any]]) -> str:
-    """Tell why nothing is predicted of the surfaces of a resolved case; '' where something is."""
-    if len(rough_groups(settings)) > 1:
-        return (
-            "two rough surfaces: the prediction knows one. What is missing: the response of the "
-            "contact to roughness at each of two velocities, and the cross terms of second order "
-            "between the surfaces\nexpected: 'pyehl run', or second_surface.kind = 'smooth'"
-        )
-    kind = str(one_rough(settings)["surface"]["kind"])
-    if kind == "smooth":
+    """Tell why nothing is predicted of a resolved case; '' where something is."""
+    if turned(settings):
+        return turned(settings)
+    groups = rough_groups(settings)
+    if not groups:
         return "surface.kind = 'smooth': a prediction needs a rough surface"
-    if kind in FEATURES:
-        return (
-            f"surface.kind = {kind!r}: a single feature passes once. A prediction is the mean "
-            "friction of roughness that fills the contact\nexpected: 'pyehl run', or "
-            "surface.kind = 'harmonic', 'map' or 'fractal'"
-        )
+    for group in groups:
+        kind = str(settings[group]["kind"])
+        if kind in FEATURES:
+            return (
+                f"{group}.kind = {kind!r}: a single feature passes once. A prediction is the mean "
+                "friction of roughness that fills the contact\nexpected: 'pyehl run', or "
+                f"{group}.kind = 'harmonic', 'map' or 'fractal'"
+            )
     return ""
+
+
+def turned(settings: Mapping[str, Mapping[str, Any]]) -> str:
+    """Tell why an elliptical contact has no response; '' where an axis lies along the motion."""
+    contact = settings["contact"]
+    angle = float(contact.get("angle", 0.0))
+    if angle == 0.0 or OperatingPoint.from_settings(settings).radius_ratio == 1.0:
+        return ""
+    return (
+        f"contact.angle = {angle:g}: the response of an elliptical contact is known where an axis "
+        "lies along the motion. What is missing: an inlet that is oblique on the centre line\n"
+        "expected: contact.angle = 0 (at 90 degrees with the radii exchanged), or 'pyehl run'"
+    )
 
 
 def thinning_flow(settings: Mapping[str, Mapping[str, Any]]) -> str:

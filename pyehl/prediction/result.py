@@ -17,6 +17,8 @@ from pyehl.prediction.breakdown import Advice, BelowZero
 from pyehl.prediction.errors import cutoff_error, model_error, outside_range
 from pyehl.prediction.friction import TRACKS, RoughFriction
 from pyehl.prediction.options import Options, thinning_flow
+from pyehl.prediction.pair_breakdown import PairAdvice, PairBelowZero
+from pyehl.prediction.sides import SecondSurface, arrays, statistics
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.friction import absolute_friction
 from pyehl.theory.heat import Heat
@@ -63,7 +65,7 @@ class Prediction:
     operating, lubricant, options
         The operating point, the lubricant with the viscosity law used, and how the model was read.
     velocity_ratio
-        Velocity of the rough surface over the mean velocity [-].
+        Velocity of the (first) rough surface over the mean velocity [-].
     film
         Smooth central film h_c [m].
     film_minimum
@@ -88,6 +90,8 @@ class Prediction:
         Where the film is below zero, and on which share of the contact.
     advice
         With the status ``"film breakdown"``: where the film ends, and what would carry.
+    second
+        The second rough surface; None: there is one.
     heat
         What the heat of sliding makes of friction; None: nothing.
 
@@ -116,8 +120,9 @@ class Prediction:
     seconds: float
     text: str = ""
     track_count: int = TRACKS
-    below: BelowZero | None = None
-    advice: Advice | None = None
+    below: BelowZero | PairBelowZero | None = None
+    advice: Advice | PairAdvice | None = None
+    second: SecondSurface | None = None
     heat: Heat | None = None
 
     def __repr__(self) -> str:
@@ -148,7 +153,9 @@ class Prediction:
     @property
     def outside_range(self) -> list[str]:
         """What of the case lies outside the range in which the response was measured; mostly []."""
-        return outside_range(self.operating, self.velocity_ratio, self.options)
+        ratios = [self.velocity_ratio, *([self.second.velocity_ratio] if self.second else [])]
+        found = [outside_range(self.operating, ratio, self.options) for ratio in ratios]
+        return list(dict.fromkeys(name for names in found for name in names))
 
     @property
     def model_error(self) -> float:
@@ -168,19 +175,14 @@ class Prediction:
     @property
     def arrays(self) -> dict[str, Array]:
         """Arrays x (nx,), y (ny,), surface, deformed [m] and delta_p [Pa] (nx, ny)."""
-        s, field = self.surface, self.friction.response
-        return {
-            "x": np.arange(s.shape[0], dtype=float) * s.pixel[0],
-            "y": np.arange(s.shape[1], dtype=float) * s.pixel[1],
-            "surface": np.asfortranarray(s.heights),
-            "deformed": np.asfortranarray(field.deformed),
-            "delta_p": np.asfortranarray(field.pressure),
-        }
+        first = arrays(self.surface, self.friction.response)
+        return first | self.second.arrays if self.second else first
 
     @property
     def tables(self) -> dict[str, dict[str, Array]]:
         """Columns of the tables ``passage``, ``spectrum`` and ``bands``."""
         f, o = self.friction, self.operating
+        second = {"second_shift_m": self.second.passage.shift} if self.second else {}
         q, c_iso = surfaces.psd_isotropic(self.surface)
         ratio = component_amplitude_ratio(
             q,
@@ -191,7 +193,7 @@ class Prediction:
             convention=self.options.wavelength_convention,
         )
         return {
-            "passage": {"shift_m": f.shift, "mu_ratio": f.passage},
+            "passage": {"shift_m": f.shift, **second, "mu_ratio": f.passage},
             "spectrum": {
                 "q_rad_per_m": q,
                 "c_iso_m4": c_iso,
@@ -226,6 +228,7 @@ class Prediction:
     def summary(self) -> dict[str, Any]:
         """What ``summary.json`` holds; None for a number that does not exist."""
         f, o, s = self.friction, self.operating, self.surface
+        sigma = math.hypot(s.rms_height, self.second.surface.rms_height if self.second else 0.0)
         values: dict[str, Any] = {
             "kind": "prediction",
             "status": f.status,
@@ -260,17 +263,10 @@ class Prediction:
             "h_c_source": self.film_source,
             "h_min_m": self.film_minimum,
             "h_min_rough_m": f.film_min,
-            "lambda_ratio": self.film_minimum / s.rms_height if s.rms_height > 0.0 else None,
-            "lambda_ratio_central": self.film / s.rms_height if s.rms_height > 0.0 else None,
-            "surface": s.origin,
-            "surface_preparation": s.preparation.record.summary() if s.preparation else None,
-            "seed": s.seed,
-            "pixels": list(s.shape),
-            "length_x_m": s.length_x,
-            "length_y_m": s.length_y,
-            "rms_height_m": s.rms_height,
-            "rms_deformed_m": float(np.std(f.response.deformed)),
-            "rms_pressure_Pa": float(np.std(f.response.pressure)),
+            "lambda_ratio": self.film_minimum / sigma if sigma > 0.0 else None,
+            "lambda_ratio_central": self.film / sigma if sigma > 0.0 else None,
+            **statistics(s, f.response),
+            **(self.second.summary(s) if self.second else {}),
             "cavitated_share": f.cavitated_share,
             "cavitated_friction": f.cavitated_friction,
             "load_error": f.load_error,

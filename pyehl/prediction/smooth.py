@@ -227,4 +227,5 @@ def zone_on(
         (denser - 2.0 * rho + thinner) / (step**2 * rho),
         np.log(lubricant.viscosity_ratio(higher) / eta) / step,
         rho * film**3 / (eta * operating.speed_parameter),
+        1.0 / operating.ellipse.kernel_ratio,
     )

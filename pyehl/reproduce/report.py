@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import base64
 import html
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -20,7 +21,7 @@ STYLE = (
     "body{font-family:sans-serif;max-width:62em;margin:2em auto;padding:0 1em;line-height:1.45}"
     "img{max-width:100%}table{border-collapse:collapse;font-size:.85em}"
     "td,th{border:1px solid #ccc;padding:.2em .5em;text-align:left}"
-    ".fail{color:#b00020;font-weight:bold}.pass{color:#006e4e}pre{background:#f5f5f5;padding:.6em}"
+    ".FAIL{color:#b00020;font-weight:bold}.pass{color:#006e4e}.not{color:#8a5a00}pre{background:#f5f5f5;padding:.6em}"
 )
 PAPER = (
     "Zhang, Biboulet, Venner & Lubrecht 2019, Prediction of the Stribeck curve under full-film "
@@ -37,11 +38,12 @@ def _seconds(result: Result) -> str:
 
 
 def _head(results: Sequence[Result], level: Level, machine: Sequence[str]) -> list[str]:
-    passed = sum(r.passed and all(c.passed for c in r.checks) for r in results)
-    explained = sum(r.passed for r in results) - passed
-    more = f" Not reproduced: {explained}, explained below." if explained else ""
+    count = Counter(r.verdict for r in results)
+    judged = len(results) - count["nothing to judge"]
+    more = f" Not reproduced: {n}, explained below." if (n := count["not reproduced"]) else ""
+    more += f" Nothing to judge: {n}." if (n := count["nothing to judge"]) else ""
     return [
-        f"{passed} of {len(results)} pieces are within all their tolerances.{more} "
+        f"{count['pass']} of {judged} pieces are within all their tolerances.{more} "
         f"Level: {level.name}; it leaves out: {level.leaves_out}.",
         "Every number of ours comes from runs in the folder `studies`, a table and a journal for "
         "each. Ratios mu_r/mu_s are those of a Newtonian lubricant; shear thinning at real sliding "
@@ -61,7 +63,7 @@ def _html(folder: Path, results: Sequence[Result], level: Level, machine: Sequen
     ]
     out += [
         f"<tr><td><a href='#{r.folder.name}'>{text(r.name)}</a></td><td>{text(r.title)}</td>"
-        f"<td class='{'pass' if r.passed else 'fail'}'>{text(r.line())}</td></tr>"
+        f"<td class='{r.verdict}'>{text(r.line())}</td></tr>"
         for r in results
     ]
     out.append("</table>")
@@ -73,7 +75,7 @@ def _html(folder: Path, results: Sequence[Result], level: Level, machine: Sequen
     for r in results:
         out.append(
             f"<h2 id='{r.folder.name}'>{text(r.name.capitalize())}: {text(r.title)}</h2>"
-            f"<p class='{'pass' if r.passed else 'fail'}'>{text(r.line())}</p>"
+            f"<p class='{r.verdict}'>{text(r.line())}</p>"
         )
         if r.figure is not None:
             data = base64.b64encode(r.file(".png").read_bytes()).decode()

@@ -16,7 +16,7 @@ from typing import Any
 from pyehl import surfaces
 from pyehl.case import Case
 from pyehl.errors import InputError
-from pyehl.prediction.options import unpredictable
+from pyehl.prediction.options import turned, unpredictable
 from pyehl.studies.estimate import TaskList
 from pyehl.studies.plan import check_memory, duration, formula_film
 from pyehl.studies.study import MAX_CASES, Point, Study, make
@@ -184,6 +184,7 @@ def _check(settings: Settings, seeds: int, ehl: int) -> None:
     if "load" not in settings["contact"]:
         raise InputError("a Stribeck curve needs a contact in SI units (load, mean_velocity)")
     film = formula_film(settings)
-    film[0].need_round("a Stribeck curve")
+    if turned(settings):
+        raise InputError(turned(settings))
     if kind == "map":
         surfaces.from_settings(settings, *film)

@@ -225,18 +225,14 @@ class OperatingPoint:
         return self.ellipse.ellipticity * self.hertz_radius
 
     @property
+    def semi_axes(self) -> tuple[float, float]:
+        """Semi-axes of the dry contact along the motion and across it [m]."""
+        return self.hertz_radius, self.semi_axis_y
+
+    @property
     def hertz_pressure(self) -> float:
         """Maximum pressure p_h of the dry contact [Pa], 3 w/(2 pi a b) with its semi-axes."""
         return 1.5 * self.load / (math.pi * self.ellipse.ellipticity * self.hertz_radius**2)
-
-    def need_round(self, what: str) -> None:
-        """Raise InputError unless the contact is circular, naming what knows no ellipse."""
-        if self.radius_ratio != 1.0:
-            raise InputError(
-                f"{what} is for circular contacts, and this one has R_x/R_y = "
-                f"{self.radius_ratio:.4g}\nexpected: contact.radius, or radius_ratio = 1; 'pyehl "
-                "run' solves elliptical contacts"
-            )
 
     @property
     def speed(self) -> float:
@@ -262,6 +258,18 @@ class OperatingPoint:
     def moes_l(self) -> float:
         """Moes material number L = G (2U)^(1/4) [-]."""
         return float(self.material * (2.0 * self.speed) ** 0.25)
+
+    @property
+    def equivalent_moes(self) -> tuple[float, float]:
+        """M and L [-] of the circular contact that has the same inlet; of a circle its own.
+
+        Of equal alpha_bar, and of equal lambda_bar where the stiffness of waves is the same: with
+        heights by kernel_ratio a^2/R_x. Gap and pressure near the edge are then those of the circle
+        on the line Y = 0.
+        """
+        shape = self.ellipse
+        kernel = shape.kernel_ratio
+        return self.moes_m * kernel**1.25 / shape.ellipticity, self.moes_l * kernel**0.25
 
     @property
     def alpha_bar(self) -> float:

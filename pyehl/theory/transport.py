@@ -7,9 +7,9 @@ scaled by the Hertz radius a, films by a^2/R, pressures by p_h, times by a/u; k 
 
 The half-space makes Pi = K (1 - T) + i K k/|q|^2 T', K = (pi/4)|q|, |q| = hypot(k, k_Y): to first
 order the stiffness of a wave whose amplitude changes along the motion (`wave_pressure`: of the
-wavenumber k U that it then has). The mass that the film wave holds is mu = rho (T - c H Pi), c =
-d ln rho/dP, and with eps = rho H^3/(eta lambda), delta ln eps = g = (c - d ln eta/dP) Pi - 3 T/H
-the Reynolds equation reads
+wavenumber k U that it then has). In an elliptical contact K is `Zone.stiffness` times as much.
+The mass that the film wave holds is mu = rho (T - c H Pi), c = d ln rho/dP, and with eps = rho
+H^3/(eta lambda), delta ln eps = g = (c - d ln eta/dP) Pi - 3 T/H the Reynolds equation reads
 
     mu' = i k (U - 1) mu + eps |q|^2 Pi - i k eps' Pi - (eps' + 2 i k eps) Pi' - eps Pi''
           - eps P' (i k g + g'),
@@ -72,6 +72,7 @@ class Zone:
     curvature: Array  # (d^2 rho/dP^2)/rho [-]
     thickening: Array  # d ln eta/dP [-]
     conductance: Array  # eps = rho H^3/(eta lambda) [-]
+    stiffness: float = 1.0  # of waves, over that in a circular contact [-]
 
 
 class _Flow:
@@ -96,13 +97,15 @@ class _Flow:
 class _Waves:
     """Waves (m,): T and the change of mu, both linear in mu, at the places of a flow."""
 
-    def __init__(self, qx: Array, qy: Array, velocity_ratio: float, spacing: float) -> None:
+    def __init__(
+        self, zone: Zone, qx: Array, qy: Array, velocity_ratio: float, spacing: float
+    ) -> None:
         cells = 0.5 * spacing / np.pi
         along, across = np.sinc(cells * qx), np.sinc(cells * qy)
         squared = qx * qx + qy * qy
         # div grad of the pressure, by differences
         self.squared = np.square(along * qx) + np.square(across * qy)
-        self.k = stiffness(np.sqrt(squared)) / (along * across)
+        self.k = zone.stiffness * stiffness(np.sqrt(squared)) / (along * across)
         self.turned = 1j * qx
         self.slip = self.turned * (velocity_ratio - 1.0)
         self.changing = self.turned * self.k / np.maximum(squared, 1e-24)
@@ -136,7 +139,8 @@ class _Waves:
 def stiffness(q: ArrayLike) -> Array:
     """K = (pi/4)|q|: pressure [p_h] per height of flattening [a^2/R] of a wave |q| [1/a].
 
-    E'|q|/4 in Hertz units (Johnson 1985, Contact Mechanics, section 13.2).
+    E'|q|/4 in the Hertz units of a circle (Johnson 1985, Contact Mechanics, section 13.2); in those
+    of an ellipse this over its kernel ratio.
     """
     return 0.25 * np.pi * np.asarray(q, dtype=float)
 
@@ -151,7 +155,7 @@ def wave_pressure(
 ) -> Complex:
     """Pressure over roughness [p_h R/a^2]: what is flattened of it, by the stiffness of each part.
 
-    Wavenumbers of the roughness [1/a], U, driven and free parts of T [-].
+    Of a circle. Wavenumbers of the roughness [1/a], U, driven and free parts of T [-].
     """
     k, k_free = stiffness(np.hypot(qx, qy)), free_stiffness(qx, qy, velocity_ratio)
     return np.asarray(k * (1.0 - driven) - k_free * free)
@@ -168,7 +172,7 @@ def upstream(
     """
     lengths = np.diff(APPROACH)
     flow = _Flow(zone, APPROACH[:-1] + 0.5 * lengths)
-    waves = _Waves(qx, qy, velocity_ratio, spacing)
+    waves = _Waves(zone, qx, qy, velocity_ratio, spacing)
     # where nothing leaks or slips any mu is a solution: that of the undeformed wave
     mu = np.full(qx.shape, flow.density[0], dtype=complex)
     for i, h in enumerate(lengths):
@@ -211,7 +215,7 @@ def transport(
     lengths = np.repeat((stations - starts) / steps, steps)
     middles = INLET + np.cumsum(lengths) - 0.5 * lengths
     flow, there = _Flow(zone, middles), _Flow(zone, stations)
-    waves = _Waves(qx, qy, velocity_ratio, spacing)
+    waves = _Waves(zone, qx, qy, velocity_ratio, spacing)
     free = np.full(qx.shape, np.interp(INLET, zone.x, zone.density), dtype=complex)
     driven = np.zeros(qx.shape, dtype=complex)
     ends = np.cumsum(steps)
