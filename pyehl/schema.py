@@ -160,6 +160,7 @@ s | rolling_moment | p_h a^3 | iint H/2 dP/dX of the smooth contact, which resis
 s | rolling_moment_N_m | N m | the same
 sp | shear_law | | law of the shear stress
 sp | slide_to_roll | - | (u1 - u2)/u
+s | lubricant_note | | law with constants of an oil, its range, and whether the contact is beyond it
 s | inlet_viscosity_Pa_s | Pa s | viscosity of the inlet
 s | thermal_loading | - | loading parameter of shear heating
 spf | thermal_reduction | - | film over the isothermal one

@@ -30,6 +30,7 @@ contains
       if (plan%scales%has_size()) call add("           a = "//fixed(plan%scales%length, "es10.4")//" m, p_h = "// &
                                             fixed(plan%scales%pressure, "es10.4")//" Pa")
       if (.not. plan%contact%is_round()) call tell_ellipse()
+      if (allocated(plan%lubricant_note)) call add("lubricant  "//plan%lubricant_note)
       call tell_friction()
       if (plan%surfaces%rough()) then
          call add(scene_lines(plan%surfaces))
