@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import check
-from pyehl.extension import functions, lubricants, predicted, surface_functions, waves
+from pyehl.extension import functions, lubricants, predicted, surface_functions, thinning, waves
 from pyehl.extension import solvers as ehl
 from pyehl.given import Option, options_of, path_of, text_of
 
@@ -38,6 +38,7 @@ __all__ = [
     "resolve",
     "returned",
     "surface_functions",
+    "thinning",
     "version",
     "waves",
 ]

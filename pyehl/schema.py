@@ -209,8 +209,18 @@ p | pixels | - | pixels of the tile along x and y
 p | length_x_m | m | size of the tile along x
 p | length_y_m | m | size of the tile along y
 pf | rms_height_m | m | rms height sigma of the undeformed roughness
+p | film_limit_m | m | film of which the share below is told
+p | film_below_limit_share | - | mean share of the contact with a film below it
+p | film_below_limit_error | - | estimate of its error
+p | h_min_rough_error_m | m | error of h_min_rough_m by the response, beside that of the smooth film
 p | rms_deformed_m | m | rms height of the deformed roughness
-p | rms_pressure_Pa | Pa | rms of the pressure change
+p | rms_deformed_error_m | m | estimate of its error
+p | lambda_ratio_deformed | - | h_min/rms_deformed_m: smooth contact, deformed surface
+p | lambda_ratio_deformed_error | - | estimate of its error
+p | rms_pressure_Pa | Pa | rms of the pressure change at the centre
+p | rms_pressure_error_Pa | Pa | estimate of its error
+p | p_rise_max_Pa | Pa | largest rise of the pressure over a passage, within 0.8 a of the centre
+p | p_rise_max_error_Pa | Pa | estimate of its error
 sp | lambda_ratio | - | h_min/sigma: smooth contact, undeformed surface
 spf | lambda_ratio_central | - | h_c/sigma: smooth contact, undeformed surface
 p | cavitated_share | - | share of the contact where the pressure would be negative

@@ -183,7 +183,7 @@ module ehl_case
 
    !> &psd: the friction prediction from the surface spectrum, made by pyehl alone
    type :: psd_case_t
-      real(dp) :: film_thickness = 0.0_dp
+      real(dp) :: film_thickness = 0.0_dp, film_limit = 0.0_dp
       character(len=word_length) :: reduction = "response"
       character(len=word_length) :: smooth = "solved"
       character(len=word_length) :: wavelength_convention = "components"

@@ -176,13 +176,29 @@ def draw(
             overlay = Points(over, measured.friction, measured.error)
     surface = plan.points[0].settings["surface"]
     count = f", {plan.surfaces} surfaces" if plan.surfaces > 1 else ""
-    words = f"surface '{surface['kind']}'{count}"
+    words = f"surface '{surface['kind']}'{count}; {_conditions(plan)}"
     law = "" if plan.load_share is None else plan.load_share.words
     if absolute and key == SLIP:
         slips = [places for _, places, _ in curves_of(plan, rows)]
         save(draw_traction(curves, slips, words, overlay, law), path, dpi)
         return
     save(draw_stribeck(curves, words, overlay, law), path, dpi)
+
+
+def _conditions(plan: CurvePlan) -> str:
+    """Give what is not varied of load, speed, slip and viscosity."""
+    settings = plan.points[0].settings
+    found = [
+        f"{sign} = {settings[group][key]:.4g}{unit}"
+        for sign, group, key, unit in (
+            ("w", "contact", "load", " N"),
+            ("u", "contact", "mean_velocity", " m/s"),
+            ("SRR", "contact", "slide_to_roll", ""),
+            ("η₀", "lubricant", "viscosity", " Pa s"),
+        )
+        if f"{group}.{key}" not in plan.study.keys
+    ]
+    return ", ".join(found)
 
 
 def report(plan: CurvePlan, rows: Sequence[Row]) -> str:

@@ -20,16 +20,23 @@ from numpy.typing import NDArray
 from pyehl.prediction.bands import Band, joining
 from pyehl.prediction.carrying import confirmed, within_range
 from pyehl.prediction.contact import HertzContact, Response
+from pyehl.prediction.deformed import film_levels
 from pyehl.prediction.errors import KNOWN_RATIO, model_error
-from pyehl.prediction.friction import BEYOND, RoughFriction, outcome, passed
+from pyehl.prediction.friction import BEYOND, LARGEST_RATIO, RoughFriction, outcome, passed
 from pyehl.prediction.options import Options
-from pyehl.prediction.passage import friction_along, longer_waves, short_mean, working_grid
+from pyehl.prediction.passage import (
+    friction_along,
+    longer_waves,
+    short_mean,
+    tracks_of,
+    working_grid,
+)
 from pyehl.prediction.rough_contact import Edge, RoughContact
 from pyehl.prediction.smooth import SmoothContact, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.prediction.waves import Waves
-from pyehl.surfaces import Topography, filtered, track_offsets
+from pyehl.surfaces import Topography, filtered
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -44,8 +51,6 @@ Parts = tuple[Topography, Spectrum, Transfer, Edge]
 POINTS = 60
 # Eq. 11 with wavelength 2 pi/|q| over E'|q|/4 (see `pyehl.prediction`)
 STIFFER = math.sqrt(2.0)
-LARGEST_RATIO = 10.0
-"""Largest mu_r/mu_s that is told."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,6 +166,9 @@ class RoughPassage:
         grid, spectrum, transfer, edge = self.parts()
         with np.errstate(over="ignore", invalid="ignore"):
             contact = self._contact(spectrum, transfer, edge)
+            t = transfer.at_centre(spectrum, self.velocity_ratio)
+            limit = self.options.film_limit / self.operating.film_scale
+            contact.watch(film_levels(limit, [(spectrum.power, np.abs(t))]))
             passage = friction_along(contact, grid.shape[0], self.options.positions, LARGEST_RATIO)
             found = self._result(contact, grid, (spectrum, transfer, edge), passage, brief)
             if found.status != "predicted":
@@ -168,17 +176,14 @@ class RoughPassage:
             ratios = np.array(
                 [
                     found.mu_ratio if offset == 0.0 else short_mean(contact, grid.shape[0], track)
-                    for offset, track in self._tracks(grid, self._stride(spectrum), tracks)
+                    for offset, track in tracks_of(
+                        self.topography, grid, self._stride(spectrum), tracks
+                    )
                 ]
             )
             bands = self._bands(spectrum, transfer, edge, found.mu_ratio, brief)
         over = (float(ratios.mean()), float(ratios.std())) if tracks else (math.nan, math.nan)
         return found, over, bands
-
-    def _tracks(self, grid: Topography, stride: int, tracks: int) -> list[tuple[float, int]]:
-        """Offsets of the tracks [m], and in pixels that are multiples of the stride."""
-        offsets = track_offsets(self.topography, tracks) if tracks else []
-        return [(d, round(d / (stride * grid.pixel[1])) * stride) for d in offsets]
 
     def below(self, shortest: float) -> float:
         """mu_r/mu_s without the waves shorter than a length [a], over a few positions [-]."""
@@ -194,17 +199,15 @@ class RoughPassage:
         passage: tuple[NDArray[np.int_], Array, float],
         brief: bool,
     ) -> RoughFriction:
-        o, ratios = self.operating, passage[1]
-        status, message = outcome(
-            contact, ratios, o.film_scale, LARGEST_RATIO, load_balance=self.options.load_balance
-        )
+        ratios = passage[1]
+        status, message = outcome(contact, ratios, load_balance=self.options.load_balance)
         if status == BEYOND and not brief:
             message += self._carried(*parts)
         return passed(
             contact,
             (status, message),
             (np.asarray(passage[0] * grid.pixel[0], dtype=float), ratios, passage[2]),
-            film_unit=o.film_scale,
+            film_unit=self.operating.film_scale,
             response=self._tiles(*parts[:2], grid.shape == self.topography.shape),
         )
 

@@ -75,6 +75,8 @@ def predict(
         contact = _smooth_contact(settings, operating, lubricant, options)
     else:
         contact = read_contact(Path(smooth), operating)
+        if lubricant.shear.in_flow:
+            contact = replace(contact, thinning=solve_contact(settings).thinning)
     film = contact.central_film * operating.film_scale
     alone = []
     for group in groups:

@@ -10,7 +10,7 @@ from typing import Any
 from pyehl.surfaces import FEATURES, rough_groups
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["MAX_POSITIONS", "Options", "thinning_flow", "turned", "unpredictable"]
+__all__ = ["MAX_POSITIONS", "Options", "turned", "unpredictable"]
 
 MAX_POSITIONS = 4096
 """Most positions of a passage, as the schema of cases has it."""
@@ -47,15 +47,6 @@ def turned(settings: Mapping[str, Mapping[str, Any]]) -> str:
     )
 
 
-def thinning_flow(settings: Mapping[str, Mapping[str, Any]]) -> str:
-    """Tell why the flow of a resolved case is not predicted; '' where it is Newtonian."""
-    lubricant = settings["lubricant"]
-    law = str(lubricant["shear_law"])
-    if lubricant["flow"] != "consistent" or law not in ("eyring", "carreau"):
-        return ""
-    return f"lubricant.flow = 'consistent': waves in a flow that obeys {law} are not predicted"
-
-
 @dataclass(frozen=True, slots=True)
 class Options:
     """How the model is read: the group ``psd`` of a case, whose schema has the allowed words."""
@@ -71,6 +62,8 @@ class Options:
     # Whether the semi-ellipse gives up the load that delta p carries inside the contact: a Hertz
     # contact under the remaining load, p_h and a scaled by its cube root
     load_balance: bool = False
+    # Film below which the share of the contact is told [m]; 0: none
+    film_limit: float = 0.0
     # Positions of the surface over one passage; 0: doubled until mu_r/mu_s is resolved
     positions: int = 0
 

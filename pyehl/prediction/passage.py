@@ -12,10 +12,17 @@ from numpy.typing import NDArray
 from pyehl.errors import InputError
 from pyehl.prediction.options import MAX_POSITIONS
 from pyehl.prediction.spectrum import Spectrum
-from pyehl.surfaces import MAX_PIXELS, Topography, interpolated, resampled
+from pyehl.surfaces import MAX_PIXELS, Topography, interpolated, resampled, track_offsets
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["POSITION_TOLERANCE", "friction_along", "longer_waves", "short_mean", "working_grid"]
+__all__ = [
+    "POSITION_TOLERANCE",
+    "friction_along",
+    "longer_waves",
+    "short_mean",
+    "tracks_of",
+    "working_grid",
+]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int_]
@@ -75,6 +82,14 @@ def longer_waves(
     part = spectrum.kept(index, (nx, ny))
     part.values[part.q >= limit] = 0.0
     return part, index
+
+
+def tracks_of(
+    surface: Topography, grid: Topography, stride: int, tracks: int
+) -> list[tuple[float, int]]:
+    """Offsets of tracks of a surface [m], and in pixels of its grid, multiples of the stride."""
+    offsets = track_offsets(surface, tracks) if tracks else []
+    return [(d, round(d / (stride * grid.pixel[1])) * stride) for d in offsets]
 
 
 class HasFriction(Protocol):

@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 from pyehl import display, namelist, surfaces
 from pyehl.prediction.bands import Band
 from pyehl.prediction.breakdown import Advice, BelowZero
+from pyehl.prediction.deformed import deformed_surface
 from pyehl.prediction.errors import cutoff_error, model_error, outside_range
 from pyehl.prediction.friction import TRACKS, RoughFriction
-from pyehl.prediction.options import Options, thinning_flow
+from pyehl.prediction.options import Options
 from pyehl.prediction.pair_breakdown import PairAdvice, PairBelowZero
 from pyehl.prediction.sides import SecondSurface, arrays, statistics
 from pyehl.theory.amplitude import component_amplitude_ratio
@@ -47,7 +48,7 @@ NEWTONIAN_NOTE = (
     "Newtonian: a ratio at this slip, no absolute coefficient; shear thinning brings it close to "
     "1, see lubricant.shear_law"
 )
-THINNING_NOTE = (
+NEWTONIAN_FLOW_NOTE = (
     "; film and waves are those of a Newtonian flow: where the oil thins in it, too, the ratio is "
     "nearer to 1, see lubricant.flow"
 )
@@ -143,7 +144,8 @@ class Prediction:
     def note(self) -> str:
         """What `mu_ratio` is."""
         note = STRESS_NOTE if self.thins else NEWTONIAN_NOTE
-        return note + THINNING_NOTE if thinning_flow(self.settings) else note
+        shear = self.lubricant.shear
+        return note + NEWTONIAN_FLOW_NOTE if self.thins and not shear.in_flow else note
 
     @property
     def mu_ratio(self) -> float:
@@ -160,17 +162,21 @@ class Prediction:
     @property
     def model_error(self) -> float:
         """Error of `mu_ratio` by the model, estimated [-]; NaN where it is not known."""
-        known = self.options.reduction == "response" and self.options.smooth == "solved"
-        if not known or self.outside_range or self.thins:
+        in_flow = self.lubricant.shear.in_flow
+        if not self._known or (self.thins and not in_flow):
             return math.nan
-        return model_error(self.mu_ratio)
+        return model_error(self.mu_ratio, thins=in_flow)
+
+    @property
+    def _known(self) -> bool:
+        """Whether the model is one whose errors were measured, and the case in its range."""
+        known = self.options.reduction == "response" and self.options.smooth == "solved"
+        return known and not self.outside_range
 
     @property
     def case_text(self) -> str:
         """The resolved case as namelist text."""
-        if self.text:
-            return self.text
-        return namelist.text_of(self.settings)
+        return self.text or namelist.text_of(self.settings)
 
     @property
     def arrays(self) -> dict[str, Array]:
@@ -262,11 +268,11 @@ class Prediction:
             "h_c_m": self.film,
             "h_c_source": self.film_source,
             "h_min_m": self.film_minimum,
-            "h_min_rough_m": f.film_min,
             "lambda_ratio": self.film_minimum / sigma if sigma > 0.0 else None,
             "lambda_ratio_central": self.film / sigma if sigma > 0.0 else None,
             **statistics(s, f.response),
             **(self.second.summary(s) if self.second else {}),
+            **deformed_surface(f, self.film_minimum, self.options.film_limit, known=self._known),
             "cavitated_share": f.cavitated_share,
             "cavitated_friction": f.cavitated_friction,
             "load_error": f.load_error,

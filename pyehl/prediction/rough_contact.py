@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl import library
-from pyehl.prediction.contact import ShearedContact
+from pyehl.prediction.contact import INNER, ShearedContact
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import OFF_CENTRE, STATIONS
@@ -147,6 +147,7 @@ class WavyContact(ShearedContact):
         self.radius = np.hypot(self.x[:, np.newaxis], self.across[np.newaxis, :])
         self.inside = (self.radius < REACH) & (self.pressure > 0.0)
         self.points = int(np.count_nonzero(self.inside))
+        self.inner = self.inside & (self.radius < INNER)
         self.weights = station_weights(self.x).astype(np.float32)
         self.off = away_from_centre(self.across).astype(np.float32)
         grid = np.meshgrid(self.x, self.across, indexing="ij")
@@ -186,6 +187,8 @@ class WavyContact(ShearedContact):
             return math.nan
         self.cavitated += int(np.count_nonzero((pressure <= 0.0) & self.inside))
         # outside nothing is counted: any film and pressure will do
+        film[~self.inside] = math.inf
+        self.meet(change[..., 1], film, self.inner)
         film[~self.inside] = 1.0
         np.maximum(pressure, 0.0, out=pressure)
         with np.errstate(over="ignore"):

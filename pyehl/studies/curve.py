@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.prediction.deformed import deformed_surfaces
 from pyehl.prediction.errors import KNOWN_RATIO
 from pyehl.studies.curve_pattern import SMOOTH, Pattern, kept_pattern
 from pyehl.studies.curve_plan import CurvePlan, CurvePoint, Settings
@@ -48,6 +49,18 @@ UNITS = {
     "h_min_error_m": "m",
     "lambda_ratio": "1",
     "lambda_ratio_central": "1",
+    "lambda_ratio_deformed": "1",
+    "lambda_ratio_deformed_error": "1",
+    "rms_deformed_m": "m",
+    "rms_deformed_error_m": "m",
+    "rms_pressure_Pa": "Pa",
+    "rms_pressure_error_Pa": "Pa",
+    "p_rise_max_Pa": "Pa",
+    "p_rise_max_error_Pa": "Pa",
+    "h_min_rough_m": "m",
+    "h_min_rough_error_m": "m",
+    "film_below_limit_share": "1",
+    "film_below_limit_error": "1",
     "theta_2": "1",
     "theta_2_wavelength_m": "m",
     "hersey": "1",
@@ -197,6 +210,7 @@ def _friction(found: Sequence[Row], smooth: Row) -> dict[str, Any]:
     return {
         **_mean(found, "mu_ratio"),
         **_mean(absolute, "mu"),
+        **deformed_surfaces(found),
         "mu_isothermal": _mean(absolute, "mu_isothermal")["mu_isothermal"],
         "mu_smooth": coefficient,
         "mu_ratio_model_error": _largest(found, "mu_ratio_model_error"),

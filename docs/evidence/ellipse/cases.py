@@ -32,9 +32,7 @@ def case(row: dict[str, Any], points: int = 0) -> pyehl.Case:
     along, across = int(row["points"]), int(row["points_y"])
     if points:
         along, across = points, (across - 1) * (points - 1) // (along - 1) + 1
-    point = OperatingPoint.from_moes(
-        row["moes_m"], row["moes_l"], radius_ratio=row["radius_ratio"]
-    )
+    point = OperatingPoint.from_moes(row["moes_m"], row["moes_l"], radius_ratio=row["radius_ratio"])
     return pyehl.Case(
         contact={
             "load": point.load,
