@@ -32,6 +32,8 @@ if TYPE_CHECKING:
     from pyehl.results import load
     from pyehl.solver import Solver
     from pyehl.studies.curve_run import stribeck
+    from pyehl.studies.fit_folder import fit_lubricant
+    from pyehl.studies.oil_list import lubricants
     from pyehl.studies.sweep import sweep
     from pyehl.surfaces.tile import Topography
     from pyehl.theory.lubricant import Lubricant
@@ -51,7 +53,9 @@ __all__ = [
     "check",
     "export",
     "film",
+    "fit_lubricant",
     "load",
+    "lubricants",
     "plot",
     "predict",
     "response",
@@ -73,7 +77,9 @@ _HOMES = {
     "check": "api",
     "export": "netcdf",
     "film": "api",
+    "fit_lubricant": "studies.fit_folder",
     "load": "results",
+    "lubricants": "studies.oil_list",
     "plot": "plots.folder",
     "predict": "api",
     "response": "measured_response.folder",
