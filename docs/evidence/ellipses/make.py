@@ -123,9 +123,7 @@ def errors(point: tuple[str, float, float, float]) -> list[Row]:
 
 
 DOMAIN_POINTS = tuple(
-    itertools.product(
-        ("flooded", "zero"), (0.2, 0.5, 2.0, 6.0), (10.0, 60.0, 300.0), (4.0, 12.0)
-    )
+    itertools.product(("flooded", "zero"), (0.2, 0.5, 2.0, 6.0), (10.0, 60.0, 300.0), (4.0, 12.0))
 )
 # Shares of the widest domain, whose half-width is 8 a or 8 b
 SHARES = (1.0, 0.5, 0.375, 0.25)

@@ -67,7 +67,9 @@ def show() -> None:
     rows = numbers("cells")
     for kappa, moes_m in sorted({(row["kappa"], row["moes_m"]) for row in rows}):
         for ratio, (nodes, error) in ratios(rows, kappa, moes_m).items():
-            print(f"kappa {kappa:g}, M {moes_m:g}: cells 1:{ratio:g}, {nodes:.0f} nodes, {error:.2%}")
+            print(
+                f"kappa {kappa:g}, M {moes_m:g}: cells 1:{ratio:g}, {nodes:.0f} nodes, {error:.2%}"
+            )
 
 
 if __name__ == "__main__":
