@@ -48,8 +48,13 @@ def report(prediction: Prediction) -> str:
         if values["mu"] is not None:
             lines.append(
                 f"mu          {values['mu']:.4f}, smooth mu_s {values['mu_smooth']:.4f}; "
-                f"{values['mu_note']}; flash temperature {values['flash_temperature_K']:.2g} K"
+                f"{values['mu_note']}"
             )
+            if values["temperature_rise_max_K"] is not None:
+                lines.append(
+                    f"heat        film {values['temperature_rise_max_K']:.2g} K warmer, isothermal "
+                    f"mu {values['mu_isothermal']:.4f}"
+                )
         strongest = sorted(prediction.bands, key=lambda band: -abs(band.rise))[:3]
         parts = ", ".join(
             f"{b.rise:+.4f} from {b.longest * 1e6:.0f} to {b.shortest * 1e6:.0f} um"
