@@ -78,9 +78,9 @@ class RoughPassage:
         o = self.operating
         if self.options.reduction == "response":
             zone = zone_of(self.contact, o, self.lubricant)
+            weighs = self.lubricant.shear.weighs_flow
             moes, u = o.equivalent_moes, self.velocity_ratio
-            newtonian = self.lubricant.shear.law == "newtonian"
-            return Transfer.of(spectrum, zone, moes, u, at_amplitude=newtonian, mesh=self.mesh)
+            return Transfer.of(spectrum, zone, moes, u, at_amplitude=weighs, mesh=self.mesh)
         ratio = component_amplitude_ratio(
             spectrum.qx[:, np.newaxis],
             spectrum.qy[np.newaxis, :],

@@ -99,7 +99,7 @@ class RoughPair:
                 moving,
                 zone_of(one.contact, o, one.lubricant),
                 o.equivalent_moes,
-                at_amplitude=one.lubricant.shear.law == "newtonian",
+                at_amplitude=one.lubricant.shear.weighs_flow,
                 mesh=one.mesh,
             )
         else:
