@@ -31,6 +31,7 @@ from pyehl.prediction.transfer import Transfer
 from pyehl.prediction.waves import Waves
 from pyehl.surfaces import Topography, filtered, track_offsets
 from pyehl.theory.amplitude import component_amplitude_ratio
+from pyehl.theory.film import circle_with_same_inlet
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
@@ -71,7 +72,8 @@ class RoughPassage:
         o = self.operating
         if self.options.reduction == "response":
             zone = zone_of(self.contact, o, self.lubricant)
-            moes, u = o.equivalent_moes, self.velocity_ratio
+            moes = circle_with_same_inlet(o, self.lubricant, self.contact.central_film)
+            u = self.velocity_ratio
             newtonian = self.lubricant.shear.law == "newtonian"
             return Transfer.of(spectrum, zone, moes, u, at_amplitude=newtonian, mesh=self.mesh)
         ratio = component_amplitude_ratio(

@@ -182,8 +182,7 @@ class Prediction:
             q,
             0.0,
             o.hertz_radius,
-            o.moes_m,
-            o.moes_l,
+            *o.equivalent_moes,
             convention=self.options.wavelength_convention,
         )
         return {
@@ -281,6 +280,10 @@ class Prediction:
             "bands": self._bands(),
             "wall_seconds": self.seconds,
         }
+        if o.radius_ratio != 1.0:
+            values["radius_ratio"] = o.radius_ratio
+            values["ellipticity"] = o.ellipse.ellipticity
+            values["semi_axis_y_m"] = o.semi_axis_y
         return {key: _finite(value) for key, value in values.items()}
 
 

@@ -228,4 +228,5 @@ def zone_on(
         np.log(lubricant.viscosity_ratio(higher) / eta) / step,
         rho * film**3 / (eta * operating.speed_parameter),
         1.0 / operating.ellipse.kernel_ratio,
+        operating.ellipse.ellipticity,
     )

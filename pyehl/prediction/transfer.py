@@ -77,6 +77,7 @@ class Transfer:
     # The pressure of second order; None where the waves move with the roughness as they are
     second: SecondOrder | None = None
     stiffening: float = 1.0  # stiffness over that of the half-space under a circle
+    ellipticity: float = 1.0  # of the contact
 
     @classmethod
     def of(
@@ -119,8 +120,8 @@ class Transfer:
         turned = [np.exp(1j * kx * slip * (x + 1.0)) for x in STATIONS]
         parts = [(d, f * inlet[0] * t) for (d, f), t in zip(stations, turned, strict=True)]
         ratios = np.array([d + f for d, f in parts])
-        pressures = zone.stiffness * np.array(
-            [wave_pressure(kx, ky, velocity_ratio, d, f) for d, f in parts]
+        pressures = np.array(
+            [zone.stiffness * wave_pressure(kx, ky, velocity_ratio, d, f) for d, f in parts]
         )
         found = table.spread(
             [driven for driven, _ in stations]
@@ -129,7 +130,15 @@ class Transfer:
         )
         count = STATIONS.size
         second = SecondOrder(zone, STATIONS, table, ratios, pressures)
-        return cls(found[:count], found[count:-1], found[-1], bent, second, zone.stiffness)
+        return cls(
+            found[:count],
+            found[count:-1],
+            found[-1],
+            bent,
+            second,
+            zone.stiffness,
+            zone.ellipticity,
+        )
 
     @classmethod
     def carried(cls, ratio: Array, stiffening: float = 1.0) -> Transfer:

@@ -73,6 +73,7 @@ class Zone:
     thickening: Array  # d ln eta/dP [-]
     conductance: Array  # eps = rho H^3/(eta lambda) [-]
     stiffness: float = 1.0  # of waves, over that in a circular contact [-]
+    ellipticity: float = 1.0  # semi-axis across the motion over a [-]
 
 
 class _Flow:

@@ -4,11 +4,15 @@
 from __future__ import annotations
 
 import csv
+import math
 from pathlib import Path
 from typing import Any
 
+from scipy.optimize import brentq
+
 import pyehl
 from pyehl.surfaces import Topography, filtered, fractal
+from pyehl.theory.ellipse import ellipse
 from pyehl.theory.operating import OperatingPoint
 
 HERE = Path(__file__).resolve().parent
@@ -32,9 +36,7 @@ def case(row: dict[str, Any], points: int = 0) -> pyehl.Case:
     along, across = int(row["points"]), int(row["points_y"])
     if points:
         along, across = points, (across - 1) * (points - 1) // (along - 1) + 1
-    point = OperatingPoint.from_moes(
-        row["moes_m"], row["moes_l"], radius_ratio=row["radius_ratio"]
-    )
+    point = OperatingPoint.from_moes(row["moes_m"], row["moes_l"], radius_ratio=row["radius_ratio"])
     return pyehl.Case(
         contact={
             "load": point.load,
@@ -43,7 +45,12 @@ def case(row: dict[str, Any], points: int = 0) -> pyehl.Case:
             "radius_x": point.radius,
             "radius_y": point.radius / row["radius_ratio"],
         },
-        surface={"kind": "fractal", "velocity_ratio": row["velocity_ratio"]},
+        surface={
+            "kind": "fractal",
+            "length_x": row["length_x"] * point.hertz_radius,
+            "length_y": row["length_y"] * point.hertz_radius,
+            "velocity_ratio": row["velocity_ratio"],
+        },
         grid={
             "points": along,
             "points_y": across,
@@ -65,8 +72,17 @@ def surface(row: dict[str, Any]) -> Topography:
         row["length_y"] * a,
         rms_height=row["rms_height"] * point.film_scale,
         hurst=row["hurst"],
-        rolloff_wavenumber=2.0 * 3.141592653589793 / (rolloff * a) if rolloff else 0.0,
+        rolloff_wavenumber=2.0 * math.pi / (rolloff * a) if rolloff else 0.0,
         seed=int(row["seed"]),
     )
     shortest = row["shortest_wavelength"]
     return filtered(tile, shortest_wavelength=shortest * a) if shortest else tile
+
+
+def radius_ratio(ellipticity: float) -> float:
+    """R_x/R_y of a contact with the other semi-axis so many times as long as a."""
+
+    def miss(log_ratio: float) -> float:
+        return math.log(ellipse(math.exp(log_ratio)).ellipticity / ellipticity)
+
+    return math.exp(brentq(miss, -6.0, 6.0, xtol=1e-14))
