@@ -162,9 +162,24 @@ def inlet_fit(
     angle = c * _polynomial(fit["angle"], variables)
     origin, growth = (_polynomial(fit[name], variables) for name in ("origin", "growth"))
     shift = slip * (kx * origin + 1j * c * growth)
-    factor, power = OBLIQUE
-    oblique = (fit["oblique"] + factor * (ellipticity**power - 1.0)) * np.square(y)
+    oblique = fit["oblique"] * np.square(y)
+    if ellipticity != 1.0:
+        return np.asarray(np.exp(1j * shift) * _on_ellipse(log_z + 1j * angle, y, ellipticity))
     return np.asarray(np.exp(1j * shift) / (1.0 + np.exp(log_z + oblique + 1j * angle)))
+
+
+def _on_ellipse(log_z: Complex, y: ArrayLike, ellipticity: float) -> Complex:
+    """1/(1 + z) at y [semi-axis] of an ellipse, ln z on its centre line.
+
+    Where z grows faster than on a circle the rest of it does not turn the wave.
+    """
+    factor, power = OBLIQUE
+    round_growth = float(_fit()["oblique"])
+    growth = round_growth + factor * (ellipticity**power - 1.0)
+    turning = 1.0 + np.exp(log_z + min(growth, round_growth) * np.square(y))
+    whole = 1.0 + np.exp(log_z + growth * np.square(y))
+    loss = np.abs(turning) / np.abs(whole) if growth > round_growth else 1.0
+    return np.asarray(loss / turning)
 
 
 def _nabla_2(q: Array, moes: tuple[float, float]) -> Array:
