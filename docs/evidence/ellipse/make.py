@@ -13,7 +13,7 @@ from cases import HERE, case, read, surface
 from pyehl.solver import Solver
 
 COLUMNS = (
-    "name status mu_ratio mu_ratio_error_grid mu_ratio_error_stop mu_ratio_coarse H_c steps seconds"
+    "name status mu_ratio mu_ratio_error_grid mu_ratio_error_stop H_c steps seconds"
 ).split()
 
 
