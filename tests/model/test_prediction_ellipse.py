@@ -12,10 +12,17 @@ import pytest
 
 import pyehl
 from pyehl.errors import InputError
+from pyehl.measured_response.table import shipped_response
+from pyehl.prediction.errors import outside_range
+from pyehl.prediction.options import Options
+from pyehl.prediction.smooth import solve_contact, zone_of
 from pyehl.theory.disc import RADIUS, disc_correction, monomials
 from pyehl.theory.ellipse import Ellipse, ellipse
 from pyehl.theory.ellipse_edge import EllipseEdge, pressure
+from pyehl.theory.film import circle_with_same_inlet
+from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.response import inlet_fit
 
 # R_x/R_y of the ellipticities 2 and 0.4
 WIDE, NARROW = 0.351771642284186, 3.998264475680259
@@ -39,7 +46,7 @@ def test_pressure_of_waves_on_an_ellipse_against_elements(ratio):
     """Squares of constant pressure that deflect the ellipse by a wave but for a constant."""
     shape = ellipse(ratio)
     kappa = shape.ellipticity
-    h = min(1.0, kappa) / 20.0
+    h = min(1.0, kappa) / (20.0 if kappa > 1.0 else 14.0)
     x, y = (np.arange(-reach + 0.5 * h, reach, h) for reach in (1.0, kappa))
     x, y = (v.ravel() for v in np.meshgrid(x, y, indexing="ij"))
     inside = np.hypot(x, y / kappa) < 1.0
@@ -92,19 +99,19 @@ def test_polynomials_meet_the_edge(kappa):
 
 
 def test_circle_is_the_limit_of_ellipses():
-    """A hair beside the circle the other code predicts the same."""
+    """A hair beside the circle the other code predicts the same, but for its film by a formula."""
     contact = {"contact.moes_m": 300.0, "contact.moes_l": 10.0}
     found = [
         pyehl.predict(pyehl.Case.from_text("", contact | ROUGH | {"contact.radius_ratio": ratio}))
         for ratio in (1.0, 1.0 + 1e-6)
     ]
     here, near = found
-    assert near.mu_ratio == pytest.approx(here.mu_ratio, rel=2e-4)
+    assert near.mu_ratio == pytest.approx(here.mu_ratio, rel=1e-3)
     assert near.summary["mu_ratio_tracks"] == pytest.approx(
-        here.summary["mu_ratio_tracks"], rel=2e-4
+        here.summary["mu_ratio_tracks"], rel=1e-3
     )
     for one, other in zip(here.bands, near.bands, strict=True):
-        assert other.rise == pytest.approx(one.rise, abs=2e-4)
+        assert other.rise == pytest.approx(one.rise, abs=5e-4)
     assert "ellipticity" not in here.summary
     assert near.summary["ellipticity"] == pytest.approx(1.0, abs=1e-6)
 
@@ -123,25 +130,76 @@ def test_circle_with_the_same_inlet(ratio):
     assert stiffness == pytest.approx(modulus, rel=1e-12)
 
 
+def rows_of(path: Path) -> list[dict[str, float]]:
+    with path.open() as stream:
+        return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(stream)]
+
+
 def test_waves_as_measured(root: Path):
-    """Of the three circles the one with the same inlet is met, as well as circles are."""
-    lines = (root / "docs" / "evidence" / "ellipse" / "response.csv").read_text().splitlines()
-    rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(lines)]
-    shapes = {row["ellipticity"] for row in rows}
-    assert {0.4, 1.0, 2.0, 4.0} <= shapes
-    rms = {}
-    for kappa in shapes:
-        part = [row for row in rows if row["ellipticity"] == kappa]
-        for name in ("circle", "houpert", "by_rx"):
-            off = [
-                abs(complex(r[f"{name}_re"] - r["T_re"], r[f"{name}_im"] - r["T_im"])) for r in part
-            ]
-            rms[kappa, name] = math.sqrt(sum(v * v for v in off) / len(off))
-    for kappa in shapes - {1.0}:
-        assert rms[kappa, "circle"] < rms[1.0, "circle"] + 0.015
-        if not 0.8 < kappa < 1.25:
-            assert rms[kappa, "houpert"] > 1.5 * rms[kappa, "circle"]
-            assert rms[kappa, "by_rx"] > 3.0 * rms[kappa, "circle"]
+    """The circle with the same inlet is met as well as circles are; others are not."""
+    rows = rows_of(root / "docs" / "evidence" / "ellipse" / "response.csv")
+    groups: dict[tuple[float, ...], list[dict[str, float]]] = {}
+    for row in rows:
+        key = row["ellipticity"], row["moes_m"], row["moes_l"], row["velocity_ratio"]
+        groups.setdefault(key, []).append(row)
+    assert {key[0] for key in groups} == {0.4, 0.6, 1.0, 2.0, 4.0}
+    for (kappa, *_), part in groups.items():
+        assert len(part) == 10
+        rms = {}
+        for name in ("circle", "dry", "houpert", "by_rx"):
+            off = [complex(r[f"{name}_re"] - r["T_re"], r[f"{name}_im"] - r["T_im"]) for r in part]
+            rms[name] = math.sqrt(sum(abs(v) ** 2 for v in off) / len(off))
+        # 257 nodes leave 0.024 on circles
+        assert rms["circle"] < (0.026 if kappa > 0.5 else 0.06)
+        if kappa != 1.0:
+            assert rms["houpert"] > 2.0 * rms["circle"]
+            assert rms["by_rx"] > 3.0 * rms["circle"]
+        if kappa < 0.5 or kappa > 1.5:
+            assert rms["circle"] < 0.9 * rms["dry"]
+        mean = sum(r["circle_pressure"] / r["pressure"] for r in part) / len(part)
+        assert mean == pytest.approx(1.0, abs=0.015)
+
+
+def test_shipped_waves_are_those_of_the_table(root: Path, script):
+    """The response of today at the conditions of the table."""
+    rows = rows_of(root / "docs" / "evidence" / "ellipse" / "response.csv")
+    part = [row for row in rows if row["ellipticity"] == 0.4 and row["moes_m"] == 500.0]
+    cases = script("docs/evidence/ellipse/cases.py")
+    settings = cases.case_of_circle(0.4, 500.0, 10.0, 1.02).resolve()
+    point, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
+    smooth = solve_contact(settings)
+    zone = zone_of(smooth, point, oil)
+    moes = circle_with_same_inlet(point, oil, smooth.central_film)
+    kx, ky = (np.array([row[name] for row in part]) for name in ("kx", "ky"))
+    found = shipped_response(kx, ky, zone, moes, 1.02)[:, 1]
+    there = np.array([complex(row["circle_re"], row["circle_im"]) for row in part])
+    # the table has the film of its own grid
+    assert np.abs(found - there).max() < 0.02
+
+
+def test_off_the_centre_line(root: Path):
+    """The inlet lets less through beside the centre line of a narrow contact, as measured."""
+    rows = rows_of(root / "docs" / "evidence" / "ellipse" / "off_centre.csv")
+    for kappa in (0.4, 0.6, 2.0, 4.0):
+        part = [r for r in rows if r["ellipticity"] == kappa and 8.0 < r["kx"] < 20.0]
+        middle = {r["kx"]: r for r in part if r["y"] == 0.0}
+        ratio = {0.4: NARROW, 0.6: 2.15607, 2.0: WIDE, 4.0: 0.120434}[kappa]
+        kernel = ellipse(ratio).kernel_ratio
+        point = OperatingPoint.from_moes(
+            500.0 * kappa / kernel**1.25, 10.0 / kernel**0.25, radius_ratio=ratio
+        )
+        assert point.equivalent_moes == pytest.approx((500.0, 10.0), rel=1e-3)
+        for row in (r for r in part if 0.4 < r["y"] < 0.6):
+            one, other = (
+                complex(inlet_fit(row["kx"], 0.0, (500.0, 10.0), 1.02, y, kappa))
+                for y in (0.0, row["y"])
+            )
+            fall = row["modulus"] / middle[row["kx"]]["modulus"]
+            assert abs(other / one) == pytest.approx(fall, abs=0.1)
+            turn = math.radians(row["lag"] - middle[row["kx"]]["lag"])
+            assert math.atan2((other / one).imag, (other / one).real) == pytest.approx(
+                turn, abs=0.12
+            )
 
 
 def test_what_is_refused():
@@ -159,12 +217,6 @@ def test_what_is_refused():
 
 def test_outside_of_the_range_by_the_same_inlet():
     """An ellipticity that was not measured, and M that is in range by R_x alone."""
-    point = {"contact.moes_m": 3000.0, "contact.moes_l": 10.0}
-    for more, names in (
-        ({"contact.radius_ratio": 0.03}, ["ellipticity"]),
-        ({"contact.radius_ratio": NARROW}, ["moes_m"]),
-        ({"contact.radius_ratio": WIDE}, []),
-    ):
-        found = pyehl.predict(pyehl.Case.from_text("", point | ROUGH | more), tracks=1)
-        assert found.outside_range == names
-        assert math.isfinite(found.model_error) == (not names)
+    for ratio, names in ((0.03, ["ellipticity"]), (NARROW, ["moes_m"]), (WIDE, []), (1.0, [])):
+        point = OperatingPoint.from_moes(2900.0, 10.0, radius_ratio=ratio)
+        assert outside_range(point, 1.02, Options()) == names

@@ -86,3 +86,16 @@ def radius_ratio(ellipticity: float) -> float:
         return math.log(ellipse(math.exp(log_ratio)).ellipticity / ellipticity)
 
     return math.exp(brentq(miss, -6.0, 6.0, xtol=1e-14))
+
+
+def case_of_circle(kappa: float, moes_m: float, moes_l: float, ratio: float) -> pyehl.Case:
+    """Make the case of a contact with the dry inlet of the circle of M and L."""
+    shape = ellipse(radius_ratio(kappa))
+    return pyehl.Case(
+        contact={
+            "moes_m": moes_m * kappa / shape.kernel_ratio**1.25,
+            "moes_l": moes_l / shape.kernel_ratio**0.25,
+            "radius_ratio": shape.radius_ratio,
+        },
+        surface={"kind": "fractal", "velocity_ratio": ratio},
+    )

@@ -1,87 +1,102 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measure small waves on elliptical contacts: rows of response.csv, some minutes each.
+"""Measure small waves on elliptical contacts: lines of response.csv, a minute or some each.
 
 python docs/evidence/ellipse/response.py ELLIPTICITY M L U
 
-M and L are those of the circular contact with the same inlet. Waves on 257 nodes along X; a line
-has T at X = Y = 0 as measured, by the response of that circle, and by two other choices of M and L:
-those of Biboulet & Houpert 2010, and M and L by R_x; and the pressure over that of the half-space.
+M and L are those of the circular contact with the same dry inlet (`equivalent_moes`). A line is a
+wave, on 257 nodes along X, at X = Y = 0: T as measured; by the
+response of the circle with the same inlet and film, that with the same dry inlet, that of Biboulet
+& Houpert 2010, and that of M and L by R_x; the pressure over roughness measured, and by the first.
 """
 
 from __future__ import annotations
 
 import csv
 import sys
+from typing import Any
 
 import numpy as np
 
-from cases import HERE, radius_ratio
-from pyehl.case import Case
-from pyehl.measured_response.superposition import superpose
+from cases import HERE, case_of_circle
+from pyehl.handle import SolverHandle
+from pyehl.measured_response.superposition import Superposition, WaveSet, superpose, transient_case
 from pyehl.measured_response.tiers import TIERS, tier_waves
-from pyehl.prediction.smooth import zone_on
-from pyehl.theory.ellipse import ellipse
+from pyehl.prediction.smooth import solve_contact, zone_on
+from pyehl.theory.film import circle_with_same_inlet
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import edge_gain, inlet_transfer
-from pyehl.theory.transport import stiffness, transport
+from pyehl.theory.transport import Zone, transport, wave_pressure
 
+MODELS = ("circle", "dry", "houpert", "by_rx")
 COLUMNS = (
-    "ellipticity moes_m moes_l velocity_ratio wavelength direction T_re T_im circle_re circle_im "
-    "houpert_re houpert_im by_rx_re by_rx_im pressure_ratio edge_gain"
+    "ellipticity moes_m moes_l velocity_ratio kx ky T_re T_im "
+    + " ".join(f"{name}_{part}" for name in MODELS for part in ("re", "im"))
+    + " pressure circle_pressure"
 ).split()
 NODES = 14
+LONGEST = 3.0
+
+
+def smooth_zone(settings: dict[str, dict[str, Any]], points: int) -> Zone:
+    """Solve the smooth contact on the grid of the measurement."""
+    case = transient_case(settings, points=points, tile=4.0, velocity_ratio=1.0, solver={})
+    with SolverHandle(case.with_options("surface.kind=smooth").text) as solver:
+        solver.run()
+        (x, y), pressure, film = solver.axes(), solver.field("P"), solver.field("H")
+    middle = int(np.argmin(np.abs(y)))
+    point, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
+    return zone_on(x, np.maximum(pressure[:, middle], 0.0), film[:, middle], point, oil)
+
+
+def lines(conditions: list[float], waves: WaveSet, found: Superposition) -> list[list[str]]:
+    """Give the lines of a measurement."""
+    ratio = conditions[3]
+    settings = case_of_circle(*conditions).resolve()
+    point, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
+    shape = point.ellipse
+    zone = smooth_zone(settings, TIERS[0].points)
+    kx, ky = waves.kx, waves.ky
+    driven, free = transport(zone, kx, ky, ratio, np.zeros(1), found.spacing)[0]
+    turned = free * np.exp(1j * kx * (ratio - 1.0))
+    same = circle_with_same_inlet(point, oil, solve_contact(settings).central_film)
+    houpert = (
+        point.moes_m * shape.kernel_ratio**-0.25 / shape.ellipticity,
+        point.moes_l * shape.kernel_ratio**0.75,
+    )
+    carried = [
+        turned * inlet_transfer(zone, kx, ky, moes, ratio)
+        for moes in (same, point.equivalent_moes, houpert, (point.moes_m, point.moes_l))
+    ]
+    cell = np.sinc(kx * found.spacing / (2.0 * np.pi)) * np.sinc(ky * found.spacing / (2.0 * np.pi))
+    film = zone.stiffness * found.central_film
+    gain = zone.stiffness * edge_gain(kx, ky, film, ellipticity=shape.ellipticity) / cell
+    pressure = gain * wave_pressure(kx, ky, ratio, driven, carried[0])
+    middle = int(np.argmin(np.abs(found.x)))
+    table = []
+    for k in np.argsort(waves.q):
+        length = 2.0 * np.pi / waves.q[k]
+        if length < NODES * found.spacing * 0.9 or 2.0 * np.pi / kx[k] > LONGEST:
+            continue
+        values = [*conditions, kx[k], ky[k]]
+        for one in (found.response[k, middle], *(driven[k] + wave[k] for wave in carried)):
+            values += [one.real, one.imag]
+        values += [abs(found.stiffness[k, middle]), abs(pressure[k])]
+        table.append([f"{v:.5g}" for v in values])
+    return table
 
 
 def main() -> None:
     """Measure, and add the waves to the table."""
-    kappa, moes_m, moes_l, ratio = map(float, sys.argv[1:5])
-    shape = ellipse(radius_ratio(kappa))
-    kernel = shape.kernel_ratio
-    case = Case(
-        contact={
-            "moes_m": moes_m * kappa / kernel**1.25,
-            "moes_l": moes_l / kernel**0.25,
-            "radius_ratio": shape.radius_ratio,
-        },
-        surface={"kind": "fractal", "velocity_ratio": ratio},
-    )
-    settings = case.resolve()
-    point, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
+    conditions = [float(word) for word in sys.argv[1:5]]
     waves = tier_waves(TIERS[0])
-    found = superpose(settings, waves, points=TIERS[0].points, velocity_ratio=ratio)
-    zone = zone_on(found.x, np.maximum(found.pressure, 0.0), found.film, point, oil)
-    middle = int(np.argmin(np.abs(found.x)))
-    t = found.response[:, middle]
-    kx, ky = waves.kx, waves.ky
-    driven, free = transport(zone, kx, ky, ratio, np.zeros(1), found.spacing)[0]
-    slip = np.exp(1j * kx * (ratio - 1.0))
-    models = [
-        driven + free * slip * inlet_transfer(zone, kx, ky, numbers, ratio)
-        for numbers in (
-            point.equivalent_moes,
-            (point.moes_m * kernel**-0.25 / kappa, point.moes_l * kernel**0.75),
-            (point.moes_m, point.moes_l),
-        )
-    ]
-    cell = np.sinc(kx * found.spacing / (2.0 * np.pi)) * np.sinc(ky * found.spacing / (2.0 * np.pi))
-    half_space = zone.stiffness * stiffness(waves.q) / cell * (1.0 - t)
-    gain = edge_gain(kx, ky, zone.stiffness * found.central_film)
-    lines = []
-    for k in np.argsort(waves.q):
-        wavelength = 2.0 * np.pi / waves.q[k]
-        if wavelength < NODES * found.spacing * (1.0 - 1e-9) or kx[k] < 2.0 * np.pi / 3.0:
-            continue
-        values = [kappa, moes_m, moes_l, ratio, wavelength, np.degrees(np.arctan2(ky[k], kx[k]))]
-        for one in (t, *models):
-            values += [one[k].real, one[k].imag]
-        values += [abs(found.stiffness[k, middle] / half_space[k]), gain[k]]
-        lines.append([f"{v:.5g}" for v in values])
+    settings = case_of_circle(*conditions).resolve()
+    found = superpose(settings, waves, points=TIERS[0].points, velocity_ratio=conditions[3])
     path = HERE / "response.csv"
-    fresh = not path.exists()
+    fresh = [] if path.exists() else [COLUMNS]
     with path.open("a", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, lineterminator="\n")
-        writer.writerows([COLUMNS, *lines] if fresh else lines)
+        writer.writerows(fresh + lines(conditions, waves, found))
 
 
 if __name__ == "__main__":
