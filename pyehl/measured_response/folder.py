@@ -21,9 +21,8 @@ from pyehl.measured_response.tiers import TIERS
 from pyehl.netcdf import write_netcdf
 from pyehl.prediction.errors import outside_range
 from pyehl.prediction.options import Options
-from pyehl.prediction.smooth import solve_contact, zone_of
+from pyehl.prediction.smooth import circle_of, solve_contact, zone_of
 from pyehl.results import scalars
-from pyehl.theory.film import circle_with_same_inlet
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
@@ -120,7 +119,7 @@ def _write(case: Case, found: Mapping[str, Mapping[str, Any]], place: Destinatio
     operating = OperatingPoint.from_settings(settings)
     smooth, lubricant = solve_contact(settings), Lubricant.from_settings(settings)
     zone = zone_of(smooth, operating, lubricant)
-    moes = circle_with_same_inlet(operating, lubricant, smooth.central_film)
+    moes = circle_of(smooth, operating, lubricant)
     data = dataset(found, zone, operating, moes, ratio)
     at_centre = data.sel(X=0.0)
     longest, shortest = (float(data["wavelength"][i]) for i in (0, -1))

@@ -178,7 +178,11 @@ def advise(
         spikes = _spikes(made, without_spikes, carries)
     return Advice(
         below, x, y,
-        carrying_wavelength(tile, without_shorter, carries),
+        carrying_wavelength(
+            2.0 * min(tile.pixel),
+            max(tile.size),
+            lambda shortest: carries(without_shorter(tile, shortest)),
+        ),
         *(spikes or (None, None)),
     )  # fmt: skip
 

@@ -10,7 +10,7 @@ from pyehl import surfaces
 from pyehl.case import Case
 from pyehl.errors import EhlError, InputError
 from pyehl.prediction.by_response import RoughPassage
-from pyehl.prediction.options import Options, thinning_flow, turned, unpredictable
+from pyehl.prediction.options import Options, turned, unpredictable
 from pyehl.prediction.smooth import solve_contact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import Topography
@@ -116,9 +116,6 @@ def resolution(case: Case, tile: Topography | None = None) -> Resolution | None:
     shortest = NODES * mesh * operating.hertz_radius
     if not Spectrum.of(tile.heights, tile.length_x, tile.length_y).share_below(shortest) > 0.0:
         return None
-    why = thinning_flow(settings)
-    if why:
-        raise EhlError(why)
     contact = solve_contact(settings)
     passage = RoughPassage(tile, contact, operating, lubricant, Options(), ratio)
     found, _, _ = passage.run(0, brief=True)

@@ -11,12 +11,13 @@ of the contact (:mod:`pyehl.theory.disc`).
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pyehl import library
-from pyehl.prediction.contact import ShearedContact
+from pyehl.prediction.contact import INNER, ShearedContact
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import OFF_CENTRE, STATIONS
@@ -31,13 +32,16 @@ __all__ = [
     "REACH",
     "Edge",
     "RoughContact",
+    "WavyContact",
     "away_from_centre",
+    "pairs",
     "slipped",
     "station_weights",
 ]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+Single = NDArray[np.float32]
 
 REACH = 1.0
 """Friction is taken within this distance from the centre [semi-axes]."""
@@ -117,8 +121,82 @@ class Edge:
         return monomials(held * x, held * y, axis=0)
 
 
-class RoughContact(ShearedContact):
-    """Points of a contact with waves: pressures in p_h, films in a^2/R."""
+class WavyContact(ShearedContact):
+    """Points of a contact that waves change: pressures in p_h, films in a^2/R.
+
+    At places x (m,), y (n,) [a]; a point stands for an `area` [m^2]. `edges` of the tiles;
+    `second`: gamma and s^2 of the pressure of second order at the stations.
+    """
+
+    def __init__(
+        self,
+        contact: SmoothContact,
+        x: Array,
+        y: Array,
+        *,
+        edges: Sequence[Edge],
+        area: float,
+        operating: OperatingPoint,
+        lubricant: Lubricant,
+        second: tuple[Array, Array] | None = None,
+    ) -> None:
+        super().__init__(operating, lubricant)
+        self.x, self.y, self.area = x, y, area
+        self.pressure, self.film = contact.at(self.x, self.y)
+        self.across = self.y / operating.ellipse.ellipticity
+        self.radius = np.hypot(self.x[:, np.newaxis], self.across[np.newaxis, :])
+        self.inside = (self.radius < REACH) & (self.pressure > 0.0)
+        self.points = int(np.count_nonzero(self.inside))
+        self.inner = self.inside & (self.radius < INNER)
+        self.weights = station_weights(self.x).astype(np.float32)
+        self.off = away_from_centre(self.across).astype(np.float32)
+        grid = np.meshgrid(self.x, self.across, indexing="ij")
+        # (n, points): what is summed over them is read in order
+        edge = next((edge for edge in edges if edge.coefficients.size), edges[0])
+        shape = edge.coefficients.shape[0], self.film.size
+        self.polynomials = edge.polynomials(*grid).reshape(shape).astype(np.float32)
+        # of the pressure of second order
+        self.second = second and [np.interp(self.x, STATIONS, v)[:, np.newaxis] for v in second]
+        self.smooth = float(self.stress(self.pressure, self.film)[self.inside].sum())
+        self.thinnest = float(self.film[self.inside].min())
+
+    def add_edge(self, total: Single, edge: Array) -> None:
+        """Add what the edge of the contact does, by its coefficients (28,), to the pressure."""
+        # threads of a product of matrices cost more than they bring
+        wide = np.einsum("k,kn->n", edge.astype(np.float32), self.polynomials)
+        total[..., 1] += wide.reshape(self.film.shape)
+
+    def add_second(self, total: Single) -> None:
+        """Add the pressure of second order to that of the waves."""
+        if self.second:
+            gain, variance = self.second
+            total[..., 1] += gain * (np.square(total[..., 1]) - variance)
+
+    def sheared(self, change: Single) -> float:
+        """Friction over that of the smooth contact, film and pressure changed by (m, n, 2).
+
+        NaN where the film is not positive.
+        """
+        film = self.film - change[..., 0]
+        pressure = self.pressure + change[..., 1]
+        self.count += 1
+        carried = 1.5 * float(change[..., 1].sum(where=self.inside)) / self.points
+        self.imbalance = max(self.imbalance, abs(carried))
+        self.thinnest = min(self.thinnest, float(film.min(where=self.inside, initial=math.inf)))
+        if self.thinnest <= 0.0:
+            return math.nan
+        self.cavitated += int(np.count_nonzero((pressure <= 0.0) & self.inside))
+        # outside nothing is counted: any film and pressure will do
+        film[~self.inside] = math.inf
+        self.meet(change[..., 1], film, self.inner)
+        film[~self.inside] = 1.0
+        np.maximum(pressure, 0.0, out=pressure)
+        with np.errstate(over="ignore"):
+            return float(self.stress(pressure, film).sum(where=self.inside)) / self.smooth
+
+
+class RoughContact(WavyContact):
+    """Points of a contact at pixels of one tile with waves."""
 
     def __init__(
         self,
@@ -133,39 +211,29 @@ class RoughContact(ShearedContact):
         velocity_ratio: float,
         second: tuple[Array, Array] | None = None,
     ) -> None:
-        super().__init__(operating, lubricant)
         self.waves, self.edge, self.pixel = waves, edge, pixel
-        kappa = operating.ellipse.ellipticity
-        reach = REACH, REACH * kappa
+        reach = REACH, REACH * operating.ellipse.ellipticity
         half = [int(r / (stride * p)) for r, p in zip(reach, pixel, strict=True)]
         self.rows, self.columns = (np.arange(-n, n + 1, dtype=np.int32) * stride for n in half)
-        self.x = np.asarray(self.rows * pixel[0], dtype=float)
-        self.y = np.asarray(self.columns * pixel[1], dtype=float)
-        self.pressure, self.film = contact.at(self.x, self.y)
-        across = self.y / kappa
-        radius = np.hypot(self.x[:, np.newaxis], across[np.newaxis, :])
-        self.inside = (radius < REACH) & (self.pressure > 0.0)
-        self.points = int(np.count_nonzero(self.inside))
-        self.weights = station_weights(self.x).astype(np.float32)
-        self.off = away_from_centre(across).astype(np.float32)
+        super().__init__(
+            contact,
+            np.asarray(self.rows * pixel[0], dtype=float),
+            np.asarray(self.columns * pixel[1], dtype=float),
+            edges=[edge],
+            area=stride**2 * pixel[0] * pixel[1] * operating.hertz_radius**2,
+            operating=operating,
+            lubricant=lubricant,
+            second=second,
+        )
         # the free wave is that of the roughness where it was when the inlet made it; without a bend
         # it is so on all lines
-        lines = across if waves.bent else np.zeros(1)
+        lines = self.across if waves.bent else np.zeros(1)
         way = slipped(self.x[:, np.newaxis], lines, velocity_ratio, bent=waves.bent)
         place = (self.x[:, np.newaxis] + way) / pixel[0] * REFINEMENT
         self.free_rows = np.floor(place).astype(np.int32)
         self.between = (place - self.free_rows).astype(np.float32)
-        grid = np.meshgrid(self.x, across, indexing="ij")
-        # (n, points): what is summed over them is read in order
-        shape = edge.coefficients.shape[0], self.film.size
-        self.polynomials = edge.polynomials(*grid).reshape(shape).astype(np.float32)
-        # of the pressure of second order
-        self.second = second and [np.interp(self.x, STATIONS, v)[:, np.newaxis] for v in second]
-        self.area = stride**2 * pixel[0] * pixel[1] * operating.hertz_radius**2
-        self.smooth = float(self.stress(self.pressure, self.film)[self.inside].sum())
-        self.thinnest = float(self.film[self.inside].min())
 
-    def change(self, shift: int, track: int = 0) -> Array:
+    def change(self, shift: int, track: int = 0) -> Single:
         """Loss of film [a^2/R] and gain of pressure [p_h] at the points, (m, n, 2).
 
         The tile has moved by `shift` and `track` pixels along and across the motion; `track` is a
@@ -176,7 +244,7 @@ class RoughContact(ShearedContact):
         columns = columns.astype(np.int32)
         total = np.zeros((*self.film.shape, 2), dtype=np.float32)
         library.waves.driven_waves(
-            _pairs(waves.driven), self.rows, columns, self.weights.T, shift, _pairs(total)
+            pairs(waves.driven), self.rows, columns, self.weights.T, shift, pairs(total)
         )
         for tile, weights, part in (
             (waves.free, self.weights, np.ones_like(self.off)),
@@ -184,43 +252,24 @@ class RoughContact(ShearedContact):
         ):
             if tile is not None:
                 library.waves.free_waves(
-                    _pairs(tile),
+                    pairs(tile),
                     self.free_rows.T,
                     columns,
                     self.between.T,
                     weights.T,
                     part,
                     shift * REFINEMENT,
-                    _pairs(total),
+                    pairs(total),
                 )
-        edge = self.edge.at(shift * self.pixel[0], track * self.pixel[1])
-        # threads of a product of matrices cost more than they bring
-        wide = np.einsum("k,kn->n", edge.astype(np.float32), self.polynomials)
-        total[..., 1] += wide.reshape(self.film.shape)
-        if self.second:
-            gain, variance = self.second
-            total[..., 1] += gain * (np.square(total[..., 1]) - variance)
-        return np.asarray(total)
+        self.add_edge(total, self.edge.at(shift * self.pixel[0], track * self.pixel[1]))
+        self.add_second(total)
+        return total
 
     def friction(self, shift: int, track: int = 0) -> float:
         """Friction over that of the smooth contact; NaN where the film is not positive."""
-        change = self.change(shift, track)
-        film = self.film - change[..., 0]
-        pressure = self.pressure + change[..., 1]
-        self.count += 1
-        carried = 1.5 * float(change[..., 1].sum(where=self.inside)) / self.points
-        self.imbalance = max(self.imbalance, abs(carried))
-        self.thinnest = min(self.thinnest, float(film.min(where=self.inside, initial=math.inf)))
-        if self.thinnest <= 0.0:
-            return math.nan
-        self.cavitated += int(np.count_nonzero((pressure <= 0.0) & self.inside))
-        # outside nothing is counted: any film and pressure will do
-        film[~self.inside] = 1.0
-        np.maximum(pressure, 0.0, out=pressure)
-        with np.errstate(over="ignore"):
-            return float(self.stress(pressure, film).sum(where=self.inside)) / self.smooth
+        return self.sheared(self.change(shift, track))
 
 
-def _pairs(values: NDArray[np.float32]) -> NDArray[np.complex64]:
+def pairs(values: NDArray[np.float32]) -> NDArray[np.complex64]:
     """Film and pressure of the last dimension as one number, the dimensions reversed."""
     return values.view(np.complex64)[..., 0].T

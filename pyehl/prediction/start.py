@@ -22,7 +22,7 @@ from pyehl.errors import EhlError, InputError
 from pyehl.handle import SolverHandle
 from pyehl.prediction.by_response import Parts, RoughPassage
 from pyehl.prediction.errors import model_error, outside_range
-from pyehl.prediction.options import Options, thinning_flow
+from pyehl.prediction.options import Options
 from pyehl.prediction.rough_contact import (
     REACH,
     away_from_centre,
@@ -80,9 +80,6 @@ def starting_pressure(
     EhlError
         If the smooth contact has no solution.
     """
-    why = thinning_flow(settings)
-    if why:
-        raise InputError(why)
     passage = replace(_passage(settings, tile), mesh=float(x[1] - x[0]))
     beyond = outside_range(passage.operating, passage.velocity_ratio, passage.options)
     if beyond:

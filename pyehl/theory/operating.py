@@ -55,6 +55,8 @@ class OperatingPoint:
         Film over the isothermal one [-], which `viscosity` contains; 1 where it is not counted.
     radius_ratio
         R_x/R_y [-]; 1: circular.
+    thermal_conductivity_2, thermal_diffusivity_2
+        Of body 2, if it is of another material; 0: as body 1.
 
     Raises
     ------
@@ -84,6 +86,8 @@ class OperatingPoint:
     thermal_diffusivity: float = 1.25e-5
     thermal_reduction: float = 1.0
     radius_ratio: float = 1.0
+    thermal_conductivity_2: float = 0.0
+    thermal_diffusivity_2: float = 0.0
 
     def __post_init__(self) -> None:
         """Check the numbers."""
@@ -172,6 +176,8 @@ class OperatingPoint:
             slide_to_roll=slide_to_roll,
             thermal_conductivity=float(contact.get("thermal_conductivity", 46.0)),
             thermal_diffusivity=float(contact.get("thermal_diffusivity", 1.25e-5)),
+            thermal_conductivity_2=float(contact.get("thermal_conductivity_2", 0.0)),
+            thermal_diffusivity_2=float(contact.get("thermal_diffusivity_2", 0.0)),
             radius_ratio=radii[0] / radii[1],
         )
         if not lubricant.get("thermal_reduction", False):
@@ -191,6 +197,16 @@ class OperatingPoint:
     def sliding_speed(self) -> float:
         """Sliding speed abs(u1 - u2) [m/s]."""
         return abs(self.slide_to_roll) * self.mean_velocity
+
+    @property
+    def thermal_conductivities(self) -> tuple[float, float]:
+        """Thermal conductivity of body 1 and of body 2 [W/(m K)]."""
+        return self.thermal_conductivity, self.thermal_conductivity_2 or self.thermal_conductivity
+
+    @property
+    def thermal_diffusivities(self) -> tuple[float, float]:
+        """Thermal diffusivity of body 1 and of body 2 [m^2/s]."""
+        return self.thermal_diffusivity, self.thermal_diffusivity_2 or self.thermal_diffusivity
 
     @property
     def ellipse(self) -> Ellipse:
