@@ -15,7 +15,7 @@ module ehl_case_law
    use ehl_text, only: newline, to_text
    use ehl_viscosity_file, only: read_isotherms
    use ehl_viscosity_law, only: viscosity_law_t
-   use ehl_viscosity_table, only: isotherm_t, new_viscosity_table
+   use ehl_viscosity_table, only: isotherm_t, new_viscosity_table, viscosity_table_t
    use ehl_yasutomi, only: new_yasutomi
    implicit none (type, external)
    private
@@ -78,6 +78,7 @@ contains
       class(viscosity_law_t), allocatable, intent(out) :: law
       type(status_t), intent(inout) :: status
       type(isotherm_t), allocatable :: isotherms(:)
+      type(viscosity_table_t) :: table
 
       select case (name)
       case ("dicke")
@@ -91,8 +92,8 @@ contains
          call read_isotherms(trim(l%table), isotherms, status)
          if (status%failed()) return
          if (size(isotherms) == 1) call check_single(l, isotherms(1), status)
-         allocate (law, source=new_viscosity_table(isotherms, hertz_pressure, l%temperature + freezing, &
-                                                   l%temperature_viscosity))
+         table = new_viscosity_table(isotherms, hertz_pressure, l%temperature + freezing, l%temperature_viscosity)
+         allocate (law, source=table)
       end select
    end subroutine make_viscosity
 

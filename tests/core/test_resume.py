@@ -28,7 +28,8 @@ WAVE = (
 # With the heat of friction in its history
 FRACTAL = (
     "&contact load = 20.0 slide_to_roll = 0.1 /\n"
-    "&lubricant shear_law = 'eyring' temperature_viscosity = 0.04 /\n&grid points = 65 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+    "&lubricant shear_law = 'eyring' temperature_viscosity = 0.04 /\n"
+    "&grid points = 65 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
     "&surface kind = 'fractal' pixels = 32 length_x = 1e-4 length_y = 1e-4 rms_height = 2e-8 /\n"
 )
 OFTEN = ["--set", "output.checkpoint_interval=1e-3"]
