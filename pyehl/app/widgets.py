@@ -28,8 +28,9 @@ class KnobWidget:
         self.knob, self._turned = knob, turned
         # while the page itself moves the knob nobody has turned it
         self._quiet = False
+        # always there: what comes and goes would take the focus from the field
         self.error = Div(
-            text="", visible=False, styles=ERROR, width=WIDTH, name=f"error_{knob.name}"
+            text="", styles=ERROR, width=WIDTH, margin=(0, 5, 0, 5), name=f"error_{knob.name}"
         )
         self.slider: Any = None
         if isinstance(knob, Choice):
@@ -61,7 +62,6 @@ class KnobWidget:
     def say(self, text: str) -> None:
         """Say at the knob what is wrong with it; '' for nothing."""
         self.error.text = escape(text)
-        self.error.visible = bool(text)
 
     def _slid(self, attribute: str, old: int, new: int) -> None:
         if self._quiet or not isinstance(self.knob, Knob):
