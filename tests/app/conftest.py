@@ -50,7 +50,7 @@ const roots = Bokeh.index.roots || Object.values(Bokeh.index);
 let found = null;
 for (const view of roots) found = found || find(view, arguments[0]);
 """
-PATIENCE = 60.0
+PATIENCE = 120.0
 
 
 class Served:
@@ -124,7 +124,11 @@ class Tab:
 
     def words(self, name: str) -> str:
         """Give the text that is seen of a widget."""
-        script = f"{FIND} return found.shadow_el.querySelector('.bk-clearfix').innerText"
+        script = (
+            f"{FIND} const box = found.el.getBoundingClientRect();"
+            "if (box.height === 0) return '';"
+            "return found.shadow_el.querySelector('.bk-clearfix').innerText"
+        )
         return str(self.run(script, name))
 
     def stamp(self) -> tuple[int, int, int] | None:
