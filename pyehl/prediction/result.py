@@ -213,7 +213,10 @@ class Prediction:
         """Draw mu_r/mu_s over the passage on `ax`, or on a new figure; returns the axes."""
         from pyehl.plots.surface import passage  # noqa: PLC0415 (matplotlib, as above)
 
-        return passage(self.friction.shift, self.friction.passage, self.surface.length_x, ax=ax)
+        second = self.second.passage.shift if self.second else self.friction.shift
+        common = bool(np.all(np.diff(second) >= 0.0))
+        shift, ratios = self.friction.shift, self.friction.passage
+        return passage(shift, ratios, self.surface.length_x, common=common, ax=ax)
 
     def _bands(self) -> list[dict[str, float]]:
         return [
