@@ -31,7 +31,7 @@ MOST_PASSAGES = 12
 a longer one are of that order."""
 SAME = 1e-9
 """Relative difference of two times that is none."""
-LATTICES = (9, 17, 33)
+LATTICES = (13, 19, 27)
 """m of the lattices of a mean over all positions, the next one where one is not enough."""
 SHORT = 7
 """m of the lattice of a mean over a few positions."""

@@ -179,7 +179,9 @@ class RoughPair:
             if found.status != "predicted":
                 return found, (math.nan, math.nan), []
             ratios = [
-                meeting.short_mean(self._contact(parts, tracks=pair).friction)
+                meeting.short_mean(
+                    (self._contact(parts, tracks=pair) if any(pair) else contact).friction
+                )
                 for pair in self._tracks(tracks)
             ]
             bands = self._bands(parts, found.mu_ratio, brief)
