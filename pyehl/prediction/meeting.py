@@ -31,7 +31,7 @@ MOST_PASSAGES = 12
 a longer one are of that order."""
 SAME = 1e-9
 """Relative difference of two times that is none."""
-LATTICES = (13, 19, 27)
+LATTICES = (9, 13, 19, 27)
 """m of the lattices of a mean over all positions, the next one where one is not enough."""
 SHORT = 7
 """m of the lattice of a mean over a few positions."""
@@ -98,13 +98,20 @@ class Meeting:
         if self.passages:
             return self._along(friction, positions, largest)
         fewest = math.isqrt(positions) + 1 if positions else 0
+        before = math.nan
         for m in [fewest] if positions else LATTICES:
             n = m * m - 1
             places = np.array([self.moved(k, n, m) for k in range(n)])
             ratios = np.array([friction(self.shifts(k, n, m)) for k in range(n)])
+            mean = float(ratios.mean())
             error = _undecided(ratios)
-            if not error > POSITION_TOLERANCE or float(ratios.mean()) > largest:
+            if not math.isfinite(mean) or mean > largest:
                 break
+            if not math.isnan(before):
+                error = max(error, abs(mean - before) / mean)
+                if error <= POSITION_TOLERANCE:
+                    break
+            before = mean
         return places[:, 0], places[:, 1], ratios, error
 
     def _along(

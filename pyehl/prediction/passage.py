@@ -53,6 +53,8 @@ def _fewer_pixels(pixels: int, length: float, limit: float) -> int:
 
     Of a tile of a length [a] that has so many.
     """
+    if math.isinf(limit):
+        return pixels
     highest = int(limit * length / (2.0 * math.pi))
     few = max(2 * highest + 2, math.ceil(RADIUS_PIXELS * length))
     few = FIRST_POSITIONS * math.ceil(few / FIRST_POSITIONS)

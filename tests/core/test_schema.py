@@ -83,9 +83,16 @@ def test_solutions(tmp_path: Path):
 
 
 def test_predictions(tmp_path: Path):
-    p = pyehl.predict(pyehl.Case.from_text("&surface kind = 'fractal' pixels = 64 /"))
+    text = "&surface kind = 'fractal' pixels = 64 /\n"
+    p = pyehl.predict(pyehl.Case.from_text(text))
+    both = pyehl.predict(pyehl.Case.from_text(text + text.replace("surface", "second_surface")))
     # the folder lists its files
-    assert {*p.summary, "files"} == names("prediction")
+    assert {*both.summary, "files"} == names("prediction")
+    of_two = {n for n in names("prediction") if n.startswith("second_")}
+    assert {*p.summary, "files"} == names("prediction") - of_two - {
+        "surface_rms_m",
+        "surface_slope",
+    }
 
 
 def test_film_sheets():
