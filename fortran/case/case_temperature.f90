@@ -39,9 +39,12 @@ contains
       if (all(sheet <= 0.0_dp)) then
          do k = 1, size(sheet_keys)
             if (.not. schema%given("lubricant", trim(sheet_keys(k)))) cycle
+            ! these serve the law of viscosity and density under temperature as well
+            if (sheet_keys(k) /= "density_15" .and. input%lubricant%temperature_viscosity > 0.0_dp) cycle
             call refuse(schema, sources, "lubricant", trim(sheet_keys(k)), "lubricant." // trim(sheet_keys(k)) &
                         // " without the viscosities of the data sheet", "kinematic_viscosity_40 and " &
-                        // "kinematic_viscosity_100 beside it, or viscosity at the inlet temperature alone", status)
+                        // "kinematic_viscosity_100 beside it, temperature_viscosity, or viscosity at the inlet temperature " &
+                        // "alone", status)
             return
          end do
          return
@@ -87,7 +90,8 @@ contains
       real(dp) :: loading, reduction
 
       associate (l => input%lubricant, c => input%contact)
-         if (.not. l%thermal_reduction) return
+         if (l%thermal_friction == "always") call check_friction(schema, input, sources, status)
+         if (status%failed() .or. .not. l%thermal_reduction) return
          if (.not. c%si) then
             call refuse(schema, sources, "lubricant", "thermal_reduction", "lubricant.thermal_reduction with a contact " &
                         // "given by moes_m and moes_l, which has no velocity in m/s", &
@@ -108,4 +112,22 @@ contains
                      // short(loading), "a slower contact, or .false.", status)
       end associate
    end subroutine check_heat
+
+   !> What the temperature of the film needs that friction is always to be computed with
+   subroutine check_friction(schema, input, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(in) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+
+      if (.not. input%contact%si) then
+         call refuse(schema, sources, "lubricant", "thermal_friction", "lubricant.thermal_friction = 'always' with a contact " &
+                     // "given by moes_m and moes_l, which has no sliding speed in m/s", &
+                     "load, mean_velocity, radius and reduced_modulus, or 'auto'", status)
+      else if (.not. input%lubricant%temperature_viscosity > 0.0_dp) then
+         call refuse(schema, sources, "lubricant", "thermal_friction", "lubricant.thermal_friction = 'always', and nothing " &
+                     // "tells how the viscosity falls with temperature", &
+                     "temperature_viscosity, or kinematic_viscosity_40 and kinematic_viscosity_100, or 'auto'", status)
+      end if
+   end subroutine check_friction
 end module ehl_case_temperature

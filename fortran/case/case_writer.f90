@@ -101,7 +101,9 @@ contains
          holds_elsewhere = input%contact%si .and. input%contact%round
       case ("contact.radius_x", "contact.radius_y")
          holds_elsewhere = input%contact%si .and. .not. input%contact%round
-      case ("lubricant.temperature", "lubricant.density_15", "lubricant.thermal_expansion")
+      case ("lubricant.temperature", "lubricant.thermal_expansion")
+         holds_elsewhere = input%lubricant%temperature_viscosity > 0.0_dp
+      case ("lubricant.density_15")
          holds_elsewhere = input%lubricant%kinematic_viscosity_40 > 0.0_dp
       case ("lubricant.limiting_coefficient")
          holds_elsewhere = input%lubricant%limiting_stress <= 0.0_dp

@@ -2,6 +2,7 @@
 !> The lubricant of a case in Hertz units
 module ehl_plan_lubricant
    use ehl_case, only: case_t
+   use ehl_heat, only: freezing
    use ehl_kinds, only: dp
    use ehl_lubricant, only: density_constant, density_dowson_higginson, lubricant_t, new_lubricant, &
                             viscosity_barus, viscosity_roelands
@@ -15,7 +16,7 @@ module ehl_plan_lubricant
 contains
 
    !> Viscosity, density and shear law of a case at its operating point
-   pure function plan_lubricant(input, point, scales) result(lubricant)
+   function plan_lubricant(input, point, scales) result(lubricant)
       type(case_t), intent(in) :: input
       type(operating_t), intent(in) :: point
       type(scales_t), intent(in) :: scales
@@ -24,7 +25,9 @@ contains
       lubricant = new_lubricant( &
                   merge(viscosity_barus, viscosity_roelands, input%lubricant%viscosity_law == "barus"), &
                   merge(density_constant, density_dowson_higginson, input%lubricant%density_law == "incompressible"), &
-                  point%alpha_bar, scales%pressure, input%lubricant%roelands_z, input%lubricant%roelands_p0)
+                  point%alpha_bar, scales%pressure, input%lubricant%roelands_z, input%lubricant%roelands_p0, &
+                  input%lubricant%temperature_viscosity, input%lubricant%thermal_expansion, &
+                  input%lubricant%temperature + freezing)
       lubricant%shear = shear_of(input, scales)
    end function plan_lubricant
 

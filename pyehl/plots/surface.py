@@ -164,7 +164,12 @@ def roughness(
 
 
 def passage(
-    shift: Array, ratio: Array, length: float, *, common: bool = True, ax: Axes | None = None
+    shift: Array,
+    ratio: Array,
+    length: float,
+    *,
+    second: Array | None = None,
+    ax: Axes | None = None,
 ) -> Axes:
     """mu_r/mu_s over one passage of the tile, or a common period of two.
 
@@ -174,13 +179,13 @@ def passage(
         (n,) displacement of the tile [m], equally spaced from 0, and mu_r/mu_s there [-].
     length
         Of the tile along x [m].
-    common
-        Whether the positions are those of a common period; else they are all that two tiles may
-        have, in no order of time.
+    second
+        (n,) displacement of the tile of a second surface [m]. Where it goes back, the positions are
+        not those of a common period but all that two tiles may have, in no order of time.
     """
     ax = axes_or_new(ax, 3.8, 2.9)
     mean = float(ratio.mean())
-    if common:
+    if second is None or bool(np.all(np.diff(second) >= 0.0)):
         fine = interpolated(ratio, 16)
         length *= round(float(shift[-1]) * (1.0 + 1.0 / max(1, shift.size - 1)) / length) or 1
         at = np.arange(fine.size + 1) * length / fine.size

@@ -20,16 +20,23 @@ from numpy.typing import NDArray
 from pyehl.prediction.bands import Band, joining
 from pyehl.prediction.carrying import confirmed, within_range
 from pyehl.prediction.contact import HertzContact, Response
+from pyehl.prediction.deformed import film_levels
 from pyehl.prediction.errors import KNOWN_RATIO, model_error
-from pyehl.prediction.friction import BEYOND, RoughFriction, outcome, passed
+from pyehl.prediction.friction import BEYOND, LARGEST_RATIO, RoughFriction, outcome, passed
 from pyehl.prediction.options import Options
-from pyehl.prediction.passage import friction_along, longer_waves, short_mean, working_grid
+from pyehl.prediction.passage import (
+    friction_along,
+    longer_waves,
+    short_mean,
+    tracks_of,
+    working_grid,
+)
 from pyehl.prediction.rough_contact import Edge, RoughContact
 from pyehl.prediction.smooth import SmoothContact, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.prediction.waves import Waves
-from pyehl.surfaces import Topography, filtered, track_offsets
+from pyehl.surfaces import Topography, filtered
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -39,13 +46,11 @@ __all__ = ["LARGEST_RATIO", "STIFFER", "Parts", "RoughPassage"]
 Array = NDArray[np.float64]
 Parts = tuple[Topography, Spectrum, Transfer, Edge]
 
-# Points per Hertz radius at which the shear stress is taken: the tile is finer, and its other
+# Points per shorter semi-axis at which the shear stress is taken: the tile is finer, and its other
 # pixels are met at other positions
 POINTS = 60
 # Eq. 11 with wavelength 2 pi/|q| over E'|q|/4 (see `pyehl.prediction`)
 STIFFER = math.sqrt(2.0)
-LARGEST_RATIO = 10.0
-"""Largest mu_r/mu_s that is told."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +78,7 @@ class RoughPassage:
         o = self.operating
         if self.options.reduction == "response":
             zone = zone_of(self.contact, o, self.lubricant)
-            moes, u = (o.moes_m, o.moes_l), self.velocity_ratio
+            moes, u = o.equivalent_moes, self.velocity_ratio
             newtonian = self.lubricant.shear.law == "newtonian"
             return Transfer.of(spectrum, zone, moes, u, at_amplitude=newtonian, mesh=self.mesh)
         ratio = component_amplitude_ratio(
@@ -117,7 +122,8 @@ class RoughPassage:
 
     def _stride(self, spectrum: Spectrum) -> int:
         """Every so many-th pixel across the motion is a point of the contact."""
-        wanted = int(1.0 / (POINTS * max(spectrum.pixel)))
+        short = min(1.0, self.operating.ellipse.ellipticity)
+        wanted = int(short / (POINTS * max(spectrum.pixel)))
         stride = 1 if self.options.as_in_paper else max(1, wanted)
         while spectrum.shape[1] % stride:
             stride -= 1
@@ -134,7 +140,8 @@ class RoughPassage:
         grid = working_grid(self.topography, self.operating, self.options.positions)
         spectrum = self.spectrum(grid)
         transfer = self.transfer(spectrum)
-        edge = Edge.of(spectrum, 1.0 - transfer.at_centre(spectrum, self.velocity_ratio))
+        flattened = 1.0 - transfer.at_centre(spectrum, self.velocity_ratio)
+        edge = Edge.of(spectrum, flattened, self.operating.ellipse)
         return grid, spectrum, transfer, edge
 
     def mean(self, parts: Parts | None = None) -> float:
@@ -159,6 +166,9 @@ class RoughPassage:
         grid, spectrum, transfer, edge = self.parts()
         with np.errstate(over="ignore", invalid="ignore"):
             contact = self._contact(spectrum, transfer, edge)
+            t = transfer.at_centre(spectrum, self.velocity_ratio)
+            limit = self.options.film_limit / self.operating.film_scale
+            contact.watch(film_levels(limit, [(spectrum.power, np.abs(t))]))
             passage = friction_along(contact, grid.shape[0], self.options.positions, LARGEST_RATIO)
             found = self._result(contact, grid, (spectrum, transfer, edge), passage, brief)
             if found.status != "predicted":
@@ -166,17 +176,14 @@ class RoughPassage:
             ratios = np.array(
                 [
                     found.mu_ratio if offset == 0.0 else short_mean(contact, grid.shape[0], track)
-                    for offset, track in self._tracks(grid, self._stride(spectrum), tracks)
+                    for offset, track in tracks_of(
+                        self.topography, grid, self._stride(spectrum), tracks
+                    )
                 ]
             )
             bands = self._bands(spectrum, transfer, edge, found.mu_ratio, brief)
         over = (float(ratios.mean()), float(ratios.std())) if tracks else (math.nan, math.nan)
         return found, over, bands
-
-    def _tracks(self, grid: Topography, stride: int, tracks: int) -> list[tuple[float, int]]:
-        """Offsets of the tracks [m], and in pixels that are multiples of the stride."""
-        offsets = track_offsets(self.topography, tracks) if tracks else []
-        return [(d, round(d / (stride * grid.pixel[1])) * stride) for d in offsets]
 
     def below(self, shortest: float) -> float:
         """mu_r/mu_s without the waves shorter than a length [a], over a few positions [-]."""
@@ -192,17 +199,15 @@ class RoughPassage:
         passage: tuple[NDArray[np.int_], Array, float],
         brief: bool,
     ) -> RoughFriction:
-        o, ratios = self.operating, passage[1]
-        status, message = outcome(
-            contact, ratios, o.film_scale, LARGEST_RATIO, load_balance=self.options.load_balance
-        )
+        ratios = passage[1]
+        status, message = outcome(contact, ratios, load_balance=self.options.load_balance)
         if status == BEYOND and not brief:
             message += self._carried(*parts)
         return passed(
             contact,
             (status, message),
             (np.asarray(passage[0] * grid.pixel[0], dtype=float), ratios, passage[2]),
-            film_unit=o.film_scale,
+            film_unit=self.operating.film_scale,
             response=self._tiles(*parts[:2], grid.shape == self.topography.shape),
         )
 
@@ -256,7 +261,7 @@ class RoughPassage:
 
     def _below(self, spectrum: Spectrum, transfer: Transfer, edge: Edge, limit: float) -> float:
         """mu_r/mu_s of the waves with |q| below a limit [1/a], on as few pixels as they need."""
-        part, index = longer_waves(spectrum, limit)
+        part, index = longer_waves(spectrum, limit, self.operating.ellipse.ellipticity)
         power = np.where(spectrum.q < limit, spectrum.power, 0.0)
         contact = self._contact(part, transfer.kept(index), edge.below(limit), power)
         return short_mean(contact, part.shape[0])

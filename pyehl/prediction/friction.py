@@ -12,7 +12,16 @@ from numpy.typing import NDArray
 from pyehl.prediction.contact import Response, ShearedContact
 from pyehl.surfaces import interpolated
 
-__all__ = ["BEYOND", "TRACKS", "RoughFriction", "SecondPassage", "broken", "outcome", "passed"]
+__all__ = [
+    "BEYOND",
+    "LARGEST_RATIO",
+    "TRACKS",
+    "RoughFriction",
+    "SecondPassage",
+    "broken",
+    "outcome",
+    "passed",
+]
 
 Array = NDArray[np.float64]
 
@@ -20,6 +29,10 @@ BEYOND = "beyond linear response"
 """Status where the ratio is larger than the model can tell."""
 TRACKS = 8
 """Tracks over which mean and spread are taken unless asked for otherwise."""
+
+
+LARGEST_RATIO = 10.0
+"""Largest mu_r/mu_s that is told."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +68,14 @@ class RoughFriction:
     # Friction coefficient of the smooth contact at the slide-to-roll ratio [-]; without meaning for
     # a Newtonian lubricant
     mu_smooth: float
-    film_min: float  # least h_c - rr_d of the tile [m]
+    film_min: float  # least film over the passage [m]
+    # Greatest rise of the pressure over the passage, within :data:`~pyehl.prediction.contact.INNER`
+    # [Pa]
+    rise_max: float
+    # Mean share of the contact with less film than psd.film_limit [-], and what the error of the
+    # film makes of it; NaN without a limit
+    below_limit: float
+    below_limit_error: float
     cavitated_share: float  # mean share of the contact where p_s + delta p <= 0 [-]
     cavitated_friction: float  # bound of the share of the friction that comes from there [-]
     # Greatest |integral of delta p|/w over the passage [-], before any load balance
@@ -65,20 +85,14 @@ class RoughFriction:
 
 
 def outcome(
-    contact: ShearedContact,
-    ratios: Array,
-    film_unit: float,
-    largest: float,
-    *,
-    load_balance: bool = False,
+    contact: ShearedContact, ratios: Array, *, load_balance: bool = False
 ) -> tuple[str, str]:
-    """Give the status of a passage with these ratios (n,), and say it in a sentence.
+    """Give status and message of a passage by mu_r/mu_s at its positions (n,).
 
-    `film_unit` [m]; the mean of a passage that is told is not above `largest`. `load_balance`: what
-    the roughness carries is taken off the smooth contact.
+    `load_balance`: what the roughness carries is taken off the smooth contact.
     """
     if contact.thinnest <= 0.0:
-        depth = -contact.thinnest * film_unit
+        depth = -contact.thinnest * contact.operating.film_scale
         return "film breakdown", (
             f"deformed roughness reaches {depth:.3g} m through the film at a point of the "
             "contact: no full film, no ratio"
@@ -88,8 +102,9 @@ def outcome(
     if not np.all(np.isfinite(ratios)):
         return "overflow", "the viscosity at p_s + delta p is not a number"
     mean = float(ratios.mean())
-    if mean > largest:
-        return BEYOND, f"pressures that raise mu_r/mu_s to {mean:.3g} are beyond a linear response"
+    if mean > LARGEST_RATIO:
+        message = f"pressures that raise mu_r/mu_s to {mean:.3g} are beyond a linear response"
+        return BEYOND, message
     return "predicted", "full film throughout the passage"
 
 
@@ -109,6 +124,7 @@ def passed(
     as the unit of films; `periodic`: the positions follow each other and return to the first.
     """
     shift, ratios, error = passage
+    low, share, high = contact.shares() if contact.levels else (math.nan,) * 3
     status, message = outcome
     mean = least = greatest = math.nan
     if status == "predicted":
@@ -125,6 +141,9 @@ def passed(
         passage=ratios,
         mu_smooth=contact.mu_smooth(),
         film_min=float(contact.thinnest) * film_unit,
+        rise_max=contact.greatest_rise * contact.operating.hertz_pressure,
+        below_limit=float(share),
+        below_limit_error=0.5 * float(high - low),
         cavitated_share=contact.cavitated / max(1, contact.count * contact.points),
         cavitated_friction=contact.cavitated_bound(least) if status == "predicted" else math.nan,
         load_error=contact.imbalance,

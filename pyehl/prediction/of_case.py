@@ -20,6 +20,7 @@ from pyehl.prediction.bands import Band
 from pyehl.prediction.breakdown import Advice, BelowZero, SmoothFilm, advise, below_zero
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.friction import TRACKS, RoughFriction, SecondPassage, broken
+from pyehl.prediction.heated import heat_of
 from pyehl.prediction.options import Options, unpredictable
 from pyehl.prediction.pair import RoughPair
 from pyehl.prediction.pair_breakdown import (
@@ -69,12 +70,13 @@ def predict(
     given = {"surface": surface, "second_surface": second_surface}
     groups = surfaces.rough_groups(settings)
     operating = OperatingPoint.from_settings(settings)
-    operating.need_round("the prediction")
     lubricant = Lubricant.from_settings(settings, str(settings["psd"]["viscosity_law"]))
     if smooth is None:
         contact = _smooth_contact(settings, operating, lubricant, options)
     else:
         contact = read_contact(Path(smooth), operating)
+        if lubricant.shear.in_flow:
+            contact = replace(contact, thinning=solve_contact(settings).thinning)
     film = contact.central_film * operating.film_scale
     alone = []
     for group in groups:
@@ -120,6 +122,7 @@ def predict(
         below=below,
         advice=advice,
         second=second,
+        heat=heat_of(settings, contact, lubricant),
     )
 
 
@@ -137,7 +140,7 @@ def _of_one(
     below = below_zero(
         friction.response.deformed,
         passage.topography.pixel,
-        passage.operating.hertz_radius,
+        passage.operating.semi_axes,
         smooth_film,
     )
     if friction.status == "predicted" and below.deepest <= 0.0:
@@ -187,6 +190,13 @@ def _options(settings: Mapping[str, Mapping[str, Any]], tracks: int) -> Options:
     if why:
         raise InputError(why)
     options = Options.from_settings(settings)
+    if OperatingPoint.from_settings(settings).radius_ratio != 1.0 and options != Options(
+        positions=options.positions
+    ):
+        raise InputError(
+            "psd: the model of the paper, and what is between it and the response, is for circular "
+            "contacts\nexpected: contact.radius, or the group psd as by default"
+        )
     if options.as_in_paper and len(surfaces.rough_groups(settings)) > 1:
         raise InputError(
             "two rough surfaces: the model of the paper (psd.reduction = 'amplitude' with "
@@ -206,7 +216,7 @@ def _advice(passage: RoughPassage, group: Mapping[str, Any], smooth_film: Smooth
     return advise(
         surface,
         lambda tile: replace(passage, topography=tile).deformed(),
-        passage.operating.hertz_radius,
+        passage.operating.semi_axes,
         smooth_film,
         lambda tile, shortest: surfaces.filtered(tile, shortest, kind=kind),
         lambda threshold: surfaces.without_spikes(surface, threshold, group),

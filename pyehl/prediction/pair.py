@@ -17,20 +17,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl.prediction.bands import Band, joining
-from pyehl.prediction.by_response import LARGEST_RATIO, RoughPassage
-from pyehl.prediction.carrying import confirmed, within_range
+from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.contact import Response
-from pyehl.prediction.errors import KNOWN_RATIO, model_error
-from pyehl.prediction.friction import BEYOND, RoughFriction, SecondPassage, outcome, passed
+from pyehl.prediction.deformed import film_levels
+from pyehl.prediction.errors import model_error
+from pyehl.prediction.friction import (
+    BEYOND,
+    LARGEST_RATIO,
+    RoughFriction,
+    SecondPassage,
+    outcome,
+    passed,
+)
 from pyehl.prediction.meeting import Meeting
 from pyehl.prediction.moving_together import as_one
 from pyehl.prediction.pair_contact import PairContact, TileOnPoints
+from pyehl.prediction.pair_cut_off import known_by_cut_off
 from pyehl.prediction.passage import longer_waves, working_grid
 from pyehl.prediction.rough_contact import Edge
 from pyehl.prediction.smooth import zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
-from pyehl.surfaces import GROUPS, Topography, filtered, track_offsets
+from pyehl.surfaces import Topography, filtered, track_offsets
 
 __all__ = ["RoughPair"]
 
@@ -63,16 +71,13 @@ class RoughPair:
     @property
     def meeting(self) -> Meeting:
         """The positions in which they meet, in their order."""
-        a = self.of[0].operating.hertz_radius
-        lengths, ratios, fronts = (
-            (values[self.order[0]], values[self.order[1]])
-            for values in (
-                [one.topography.length_x / a for one in self.of],
-                [one.velocity_ratio for one in self.of],
-                self.fronts,
-            )
+        a, (i, j) = self.of[0].operating.hertz_radius, self.order
+        first, second = self.of[i], self.of[j]
+        return Meeting(
+            (first.topography.length_x / a, second.topography.length_x / a),
+            (first.velocity_ratio, second.velocity_ratio),
+            (self.fronts[i], self.fronts[j]),
         )
-        return Meeting(lengths, ratios, fronts)
 
     def parts(self, tiles: Sequence[Topography] | None = None) -> PairParts:
         """Components of both tiles and what becomes of them, in their order.
@@ -90,14 +95,18 @@ class RoughPair:
             transfers = Transfer.of_all(
                 moving,
                 zone_of(one.contact, o, one.lubricant),
-                (o.moes_m, o.moes_l),
+                o.equivalent_moes,
                 at_amplitude=one.lubricant.shear.law == "newtonian",
                 mesh=one.mesh,
             )
         else:
             transfers = [one.transfer(spectrum) for spectrum in spectra]
         return [
-            (spectrum, transfer, Edge.of(spectrum, 1.0 - transfer.at_centre(spectrum, ratio)))
+            (
+                spectrum,
+                transfer,
+                Edge.of(spectrum, 1.0 - transfer.at_centre(spectrum, ratio), one.operating.ellipse),
+            )
             for (spectrum, ratio), transfer in zip(moving, transfers, strict=True)
         ]
 
@@ -112,9 +121,13 @@ class RoughPair:
         second = parts[0][1].second
         powers = powers or [spectrum.power for spectrum, _, _ in parts]
         found = PairContact(
-            one.contact, one.operating, one.lubricant, second.of(*powers) if second else None
+            one.contact,
+            one.operating,
+            one.lubricant,
+            [edge for _, _, edge in parts],
+            second.of(*powers) if second else None,
         )
-        film, points = one.contact.central_film, (found.x, found.y)
+        film, points = one.contact.central_film, (found.x, found.y, found.across)
         ratios = [self.of[k].velocity_ratio for k in self.order]
         found.tiles = tuple(
             TileOnPoints(*part, film, ratio, points, track)
@@ -174,6 +187,12 @@ class RoughPair:
         parts = self.parts()
         with np.errstate(over="ignore", invalid="ignore"):
             contact = self._contact(parts)
+            left = [
+                (spectrum.power, np.abs(transfer.at_centre(spectrum, self.of[k].velocity_ratio)))
+                for (spectrum, transfer, _), k in zip(parts, self.order, strict=True)
+            ]
+            limit = one.options.film_limit / one.operating.film_scale
+            contact.watch(film_levels(limit, left))
             places = meeting.mean(contact.friction, one.options.positions, LARGEST_RATIO)
             found = self._result(contact, parts, places, brief)
             if found.status != "predicted":
@@ -207,14 +226,14 @@ class RoughPair:
             return one.below(shortest)
         limit = 2.0 * math.pi / shortest
         with np.errstate(over="ignore", invalid="ignore"):
-            return self._below(self.parts(), (limit, limit))
+            return self.below_limits(self.parts(), (limit, limit))
 
-    def _below(self, parts: PairParts, limits: tuple[float, float]) -> float:
+    def below_limits(self, parts: PairParts, limits: tuple[float, float]) -> float:
         """mu_r/mu_s of the waves with |q| below a limit [1/a] of each, in their order."""
         kept: PairParts = []
         powers = []
         for (spectrum, transfer, edge), limit in zip(parts, limits, strict=True):
-            few, index = longer_waves(spectrum, limit)
+            few, index = longer_waves(spectrum, limit, self.of[0].operating.ellipse.ellipticity)
             powers.append(np.where(spectrum.q < limit, spectrum.power, 0.0))
             kept.append((few, transfer.kept(index), edge.below(limit)))
         return self.meeting.short_mean(self._contact(kept, powers).friction)
@@ -237,7 +256,7 @@ class RoughPair:
         q, power, deformed, pressure = (np.concatenate(both) for both in zip(*waves, strict=True))
         return joining(
             (q, power, deformed, pressure),
-            lambda limit: self._below(parts, (limit, limit)),
+            lambda limit: self.below_limits(parts, (limit, limit)),
             total,
             self.of[0].operating,
             brief=brief,
@@ -251,9 +270,9 @@ class RoughPair:
         brief: bool,
     ) -> RoughFriction:
         o, ratios = self.of[0].operating, places[2]
-        status, message = outcome(contact, ratios, o.film_scale, LARGEST_RATIO)
+        status, message = outcome(contact, ratios)
         if status == BEYOND and not brief:
-            message += self._carried(parts)
+            message += known_by_cut_off(self, parts)
         responses = self.responses()
         moved = [places[0] * o.hertz_radius, places[1] * o.hertz_radius]
         shifts = [moved[k] for k in self.order]
@@ -267,38 +286,6 @@ class RoughPair:
             second=SecondPassage(responses[1], shifts[1], touching),
             periodic=self.meeting.passages is not None,
         )
-
-    def _carried(self, parts: PairParts) -> str:
-        """Say which cut-offs would bring the ratio into the range of the model; '' for none."""
-        ways = []
-        shortest = min(min(spectrum.pixel) for spectrum, _, _ in parts)
-        longest = 2.0 * math.pi / min(float(s.q[s.q > 0].min()) for s, _, _ in parts)
-        for groups in ((0,), (1,), (0, 1)):
-            cut = self._cut_off(parts, groups, shortest, longest)
-            if cut is not None:
-                names = " with ".join(f"{GROUPS[k]}.shortest_wavelength" for k in groups)
-                ways.append(f"{names} = {cut:g}")
-        return f"; {', or '.join(ways)} would leave {KNOWN_RATIO:g} or less" if ways else ""
-
-    def _cut_off(
-        self, parts: PairParts, groups: Sequence[int], shortest: float, longest: float
-    ) -> float | None:
-        """Wavelength [m] below which waves of some surfaces must go for a ratio that is known."""
-        cut, a = [k in groups for k in self.order], self.of[0].operating.hertz_radius
-
-        def below(length: float) -> float:
-            first, second = (2.0 * math.pi / length if c else math.inf for c in cut)
-            return self._below(parts, (first, second))
-
-        high = within_range(below, shortest, longest)
-        if high is None:
-            return None
-        return confirmed(high * a, longest * a, lambda length: self._known(groups, length))
-
-    def _known(self, numbers: Sequence[int], shortest: float) -> bool:
-        """Whether the ratio is without waves shorter than a length [m] of some of them."""
-        found, _, _ = self.without_shorter(numbers, shortest).run(0, brief=True)
-        return found.status == "predicted" and found.mu_ratio <= KNOWN_RATIO
 
     def without_shorter(self, numbers: Sequence[int], shortest: float) -> RoughPair:
         """Return the pair without waves shorter than a length [m] of the surfaces so numbered."""

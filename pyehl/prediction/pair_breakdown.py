@@ -36,18 +36,18 @@ class PairBelowZero:
 
 
 def pair_below_zero(pair: RoughPair, deformed: Sequence[Array], film: SmoothFilm) -> PairBelowZero:
-    """Find the least film between two deformed tiles (nx, ny) [m], within a of their tracks.
+    """Find the least film between two deformed tiles (nx, ny) [m], within b of their tracks.
 
     Over all positions in which they meet. As of a single surface, each is taken to be that at the
     centre on its whole way. The share is NaN: it needs the positions of a prediction.
     """
-    a = pair.of[0].operating.hertz_radius
+    a, b = pair.of[0].operating.semi_axes
     tiles = [one.topography for one in pair.of]
     pixel = min(tile.pixel[1] for tile in tiles)
-    reach = int(a / pixel)
+    reach = int(b / pixel)
     y = np.asarray(np.arange(-reach, reach + 1) * pixel, dtype=float)
     x: Array = a * ((2.0 * np.arange(STATIONS) + 1.0) / STATIONS - 1.0)
-    inside = np.hypot(x[:, np.newaxis], y[np.newaxis, :]) < a
+    inside = np.hypot(x[:, np.newaxis], y[np.newaxis, :] * (a / b)) < a
     smooth = np.where(inside, film(x, y), np.inf)
     columns = [np.rint(y / tile.pixel[1]).astype(int) % tile.shape[1] for tile in tiles]
     heights = [values[:, column] for values, column in zip(deformed, columns, strict=True)]

@@ -8,6 +8,8 @@ their own, and the waves are made on its lines.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -26,13 +28,14 @@ Array = NDArray[np.float64]
 Single = NDArray[np.float32]
 
 POINTS = 60.5
-"""Points per Hertz radius; half a one more, so that the next radius has other ones."""
+"""Points per semi-axis; half a one more, so that the next semi-axis has other ones."""
 
 
 class TileOnPoints:
     """The waves of a moving tile on the points of a contact.
 
-    `track`: how far the tile is moved across the motion [a].
+    `points`: X and Y [a], and Y by the semi-axis across the motion. `track`: how far the tile is
+    moved across the motion [a].
     """
 
     def __init__(
@@ -42,15 +45,15 @@ class TileOnPoints:
         edge: Edge,
         central_film: float,
         velocity_ratio: float,
-        points: tuple[Array, Array],
+        points: tuple[Array, Array, Array],
         track: float = 0.0,
     ) -> None:
-        x, y = points
+        x, y, across = points
         self.edge, self.track = edge, track
         self.waves = Waves.of(spectrum, transfer, central_film, velocity_ratio, lines=y - track)
         self.scale = REFINEMENT / spectrum.pixel[0]
         self.places = x[:, np.newaxis]
-        lines = y if transfer.bent else np.zeros(1)
+        lines = across if transfer.bent else np.zeros(1)
         way = slipped(self.places, lines, velocity_ratio, bent=transfer.bent)
         self.free_places = self.places + way
 
@@ -88,22 +91,23 @@ class PairContact(WavyContact):
         contact: SmoothContact,
         operating: OperatingPoint,
         lubricant: Lubricant,
+        edges: Sequence[Edge],
         second: tuple[Array, Array] | None,
     ) -> None:
-        x, y = self.places()
-        area = (operating.hertz_radius / POINTS) ** 2
+        half = int(REACH * POINTS)
+        line = np.arange(-half, half + 1) / POINTS
         super().__init__(
-            contact, x, y, area=area, operating=operating, lubricant=lubricant, second=second
+            contact,
+            line,
+            line * operating.ellipse.ellipticity,
+            edges=edges,
+            area=operating.hertz_radius * operating.semi_axis_y / POINTS**2,
+            operating=operating,
+            lubricant=lubricant,
+            second=second,
         )
         self.tiles: tuple[TileOnPoints, ...] = ()
         self.touching = 0  # points with a film that is not positive, at all positions
-
-    @staticmethod
-    def places() -> tuple[Array, Array]:
-        """X and Y of the points [a]."""
-        half = int(REACH * POINTS)
-        line = np.arange(-half, half + 1) / POINTS
-        return line, line
 
     def friction(self, shifts: tuple[float, float]) -> float:
         """Friction over that of the smooth contact, the tiles moved by shifts [a].

@@ -12,7 +12,7 @@ from pyehl import surfaces
 from pyehl.case import Case
 from pyehl.errors import EhlError, InputError
 from pyehl.prediction.by_response import RoughPassage
-from pyehl.prediction.options import Options, thinning_flow, unpredictable
+from pyehl.prediction.options import Options, turned, unpredictable
 from pyehl.prediction.pair import RoughPair
 from pyehl.prediction.smooth import solve_contact
 from pyehl.prediction.spectrum import Spectrum
@@ -99,11 +99,13 @@ def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Res
     if why:
         raise InputError(why)
     operating = OperatingPoint.from_settings(settings)
-    operating.need_round("the prediction of waves that the grid does not resolve")
+    if turned(settings):
+        raise InputError(turned(settings))
     lubricant = Lubricant.from_settings(settings)
     grid = settings["grid"]
-    mesh = max(float(grid["x_outlet"]) - float(grid["x_inlet"]), 2.0 * float(grid["y_extent"])) / (
-        int(grid["points"]) - 1
+    mesh = max(
+        (float(grid["x_outlet"]) - float(grid["x_inlet"])) / (int(grid["points"]) - 1),
+        2.0 * float(grid["y_extent"]) / (int(grid["points_y"]) - 1),
     )
     # of two surfaces one may be a share of the film; else that is not asked for
     film = formula_film(operating, lubricant) if len(groups) > 1 else 0.0
@@ -112,9 +114,6 @@ def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Res
     spectra = [Spectrum.of(tile.heights, tile.length_x, tile.length_y) for tile, _ in found]
     if not any(spectrum.share_below(shortest) > 0.0 for spectrum in spectra):
         return None
-    why = thinning_flow(settings)
-    if why:
-        raise EhlError(why)
     contact = solve_contact(settings)
     alone = [
         RoughPassage(tile, contact, operating, lubricant, Options(), float(keys["velocity_ratio"]))

@@ -14,13 +14,15 @@ from numpy.typing import NDArray
 from pyehl import display, namelist, surfaces
 from pyehl.prediction.bands import Band
 from pyehl.prediction.breakdown import Advice, BelowZero
+from pyehl.prediction.deformed import deformed_surface
 from pyehl.prediction.errors import cutoff_error, model_error, outside_range
 from pyehl.prediction.friction import TRACKS, RoughFriction
-from pyehl.prediction.options import Options, thinning_flow
+from pyehl.prediction.options import Options
 from pyehl.prediction.pair_breakdown import PairAdvice, PairBelowZero
 from pyehl.prediction.sides import SecondSurface, arrays, statistics
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.friction import absolute_friction
+from pyehl.theory.heat import Heat
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
@@ -46,7 +48,7 @@ NEWTONIAN_NOTE = (
     "Newtonian: a ratio at this slip, no absolute coefficient; shear thinning brings it close to "
     "1, see lubricant.shear_law"
 )
-THINNING_NOTE = (
+NEWTONIAN_FLOW_NOTE = (
     "; film and waves are those of a Newtonian flow: where the oil thins in it, too, the ratio is "
     "nearer to 1, see lubricant.flow"
 )
@@ -91,6 +93,8 @@ class Prediction:
         With the status ``"film breakdown"``: where the film ends, and what would carry.
     second
         The second rough surface; None: there is one.
+    heat
+        What the heat of sliding makes of friction; None: nothing.
 
     Examples
     --------
@@ -120,6 +124,7 @@ class Prediction:
     below: BelowZero | PairBelowZero | None = None
     advice: Advice | PairAdvice | None = None
     second: SecondSurface | None = None
+    heat: Heat | None = None
 
     def __repr__(self) -> str:
         """Give the ratio and the status in one line."""
@@ -139,7 +144,8 @@ class Prediction:
     def note(self) -> str:
         """What `mu_ratio` is."""
         note = STRESS_NOTE if self.thins else NEWTONIAN_NOTE
-        return note + THINNING_NOTE if thinning_flow(self.settings) else note
+        shear = self.lubricant.shear
+        return note + NEWTONIAN_FLOW_NOTE if self.thins and not shear.in_flow else note
 
     @property
     def mu_ratio(self) -> float:
@@ -156,17 +162,21 @@ class Prediction:
     @property
     def model_error(self) -> float:
         """Error of `mu_ratio` by the model, estimated [-]; NaN where it is not known."""
-        known = self.options.reduction == "response" and self.options.smooth == "solved"
-        if not known or self.outside_range or self.thins:
+        in_flow = self.lubricant.shear.in_flow
+        if not self._known or (self.thins and not in_flow):
             return math.nan
-        return model_error(self.mu_ratio)
+        return model_error(self.mu_ratio, thins=in_flow)
+
+    @property
+    def _known(self) -> bool:
+        """Whether the model is one whose errors were measured, and the case in its range."""
+        known = self.options.reduction == "response" and self.options.smooth == "solved"
+        return known and not self.outside_range
 
     @property
     def case_text(self) -> str:
         """The resolved case as namelist text."""
-        if self.text:
-            return self.text
-        return namelist.text_of(self.settings)
+        return self.text or namelist.text_of(self.settings)
 
     @property
     def arrays(self) -> dict[str, Array]:
@@ -213,10 +223,8 @@ class Prediction:
         """Draw mu_r/mu_s over the passage on `ax`, or on a new figure; returns the axes."""
         from pyehl.plots.surface import passage  # noqa: PLC0415 (matplotlib, as above)
 
-        second = self.second.passage.shift if self.second else self.friction.shift
-        common = bool(np.all(np.diff(second) >= 0.0))
-        shift, ratios = self.friction.shift, self.friction.passage
-        return passage(shift, ratios, self.surface.length_x, common=common, ax=ax)
+        f, second = self.friction, self.second.passage.shift if self.second else None
+        return passage(f.shift, f.passage, self.surface.length_x, second=second, ax=ax)
 
     def _bands(self) -> list[dict[str, float]]:
         return [
@@ -256,18 +264,16 @@ class Prediction:
             "load_balance": self.options.load_balance,
             "shear_law": self.lubricant.shear.law,
             "slide_to_roll": o.slide_to_roll,
-            **absolute_friction(
-                o, self.lubricant, film=self.film, mu_smooth=f.mu_smooth, mu_ratio=f.mu_ratio
-            ),
+            **absolute_friction(o, self.lubricant, self.film, f.mu_smooth, f.mu_ratio, self.heat),
             "thermal_reduction": o.thermal_reduction,
             "h_c_m": self.film,
             "h_c_source": self.film_source,
             "h_min_m": self.film_minimum,
-            "h_min_rough_m": f.film_min,
             "lambda_ratio": self.film_minimum / sigma if sigma > 0.0 else None,
             "lambda_ratio_central": self.film / sigma if sigma > 0.0 else None,
             **statistics(s, f.response),
             **(self.second.summary(s) if self.second else {}),
+            **deformed_surface(f, self.film_minimum, self.options.film_limit, known=self._known),
             "cavitated_share": f.cavitated_share,
             "cavitated_friction": f.cavitated_friction,
             "load_error": f.load_error,

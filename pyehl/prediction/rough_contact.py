@@ -11,22 +11,24 @@ of the contact (:mod:`pyehl.theory.disc`).
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pyehl import library
-from pyehl.prediction.contact import ShearedContact
+from pyehl.prediction.contact import INNER, ShearedContact
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import OFF_CENTRE, STATIONS
 from pyehl.prediction.waves import REFINEMENT, Waves
-from pyehl.theory.disc import LARGEST, disc_correction, monomials
+from pyehl.theory.disc import LARGEST, RADIUS, disc_correction, monomials
+from pyehl.theory.ellipse import Ellipse
+from pyehl.theory.ellipse_edge import ellipse_edge
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
 __all__ = [
-    "EDGE_RADIUS",
     "REACH",
     "Edge",
     "RoughContact",
@@ -42,9 +44,9 @@ Complex = NDArray[np.complex128]
 Single = NDArray[np.float32]
 
 REACH = 1.0
-"""Friction is taken within this distance from the centre [a]."""
+"""Friction is taken within this distance from the centre [semi-axes]."""
+# The polynomials of the edge of a circle are held constant beyond this radius
 EDGE_RADIUS = 0.85
-"""The polynomials of the edge are held constant beyond this radius."""
 # The change of T off the centre line is linear in Y^2 up to here
 FARTHEST = 0.75
 
@@ -55,12 +57,15 @@ def station_weights(x: Array) -> Array:
 
 
 def away_from_centre(y: Array) -> Array:
-    """Share of the change off the centre line in the free wave at places Y [a]."""
+    """Share of the change off the centre line in the free wave at places Y [semi-axis]."""
     return np.minimum(np.abs(y), FARTHEST) ** 2 / OFF_CENTRE**2
 
 
 def slipped(x: Array, y: Array, velocity_ratio: float, *, bent: bool) -> Array:
-    """Way of the roughness past the free wave since the inlet made that, at places X, Y [a]."""
+    """Way of the roughness past the free wave since the inlet made that [a].
+
+    At places X [a] and Y [semi-axis].
+    """
     inlet = np.sqrt(np.maximum(0.0, 1.0 - y * y)) if bent else np.ones_like(y)
     return (velocity_ratio - 1.0) * (x + inlet)
 
@@ -68,44 +73,59 @@ def slipped(x: Array, y: Array, velocity_ratio: float, *, bent: bool) -> Array:
 class Edge:
     """What the edge of the contact does to the pressure of the long waves of a tile.
 
-    `coefficients` (28, m) of :func:`pyehl.theory.disc.monomials` [p_h] for the waves of the tile
-    with wavenumbers qx >= 0, qy (m,) [1/a].
+    `coefficients` (n, m) of the polynomials [p_h] for the waves of the tile with wavenumbers
+    qx >= 0, qy (m,) [1/a]: of :func:`pyehl.theory.disc.monomials` (n = 28) in a circle, of
+    :mod:`pyehl.theory.ellipse_edge` in an ellipse.
     """
 
-    def __init__(self, qx: Array, qy: Array, coefficients: Complex) -> None:
-        self.qx, self.qy, self.coefficients = qx, qy, coefficients
+    def __init__(self, qx: Array, qy: Array, coefficients: Complex, shape: Ellipse) -> None:
+        self.qx, self.qy, self.coefficients, self.shape = qx, qy, coefficients, shape
 
     @classmethod
-    def of(cls, spectrum: Spectrum, flattened: Complex) -> Edge:
+    def of(cls, spectrum: Spectrum, flattened: Complex, shape: Ellipse) -> Edge:
         """Of a tile, each component flattened by a factor (shape of the spectrum)."""
         nx, ny = spectrum.shape
         q = spectrum.q
         strong = np.abs(spectrum.values) > 1e-9 * np.abs(spectrum.values).max()
-        i, j = np.nonzero((q > 0.0) & (q < LARGEST) & strong)
+        ellipse = None if shape.radius_ratio == 1.0 else ellipse_edge(shape)
+        i, j = np.nonzero((q > 0.0) & (q < (ellipse.largest if ellipse else LARGEST)) & strong)
         qx, qy = spectrum.qx[i], spectrum.qy[j]
         # a component stands for its conjugate at -q too, unless both are in the half spectrum
         twice = np.where((i == 0) | ((nx % 2 == 0) & (i == nx // 2)), 1.0, 2.0)
         amplitude = twice * spectrum.values[i, j] * flattened[i, j] / (nx * ny)
         if not i.size:
-            return cls(qx, qy, np.zeros((monomials(np.zeros(1), np.zeros(1)).shape[1], 0), complex))
-        return cls(qx, qy, disc_correction(qx, qy) * amplitude)
+            return cls(qx, qy, np.zeros((0, 0), complex), shape)
+        found = ellipse.correction(qx, qy) if ellipse else disc_correction(qx, qy)
+        return cls(qx, qy, found * amplitude, shape)
 
     def below(self, limit: float) -> Edge:
         """Return the part of the waves with |q| below a limit [1/a]."""
         keep = np.hypot(self.qx, self.qy) < limit
-        return Edge(self.qx[keep], self.qy[keep], self.coefficients[:, keep])
+        return Edge(self.qx[keep], self.qy[keep], self.coefficients[:, keep], self.shape)
 
     def at(self, shift: float, track: float) -> Array:
-        """Coefficients (28,) for a tile moved along and across the motion [a]."""
+        """Coefficients (n,) for a tile moved along and across the motion [a]."""
         phase = np.exp(-1j * (self.qx * shift + self.qy * track))
         return np.asarray((self.coefficients @ phase).real)
+
+    def polynomials(self, x: Array, y: Array) -> Array:
+        """Polynomials (n, ...) at places by the semi-axes, held constant near the edge."""
+        ellipse = None if self.shape.radius_ratio == 1.0 else ellipse_edge(self.shape)
+        held = np.minimum(
+            1.0, (RADIUS if ellipse else EDGE_RADIUS) / np.maximum(np.hypot(x, y), 1e-12)
+        )
+        if not self.coefficients.size:
+            return np.zeros((self.coefficients.shape[0], *held.shape))
+        if ellipse:
+            return ellipse.functions(held * x, held * y)
+        return monomials(held * x, held * y, axis=0)
 
 
 class WavyContact(ShearedContact):
     """Points of a contact that waves change: pressures in p_h, films in a^2/R.
 
-    At places x (m,), y (n,) [a]; a point stands for an `area` [m^2]. `second`: gamma and s^2 of the
-    pressure of second order at the stations.
+    At places x (m,), y (n,) [a]; a point stands for an `area` [m^2]. `edges` of the tiles;
+    `second`: gamma and s^2 of the pressure of second order at the stations.
     """
 
     def __init__(
@@ -114,6 +134,7 @@ class WavyContact(ShearedContact):
         x: Array,
         y: Array,
         *,
+        edges: Sequence[Edge],
         area: float,
         operating: OperatingPoint,
         lubricant: Lubricant,
@@ -122,16 +143,18 @@ class WavyContact(ShearedContact):
         super().__init__(operating, lubricant)
         self.x, self.y, self.area = x, y, area
         self.pressure, self.film = contact.at(self.x, self.y)
-        self.radius = np.hypot(self.x[:, np.newaxis], self.y[np.newaxis, :])
+        self.across = self.y / operating.ellipse.ellipticity
+        self.radius = np.hypot(self.x[:, np.newaxis], self.across[np.newaxis, :])
         self.inside = (self.radius < REACH) & (self.pressure > 0.0)
         self.points = int(np.count_nonzero(self.inside))
+        self.inner = self.inside & (self.radius < INNER)
         self.weights = station_weights(self.x).astype(np.float32)
-        self.off = away_from_centre(self.y).astype(np.float32)
-        held = np.minimum(1.0, EDGE_RADIUS / np.maximum(self.radius, 1e-12))
-        grid = np.meshgrid(self.x, self.y, indexing="ij")
-        x, y = (held * values for values in grid)
-        # (28, m n): what is summed over them is read in order
-        self.monomials = monomials(x, y, axis=0).reshape(-1, held.size).astype(np.float32)
+        self.off = away_from_centre(self.across).astype(np.float32)
+        grid = np.meshgrid(self.x, self.across, indexing="ij")
+        # (n, points): what is summed over them is read in order
+        edge = next((edge for edge in edges if edge.coefficients.size), edges[0])
+        shape = edge.coefficients.shape[0], self.film.size
+        self.polynomials = edge.polynomials(*grid).reshape(shape).astype(np.float32)
         # of the pressure of second order
         self.second = second and [np.interp(self.x, STATIONS, v)[:, np.newaxis] for v in second]
         self.smooth = float(self.stress(self.pressure, self.film)[self.inside].sum())
@@ -140,7 +163,7 @@ class WavyContact(ShearedContact):
     def add_edge(self, total: Single, edge: Array) -> None:
         """Add what the edge of the contact does, by its coefficients (28,), to the pressure."""
         # threads of a product of matrices cost more than they bring
-        wide = np.einsum("k,kn->n", edge.astype(np.float32), self.monomials)
+        wide = np.einsum("k,kn->n", edge.astype(np.float32), self.polynomials)
         total[..., 1] += wide.reshape(self.film.shape)
 
     def add_second(self, total: Single) -> None:
@@ -164,6 +187,8 @@ class WavyContact(ShearedContact):
             return math.nan
         self.cavitated += int(np.count_nonzero((pressure <= 0.0) & self.inside))
         # outside nothing is counted: any film and pressure will do
+        film[~self.inside] = math.inf
+        self.meet(change[..., 1], film, self.inner)
         film[~self.inside] = 1.0
         np.maximum(pressure, 0.0, out=pressure)
         with np.errstate(over="ignore"):
@@ -187,12 +212,14 @@ class RoughContact(WavyContact):
         second: tuple[Array, Array] | None = None,
     ) -> None:
         self.waves, self.edge, self.pixel = waves, edge, pixel
-        half = [int(REACH / (stride * p)) for p in pixel]
+        reach = REACH, REACH * operating.ellipse.ellipticity
+        half = [int(r / (stride * p)) for r, p in zip(reach, pixel, strict=True)]
         self.rows, self.columns = (np.arange(-n, n + 1, dtype=np.int32) * stride for n in half)
         super().__init__(
             contact,
             np.asarray(self.rows * pixel[0], dtype=float),
             np.asarray(self.columns * pixel[1], dtype=float),
+            edges=[edge],
             area=stride**2 * pixel[0] * pixel[1] * operating.hertz_radius**2,
             operating=operating,
             lubricant=lubricant,
@@ -200,7 +227,7 @@ class RoughContact(WavyContact):
         )
         # the free wave is that of the roughness where it was when the inlet made it; without a bend
         # it is so on all lines
-        lines = self.y if waves.bent else np.zeros(1)
+        lines = self.across if waves.bent else np.zeros(1)
         way = slipped(self.x[:, np.newaxis], lines, velocity_ratio, bent=waves.bent)
         place = (self.x[:, np.newaxis] + way) / pixel[0] * REFINEMENT
         self.free_rows = np.floor(place).astype(np.int32)

@@ -59,7 +59,8 @@ class SecondOrder:
         kx, ky = np.concatenate([table.coarse(COARSER) for table in tables], axis=1)
         # a wave stands for +-k_Y, too
         pairs = [
-            stiffness(np.hypot(kx[:, np.newaxis] + i * kx, ky[:, np.newaxis] + j * ky))
+            zone.stiffness
+            * stiffness(np.hypot(kx[:, np.newaxis] + i * kx, ky[:, np.newaxis] + j * ky))
             for i in (1, -1)
             for j in (1, -1)
         ]

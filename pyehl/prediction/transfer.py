@@ -30,9 +30,9 @@ MIDDLE = 1
 """The one of them at X = 0."""
 CENTRE = STATIONS[: MIDDLE + 1]
 OFF_CENTRE = 0.5
-"""The second distance from the centre line at which the free wave is made [a]."""
+"""The second distance from the centre line at which the free wave is made [semi-axis]."""
 
-# Standard deviation of the friction over Y [a], and the phase that may be interpolated over it
+# Standard deviation of the friction over Y [semi-axis], and the phase that may be interpolated
 FRICTION_LINES = 0.24
 BENDING = 0.2
 
@@ -84,7 +84,7 @@ class _Entering:
         few = self.table.coarse()
         carried = coarsened(self._inlet[0], 1) * np.exp(1j * few[0] * self._slip)
         driven, free = transport(zone, *few, self.ratio, CENTRE, mesh)[MIDDLE]
-        pressure = wave_pressure(*few, self.ratio, driven, free * carried)
+        pressure = zone.stiffness * wave_pressure(*few, self.ratio, driven, free * carried)
         return float(self.table.gathered(self._power) @ np.square(np.abs(pressure)))
 
     def at_stations(self, zone: Zone, mesh: float) -> tuple[list[Complex], Complex, Complex]:
@@ -98,7 +98,8 @@ class _Entering:
         turned = [np.exp(1j * kx * self._slip * (x + 1.0)) for x in STATIONS]
         parts = [(d, f * inlet[0] * t) for (d, f), t in zip(stations, turned, strict=True)]
         ratios = np.array([d + f for d, f in parts])
-        pressures = np.array([wave_pressure(kx, ky, self.ratio, d, f) for d, f in parts])
+        k = zone.stiffness
+        pressures = np.array([k * wave_pressure(kx, ky, self.ratio, d, f) for d, f in parts])
         found = self.table.spread(
             [driven for driven, _ in stations]
             + [free * inlet[0] for _, free in stations]
@@ -122,7 +123,7 @@ class Transfer:
     bent: bool
     # The pressure of second order; None where the waves move with the roughness as they are
     second: SecondOrder | None = None
-    stiffening: float = 1.0  # stiffness over that of the half-space
+    stiffening: float = 1.0  # stiffness over that of the half-space under a circle
 
     @classmethod
     def of(
@@ -135,7 +136,9 @@ class Transfer:
         at_amplitude: bool = False,
         mesh: float = 0.0,
     ) -> Transfer:
-        """Of a tile in a contact, from a table over |q| and direction; `moes` are M, L.
+        """Of a tile in a contact, from a table over |q| and direction.
+
+        `moes` are M, L of the circular contact with the same inlet.
 
         `at_amplitude`: the waves leak as those of the amplitude of the tile
         (:func:`_at_amplitude`), not as small ones. `mesh` [a]: they leak as on a grid.
@@ -175,7 +178,7 @@ class Transfer:
         )
         count = STATIONS.size
         return [
-            cls(found[:count], found[count:-1], found[-1], waves.bent, second)
+            cls(found[:count], found[count:-1], found[-1], waves.bent, second, zone.stiffness)
             for waves, (found, _, _) in zip(entering, loaded, strict=True)
         ]
 

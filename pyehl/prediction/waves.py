@@ -62,7 +62,8 @@ class Waves:
         On the columns of the tile, or on lines Y (n,) [a].
         """
         qx, qy = spectrum.qx[:, np.newaxis], spectrum.qy[np.newaxis, :]
-        gain = edge_gain(qx, qy, central_film)
+        stiffening = transfer.stiffening
+        gain = stiffening * edge_gain(qx, qy, stiffening * central_film)
         k = (stiffness(spectrum.q) * gain).astype(np.float32)
         k_free = (free_stiffness(qx, qy, velocity_ratio) * gain).astype(np.float32)
         narrow = spectrum.single()

@@ -22,6 +22,9 @@ Array = NDArray[np.float64]
 # Dowson & Higginson 1966, density under pressure
 DENSITY_PRESSURE = 5.9e8
 DENSITY_FACTOR = 1.34
+# 0 degC, and the temperature at which Roelands' viscosity is infinite [K]
+FREEZING = 273.15
+ROELANDS_TEMPERATURE = 138.0
 
 
 def default_roelands_z(
@@ -61,6 +64,12 @@ class Lubricant:
         ``"dowson-higginson"`` or ``"incompressible"``.
     shear
         Shear stress in the contact, for friction.
+    temperature
+        Of the inlet, to which `viscosity` belongs [degC].
+    temperature_viscosity
+        beta = -(d eta/dT)/eta at ambient pressure and the temperature of the inlet [1/K].
+    thermal_expansion
+        Relative fall of the density with temperature [1/K].
 
     Raises
     ------
@@ -82,6 +91,9 @@ class Lubricant:
     roelands_p0: float = 1.96e8
     density_law: str = "dowson-higginson"
     shear: ShearLaw = field(default_factory=ShearLaw)
+    temperature: float = 40.0
+    temperature_viscosity: float = 0.0
+    thermal_expansion: float = 6.5e-4
 
     def __post_init__(self) -> None:
         """Check the words and the numbers."""
@@ -112,26 +124,38 @@ class Lubricant:
         given["viscosity_law"] = viscosity_law or group["viscosity_law"]
         return cls(shear=ShearLaw.from_settings(settings), **given)
 
-    def log_viscosity_ratio(self, pressure: ArrayLike) -> Array:
-        """ln(eta/eta0) [-] at a pressure [Pa], any shape; NaN below -p0 (Roelands).
+    def log_viscosity_ratio(self, pressure: ArrayLike, rise: ArrayLike = 0.0) -> Array:
+        """ln(eta/eta0) [-] at a pressure [Pa] and a rise of temperature [K], any shapes.
 
-        Roelands 1966: (alpha p0/z) ((1 + p/p0)^z - 1); Barus 1893: alpha p.
+        The rise is that over the temperature of the inlet. NaN below -p0 (Roelands).
+
+        Barus 1893: alpha p - beta T'; Roelands 1966: A ((1 + p/p0)^z (1 + T'/(T0 - 138 K))^-S0 - 1)
+        with A = alpha p0/z, S0 = beta (T0 - 138 K)/A and the rise T'.
         """
-        p = np.asarray(pressure, dtype=float)
+        p, warmer = np.asarray(pressure, dtype=float), np.asarray(rise, dtype=float)
         if self.viscosity_law == "barus":
-            return np.asarray(self.pressure_viscosity * p)
+            return np.asarray(self.pressure_viscosity * p - self.temperature_viscosity * warmer)
         factor = self.pressure_viscosity * self.roelands_p0 / self.roelands_z
+        above = self.temperature + FREEZING - ROELANDS_TEMPERATURE
+        s0 = self.temperature_viscosity * above / factor
         with np.errstate(invalid="ignore", divide="ignore"):
             power = np.exp(self.roelands_z * np.log(1.0 + p / self.roelands_p0))
+            power = power * np.exp(-s0 * np.log(1.0 + warmer / above))
         return np.asarray(factor * (power - 1.0))
 
-    def viscosity_ratio(self, pressure: ArrayLike) -> Array:
-        """eta/eta0 [-] at a pressure [Pa], any shape."""
-        return np.exp(self.log_viscosity_ratio(pressure))
+    def viscosity_ratio(self, pressure: ArrayLike, rise: ArrayLike = 0.0) -> Array:
+        """eta/eta0 [-] at a pressure [Pa] and a rise of temperature [K], any shapes."""
+        return np.exp(self.log_viscosity_ratio(pressure, rise))
 
-    def density_ratio(self, pressure: ArrayLike) -> Array:
-        """rho/rho0 [-] at a pressure [Pa], any shape (Dowson & Higginson 1966)."""
-        p = np.asarray(pressure, dtype=float)
+    def density_ratio(self, pressure: ArrayLike, rise: ArrayLike = 0.0) -> Array:
+        """rho/rho0 [-] at a pressure [Pa] and a rise of temperature [K], any shapes.
+
+        Dowson & Higginson 1966 under pressure, linear with temperature.
+        """
+        p, warmer = np.asarray(pressure, dtype=float), np.asarray(rise, dtype=float)
+        thinner = 1.0 - self.thermal_expansion * warmer
         if self.density_law == "incompressible":
-            return np.ones_like(p)
-        return np.asarray((DENSITY_PRESSURE + DENSITY_FACTOR * p) / (DENSITY_PRESSURE + p))
+            return np.ones_like(p) * thinner
+        return np.asarray(
+            (DENSITY_PRESSURE + DENSITY_FACTOR * p) / (DENSITY_PRESSURE + p) * thinner
+        )
