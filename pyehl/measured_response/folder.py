@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from pyehl.case import Case
+from pyehl.case import Case, exchanged
 from pyehl.destination import Destination, write_json
 from pyehl.given import Option, path_of
 from pyehl.measured_response.measurement import measure, with_tiers
@@ -53,6 +53,7 @@ def response(
     output: str | os.PathLike[str] | None = None,
     force: bool = False,
     quick: bool = False,
+    second: bool = False,
     progress: Callable[[str, int, int], object] | None = None,
 ) -> xr.Dataset:
     """Measure what the contact of a case makes of small waves of roughness; takes minutes.
@@ -70,6 +71,8 @@ def response(
         Other files may be in the folder; they stay.
     quick
         Waves down to a/16 only, in a third of the time.
+    second
+        At the velocity of the second surface of the case, not of the first.
     progress
         Called with the name of a run, its steps done and its steps in all.
 
@@ -97,6 +100,8 @@ def response(
     """
     inputs = () if isinstance(case, Case) else (case,)
     case = Case.of(case, *options)
+    if second:
+        case = exchanged(case)
     tiers = TIERS[:-1] if quick else TIERS
     with tempfile.TemporaryDirectory(prefix="pyehl-") as nothing:
         folder = nothing if output is None else path_of(output, "output")

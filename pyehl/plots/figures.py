@@ -249,18 +249,30 @@ def prediction_figures(
     `about` is its summary; of the `tables` ``passage`` and ``bands`` are shown.
     """
     title = headline(about)
-    size = about["length_x_m"], about["length_y_m"]
-    tile = Topography(arrays["surface"], size, about["surface"])
-    deformed = arrays["deformed"]
+    figures: dict[str, Figure] = {}
+    for prefix in ("", "second_") if "second_surface" in about else ("",):
+        figures |= _side(about, arrays, prefix, title)
+    if about["status"] == "predicted":
+        figures["passage"] = _passage(tables, about["length_x_m"], title)
+    return figures
+
+
+def _side(
+    about: Mapping[str, Any], arrays: Mapping[str, Array], prefix: str, title: str
+) -> dict[str, Figure]:
+    """Figures of the rough surface whose names begin with a prefix."""
+    size = about[f"{prefix}length_x_m"], about[f"{prefix}length_y_m"]
+    tile = Topography(arrays[f"{prefix}surface"], size, about[f"{prefix}surface"])
+    deformed = arrays[f"{prefix}deformed"]
     figure = _row(3, (11.6, 3.2), title, room=(0.8, 1.9, 0.8))
     first, second, third = figure.axes
     third.set_box_aspect(1.0)
     surface.heights(tile, ax=first)
     surface.spectrum_map(tile, ax=second)
-    flattened = _flattened(about, Topography(arrays["delta_p"], size))
+    flattened = _flattened(about, Topography(arrays[f"{prefix}delta_p"], size))
     surface.spectrum_line(tile, deformed, flattened, ax=third)
     figure.axes[-1].set_box_aspect(1.0)
-    figures = {"surface_spectrum": figure}
+    figures = {f"{prefix}surface_spectrum": figure}
     figure = _row(2, (7.2, 3.4), title, sharey=True, room=(0.75, 0.35, 1.15))
     for ax, values, name in zip(
         list(figure.axes),
@@ -273,9 +285,7 @@ def prediction_figures(
         axes = a, about.get("semi_axis_y_m", a)
         surface.roughness(tile, values, axes, name=name, bar=last, ax=ax)
     _no_second_label(figure.axes[1])
-    figures["roughness"] = figure
-    if about["status"] == "predicted":
-        figures["passage"] = _passage(tables, about["length_x_m"], title)
+    figures[f"{prefix}roughness"] = figure
     return figures
 
 
@@ -293,7 +303,9 @@ def _flattened(about: Mapping[str, Any], tile: Topography) -> Array:
 def _passage(tables: Mapping[str, Mapping[str, Array]], length: float, title: str) -> Figure:
     figure = _row(2, (7.6, 3.2), title, room=(0.9, 1.05, 0.15))
     left, right = figure.axes
-    surface.passage(tables["passage"]["shift_m"], tables["passage"]["mu_ratio"], length, ax=left)
+    shift, ratio = tables["passage"]["shift_m"], tables["passage"]["mu_ratio"]
+    second = tables["passage"].get("second_shift_m")
+    surface.passage(shift, ratio, length, second=second, ax=left)
     columns = [tables["bands"][name] for name in ("longest_m", "shortest_m", "rise")]
     surface.octaves(
         [(float(a), float(b), float(c)) for a, b, c in zip(*columns, strict=True)], ax=right

@@ -168,8 +168,15 @@ def roughness(
     return ax
 
 
-def passage(shift: Array, ratio: Array, length: float, *, ax: Axes | None = None) -> Axes:
-    """mu_r/mu_s over one passage of the tile.
+def passage(
+    shift: Array,
+    ratio: Array,
+    length: float,
+    *,
+    second: Array | None = None,
+    ax: Axes | None = None,
+) -> Axes:
+    """mu_r/mu_s over one passage of the tile, or a common period of two.
 
     Parameters
     ----------
@@ -177,12 +184,17 @@ def passage(shift: Array, ratio: Array, length: float, *, ax: Axes | None = None
         (n,) displacement of the tile [m], equally spaced from 0, and mu_r/mu_s there [-].
     length
         Of the tile along x [m].
+    second
+        (n,) displacement of the tile of a second surface [m]. Where it goes back, the positions are
+        not those of a common period but all that two tiles may have, in no order of time.
     """
     ax = axes_or_new(ax, 3.8, 2.9)
-    fine = interpolated(ratio, 16)
-    at = np.arange(fine.size + 1) * length / fine.size
     mean = float(ratio.mean())
-    ax.plot(at * 1e3, np.append(fine, fine[0]), color=BLUE, lw=1.4)
+    if second is None or bool(np.all(np.diff(second) >= 0.0)):
+        fine = interpolated(ratio, 16)
+        length *= round(float(shift[-1]) * (1.0 + 1.0 / max(1, shift.size - 1)) / length) or 1
+        at = np.arange(fine.size + 1) * length / fine.size
+        ax.plot(at * 1e3, np.append(fine, fine[0]), color=BLUE, lw=1.4)
     ax.plot(shift * 1e3, ratio, "o", ms=3.0, color=BLUE)
     ax.axhline(mean, color=VERMILLION, lw=1.0, ls="--", label=f"mean {mean:.3f}")
     ax.axhline(1.0, color=GREY, lw=0.8, ls=":", label="smooth")

@@ -71,16 +71,13 @@ class RoughPair:
     @property
     def meeting(self) -> Meeting:
         """The positions in which they meet, in their order."""
-        a = self.of[0].operating.hertz_radius
-        lengths, ratios, fronts = (
-            (values[self.order[0]], values[self.order[1]])
-            for values in (
-                [one.topography.length_x / a for one in self.of],
-                [one.velocity_ratio for one in self.of],
-                self.fronts,
-            )
+        a, (i, j) = self.of[0].operating.hertz_radius, self.order
+        first, second = self.of[i], self.of[j]
+        return Meeting(
+            (first.topography.length_x / a, second.topography.length_x / a),
+            (first.velocity_ratio, second.velocity_ratio),
+            (self.fronts[i], self.fronts[j]),
         )
-        return Meeting(lengths, ratios, fronts)
 
     def parts(self, tiles: Sequence[Topography] | None = None) -> PairParts:
         """Components of both tiles and what becomes of them, in their order.
@@ -190,24 +187,20 @@ class RoughPair:
         parts = self.parts()
         with np.errstate(over="ignore", invalid="ignore"):
             contact = self._contact(parts)
-            contact.watch(
-                film_levels(
-                    one.options.film_limit / one.operating.film_scale,
-                    [
-                        (
-                            spectrum.power,
-                            np.abs(transfer.at_centre(spectrum, self.of[k].velocity_ratio)),
-                        )
-                        for (spectrum, transfer, _), k in zip(parts, self.order, strict=True)
-                    ],
-                )
-            )
+            left = [
+                (spectrum.power, np.abs(transfer.at_centre(spectrum, self.of[k].velocity_ratio)))
+                for (spectrum, transfer, _), k in zip(parts, self.order, strict=True)
+            ]
+            limit = one.options.film_limit / one.operating.film_scale
+            contact.watch(film_levels(limit, left))
             places = meeting.mean(contact.friction, one.options.positions, LARGEST_RATIO)
             found = self._result(contact, parts, places, brief)
             if found.status != "predicted":
                 return found, (math.nan, math.nan), []
             ratios = [
-                meeting.short_mean(self._contact(parts, tracks=pair).friction)
+                meeting.short_mean(
+                    (self._contact(parts, tracks=pair) if any(pair) else contact).friction
+                )
                 for pair in self._tracks(tracks)
             ]
             bands = self._bands(parts, found.mu_ratio, brief)

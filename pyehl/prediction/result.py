@@ -219,7 +219,8 @@ class Prediction:
         """Draw mu_r/mu_s over the passage on `ax`, or on a new figure; returns the axes."""
         from pyehl.plots.surface import passage  # noqa: PLC0415 (matplotlib, as above)
 
-        return passage(self.friction.shift, self.friction.passage, self.surface.length_x, ax=ax)
+        f, second = self.friction, self.second.passage.shift if self.second else None
+        return passage(f.shift, f.passage, self.surface.length_x, second=second, ax=ax)
 
     def _bands(self) -> list[dict[str, float]]:
         return [
