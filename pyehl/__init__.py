@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from pyehl.netcdf import export
     from pyehl.plots.folder import plot
     from pyehl.prediction.result import Prediction
+    from pyehl.reports.folder import report
     from pyehl.results import load
     from pyehl.solver import Solver
     from pyehl.studies.curve_run import stribeck
@@ -58,6 +59,7 @@ __all__ = [
     "lubricants",
     "plot",
     "predict",
+    "report",
     "response",
     "solve",
     "stribeck",
@@ -82,6 +84,7 @@ _HOMES = {
     "lubricants": "studies.oil_list",
     "plot": "plots.folder",
     "predict": "api",
+    "report": "reports.folder",
     "response": "measured_response.folder",
     "solve": "api",
     "stribeck": "studies.curve_run",

@@ -66,6 +66,14 @@ SOLUTION = (
     Field("H_smooth", "H_smooth", "h_smooth_m", "m", PLANE, "film, smooth contact", "h R/a^2"),
     Field("RR", "RR", "rr_m", "m", PLANE, "roughness, peaks positive", "r R/a^2"),
     Field("A_d", "A_d", "a_d_m", "m", PLANE, "deformed roughness: smooth film less film", "R/a^2"),
+    *(
+        Field(name := f"temperature_rise{part}_K", name, name, "K", PLANE, f"rise of {of}", "")
+        for part, of in (
+            ("", "temperature, mean across the film"),
+            ("_wall_1", "the temperature of the surface of body 1"),
+            ("_wall_2", "the temperature of the surface of body 2"),
+        )
+    ),
     Field("frame_P", "frame_P", "frame_p_Pa", "Pa", FRAMES, "pressure in time", "p/p_h"),
     Field("frame_H", "frame_H", "frame_h_m", "m", FRAMES, "film thickness in time", "h R/a^2"),
 )
@@ -151,6 +159,9 @@ def _solution_dataset(
         if field.file not in arrays:
             continue
         values = arrays[field.file]
+        if field.si_unit == "K":
+            found[field.name] = _variable(field.dims, values, "K", field.meaning)
+            continue
         found[field.name] = _variable(field.dims, values, "1", f"{field.meaning}, {field.scaled}")
         if point is not None:
             scaled = values * field.scale(point)

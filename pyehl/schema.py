@@ -146,10 +146,15 @@ p | mu_ratio_tracks_spread | - | standard deviation between the tracks
 f | mu_ratio_eq_16 | - | mu_ratio by eq. 16 of Zhang et al. 2019
 f | theta_2 | - | theta_2 of that equation
 f | theta_2_outside | | what lies outside of its range
-sp | mu | - | coefficient of friction of the rough contact
-sp | mu_smooth | - | coefficient of friction of the smooth contact
-sp | mu_note | | what mu leaves out
-sp | flash_temperature_K | K | rise of temperature that mu leaves out
+sp | mu | - | coefficient of friction of the rough contact, with heat where it counts
+sp | mu_smooth | - | coefficient of friction of the smooth contact, with heat where it counts
+sp | mu_isothermal | - | mu without heat
+sp | mu_smooth_isothermal | - | mu_smooth without heat
+sp | temperature_rise_max_K | K | largest mean rise across the film; rough: at the end of a run
+sp | temperature_rise_wall_1_max_K | K | the same of the surface of body 1
+sp | temperature_rise_wall_2_max_K | K | the same of the surface of body 2
+sp | mu_note | | what mu holds and leaves out
+sp | flash_temperature_K | K | largest rise of the surfaces by a formula (Tian & Kennedy), at mu
 sp | shear_rate_mean_per_s | 1/s | mean shear rate
 sp | shear_stress_max_Pa | Pa | largest shear stress
 s | rolling_moment | p_h a^3 | iint H/2 dP/dX of the smooth contact, which resists the rolling
@@ -206,8 +211,18 @@ p | pixels | - | pixels of the tile along x and y
 p | length_x_m | m | size of the tile along x
 p | length_y_m | m | size of the tile along y
 pf | rms_height_m | m | rms height sigma of the undeformed roughness
+p | film_limit_m | m | film of which the share below is told
+p | film_below_limit_share | - | mean share of the contact with a film below it
+p | film_below_limit_error | - | estimate of its error
+p | h_min_rough_error_m | m | error of h_min_rough_m by the response, beside that of the smooth film
 p | rms_deformed_m | m | rms height of the deformed roughness
-p | rms_pressure_Pa | Pa | rms of the pressure change
+p | rms_deformed_error_m | m | estimate of its error
+p | lambda_ratio_deformed | - | h_min/rms_deformed_m: smooth contact, deformed surface
+p | lambda_ratio_deformed_error | - | estimate of its error
+p | rms_pressure_Pa | Pa | rms of the pressure change at the centre
+p | rms_pressure_error_Pa | Pa | estimate of its error
+p | p_rise_max_Pa | Pa | largest rise of the pressure over a passage, within 0.8 a of the centre
+p | p_rise_max_error_Pa | Pa | estimate of its error
 sp | lambda_ratio | - | h_min/sigma: smooth contact, undeformed surface
 spf | lambda_ratio_central | - | h_c/sigma: smooth contact, undeformed surface
 p | cavitated_share | - | share of the contact where the pressure would be negative

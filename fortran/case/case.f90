@@ -39,6 +39,9 @@ module ehl_case
       !> Of bearing steel
       real(dp) :: thermal_conductivity = 46.0_dp
       real(dp) :: thermal_diffusivity = 1.25e-5_dp
+      !> Of body 2
+      real(dp) :: thermal_conductivity_2 = 0.0_dp
+      real(dp) :: thermal_diffusivity_2 = 0.0_dp
    end type contact_case_t
 
    !> &bodies: what makes the reduced radii and the reduced modulus; it rules where one of its keys is given
@@ -87,6 +90,7 @@ module ehl_case
       !> Set by the reader where there is a data sheet
       real(dp) :: temperature_viscosity = 0.0_dp
       real(dp) :: thermal_conductivity = 0.14_dp
+      character(len=word_length) :: thermal_friction = "auto"
    end type lubricant_case_t
 
    !> &grid: the domain in Hertz radii a and its finest grid; all but points, target_error and max_points set by the
@@ -133,6 +137,7 @@ module ehl_case
       real(dp) :: crop_x_max = 0.0_dp
       real(dp) :: crop_y_min = 0.0_dp
       real(dp) :: crop_y_max = 0.0_dp
+      character(len=word_length) :: height_unit = "m"
       integer :: sign = 1
       real(dp) :: outliers = 0.0_dp
       character(len=word_length) :: fill = "harmonic"
@@ -178,7 +183,7 @@ module ehl_case
 
    !> &psd: the friction prediction from the surface spectrum, made by pyehl alone
    type :: psd_case_t
-      real(dp) :: film_thickness = 0.0_dp
+      real(dp) :: film_thickness = 0.0_dp, film_limit = 0.0_dp
       character(len=word_length) :: reduction = "response"
       character(len=word_length) :: smooth = "solved"
       character(len=word_length) :: wavelength_convention = "components"

@@ -92,7 +92,8 @@ contains
       real(dp) :: loading, reduction
 
       associate (l => input%lubricant, c => input%contact)
-         if (.not. l%thermal_reduction) return
+         if (l%thermal_friction == "always") call check_friction(schema, input, sources, status)
+         if (status%failed() .or. .not. l%thermal_reduction) return
          if (.not. c%si) then
             call refuse(schema, sources, "lubricant", "thermal_reduction", "lubricant.thermal_reduction with a contact " &
                         // "given by moes_m and moes_l, which has no velocity in m/s", &
@@ -113,4 +114,22 @@ contains
                      // short(loading), "a slower contact, or .false.", status)
       end associate
    end subroutine check_heat
+
+   !> What the temperature of the film needs that friction is always to be computed with
+   subroutine check_friction(schema, input, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(in) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+
+      if (.not. input%contact%si) then
+         call refuse(schema, sources, "lubricant", "thermal_friction", "lubricant.thermal_friction = 'always' with a contact " &
+                     // "given by moes_m and moes_l, which has no sliding speed in m/s", &
+                     "load, mean_velocity, radius and reduced_modulus, or 'auto'", status)
+      else if (.not. input%lubricant%temperature_viscosity > 0.0_dp) then
+         call refuse(schema, sources, "lubricant", "thermal_friction", "lubricant.thermal_friction = 'always', and nothing " &
+                     // "tells how the viscosity falls with temperature", &
+                     "temperature_viscosity, or kinematic_viscosity_40 and kinematic_viscosity_100, or 'auto'", status)
+      end if
+   end subroutine check_friction
 end module ehl_case_temperature

@@ -37,9 +37,13 @@ contains
                          "slide-to-roll ratio (u1 - u2)/u; follows from a given velocity_ratio of a surface")
          call self%integers("rough_surface", c%rough_surface, "[1, 2]", "body with &surface; the other has &second_surface")
          call self%reals("thermal_conductivity", c%thermal_conductivity, "W/(m K)", "[0.1, 500]", &
-                         "thermal conductivity of the solids, for the flash temperature")
+                         "thermal conductivity of the solids, for the heat of friction")
          call self%reals("thermal_diffusivity", c%thermal_diffusivity, "m^2/s", "[1e-8, 1e-3]", &
-                         "thermal diffusivity of the solids, for the flash temperature")
+                         "thermal diffusivity of the solids, for the heat of friction")
+         call self%reals("thermal_conductivity_2", c%thermal_conductivity_2, "W/(m K)", "0 or [0.1, 500]", &
+                         "that of body 2; 0: thermal_conductivity")
+         call self%reals("thermal_diffusivity_2", c%thermal_diffusivity_2, "m^2/s", "0 or [1e-8, 1e-3]", &
+                         "that of body 2; 0: thermal_diffusivity")
       end associate
       self%group = "bodies"
       associate (b => input%bodies)
@@ -121,7 +125,9 @@ contains
          call self%reals("temperature_viscosity", l%temperature_viscosity, "1/K", "0 or [1e-3, 0.3]", &
                          "-(d eta/dT)/eta; default from the kinematic viscosities, 0: not known")
          call self%reals("thermal_conductivity", l%thermal_conductivity, "W/(m K)", "[0.01, 2]", &
-                         "thermal conductivity of the oil, for thermal_reduction")
+                         "thermal conductivity of the oil, for its heat")
+         call self%words("thermal_friction", l%thermal_friction, "auto|always|never", &
+                         "friction with the temperature of the film; auto: where it counts and temperature_viscosity is known")
       end associate
       self%group = "grid"
       associate (g => input%grid)
@@ -180,6 +186,8 @@ contains
                          "smooth contact: solved, or semi-ellipse and uniform film as in the paper")
          call self%reals("film_thickness", p%film_thickness, "m", "[0, 1e-3]", &
                          "central film; 0: solved, or with smooth = 'hertz' from the Nijenbanning-Venner-Moes formula")
+         call self%reals("film_limit", p%film_limit, "m", "[0, 1e-3]", &
+                         "film below which the share of the contact is told; 0: none")
          call self%words("wavelength_convention", p%wavelength_convention, "components|wavevector|pattern", &
                          "what the wavelength of a component is, for reduction = 'amplitude'")
          call self%words("stiffness", p%stiffness, "exact|paper", "stiffness of the half-space")
@@ -245,6 +253,8 @@ contains
                       "size of the map along X; 0: that of the file; fractal: 8.29e-4")
       call self%reals("length_y", s%length_y, "m", "0 or [1e-9, 1]", &
                       "size of the map along Y; 0: that of the file; fractal: 8.29e-4")
+      call self%words("height_unit", s%height_unit, "m|mm|um|nm", &
+                      "unit of the heights of a map that names none (.npy, text), and of the places in a list x y z")
       call self%reals("crop_x_min", s%crop_x_min, "m", "[0, 1]", "the map begins there along X")
       call self%reals("crop_x_max", s%crop_x_max, "m", "[0, 1]", "the map ends there; 0: at its end")
       call self%reals("crop_y_min", s%crop_y_min, "m", "[0, 1]", "the map begins there along Y")

@@ -87,6 +87,7 @@ contains
             if (s%mean_velocity > 0.0_dp) speed = " ("//fixed(abs(s%slide_to_roll)*s%mean_velocity, "es10.3")//" m/s)"
             call add("friction   "//trim(s%law)//" shear stress, slide-to-roll ratio "//fixed(s%slide_to_roll, "f8.4")// &
                      speed//"; "//flow)
+            call add("           coefficients are "//plan%heat%note)
             if (s%loading > 0.0_dp) call add("heat       shear heating of the inlet (Gupta et al. 1992): film times "// &
                fixed(s%reduction, "f7.4")//" by an inlet viscosity of "//fixed(s%inlet_viscosity, "es10.3")// &
                " Pa s, which M and L belong to")

@@ -60,9 +60,9 @@ contains
       class(thinning_flow_t), intent(inout) :: self
       type(lubricant_t), intent(in) :: lubricant
       !> Pressure and film, shape (nx, ny)
-      real(dp), intent(in) :: p(:, :), h(:, :)
+      real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
       !> Density of the row and its change with P, shape (nx)
-      real(dp), intent(in) :: rho(:), drho_dp(:)
+      real(dp), contiguous, intent(in) :: rho(:), drho_dp(:)
       integer, intent(in) :: j, last
       type(factors_t) :: factors
       real(dp), dimension(size(p, 1)) :: log_eta, slope
@@ -113,7 +113,7 @@ contains
    pure subroutine gradients(self, p, h, j, s)
       class(thinning_flow_t), intent(in) :: self
       !> Shape (nx, ny)
-      real(dp), intent(in) :: p(:, :), h(:, :)
+      real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
       integer, intent(in) :: j
       !> Shape (2, nx)
       real(dp), intent(out) :: s(:, :)
@@ -146,11 +146,11 @@ contains
       class(thinning_flow_t), intent(in) :: self
       type(lubricant_t), intent(in) :: lubricant
       !> Pressure and film, shape (nx, ny)
-      real(dp), intent(in) :: p(:, :), h(:, :)
+      real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
       !> Density of the row, shape (nx)
-      real(dp), intent(in) :: rho(:)
+      real(dp), contiguous, intent(in) :: rho(:)
       integer, intent(in) :: j
-      real(dp), intent(out) :: newtonian(:), stress(:)
+      real(dp), contiguous, intent(out) :: newtonian(:), stress(:)
       real(dp), dimension(size(p, 1)) :: log_eta, slope
 
       associate (unused => rho)

@@ -5,10 +5,13 @@ from __future__ import annotations
 
 import argparse
 import math
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from pyehl.api import predict
 from pyehl.commands.arguments import add_case_arguments, add_force
+from pyehl.prediction.deformed import error_name
 from pyehl.prediction.friction import TRACKS
 from pyehl.prediction.result import Prediction
 
@@ -30,6 +33,7 @@ def report(prediction: Prediction) -> str:
         f"model       {_model(prediction)}",
     ]
     if f.status == "predicted":
+        lines += _deformed(prediction.summary)
         lines += [
             f"mu_r/mu_s   {f.mu_ratio:.3f} over the passage, {f.mu_ratio_min:.3f} ... "
             f"{f.mu_ratio_max:.3f}   [{f.passage.size} positions, "
@@ -45,7 +49,7 @@ def report(prediction: Prediction) -> str:
         if values["mu"] is not None:
             lines.append(
                 f"mu          {values['mu']:.4f}, smooth mu_s {values['mu_smooth']:.4f}; "
-                f"{values['mu_note']}: {values['flash_temperature_K']:.2g} K"
+                f"{values['mu_note']}; flash temperature {values['flash_temperature_K']:.2g} K"
             )
         strongest = sorted(prediction.bands, key=lambda band: -abs(band.rise))[:3]
         parts = ", ".join(
@@ -62,6 +66,29 @@ def report(prediction: Prediction) -> str:
             line += f", at most {f.cavitated_friction:.1g} of the friction"
         lines.append(line)
     return "\n".join(lines)
+
+
+def _deformed(values: Mapping[str, Any]) -> list[str]:
+    """Say what becomes of the surface, in the units of the picture."""
+
+    def told(name: str, factor: float, digits: int = 3) -> str:
+        error = values[error_name(name)]
+        text = f"{values[name] * factor:.{digits}g}"
+        return text if error is None else f"{text} +- {error * factor:.1g}"
+
+    lines = [
+        f"deformed    rms {told('rms_deformed_m', 1e6)} um; pressure rms "
+        f"{told('rms_pressure_Pa', 1e-9)} GPa, at most {told('p_rise_max_Pa', 1e-9)} GPa up",
+    ]
+    film = f"            least film {told('h_min_rough_m', 1e6)} um"
+    if values["lambda_ratio_deformed"] is not None:
+        film += f"; h_min over deformed rms {told('lambda_ratio_deformed', 1.0)}"
+    if values["film_limit_m"] is not None:
+        film += (
+            f"; {told('film_below_limit_share', 100.0)} % of the contact below "
+            f"{values['film_limit_m'] * 1e6:.4g} um"
+        )
+    return [*lines, film]
 
 
 def _trust(prediction: Prediction) -> str:

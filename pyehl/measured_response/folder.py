@@ -16,14 +16,15 @@ from pyehl.case import Case
 from pyehl.destination import Destination, write_json
 from pyehl.given import Option, path_of
 from pyehl.measured_response.measurement import measure, with_tiers
-from pyehl.measured_response.table import dataset, shipped_response, write_table
+from pyehl.measured_response.table import dataset, nabla_2, shipped_response, write_table
 from pyehl.measured_response.tiers import TIERS
 from pyehl.netcdf import write_netcdf
+from pyehl.prediction.errors import outside_range
+from pyehl.prediction.options import Options
 from pyehl.prediction.smooth import solve_contact, zone_of
 from pyehl.results import scalars
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.response import fitted_range
 
 __all__ = ["destination", "response"]
 
@@ -119,8 +120,9 @@ def _write(case: Case, found: Mapping[str, Mapping[str, Any]], place: Destinatio
     zone = zone_of(solve_contact(settings), operating, Lubricant.from_settings(settings))
     data = dataset(found, zone, operating, ratio)
     at_centre = data.sel(X=0.0)
-    nabla = np.geomspace(float(data["nabla_2"].min()), float(data["nabla_2"].max()), 400)
-    q = 2.0 * np.pi / nabla * np.sqrt(operating.moes_m / operating.moes_l)
+    longest, shortest = (float(data["wavelength"][i]) for i in (0, -1))
+    q = np.geomspace(2.0 * np.pi / shortest, 2.0 * np.pi / longest, 400)
+    nabla = nabla_2(q, operating)
     lines = {}
     for direction in DIRECTIONS:
         kx, ky = q * np.cos(np.radians(direction)), q * np.sin(np.radians(direction))
@@ -128,6 +130,7 @@ def _write(case: Case, found: Mapping[str, Mapping[str, Any]], place: Destinatio
     waves = {name: at_centre[name].values for name in ("nabla_2", "direction", "amplitude", "lag")}
     label = f"M = {operating.moes_m:.4g}, L = {operating.moes_l:.4g}, velocity ratio {ratio:g}"
     summary = _summary(found, at_centre["shipped_difference"].values, data.attrs)
+    summary["within_fitted_range"] = not outside_range(operating, ratio, Options())
     with with_tiers(place).fresh() as folder:
         write_table(data, folder / "response.csv")
         write_netcdf(folder / "response.nc", data)
@@ -156,12 +159,9 @@ def _summary(
     return {
         "kind": "response",
         "files": list(FILES),
-        **{name: values[name] for name in ("moes_m", "moes_l", "velocity_ratio")},
+        **{name: values[name] for name in ("moes_m", "moes_l", "ellipticity", "velocity_ratio")},
         "waves": int(difference.size),
         "tiers": tiers,
         "shipped_difference_rms": float(np.sqrt(np.mean(difference**2))),
         "shipped_difference_max": float(difference.max()),
-        "within_fitted_range": all(
-            low <= values[name] <= high for name, (low, high) in fitted_range().items()
-        ),
     }

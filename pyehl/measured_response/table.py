@@ -16,7 +16,7 @@ from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_transfer
 from pyehl.theory.transport import Zone, stiffness, transport
 
-__all__ = ["STATIONS", "dataset", "shipped_response", "write_table"]
+__all__ = ["STATIONS", "dataset", "nabla_2", "shipped_response", "write_table"]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -30,14 +30,14 @@ VARIABLES = {
     "kx": ("wavenumber along the motion", "1/a"),
     "ky": ("wavenumber across the motion", "1/a"),
     "wavelength": ("2 pi/|q|", "a"),
-    "nabla_2": ("wavelength over a times sqrt(M/L)", "1"),
+    "nabla_2": ("wavelength over a times sqrt(M/L) of the circle with the same inlet", "1"),
     "direction": ("angle of the crests to those across the motion", "degree"),
     "points": ("nodes per side of the grid", "1"),
     "fit_residual": ("rms left by the fit in time over the amplitude, at X = 0", "1"),
     "amplitude": ("|T|, film wave over roughness", "1"),
     "lag": ("phase of T", "degree"),
     "pressure": ("|pressure wave| over roughness", "p_h R/a^2"),
-    "pressure_ratio": ("pressure wave over pi/4 |q| (1 - T) of the half-space", "1"),
+    "pressure_ratio": ("pressure wave over that of the half-space, K (1 - T)", "1"),
     "shipped_amplitude": ("|T| of the response that the prediction uses", "1"),
     "shipped_lag": ("phase of T of the response that the prediction uses", "degree"),
     "shipped_difference": ("|T - T of the response that the prediction uses|", "1"),
@@ -48,12 +48,17 @@ def shipped_response(
     kx: Array, ky: Array, zone: Zone, operating: OperatingPoint, velocity_ratio: float
 ) -> Complex:
     """T at the STATIONS by :mod:`pyehl.theory.response`, (m, 3), for wavenumbers [1/a]."""
-    moes = operating.moes_m, operating.moes_l
-    inlet = inlet_transfer(zone, kx, ky, moes, velocity_ratio)
+    inlet = inlet_transfer(zone, kx, ky, operating.equivalent_moes, velocity_ratio)
     slip = np.exp(1j * np.outer(kx * (velocity_ratio - 1.0), STATIONS + 1.0))
     parts = transport(zone, kx, ky, velocity_ratio, STATIONS)
     found = [driven + free * inlet * slip[:, i] for i, (driven, free) in enumerate(parts)]
     return np.stack(found, axis=-1)
+
+
+def nabla_2(q: Array, operating: OperatingPoint) -> Array:
+    """Wavelength parameter of waves |q| [1/a], by M and L of the circle with the same inlet."""
+    moes_m, moes_l = operating.equivalent_moes
+    return np.asarray(2.0 * np.pi / q * np.sqrt(moes_m / moes_l))
 
 
 def _tier(
@@ -65,19 +70,20 @@ def _tier(
     q = np.hypot(kx, ky)
     place = [int(np.argmin(np.abs(tier["x"] - station))) for station in STATIONS]
     t, pressure = tier["response"][:, place], tier["stiffness"][:, place]
+    half_space = zone.stiffness * stiffness(q)[:, np.newaxis]
     shipped = shipped_response(kx, ky, zone, operating, velocity_ratio)
     return {
         "kx": kx,
         "ky": ky,
         "wavelength": 2.0 * np.pi / q,
-        "nabla_2": 2.0 * np.pi / q * np.sqrt(operating.moes_m / operating.moes_l),
+        "nabla_2": nabla_2(q, operating),
         "direction": np.degrees(np.arctan2(ky, kx)),
         "points": np.full(kx.shape, round(4.0 / float(tier["spacing"])) + 1.0),
         "fit_residual": tier["residual"][:, place[1]],
         "amplitude": np.abs(t),
         "lag": np.degrees(np.angle(t)),
         "pressure": np.abs(pressure),
-        "pressure_ratio": np.abs(pressure / (stiffness(q)[:, np.newaxis] * (1.0 - t))),
+        "pressure_ratio": np.abs(pressure / (half_space * (1.0 - t))),
         "shipped_amplitude": np.abs(shipped),
         "shipped_lag": np.degrees(np.angle(shipped)),
         "shipped_difference": np.abs(t - shipped),
@@ -110,6 +116,7 @@ def dataset(
         "title": "response of a lubricated contact to waves of roughness",
         "moes_m": operating.moes_m,
         "moes_l": operating.moes_l,
+        "ellipticity": operating.ellipse.ellipticity,
         "velocity_ratio": velocity_ratio,
     }
     return xr.Dataset(variables, {"X": place}, scalars)

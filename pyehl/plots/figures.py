@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -15,6 +16,7 @@ from pyehl.plots import contact, surface, transient
 from pyehl.plots.outline import Outline
 from pyehl.plots.style import (
     BLUE,
+    PAGE_WIDTH,
     VERMILLION,
     Scales,
     film_unit,
@@ -22,6 +24,7 @@ from pyehl.plots.style import (
     nearest,
     new_figure,
     pressure_unit,
+    wrapped,
 )
 from pyehl.surfaces import Topography, wavenumbers
 from pyehl.theory.operating import OperatingPoint
@@ -36,6 +39,8 @@ Array = NDArray[np.float64]
 
 # Room below and above a row of panels [in]
 BELOW, ABOVE = 0.52, 0.57
+# Panels narrower than this are put below one another [in]
+LEAST_PANEL = 2.0
 
 
 def headline(summary: Mapping[str, Any], scales: Scales | None = None) -> str:
@@ -85,6 +90,9 @@ def _row(
     `room`: left of, between and right of the panels in inches, where it is known. Then nothing is
     measured, which takes as long as to draw.
     """
+    page = PAGE_WIDTH.get()
+    if page:
+        return _on_page(count, size, wrapped(title, page), page, sharey=sharey)
     if room is None:
         figure = new_figure(*size)
     else:
@@ -97,6 +105,26 @@ def _row(
     letter(list(figure.subplots(1, count, sharey=sharey, squeeze=False)[0]))
     figure.suptitle(title, fontsize="medium")
     return figure
+
+
+def _on_page(
+    count: int, size: tuple[float, float], title: str, width: float, *, sharey: bool
+) -> Figure:
+    """Make a figure as wide as a page, its panels below one another where they would be small."""
+    columns = count if width >= count * LEAST_PANEL else 1
+    rows = count // columns
+    height = max(LEAST_PANEL, size[1] * width / columns * count / size[0])
+    figure = new_figure(width, rows * height)
+    letter(list(figure.subplots(rows, columns, sharey=sharey, squeeze=False).ravel()))
+    figure.suptitle(title, fontsize="medium")
+    return figure
+
+
+def _no_second_label(ax: Axes) -> None:
+    """Leave out the label of the y axis that panels side by side share."""
+    place = ax.get_subplotspec()
+    if place is not None and not place.is_first_col():
+        ax.set_ylabel("")
 
 
 def solution_figures(data: xr.Dataset, units: str = "auto") -> dict[str, Figure]:
@@ -150,7 +178,7 @@ def _film(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
     outline = Outline.of(data)
     contact.interferogram(x, y, film, scales, fringes=fringes, outline=outline, ax=left)
     contact.contours(x, y, film, scales, outline=outline, ax=right)
-    right.set_ylabel("")
+    _no_second_label(right)
     return figure
 
 
@@ -165,7 +193,7 @@ def _deformed(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
             x, y, field, scales,
             top=top, name=name, bar=field is deformed, outline=outline, ax=ax,
         )  # fmt: skip
-    figure.axes[1].set_ylabel("")
+    _no_second_label(figure.axes[1])
     return figure
 
 
@@ -241,7 +269,7 @@ def prediction_figures(
     ):
         last = values is deformed
         surface.roughness(tile, values, about["hertz_radius_m"], name=name, bar=last, ax=ax)
-    figure.axes[1].set_ylabel("")
+    _no_second_label(figure.axes[1])
     figures["roughness"] = figure
     if about["status"] == "predicted":
         figures["passage"] = _passage(tables, about["length_x_m"], title)

@@ -10,7 +10,7 @@ from pyehl import surfaces
 from pyehl.case import Case
 from pyehl.errors import EhlError, InputError
 from pyehl.prediction.by_response import RoughPassage
-from pyehl.prediction.options import Options, thinning_flow, unpredictable
+from pyehl.prediction.options import Options, turned, unpredictable
 from pyehl.prediction.smooth import solve_contact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import Topography
@@ -95,11 +95,13 @@ def resolution(case: Case, tile: Topography | None = None) -> Resolution | None:
         raise InputError(unpredictable(settings))
     ratio = float(settings["surface"]["velocity_ratio"])
     operating = OperatingPoint.from_settings(settings)
-    operating.need_round("the prediction of waves that the grid does not resolve")
+    if turned(settings):
+        raise InputError(turned(settings))
     lubricant = Lubricant.from_settings(settings)
     grid = settings["grid"]
-    mesh = max(float(grid["x_outlet"]) - float(grid["x_inlet"]), 2.0 * float(grid["y_extent"])) / (
-        int(grid["points"]) - 1
+    mesh = max(
+        (float(grid["x_outlet"]) - float(grid["x_inlet"])) / (int(grid["points"]) - 1),
+        2.0 * float(grid["y_extent"]) / (int(grid["points_y"]) - 1),
     )
     part = ""
     if tile is not None:
@@ -114,9 +116,6 @@ def resolution(case: Case, tile: Topography | None = None) -> Resolution | None:
     shortest = NODES * mesh * operating.hertz_radius
     if not Spectrum.of(tile.heights, tile.length_x, tile.length_y).share_below(shortest) > 0.0:
         return None
-    why = thinning_flow(settings)
-    if why:
-        raise EhlError(why)
     contact = solve_contact(settings)
     passage = RoughPassage(tile, contact, operating, lubricant, Options(), ratio)
     found, _, _ = passage.run(0, brief=True)

@@ -16,12 +16,13 @@ from typing import Any
 from pyehl import surfaces
 from pyehl.case import Case
 from pyehl.errors import InputError
-from pyehl.prediction.options import unpredictable
+from pyehl.prediction.options import turned, unpredictable
 from pyehl.studies.estimate import TaskList
 from pyehl.studies.plan import check_memory, duration, formula_film
 from pyehl.studies.study import MAX_CASES, Point, Study, make
 from pyehl.studies.tasks import Task
 from pyehl.studies.vary import Axis
+from pyehl.theory.load_share import LoadShare
 
 __all__ = ["KEYS", "CurvePlan", "CurvePoint", "plan_curve"]
 
@@ -59,6 +60,7 @@ class CurvePlan:
     points: tuple[CurvePoint, ...]  # points in the order of the table
     tasks: tuple[Task, ...]  # all tasks
     surfaces: int  # surfaces at each point
+    load_share: LoadShare | None = None  # the empirical law of a thin film, if it is asked for
 
     def identity(self) -> dict[str, Any]:
         """Give what makes this curve another one than others, as values of JSON."""
@@ -97,13 +99,15 @@ def plan_curve(
     options: Iterable[str] = (),
     ehl: int = 0,
     seeds: int = 1,
+    load_share: LoadShare | None = None,
 ) -> CurvePlan:
     """Resolve and check all points of a curve. Smooth surfaces have mu_r/mu_s = 1.
 
     Every value of an axis, keys of `KEYS`, meets those of the others. The passage of the surface
     is solved in full at `ehl` points, spread over the curve; at each point there are `seeds`
-    surfaces, of the seed of the case and those that follow. InputError if a case is not
-    acceptable, which it names, or if there are too many.
+    surfaces, of the seed of the case and those that follow. `load_share` adds what an empirical law
+    says of thin films. InputError if a case is not acceptable, which it names, or if there are too
+    many.
     """
     study = make(case, axes, options=options, run="predict")
     size = study.size
@@ -132,6 +136,8 @@ def plan_curve(
         settings = rough.resolve()
         with study.named(point):
             _check(settings, seeds, ehl)
+            if load_share is not None:
+                _check_share(settings)
         first = int(settings["surface"]["seed"])
         varied = [rough, *(rough.with_options(f"{SEED}={first + k}") for k in range(1, seeds))]
         if settings["surface"]["kind"] == "smooth":
@@ -145,7 +151,20 @@ def plan_curve(
                 full=add(rough, "solve") if point.number in chosen else None,
             )
         )
-    return CurvePlan(study, tuple(points), tuple(tasks.tasks), seeds)
+    return CurvePlan(study, tuple(points), tuple(tasks.tasks), seeds, load_share)
+
+
+def _check_share(settings: Settings) -> None:
+    """Refuse what the empirical law of a thin film says nothing of."""
+    if settings["surface"]["kind"] == "smooth":
+        raise InputError(
+            "--boundary-friction: surface.kind = 'smooth' has no Lambda\nexpected: a rough surface"
+        )
+    if settings["lubricant"]["shear_law"] == "newtonian":
+        raise InputError(
+            "--boundary-friction: of a Newtonian lubricant there is a ratio of friction alone\n"
+            "expected: lubricant.shear_law = 'eyring', 'limiting' or 'carreau'"
+        )
 
 
 def _check(settings: Settings, seeds: int, ehl: int) -> None:
@@ -165,6 +184,7 @@ def _check(settings: Settings, seeds: int, ehl: int) -> None:
     if "load" not in settings["contact"]:
         raise InputError("a Stribeck curve needs a contact in SI units (load, mean_velocity)")
     film = formula_film(settings)
-    film[0].need_round("a Stribeck curve")
+    if turned(settings):
+        raise InputError(turned(settings))
     if kind == "map":
         surfaces.from_settings(settings, *film)

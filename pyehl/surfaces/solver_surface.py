@@ -112,6 +112,7 @@ def for_solver(settings: Mapping[str, Mapping[str, Any]], group: str = "surface"
     scan, options = scan_of(surface), Options.from_settings(surface)
     sized = surface.get("length_x") and surface.get("length_y")
     changed = surface.get("track") or not scan.is_array or not sized
+    changed = changed or surface.get("height_unit", "m") != "m"
     changed = changed or not plain_array(str(surface["file"]))
     # a large map is in memory once
     heights, record = consume(scan, options)

@@ -16,6 +16,10 @@ and 0 for long waves. z is a power law in the wavelength parameter nabla_2 = (wa
 sqrt(M/L) to first order (Venner & Lubrecht 1999), and real for ridges along the motion, which do
 not move. At low M L the inlet leaks: z has terms in 1/(M L), and |F| changes with slip. Away from
 the centre line the inlet is oblique and z grows.
+
+Where the lubricant thins by shear, B knows it, and of F - 1 the share
+:func:`pyehl.theory.transport.kept_of_inlet` remains; M and L are those of a Newtonian lubricant
+that makes as thick a film. Nothing of that is fitted.
 """
 
 from __future__ import annotations
@@ -30,9 +34,9 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pyehl.theory.transport import Zone, upstream
+from pyehl.theory.transport import Zone, kept_of_inlet, upstream
 
-__all__ = ["edge_gain", "fitted_range", "inlet_base", "inlet_fit", "inlet_transfer"]
+__all__ = ["edge_gain", "fitted_range", "inlet_base", "inlet_fit", "inlet_transfer", "thinned"]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -96,8 +100,17 @@ def inlet_transfer(
     qx = 0 the value is real), M and L, U, and the distance from the centre line y [a], which is
     broadcast.
     """
+    moes = thinned(moes, zone.thinning)
     base = inlet_base(zone, qx, qy, moes, velocity_ratio)
-    return base * inlet_fit(qx, qy, moes, velocity_ratio, y)
+    fit = inlet_fit(qx, qy, moes, velocity_ratio, y)
+    if zone.factors:
+        fit = 1.0 + kept_of_inlet(zone, qx, qy, velocity_ratio) * (fit - 1.0)
+    return base * fit
+
+
+def thinned(moes: tuple[float, float], thinning: float) -> tuple[float, float]:
+    """M and L with a viscosity that is lower by a factor."""
+    return moes[0] * thinning**0.75, moes[1] * thinning**-0.25
 
 
 def inlet_base(

@@ -54,6 +54,7 @@ SOLUTIONS = {
     "no solution": f"{MOES}&solver max_cycles = 1 /\n",
     "heated": SI + HEATED,
     "oil by name": SI + "&lubricant name = 'fva3' /\n",
+    "heat of friction": SI + HEATED.replace("thermal_reduction = .true.", "shear_law = 'eyring'"),
     "ellipse": "&contact load = 20.0 radius_x = 0.01 radius_y = 0.02 /\n&grid points = 33 /\n",
     "wave": SI + WAVE.format(""),
     "mean that has not settled": f"{MOES}{WAVE.format('')}&time max_periods = 1 /\n",
