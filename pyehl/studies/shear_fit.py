@@ -129,6 +129,12 @@ def fit_law(settings: Settings, law: str, measured: Measured, points: int) -> Fi
         raise EhlError(f"the fit of '{law}' did not settle: {settled.message}")
     found = settled.x
     values = _to_values(keys, found)
+    if settled.active_mask.any():
+        told = ", ".join(f"{k} = {v:.4g}" for k, v in zip(keys, values, strict=True))
+        raise EhlError(
+            f"the fit of '{law}' ends at {told}, where the range of the key ends: the data do not "
+            "tell it"
+        )
     ends = _intervals(keys, settled.jac, settled.fun, found)
     units = {key.name.partition(".")[2]: key.unit for key in library.keys()}
     parameters = tuple(
