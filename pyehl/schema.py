@@ -44,9 +44,9 @@ sf | speed_parameter | - | 12 eta0 u R^2/(a^3 p_h)
 spf | hertz_pressure_Pa | Pa | p_h
 spf | hertz_radius_m | m | a, of an ellipse its semi-axis along the motion
 spf | film_scale_m | m | a^2/R
-sf | radius_ratio | - | R_x/R_y of an elliptical contact
-sf | ellipticity | - | semi-axis of the dry contact across the motion over that along it
-sf | semi_axis_y_m | m | semi-axis of the dry contact across the motion
+spf | radius_ratio | - | R_x/R_y of an elliptical contact
+spfr | ellipticity | - | semi-axis of the dry contact across the motion over that along it
+spf | semi_axis_y_m | m | semi-axis of the dry contact across the motion
 s | angle_deg | deg | by which an elliptical contact is turned counter-clockwise against the motion
 pf | si | | whether the case was given in SI units
 f | load_N | N | load w

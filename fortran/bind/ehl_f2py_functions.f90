@@ -187,9 +187,7 @@ contains
       rises = 0.0_c_double
       note = ""
       call read_case(text, "the contact of a prediction", "", input, status)
-      if (.not. status%failed()) then
-         call plan_given(input, plan, lubricant, status)
-      end if
+      if (.not. status%failed()) call plan_given(input, plan, lubricant, status)
       if (.not. status%failed()) then
          note = plan%note
          if (plan%counts) then

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import base64
+from collections.abc import Callable
 from functools import partial
 from html import escape
 from typing import Any
@@ -59,6 +60,10 @@ class Page:
     def _later(self, show: Any, generation: int, answer: Any) -> None:  # noqa: ANN401
         """Show what a worker says when the page has time; called in its thread."""
         self.document.add_next_tick_callback(partial(show, generation, answer))
+
+    def soon(self, do: Callable[[], None]) -> None:
+        """Do something when all that came with one message is there."""
+        self.document.add_next_tick_callback(do)
 
     def turned(self, name: str, value: Value) -> None:
         """Take a turned knob; what is wrong is said there, and the answer stays."""
