@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import importlib
 import math
 import re
 import subprocess
@@ -148,14 +149,14 @@ def test_resumed_on_an_ellipse(drive, tmp_path: Path):
         (
             "&contact radius_x = 0.01 radius_y = 10.0 /",
             "1:37",
-            "radius_x/radius_y is 0.001",
+            "radius_x/radius_y is 1.000E-03",
             "at most 30 to 1",
         ),
         (
             "&surface kind = 'fractal' /\n&second_surface kind = 'map' /",
             "2:24",
             "second_surface.kind",
-            "second_surface.file",
+            "file = '...', a height map",
         ),
     ],
 )
@@ -166,3 +167,26 @@ def test_bad_input_has_place_and_remedy(text: str, place: str, message: str, rem
     assert place in said.partition("\n")[0], said
     assert message in said, said
     assert remedy in said.partition("expected")[2], said
+
+
+def test_evidence_of_ellipses_is_what_its_page_says(root: Path, capsys, monkeypatch):
+    """The shares and the errors by cells, from the records; most errors hold."""
+    folder = root / "docs" / "evidence" / "ellipses"
+    monkeypatch.syspath_prepend(str(folder))
+    text = (folder / "README.md").read_text(encoding="utf-8")
+    importlib.import_module("show").show()
+    printed = capsys.readouterr().out
+    shares = [tuple(map(int, pair)) for pair in re.findall(r": (\d+) of (\d+)$", printed, re.M)]
+    assert len(shares) == 8
+    for good, known in shares:
+        assert f"{good} of {known}" in text
+        assert good >= 0.88 * known
+    twice = re.findall(r"at most 2 times the stated: (\d+) of (\d+)$", printed, re.M)
+    assert all(int(good) >= 0.95 * int(known) for good, known in twice)
+    rows = [line for line in text.splitlines() if re.match(r"\| [\d.]+, \d+ \|", line)]
+    assert len(rows) == 6
+    for line in rows:
+        kappa, m = re.findall(r"[\d.]+", line)[:2]
+        found = re.findall(rf"^kappa {kappa}, M {m}: .* off by ([\d.]+)%$", printed, re.M)
+        shown = re.findall(r"([\d.]+) %", line)
+        assert shown == found[: len(shown)]
