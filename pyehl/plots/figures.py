@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from pyehl import namelist
 from pyehl.plots import contact, surface, transient
-from pyehl.plots.outline import Outline
+from pyehl.plots.outline import CIRCLE, Outline
 from pyehl.plots.style import (
     BLUE,
     PAGE_WIDTH,
@@ -76,6 +76,17 @@ def _stretch(data: xr.Dataset) -> float:
     """How much higher maps of a wide contact are, to be as broad as those of a circle."""
     along, across = Outline.of(data).reach
     return min(2.0, max(1.0, across / along))
+
+
+def _size(data: xr.Dataset, count: int, broad: float) -> tuple[float, float]:
+    """Width and height [in] of so many maps with equal axes; `broad`: width of those of a circle.
+
+    As narrow as maps of a wide contact and their colour bars are, and the title still is.
+    """
+    slender, height = Outline.of(data).slender, 3.6 * _stretch(data)
+    if slender <= 1.0:
+        return broad * count / 2, height
+    return min(broad * count / 2, max(6.4, count * ((height - 1.0) / slender + 1.4))), height
 
 
 def _row(
@@ -167,8 +178,11 @@ def _centre_lines(data: xr.Dataset, scales: Scales | None, title: str) -> Figure
 
 
 def _film(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
-    figure = _row(2, (7.2, 3.6 * _stretch(data)), title, sharey=True)
-    left, right = figure.axes
+    """Film as fringes and as contours; of an ellipse the pressure, too."""
+    outline = Outline.of(data)
+    count = 2 if outline == CIRCLE else 3
+    figure = _row(count, _size(data, count, 7.2), title, sharey=True)
+    left, right, *more = figure.axes
     x, y, film = (data[name].values for name in "XYH")
     fringes = None
     if "H_smooth" in data:
@@ -176,15 +190,17 @@ def _film(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
             float(data.H_smooth.values[nearest(x, 0.0), nearest(y, 0.0)]) * film_unit(scales)[0],
             scales,
         )
-    outline = Outline.of(data)
     contact.interferogram(x, y, film, scales, fringes=fringes, outline=outline, ax=left)
     contact.contours(x, y, film, scales, outline=outline, ax=right)
-    _no_second_label(right)
+    for ax in more:
+        contact.pressure_map(x, y, data["P"].values, scales, outline=outline, ax=ax)
+    for ax in (right, *more):
+        _no_second_label(ax)
     return figure
 
 
 def _deformed(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
-    figure = _row(2, (8.2, 3.6 * _stretch(data)), title, sharey=True)
+    figure = _row(2, _size(data, 2, 8.2), title, sharey=True)
     x, y, rough, deformed = (data[name].values for name in ("X", "Y", "RR", "A_d"))
     outline = Outline.of(data)
     top = transient.roughness_top(x, y, rough, deformed, outline=outline)
