@@ -144,9 +144,16 @@ class _Waves:
         total: _Pairs,
     ) -> None: ...
 
+class _Lubricants:
+    def oils(self) -> bytes: ...
+    def properties(
+        self, group: bytes, p: _Array, rise: _Array, log_viscosity: _Array, density: _Array
+    ) -> tuple[int, bytes]: ...
+
 ehl_f2py_solver: _Solver
 ehl_f2py_predicted: _Predicted
 ehl_f2py_functions: _Functions
 ehl_f2py_surfaces: _Surfaces
 ehl_f2py_thinning: _Thinning
 ehl_f2py_waves: _Waves
+ehl_f2py_lubricant: _Lubricants

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import check
-from pyehl.extension import functions, predicted, surface_functions, thinning, waves
+from pyehl.extension import functions, lubricants, predicted, surface_functions, thinning, waves
 from pyehl.extension import solvers as ehl
 from pyehl.given import Option, options_of, path_of, text_of
 
@@ -33,6 +33,7 @@ __all__ = [
     "free_bytes",
     "functions",
     "keys",
+    "lubricants",
     "predicted",
     "resolve",
     "returned",

@@ -3,8 +3,9 @@
 
 Names that end in a unit (``_m``, ``_Pa``, ...) are in that unit (`moes_m` is the Moes load M);
 capital letters are Hertz units. Kinds: ``solution`` (``ehl``, ``pyehl run``), ``prediction``
-(``pyehl predict``), ``film`` (``pyehl film --json``) and ``response`` (``pyehl response``). To add
-a quantity, add a line: tests compare this table with all that writes summaries.
+(``pyehl predict``), ``film`` (``pyehl film --json``), ``response`` (``pyehl response``) and ``fit``
+(``pyehl fit-lubricant``). To add a quantity, add a line: tests compare this table with all that
+writes summaries.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from dataclasses import dataclass
 
 __all__ = ["KINDS", "QUANTITIES", "Quantity", "markdown"]
 
-KINDS = {"s": "solution", "p": "prediction", "f": "film", "r": "response"}
+KINDS = {"s": "solution", "p": "prediction", "f": "film", "r": "response", "t": "fit"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,8 +29,8 @@ class Quantity:
 
 # Letters of the kinds | name | unit | meaning
 _TABLE = """
-spfr | kind | | what the summary is of: 'solution', 'prediction', 'film' or 'response'
-spr | files | | names of the files of the result in its folder
+spfrt | kind | | what the summary is of: 'solution', 'prediction', 'film', 'response' or 'fit'
+sprt | files | | names of the files of the result in its folder
 sp | status | | 'converged', 'predicted', or why there is no result
 s | converged | | whether the results are a solution
 p | message | | the status in a sentence
@@ -43,9 +44,9 @@ sf | speed_parameter | - | 12 eta0 u R^2/(a^3 p_h)
 spf | hertz_pressure_Pa | Pa | p_h
 spf | hertz_radius_m | m | a, of an ellipse its semi-axis along the motion
 spf | film_scale_m | m | a^2/R
-sf | radius_ratio | - | R_x/R_y of an elliptical contact
-sf | ellipticity | - | semi-axis of the dry contact across the motion over that along it
-sf | semi_axis_y_m | m | semi-axis of the dry contact across the motion
+spf | radius_ratio | - | R_x/R_y of an elliptical contact
+spfr | ellipticity | - | semi-axis of the dry contact across the motion over that along it
+spf | semi_axis_y_m | m | semi-axis of the dry contact across the motion
 s | angle_deg | deg | by which an elliptical contact is turned counter-clockwise against the motion
 pf | si | | whether the case was given in SI units
 f | load_N | N | load w
@@ -58,7 +59,7 @@ f | pressure_viscosity_per_Pa | 1/Pa | alpha
 f | U | - | eta0 u/(E' R)
 f | G | - | alpha E'
 f | W | - | w/(E' R^2)
-s | points | - | nodes along X, and per side in a round contact
+st | points | - | nodes along X, and per side in a round contact
 s | points_y | - | nodes along Y in an elliptical contact
 s | x_mesh | a | mesh size along X
 s | y_mesh | a | mesh size along Y
@@ -158,8 +159,10 @@ sp | shear_rate_mean_per_s | 1/s | mean shear rate
 sp | shear_stress_max_Pa | Pa | largest shear stress
 s | rolling_moment | p_h a^3 | iint H/2 dP/dX of the smooth contact, which resists the rolling
 s | rolling_moment_N_m | N m | the same
-sp | shear_law | | law of the shear stress
+spt | shear_law | | law of the shear stress
 sp | slide_to_roll | - | (u1 - u2)/u
+t | residual_rms | - | root mean square of fitted less measured mu
+s | lubricant_note | | law with constants of an oil, its range, and whether the contact is beyond it
 s | inlet_viscosity_Pa_s | Pa s | viscosity of the inlet
 s | thermal_loading | - | loading parameter of shear heating
 spf | thermal_reduction | - | film over the isothermal one

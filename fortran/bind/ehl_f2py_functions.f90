@@ -187,8 +187,8 @@ contains
       rises = 0.0_c_double
       note = ""
       call read_case(text, "the contact of a prediction", "", input, status)
+      if (.not. status%failed()) call plan_given(input, plan, lubricant, status)
       if (.not. status%failed()) then
-         call plan_given(input, plan, lubricant)
          note = plan%note
          if (plan%counts) then
             counts = 1

@@ -4,7 +4,7 @@ module ehl_case
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: case_t, surface_case_t, is_feature, word_length, path_length
+   public :: case_t, lubricant_case_t, surface_case_t, is_feature, word_length, path_length
 
    !> Longest option word
    integer, parameter :: word_length = 32
@@ -56,13 +56,24 @@ module ehl_case
 
    !> &lubricant: viscosity and density under pressure, shear stress, temperature
    type :: lubricant_case_t
+      !> An oil whose constants are known; they rule where their keys are not given
+      character(len=word_length) :: name = ""
+      !> Measured viscosities; made absolute by the reader
+      character(len=path_length) :: table = ""
       real(dp) :: viscosity = 0.04_dp
       real(dp) :: pressure_viscosity = 2.2e-8_dp
       character(len=word_length) :: viscosity_law = "roelands"
       !> Set by the reader
       real(dp) :: roelands_z = 0.0_dp
       real(dp) :: roelands_p0 = 1.96e8_dp
+      real(dp) :: vogel_viscosity = 0.0_dp, vogel_b = 0.0_dp, vogel_c = 0.0_dp
+      real(dp) :: dicke_a1 = 0.0_dp, dicke_a2 = 0.0_dp, dicke_b1 = 0.0_dp, dicke_b2 = 0.0_dp
+      real(dp) :: yasutomi_tg0 = 0.0_dp, yasutomi_a1 = 0.0_dp, yasutomi_a2 = 0.0_dp, yasutomi_b1 = 0.0_dp, &
+                  yasutomi_b2 = 0.0_dp, yasutomi_c1 = 0.0_dp, yasutomi_c2 = 0.0_dp, yasutomi_viscosity = 1.0e12_dp
       character(len=word_length) :: density_law = "dowson-higginson"
+      real(dp) :: murnaghan_modulus = 0.0_dp, murnaghan_rate = 0.0_dp, murnaghan_softening = 0.0_dp
+      !> Where the constants of the laws were measured; all 0: not known
+      real(dp) :: range_temperature_min = 0.0_dp, range_temperature_max = 0.0_dp, range_pressure_max = 0.0_dp
       character(len=word_length) :: shear_law = "newtonian"
       character(len=word_length) :: flow = "consistent"
       real(dp) :: eyring_stress = 5.0e6_dp

@@ -3,6 +3,7 @@
 module ehl_case_temperature
    use ehl_case, only: case_t
    use ehl_case_contact, only: find_contact
+   use ehl_case_law, only: own_law
    use ehl_contact, only: contact_t
    use ehl_heat, only: dynamic_viscosity, temperature_viscosity, thermal_loading, thermal_reduction
    use ehl_kinds, only: dp
@@ -39,7 +40,8 @@ contains
       if (all(sheet <= 0.0_dp)) then
          do k = 1, size(sheet_keys)
             if (.not. schema%given("lubricant", trim(sheet_keys(k)))) cycle
-            ! these serve the law of viscosity and density under temperature as well
+            ! temperature and expansion serve the laws of viscosity and density under temperature as well
+            if (own_law(input%lubricant) /= "") cycle
             if (sheet_keys(k) /= "density_15" .and. input%lubricant%temperature_viscosity > 0.0_dp) cycle
             call refuse(schema, sources, "lubricant", trim(sheet_keys(k)), "lubricant." // trim(sheet_keys(k)) &
                         // " without the viscosities of the data sheet", "kinematic_viscosity_40 and " &
@@ -100,7 +102,7 @@ contains
          else if (.not. l%temperature_viscosity > 0.0_dp) then
             call refuse(schema, sources, "lubricant", "thermal_reduction", "lubricant.thermal_reduction, and nothing " &
                         // "tells how the viscosity falls with temperature", &
-                        "temperature_viscosity, or kinematic_viscosity_40 and kinematic_viscosity_100", status)
+                        "temperature_viscosity, or kinematic_viscosity_40 and kinematic_viscosity_100, or name", status)
             return
          end if
          call find_contact(input, contact, scales, point)

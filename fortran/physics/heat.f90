@@ -5,7 +5,7 @@ module ehl_heat
    implicit none (type, external)
    private
    public :: kinematic_viscosity, dynamic_viscosity, temperature_viscosity, thermal_loading, thermal_reduction, &
-             flash_temperature, freezing
+             flash_temperature, freezing, sheet_density
 
    !> 0 degC in kelvin, and the temperatures of data sheets [degC]
    real(dp), parameter :: freezing = 273.15_dp, sheet(2) = [40.0_dp, 100.0_dp], sheet_density = 15.0_dp

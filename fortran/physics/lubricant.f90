@@ -56,7 +56,7 @@ contains
       if (hertz_pressure > 0.0_dp .and. viscosity_law == viscosity_roelands) then
          allocate (lubricant%viscosity, source=new_roelands(alpha_bar, roelands_p0/hertz_pressure, z, with_beta, inlet))
       else
-         allocate (lubricant%viscosity, source=barus_t(alpha_bar, with_beta))
+         allocate (lubricant%viscosity, source=barus_t(alpha_bar=alpha_bar, beta=with_beta))
       end if
       if (hertz_pressure > 0.0_dp .and. density_law == density_dowson_higginson) then
          allocate (lubricant%compression, source=new_dowson_higginson(hertz_pressure, with_expansion))

@@ -9,6 +9,8 @@ module ehl_viscosity_law
 
    !> Viscosity over eta0, that at ambient pressure and the temperature of the inlet
    type, abstract :: viscosity_law_t
+      !> [Pa s] eta0, of laws that tell it
+      real(dp) :: ambient_viscosity = 0.0_dp
    contains
       procedure(log_viscosity), deferred :: log_viscosity
       procedure(log_viscosity_at), deferred :: log_viscosity_at

@@ -12,6 +12,7 @@ module ehl_plan_heat
    use ehl_plan_friction, only: plan_point, plan_sliding, sliding_t
    use ehl_plan_lubricant, only: plan_lubricant
    use ehl_scales, only: scales_t
+   use ehl_status, only: status_t
    use ehl_text, only: fixed
    use ehl_wall_heat, only: speed_of_rest, wall_strength
    implicit none (type, external)
@@ -102,10 +103,11 @@ contains
    end function plan_heat
 
    !> The same, and the lubricant, of a case whose pressure and film are known already
-   subroutine plan_given(input, plan, lubricant)
+   subroutine plan_given(input, plan, lubricant, status)
       type(case_t), intent(in) :: input
       type(heat_plan_t), intent(out) :: plan
       type(lubricant_t), intent(out) :: lubricant
+      type(status_t), intent(inout) :: status
       class(contact_t), allocatable :: contact
       type(scales_t) :: scales
       type(operating_t) :: point
@@ -115,7 +117,8 @@ contains
       call find_contact(input, contact, scales, point)
       sliding = plan_sliding(input, contact, scales)
       if (input%contact%si) point = plan_point(input, contact, scales, sliding)
-      lubricant = plan_lubricant(input, point, scales)
+      call plan_lubricant(input, point, scales, lubricant, status)
+      if (status%failed()) return
       call lubricant%density([1.0_dp], rho, slope)
       plan = plan_heat(input, contact, scales, sliding, lubricant, contact%film_formula(point%moes_m, point%moes_l)/rho(1))
    end subroutine plan_given

@@ -266,7 +266,7 @@ contains
       logical :: finest
 
       finest = self%n == self%how%levels
-      if (finest .and. (self%careful .or. .not. self%how%may_restart .or. self%state == outcome_negative_film)) then
+      if (finest .and. (self%careful .or. .not. self%how%may_restart)) then
          self%outcome = self%state
          return
       end if

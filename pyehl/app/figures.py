@@ -180,7 +180,7 @@ class Pictures:
             self.lines[name].data = line
             picture = self.along if name == "x" else self.across
             way = "along" if name == "x" else "across"
-            picture.title.text = f"{about}; {way} the motion, Hertz dashed"
+            picture.title.text = f"{about}; {way} the motion"
             picture.extra_y_ranges["film"].end = 5.0 * central
             picture.x_range.update(start=float(line["place"][0]), end=float(line["place"][-1]))
             highest = max(float(line["pressure"].max()), point.hertz_pressure * 1e-9)

@@ -58,6 +58,7 @@ class Hears(Protocol):
     def upload(self, name: str, data: bytes) -> None: ...
     def draw_curve(self, over: str) -> None: ...
     def fetch(self, what: str) -> None: ...
+    def soon(self, do: Callable[[], None]) -> None: ...
 
 
 def _table(rows: Sequence[tuple[str, str]]) -> str:
@@ -102,7 +103,7 @@ class Layout:
         self.figure_format = Select(options=list(FORMATS), value="png", width=80)
         self.figure_width = Select(options=list(WIDTHS.items()), value="0", width=170)
         self.upload = FileInput(accept=MAPS, name="upload", title="height map")
-        self.upload.on_change("value", self._file(self.upload, hears.upload))
+        self.upload.on_change("value", self._file(hears, self.upload, hears.upload))
         self.map_box = column(self.upload, self.upload_error, visible=False)
         self.root = row(self._left(start), self._middle(hears, pictures), self._right(hears))
         # so that the browser has what nothing draws
@@ -110,14 +111,23 @@ class Layout:
 
     def _file(
         self,
+        hears: Hears,
         widget: Any,  # noqa: ANN401
         take: Callable[[str, bytes], None],
     ) -> Callable[[str, object, object], None]:
-        """Hear a file that was chosen; its name comes after its content."""
+        """Hear a file that was chosen; its name and its content come one after the other."""
+        waits = False
+
+        def chosen() -> None:
+            nonlocal waits
+            waits = False
+            take(str(widget.filename), base64.b64decode(widget.value))
 
         def heard(attribute: str, old: object, new: object) -> None:
-            if widget.value and widget.filename:
-                take(str(widget.filename), base64.b64decode(widget.value))
+            nonlocal waits
+            if not waits:
+                waits = True
+                hears.soon(chosen)
 
         widget.on_change("filename", heard)
         return heard
@@ -149,7 +159,7 @@ class Layout:
         copy.js_on_click(CustomJS(args={"area": self.case}, code=COPY))
         save.js_on_click(CustomJS(args={"area": self.case}, code=SAVE_TEXT))
         opened = FileInput(accept=".nml,.txt", name="open", title="open a case file")
-        opened.on_change("value", self._file(opened, hears.open_case))
+        opened.on_change("value", self._file(hears, opened, hears.open_case))
         copy_python = Button(label="Copy", name="copy_python")
         copy_python.js_on_click(CustomJS(args={"area": self.python}, code=COPY))
         report = Button(label="Report", name="fetch_report")

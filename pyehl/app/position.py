@@ -31,6 +31,8 @@ OWNED = {
     "surface": {"kind", "rms_height", "hurst", "seed", "file", "length_x", "length_y"},
     "grid": {"points"},
 }  # fmt: skip
+# Keys that are refused without the viscosities of a data sheet
+OF_SHEET = ("density_15", "thermal_expansion")
 STEEL = {"modulus_1": 206.0, "poisson_1": 0.3, "modulus_2": 206.0, "poisson_2": 0.3}
 DEFAULTS: dict[str, Value] = {
     "oil": "at the inlet",
@@ -150,7 +152,11 @@ class Position:
 
     def case(self, points: int, *, smooth: bool = False) -> Case:
         """Give the case on a grid, or that of its smooth contact; InputError if it is none."""
-        case = Case.from_text(self.base, self.options(points), "the knobs")
+        base = self.base
+        if self.values["oil"] == "at the inlet":
+            lines = base.splitlines(keepends=True)
+            base = "".join(line for line in lines if line.split(" =")[0].strip() not in OF_SHEET)
+        case = Case.from_text(base, self.options(points), "the knobs")
         return case.with_options("surface.kind=smooth") if smooth else case
 
     def text(self, points: int) -> str:

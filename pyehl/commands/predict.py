@@ -21,7 +21,7 @@ __all__ = ["add_arguments", "execute", "report"]
 
 def report(prediction: Prediction) -> str:
     """Return the lines that ``pyehl predict`` prints."""
-    f, s = prediction.friction, prediction.surface
+    f, s, values = prediction.friction, prediction.surface, prediction.summary
     known = math.isfinite(prediction.film_minimum)
     least = f"h_min = {prediction.film_minimum * 1e6:.4g} um, " if known else ""
     lines = [*s.preparation.record.report()] if s.preparation else []
@@ -32,28 +32,32 @@ def report(prediction: Prediction) -> str:
         lines.append(_surface("second", other))
     lines += [
         f"film        h_c = {prediction.film * 1e6:.4g} um ({prediction.film_source}), "
-        f"{least}least rough film {f.film_min * 1e6:.4g} um",
+        f"{least}least rough film {_told(values, 'h_min_rough_m', 1e6)} um",
         f"model       {_model(prediction)}",
     ]
     if f.status == "predicted":
-        lines += _deformed(prediction.summary)
+        lines += _deformed(values)
         lines += [
             f"mu_r/mu_s   {f.mu_ratio:.3f} over the passage, {f.mu_ratio_min:.3f} ... "
             f"{f.mu_ratio_max:.3f}   [{f.passage.size} positions, "
             f"{prediction.seconds * 1e3:.0f} ms]",
             f"            {_trust(prediction)}",
-            f"            {prediction.summary['note']}",
+            f"            {values['note']}",
         ]
         mean, spread = prediction.tracks
         lines.append(
             f"            {mean:.3f} +- {spread:.3f} over {prediction.track_count} tracks across it"
         )
-        values = prediction.summary
         if values["mu"] is not None:
             lines.append(
                 f"mu          {values['mu']:.4f}, smooth mu_s {values['mu_smooth']:.4f}; "
-                f"{values['mu_note']}; flash temperature {values['flash_temperature_K']:.2g} K"
+                f"{values['mu_note']}"
             )
+            if values["temperature_rise_max_K"] is not None:
+                lines.append(
+                    f"heat        film {values['temperature_rise_max_K']:.2g} K warmer, isothermal "
+                    f"mu {values['mu_isothermal']:.4f}"
+                )
         strongest = sorted(prediction.bands, key=lambda band: -abs(band.rise))[:3]
         parts = ", ".join(
             f"{b.rise:+.4f} from {b.longest * 1e6:.0f} to {b.shortest * 1e6:.0f} um"
@@ -71,6 +75,13 @@ def report(prediction: Prediction) -> str:
     return "\n".join(lines)
 
 
+def _told(values: Mapping[str, Any], name: str, factor: float) -> str:
+    """Tell a number of a summary with its error, both times a factor."""
+    error = values[error_name(name)]
+    text = f"{values[name] * factor:.3g}"
+    return text if error is None else f"{text} +- {error * factor:.1g}"
+
+
 def _surface(name: str, tile: Topography) -> str:
     return (
         f"{name:12}{tile.origin}: rms {tile.rms_height * 1e6:.4g} um, "
@@ -80,26 +91,21 @@ def _surface(name: str, tile: Topography) -> str:
 
 
 def _deformed(values: Mapping[str, Any]) -> list[str]:
-    """Say what becomes of the surface, in the units of the picture."""
-
-    def told(name: str, factor: float, digits: int = 3) -> str:
-        error = values[error_name(name)]
-        text = f"{values[name] * factor:.{digits}g}"
-        return text if error is None else f"{text} +- {error * factor:.1g}"
-
-    lines = [
-        f"deformed    rms {told('rms_deformed_m', 1e6)} um; pressure rms "
-        f"{told('rms_pressure_Pa', 1e-9)} GPa, at most {told('p_rise_max_Pa', 1e-9)} GPa up",
-    ]
-    film = f"            least film {told('h_min_rough_m', 1e6)} um"
+    """Say what becomes of the surface."""
+    text = (
+        f"deformed    rms {_told(values, 'rms_deformed_m', 1e6)} um, pressure rms "
+        f"{_told(values, 'rms_pressure_Pa', 1e-6)} MPa, greatest rise "
+        f"{_told(values, 'p_rise_max_Pa', 1e-6)} MPa"
+    )
+    film = []
     if values["lambda_ratio_deformed"] is not None:
-        film += f"; h_min over deformed rms {told('lambda_ratio_deformed', 1.0)}"
+        film.append(f"h_min over its rms {_told(values, 'lambda_ratio_deformed', 1.0)}")
     if values["film_limit_m"] is not None:
-        film += (
-            f"; {told('film_below_limit_share', 100.0)} % of the contact below "
+        film.append(
+            f"{_told(values, 'film_below_limit_share', 100.0)} % of the contact below "
             f"{values['film_limit_m'] * 1e6:.4g} um"
         )
-    return [*lines, film]
+    return [text, *(f"            {', '.join(film)}" for _ in film[:1])]
 
 
 def _trust(prediction: Prediction) -> str:

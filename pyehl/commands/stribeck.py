@@ -179,11 +179,11 @@ def draw(
     kinds = [f"'{settings[group]['kind']}'" for group in rough_groups(settings)] or ["'smooth'"]
     count = f", {plan.surfaces} surfaces" if plan.surfaces > 1 else ""
     words = f"surface {' and '.join(kinds)}{count}; {_conditions(plan)}"
+    law = "" if plan.load_share is None else plan.load_share.words
     if absolute and key == SLIP:
         slips = [places for _, places, _ in curves_of(plan, rows)]
-        save(draw_traction(curves, slips, words, overlay), path, dpi)
+        save(draw_traction(curves, slips, words, overlay, law), path, dpi)
         return
-    law = "" if plan.load_share is None else plan.load_share.words
     save(draw_stribeck(curves, words, overlay, law), path, dpi)
 
 

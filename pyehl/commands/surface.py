@@ -95,8 +95,7 @@ def execute(args: argparse.Namespace) -> int:
         known = is_case or any(o.startswith(("contact.", "lubricant.")) for o in args.overrides)
         conditions = (
             operating.hertz_radius,
-            operating.moes_m,
-            operating.moes_l,
+            *operating.equivalent_moes,
             str(settings["psd"]["wavelength_convention"]),
         )
         for path in _write(surface, case, args.output, conditions if known else None, args.plots):

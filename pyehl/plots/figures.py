@@ -27,6 +27,7 @@ from pyehl.plots.style import (
     wrapped,
 )
 from pyehl.surfaces import Topography, wavenumbers
+from pyehl.theory.ellipse import ellipse
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.transport import stiffness
 
@@ -280,7 +281,9 @@ def _side(
         strict=True,
     ):
         last = values is deformed
-        surface.roughness(tile, values, about["hertz_radius_m"], name=name, bar=last, ax=ax)
+        a = about["hertz_radius_m"]
+        axes = a, about.get("semi_axis_y_m", a)
+        surface.roughness(tile, values, axes, name=name, bar=last, ax=ax)
     _no_second_label(figure.axes[1])
     figures[f"{prefix}roughness"] = figure
     return figures
@@ -288,7 +291,8 @@ def _side(
 
 def _flattened(about: Mapping[str, Any], tile: Topography) -> Array:
     """Return what pressure [Pa] flattens of a tile [m]: it over E'|q|/4 of the half-space."""
-    stiff = stiffness(np.hypot(*wavenumbers(tile)) * about["hertz_radius_m"])
+    kernel_ratio = ellipse(about.get("radius_ratio", 1.0)).kernel_ratio
+    stiff = stiffness(np.hypot(*wavenumbers(tile)) * about["hertz_radius_m"]) / kernel_ratio
     # the mean is not flattened
     stiff[0, 0] = np.inf
     unit = about["film_scale_m"] / about["hertz_pressure_Pa"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from textwrap import wrap
 from typing import Any
 
 import numpy as np
@@ -112,7 +113,7 @@ def draw_stribeck(
         unique.values(), unique.keys(), loc="outside lower center", ncols=5, fontsize="small"
     )
     words = "; ".join(f"{c.label + ': ' if c.label else ''}{c.ends}" for c in curves if c.ends)
-    figure.suptitle("\n".join(filter(None, (surface, words, law))), fontsize="medium")
+    figure.suptitle("\n".join((surface, words, *wrap(law, 100))), fontsize="medium")
     return figure
 
 

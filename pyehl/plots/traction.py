@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from textwrap import wrap
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -18,12 +19,17 @@ Array = NDArray[np.float64]
 
 
 def draw_traction(
-    curves: Sequence[Curve], slips: Sequence[Array], surface: str, measured: Points | None = None
+    curves: Sequence[Curve],
+    slips: Sequence[Array],
+    surface: str,
+    measured: Points | None = None,
+    law: str = "",
 ) -> Figure:
     """Draw coefficients of friction, and the greatest temperature rise where it was computed.
 
     `slips` are the slide-to-roll ratios of each curve; without sliding there is no friction of
-    sliding. `surface` says what the surface is; measured friction is laid over.
+    sliding. `surface` says what the surface is; measured friction is laid over; `law` says what an
+    empirical curve is.
     """
     warm = any(np.isfinite(curve.column("temperature_rise_max_K")).any() for curve in curves)
     figure = new_figure(10.0 if warm else 6.0, 4.4)
@@ -70,5 +76,5 @@ def draw_traction(
         letter(axes)
     axes[0].legend(fontsize="small")
     words = "; ".join(f"{c.label + ': ' if c.label else ''}{c.ends}" for c in curves if c.ends)
-    figure.suptitle(f"{surface}\n{words}", fontsize="medium")
+    figure.suptitle("\n".join((surface, words, *wrap(law, 90))), fontsize="medium")
     return figure

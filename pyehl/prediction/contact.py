@@ -39,7 +39,7 @@ class Response:
 class ShearedContact:
     """Points of a contact, the shear stress integrals over them, and what was met so far."""
 
-    thinnest: float  # least film
+    thinnest: float  # least film, by which its end is known
     smooth: float  # sum of the stress of the smooth contact over the points, as `stress`
     points: int  # within the contact
     area: float  # that one of them stands for [m^2]
@@ -66,6 +66,10 @@ class ShearedContact:
         self.greatest_rise = max(self.greatest_rise, greatest)
         for i, level in enumerate(self.levels):
             self.below[i] += np.count_nonzero(film < level)
+
+    def least_film(self) -> float:
+        """Least film that was met, as it is told."""
+        return self.thinnest
 
     def shares(self) -> Array:
         """Mean share of the contact below each level [-]."""

@@ -20,8 +20,8 @@ Array = NDArray[np.float64]
 
 # Errors against the full simulation, measured in docs/evidence/thinning: relative, and of a film
 # beside that of the smooth contact by the rms height of the deformed roughness
-RMS_DEFORMED, RMS_PRESSURE, RISE = 0.07, 0.07, 0.12
-FILM = 0.3
+RMS_DEFORMED, RMS_PRESSURE, RISE = 0.07, 0.08, 0.12
+FILM = 0.45
 
 
 def film_levels(limit: float, waves: Sequence[tuple[Array, Array]]) -> tuple[float, ...]:

@@ -140,7 +140,7 @@ def passed(
         shift=shift,
         passage=ratios,
         mu_smooth=contact.mu_smooth(),
-        film_min=float(contact.thinnest) * film_unit,
+        film_min=contact.least_film() * film_unit,
         rise_max=contact.greatest_rise * contact.operating.hertz_pressure,
         below_limit=float(share),
         below_limit_error=0.5 * float(high - low),

@@ -35,7 +35,7 @@ from pyehl.prediction.pair_contact import PairContact, TileOnPoints
 from pyehl.prediction.pair_cut_off import known_by_cut_off
 from pyehl.prediction.passage import longer_waves, working_grid
 from pyehl.prediction.rough_contact import Edge
-from pyehl.prediction.smooth import zone_of
+from pyehl.prediction.smooth import circle_of, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.surfaces import Topography, filtered, track_offsets
@@ -95,7 +95,7 @@ class RoughPair:
             transfers = Transfer.of_all(
                 moving,
                 zone_of(one.contact, o, one.lubricant),
-                o.equivalent_moes,
+                circle_of(one.contact, o, one.lubricant),
                 at_amplitude=one.lubricant.shear.law == "newtonian",
                 mesh=one.mesh,
             )

@@ -148,6 +148,8 @@ class WavyContact(ShearedContact):
         self.inside = (self.radius < REACH) & (self.pressure > 0.0)
         self.points = int(np.count_nonzero(self.inside))
         self.inner = self.inside & (self.radius < INNER)
+        self.missing = _missing(contact, self.film)
+        self.least = math.inf
         self.weights = station_weights(self.x).astype(np.float32)
         self.off = away_from_centre(self.across).astype(np.float32)
         grid = np.meshgrid(self.x, self.across, indexing="ij")
@@ -174,6 +176,10 @@ class WavyContact(ShearedContact):
             gain, variance = self.second
             total[..., 1] += gain * (np.square(total[..., 1]) - variance)
 
+    def least_film(self) -> float:
+        """Least film over the positions, as it is told [a^2/R]."""
+        return self.least if self.thinnest > 0.0 else self.thinnest
+
     def sheared(self, change: Single) -> float:
         """Friction over that of the smooth contact, film and pressure changed by (m, n, 2).
 
@@ -190,11 +196,26 @@ class WavyContact(ShearedContact):
         self.cavitated += int(np.count_nonzero((pressure <= 0.0) & self.inside))
         # outside nothing is counted: any film and pressure will do
         film[~self.inside] = math.inf
-        self.meet(change[..., 1], film, self.inner)
+        whole = film + self.missing
+        self.least = min(self.least, float(whole.min()))
+        self.meet(change[..., 1], whole, self.inner)
         film[~self.inside] = 1.0
         np.maximum(pressure, 0.0, out=pressure)
         with np.errstate(over="ignore"):
             return float(self.stress(pressure, film).sum(where=self.inside)) / self.smooth
+
+
+def _missing(contact: SmoothContact, film: Array) -> Array | float:
+    """Give what films H_s [a^2/R] of a smooth contact lack beside those extrapolated.
+
+    They are scaled to the extrapolated central film; the minimum film lacks more than that, on the
+    grid of the smooth contact. In between it is linear in the film.
+    """
+    least, central = float(contact.film.min()), contact.central_film
+    if not contact.extrapolated or least >= central:
+        return 0.0
+    share = np.clip((central - film) / (central - least), 0.0, 1.0)
+    return np.asarray((contact.minimum_film - least) * share)
 
 
 class RoughContact(WavyContact):

@@ -63,7 +63,9 @@ class Waves:
         """
         qx, qy = spectrum.qx[:, np.newaxis], spectrum.qy[np.newaxis, :]
         stiffening = transfer.stiffening
-        gain = stiffening * edge_gain(qx, qy, stiffening * central_film)
+        gain = stiffening * edge_gain(
+            qx, qy, stiffening * central_film, ellipticity=transfer.ellipticity
+        )
         k = (stiffness(spectrum.q) * gain).astype(np.float32)
         k_free = (free_stiffness(qx, qy, velocity_ratio) * gain).astype(np.float32)
         narrow = spectrum.single()

@@ -90,24 +90,22 @@ def curve_rows(plan: CurvePlan, rows: Mapping[int, Row]) -> list[dict[str, Any]]
     for a number that does not exist.
     """
     kept: dict[str, Pattern] = {}
-    found = [_at(point, rows, kept) for point in plan.points]
-    if plan.load_share is not None:
-        for values in found:
-            values.update(_empirical(values, plan.load_share))
-    return found
+    return [_at(point, rows, kept, plan.load_share) for point in plan.points]
 
 
-def _empirical(values: Row, law: LoadShare) -> dict[str, Any]:
+def _empirical(values: Row, smooth: float | None, law: LoadShare) -> dict[str, Any]:
     """Give what the law says; the film has the friction of the smooth contact where it ends."""
     ratio = values["lambda_ratio_central"]
-    film = values["mu_smooth"] if values["mu"] is None else values["mu"]
+    film = smooth if values["mu"] is None else values["mu"]
     if ratio is None:
         return dict.fromkeys(EMPIRICAL)
     mu = None if film is None else law.friction(ratio, film)
     return {"asperity_load_share_empirical": law.share(ratio), "mu_empirical": mu}
 
 
-def _at(point: CurvePoint, rows: Mapping[int, Row], kept: dict[str, Pattern]) -> dict[str, Any]:
+def _at(
+    point: CurvePoint, rows: Mapping[int, Row], kept: dict[str, Pattern], law: LoadShare | None
+) -> dict[str, Any]:
     operating = OperatingPoint.from_settings(point.settings)
     nothing = {"status": FAILED, "message": "not done"}
     smooth = rows.get(point.smooth, nothing)
@@ -131,11 +129,15 @@ def _at(point: CurvePoint, rows: Mapping[int, Row], kept: dict[str, Pattern]) ->
         wavelength = likeness.wavelength / operating.hertz_radius
         ratio = h_c / (2.0 * likeness.rms_height)
         place = (operating.moes_m, operating.moes_l, wavelength, ratio)
+        # eq. 16 is for circular contacts
+        known = operating.moes_l > 0.0 and operating.radius_ratio == 1.0
         values["lambda_ratio"] = h_min / likeness.rms_height
         values["lambda_ratio_central"] = h_c / likeness.rms_height
-        values["theta_2"] = float(stribeck.theta_2(*place)) if operating.moes_l > 0.0 else None
+        values["theta_2"] = float(stribeck.theta_2(*place)) if known else None
         values["theta_2_wavelength_m"] = likeness.wavelength
     values |= _friction(found, smooth) if found else _smooth_friction(smooth)
+    if law is not None:
+        values |= _empirical(values, smooth.get("mu_smooth"), law)
     if point.full is not None:
         full = rows.get(point.full, nothing)
         if full["status"] == "converged":

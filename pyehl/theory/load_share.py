@@ -52,8 +52,8 @@ class LoadShare:
             else "constants as given"
         )
         return (
-            f"empirical: exp(-{self.b:g} Lambda^{self.c:g}) of the load at a boundary friction of "
-            f"{self.boundary_friction:g} (Zhou & Hoeprich 1991; {source})"
+            f"empirical: exp(-{self.b:g} Lambda^{self.c:g}) of the load, Lambda = h_c/sigma, at a "
+            f"boundary friction of {self.boundary_friction:g} (Zhou & Hoeprich 1991; {source})"
         )
 
     def share(self, lambda_ratio: float) -> float:

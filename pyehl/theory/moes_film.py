@@ -12,6 +12,8 @@ from pyehl.theory.ellipse import Ellipse, ellipse
 __all__ = ["inlet_viscosity_ratio", "nijenbanning_venner_moes", "regime"]
 
 CIRCLE = ellipse(1.0)
+# Asymptotes whose ratio is less are passed from one to the other
+ALIKE = 1.25
 
 
 class _Asymptotes(NamedTuple):
@@ -37,16 +39,21 @@ def _asymptotes(moes_m: float, moes_l: float, shape: Ellipse) -> _Asymptotes:
 
 
 def regime(moes_m: float, moes_l: float, shape: Ellipse = CIRCLE) -> str:
-    """Name the asymptote of the formula that is nearest: 'elastic-piezoviscous' and the like.
+    """Name the asymptote of the formula that is nearest, as 'elastic-piezoviscous'.
 
-    InputError if M is not positive or L is negative.
+    'rigid to elastic-...' where those two differ by less than `ALIKE`. InputError if M is not
+    positive or L is negative.
     """
     a = _asymptotes(moes_m, moes_l, shape)
     isoviscous = max(a.rigid_iso, min(a.elastic_iso, 1.8 / shape.radius_ratio))
     if min(a.rigid_piezo, a.elastic_piezo) > isoviscous:
-        stiffness = "rigid" if a.rigid_piezo < a.elastic_piezo else "elastic"
-        return f"{stiffness}-piezoviscous"
-    return f"{'rigid' if a.rigid_iso > a.elastic_iso else 'elastic'}-isoviscous"
+        # the thinner film of the two, and the thicker one below
+        softness, viscosity = a.rigid_piezo / a.elastic_piezo, "piezoviscous"
+    else:
+        softness, viscosity = a.elastic_iso / a.rigid_iso, "isoviscous"
+    if 1.0 / ALIKE < softness < ALIKE:
+        return f"rigid to elastic-{viscosity}"
+    return f"{'elastic' if softness > 1.0 else 'rigid'}-{viscosity}"
 
 
 def nijenbanning_venner_moes(moes_m: float, moes_l: float, shape: Ellipse = CIRCLE) -> float:
@@ -75,13 +82,13 @@ def inlet_viscosity_ratio(
     """Viscosity over that of (M, L) [-] at which the formula gives `share` of the film.
 
     The form in which shear heating of the inlet enters: the film is that of the warmer oil. M and
-    L are of the isothermal contact; 0 < share <= 1.
+    L are of the isothermal contact; 0 < share.
     """
     if share == 1.0:
         return 1.0
     wanted = share * nijenbanning_venner_moes(moes_m, moes_l, shape)
     # the film rises with viscosity, nowhere by less than its 0.4th power
-    low, high = 2.5 * math.log(share), 0.0
+    low, high = sorted((2.5 * math.log(share), 0.0))
     for _ in range(60):
         middle = 0.5 * (low + high)
         ratio = math.exp(middle)

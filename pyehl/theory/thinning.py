@@ -35,7 +35,9 @@ class FlowFactors:
     tangent: Array  # d(phi_x S_x)/dS_x
 
 
-def flow_factors(law: str, exponent: float, sliding: ArrayLike, gradient: ArrayLike) -> FlowFactors:
+def flow_factors(
+    law: str, exponent: float, sliding: ArrayLike, gradient: tuple[ArrayLike, ArrayLike]
+) -> FlowFactors:
     """Give the factors of films by B and S = (S_x, S_y).
 
     Parameters
@@ -45,7 +47,7 @@ def flow_factors(law: str, exponent: float, sliding: ArrayLike, gradient: ArrayL
     sliding
         B = eta |u1 - u2|/h over the stress of the law, any shape [-].
     gradient
-        S = h grad p over the stress of the law, two arrays that broadcast to that shape [-].
+        S = h grad p over the stress of the law, along X and Y; broadcast to that shape [-].
 
     Raises
     ------
@@ -54,7 +56,7 @@ def flow_factors(law: str, exponent: float, sliding: ArrayLike, gradient: ArrayL
     """
     b = np.asarray(sliding, dtype=float)
     s = np.empty((2, b.size), order="F")
-    for i, part in enumerate(np.asarray(gradient, dtype=float)):
+    for i, part in enumerate(gradient):
         s[i] = np.broadcast_to(part, b.shape).ravel()
     found = np.empty((5, b.size), order="F")
     library.thinning.flow_factors(CODES[law], exponent, b.ravel().copy(), s, found)

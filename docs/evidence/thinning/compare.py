@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Compare measured waves with the response: ``waves.csv``, and what it comes to.
 
-    python docs/evidence/thinning/compare.py FOLDER
+    python docs/evidence/thinning/compare.py [FOLDER]
 
-FOLDER has the runs of ``waves.py``. T is predicted with pressure and film of the smooth contact on
-257 x 257 nodes, so that the error of that grid in the smooth contact is not in the comparison. What
-the grid does to the wave in the inlet is not in it either: the part of the inlet that is fitted,
-for a grid without error, is multiplied by what the Newtonian twin of a run shows to be the ratio of
-the two. ``waves.csv`` has T with and without that.
+FOLDER has the runs of ``waves.py``; without it the measured waves are those of ``waves.csv``.
+
+T is predicted with pressure and film of the smooth contact on 257 x 257 nodes, so that the error of
+that grid in the smooth contact is not in the comparison. What the grid does to the wave in the
+inlet is not in it either: the part of the inlet that is fitted, for a grid without error, is
+multiplied by what the Newtonian twin of a run shows to be the ratio of the two. ``waves.csv`` has T
+with and without that.
 """
 
 from __future__ import annotations
@@ -31,7 +33,10 @@ from pyehl.theory.response import inlet_base, inlet_fit, thinned
 from pyehl.theory.transport import Zone, kept_of_inlet, transport
 
 Array, Complex = NDArray[np.float64], NDArray[np.complex128]
+Measured = tuple[Array, Array, Complex]
 HERE = Path(__file__).parent
+# Of the domain [a]
+SIDE = 4.0
 STATIONS = np.array([-0.5, 0.0, 0.5])
 COLUMNS = (
     "run moes_m moes_l slide_to_roll kx ky x T_re T_im predicted_re predicted_im "
@@ -39,23 +44,45 @@ COLUMNS = (
 ).split()
 
 
+def of_runs(folder: Path) -> dict[str, Measured]:
+    """Waves of the runs in a folder, by their names."""
+    found = {}
+    for path in sorted(folder.glob("*.npz")):
+        stored = np.load(path)
+        kx, ky = (2.0 * np.pi / TILE * stored[name] for name in ("along", "across"))
+        place = [int(np.argmin(np.abs(stored["x"] - x))) for x in STATIONS]
+        found[path.stem] = kx, ky, stored["response"][:, place]
+    return found
+
+
+def of_table() -> dict[str, Measured]:
+    """Waves of ``waves.csv``, by the names of their runs."""
+    with (HERE / "waves.csv").open(newline="", encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    found = {}
+    for name in PLAN:
+        here = [row for row in rows if row["run"] == name]
+        kx, ky = (np.array([float(row[k]) for row in here[:: STATIONS.size]]) for k in ("kx", "ky"))
+        for column, end in (("T", ""), ("newtonian", "-newtonian")):
+            parts = [float(row[f"{column}_re"]) + 1j * float(row[f"{column}_im"]) for row in here]
+            found[f"{name}{end}"] = kx, ky, np.array(parts).reshape(-1, STATIONS.size)
+    return found
+
+
 class Waves:
     """Measured waves of a run, and what the response makes of them."""
 
-    def __init__(self, path: Path, run: Run) -> None:
-        self.found = np.load(path)
+    def __init__(self, run: Run, measured: Measured) -> None:
+        self.kx, self.ky, self.measured = measured
         self.ratio = run.velocity_ratio
         settings = case_of(run).resolve()
         self.operating = OperatingPoint.from_settings(settings)
-        self.kx, self.ky = (2.0 * np.pi / TILE * self.found[n] for n in ("along", "across"))
         self.zone = zone(settings, self.operating)
         self.film = float(np.interp(0.0, self.zone.x, self.zone.film))
-        place = [int(np.argmin(np.abs(self.found["x"] - x))) for x in STATIONS]
-        self.measured: Complex = self.found["response"][:, place]
 
     def predicted(self, thinning: float = 1.0, of_grid: Complex | float = 1.0) -> Complex:
         """T at the STATIONS (m, 3); `of_grid` is what the grid makes of the fitted part."""
-        o, spacing = self.operating, float(self.found["spacing"])
+        o, spacing = self.operating, SIDE / (POINTS - 1)
         waves = self.kx, self.ky
         here = replace(self.zone, thinning=thinning)
         moes = thinned((o.moes_m, o.moes_l), thinning)
@@ -90,21 +117,22 @@ def zone(settings: dict[str, dict[str, Any]], operating: OperatingPoint) -> Zone
     return zone_on(x, *line, operating, Lubricant.from_settings(settings))
 
 
+def predicted(waves: Waves, newtonian: Waves) -> tuple[Complex, Complex]:
+    """T at the STATIONS, with what the twin shows the grid to do and without (m, 3)."""
+    thinning = (waves.film / newtonian.film) ** THINNING_POWER
+    return waves.predicted(thinning, newtonian.of_grid()), waves.predicted(thinning)
+
+
 def main(arguments: list[str]) -> None:
     """Write the table and print what each run deviates by."""
-    folder = Path(arguments[0])
+    measured = of_runs(Path(arguments[0])) if arguments else of_table()
     rows: list[list[str]] = []
     worst = []
     for name, run in PLAN.items():
-        paths = folder / f"{name}.npz", folder / f"{name}-newtonian.npz"
-        if not all(path.exists() for path in paths):
-            print(f"{name}: not there yet")
-            continue
-        waves, newtonian = Waves(paths[0], run), Waves(paths[1], twin(run))
+        waves = Waves(run, measured[name])
+        newtonian = Waves(twin(run), measured[f"{name}-newtonian"])
         film = waves.film / newtonian.film
-        thinning = film**THINNING_POWER
-        t = waves.predicted(thinning, newtonian.of_grid())
-        plain = waves.predicted(thinning)
+        t, plain = predicted(waves, newtonian)
         o = waves.operating
         for j in range(waves.kx.size):
             for i, x in enumerate(STATIONS):
