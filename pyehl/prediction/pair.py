@@ -110,6 +110,11 @@ class RoughPair:
             for (spectrum, ratio), transfer in zip(moving, transfers, strict=True)
         ]
 
+    def _moving(self, parts: PairParts) -> list[tuple[Spectrum, Transfer, float]]:
+        return [
+            (p[0], p[1], self.of[k].velocity_ratio) for p, k in zip(parts, self.order, strict=True)
+        ]
+
     def _contact(
         self, parts: PairParts, powers: Sequence[Array] | None = None, tracks: Sequence[float] = ()
     ) -> PairContact:
@@ -187,10 +192,7 @@ class RoughPair:
         parts = self.parts()
         with np.errstate(over="ignore", invalid="ignore"):
             contact = self._contact(parts)
-            left = [
-                (spectrum.power, np.abs(transfer.at_centre(spectrum, self.of[k].velocity_ratio)))
-                for (spectrum, transfer, _), k in zip(parts, self.order, strict=True)
-            ]
+            left = [(s.power, np.abs(t.at_centre(s, ratio))) for s, t, ratio in self._moving(parts)]
             limit = one.options.film_limit / one.operating.film_scale
             contact.watch(film_levels(limit, left))
             places = meeting.mean(contact.friction, one.options.positions, LARGEST_RATIO)
@@ -240,10 +242,6 @@ class RoughPair:
 
     def _bands(self, parts: PairParts, total: float, brief: bool) -> list[Band]:
         """Return what each octave, or the last one alone, adds when it joins all longer ones."""
-        moving = [
-            (spectrum, transfer, self.of[k].velocity_ratio)
-            for (spectrum, transfer, _), k in zip(parts, self.order, strict=True)
-        ]
         waves = [
             (
                 spectrum.q.ravel(),
@@ -251,7 +249,7 @@ class RoughPair:
                 np.abs(transfer.at_centre(spectrum, ratio)).ravel(),
                 np.abs(transfer.pressure_at_centre(spectrum, ratio)).ravel(),
             )
-            for spectrum, transfer, ratio in moving
+            for spectrum, transfer, ratio in self._moving(parts)
         ]
         q, power, deformed, pressure = (np.concatenate(both) for both in zip(*waves, strict=True))
         return joining(
@@ -272,7 +270,13 @@ class RoughPair:
         o, ratios = self.of[0].operating, places[2]
         status, message = outcome(contact, ratios)
         if status == BEYOND and not brief:
-            message += known_by_cut_off(self, parts)
+            message += known_by_cut_off(
+                [spectrum for spectrum, _, _ in parts],
+                self.order,
+                o.hertz_radius,
+                lambda limits: self.below_limits(parts, limits),
+                lambda numbers, length: self.without_shorter(numbers, length).run(0, brief=True)[0],
+            )
         responses = self.responses()
         moved = [places[0] * o.hertz_radius, places[1] * o.hertz_radius]
         shifts = [moved[k] for k in self.order]
