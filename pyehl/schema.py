@@ -44,9 +44,9 @@ sf | speed_parameter | - | 12 eta0 u R^2/(a^3 p_h)
 spf | hertz_pressure_Pa | Pa | p_h
 spf | hertz_radius_m | m | a, of an ellipse its semi-axis along the motion
 spf | film_scale_m | m | a^2/R
-sf | radius_ratio | - | R_x/R_y of an elliptical contact
-sf | ellipticity | - | semi-axis of the dry contact across the motion over that along it
-sf | semi_axis_y_m | m | semi-axis of the dry contact across the motion
+spf | radius_ratio | - | R_x/R_y of an elliptical contact
+spfr | ellipticity | - | semi-axis of the dry contact across the motion over that along it
+spf | semi_axis_y_m | m | semi-axis of the dry contact across the motion
 s | angle_deg | deg | by which an elliptical contact is turned counter-clockwise against the motion
 pf | si | | whether the case was given in SI units
 f | load_N | N | load w
@@ -169,8 +169,8 @@ spf | thermal_reduction | - | film over the isothermal one
 s | amplitude | a^2/R | amplitude A_i of a waviness, height or depth of a feature
 s | second_amplitude | a^2/R | that of the second surface
 s | amplitude_ratio | - | A_d/A_i at the centre
-s | surface_rms_m | m | rms height sigma that is solved, undeformed; composite of two surfaces
-s | surface_slope | - | rms slope of it
+sp | surface_rms_m | m | rms height sigma that is solved, undeformed; composite of two surfaces
+sp | surface_slope | - | rms slope of it
 s | variance_cut | - | share of the height's variance that was cut on purpose
 s | variance_left_out | - | share of it in waves that the grid does not carry
 s | variance_unresolved | - | share of it in waves that the grid does not resolve
@@ -194,12 +194,13 @@ p | tracks | - | tracks of the tile that mu_ratio_tracks is over
 p | film_below_zero_share | - | share of the contact where the film would be below zero
 p | film_breakdown | | where the film ends, and what would carry
 sp | surface_preparation | | what was done to a measured map
-s | second_surface_preparation | | the same of the second surface
+sp | second_surface_preparation | | the same of the second surface
 p | positions | - | positions of the tile over a passage
 p | position_error | - | relative error that they leave
 p | reduction | | how waves are flattened
 p | smooth | | the smooth contact of the model
 pr | velocity_ratio | - | velocity of the rough surface over the mean one
+p | second_velocity_ratio | - | that of the second surface
 p | wavelength_convention | | what the wavelength of a component is
 p | stiffness | | stiffness of the half-space
 p | viscosity_law | | viscosity under pressure
@@ -223,6 +224,14 @@ p | rms_pressure_Pa | Pa | rms of the pressure change at the centre
 p | rms_pressure_error_Pa | Pa | estimate of its error
 p | p_rise_max_Pa | Pa | largest rise of the pressure over a passage, within 0.8 a of the centre
 p | p_rise_max_error_Pa | Pa | estimate of its error
+p | second_surface | | the second surface in words
+p | second_seed | - | its seed
+p | second_pixels | - | its pixels along x and y
+p | second_length_x_m | m | size of its tile along x
+p | second_length_y_m | m | size of its tile along y
+p | second_rms_height_m | m | its rms height, undeformed
+p | second_rms_deformed_m | m | rms height of its deformed roughness
+p | second_rms_pressure_Pa | Pa | rms of the pressure change by it
 sp | lambda_ratio | - | h_min/sigma: smooth contact, undeformed surface
 spf | lambda_ratio_central | - | h_c/sigma: smooth contact, undeformed surface
 p | cavitated_share | - | share of the contact where the pressure would be negative

@@ -40,11 +40,11 @@ contains
 
       n = size(p)
       isotherm%temperature = temperature
-      isotherm%p = p
+      allocate (isotherm%p, source=p)
+      allocate (isotherm%values(n), isotherm%slopes(n))
       isotherm%values = log(viscosity)
       h = p(2:) - p(:n - 1)
       rise = (isotherm%values(2:) - isotherm%values(:n - 1))/h
-      allocate (isotherm%slopes(n))
       isotherm%slopes(1) = rise(1)
       isotherm%slopes(n) = rise(n - 1)
       do k = 2, n - 1

@@ -147,8 +147,8 @@ contains
          if (self%plan%surfaces%unresolved > rounding) waves%unresolved = ieee_value(waves%unresolved, ieee_quiet_nan)
          waves%left_out = waves%unresolved
          waves%why = "waves that the grid leaves out are not in it: pyehl run predicts what they add"
-         if (self%plan%surfaces%rest() .or. self%plan%surfaces%count() > 1) waves%why = &
-            "waves that the grid leaves out are not in it: what they add is predicted for one surface on the move alone"
+         if (self%plan%surfaces%rest()) waves%why = &
+            "waves that the grid leaves out are not in it: what they add is predicted for surfaces on the move alone"
       end if
       if (.not. (self%plan%surfaces%left_out > rounding .and. self%plan%surfaces%has_spectrum())) waves%left_out = 0.0_dp
    end function waves_of

@@ -260,7 +260,7 @@ contains
    end function wanted
 
    !> Failure on a level: begin anew on the next finer one, where the discrete problem is better posed; on the finest one
-   !> once from the first level on with care, unless the film is negative: then there is hardly a solution
+   !> once from the first level on with care
    subroutine fail_level(self)
       class(steady_t), intent(inout) :: self
       logical :: finest

@@ -110,8 +110,8 @@ GROUPS: dict[str, tuple[Knob | Choice, ...]] = {
         Knob("rms", "rms height σ", "nm", 1e-9, 1.0, 500.0),
         Knob("hurst", "Hurst exponent", "", 1.0, 0.1, 1.0, log=False),
         Knob("seed", "seed", "", 1.0, 1, 401, log=False, whole=True),
-        Knob("map_x", "length of the map along x (0: of the file)", "mm", 1e-3, 0, 4, log=False),
-        Knob("map_y", "length across (0: of the file)", "mm", 1e-3, 0, 4, log=False),
+        Knob("map_x", "map along x (0: of file)", "mm", 1e-3, 0, 4, log=False),
+        Knob("map_y", "map across (0: of file)", "mm", 1e-3, 0, 4, log=False),
     ),
 }
 KNOBS = {knob.name: knob for group in GROUPS.values() for knob in group}

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from html import escape
 from typing import Any
@@ -27,6 +28,7 @@ __all__ = ["Page"]
 # Nodes a side of the case file, the report and the figures
 POINTS = FINE[-1]
 CURVE_POINTS = 9
+NO_MAP = "there is no height map yet: expected an upload; the contact is smooth until then"
 
 
 class Page:
@@ -34,6 +36,8 @@ class Page:
 
     def __init__(self, document: Document, start: Position, note: str = "") -> None:
         self.document, self.position = document, start
+        # where the knobs are: as the position, but for a map that is not there yet
+        self._wish = start
         self.uploads = Uploads()
         # what was uploaded and could not be read yet, for want of a size
         self._pending: tuple[str, bytes] | None = None
@@ -67,21 +71,25 @@ class Page:
 
     def turned(self, name: str, value: Value) -> None:
         """Take a turned knob; what is wrong is said there, and the answer stays."""
-        wish = self.position.turned(name, value)
-        self.layout.show_knobs({**wish.values})
+        wish = self._wish.turned(name, value)
+        self.layout.show_knobs(wish.values)
         if name in ("map_x", "map_y") and self._pending is not None:
-            self.position = wish
+            self._wish = wish
             self.upload(*self._pending)
             return
+        # until there is a map the contact is smooth
+        missing = wish.values["surface"] == "map" and not wish.file
+        tried = wish.turned("surface", "smooth") if missing else wish
         try:
-            wish.case(COARSE)
-            if wish.file and wish.values["surface"] == "map":
-                self.uploads.check(wish.file, *self._map_size(wish))
+            tried.case(COARSE)
+            if tried.values["surface"] == "map":
+                self.uploads.check(tried.file, *self._map_size(tried))
         except InputError as error:
             self.layout.knobs[name].say(self.uploads.nameless(str(error)))
             return
         self.layout.knobs[name].say("")
-        self.position = wish
+        self.layout.knobs["surface"].say(NO_MAP if missing else "")
+        self._wish, self.position = wish, tried
         self._moved()
 
     def _map_size(self, position: Position) -> tuple[float, float]:
@@ -127,7 +135,8 @@ class Page:
         try:
             text = data.decode("utf-8-sig")
             case = Case.from_text(text, (), name)
-            self.position, note = from_case(case, self.uploads.files)
+            self._wish, note = from_case(case, self.uploads.files)
+            self.position = self._wish
         except (InputError, UnicodeDecodeError) as error:
             self.layout.open_error.text = escape(self.uploads.nameless(str(error)))
             return
@@ -141,9 +150,8 @@ class Page:
     def upload(self, name: str, data: bytes) -> None:
         """Take a height map, or say what its reader says."""
         try:
-            path = self.uploads.add(name, data, *self._map_size(self.position))
-            values = {**self.position.values, "surface": "map"}
-            wish = Position(values, self.position.base, self.position.modulus, path)
+            path = self.uploads.add(name, data, *self._map_size(self._wish))
+            wish = replace(self._wish.turned("surface", "map"), file=path)
             wish.case(COARSE)
         except InputError as error:
             self._pending = name, data
@@ -151,9 +159,9 @@ class Page:
             return
         self._pending = None
         self.layout.upload_error.text = ""
-        self.position = wish
+        self._wish = self.position = wish
         self.layout.knobs["surface"].set("map")
-        self.layout.show_knobs(values)
+        self.layout.show_knobs(wish.values)
         self._moved()
 
     def draw_curve(self, over: str) -> None:

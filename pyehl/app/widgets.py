@@ -17,6 +17,7 @@ __all__ = ["KnobWidget"]
 
 WIDTH = 300
 ERROR = {"color": "#b00020", "white-space": "pre-wrap", "font-size": "85%"}
+NOTHING = {"display": "none"}
 
 
 class KnobWidget:
@@ -29,7 +30,7 @@ class KnobWidget:
         # while the page itself moves the knob nobody has turned it
         self._quiet = False
         self.error = Div(
-            text="", visible=False, styles=ERROR, width=WIDTH, name=f"error_{knob.name}"
+            text="", styles=NOTHING, width=WIDTH, margin=(0, 5, 0, 5), name=f"error_{knob.name}"
         )
         self.slider: Any = None
         if isinstance(knob, Choice):
@@ -61,7 +62,8 @@ class KnobWidget:
     def say(self, text: str) -> None:
         """Say at the knob what is wrong with it; '' for nothing."""
         self.error.text = escape(text)
-        self.error.visible = bool(text)
+        # a model that becomes visible would take the focus from the field
+        self.error.styles = {**ERROR, "display": "block"} if text else NOTHING
 
     def _slid(self, attribute: str, old: int, new: int) -> None:
         if self._quiet or not isinstance(self.knob, Knob):

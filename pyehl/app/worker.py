@@ -37,8 +37,9 @@ class Ticket:
         return self.newest() or time.monotonic() - self._began < GRACE
 
     def rest(self, seconds: float) -> bool:
-        """Wait; whether the job is the newest one still."""
-        return self._worker.rest(self.generation, seconds)
+        """Wait until so long after its beginning; whether the job is the newest one still."""
+        left = seconds - (time.monotonic() - self._began)
+        return self._worker.rest(self.generation, max(0.0, left))
 
     def tell(self, answer: Any) -> None:  # noqa: ANN401 (of any kind)
         """Hand over an answer."""

@@ -14,6 +14,7 @@ from pyehl.commands.arguments import add_case_arguments, add_force
 from pyehl.prediction.deformed import error_name
 from pyehl.prediction.friction import TRACKS
 from pyehl.prediction.result import Prediction
+from pyehl.surfaces import Topography
 
 __all__ = ["add_arguments", "execute", "report"]
 
@@ -24,10 +25,12 @@ def report(prediction: Prediction) -> str:
     known = math.isfinite(prediction.film_minimum)
     least = f"h_min = {prediction.film_minimum * 1e6:.4g} um, " if known else ""
     lines = [*s.preparation.record.report()] if s.preparation else []
+    lines.append(_surface("surface", s))
+    if prediction.second:
+        other = prediction.second.surface
+        lines += other.preparation.record.report() if other.preparation else []
+        lines.append(_surface("second", other))
     lines += [
-        f"surface     {s.origin}: rms {s.rms_height * 1e6:.4g} um, "
-        f"{s.shape[0]} x {s.shape[1]} pixels, "
-        f"{s.length_x * 1e3:.4g} x {s.length_y * 1e3:.4g} mm",
         f"film        h_c = {prediction.film * 1e6:.4g} um ({prediction.film_source}), "
         f"{least}least rough film {_told(values, 'h_min_rough_m', 1e6)} um",
         f"model       {_model(prediction)}",
@@ -79,6 +82,14 @@ def _told(values: Mapping[str, Any], name: str, factor: float) -> str:
     return text if error is None else f"{text} +- {error * factor:.1g}"
 
 
+def _surface(name: str, tile: Topography) -> str:
+    return (
+        f"{name:12}{tile.origin}: rms {tile.rms_height * 1e6:.4g} um, "
+        f"{tile.shape[0]} x {tile.shape[1]} pixels, "
+        f"{tile.length_x * 1e3:.4g} x {tile.length_y * 1e3:.4g} mm"
+    )
+
+
 def _deformed(values: Mapping[str, Any]) -> list[str]:
     """Say what becomes of the surface."""
     text = (
@@ -109,7 +120,8 @@ def _model(prediction: Prediction) -> str:
     options = prediction.options
     words = [f"{prediction.lubricant.viscosity_law} viscosity"]
     if options.reduction == "response":
-        words.append(f"complex response at velocity ratio {prediction.velocity_ratio:g}")
+        second = f" and {prediction.second.velocity_ratio:g}" if prediction.second else ""
+        words.append(f"complex response at velocity ratio {prediction.velocity_ratio:g}{second}")
     else:
         words.append(f"real amplitude ratio, wavelengths by {options.wavelength_convention}")
     words.append("smooth contact " + ("solved" if options.smooth == "solved" else "of Hertz"))

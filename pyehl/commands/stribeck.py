@@ -31,6 +31,7 @@ from pyehl.studies.curve import (
 from pyehl.studies.curve_plan import KEYS, CurvePlan, plan_curve
 from pyehl.studies.curve_run import CSV, NETCDF, PICTURE, axes_of, perform
 from pyehl.studies.measured_friction import Measured, read_measured
+from pyehl.surfaces import rough_groups
 from pyehl.theory.load_share import AIHARA, LoadShare
 
 __all__ = ["add_arguments", "execute"]
@@ -174,9 +175,10 @@ def draw(
                 print(f"note: {words}", file=sys.stderr)
             over = {name: measured.over(name, key, places, those) for name in (*ABSCISSAE, key)}
             overlay = Points(over, measured.friction, measured.error)
-    surface = plan.points[0].settings["surface"]
+    settings = plan.points[0].settings
+    kinds = [f"'{settings[group]['kind']}'" for group in rough_groups(settings)] or ["'smooth'"]
     count = f", {plan.surfaces} surfaces" if plan.surfaces > 1 else ""
-    words = f"surface '{surface['kind']}'{count}; {_conditions(plan)}"
+    words = f"surface {' and '.join(kinds)}{count}; {_conditions(plan)}"
     law = "" if plan.load_share is None else plan.load_share.words
     if absolute and key == SLIP:
         slips = [places for _, places, _ in curves_of(plan, rows)]

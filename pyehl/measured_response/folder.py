@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from pyehl.case import Case
+from pyehl.case import Case, exchanged
 from pyehl.destination import Destination, write_json
 from pyehl.given import Option, path_of
 from pyehl.measured_response.measurement import measure, with_tiers
@@ -21,7 +21,7 @@ from pyehl.measured_response.tiers import TIERS
 from pyehl.netcdf import write_netcdf
 from pyehl.prediction.errors import outside_range
 from pyehl.prediction.options import Options
-from pyehl.prediction.smooth import solve_contact, zone_of
+from pyehl.prediction.smooth import circle_of, solve_contact, zone_of
 from pyehl.results import scalars
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -53,6 +53,7 @@ def response(
     output: str | os.PathLike[str] | None = None,
     force: bool = False,
     quick: bool = False,
+    second: bool = False,
     progress: Callable[[str, int, int], object] | None = None,
 ) -> xr.Dataset:
     """Measure what the contact of a case makes of small waves of roughness; takes minutes.
@@ -70,6 +71,8 @@ def response(
         Other files may be in the folder; they stay.
     quick
         Waves down to a/16 only, in a third of the time.
+    second
+        At the velocity of the second surface of the case, not of the first.
     progress
         Called with the name of a run, its steps done and its steps in all.
 
@@ -97,6 +100,8 @@ def response(
     """
     inputs = () if isinstance(case, Case) else (case,)
     case = Case.of(case, *options)
+    if second:
+        case = exchanged(case)
     tiers = TIERS[:-1] if quick else TIERS
     with tempfile.TemporaryDirectory(prefix="pyehl-") as nothing:
         folder = nothing if output is None else path_of(output, "output")
@@ -117,16 +122,18 @@ def _write(case: Case, found: Mapping[str, Mapping[str, Any]], place: Destinatio
     settings = case.resolve()
     ratio = float(settings["surface"]["velocity_ratio"])
     operating = OperatingPoint.from_settings(settings)
-    zone = zone_of(solve_contact(settings), operating, Lubricant.from_settings(settings))
-    data = dataset(found, zone, operating, ratio)
+    smooth, lubricant = solve_contact(settings), Lubricant.from_settings(settings)
+    zone = zone_of(smooth, operating, lubricant)
+    moes = circle_of(smooth, operating, lubricant)
+    data = dataset(found, zone, operating, moes, ratio)
     at_centre = data.sel(X=0.0)
     longest, shortest = (float(data["wavelength"][i]) for i in (0, -1))
     q = np.geomspace(2.0 * np.pi / shortest, 2.0 * np.pi / longest, 400)
-    nabla = nabla_2(q, operating)
+    nabla = nabla_2(q, moes)
     lines = {}
     for direction in DIRECTIONS:
         kx, ky = q * np.cos(np.radians(direction)), q * np.sin(np.radians(direction))
-        lines[direction] = (nabla, shipped_response(kx, ky, zone, operating, ratio)[:, 1])
+        lines[direction] = (nabla, shipped_response(kx, ky, zone, moes, ratio)[:, 1])
     waves = {name: at_centre[name].values for name in ("nabla_2", "direction", "amplitude", "lag")}
     label = f"M = {operating.moes_m:.4g}, L = {operating.moes_l:.4g}, velocity ratio {ratio:g}"
     summary = _summary(found, at_centre["shipped_difference"].values, data.attrs)

@@ -45,24 +45,27 @@ VARIABLES = {
 
 
 def shipped_response(
-    kx: Array, ky: Array, zone: Zone, operating: OperatingPoint, velocity_ratio: float
+    kx: Array, ky: Array, zone: Zone, moes: tuple[float, float], velocity_ratio: float
 ) -> Complex:
-    """T at the STATIONS by :mod:`pyehl.theory.response`, (m, 3), for wavenumbers [1/a]."""
-    inlet = inlet_transfer(zone, kx, ky, operating.equivalent_moes, velocity_ratio)
+    """T at the STATIONS by :mod:`pyehl.theory.response`, (m, 3), for wavenumbers [1/a].
+
+    `moes`: M and L of the circular contact with the same inlet.
+    """
+    inlet = inlet_transfer(zone, kx, ky, moes, velocity_ratio)
     slip = np.exp(1j * np.outer(kx * (velocity_ratio - 1.0), STATIONS + 1.0))
     parts = transport(zone, kx, ky, velocity_ratio, STATIONS)
     found = [driven + free * inlet * slip[:, i] for i, (driven, free) in enumerate(parts)]
     return np.stack(found, axis=-1)
 
 
-def nabla_2(q: Array, operating: OperatingPoint) -> Array:
+def nabla_2(q: Array, moes: tuple[float, float]) -> Array:
     """Wavelength parameter of waves |q| [1/a], by M and L of the circle with the same inlet."""
-    moes_m, moes_l = operating.equivalent_moes
+    moes_m, moes_l = moes
     return np.asarray(2.0 * np.pi / q * np.sqrt(moes_m / moes_l))
 
 
 def _tier(
-    tier: Mapping[str, Any], zone: Zone, operating: OperatingPoint, velocity_ratio: float
+    tier: Mapping[str, Any], zone: Zone, moes: tuple[float, float], velocity_ratio: float
 ) -> dict[str, Array]:
     """All columns of one tier."""
     k0 = 2.0 * np.pi / float(tier["tile"])
@@ -71,12 +74,12 @@ def _tier(
     place = [int(np.argmin(np.abs(tier["x"] - station))) for station in STATIONS]
     t, pressure = tier["response"][:, place], tier["stiffness"][:, place]
     half_space = zone.stiffness * stiffness(q)[:, np.newaxis]
-    shipped = shipped_response(kx, ky, zone, operating, velocity_ratio)
+    shipped = shipped_response(kx, ky, zone, moes, velocity_ratio)
     return {
         "kx": kx,
         "ky": ky,
         "wavelength": 2.0 * np.pi / q,
-        "nabla_2": nabla_2(q, operating),
+        "nabla_2": nabla_2(q, moes),
         "direction": np.degrees(np.arctan2(ky, kx)),
         "points": np.full(kx.shape, round(4.0 / float(tier["spacing"])) + 1.0),
         "fit_residual": tier["residual"][:, place[1]],
@@ -94,15 +97,17 @@ def dataset(
     tiers: Mapping[str, Mapping[str, Any]],
     zone: Zone,
     operating: OperatingPoint,
+    moes: tuple[float, float],
     velocity_ratio: float,
 ) -> xr.Dataset:
     """Give all waves of a measurement, the longest first.
 
     `tiers` are as :func:`pyehl.measured_response.measurement.measure` returns them; `zone` is the
-    smooth contact that the shipped response goes through. Over wave (m,), and over wave and X
+    smooth contact that the shipped response goes through, `moes` M and L of the circular contact
+    with the same inlet. Over wave (m,), and over wave and X
     (m, 3) at the STATIONS; each variable has units.
     """
-    parts = [_tier(tier, zone, operating, velocity_ratio) for tier in tiers.values()]
+    parts = [_tier(tier, zone, moes, velocity_ratio) for tier in tiers.values()]
     joined = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     order = np.argsort(-joined["wavelength"], kind="stable")
     names = np.repeat(list(tiers), [tier["along"].size for tier in tiers.values()])

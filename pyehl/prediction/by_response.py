@@ -32,7 +32,7 @@ from pyehl.prediction.passage import (
     working_grid,
 )
 from pyehl.prediction.rough_contact import Edge, RoughContact
-from pyehl.prediction.smooth import SmoothContact, zone_of
+from pyehl.prediction.smooth import SmoothContact, circle_of, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.prediction.waves import Waves
@@ -78,8 +78,8 @@ class RoughPassage:
         o = self.operating
         if self.options.reduction == "response":
             zone = zone_of(self.contact, o, self.lubricant)
-            weighs = self.lubricant.shear.weighs_flow
-            moes, u = o.equivalent_moes, self.velocity_ratio
+            moes = circle_of(self.contact, o, self.lubricant)
+            u, weighs = self.velocity_ratio, self.lubricant.shear.weighs_flow
             return Transfer.of(spectrum, zone, moes, u, at_amplitude=weighs, mesh=self.mesh)
         ratio = component_amplitude_ratio(
             spectrum.qx[:, np.newaxis],

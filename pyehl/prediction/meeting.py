@@ -31,7 +31,7 @@ MOST_PASSAGES = 12
 a longer one are of that order."""
 SAME = 1e-9
 """Relative difference of two times that is none."""
-LATTICES = (9, 17, 33)
+LATTICES = (9, 13, 19, 27)
 """m of the lattices of a mean over all positions, the next one where one is not enough."""
 SHORT = 7
 """m of the lattice of a mean over a few positions."""
@@ -66,17 +66,20 @@ class Meeting:
         """Passages of both in their common period; None: they meet in all positions."""
         return common_passages(self.lengths, self.velocity_ratios)
 
-    def shifts(self, k: int, n: int, m: int = 0) -> tuple[float, float]:
+    def moved(self, k: int, n: int, m: int = 0) -> tuple[float, float]:
         """How far the tiles have moved at the k-th of n positions [a].
 
-        Of the common period, or of the lattice of `m`.
+        Of the common period, or of the lattice of `m`, where it is that within a tile.
         """
-        ways = self.passages or (1, m)
-        first, second = (
-            front + length * ((way * k) % n) / n
-            for front, length, way in zip(self.fronts, self.lengths, ways, strict=True)
-        )
-        return first, second
+        one, other = self.lengths
+        if self.passages:
+            return one * (self.passages[0] * k) / n, other * (self.passages[1] * k) / n
+        return one * k / n, other * (m * k % n) / n
+
+    def shifts(self, k: int, n: int, m: int = 0) -> tuple[float, float]:
+        """Where the tiles begin at the k-th of n positions [a], as `moved`."""
+        first, second = self.moved(k, n, m)
+        return self.fronts[0] + first, self.fronts[1] + second
 
     def short_mean(self, friction: Friction) -> float:
         """Mean of mu_r/mu_s over a few positions."""
@@ -87,7 +90,7 @@ class Meeting:
     def mean(
         self, friction: Friction, positions: int, largest: float
     ) -> tuple[Array, Array, Array, float]:
-        """Shifts of both [a] (n,), mu_r/mu_s there, and what they leave undecided (relative).
+        """How far both have moved [a] (n,), mu_r/mu_s there, and what is undecided (relative).
 
         `positions`: how many, of a lattice the next larger number; 0: as many as it takes. No more
         are added to a mean above `largest`.
@@ -95,13 +98,20 @@ class Meeting:
         if self.passages:
             return self._along(friction, positions, largest)
         fewest = math.isqrt(positions) + 1 if positions else 0
+        before = math.nan
         for m in [fewest] if positions else LATTICES:
             n = m * m - 1
-            places = np.array([self.shifts(k, n, m) for k in range(n)])
-            ratios = np.array([friction((float(one), float(two))) for one, two in places])
+            places = np.array([self.moved(k, n, m) for k in range(n)])
+            ratios = np.array([friction(self.shifts(k, n, m)) for k in range(n)])
+            mean = float(ratios.mean())
             error = _undecided(ratios)
-            if not error > POSITION_TOLERANCE or float(ratios.mean()) > largest:
+            if not math.isfinite(mean) or mean > largest:
                 break
+            if not math.isnan(before):
+                error = max(error, abs(mean - before) / mean)
+                if error <= POSITION_TOLERANCE:
+                    break
+            before = mean
         return places[:, 0], places[:, 1], ratios, error
 
     def _along(
@@ -116,7 +126,7 @@ class Meeting:
             between = [friction(self.shifts(k, 2 * n)) for k in range(1, 2 * n, 2)]
             ratios = np.stack([ratios, between], axis=1).ravel()
             n, error = 2 * n, _undecided(ratios)
-        places = np.array([self.shifts(k, n) for k in range(n)])
+        places = np.array([self.moved(k, n) for k in range(n)])
         return places[:, 0], places[:, 1], ratios, error
 
 

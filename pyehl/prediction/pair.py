@@ -35,7 +35,7 @@ from pyehl.prediction.pair_contact import PairContact, TileOnPoints
 from pyehl.prediction.pair_cut_off import known_by_cut_off
 from pyehl.prediction.passage import longer_waves, working_grid
 from pyehl.prediction.rough_contact import Edge
-from pyehl.prediction.smooth import zone_of
+from pyehl.prediction.smooth import circle_of, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.surfaces import Topography, filtered, track_offsets
@@ -71,16 +71,13 @@ class RoughPair:
     @property
     def meeting(self) -> Meeting:
         """The positions in which they meet, in their order."""
-        a = self.of[0].operating.hertz_radius
-        lengths, ratios, fronts = (
-            (values[self.order[0]], values[self.order[1]])
-            for values in (
-                [one.topography.length_x / a for one in self.of],
-                [one.velocity_ratio for one in self.of],
-                self.fronts,
-            )
+        a, (i, j) = self.of[0].operating.hertz_radius, self.order
+        first, second = self.of[i], self.of[j]
+        return Meeting(
+            (first.topography.length_x / a, second.topography.length_x / a),
+            (first.velocity_ratio, second.velocity_ratio),
+            (self.fronts[i], self.fronts[j]),
         )
-        return Meeting(lengths, ratios, fronts)
 
     def parts(self, tiles: Sequence[Topography] | None = None) -> PairParts:
         """Components of both tiles and what becomes of them, in their order.
@@ -98,7 +95,7 @@ class RoughPair:
             transfers = Transfer.of_all(
                 moving,
                 zone_of(one.contact, o, one.lubricant),
-                o.equivalent_moes,
+                circle_of(one.contact, o, one.lubricant),
                 at_amplitude=one.lubricant.shear.weighs_flow,
                 mesh=one.mesh,
             )
@@ -111,6 +108,11 @@ class RoughPair:
                 Edge.of(spectrum, 1.0 - transfer.at_centre(spectrum, ratio), one.operating.ellipse),
             )
             for (spectrum, ratio), transfer in zip(moving, transfers, strict=True)
+        ]
+
+    def _moving(self, parts: PairParts) -> list[tuple[Spectrum, Transfer, float]]:
+        return [
+            (p[0], p[1], self.of[k].velocity_ratio) for p, k in zip(parts, self.order, strict=True)
         ]
 
     def _contact(
@@ -190,24 +192,17 @@ class RoughPair:
         parts = self.parts()
         with np.errstate(over="ignore", invalid="ignore"):
             contact = self._contact(parts)
-            contact.watch(
-                film_levels(
-                    one.options.film_limit / one.operating.film_scale,
-                    [
-                        (
-                            spectrum.power,
-                            np.abs(transfer.at_centre(spectrum, self.of[k].velocity_ratio)),
-                        )
-                        for (spectrum, transfer, _), k in zip(parts, self.order, strict=True)
-                    ],
-                )
-            )
+            left = [(s.power, np.abs(t.at_centre(s, ratio))) for s, t, ratio in self._moving(parts)]
+            limit = one.options.film_limit / one.operating.film_scale
+            contact.watch(film_levels(limit, left))
             places = meeting.mean(contact.friction, one.options.positions, LARGEST_RATIO)
             found = self._result(contact, parts, places, brief)
             if found.status != "predicted":
                 return found, (math.nan, math.nan), []
             ratios = [
-                meeting.short_mean(self._contact(parts, tracks=pair).friction)
+                meeting.short_mean(
+                    (self._contact(parts, tracks=pair) if any(pair) else contact).friction
+                )
                 for pair in self._tracks(tracks)
             ]
             bands = self._bands(parts, found.mu_ratio, brief)
@@ -247,10 +242,6 @@ class RoughPair:
 
     def _bands(self, parts: PairParts, total: float, brief: bool) -> list[Band]:
         """Return what each octave, or the last one alone, adds when it joins all longer ones."""
-        moving = [
-            (spectrum, transfer, self.of[k].velocity_ratio)
-            for (spectrum, transfer, _), k in zip(parts, self.order, strict=True)
-        ]
         waves = [
             (
                 spectrum.q.ravel(),
@@ -258,7 +249,7 @@ class RoughPair:
                 np.abs(transfer.at_centre(spectrum, ratio)).ravel(),
                 np.abs(transfer.pressure_at_centre(spectrum, ratio)).ravel(),
             )
-            for spectrum, transfer, ratio in moving
+            for spectrum, transfer, ratio in self._moving(parts)
         ]
         q, power, deformed, pressure = (np.concatenate(both) for both in zip(*waves, strict=True))
         return joining(
@@ -279,7 +270,13 @@ class RoughPair:
         o, ratios = self.of[0].operating, places[2]
         status, message = outcome(contact, ratios)
         if status == BEYOND and not brief:
-            message += known_by_cut_off(self, parts)
+            message += known_by_cut_off(
+                [spectrum for spectrum, _, _ in parts],
+                self.order,
+                o.hertz_radius,
+                lambda limits: self.below_limits(parts, limits),
+                lambda numbers, length: self.without_shorter(numbers, length).run(0, brief=True)[0],
+            )
         responses = self.responses()
         moved = [places[0] * o.hertz_radius, places[1] * o.hertz_radius]
         shifts = [moved[k] for k in self.order]

@@ -60,6 +60,8 @@ def _fewer_pixels(pixels: int, length: float, limit: float, semi_axis: float) ->
 
     Of a tile of a length [a] that has so many, along a semi-axis of the contact [a].
     """
+    if math.isinf(limit):
+        return pixels
     highest = int(limit * length / (2.0 * math.pi))
     few = max(2 * highest + 2, math.ceil(RADIUS_PIXELS * length / semi_axis))
     few = FIRST_POSITIONS * math.ceil(few / FIRST_POSITIONS)

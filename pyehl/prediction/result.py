@@ -190,13 +190,9 @@ class Prediction:
         f, o = self.friction, self.operating
         second = {"second_shift_m": self.second.passage.shift} if self.second else {}
         q, c_iso = surfaces.psd_isotropic(self.surface)
+        convention = self.options.wavelength_convention
         ratio = component_amplitude_ratio(
-            q,
-            0.0,
-            o.hertz_radius,
-            o.moes_m,
-            o.moes_l,
-            convention=self.options.wavelength_convention,
+            q, 0.0, o.hertz_radius, *o.equivalent_moes, convention=convention
         )
         return {
             "passage": {"shift_m": f.shift, **second, "mu_ratio": f.passage},
@@ -223,7 +219,8 @@ class Prediction:
         """Draw mu_r/mu_s over the passage on `ax`, or on a new figure; returns the axes."""
         from pyehl.plots.surface import passage  # noqa: PLC0415 (matplotlib, as above)
 
-        return passage(self.friction.shift, self.friction.passage, self.surface.length_x, ax=ax)
+        f, second = self.friction, self.second.passage.shift if self.second else None
+        return passage(f.shift, f.passage, self.surface.length_x, second=second, ax=ax)
 
     def _bands(self) -> list[dict[str, float]]:
         return [
@@ -285,6 +282,10 @@ class Prediction:
             "bands": self._bands(),
             "wall_seconds": self.seconds,
         }
+        if o.radius_ratio != 1.0:
+            values["radius_ratio"] = o.radius_ratio
+            values["ellipticity"] = o.ellipse.ellipticity
+            values["semi_axis_y_m"] = o.semi_axis_y
         return {key: _finite(value) for key, value in values.items()}
 
 

@@ -154,7 +154,7 @@ class WavyContact(ShearedContact):
         self.off = away_from_centre(self.across).astype(np.float32)
         grid = np.meshgrid(self.x, self.across, indexing="ij")
         # (n, points): what is summed over them is read in order
-        edge = next((edge for edge in edges if edge.coefficients.size), edges[0])
+        edge = max(edges, key=lambda edge: edge.coefficients.shape)
         shape = edge.coefficients.shape[0], self.film.size
         self.polynomials = edge.polynomials(*grid).reshape(shape).astype(np.float32)
         # of the pressure of second order
@@ -164,6 +164,8 @@ class WavyContact(ShearedContact):
 
     def add_edge(self, total: Single, edge: Array) -> None:
         """Add what the edge of the contact does, by its coefficients (28,), to the pressure."""
+        if not edge.size:
+            return
         # threads of a product of matrices cost more than they bring
         wide = np.einsum("k,kn->n", edge.astype(np.float32), self.polynomials)
         total[..., 1] += wide.reshape(self.film.shape)

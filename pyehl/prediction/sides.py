@@ -15,7 +15,7 @@ from pyehl.prediction.friction import SecondPassage
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import Topography
 
-__all__ = ["SecondSurface", "arrays", "statistics"]
+__all__ = ["SECOND", "SecondSurface", "arrays", "statistics"]
 
 Array = NDArray[np.float64]
 SECOND = "second_"

@@ -19,6 +19,7 @@ from pyehl.arrays import read_array
 from pyehl.case import Case
 from pyehl.errors import EhlError, InputError
 from pyehl.handle import SolverHandle
+from pyehl.theory.film import circle_with_same_inlet
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import ShearLaw
@@ -27,6 +28,7 @@ from pyehl.theory.transport import Zone
 
 __all__ = [
     "SmoothContact",
+    "circle_of",
     "forget",
     "hertz_contact",
     "read_contact",
@@ -131,6 +133,14 @@ def solve_contact(settings: Mapping[str, Mapping[str, Any]]) -> SmoothContact:
     newtonian = {**settings, "lubricant": {**settings["lubricant"], "flow": "newtonian"}}
     film = found.central_film / _solved(smooth_case(newtonian)).central_film
     return replace(found, thinning=film**THINNING_POWER)
+
+
+def circle_of(
+    contact: SmoothContact, operating: OperatingPoint, lubricant: Lubricant
+) -> tuple[float, float]:
+    """M and L [-] of the circular contact with the same inlet, in a Newtonian flow."""
+    film = contact.central_film / contact.thinning ** (1.0 / THINNING_POWER)
+    return circle_with_same_inlet(operating, lubricant, film)
 
 
 def forget() -> None:
@@ -249,6 +259,7 @@ def zone_on(
         rho * film**3 / (eta * operating.speed_parameter),
         1.0 / operating.ellipse.kernel_ratio,
         factors,
+        ellipticity=operating.ellipse.ellipticity,
     )
 
 

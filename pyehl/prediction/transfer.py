@@ -128,6 +128,7 @@ class Transfer:
     # The pressure of second order; None where the waves move with the roughness as they are
     second: SecondOrder | None = None
     stiffening: float = 1.0  # stiffness over that of the half-space under a circle
+    ellipticity: float = 1.0  # of the contact
 
     @classmethod
     def of(
@@ -182,7 +183,15 @@ class Transfer:
         )
         count = STATIONS.size
         return [
-            cls(found[:count], found[count:-1], found[-1], waves.bent, second, zone.stiffness)
+            cls(
+                found[:count],
+                found[count:-1],
+                found[-1],
+                waves.bent,
+                second,
+                zone.stiffness,
+                zone.ellipticity,
+            )
             for waves, (found, _, _) in zip(entering, loaded, strict=True)
         ]
 

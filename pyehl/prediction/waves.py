@@ -63,10 +63,13 @@ class Waves:
         """
         qx, qy = spectrum.qx[:, np.newaxis], spectrum.qy[np.newaxis, :]
         stiffening = transfer.stiffening
-        gain = stiffening * edge_gain(qx, qy, stiffening * central_film)
+        gain = stiffening * edge_gain(
+            qx, qy, stiffening * central_film, ellipticity=transfer.ellipticity
+        )
         k = (stiffness(spectrum.q) * gain).astype(np.float32)
         k_free = (free_stiffness(qx, qy, velocity_ratio) * gain).astype(np.float32)
         narrow = spectrum.single()
+        across = None if lines is None else narrow.on_lines(lines)
         # a linear interpolation between the points dims a wave by this on average
         step = spectrum.qx * (np.pi / REFINEMENT / spectrum.qx[-1])
         bright = (1.0 / (1.0 - np.square(step) / 12.0)).astype(np.float32)[:, np.newaxis]
@@ -77,7 +80,7 @@ class Waves:
             found = np.empty((len(waves), *shape), dtype=np.float32)
             for place, pair in zip(found, waves, strict=True):
                 for i, factor in enumerate(pair):
-                    place[..., i] = narrow.tile(factor, refinement, stride, lines)
+                    place[..., i] = narrow.tile(factor, refinement, stride, across)
             return found
 
         def free(waves: list[Complex]) -> Single:

@@ -129,9 +129,11 @@ def _at(
         wavelength = likeness.wavelength / operating.hertz_radius
         ratio = h_c / (2.0 * likeness.rms_height)
         place = (operating.moes_m, operating.moes_l, wavelength, ratio)
+        # eq. 16 is for circular contacts
+        known = operating.moes_l > 0.0 and operating.radius_ratio == 1.0
         values["lambda_ratio"] = h_min / likeness.rms_height
         values["lambda_ratio_central"] = h_c / likeness.rms_height
-        values["theta_2"] = float(stribeck.theta_2(*place)) if operating.moes_l > 0.0 else None
+        values["theta_2"] = float(stribeck.theta_2(*place)) if known else None
         values["theta_2_wavelength_m"] = likeness.wavelength
     values |= _friction(found, smooth) if found else _smooth_friction(smooth)
     if law is not None:

@@ -3,7 +3,8 @@
 
 theta_2 is that of Zhang et al. 2019, section 4.2, made for a pattern of one wavelength. For another
 surface it is taken for the pattern cos(2 pi x/wavelength) cos(2 pi y/wavelength) with the same rms
-height (A_i = 2 sigma) and the same mean wavenumber, which is 2 sqrt(2) pi/wavelength.
+height (A_i = 2 sigma) and the same mean wavenumber, which is 2 sqrt(2) pi/wavelength; for two rough
+surfaces for one with the power of both.
 """
 
 from __future__ import annotations
@@ -55,10 +56,22 @@ def pattern(settings: Settings, operating: OperatingPoint, film: float) -> Patte
 def kept_pattern(
     settings: Settings, operating: OperatingPoint, film: float, kept: dict[str, Pattern]
 ) -> Pattern:
-    """Give the pattern of a surface; one that knows nothing of the contact is made once."""
-    name = str(sorted(settings["surface"].items(), key=str))
-    if settings["surface"]["kind"] == "harmonic":
-        return pattern(settings, operating, film)
-    if name not in kept:
-        kept[name] = pattern(settings, operating, film)
-    return kept[name]
+    """Give the pattern of the rough surface of a case; of two that of both together.
+
+    A surface that knows nothing of the contact is made once.
+    """
+    found = []
+    for group in surfaces.rough_groups(settings):
+        alone = {**settings, "surface": settings[group]}
+        name = str(sorted(settings[group].items(), key=str))
+        if settings[group]["kind"] == "harmonic" or name not in kept:
+            kept[name] = pattern(alone, operating, film)
+        found.append(kept[name])
+    if len(found) == 1:
+        return found[0]
+    variance = sum(part.rms_height**2 for part in found)
+    if not variance > 0.0:
+        return SMOOTH
+    # the mean wavenumber is that of the power of both
+    number = sum(part.rms_height**2 / part.wavelength for part in found) / variance
+    return Pattern(math.sqrt(variance), 1.0 / number)

@@ -36,7 +36,6 @@ KEYS = {
     "slide-to-roll": "contact.slide_to_roll",
 }
 """What a curve may go over, by the option of the command."""
-SEED = "surface.seed"
 MAX_SURFACES = 1000
 
 
@@ -65,8 +64,8 @@ class CurvePlan:
     def identity(self) -> dict[str, Any]:
         """Give what makes this curve another one than others, as values of JSON."""
         full = [p.point.number for p in self.points if p.full is not None]
-        surfaces = [p.settings["surface"] for p in self.points]
-        maps = dict.fromkeys(str(s["file"]) for s in surfaces if s["kind"] == "map")
+        rough = [p.settings[g] for p in self.points for g in surfaces.rough_groups(p.settings)]
+        maps = dict.fromkeys(str(s["file"]) for s in rough if s["kind"] == "map")
         first = (*self.points[0].predictions, self.points[0].smooth)[0]
         found = self.study.identity(self.tasks[first].text, maps)
         return found | {"run": "stribeck", "surfaces": self.surfaces, "ehl": full}
@@ -138,15 +137,13 @@ def plan_curve(
             _check(settings, seeds, ehl)
             if load_share is not None:
                 _check_share(settings)
-        first = int(settings["surface"]["seed"])
-        varied = [rough, *(rough.with_options(f"{SEED}={first + k}") for k in range(1, seeds))]
-        if settings["surface"]["kind"] == "smooth":
-            varied = []
+        groups = surfaces.rough_groups(settings)
+        varied = [_with_seeds(rough, settings, k) for k in range(seeds if groups else 0)]
         points.append(
             CurvePoint(
                 point,
                 settings,
-                smooth=add(rough.with_options("surface.kind=smooth"), "solve"),
+                smooth=add(_smooth(rough, settings), "solve"),
                 predictions=tuple(add(made, "predict") for made in varied),
                 full=add(rough, "solve") if point.number in chosen else None,
             )
@@ -169,22 +166,39 @@ def _check_share(settings: Settings) -> None:
 
 def _check(settings: Settings, seeds: int, ehl: int) -> None:
     """Refuse what no curve can be made of."""
-    kind = settings["surface"]["kind"]
-    if "second_surface" in surfaces.rough_groups(settings):
-        raise InputError(
-            "second_surface: a curve is predicted, and a prediction knows one rough surface\n"
-            "expected: second_surface.kind = 'smooth'"
-        )
-    if kind in surfaces.FEATURES:
-        raise InputError(unpredictable(settings))
-    if kind == "smooth" and ehl:
+    groups = surfaces.rough_groups(settings)
+    why = unpredictable(settings) if groups else ""
+    if why:
+        raise InputError(why)
+    if not groups and ehl:
         raise InputError(f"--ehl {ehl}: surface.kind = 'smooth' has no passage to solve")
-    if seeds > 1 and kind != "fractal":
-        raise InputError(f"--surfaces {seeds}: surface.kind = '{kind}' has no seed")
+    if seeds > 1 and not _fractal(settings):
+        kinds = " and ".join(f"{g}.kind = '{settings[g]['kind']}'" for g in groups or ["surface"])
+        raise InputError(f"--surfaces {seeds}: {kinds} has no seed")
     if "load" not in settings["contact"]:
         raise InputError("a Stribeck curve needs a contact in SI units (load, mean_velocity)")
     film = formula_film(settings)
     if turned(settings):
         raise InputError(turned(settings))
-    if kind == "map":
-        surfaces.from_settings(settings, *film)
+    for group in groups:
+        if settings[group]["kind"] == "map":
+            surfaces.from_settings({**settings, "surface": settings[group]}, *film)
+
+
+def _fractal(settings: Settings) -> list[str]:
+    """Name the groups of the surfaces that have a seed."""
+    groups = surfaces.rough_groups(settings)
+    return [group for group in groups if settings[group]["kind"] == "fractal"]
+
+
+def _with_seeds(case: Case, settings: Settings, ahead: int) -> Case:
+    """Give a case with the surfaces of seeds so many ahead."""
+    groups = _fractal(settings) if ahead else []
+    seeds = {f"{group}.seed": int(settings[group]["seed"]) + ahead for group in groups}
+    return case.with_options(seeds) if seeds else case
+
+
+def _smooth(case: Case, settings: Settings) -> Case:
+    """Give a case without its roughness."""
+    groups = {"surface", *surfaces.rough_groups(settings)}
+    return case.with_options({f"{group}.kind": "smooth" for group in sorted(groups, reverse=True)})

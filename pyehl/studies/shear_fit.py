@@ -2,16 +2,14 @@
 """Parameters of a shear law from a measured traction curve.
 
 The friction is that of the package: smooth contacts with the law, solved at each slide-to-roll
-ratio. Between them a cheap model stands in, the law over film and pressure of the Newtonian contact
-times a factor at each ratio, which is renewed until the fitted law gives the same friction by both
-(space mapping).
+ratio. The search begins where the law over film and pressure of the Newtonian contact fits best.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +22,9 @@ from pyehl.studies.measured_friction import Measured
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import ShearLaw, shear_stress
+
+if TYPE_CHECKING:
+    from scipy.optimize import OptimizeResult
 
 __all__ = ["PARAMETERS", "Fit", "Parameter", "fit_law"]
 
@@ -43,8 +44,9 @@ START = {
     "carreau_stress": 5e6,
     "carreau_exponent": 0.5,
 }
-# Renewals of the factors, and the relative difference of both frictions at which they end
-RENEWALS, TOLERANCE = 12, 1e-3
+# Difference of parameters (of the exponent, of logarithms of the others) for the slopes, whose
+# effect is far above the algebraic error of the contacts; change at which the search ends
+STEP, TOLERANCE = 0.03, 1e-4
 CONFIDENCE = 0.95
 
 
@@ -105,34 +107,41 @@ def fit_law(settings: Settings, law: str, measured: Measured, points: int) -> Fi
     limits = np.array([_limits(key) for key in keys])
     lower, upper = _to_search(keys, limits[:, 0]), _to_search(keys, limits[:, 1])
     found = _to_search(keys, np.array([START[key] for key in keys]))
-    factor = np.ones_like(mu)
-    for _ in range(RENEWALS):
-        solution = least_squares(
-            lambda x, c: weight * (c * model.friction(_to_values(keys, x), srr) - mu),
-            found,
+
+    def search(friction: Callable[[Array], Array], start: Array) -> OptimizeResult:
+        return least_squares(
+            lambda x: weight * (friction(_to_values(keys, x)) - mu),
+            start,
             bounds=(lower, upper),
             x_scale="jac",
-            args=(factor,),
+            diff_step=STEP / np.maximum(np.abs(start), STEP),
+            xtol=TOLERANCE,
+            ftol=TOLERANCE,
+            gtol=None,
         )
-        found = solution.x
-        values = _to_values(keys, found)
-        full = np.array([_friction(base, law, keys, values, float(s)) for s in srr])
-        cheap = model.friction(values, srr)
-        if np.max(np.abs(full / (factor * cheap) - 1.0)) < TOLERANCE:
-            break
-        factor = full / cheap
-    else:
+
+    def solved(values: Array) -> Array:
+        return np.array([_friction(base, law, keys, values, float(s)) for s in srr])
+
+    begin = search(lambda values: model.friction(values, srr), found)
+    settled = search(solved, begin.x)
+    if not settled.success:
+        raise EhlError(f"the fit of '{law}' did not settle: {settled.message}")
+    found = settled.x
+    values = _to_values(keys, found)
+    if settled.active_mask.any():
+        told = ", ".join(f"{k} = {v:.4g}" for k, v in zip(keys, values, strict=True))
         raise EhlError(
-            f"the fit of '{law}' did not settle within {RENEWALS} renewals: the friction of the "
-            "contacts and of the law over the Newtonian film still differ"
+            f"the fit of '{law}' ends at {told}, where the range of the key ends: the data do not "
+            "tell it"
         )
-    ends = _intervals(keys, solution.jac, solution.fun, found)
+    ends = _intervals(keys, settled.jac, settled.fun, found)
     units = {key.name.partition(".")[2]: key.unit for key in library.keys()}
     parameters = tuple(
         Parameter(key, units[key], float(value), *end)
         for key, value, end in zip(keys, values, ends, strict=True)
     )
-    return Fit(law, parameters, srr, mu, error, full, points)
+    return Fit(law, parameters, srr, mu, error, settled.fun / weight + mu, points)
 
 
 def _limits(key: str) -> tuple[float, float]:

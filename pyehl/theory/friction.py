@@ -63,7 +63,7 @@ def absolute_friction(
     if math.isfinite(mu) and operating.radius_ratio == 1.0:
         u, srr, a = operating.mean_velocity, operating.slide_to_roll, operating.hertz_radius
         rise = flash_temperature(
-            mu * operating.load * speed / (math.pi * a**2),
+            mu * operating.load * speed / (math.pi * a * operating.semi_axis_y),
             a,
             (u * (1.0 + 0.5 * srr), u * (1.0 - 0.5 * srr)),
             operating.thermal_conductivities,

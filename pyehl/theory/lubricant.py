@@ -93,7 +93,7 @@ class Lubricant:
     (15.16, 1.214)
     >>> fva3 = pyehl.Lubricant.from_name("fva3", temperature=40.0)
     >>> round(fva3.viscosity, 4), round(float(fva3.log_viscosity_ratio(1e9)), 2)
-    (0.0841, 16.35)
+    (0.0845, 16.34)
     """
 
     viscosity: float = 0.04

@@ -261,11 +261,11 @@ class OperatingPoint:
 
     @property
     def equivalent_moes(self) -> tuple[float, float]:
-        """M and L [-] of the circular contact that has the same inlet; of a circle its own.
+        """M and L [-] of the circular contact with the same inlet on Y = 0; of a circle its own.
 
         Of equal alpha_bar, and of equal lambda_bar where the stiffness of waves is the same: with
-        heights by kernel_ratio a^2/R_x. Gap and pressure near the edge are then those of the circle
-        on the line Y = 0.
+        heights by kernel_ratio a^2/R_x. The dry contact near the edge is then that of the circle.
+        What the sides take off is not in it: :func:`pyehl.theory.film.circle_with_same_inlet`.
         """
         shape = self.ellipse
         kernel = shape.kernel_ratio

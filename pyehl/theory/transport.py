@@ -86,6 +86,7 @@ class Zone:
     factors: FlowFactors | None = None
     # Viscosity at low shear over that of a Newtonian lubricant with as thick a film [-]
     thinning: float = 1.0
+    ellipticity: float = 1.0  # semi-axis across the motion over a [-]
 
 
 class _Flow:

@@ -17,6 +17,7 @@ import pytest
 from selenium import webdriver
 from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.remote.webelement import WebElement
 
 from pyehl.app.page import Page
@@ -49,7 +50,7 @@ const roots = Bokeh.index.roots || Object.values(Bokeh.index);
 let found = null;
 for (const view of roots) found = found || find(view, arguments[0]);
 """
-PATIENCE = 60.0
+PATIENCE = 120.0
 
 
 class Served:
@@ -123,7 +124,12 @@ class Tab:
 
     def words(self, name: str) -> str:
         """Give the text that is seen of a widget."""
-        return self.element(name, ".bk-clearfix").text
+        script = (
+            f"{FIND} const box = found.el.getBoundingClientRect();"
+            "if (box.height === 0) return '';"
+            "return found.shadow_el.querySelector('.bk-clearfix').innerText"
+        )
+        return str(self.run(script, name))
 
     def stamp(self) -> tuple[int, int, int] | None:
         """Give the generations asked for and shown, and the nodes a side of the film shown."""
@@ -145,10 +151,10 @@ class Tab:
         """Type into the field of a knob, as a person does."""
         asked = self.stamp()[0]
         field = self.element(name, "input")
-        self.run("arguments[0].focus(); arguments[0].select()", field)
-        field.send_keys(f"{text}\n")
+        old = field.get_attribute("value")
+        field.send_keys(f"{Keys.END}{Keys.BACKSPACE * len(old)}{text}\n")
         if wait:
-            self.until(lambda: self.stamp()[0] > asked or self.get(f"error_{name}", "visible"))
+            self.until(lambda: self.stamp()[0] > asked or self.get(f"error_{name}", "text"))
 
     def choose(self, name: str, word: str) -> None:
         """Choose a word."""

@@ -4,11 +4,15 @@
 from __future__ import annotations
 
 import csv
+import math
 from pathlib import Path
 from typing import Any
 
+from scipy.optimize import brentq
+
 import pyehl
 from pyehl.surfaces import Topography, filtered, fractal
+from pyehl.theory.ellipse import ellipse
 from pyehl.theory.operating import OperatingPoint
 
 HERE = Path(__file__).resolve().parent
@@ -41,7 +45,12 @@ def case(row: dict[str, Any], points: int = 0) -> pyehl.Case:
             "radius_x": point.radius,
             "radius_y": point.radius / row["radius_ratio"],
         },
-        surface={"kind": "fractal", "velocity_ratio": row["velocity_ratio"]},
+        surface={
+            "kind": "fractal",
+            "length_x": row["length_x"] * point.hertz_radius,
+            "length_y": row["length_y"] * point.hertz_radius,
+            "velocity_ratio": row["velocity_ratio"],
+        },
         grid={
             "points": along,
             "points_y": across,
@@ -63,8 +72,30 @@ def surface(row: dict[str, Any]) -> Topography:
         row["length_y"] * a,
         rms_height=row["rms_height"] * point.film_scale,
         hurst=row["hurst"],
-        rolloff_wavenumber=2.0 * 3.141592653589793 / (rolloff * a) if rolloff else 0.0,
+        rolloff_wavenumber=2.0 * math.pi / (rolloff * a) if rolloff else 0.0,
         seed=int(row["seed"]),
     )
     shortest = row["shortest_wavelength"]
     return filtered(tile, shortest_wavelength=shortest * a) if shortest else tile
+
+
+def radius_ratio(ellipticity: float) -> float:
+    """R_x/R_y of a contact with the other semi-axis so many times as long as a."""
+
+    def miss(log_ratio: float) -> float:
+        return math.log(ellipse(math.exp(log_ratio)).ellipticity / ellipticity)
+
+    return math.exp(brentq(miss, -6.0, 6.0, xtol=1e-14))
+
+
+def case_of_circle(kappa: float, moes_m: float, moes_l: float, ratio: float) -> pyehl.Case:
+    """Make the case of a contact with the dry inlet of the circle of M and L."""
+    shape = ellipse(radius_ratio(kappa))
+    return pyehl.Case(
+        contact={
+            "moes_m": moes_m * kappa / shape.kernel_ratio**1.25,
+            "moes_l": moes_l / shape.kernel_ratio**0.25,
+            "radius_ratio": shape.radius_ratio,
+        },
+        surface={"kind": "fractal", "velocity_ratio": ratio},
+    )

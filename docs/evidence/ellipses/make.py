@@ -1,10 +1,8 @@
 """Measure whether what runs on elliptical contacts state holds, and what their cells are worth.
 
     python docs/evidence/ellipses/make.py errors     # errors.csv
-    python docs/evidence/ellipses/make.py domains    # domains.csv
     python docs/evidence/ellipses/make.py cells      # cells.csv
-    python docs/evidence/ellipses/make.py ends       # ends.csv
-    python docs/evidence/ellipses/make.py show       # what the four tables say
+    python docs/evidence/ellipses/make.py show       # what both tables say
 
 M and L are those of the round contact with the same equations (Biboulet & Houpert 2010), kappa is
 the semi-axis across the motion over that along it. Points are drawn from a seed that was not used
@@ -122,51 +120,23 @@ def errors(point: tuple[str, float, float, float]) -> list[Row]:
     return rows
 
 
-DOMAIN_POINTS = tuple(
-    itertools.product(("flooded", "zero"), (0.2, 0.5, 2.0, 6.0), (10.0, 60.0, 300.0), (4.0, 12.0))
-)
-# Shares of the widest domain, whose half-width is 8 a or 8 b
-SHARES = (1.0, 0.5, 0.375, 0.25)
-
-
-def domains(point: tuple[str, float, float, float]) -> list[Row]:
-    """Solve a contact on domains of several sizes, all on one mesh."""
-    border, kappa, moes_m, moes_l = point
-    keys = contact(kappa, moes_m, moes_l) | {"grid.border": border, "solver.accuracy": 0.02}
-    nodes = 257 if missed(kappa, moes_m, 1 / 8) <= 3 * COARSEST else 513
-    sides = 8.0 * max(1.0, kappa)
-    ratio = min(1.5, max(0.25, kappa))
-    rows = []
-    for share in SHARES:
-        along = round(share * (nodes - 1))
-        across = 2 * round(share * sides / (ratio * 16.0) * (nodes - 1) / 32.0) * 16
-        place = {"x_inlet": -10.0 * share, "x_outlet": 6.0 * share, "y_extent": sides * share}
-        size = {"grid.points": along + 1, "grid.points_y": across + 1}
-        found = solved(keys | {f"grid.{key}": value for key, value in place.items()} | size)
-        row: Row = dict(zip(NAMES, point, strict=True))
-        row |= {"x_inlet": place["x_inlet"], "points": along + 1, "points_y": across + 1}
-        row |= {"status": found["status"]}
-        for name in QUANTITIES:
-            row |= {key: found[key] for key in (name, f"{name}_error_domain")}
-        rows.append(row)
-    return rows
-
-
 CELL_POINTS = tuple(itertools.product((0.15, 0.4, 2.5, 6.0), (30.0, 120.0), (10.0,)))
 RATIOS = (0.25, 0.5, 1.0, 1.5, 2.0)
 
 
 def cells(point: tuple[float, float, float]) -> list[Row]:
     """Solve a contact on cells of several shapes."""
-    kappa, moes_m, _ = point
+    kappa, _, _ = point
     keys = contact(*point) | {"grid.x_inlet": -2.5, "grid.x_outlet": 1.5, "grid.border": "zero"}
     sides = 2.0 * max(1.0, kappa)
     keys["grid.y_extent"] = sides
-    rows = []
+    rows: list[Row] = []
     for ratio in RATIOS:
         for nodes in (65, 129, 257):
+            # as often halved as the nodes along the motion: the shape is that wanted or nearly so
             across = 2 * round(sides * (nodes - 1) / (4.0 * ratio) / 32.0) * 32
-            if across < 64 or nodes * across > MOST / 2:
+            made = any((r["points"], r["points_y"]) == (nodes, across + 1) for r in rows)
+            if made or across < 64 or nodes * across > MOST / 2:
                 continue
             found = solved(keys | {"grid.points": nodes, "grid.points_y": across + 1})
             row: Row = dict(zip(NAMES[1:], point, strict=True))
@@ -176,34 +146,9 @@ def cells(point: tuple[float, float, float]) -> list[Row]:
     return rows
 
 
-END_POINTS = tuple(
-    itertools.product(
-        (1 / 30, 0.1, 0.2, 0.5, 2.0, 5.0, 10.0, 30.0), (10.0, 50.0, 200.0, 1000.0), (2.0, 10.0)
-    )
-)
-
-
-def ends(point: tuple[float, float, float]) -> list[Row]:
-    """Solve a contact on grids of the default and fewer nodes along the motion."""
-    keys = contact(*point)
-    rows = []
-    for nodes in (129, 257, 513):
-        if point[0] > 20.0 and nodes > 129:
-            continue
-        found = solved(keys | {"grid.points": nodes, "output.fields": False})
-        row: Row = dict(zip(NAMES[1:], point, strict=True))
-        row |= {"points": nodes, "points_y": found["points_y"]}
-        row |= {key: found[key] for key in ("status", "total_cycles", "restarts", *QUANTITIES)}
-        row |= {"warned": found["H_c_error_note"] is not None if "H_c_error_note" in found else 0}
-        rows.append(row)
-    return rows
-
-
 TABLES: dict[str, tuple[Callable[[Any], list[Row]], Callable[[], Any]]] = {
     "errors": (errors, points),
-    "domains": (domains, lambda: DOMAIN_POINTS),
     "cells": (cells, lambda: CELL_POINTS),
-    "ends": (ends, lambda: END_POINTS),
 }
 
 

@@ -6,8 +6,6 @@ import csv
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 HERE = Path(__file__).parent
 Row = dict[str, Any]
 
@@ -32,22 +30,27 @@ def shares(rows: list[Row], name: str, true: str, stated: str, factor: float) ->
     return good, len(known)
 
 
-def ratios(rows: list[Row], kappa: float, moes_m: float) -> dict[float, tuple[float, float]]:
-    """Nodes and error of H_c on cells of each shape, on the finest grids, for one contact."""
-    found = {}
-    here = [r for r in rows if (r["kappa"], r["moes_m"]) == (kappa, moes_m) and r["H_c"]]
-    limits = {}
-    for ratio in sorted({r["ratio"] for r in here}):
-        films = [r["H_c"] for r in here if r["ratio"] == ratio]
-        if len(films) > 1:
-            limits[ratio] = (4.0 * films[-1] - films[-2]) / 3.0
-    # cells that are shorter in one direction or the other have one limit
-    limit = float(np.median(list(limits.values())))
-    for ratio in limits:
-        middle = next(r for r in here if r["ratio"] == ratio and r["points"] == 129)
-        nodes = middle["points"] * middle["points_y"]
-        found[ratio] = nodes, abs(middle["H_c"] / limit - 1.0)
-    return found
+def cells(rows: list[Row], point: tuple[float, float]) -> dict[float, tuple[float, float]]:
+    """Nodes and error of H_c on 129 nodes along the motion, by the shape of the cells.
+
+    The limit is that of the finest cells of all, by Richardson.
+    """
+    here = [r for r in rows if (r["kappa"], r["moes_m"]) == point and r["H_c"]]
+    sides = 2.0 * max(1.0, point[0])
+    films = {(r["points"], r["points_y"]): r["H_c"] for r in here}
+    pairs = [n for n in sorted(films) if (0.5 * (n[0] + 1), 0.5 * (n[1] + 1)) in films]
+    if not pairs:
+        return {}
+    fine, coarse = films[pairs[-1]], films[0.5 * (pairs[-1][0] + 1), 0.5 * (pairs[-1][1] + 1)]
+    limit = (4.0 * fine - coarse) / 3.0
+    return {
+        sides / (r["points_y"] - 1) * 64.0: (
+            r["points"] * r["points_y"],
+            abs(r["H_c"] / limit - 1.0),
+        )
+        for r in here
+        if r["points"] == 129
+    }
 
 
 def show() -> None:
@@ -65,11 +68,10 @@ def show() -> None:
             good, known = shares(rows, name, f"{name}_limit", f"{name}_error", factor)
             print(f"{name}: true error at most {factor:g} times the stated: {good} of {known}")
     rows = numbers("cells")
-    for kappa, moes_m in sorted({(row["kappa"], row["moes_m"]) for row in rows}):
-        for ratio, (nodes, error) in ratios(rows, kappa, moes_m).items():
-            print(
-                f"kappa {kappa:g}, M {moes_m:g}: cells 1:{ratio:g}, {nodes:.0f} nodes, {error:.2%}"
-            )
+    for point in sorted({(row["kappa"], row["moes_m"]) for row in rows}):
+        for ratio, (nodes, error) in cells(rows, point).items():
+            print("kappa {:g}, M {:g}:".format(*point), end=" ")
+            print(f"cells 1 : {ratio:.2f}, {nodes:.0f} nodes, H_c off by {error:.2%}")
 
 
 if __name__ == "__main__":
