@@ -143,9 +143,8 @@ class Prediction:
     @property
     def note(self) -> str:
         """What `mu_ratio` is."""
-        note = STRESS_NOTE if self.thins else NEWTONIAN_NOTE
-        shear = self.lubricant.shear
-        return note + NEWTONIAN_FLOW_NOTE if self.thins and not shear.in_flow else note
+        stress = STRESS_NOTE + ("" if self.lubricant.shear.in_flow else NEWTONIAN_FLOW_NOTE)
+        return stress if self.thins else NEWTONIAN_NOTE
 
     @property
     def mu_ratio(self) -> float:
@@ -270,6 +269,7 @@ class Prediction:
             **statistics(s, f.response),
             **(self.second.summary(s) if self.second else {}),
             **deformed_surface(f, self.film_minimum, self.options.film_limit, known=self._known),
+            "rms_pressure_Pa": float(np.std(f.response.pressure)),
             "cavitated_share": f.cavitated_share,
             "cavitated_friction": f.cavitated_friction,
             "load_error": f.load_error,
