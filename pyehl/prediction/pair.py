@@ -96,7 +96,7 @@ class RoughPair:
                 moving,
                 zone_of(one.contact, o, one.lubricant),
                 circle_of(one.contact, o, one.lubricant),
-                at_amplitude=one.lubricant.shear.law == "newtonian",
+                at_amplitude=one.lubricant.shear.weighs_flow,
                 mesh=one.mesh,
             )
         else:
