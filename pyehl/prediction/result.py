@@ -145,7 +145,8 @@ class Prediction:
         """What `mu_ratio` is."""
         note = STRESS_NOTE if self.thins else NEWTONIAN_NOTE
         shear = self.lubricant.shear
-        return note + NEWTONIAN_FLOW_NOTE if self.thins and not shear.in_flow else note
+        note += NEWTONIAN_FLOW_NOTE if self.thins and not shear.in_flow else ""
+        return note + self.lubricant.beyond(self.operating.hertz_pressure)
 
     @property
     def mu_ratio(self) -> float:
