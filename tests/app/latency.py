@@ -4,8 +4,8 @@
     python tests/app/latency.py [TURNS]
 
 A slider is moved by the page's own JavaScript, and the time is taken until the browser has painted
-the film of that position on 129 x 129 nodes, and on 257 x 257, with the time for which a knob has to
-rest in it. Prints the median and the largest of each; exit status 1 if a median is too long.
+the film of that position on 129 x 129 nodes, and on 257 x 257, with the time for which a knob has
+to rest in it. Prints the median and the largest of each; exit status 1 if a median is too long.
 """
 
 from __future__ import annotations
