@@ -33,6 +33,8 @@ if TYPE_CHECKING:
     from pyehl.results import load
     from pyehl.solver import Solver
     from pyehl.studies.curve_run import stribeck
+    from pyehl.studies.fit_folder import fit_lubricant
+    from pyehl.studies.oil_list import lubricants
     from pyehl.studies.sweep import sweep
     from pyehl.surfaces.tile import Topography
     from pyehl.theory.lubricant import Lubricant
@@ -52,7 +54,9 @@ __all__ = [
     "check",
     "export",
     "film",
+    "fit_lubricant",
     "load",
+    "lubricants",
     "plot",
     "predict",
     "report",
@@ -75,7 +79,9 @@ _HOMES = {
     "check": "api",
     "export": "netcdf",
     "film": "api",
+    "fit_lubricant": "studies.fit_folder",
     "load": "results",
+    "lubricants": "studies.oil_list",
     "plot": "plots.folder",
     "predict": "api",
     "report": "reports.folder",

@@ -14,8 +14,9 @@ from matplotlib.artist import Artist
 from pyehl.destination import check_files, mark, new_file
 from pyehl.errors import InputError
 from pyehl.plots import contact, transient
-from pyehl.plots.figures import headline, scales_of
+from pyehl.plots.figures import scales_of
 from pyehl.plots.outline import Outline
+from pyehl.plots.panels import headline
 from pyehl.plots.style import film_unit, nearest, new_figure
 from pyehl.results import settings_of
 from pyehl.theory.operating import OperatingPoint

@@ -133,9 +133,20 @@ def axes_or_new(ax: Axes | None, width: float, height: float) -> Axes:
     return ax
 
 
-def colour_bar(image: ScalarMappable, ax: Axes, label: str, *, shrink: float = 1.0) -> None:
-    """Put a colour bar beside axes, so much shorter than they are."""
-    beside = ax.inset_axes((1.04, 0.5 - 0.5 * shrink, 0.05, shrink))
+def colour_bar(
+    image: ScalarMappable,
+    ax: Axes,
+    label: str,
+    *,
+    shrink: float = 1.0,
+    slender: float = 1.0,
+) -> None:
+    """Put a colour bar beside axes, so much shorter than they are.
+
+    `slender`: height of the axes over their width, where they are slender.
+    """
+    unit = math.sqrt(max(1.0, slender))
+    beside = ax.inset_axes((1.0 + 0.04 * unit, 0.5 - 0.5 * shrink, 0.05 * unit, shrink))
     powers = POWERS if isinstance(image.norm, LogNorm) else None
     ax.figure.colorbar(image, cax=beside, format=powers).set_label(label)
 
@@ -177,7 +188,7 @@ def contact_heights(
     ax.set_xlim(-1.05 * along * radius, 1.05 * along * radius)
     ax.set_ylim(-1.05 * across * radius, 1.05 * across * radius)
     if bar:
-        colour_bar(image, ax, f"height [{unit}]", shrink=0.85)
+        colour_bar(image, ax, f"height [{unit}]", shrink=0.85, slender=outline.slender)
 
 
 def extent_of(

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from html import escape
 from pathlib import Path
@@ -28,11 +29,12 @@ def _seconds(result: Result) -> str:
 
 
 def _head(results: Sequence[Result], level: Level) -> list[str]:
-    passed = sum(r.passed and all(c.passed for c in r.checks) for r in results)
-    explained = sum(r.passed for r in results) - passed
-    more = f" Not reproduced: {explained}, explained below." if explained else ""
+    count = Counter(r.verdict for r in results)
+    judged = len(results) - count["nothing to judge"]
+    more = f" Not reproduced: {n}, explained below." if (n := count["not reproduced"]) else ""
+    more += f" Nothing to judge: {n}." if (n := count["nothing to judge"]) else ""
     return [
-        f"{passed} of {len(results)} pieces are within all their tolerances.{more} "
+        f"{count['pass']} of {judged} pieces are within all their tolerances.{more} "
         f"Level: {level.name}; it leaves out: {level.leaves_out}.",
         "Every number of ours comes from runs in the folder `studies`, a table and a journal for "
         "each. Ratios mu_r/mu_s are those of a Newtonian lubricant; shear thinning at real sliding "
@@ -41,7 +43,8 @@ def _head(results: Sequence[Result], level: Level) -> list[str]:
 
 
 def _kind(result: Result) -> str:
-    return "pass" if result.passed else "fail"
+    """Give the class of the verdict in the page."""
+    return {"pass": "pass", "FAIL": "fail"}.get(result.verdict, "care")
 
 
 def _piece(folder: Path, r: Result) -> list[str]:

@@ -82,13 +82,13 @@ def inlet_viscosity_ratio(
     """Viscosity over that of (M, L) [-] at which the formula gives `share` of the film.
 
     The form in which shear heating of the inlet enters: the film is that of the warmer oil. M and
-    L are of the isothermal contact; 0 < share <= 1.
+    L are of the isothermal contact; 0 < share.
     """
     if share == 1.0:
         return 1.0
     wanted = share * nijenbanning_venner_moes(moes_m, moes_l, shape)
     # the film rises with viscosity, nowhere by less than its 0.4th power
-    low, high = 2.5 * math.log(share), 0.0
+    low, high = sorted((2.5 * math.log(share), 0.0))
     for _ in range(60):
         middle = 0.5 * (low + high)
         ratio = math.exp(middle)
