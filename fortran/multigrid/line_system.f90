@@ -130,8 +130,8 @@ contains
       !> Response of rho H at nodes i, i-1, i-2 to unit changes at their columns -2..2
       real(dp) :: s(line_width, -nr:nr, 0:2)
       real(dp) :: c(0:line_reach), c_first(0:line_reach), c_interior(0:line_reach)
-      real(dp) :: pivot(line_width), a(line_width), apart(2)
-      real(dp) :: east, west, re, rw, pe, pw, r, t, d, active, em4, em3, em2, em1, e0, e1, e2
+      real(dp) :: pivot(line_width), a(line_width), changes(line_width), asked(line_width), apart(2)
+      real(dp) :: east, west, re, rw, pe, pw, t, d, active, em4, em3, em2, em1, e0, e1, e2
       integer :: i, l, now, last, former
       logical :: uneven
 
@@ -159,7 +159,11 @@ contains
          if (i > 1) then
             c = merge(c_first, c_interior, i == 2)
             if (uneven) a = 0.5_dp - 0.5_dp*g(:, f_other, i)/(g(:, f_east, i) + g(:, f_east, i - 1) + tiny(1.0_dp))
-            !$omp simd private(east, west, re, rw, pe, pw, r, t, d, active, em4, em3, em2, em1, e0, e1, e2)
+            ! cavitated nodes that are content to stay so do not change; the loop below would not vectorise around this
+            changes = merge(0.0_dp, 1.0_dp, g(:, f_p, i) <= cavity_pressure)
+            changes = merge(changes, 1.0_dp, g(:, f_residual, i) >= 0.0_dp)
+            asked = changes*g(:, f_residual, i)
+            !$omp simd private(east, west, re, rw, pe, pw, t, d, active, em4, em3, em2, em1, e0, e1, e2)
             do l = 1, line_width
                re = g(l, f_east_rate, i)
                rw = g(l, f_east_rate, i - 1)
@@ -167,10 +171,8 @@ contains
                west = g(l, f_east, i - 1)
                pe = g(l, f_p, i + 1) - g(l, f_p, i)
                pw = g(l, f_p, i - 1) - g(l, f_p, i)
-               r = g(l, f_residual, i)
-               ! cavitated nodes that are content to stay so do not change
-               active = merge(0.0_dp, 1.0_dp, g(l, f_p, i) <= cavity_pressure .and. r >= 0.0_dp)
-               d = active*r
+               active = changes(l)
+               d = asked(l)
                em4 = -active*c(2)*s(l, -2, former)
                em3 = -active*(c(1)*s(l, -2, last) + c(2)*s(l, -1, former))
                em2 = -active*(shares(1)*west*g(l, f_dipole, i - 2) + c(0)*s(l, -2, now) + c(1)*s(l, -1, last) &

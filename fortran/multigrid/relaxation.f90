@@ -140,8 +140,8 @@ contains
       type(workspace_t), intent(inout) :: space
       integer, intent(in) :: j0, last, thread
       real(dp), intent(in) :: trust, part
-      real(dp) :: scale, omega, omega_far, change
-      real(dp), dimension(level%grid%nx) :: t, after
+      real(dp) :: scale, omega, omega_far
+      real(dp), dimension(level%grid%nx) :: t, change, after
       integer :: across
       logical :: time_step, limited
       integer :: rows(line_width), lines, furthest, i, j, l
@@ -167,11 +167,11 @@ contains
             space%change(furthest + 1:, j) = 0.0_dp
             if (time_step) space%rough(furthest + 1:, j) = 0.0_dp
             t(2:furthest) = level%flow%eps(2:furthest, j, along)*scale
+            change(2:furthest) = part*work%change(l, 2:furthest)
+            if (limited) call limit_changes(level%flow%dlneps_dp(2:furthest, j, across), trust, change(2:furthest))
             do i = 2, furthest
-               change = part*work%change(l, i)
-               if (limited) change = change/max(1.0_dp, abs(level%flow%dlneps_dp(i, j, across)*change)/trust)
-               space%change(i, j) = omega_far*space%dipole(i, j)*change
-               after(i) = level%p(i, j) + (1.0_dp - space%dipole(i, j))*(omega + t(i))/(1.0_dp + t(i))*change
+               space%change(i, j) = omega_far*space%dipole(i, j)*change(i)
+               after(i) = level%p(i, j) + (1.0_dp - space%dipole(i, j))*(omega + t(i))/(1.0_dp + t(i))*change(i)
             end do
             call cavitate(after(2:furthest))
             if (time_step) then
@@ -183,6 +183,19 @@ contains
          end do
       end associate
    end subroutine relax_lines
+
+   !> Make changes of pressure smaller where the logarithm of the conductance would change by more than `trust`
+   pure subroutine limit_changes(slope, trust, change)
+      !> Change of that logarithm with the pressure, shape as that of the changes
+      real(dp), contiguous, intent(in) :: slope(:)
+      real(dp), intent(in) :: trust
+      real(dp), contiguous, intent(inout) :: change(:)
+      integer :: i
+
+      do i = 1, size(change)
+         change(i) = change(i)/max(1.0_dp, abs(slope(i)*change(i))/trust)
+      end do
+   end subroutine limit_changes
 
    !> Take the smooth part of the changes of nodes with a weak conductance back
    subroutine take_back_smooth(level, space, first, last)
@@ -234,23 +247,25 @@ contains
       type(level_t), intent(inout) :: level
       type(workspace_t), intent(in) :: space
       integer, intent(in) :: first, last
+      real(dp) :: after(level%grid%nx)
       integer :: j
 
-      !$omp parallel do default(none) shared(level, space, first, last) &
+      !$omp parallel do default(none) shared(level, space, first, last) private(after) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
          call apply_row(space%shares, space%change(:, level%grid%south(j)), space%change(:, j), &
-                        space%change(:, j + 1), level%p(:, j))
+                        space%change(:, j + 1), level%p(:, j), after)
       end do
       !$omp end parallel do
    end subroutine apply_dipoles
 
    !> The same of a row, from the changes of it and its neighbours
-   pure subroutine apply_row(shares, south, change, north, p)
+   pure subroutine apply_row(shares, south, change, north, p, after)
       real(dp), intent(in) :: shares(2)
       real(dp), contiguous, intent(in) :: south(:), change(:), north(:)
       real(dp), contiguous, intent(inout) :: p(:)
-      real(dp) :: after(size(p))
+      !> Work space
+      real(dp), contiguous, intent(inout) :: after(:)
       integer :: i, nx
 
       nx = size(p)

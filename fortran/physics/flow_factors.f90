@@ -21,10 +21,11 @@
 module ehl_flow_factors
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use ehl_kinds, only: dp
-   use ehl_thinning, only: eyring, slopes, thinning_t
+   use ehl_thinning, only: eyring, thinning_t
    implicit none (type, external)
    private
-   public :: factors_t, sliding_factors, exact_factors
+   public :: factors_t, exact_factors
+   public :: half, upper, weight, least_gradient
 
    !> Gauss points through the film, those of one half before their mirror images, and their weights
    integer, parameter :: half = 3, points = 2*half
@@ -39,7 +40,7 @@ module ehl_flow_factors
    real(dp), parameter :: overshoot = 0.5_dp
    !> Longest step where the stress is less than that
    real(dp), parameter :: longest = 4.0_dp
-   !> Two stresses that are closer than this have a slope of F in common
+   !> Two stresses that are closer than this, or than this share of their sum, have a slope of F in common
    real(dp), parameter :: close = 1.0e-4_dp
    !> A smaller part of S counts as one of this size, which the factors notice by its square only, so that their changes are
    !> no quotients of nothing
@@ -59,42 +60,9 @@ module ehl_flow_factors
       real(dp) :: tangent(2) = 1.0_dp
       !> Mean stress along X, and its change with B
       real(dp) :: stress = 0.0_dp, stress_by_sliding = 1.0_dp
-      !> Relative error, at the most
-      real(dp) :: error = 0.0_dp
    end type factors_t
 
 contains
-
-   !> Factors of a film that slides under a small gradient: to second order in S, their change with the sliding to none
-   pure function sliding_factors(law, b, s) result(r)
-      type(thinning_t), intent(in) :: law
-      real(dp), intent(in) :: b, s(2)
-      type(factors_t) :: r
-      !> F and its slopes in tau^2 at the stress t of the sliding alone; tau_mx - t and phi less that of the sliding alone,
-      !> each over the squares of S
-      real(dp) :: f(0:slopes), t, square, stress(2), phi_x(2), phi_y(2)
-
-      t = law%sliding_stress(b)
-      square = t**2
-      f = law%all_slopes(square)
-      r%error = law%error_of_second_order(t, s)
-      r%phi = [f(0) + 2.0_dp*f(1)*square, f(0)]
-      r%stress_by_sliding = 1.0_dp/r%phi(1)
-      r%by_sliding = 2.0_dp*square*[3.0_dp*f(1) + 2.0_dp*f(2)*square, f(1)]*f(0)/(r%phi(1)*r%phi)
-      r%by_sliding(2) = r%by_sliding(2)*r%phi(2)/f(0)
-      stress = -t/12.0_dp*[3.0_dp*f(1) + 2.0_dp*f(2)*square, f(1)]/r%phi(1)
-      phi_x = 2.0_dp*t*stress*(3.0_dp*f(1) + 2.0_dp*f(2)*square) &
-              + 0.15_dp*[f(1) + 2.0_dp*f(2)*square, f(1)] &
-              + square*[0.3_dp*f(2) + 0.2_dp*f(3)*square, 0.3_dp*f(2) - f(1)**2/(3.0_dp*f(0))]
-      phi_y = 2.0_dp*t*stress*f(1) + [0.15_dp*(f(1) + 2.0_dp*f(2)*square) - f(1)**2*square/(3.0_dp*f(0)), 0.15_dp*f(1)]
-      associate (sx => s(1)**2, sy => s(2)**2)
-         r%stress = t + stress(1)*sx + stress(2)*sy
-         r%tangent = r%phi + [3.0_dp*phi_x(1)*sx + phi_x(2)*sy, phi_y(1)*sx + 3.0_dp*phi_y(2)*sy]
-         r%by_gradient = 2.0_dp*[phi_x(1)*sx + phi_x(2)*sy, phi_y(1)*sx + phi_y(2)*sy]
-         r%phi = r%phi + 0.5_dp*r%by_gradient
-         r%by_gradient = r%by_gradient/r%phi
-      end associate
-   end function sliding_factors
 
    !> Factors through the film for B >= 0 and a gradient S; NaNs where the mean stress is not found
    pure function exact_factors(law, b, gradient) result(r)
@@ -150,22 +118,22 @@ contains
    pure real(dp) function first_guess(law, b, s)
       type(thinning_t), intent(in) :: law
       real(dp), intent(in) :: b, s(2)
-      real(dp) :: ends(2), f, slope
+      real(dp) :: ends(2), f(1), slope(1)
 
       ends = 0.5_dp*abs(s)
       if (law%law == eyring) then
          ! exact where S has no part along Y: int sinh(t + xi S) dxi = sinh(t) sinh(S/2)/(S/2)
-         call law%thinness(ends(1)**2, f, slope)
-         first_guess = law%sliding_stress(b/f)
+         call law%thinness([ends(1)**2], f, slope)
+         first_guess = law%sliding_stress(b/f(1))
          if (ends(2) < first_guess) then
             first_guess = sqrt(first_guess**2 - ends(2)**2/3.0_dp)
          else
-            call law%thinness(ends(2)**2, f, slope)
-            first_guess = first_guess/f
+            call law%thinness([ends(2)**2], f, slope)
+            first_guess = first_guess/f(1)
          end if
       else
-         call law%thinness(dot_product(ends, ends)/3.0_dp, f, slope)
-         first_guess = law%sliding_stress(b/f)
+         call law%thinness([dot_product(ends, ends)/3.0_dp], f, slope)
+         first_guess = law%sliding_stress(b/f(1))
       end if
    end function first_guess
 
@@ -192,7 +160,7 @@ contains
       t = sqrt(film%square)
       associate (up => film%f(:half), down => film%f(half + 1:))
          apart = t(:half) - t(half + 1:)
-         far = abs(apart) > close
+         far = abs(apart) > close*max(1.0_dp, t(:half) + t(half + 1:))
          ! of F in tau^2 between two points
          difference = merge(up - down, 0.25_dp*(film%slope(:half) + film%slope(half + 1:)), far) &
                       /merge(apart*(t(:half) + t(half + 1:)), 1.0_dp, far)

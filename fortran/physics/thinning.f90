@@ -14,7 +14,7 @@ module ehl_thinning
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: thinning_t, eyring, carreau, slopes
+   public :: thinning_t, eyring, carreau, slopes, most
 
    integer, parameter :: eyring = 1, carreau = 2
    !> Below this stress the Eyring law is summed as a series
@@ -22,6 +22,8 @@ module ehl_thinning
    !> Steps of an iteration, and the error before the last one at which it ends: the last leaves its cube
    integer, parameter :: most_steps = 50
    real(dp), parameter :: enough = 1.0e-4_dp
+   !> Films side by side, at the most
+   integer, parameter :: most = 64
    !> Slopes of F in the square of the stress
    integer, parameter :: slopes = 3
 
@@ -32,80 +34,151 @@ module ehl_thinning
       real(dp) :: exponent = 1.0_dp
    contains
       procedure :: thinness
-      procedure :: all_slopes
-      procedure :: error_of_second_order
+      procedure :: slide
+      procedure :: second_order_error
       procedure :: sliding_stress
       procedure :: curvature
    end type thinning_t
 
 contains
 
-   !> F at the square of a stress, and its slope (dF/d|tau|)/|tau|
-   elemental subroutine thinness(self, square, f, slope)
+   !> F at at most `most` squares of stresses, and its slope (dF/d|tau|)/|tau|
+   pure subroutine thinness(self, square, f, slope)
       class(thinning_t), intent(in) :: self
-      real(dp), intent(in) :: square
-      real(dp), intent(out) :: f, slope
-      real(dp) :: t, e, m
+      real(dp), contiguous, intent(in) :: square(:)
+      real(dp), contiguous, intent(out) :: f(:), slope(:)
+      real(dp) :: near(most), t, e, m, x, far, far_slope
+      integer :: i
 
       if (self%law == carreau) then
          m = 0.5_dp*(1.0_dp - self%exponent)/self%exponent
-         f = (1.0_dp + square)**m
-         slope = 2.0_dp*m*f/(1.0_dp + square)
-      else if (square < series_below**2) then
-         f = 1.0_dp + square/6.0_dp*(1.0_dp + square/20.0_dp*(1.0_dp + square/42.0_dp*(1.0_dp + square/72.0_dp &
-             *(1.0_dp + square/110.0_dp))))
-         slope = (1.0_dp + square/10.0_dp*(1.0_dp + square/28.0_dp*(1.0_dp + square/54.0_dp*(1.0_dp + square/88.0_dp))))/3.0_dp
+         do i = 1, size(square)
+            x = 1.0_dp + square(i)
+            f(i) = exp(m*log(x))
+            slope(i) = 2.0_dp*m*f(i)/x
+         end do
       else
-         t = sqrt(square)
-         e = exp(t)
-         f = 0.5_dp*(e - 1.0_dp/e)/t
-         slope = (0.5_dp*(e + 1.0_dp/e) - f)/square
+         ! here and below: sums with shares of 0 and 1, where compilers would branch around a choice
+         near(:size(square)) = merge(1.0_dp, 0.0_dp, square < series_below**2)
+         do i = 1, size(square)
+            x = max(square(i), series_below**2)
+            t = sqrt(x)
+            e = exp(t)
+            far = 0.5_dp*(e - 1.0_dp/e)/t
+            far_slope = (0.5_dp*(e + 1.0_dp/e) - far)/x
+            x = min(square(i), series_below**2)
+            f(i) = near(i)*(1.0_dp + x/6.0_dp*(1.0_dp + x/20.0_dp*(1.0_dp + x/42.0_dp*(1.0_dp + x/72.0_dp &
+                            *(1.0_dp + x/110.0_dp))))) + (1.0_dp - near(i))*far
+            slope(i) = near(i)*(1.0_dp + x/10.0_dp*(1.0_dp + x/28.0_dp*(1.0_dp + x/54.0_dp*(1.0_dp + x/88.0_dp))))/3.0_dp &
+                       + (1.0_dp - near(i))*far_slope
+         end do
       end if
    end subroutine thinness
 
-   !> F and its slopes in the square of the stress, d^k F/d(tau^2)^k
-   pure function all_slopes(self, square) result(f)
+   !> Stress of films that only slide, and F there with its slopes in the square of the stress, d^k F/d(tau^2)^k
+   pure subroutine slide(self, b, t, f)
       class(thinning_t), intent(in) :: self
-      real(dp), intent(in) :: square
-      !> 1/3, 1/(3 5), 1/(3 5 7): the slopes of Eyring at 0, times 2^k
-      real(dp), parameter :: at_zero(slopes) = [1.0_dp/3.0_dp, 1.0_dp/15.0_dp, 1.0_dp/105.0_dp]
-      real(dp) :: f(0:slopes), m
-      integer :: k
+      !> B >= 0 of at most `most` films
+      real(dp), contiguous, intent(in) :: b(:)
+      !> Shapes (films), (films or more, 0:slopes)
+      real(dp), contiguous, intent(out) :: t(:), f(:, 0:)
 
       if (self%law == carreau) then
-         m = 0.5_dp*(1.0_dp - self%exponent)/self%exponent
-         f(0) = (1.0_dp + square)**m
-         do k = 1, slopes
-            f(k) = f(k - 1)*(m - (k - 1))/(1.0_dp + square)
-         end do
+         call slide_carreau(self, b, t, f)
       else
-         call self%thinness(square, f(0), f(1))
-         if (square < series_below**2) then
-            do k = 2, slopes
-               f(k) = at_zero(k)*(1.0_dp + 0.5_dp*square/(2*k + 3)*(1.0_dp + 0.25_dp*square/(2*k + 5)))
-            end do
-         else
-            f(2) = (f(0) - 3.0_dp*f(1))/square
-            f(3) = (f(1) - 5.0_dp*f(2))/square
-         end if
-         f(1:) = f(1:)*[0.5_dp, 0.25_dp, 0.125_dp]
+         call slide_eyring(b, t, f)
       end if
-   end function all_slopes
+   end subroutine slide
 
-   !> Relative error that factors of second order in the gradient S have at the stress of the sliding alone, at the most
-   !> (measured)
-   pure real(dp) function error_of_second_order(self, stress, s) result(error)
+   pure subroutine slide_eyring(b, t, f)
+      real(dp), contiguous, intent(in) :: b(:)
+      real(dp), contiguous, intent(out) :: t(:), f(:, 0:)
+      !> 1/3, 1/(3 5), 1/(3 5 7): the slopes of Eyring at 0, times 2^k
+      real(dp), parameter :: at_zero(slopes) = [1.0_dp/3.0_dp, 1.0_dp/15.0_dp, 1.0_dp/105.0_dp]
+      !> Below the first cosh(tau) = sqrt(1 + B^2) is needed in full; below the second the logarithm loses digits
+      real(dp), parameter :: large = 1.0e9_dp, small = 1.0e-2_dp
+      real(dp), dimension(most) :: cosh_t, short, near
+      real(dp) :: x, y, far(0:slopes)
+      integer :: i, n
+
+      n = size(b)
+      cosh_t(:n) = sqrt(1.0_dp + min(b, large)**2)
+      cosh_t(:n) = merge(cosh_t(:n), b, b < large)
+      short(:n) = merge(1.0_dp, 0.0_dp, b < small)
+      do i = 1, size(b)
+         y = min(b(i), small)**2
+         x = b(i)*(1.0_dp - y/6.0_dp*(1.0_dp - 9.0_dp*y/20.0_dp*(1.0_dp - 25.0_dp*y/42.0_dp)))
+         t(i) = short(i)*x + (1.0_dp - short(i))*log(b(i) + cosh_t(i))
+      end do
+      near(:n) = merge(1.0_dp, 0.0_dp, t < series_below)
+      do i = 1, size(b)
+         x = max(t(i), series_below)
+         far(0) = b(i)/x
+         far(1) = (cosh_t(i) - far(0))/x**2
+         far(2) = (far(0) - 3.0_dp*far(1))/x**2
+         far(3) = (far(1) - 5.0_dp*far(2))/x**2
+         x = min(t(i), series_below)**2
+         y = 1.0_dp - near(i)
+         f(i, 0) = near(i)*(1.0_dp + x/6.0_dp*(1.0_dp + x/20.0_dp*(1.0_dp + x/42.0_dp*(1.0_dp + x/72.0_dp &
+                            *(1.0_dp + x/110.0_dp))))) + y*far(0)
+         f(i, 1) = 0.5_dp*(near(i)*(1.0_dp + x/10.0_dp*(1.0_dp + x/28.0_dp*(1.0_dp + x/54.0_dp*(1.0_dp + x/88.0_dp)))) &
+                           *at_zero(1) + y*far(1))
+         f(i, 2) = 0.25_dp*(near(i)*at_zero(2)*(1.0_dp + 0.5_dp*x/7.0_dp*(1.0_dp + 0.25_dp*x/9.0_dp)) + y*far(2))
+         f(i, 3) = 0.125_dp*(near(i)*at_zero(3)*(1.0_dp + 0.5_dp*x/9.0_dp*(1.0_dp + 0.25_dp*x/11.0_dp)) + y*far(3))
+      end do
+   end subroutine slide_eyring
+
+   pure subroutine slide_carreau(self, b, t, f)
       class(thinning_t), intent(in) :: self
-      real(dp), intent(in) :: stress, s(2)
+      real(dp), contiguous, intent(in) :: b(:)
+      real(dp), contiguous, intent(out) :: t(:), f(:, 0:)
+      !> Below it there is no sliding
+      real(dp), parameter :: none = 1.0e-100_dp
+      !> Steps of the iteration, the last of which leaves the cube of `enough` for all but extreme exponents
+      integer, parameter :: usual_steps = 3
+      real(dp), dimension(most) :: wanted, u, error
+      real(dp) :: m, x, slope
+      integer :: i, k
+
+      m = 0.5_dp*(1.0_dp - self%exponent)/self%exponent
+      do i = 1, size(b)
+         wanted(i) = log(max(b(i), none))
+         x = log(1.0_dp + exp(-2.0_dp*abs(wanted(i))))
+         u(i) = wanted(i) + 0.5_dp*(self%exponent - 1.0_dp)*(2.0_dp*max(wanted(i), 0.0_dp) + x)
+      end do
+      ! as sliding_stress
+      do k = 1, usual_steps
+         do i = 1, size(b)
+            x = exp(2.0_dp*u(i))
+            error(i) = u(i) + m*log(1.0_dp + x) - wanted(i)
+            x = x/(1.0_dp + x)
+            slope = 1.0_dp + 2.0_dp*m*x
+            u(i) = u(i) - error(i)*slope/(slope**2 - 2.0_dp*error(i)*m*x*(1.0_dp - x))
+         end do
+      end do
+      t = exp(u(:size(b)))
+      do i = 1, size(b)
+         if (.not. abs(error(i)) < enough) t(i) = self%sliding_stress(max(b(i), none))
+      end do
+      do i = 1, size(b)
+         f(i, 0) = max(b(i), none)/t(i)
+         x = 1.0_dp/(1.0_dp + t(i)**2)
+         f(i, 1) = f(i, 0)*m*x
+         f(i, 2) = f(i, 1)*(m - 1.0_dp)*x
+         f(i, 3) = f(i, 2)*(m - 2.0_dp)*x
+      end do
+   end subroutine slide_carreau
+
+   !> Relative error of factors of second order in the gradient S at the stress of the sliding alone, at the most, over
+   !> (S^2/(1 + stress^2))^2, Carreau, or S^4, Eyring; measured, and held by test/test_flow.f90
+   pure real(dp) function second_order_error(self) result(error)
+      class(thinning_t), intent(in) :: self
       real(dp) :: m
 
-      if (self%law == eyring) then
-         error = 1.8e-3_dp*dot_product(s, s)**2
-      else
-         m = self%curvature()
-         error = (0.04_dp*m + 0.17_dp*m**3)*(dot_product(s, s)/(1.0_dp + stress**2))**2
-      end if
-   end function error_of_second_order
+      m = self%curvature()
+      error = 1.8e-3_dp
+      if (self%law == carreau) error = 0.04_dp*m + 0.17_dp*m**3
+   end function second_order_error
 
    !> Of F at small stresses: F = 1 + curvature tau^2
    pure real(dp) function curvature(self)

@@ -13,7 +13,8 @@ module ehl_plan
    use ehl_moes, only: operating_t
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_plan_friction, only: plan_point, plan_sliding, sliding_t
-   use ehl_plan_lubricant, only: plan_lubricant
+   use ehl_plan_heat, only: heat_plan_t, plan_heat
+   use ehl_plan_lubricant, only: law_note, plan_lubricant
    use ehl_plan_surface, only: check_carried, make_surfaces
    use ehl_resolution, only: has_solution, relative_errors
    use ehl_scales, only: scales_t
@@ -42,8 +43,12 @@ module ehl_plan
       type(scales_t) :: scales
       type(operating_t) :: point
       type(lubricant_t) :: lubricant
+      !> Law with constants of an oil, and the range of these
+      character(len=:), allocatable :: lubricant_note
       !> What absolute friction needs to know
       type(sliding_t) :: sliding
+      !> The heat of it
+      type(heat_plan_t) :: heat
       !> Coarsest and finest grid
       type(grid_t) :: coarsest, finest
       !> Shares of H_c and H_min of the flooded contact that the domain changes
@@ -97,9 +102,12 @@ contains
 
       call pick_contact(input, plan)
       plan%flooded = input%grid%border == "flooded"
-      plan%lubricant = plan_lubricant(input, plan%point, plan%scales)
+      call plan_lubricant(input, plan%point, plan%scales, plan%lubricant, status)
+      if (status%failed()) return
+      call law_note(input, plan%scales, plan%lubricant_note)
       call plan%lubricant%density([1.0_dp], rho, slope)
       plan%film_expected = plan%contact%film_formula(plan%point%moes_m, plan%point%moes_l)/rho(1)
+      plan%heat = plan_heat(input, plan%contact, plan%scales, plan%sliding, plan%lubricant, plan%film_expected)
       plan%engine = trim(input%solver%deflection)
       plan%accuracy = input%solver%accuracy
       plan%max_cycles = input%solver%max_cycles

@@ -32,6 +32,7 @@ contains
       if (plan%scales%has_size()) call add("           a = "//fixed(plan%scales%length, "es10.4")//" m, p_h = "// &
                                             fixed(plan%scales%pressure, "es10.4")//" Pa")
       if (.not. plan%contact%is_round()) call tell_ellipse()
+      if (allocated(plan%lubricant_note)) call add("lubricant  "//plan%lubricant_note)
       call tell_friction()
       if (plan%surfaces%rough()) then
          call add(scene_lines(plan%surfaces))
@@ -90,6 +91,7 @@ contains
             if (s%mean_velocity > 0.0_dp) speed = " ("//fixed(abs(s%slide_to_roll)*s%mean_velocity, "es10.3")//" m/s)"
             call add("friction   "//trim(s%law)//" shear stress, slide-to-roll ratio "//fixed(s%slide_to_roll, "f8.4")// &
                      speed//"; "//flow)
+            call add("           coefficients are "//plan%heat%note)
             if (s%loading > 0.0_dp) call add("heat       shear heating of the inlet (Gupta et al. 1992): film times "// &
                fixed(s%reduction, "f7.4")//" by an inlet viscosity of "//fixed(s%inlet_viscosity, "es10.3")// &
                " Pa s, which M and L belong to")

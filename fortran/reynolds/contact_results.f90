@@ -38,16 +38,19 @@ contains
       type(contact_results_t) :: m
       real(dp), dimension(level%grid%ny) :: smallest, largest, friction, newtonian
       real(dp), dimension(level%grid%nx) :: viscous, stress
+      logical :: thins
       integer :: j
 
-      !$omp parallel do default(none) shared(level, smallest, largest, friction, newtonian) private(viscous, stress) &
+      thins = level%flow%bends .or. level%lubricant%shear%thins()
+      !$omp parallel do default(none) shared(level, smallest, largest, friction, newtonian, thins) private(viscous, stress) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
          smallest(j) = minval(level%h(:, j))
          largest(j) = maxval(level%p(:, j))
          call level%flow%stress_row(level%lubricant, level%p, level%h, level%rho(:, j), j, viscous, stress)
          newtonian(j) = sum(viscous)*level%grid%weight(j)
-         friction(j) = sum(stress)*level%grid%weight(j)
+         friction(j) = newtonian(j)
+         if (thins) friction(j) = sum(stress)*level%grid%weight(j)
       end do
       !$omp end parallel do
       m%film_minimum = minval(smallest)

@@ -49,9 +49,9 @@ module ehl_flow
          class(flow_t), intent(inout) :: self
          type(lubricant_t), intent(in) :: lubricant
          !> Pressure and film, shape (nx, ny)
-         real(dp), intent(in) :: p(:, :), h(:, :)
+         real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
          !> Density of the row and its change with P, shape (nx)
-         real(dp), intent(in) :: rho(:), drho_dp(:)
+         real(dp), contiguous, intent(in) :: rho(:), drho_dp(:)
          integer, intent(in) :: j, last
       end subroutine find_row
 
@@ -71,11 +71,11 @@ module ehl_flow
          class(flow_t), intent(in) :: self
          type(lubricant_t), intent(in) :: lubricant
          !> Pressure and film, shape (nx, ny)
-         real(dp), intent(in) :: p(:, :), h(:, :)
+         real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
          !> Density of the row, shape (nx)
-         real(dp), intent(in) :: rho(:)
+         real(dp), contiguous, intent(in) :: rho(:)
          integer, intent(in) :: j
-         real(dp), intent(out) :: newtonian(:), stress(:)
+         real(dp), contiguous, intent(out) :: newtonian(:), stress(:)
       end subroutine stress_row
    end interface
 
@@ -103,7 +103,7 @@ contains
       !> The row, and the one below it
       integer, intent(in) :: j, south
       !> Shape (nx)
-      real(dp), intent(inout) :: values(:)
+      real(dp), contiguous, intent(inout) :: values(:)
       integer :: i
 
       do i = 2, size(values) - 1

@@ -26,16 +26,17 @@ contains
       class(newtonian_flow_t), intent(inout) :: self
       type(lubricant_t), intent(in) :: lubricant
       !> Pressure and film, shape (nx, ny)
-      real(dp), intent(in) :: p(:, :), h(:, :)
+      real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
       !> Density of the row and its change with P, shape (nx)
-      real(dp), intent(in) :: rho(:), drho_dp(:)
+      real(dp), contiguous, intent(in) :: rho(:), drho_dp(:)
       integer, intent(in) :: j, last
-      real(dp) :: log_eta(size(p, 1)), rest_log(1), rest_slope(1)
+      real(dp) :: rest_log(1), rest_slope(1)
       integer :: i
 
-      call lubricant%log_viscosity(p(:last, j), log_eta(:last), self%dlneps_dp(:last, j, along))
+      ! until the loop is done eps is ln(eta/eta0)
+      call lubricant%log_viscosity(p(:last, j), self%eps(:last, j, along), self%dlneps_dp(:last, j, along))
       do i = 1, last
-         self%eps(i, j, along) = rho(i)*h(i, j)**3*exp(-log_eta(i))*self%inverse_speed
+         self%eps(i, j, along) = rho(i)*h(i, j)**3*exp(-self%eps(i, j, along))*self%inverse_speed
       end do
       if (last < size(p, 1)) then
          call lubricant%log_viscosity([0.0_dp], rest_log, rest_slope)
@@ -59,11 +60,11 @@ contains
       class(newtonian_flow_t), intent(in) :: self
       type(lubricant_t), intent(in) :: lubricant
       !> Pressure and film, shape (nx, ny)
-      real(dp), intent(in) :: p(:, :), h(:, :)
+      real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
       !> Density of the row, shape (nx)
-      real(dp), intent(in) :: rho(:)
+      real(dp), contiguous, intent(in) :: rho(:)
       integer, intent(in) :: j
-      real(dp), intent(out) :: newtonian(:), stress(:)
+      real(dp), contiguous, intent(out) :: newtonian(:), stress(:)
 
       newtonian = self%inverse_speed*rho*h(:, j)**2/self%eps(:, j, along)
       stress = newtonian

@@ -14,6 +14,9 @@ module ehl_node_state
    !> Pressure in a cavity, over p_h
    real(dp), parameter :: cavity_pressure = 0.0_dp
 
+   !> Nodes that a search takes at a time
+   integer, parameter :: stride = 8
+
 contains
 
    !> Last node of a row that is not cavitated, or the first one
@@ -21,6 +24,11 @@ contains
       real(dp), contiguous, intent(in) :: p(:)
 
       last = size(p)
+      ! several nodes at a time first
+      do while (last > stride)
+         if (count(p(last - stride + 1:last) <= cavity_pressure) < stride) exit
+         last = last - stride
+      end do
       do while (last > 1 .and. p(last) <= cavity_pressure)
          last = last - 1
       end do

@@ -8,24 +8,19 @@
 !>    B = (eta/eta0) b0/H,   b0 = eta0 |u1 - u2|/(a^2/R) over the stress of the law,
 !>    S = s0 H grad P,       s0 = p_h a/R over the stress of the law,
 !>
-!> grad P by central differences. Node by node what is needed: no factors where they are 1 but for `negligible`, those of
-!> second order in the gradient where they are right to `tolerance`, else those through the film.
+!> grad P by central differences; each node with the factors that it needs (physics/factor_rows.f90).
 module ehl_thinning_flow
-   use ehl_flow, only: flow_t
-   use ehl_flow_factors, only: exact_factors, factors_t, sliding_factors
+   use ehl_flow, only: along, flow_t
+   use ehl_factor_rows, only: factor_rows_t, find_factors
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
-   use ehl_thinning, only: thinning_t
+   use ehl_thinning, only: most, thinning_t
    implicit none (type, external)
    private
    public :: thinning_flow_t, new_thinning_flow
 
    !> Place of what concerns the flow along Y
    integer, parameter :: sideways = 2
-   !> Factors that differ less from 1 than this are 1
-   real(dp), parameter :: negligible = 1.0e-6_dp
-   !> Relative error of factors of second order
-   real(dp), parameter :: tolerance = 1.0e-4_dp
 
    type, extends(flow_t) :: thinning_flow_t
       private
@@ -36,7 +31,6 @@ module ehl_thinning_flow
       procedure :: find_row
       procedure :: film_power
       procedure :: stress_row
-      procedure, private :: factors_at
       procedure, private :: gradients
    end type thinning_flow_t
 
@@ -60,14 +54,14 @@ contains
       class(thinning_flow_t), intent(inout) :: self
       type(lubricant_t), intent(in) :: lubricant
       !> Pressure and film, shape (nx, ny)
-      real(dp), intent(in) :: p(:, :), h(:, :)
+      real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
       !> Density of the row and its change with P, shape (nx)
-      real(dp), intent(in) :: rho(:), drho_dp(:)
+      real(dp), contiguous, intent(in) :: rho(:), drho_dp(:)
       integer, intent(in) :: j, last
-      type(factors_t) :: factors
-      real(dp), dimension(size(p, 1)) :: log_eta, slope
-      real(dp) :: s(2, size(p, 1)), eta, newtonian
-      integer :: i
+      type(factor_rows_t) :: factors
+      real(dp), dimension(most) :: b, newtonian
+      real(dp) :: log_eta(size(p, 1)), slope(size(p, 1)), s(most, 2)
+      integer :: first, n, i, k
 
       call lubricant%log_viscosity(p(:last, j), log_eta(:last), slope(:last))
       if (last < size(p, 1)) then
@@ -75,62 +69,57 @@ contains
          log_eta(last + 2:) = log_eta(last + 1)
          slope(last + 2:) = slope(last + 1)
       end if
-      call self%gradients(p, h, j, s)
-      do i = 1, size(p, 1)
-         eta = exp(log_eta(i))
-         newtonian = rho(i)*h(i, j)**3/eta*self%inverse_speed
-         factors = self%factors_at(eta/h(i, j), s(:, i))
-         self%eps(i, j, :) = factors%phi*newtonian
-         self%tangent(i, j, :) = factors%tangent*newtonian
-         self%powers(i, j, :) = 3.0_dp - factors%by_sliding + factors%by_gradient
-         self%dlneps_dp(i, j, :) = drho_dp(i)/rho(i) - slope(i)*(1.0_dp - factors%by_sliding)
+      do first = 1, size(p, 1), most
+         n = min(most, size(p, 1) - first + 1)
+         call self%gradients(p, h, j, first, n, s)
+         do k = 1, n
+            i = first + k - 1
+            newtonian(k) = exp(log_eta(i))
+            b(k) = abs(self%sliding*newtonian(k)/h(i, j))
+            self%stress(i, j) = newtonian(k)/h(i, j)
+            newtonian(k) = rho(i)*h(i, j)**3/newtonian(k)*self%inverse_speed
+         end do
+         call find_factors(self%law, b(:n), s, factors)
+         i = first + n - 1
+         do k = along, sideways
+            self%eps(first:i, j, k) = factors%phi(:n, k)*newtonian(:n)
+            self%tangent(first:i, j, k) = factors%tangent(:n, k)*newtonian(:n)
+            self%powers(first:i, j, k) = 3.0_dp - factors%by_sliding(:n, k) + factors%by_gradient(:n, k)
+            self%dlneps_dp(first:i, j, k) = drho_dp(first:i)/rho(first:i) - slope(first:i)*(1.0_dp - factors%by_sliding(:n, k))
+         end do
          if (self%sliding > 0.0_dp) then
-            self%stress(i, j) = factors%stress/self%sliding
+            self%stress(first:i, j) = factors%stress(:n)/self%sliding
          else
             ! in the limit of vanishing sliding
-            self%stress(i, j) = eta/h(i, j)*factors%stress_by_sliding
+            self%stress(first:i, j) = self%stress(first:i, j)*factors%stress_by_sliding(:n)
          end if
       end do
    end subroutine find_row
 
-   !> Factors of a node by its eta/(eta0 H) and S, with what it needs
-   pure function factors_at(self, newtonian, s) result(factors)
-      class(thinning_flow_t), intent(in) :: self
-      real(dp), intent(in) :: newtonian, s(2)
-      type(factors_t) :: factors
-      real(dp) :: b
-
-      b = abs(self%sliding*newtonian)
-      if (self%law%curvature()*(3.0_dp*b**2 + 0.15_dp*dot_product(s, s)) < negligible) then
-         factors%stress = b
-      else
-         factors = sliding_factors(self%law, b, s)
-         if (factors%error > tolerance) factors = exact_factors(self%law, b, s)
-      end if
-   end function factors_at
-
-   !> S at the nodes of row j; at the border along Y without its part along Y
-   pure subroutine gradients(self, p, h, j, s)
+   !> S at n nodes of row j from column `first` on; at the border along Y without its part along Y
+   pure subroutine gradients(self, p, h, j, first, n, s)
       class(thinning_flow_t), intent(in) :: self
       !> Shape (nx, ny)
-      real(dp), intent(in) :: p(:, :), h(:, :)
-      integer, intent(in) :: j
-      !> Shape (2, nx)
-      real(dp), intent(out) :: s(:, :)
-      integer :: i, north, south, nx
+      real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
+      integer, intent(in) :: j, first, n
+      !> Along X and along Y, shape (n or more, 2)
+      real(dp), contiguous, intent(inout) :: s(:, :)
+      integer :: i, k, north, south, last
 
-      nx = size(p, 1)
+      last = first + n - 1
       south = self%grid%south(j)
       north = j + 1
       if (j == size(p, 2)) north = south
-      s(1, 1) = (p(2, j) - p(1, j))/self%grid%hx
-      s(1, nx) = (p(nx, j) - p(nx - 1, j))/self%grid%hx
-      do i = 2, nx - 1
-         s(1, i) = (p(i + 1, j) - p(i - 1, j))/(2.0_dp*self%grid%hx)
+      if (first == 1) s(1, 1) = (p(2, j) - p(1, j))/self%grid%hx
+      if (last == size(p, 1)) s(n, 1) = (p(last, j) - p(last - 1, j))/self%grid%hx
+      do i = max(first, 2), min(last, size(p, 1) - 1)
+         s(i - first + 1, 1) = (p(i + 1, j) - p(i - 1, j))/(2.0_dp*self%grid%hx)
       end do
-      do i = 1, nx
-         s(2, i) = (p(i, north) - p(i, south))/(2.0_dp*self%grid%hy)
-         s(:, i) = s(:, i)*self%gradient*h(i, j)
+      do k = 1, n
+         i = first + k - 1
+         s(k, 2) = (p(i, north) - p(i, south))/(2.0_dp*self%grid%hy)
+         s(k, 1) = s(k, 1)*self%gradient*h(i, j)
+         s(k, 2) = s(k, 2)*self%gradient*h(i, j)
       end do
    end subroutine gradients
 
@@ -146,11 +135,11 @@ contains
       class(thinning_flow_t), intent(in) :: self
       type(lubricant_t), intent(in) :: lubricant
       !> Pressure and film, shape (nx, ny)
-      real(dp), intent(in) :: p(:, :), h(:, :)
+      real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
       !> Density of the row, shape (nx)
-      real(dp), intent(in) :: rho(:)
+      real(dp), contiguous, intent(in) :: rho(:)
       integer, intent(in) :: j
-      real(dp), intent(out) :: newtonian(:), stress(:)
+      real(dp), contiguous, intent(out) :: newtonian(:), stress(:)
       real(dp), dimension(size(p, 1)) :: log_eta, slope
 
       associate (unused => rho)

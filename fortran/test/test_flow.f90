@@ -3,9 +3,10 @@
 !> differences
 module test_flow
    use check, only: is_close, is_true
-   use ehl_flow_factors, only: exact_factors, factors_t, sliding_factors
+   use ehl_factor_rows, only: factor_rows_t, find_factors, second_order
+   use ehl_flow_factors, only: exact_factors, factors_t
    use ehl_kinds, only: dp
-   use ehl_thinning, only: carreau, eyring, thinning_t
+   use ehl_thinning, only: carreau, eyring, most, thinning_t
    implicit none (type, external)
    private
    public :: run_flow
@@ -18,7 +19,8 @@ contains
       call values()
       call closed_forms()
       call limits()
-      call second_order()
+      call of_second_order()
+      call side_by_side()
       call changes_against_differences()
    end subroutine run_flow
 
@@ -31,6 +33,63 @@ contains
       call agree(by_carreau, 2.0_dp, [5.0_dp, 5.0_dp], [3.06463_dp, 2.8926_dp, 0.712669_dp])
       call agree(by_carreau, 50.0_dp, [3.0_dp, 1.0_dp], [13.9482_dp, 6.96058_dp, 6.97932_dp])
    end subroutine values
+
+   !> Factors of second order of one node, and their relative error at the most
+   function sliding_factors(law, b, s, error) result(r)
+      type(thinning_t), intent(in) :: law
+      real(dp), intent(in) :: b, s(2)
+      real(dp), intent(out), optional :: error
+      type(factors_t) :: r
+      type(factor_rows_t) :: rows
+
+      call second_order(law, [b], reshape(s, [1, 2]), rows)
+      r = of_node(rows, 1)
+      if (present(error)) error = rows%error(1)
+   end function sliding_factors
+
+   pure function of_node(rows, i) result(r)
+      type(factor_rows_t), intent(in) :: rows
+      integer, intent(in) :: i
+      type(factors_t) :: r
+
+      r = factors_t(rows%phi(i, :), rows%by_sliding(i, :), rows%by_gradient(i, :), rows%tangent(i, :), rows%stress(i), &
+                    rows%stress_by_sliding(i))
+   end function of_node
+
+   !> Nodes side by side, each with what it needs, have the factors of one node through the film
+   subroutine side_by_side()
+      type(thinning_t), parameter :: laws(5) = [thinning_t(eyring, 1.0_dp), thinning_t(carreau, 0.1_dp), &
+                                                thinning_t(carreau, 0.3_dp), thinning_t(carreau, 0.5_dp), &
+                                                thinning_t(carreau, 0.8_dp)]
+      type(factor_rows_t) :: rows
+      type(factors_t) :: exact, fast
+      real(dp) :: b(most), s(most, 2), phase, worst(3)
+      integer :: i, k, l
+
+      do l = 1, size(laws)
+         worst = 0.0_dp
+         do k = 1, 40
+            do i = 1, most
+               phase = real(i + most*k, dp)
+               b(i) = 10.0_dp**(4.0_dp + 8.0_dp*sin(1.7_dp*phase))
+               if (mod(i, 7) == 0) b(i) = 0.0_dp
+               s(i, :) = 10.0_dp**(2.0_dp*sin(2.3_dp*phase))*[cos(phase), sin(phase)]
+            end do
+            call find_factors(laws(l), b(:most - k), s, rows)
+            do i = 1, most - k
+               exact = exact_factors(laws(l), b(i), s(i, :))
+               fast = of_node(rows, i)
+               worst(1) = max(worst(1), maxval(abs(fast%phi/exact%phi - 1.0_dp)))
+               worst(2) = max(worst(2), abs(fast%stress - exact%stress)/max(exact%stress, 1.0e-6_dp))
+               worst(3) = max(worst(3), maxval(abs(fast%tangent/exact%tangent - 1.0_dp)), &
+                              maxval(abs(fast%by_sliding - exact%by_sliding)), maxval(abs(fast%by_gradient - exact%by_gradient)))
+            end do
+         end do
+         call is_close(worst(1), 0.0_dp, 1.0e-4_dp, "flow factors side by side")
+         call is_close(worst(2), 0.0_dp, 1.0e-4_dp, "mean stress side by side")
+         call is_close(worst(3), 0.0_dp, 3.0e-2_dp, "changes side by side")
+      end do
+   end subroutine side_by_side
 
    subroutine agree(law, b, s, wanted)
       type(thinning_t), intent(in) :: law
@@ -99,7 +158,7 @@ contains
    end subroutine limits
 
    !> Factors of second order in the gradient are as right as they say
-   subroutine second_order()
+   subroutine of_second_order()
       type(thinning_t), parameter :: laws(4) = [thinning_t(eyring, 1.0_dp), thinning_t(carreau, 0.2_dp), &
                                                 thinning_t(carreau, 0.5_dp), thinning_t(carreau, 0.9_dp)]
       type(thinning_t) :: law
@@ -114,8 +173,7 @@ contains
             do k = -4, 6
                do m = 0, 4
                   associate (s => 2.0_dp**k*[cos(0.4_dp*m), sin(0.4_dp*m)])
-                     sliding = sliding_factors(law, 10.0_dp**i, s)
-                     error = sliding%error
+                     sliding = sliding_factors(law, 10.0_dp**i, s, error)
                      if (error > 1.0e-3_dp) cycle
                      exact = exact_factors(law, 10.0_dp**i, s)
                      worst(1) = max(worst(1), maxval(abs(sliding%phi/exact%phi - 1.0_dp)) - error)
@@ -128,7 +186,7 @@ contains
          call is_close(worst(1), 0.0_dp, 1.0e-6_dp, "flow factors of second order")
          call is_close(worst(2), 0.0_dp, 1.0e-6_dp, "mean stress and change of the flow of second order")
       end do
-   end subroutine second_order
+   end subroutine of_second_order
 
    !> Changes of ln(phi), of the flow and of the stress
    subroutine changes_against_differences()

@@ -227,7 +227,7 @@ contains
    pure subroutine find_row(self, lubricant, p, h, rho, drho_dp, j, last)
       class(uneven_flow_t), intent(inout) :: self
       type(lubricant_t), intent(in) :: lubricant
-      real(dp), intent(in) :: p(:, :), h(:, :), rho(:), drho_dp(:)
+      real(dp), contiguous, intent(in) :: p(:, :), h(:, :), rho(:), drho_dp(:)
       integer, intent(in) :: j, last
       real(dp), dimension(size(p, 1)) :: log_eta, slope
 
@@ -251,9 +251,9 @@ contains
    pure subroutine stress_row(self, lubricant, p, h, rho, j, newtonian, stress)
       class(uneven_flow_t), intent(in) :: self
       type(lubricant_t), intent(in) :: lubricant
-      real(dp), intent(in) :: p(:, :), h(:, :), rho(:)
+      real(dp), contiguous, intent(in) :: p(:, :), h(:, :), rho(:)
       integer, intent(in) :: j
-      real(dp), intent(out) :: newtonian(:), stress(:)
+      real(dp), contiguous, intent(out) :: newtonian(:), stress(:)
 
       associate (unused => lubricant, unused_p => p)
       end associate

@@ -61,7 +61,7 @@ contains
    subroutine predict(self, before, level)
       class(predictor_t), intent(in) :: self
       !> Pressures of the last three steps, the latest first, (nx, ny, 3)
-      real(dp), intent(in) :: before(:, :, :)
+      real(dp), contiguous, intent(in) :: before(:, :, :)
       type(level_t), intent(inout) :: level
       real(dp) :: c(level%grid%nx, self%candidates), p(level%grid%nx)
       integer :: j, k
@@ -69,7 +69,7 @@ contains
       !$omp parallel do default(none) shared(self, before, level) private(c, p, k) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
-         call extrapolate(self%shifts, before(:, j, :), c)
+         call extrapolate(self%shifts, before(:, j, 1), before(:, j, 2), before(:, j, 3), c)
          p = c(:, 1)
          do k = 2, self%candidates
             p = p + self%weights(:, j, k - 1)*(c(:, k) - c(:, 1))
@@ -85,17 +85,18 @@ contains
    subroutine learn(self, before, level)
       class(predictor_t), intent(inout) :: self
       !> Pressures of the three steps before that of the level
-      real(dp), intent(in) :: before(:, :, :)
+      real(dp), contiguous, intent(in) :: before(:, :, :)
       type(level_t), intent(in) :: level
-      real(dp) :: c(level%grid%nx, self%candidates)
+      real(dp) :: c(level%grid%nx, self%candidates), error(level%grid%nx)
       integer :: j, k
 
-      !$omp parallel do default(none) shared(self, before, level) private(c, k) &
+      !$omp parallel do default(none) shared(self, before, level) private(c, error, k) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
-         call extrapolate(self%shifts, before(:, j, :), c)
+         call extrapolate(self%shifts, before(:, j, 1), before(:, j, 2), before(:, j, 3), c)
          do k = 1, self%candidates
-            call weigh(level, j, level%p(:, j) - c(:, k), self%error(:, j, k))
+            error = level%p(:, j) - c(:, k)
+            call weigh(level, j, error, self%error(:, j, k))
          end do
       end do
       !$omp end parallel do
@@ -108,24 +109,24 @@ contains
    end subroutine learn
 
    !> The candidates of a row
-   pure subroutine extrapolate(shifts, before, c)
+   pure subroutine extrapolate(shifts, p1, p2, p3, c)
       real(dp), intent(in) :: shifts(:)
-      !> Pressures of the row in the last three steps, the latest first, (nx, 3)
-      real(dp), intent(in) :: before(:, :)
+      !> Pressures of the row in the last three steps, the latest first, shape (nx)
+      real(dp), contiguous, intent(in) :: p1(:), p2(:), p3(:)
       !> Shape (nx, candidates)
-      real(dp), intent(out) :: c(:, :)
+      real(dp), contiguous, intent(out) :: c(:, :)
       !> Changes of the last step and of the one before
-      real(dp), dimension(size(before, 1)) :: last, former
+      real(dp), dimension(size(p1)) :: last, former
       real(dp) :: t, t2
       integer :: i, k, n, n2
 
-      last = before(:, 1) - before(:, 2)
-      former = before(:, 2) - before(:, 3)
-      c(:, 1) = before(:, 1) + 2.0_dp*last - former
-      c(:, size(shifts) + 2) = before(:, 1) + last
+      last = p1 - p2
+      former = p2 - p3
+      c(:, 1) = p1 + 2.0_dp*last - former
+      c(:, size(shifts) + 2) = p1 + last
       ! from one step and from two steps up a surface's way, linear between nodes
       do k = 1, size(shifts)
-         c(:, k + 1) = before(:, 1)
+         c(:, k + 1) = p1
          n = int(shifts(k))
          t = shifts(k) - n
          n2 = int(2.0_dp*shifts(k))
@@ -143,8 +144,8 @@ contains
       type(level_t), intent(in) :: level
       integer, intent(in) :: j
       !> Shape (nx)
-      real(dp), intent(in) :: error(:)
-      real(dp), intent(out) :: weight(:)
+      real(dp), contiguous, intent(in) :: error(:)
+      real(dp), contiguous, intent(out) :: weight(:)
       real(dp) :: flow(size(error))
 
       call level%poiseuille%flow_row(level%flow, j, error, flow)

@@ -126,7 +126,7 @@ RATIOS = (0.25, 0.5, 1.0, 1.5, 2.0)
 
 def cells(point: tuple[float, float, float]) -> list[Row]:
     """Solve a contact on cells of several shapes."""
-    kappa, moes_m, _ = point
+    kappa, _, _ = point
     keys = contact(*point) | {"grid.x_inlet": -2.5, "grid.x_outlet": 1.5, "grid.border": "zero"}
     sides = 2.0 * max(1.0, kappa)
     keys["grid.y_extent"] = sides
