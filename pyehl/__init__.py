@@ -29,9 +29,12 @@ if TYPE_CHECKING:
     from pyehl.netcdf import export
     from pyehl.plots.folder import plot
     from pyehl.prediction.result import Prediction
+    from pyehl.reports.folder import report
     from pyehl.results import load
     from pyehl.solver import Solver
     from pyehl.studies.curve_run import stribeck
+    from pyehl.studies.fit_folder import fit_lubricant
+    from pyehl.studies.oil_list import lubricants
     from pyehl.studies.sweep import sweep
     from pyehl.surfaces.tile import Topography
     from pyehl.theory.lubricant import Lubricant
@@ -51,9 +54,12 @@ __all__ = [
     "check",
     "export",
     "film",
+    "fit_lubricant",
     "load",
+    "lubricants",
     "plot",
     "predict",
+    "report",
     "response",
     "solve",
     "stribeck",
@@ -73,9 +79,12 @@ _HOMES = {
     "check": "api",
     "export": "netcdf",
     "film": "api",
+    "fit_lubricant": "studies.fit_folder",
     "load": "results",
+    "lubricants": "studies.oil_list",
     "plot": "plots.folder",
     "predict": "api",
+    "report": "reports.folder",
     "response": "measured_response.folder",
     "solve": "api",
     "stribeck": "studies.curve_run",

@@ -81,6 +81,17 @@ class _Functions:
         threads: int,
         repeats: int,
     ) -> tuple[float, float, int, bytes]: ...
+    def heated(
+        self,
+        text: bytes,
+        p: _Array,
+        h: _Array,
+        x0: float,
+        y0: float,
+        hx: float,
+        hy: float,
+        mirror: int,
+    ) -> tuple[int, float, _Array, bytes, int, bytes]: ...
 
 class _Surfaces:
     def making(self, pixels: int) -> bytes: ...
@@ -105,6 +116,12 @@ class _Surfaces:
         gaussian: int,
     ) -> tuple[int, bytes]: ...
 
+class _Thinning:
+    def flow_factors(
+        self, law: int, exponent: float, b: _Array, gradient: _Array, found: _Array
+    ) -> None: ...
+    def sliding_stresses(self, law: int, exponent: float, b: _Array, stress: _Array) -> None: ...
+
 class _Waves:
     def driven_waves(
         self,
@@ -127,8 +144,16 @@ class _Waves:
         total: _Pairs,
     ) -> None: ...
 
+class _Lubricants:
+    def oils(self) -> bytes: ...
+    def properties(
+        self, group: bytes, p: _Array, rise: _Array, log_viscosity: _Array, density: _Array
+    ) -> tuple[int, bytes]: ...
+
 ehl_f2py_solver: _Solver
 ehl_f2py_predicted: _Predicted
 ehl_f2py_functions: _Functions
 ehl_f2py_surfaces: _Surfaces
+ehl_f2py_thinning: _Thinning
 ehl_f2py_waves: _Waves
+ehl_f2py_lubricant: _Lubricants

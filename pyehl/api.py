@@ -17,7 +17,7 @@ from pyehl.prediction.result import Prediction
 from pyehl.progress import ProgressBar
 from pyehl.run import run
 from pyehl.solver import Solver
-from pyehl.surfaces import Surface
+from pyehl.surfaces import Surface, Topography
 
 if TYPE_CHECKING:
     import xarray
@@ -133,13 +133,14 @@ def predict(
     case: Case | str | os.PathLike[str],
     *options: Option,
     surface: Surface | None = None,
+    second_surface: Surface | None = None,
     smooth: str | os.PathLike[str] | None = None,
     tracks: int = TRACKS,
     output: str | os.PathLike[str] | None = None,
     force: bool = False,
     plots: bool = True,
 ) -> Prediction:
-    """Predict the relative friction of a rough contact from the spectrum of its surface.
+    """Predict the relative friction of a rough contact from the spectrum of its surfaces.
 
     Parameters
     ----------
@@ -147,7 +148,7 @@ def predict(
         A case, or the path of a case file.
     *options
         Values that replace those of the case: dicts, or texts ``group.key=value``.
-    surface
+    surface, second_surface
         As of `solve`.
     smooth
         Result folder with the smooth contact (of `solve`, or under a transient run); without it the
@@ -182,10 +183,12 @@ def predict(
     Prediction(mu_ratio=1..., 'predicted')
     """
     inputs, name = ([], "") if isinstance(case, Case) else ([case], path_of(case, "case"))
-    case, tile = Case.of(case, *options), None
+    case = Case.of(case, *options)
+    tiles: dict[str, Topography | None] = {"surface": None, "second_surface": None}
     inputs += [str(group.get("file", "")) for group in case.resolve().values()]
-    if surface is not None:
-        case, tile = with_surface(case, surface)
+    for group, given in (("surface", surface), ("second_surface", second_surface)):
+        if given is not None:
+            case, tiles[group] = with_surface(case, given, group)
     check_kind(tracks, int, "tracks", "a whole number")
     if smooth is not None:
         smooth = path_of(smooth, "smooth")
@@ -195,7 +198,14 @@ def predict(
         place.check()
     settings = case.resolve()
     with _named(name):
-        found = of_case.predict(settings, case.text, tracks=tracks, smooth=smooth, surface=tile)
+        found = of_case.predict(
+            settings,
+            case.text,
+            tracks=tracks,
+            smooth=smooth,
+            surface=tiles["surface"],
+            second_surface=tiles["second_surface"],
+        )
     if place is not None:
         folder.write(found, place, plots=plots)
     return found

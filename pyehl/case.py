@@ -159,3 +159,12 @@ def with_surface(case: Case, surface: Surface, group: str = "surface") -> tuple[
 
     tile = in_memory(surface, case.resolve().get(group, {}), group)
     return case.with_options(as_map(tile, group)), tile
+
+
+def exchanged(case: Case) -> Case:
+    """Give a case with its surfaces, and their bodies, exchanged."""
+    groups = case.resolve()
+    contact = {**groups["contact"], "rough_surface": 3 - groups["contact"]["rough_surface"]}
+    second = groups.get("second_surface", {"kind": "smooth"})
+    groups |= {"contact": contact, "surface": second, "second_surface": groups["surface"]}
+    return Case.from_text(namelist.text_of(groups), origin="case with its surfaces exchanged")

@@ -28,13 +28,17 @@ SUBCOMMANDS = {
     "check": "print a case resolved, and how it would be solved",
     "predict": "predict the relative friction of a rough surface from its PSD",
     "stribeck": "friction against speed, film ratio and theta_2",
+    "app": "a contact to play with, in the browser",
     "sweep": "many cases with one table of results",
     "reproduce": "the figures and tables of a paper, redone and compared",
     "compare": "results against a table of references",
     "response": "measure what the contact makes of small waves of roughness",
     "surface": "write the surface of a case as a height map",
     "film": "film formulas side by side for a case",
+    "lubricants": "oils by name: constants, ranges, sources",
+    "fit-lubricant": "a shear law fitted to a measured traction curve",
     "plot": "pictures of a result folder",
+    "report": "one HTML page about a result, to send",
     "export": "a result folder as netCDF",
     "bench": "time and error of the parts, side by side",
     "info": "versions, compiler, machine",
@@ -55,7 +59,7 @@ def _parser(chosen: str) -> argparse.ArgumentParser:
             name, help=text, description=f"{text[0].upper()}{text[1:]}.", allow_abbrev=False
         )
         if name == chosen:
-            module = import_module(f"pyehl.commands.{name}")
+            module = import_module(f"pyehl.commands.{name.replace('-', '_')}")
             module.add_arguments(sub)
             sub.set_defaults(execute=module.execute)
     return parser

@@ -3,11 +3,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Any
 
-__all__ = ["Columns", "table", "text_table"]
+__all__ = ["Columns", "table", "text_table", "with_error"]
 
 Columns = Sequence[tuple[str, str]]
 """Names and formats."""
@@ -39,3 +40,35 @@ def text_table(rows: Sequence[Mapping[str, Any]], columns: Columns) -> str:
         "  ".join(text.rjust(width) for text, width in zip(line, widths, strict=True))
         for line in lines
     )
+
+
+def with_error(value: float | None, error: float | None = None, unit: str = "") -> str:
+    """Give a number with its error, which has two digits; 'not known' where there is none.
+
+    Examples
+    --------
+    >>> from pyehl.display import with_error
+    >>> with_error(233.61, 3.42, "nm")
+    '233.6 ± 3.4 nm'
+    >>> with_error(9.156e10, 1.14e9)
+    '(9.16 ± 0.11)·10^10'
+    >>> with_error(0.0243689)
+    '0.02437'
+    """
+    if value is None or not math.isfinite(value):
+        return "not known"
+    tail = f" {unit}" if unit else ""
+    if error is None or not (math.isfinite(error) and error > 0.0):
+        return f"{value:.4g}{tail}"
+    power = math.floor(math.log10(max(abs(value), error)))
+    if -5 < power < 6:
+        return "{} ± {}{}".format(*_to_two_digits(value, error), tail)
+    scale = 10.0**power
+    both = "{} ± {}".format(*_to_two_digits(value / scale, error / scale))
+    return f"({both})·10^{power}{tail}"
+
+
+def _to_two_digits(value: float, error: float) -> tuple[str, str]:
+    """Write both with as many decimals as give the error two digits."""
+    decimals = max(0, 1 - math.floor(math.log10(float(f"{error:.1e}"))))
+    return f"{value:.{decimals}f}", f"{error:.{decimals}f}"

@@ -12,7 +12,15 @@ from pyehl.processor import suffix
 if TYPE_CHECKING:
     from pyehl import _core
 
-__all__ = ["functions", "predicted", "solvers", "surface_functions", "waves"]
+__all__ = [
+    "functions",
+    "lubricants",
+    "predicted",
+    "solvers",
+    "surface_functions",
+    "thinning",
+    "waves",
+]
 
 try:
     _extension = import_module(f"pyehl._core{suffix()}")
@@ -26,4 +34,6 @@ solvers = cast("_core._Solver", _extension.ehl_f2py_solver)
 predicted = cast("_core._Predicted", _extension.ehl_f2py_predicted)
 functions = cast("_core._Functions", _extension.ehl_f2py_functions)
 surface_functions = cast("_core._Surfaces", _extension.ehl_f2py_surfaces)
+lubricants = cast("_core._Lubricants", _extension.ehl_f2py_lubricant)
+thinning = cast("_core._Thinning", _extension.ehl_f2py_thinning)
 waves = cast("_core._Waves", _extension.ehl_f2py_waves)

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import check
-from pyehl.extension import functions, predicted, surface_functions, waves
+from pyehl.extension import functions, lubricants, predicted, surface_functions, thinning, waves
 from pyehl.extension import solvers as ehl
 from pyehl.given import Option, options_of, path_of, text_of
 
@@ -33,10 +33,12 @@ __all__ = [
     "free_bytes",
     "functions",
     "keys",
+    "lubricants",
     "predicted",
     "resolve",
     "returned",
     "surface_functions",
+    "thinning",
     "version",
     "waves",
 ]
@@ -115,8 +117,16 @@ def version() -> str:
 
 
 def build() -> str:
-    """Compiler and options of the compiled library."""
-    return returned(functions.about()[1])
+    """Compiler of the compiled library and its options, without paths and warnings."""
+    words = returned(functions.about()[1]).split(" ")
+    # the path after a lone -I or -J is a word of its own
+    left_out = {
+        i + shift
+        for i, word in enumerate(words)
+        for shift in range(2 if word in ("-I", "-J") else 1)
+        if word.startswith(("-I", "-J", "-W", "-fpre-include", "-fdiagnostics"))
+    }
+    return " ".join(word for i, word in enumerate(words) if i not in left_out)
 
 
 @dataclass(frozen=True, slots=True)

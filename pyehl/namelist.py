@@ -13,7 +13,7 @@ from typing import Any
 
 from pyehl.errors import InputError
 
-__all__ = ["text_of", "values"]
+__all__ = ["given", "text_of", "values"]
 
 END = "\n/\n"
 WORD = r"'(?:[^']|'')*'|\.true\.|\.false\.|-?\d+[\d.]*(?:e[+-]?\d+)?"
@@ -31,6 +31,23 @@ def values(resolved: str) -> dict[str, dict[str, Any]]:
         if block.strip():
             groups |= {group: dict(keys) for group, keys in _group(block + END).items()}
     return groups
+
+
+def given(resolved: str, *, comments: bool = True) -> str:
+    """Give what was given of a resolved case: the text without defaults and what follows.
+
+    Read again it is the same case. `comments`: with the meaning of each key.
+    """
+    blocks = []
+    for block in resolved.split(END):
+        name, *lines = block.strip().splitlines() or [""]
+        kept = [line for line in lines if not line.endswith(("! default", "! derived"))]
+        if not comments:
+            found = (match for line in kept if (match := LINE.fullmatch(line)))
+            kept = [f"   {match[1]} = {match[2]}" for match in found]
+        if kept:
+            blocks.append("\n".join([name, *kept]) + END)
+    return "".join(blocks)
 
 
 def text_of(groups: Mapping[str, Mapping[str, Any]]) -> str:

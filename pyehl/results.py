@@ -66,6 +66,14 @@ SOLUTION = (
     Field("H_smooth", "H_smooth", "h_smooth_m", "m", PLANE, "film, smooth contact", "h R/a^2"),
     Field("RR", "RR", "rr_m", "m", PLANE, "roughness, peaks positive", "r R/a^2"),
     Field("A_d", "A_d", "a_d_m", "m", PLANE, "deformed roughness: smooth film less film", "R/a^2"),
+    *(
+        Field(name := f"temperature_rise{part}_K", name, name, "K", PLANE, f"rise of {of}", "")
+        for part, of in (
+            ("", "temperature, mean across the film"),
+            ("_wall_1", "the temperature of the surface of body 1"),
+            ("_wall_2", "the temperature of the surface of body 2"),
+        )
+    ),
     Field("frame_P", "frame_P", "frame_p_Pa", "Pa", FRAMES, "pressure in time", "p/p_h"),
     Field("frame_H", "frame_H", "frame_h_m", "m", FRAMES, "film thickness in time", "h R/a^2"),
 )
@@ -76,6 +84,10 @@ PREDICTION = {
     "surface": ("surface_m", "m", "undeformed roughness, peaks positive"),
     "deformed": ("deformed_m", "m", "roughness deformed in the contact"),
     "delta_p": ("delta_p_Pa", "Pa", "pressure change by the roughness"),
+}
+PREDICTION |= {
+    f"second_{file}": (f"second_{name}", unit, f"{meaning}, second surface")
+    for file, (name, unit, meaning) in PREDICTION.items()
 }
 # Tables are CSV files with a line of names
 SOLUTION_TABLES = ("history",)
@@ -151,6 +163,9 @@ def _solution_dataset(
         if field.file not in arrays:
             continue
         values = arrays[field.file]
+        if field.si_unit == "K":
+            found[field.name] = _variable(field.dims, values, "K", field.meaning)
+            continue
         found[field.name] = _variable(field.dims, values, "1", f"{field.meaning}, {field.scaled}")
         if point is not None:
             scaled = values * field.scale(point)
@@ -167,14 +182,23 @@ def prediction_dataset(
     """Dataset of a prediction.
 
     Of the scalars in `pyehl.schema`, the resolved namelist text, the arrays x (nx,), y (ny,) [m]
-    and, of shape (nx, ny), surface, deformed [m], delta_p [Pa], and the columns by name of the
-    tables ``passage``, ``spectrum`` and ``bands``.
+    and, of shape (nx, ny), surface, deformed [m], delta_p [Pa], the same of a second surface with
+    second_ before their names, and the columns by name of the tables ``passage``, ``spectrum`` and
+    ``bands``.
     """
     found = {
-        name: _variable((name,) if file in "xy" else ("x_m", "y_m"), arrays[file], unit, meaning)
+        name: _variable(_dims(name), arrays[file], unit, meaning)
         for file, (name, unit, meaning) in PREDICTION.items()
+        if file in arrays
     }
     return _dataset(summary, case, found, tables)
+
+
+def _dims(name: str) -> tuple[str, ...]:
+    """Dimensions of an array of a prediction, by its name in the Dataset."""
+    start = "second_" if name.startswith("second_") else ""
+    axes = f"{start}x_m", f"{start}y_m"
+    return (name,) if name in axes else axes
 
 
 def _dataset(
@@ -224,7 +248,8 @@ def load(folder: str | os.PathLike[str]) -> xr.Dataset:
         the times T. Columns of the history are ``history_<column>``.
 
         Of a prediction: surface_m, deformed_m and delta_p_Pa of shape (nx, ny) over x_m, y_m, and
-        the columns ``passage_...``, ``spectrum_...`` and ``bands_...``.
+        the columns ``passage_...``, ``spectrum_...`` and ``bands_...``. Of two rough surfaces also
+        second_surface_m, second_deformed_m and second_delta_p_Pa over second_x_m, second_y_m.
 
     Raises
     ------

@@ -3,8 +3,9 @@
 
 Names that end in a unit (``_m``, ``_Pa``, ...) are in that unit (`moes_m` is the Moes load M);
 capital letters are Hertz units. Kinds: ``solution`` (``ehl``, ``pyehl run``), ``prediction``
-(``pyehl predict``), ``film`` (``pyehl film --json``) and ``response`` (``pyehl response``). To add
-a quantity, add a line: tests compare this table with all that writes summaries.
+(``pyehl predict``), ``film`` (``pyehl film --json``), ``response`` (``pyehl response``) and ``fit``
+(``pyehl fit-lubricant``). To add a quantity, add a line: tests compare this table with all that
+writes summaries.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from dataclasses import dataclass
 
 __all__ = ["KINDS", "QUANTITIES", "Quantity", "markdown"]
 
-KINDS = {"s": "solution", "p": "prediction", "f": "film", "r": "response"}
+KINDS = {"s": "solution", "p": "prediction", "f": "film", "r": "response", "t": "fit"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,8 +29,8 @@ class Quantity:
 
 # Letters of the kinds | name | unit | meaning
 _TABLE = """
-spfr | kind | | what the summary is of: 'solution', 'prediction', 'film' or 'response'
-spr | files | | names of the files of the result in its folder
+spfrt | kind | | what the summary is of: 'solution', 'prediction', 'film', 'response' or 'fit'
+sprt | files | | names of the files of the result in its folder
 sp | status | | 'converged', 'predicted', or why there is no result
 s | converged | | whether the results are a solution
 p | message | | the status in a sentence
@@ -43,9 +44,9 @@ sf | speed_parameter | - | 12 eta0 u R^2/(a^3 p_h)
 spf | hertz_pressure_Pa | Pa | p_h
 spf | hertz_radius_m | m | a, of an ellipse its semi-axis along the motion
 spf | film_scale_m | m | a^2/R
-sf | radius_ratio | - | R_x/R_y of an elliptical contact
-sf | ellipticity | - | semi-axis of the dry contact across the motion over that along it
-sf | semi_axis_y_m | m | semi-axis of the dry contact across the motion
+spf | radius_ratio | - | R_x/R_y of an elliptical contact
+spfr | ellipticity | - | semi-axis of the dry contact across the motion over that along it
+spf | semi_axis_y_m | m | semi-axis of the dry contact across the motion
 s | angle_deg | deg | by which an elliptical contact is turned counter-clockwise against the motion
 pf | si | | whether the case was given in SI units
 f | load_N | N | load w
@@ -58,7 +59,7 @@ f | pressure_viscosity_per_Pa | 1/Pa | alpha
 f | U | - | eta0 u/(E' R)
 f | G | - | alpha E'
 f | W | - | w/(E' R^2)
-s | points | - | nodes along X, and per side in a round contact
+st | points | - | nodes along X, and per side in a round contact
 s | points_y | - | nodes along Y in an elliptical contact
 s | x_mesh | a | mesh size along X
 s | y_mesh | a | mesh size along Y
@@ -145,24 +146,31 @@ p | mu_ratio_tracks_spread | - | standard deviation between the tracks
 f | mu_ratio_eq_16 | - | mu_ratio by eq. 16 of Zhang et al. 2019
 f | theta_2 | - | theta_2 of that equation
 f | theta_2_outside | | what lies outside of its range
-sp | mu | - | coefficient of friction of the rough contact
-sp | mu_smooth | - | coefficient of friction of the smooth contact
-sp | mu_note | | what mu leaves out
-sp | flash_temperature_K | K | rise of temperature that mu leaves out
+sp | mu | - | coefficient of friction of the rough contact, with heat where it counts
+sp | mu_smooth | - | coefficient of friction of the smooth contact, with heat where it counts
+sp | mu_isothermal | - | mu without heat
+sp | mu_smooth_isothermal | - | mu_smooth without heat
+sp | temperature_rise_max_K | K | largest mean rise across the film; rough: at the end of a run
+sp | temperature_rise_wall_1_max_K | K | the same of the surface of body 1
+sp | temperature_rise_wall_2_max_K | K | the same of the surface of body 2
+sp | mu_note | | what mu holds and leaves out
+sp | flash_temperature_K | K | largest rise of the surfaces by a formula (Tian & Kennedy), at mu
 sp | shear_rate_mean_per_s | 1/s | mean shear rate
 sp | shear_stress_max_Pa | Pa | largest shear stress
 s | rolling_moment | p_h a^3 | iint H/2 dP/dX of the smooth contact, which resists the rolling
 s | rolling_moment_N_m | N m | the same
-sp | shear_law | | law of the shear stress
+spt | shear_law | | law of the shear stress
 sp | slide_to_roll | - | (u1 - u2)/u
+t | residual_rms | - | root mean square of fitted less measured mu
+s | lubricant_note | | law with constants of an oil, its range, and whether the contact is beyond it
 s | inlet_viscosity_Pa_s | Pa s | viscosity of the inlet
 s | thermal_loading | - | loading parameter of shear heating
 spf | thermal_reduction | - | film over the isothermal one
 s | amplitude | a^2/R | amplitude A_i of a waviness, height or depth of a feature
 s | second_amplitude | a^2/R | that of the second surface
 s | amplitude_ratio | - | A_d/A_i at the centre
-s | surface_rms_m | m | rms height sigma that is solved, undeformed; composite of two surfaces
-s | surface_slope | - | rms slope of it
+sp | surface_rms_m | m | rms height sigma that is solved, undeformed; composite of two surfaces
+sp | surface_slope | - | rms slope of it
 s | variance_cut | - | share of the height's variance that was cut on purpose
 s | variance_left_out | - | share of it in waves that the grid does not carry
 s | variance_unresolved | - | share of it in waves that the grid does not resolve
@@ -186,12 +194,13 @@ p | tracks | - | tracks of the tile that mu_ratio_tracks is over
 p | film_below_zero_share | - | share of the contact where the film would be below zero
 p | film_breakdown | | where the film ends, and what would carry
 sp | surface_preparation | | what was done to a measured map
-s | second_surface_preparation | | the same of the second surface
+sp | second_surface_preparation | | the same of the second surface
 p | positions | - | positions of the tile over a passage
 p | position_error | - | relative error that they leave
 p | reduction | | how waves are flattened
 p | smooth | | the smooth contact of the model
 pr | velocity_ratio | - | velocity of the rough surface over the mean one
+p | second_velocity_ratio | - | that of the second surface
 p | wavelength_convention | | what the wavelength of a component is
 p | stiffness | | stiffness of the half-space
 p | viscosity_law | | viscosity under pressure
@@ -203,8 +212,26 @@ p | pixels | - | pixels of the tile along x and y
 p | length_x_m | m | size of the tile along x
 p | length_y_m | m | size of the tile along y
 pf | rms_height_m | m | rms height sigma of the undeformed roughness
+p | film_limit_m | m | film of which the share below is told
+p | film_below_limit_share | - | mean share of the contact with a film below it
+p | film_below_limit_error | - | estimate of its error
+p | h_min_rough_error_m | m | error of h_min_rough_m by the response, beside that of the smooth film
 p | rms_deformed_m | m | rms height of the deformed roughness
-p | rms_pressure_Pa | Pa | rms of the pressure change
+p | rms_deformed_error_m | m | estimate of its error
+p | lambda_ratio_deformed | - | h_min/rms_deformed_m: smooth contact, deformed surface
+p | lambda_ratio_deformed_error | - | estimate of its error
+p | rms_pressure_Pa | Pa | rms of the pressure change at the centre
+p | rms_pressure_error_Pa | Pa | estimate of its error
+p | p_rise_max_Pa | Pa | largest rise of the pressure over a passage, within 0.8 a of the centre
+p | p_rise_max_error_Pa | Pa | estimate of its error
+p | second_surface | | the second surface in words
+p | second_seed | - | its seed
+p | second_pixels | - | its pixels along x and y
+p | second_length_x_m | m | size of its tile along x
+p | second_length_y_m | m | size of its tile along y
+p | second_rms_height_m | m | its rms height, undeformed
+p | second_rms_deformed_m | m | rms height of its deformed roughness
+p | second_rms_pressure_Pa | Pa | rms of the pressure change by it
 sp | lambda_ratio | - | h_min/sigma: smooth contact, undeformed surface
 spf | lambda_ratio_central | - | h_c/sigma: smooth contact, undeformed surface
 p | cavitated_share | - | share of the contact where the pressure would be negative

@@ -163,14 +163,15 @@ class Solver(SolverHandle):
         own = gather(case.resolve(), heights, tiles)
         # how maps became tiles, by group
         self.preparations: dict[str, Record] = own.preparations
-        whole = bool(heights) or own.part is None
-        self._predictions = Predictions(case, own.part, whole=whole)
+        whole = bool(heights) or not own.parts
+        self._predictions = Predictions(case, own.parts, whole=whole)
         text = case.with_options(*own.options).text if own.options else case.text
         super().__init__(text, *own.heights)
 
     def take_preparation(self, group: str, made: SolverSurface) -> None:
         """Take how the surface of a group was prepared, which came as heights of an earlier run."""
-        self._predictions = Predictions(self._case, made.part, whole=made.part is None)
+        parts = {} if made.part is None else {group: made.part}
+        self._predictions = Predictions(self._case, parts, whole=not parts)
         if made.preparation:
             self.preparations[group] = made.preparation
 

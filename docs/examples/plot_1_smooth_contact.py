@@ -12,7 +12,7 @@ import matplotlib.pyplot as plt
 
 import pyehl
 from pyehl.plots import contact
-from pyehl.plots.figures import headline
+from pyehl.plots.panels import headline
 
 ds = pyehl.solve("../../cases/quick.nml")
 ds.attrs["status"], float(ds.H_c), float(ds.H_min)

@@ -12,7 +12,8 @@ import numpy as np
 
 import pyehl
 from pyehl.plots import contact, transient
-from pyehl.plots.figures import headline, solution_figures
+from pyehl.plots.figures import solution_figures
+from pyehl.plots.panels import headline
 
 ds = pyehl.solve(
     "../../cases/quick.nml",

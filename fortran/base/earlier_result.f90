@@ -24,10 +24,11 @@ module ehl_earlier_result
    end type found_t
 
    character(len=*), parameter :: summary = "summary.json"
-   !> What pictures and exports say of themselves, and how their names end
+   !> What pictures, exports and reports say of themselves, and how their names end
    character(len=*), parameter :: marks(*) = [character(len=40) :: "pyehl plot: replaced when made again", &
-                                              "pyehl export: replaced when made again"]
-   character(len=*), parameter :: endings(*) = [character(len=4) :: ".png", ".pdf", ".svg", ".gif", ".mp4", ".nc"]
+                                              "pyehl export: replaced when made again", &
+                                              "pyehl report: replaced when made again"]
+   character(len=*), parameter :: endings(*) = [character(len=5) :: ".png", ".pdf", ".svg", ".gif", ".mp4", ".nc", ".html"]
    !> Bytes of the longest summary
    integer, parameter :: longest = 16*1024**2
 

@@ -12,14 +12,17 @@ module ehl_f2py_functions
    use ehl_destination, only: destination_t
    use ehl_grid, only: grid_t
    use ehl_handles, only: reply
+   use ehl_heated_friction, only: heat_film, heated_t
    use ehl_kinds, only: pi
+   use ehl_lubricant, only: lubricant_t
    use ehl_memory, only: check_memory, free_bytes
+   use ehl_plan_heat, only: heat_plan_t, plan_given
    use ehl_result_folder, only: result_names
    use ehl_status, only: status_t
    use ehl_version, only: build_text, version
    implicit none (type, external)
    private
-   public :: resolve, checkpoint_case, place, needs_memory, memory_left, keys, about, deflection
+   public :: resolve, checkpoint_case, place, needs_memory, memory_left, keys, about, deflection, heated
 
 contains
 
@@ -159,4 +162,42 @@ contains
       end if
       call reply(status, stat, message)
    end subroutine deflection
+
+   !> Friction with heat over that without it (NaN: not known), and the greatest rises of temperature of film and walls [K],
+   !> of the contact of a case with the pressure and the film p, h(nx, ny), the first node at (x0, y0); mirror: the rows are
+   !> those of Y >= 0. Whether the heat counts, and what a coefficient of friction is then.
+   subroutine heated(text, nx, ny, p, h, x0, y0, hx, hy, mirror, counts, ratio, rises, note, stat, message)
+      character(len=*), intent(in) :: text
+      integer(c_int), intent(in) :: nx, ny
+      real(c_double), intent(inout) :: p(nx, ny), h(nx, ny)
+      real(c_double), intent(in) :: x0, y0, hx, hy
+      integer(c_int), intent(in) :: mirror
+      integer(c_int), intent(out) :: counts, stat
+      real(c_double), intent(out) :: ratio, rises(3)
+      character(len=256), intent(out) :: note
+      character(len=4096), intent(out) :: message
+      type(case_t), target :: input
+      type(heat_plan_t) :: plan
+      type(lubricant_t) :: lubricant
+      type(heated_t) :: found
+      type(status_t) :: status
+
+      counts = 0
+      ratio = 1.0_c_double
+      rises = 0.0_c_double
+      note = ""
+      call read_case(text, "the contact of a prediction", "", input, status)
+      if (.not. status%failed()) call plan_given(input, plan, lubricant, status)
+      if (.not. status%failed()) then
+         note = plan%note
+         if (plan%counts) then
+            counts = 1
+            call heat_film(plan%film, grid_t(nx=nx, ny=ny, x0=x0, y0=y0, hx=hx, hy=hy, mirror=mirror /= 0), lubricant, p, h, &
+                           .false., 1, found)
+            ratio = found%ratio()
+            rises = found%greatest
+         end if
+      end if
+      call reply(status, stat, message)
+   end subroutine heated
 end module ehl_f2py_functions

@@ -4,7 +4,7 @@ module ehl_case
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: case_t, surface_case_t, is_feature, word_length, path_length
+   public :: case_t, lubricant_case_t, surface_case_t, is_feature, word_length, path_length
 
    !> Longest option word
    integer, parameter :: word_length = 32
@@ -39,6 +39,9 @@ module ehl_case
       !> Of bearing steel
       real(dp) :: thermal_conductivity = 46.0_dp
       real(dp) :: thermal_diffusivity = 1.25e-5_dp
+      !> Of body 2
+      real(dp) :: thermal_conductivity_2 = 0.0_dp
+      real(dp) :: thermal_diffusivity_2 = 0.0_dp
    end type contact_case_t
 
    !> &bodies: what makes the reduced radii and the reduced modulus; it rules where one of its keys is given
@@ -53,13 +56,24 @@ module ehl_case
 
    !> &lubricant: viscosity and density under pressure, shear stress, temperature
    type :: lubricant_case_t
+      !> An oil whose constants are known; they rule where their keys are not given
+      character(len=word_length) :: name = ""
+      !> Measured viscosities; made absolute by the reader
+      character(len=path_length) :: table = ""
       real(dp) :: viscosity = 0.04_dp
       real(dp) :: pressure_viscosity = 2.2e-8_dp
       character(len=word_length) :: viscosity_law = "roelands"
       !> Set by the reader
       real(dp) :: roelands_z = 0.0_dp
       real(dp) :: roelands_p0 = 1.96e8_dp
+      real(dp) :: vogel_viscosity = 0.0_dp, vogel_b = 0.0_dp, vogel_c = 0.0_dp
+      real(dp) :: dicke_a1 = 0.0_dp, dicke_a2 = 0.0_dp, dicke_b1 = 0.0_dp, dicke_b2 = 0.0_dp
+      real(dp) :: yasutomi_tg0 = 0.0_dp, yasutomi_a1 = 0.0_dp, yasutomi_a2 = 0.0_dp, yasutomi_b1 = 0.0_dp, &
+                  yasutomi_b2 = 0.0_dp, yasutomi_c1 = 0.0_dp, yasutomi_c2 = 0.0_dp, yasutomi_viscosity = 1.0e12_dp
       character(len=word_length) :: density_law = "dowson-higginson"
+      real(dp) :: murnaghan_modulus = 0.0_dp, murnaghan_rate = 0.0_dp, murnaghan_softening = 0.0_dp
+      !> Where the constants of the laws were measured; all 0: not known
+      real(dp) :: range_temperature_min = 0.0_dp, range_temperature_max = 0.0_dp, range_pressure_max = 0.0_dp
       character(len=word_length) :: shear_law = "newtonian"
       character(len=word_length) :: flow = "consistent"
       real(dp) :: eyring_stress = 5.0e6_dp
@@ -76,6 +90,7 @@ module ehl_case
       !> Set by the reader where there is a data sheet
       real(dp) :: temperature_viscosity = 0.0_dp
       real(dp) :: thermal_conductivity = 0.14_dp
+      character(len=word_length) :: thermal_friction = "auto"
    end type lubricant_case_t
 
    !> &grid: the domain in Hertz radii a and its finest grid; all but points, target_error and max_points set by the
@@ -122,6 +137,7 @@ module ehl_case
       real(dp) :: crop_x_max = 0.0_dp
       real(dp) :: crop_y_min = 0.0_dp
       real(dp) :: crop_y_max = 0.0_dp
+      character(len=word_length) :: height_unit = "m"
       integer :: sign = 1
       real(dp) :: outliers = 0.0_dp
       character(len=word_length) :: fill = "harmonic"
@@ -167,7 +183,7 @@ module ehl_case
 
    !> &psd: the friction prediction from the surface spectrum, made by pyehl alone
    type :: psd_case_t
-      real(dp) :: film_thickness = 0.0_dp
+      real(dp) :: film_thickness = 0.0_dp, film_limit = 0.0_dp
       character(len=word_length) :: reduction = "response"
       character(len=word_length) :: smooth = "solved"
       character(len=word_length) :: wavelength_convention = "components"

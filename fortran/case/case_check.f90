@@ -6,6 +6,7 @@ module ehl_case_check
    use ehl_case_contact, only: check_contact_kind, check_extent, check_operating_point, complete_domain, &
                                complete_kinematics
    use ehl_case_lubricant, only: check_shear_law, complete_lubricant
+   use ehl_case_oil, only: check_law, complete_law, complete_oil
    use ehl_case_radii, only: complete_radii
    use ehl_case_surface, only: check_surfaces, complete_surfaces
    use ehl_case_temperature, only: check_heat, complete_viscosity
@@ -31,12 +32,15 @@ contains
 
       call check_contact_kind(schema, input, sources, status)
       call complete_radii(schema, input, sources, status)
+      if (.not. status%failed()) call complete_oil(schema, input, sources, status)
       if (.not. status%failed()) call complete_viscosity(schema, input, sources, status)
+      if (.not. status%failed()) call complete_law(schema, input, sources, status)
       if (.not. status%failed()) call check_operating_point(schema, input, sources, status)
       if (.not. status%failed()) call complete_domain(schema, input)
       if (.not. status%failed()) call check_extent(schema, input, sources, status)
       if (.not. status%failed()) call complete_kinematics(schema, input, sources, status)
       if (.not. status%failed()) call complete_lubricant(schema, input, sources, status)
+      if (.not. status%failed()) call check_law(schema, input, sources, status)
       if (.not. status%failed()) call check_shear_law(schema, input, sources, status)
       if (.not. status%failed()) call check_heat(schema, input, sources, status)
       if (.not. status%failed()) call check_points(schema, input, sources, status)
@@ -50,11 +54,13 @@ contains
       type(schema_t), intent(in) :: schema
       type(case_t), intent(inout) :: input
       type(source_t), intent(in) :: sources(:)
-      type(status_t) :: ignored(5)
+      type(status_t) :: ignored(7)
 
       call check_contact_kind(schema, input, sources, ignored(1))
       call complete_radii(schema, input, sources, ignored(5))
+      call complete_oil(schema, input, sources, ignored(6))
       call complete_viscosity(schema, input, sources, ignored(2))
+      call complete_law(schema, input, sources, ignored(7))
       call complete_domain(schema, input)
       call complete_kinematics(schema, input, sources, ignored(3))
       call complete_lubricant(schema, input, sources, ignored(4))

@@ -37,6 +37,11 @@ contains
             end associate
          end if
          if (input%psd%viscosity_law == "") input%psd%viscosity_law = l%viscosity_law
+         if (all(input%psd%viscosity_law /= [character(len=32) :: "roelands", "barus", l%viscosity_law])) then
+            call refuse(schema, sources, "psd", "viscosity_law", "psd.viscosity_law = '" // trim(input%psd%viscosity_law) &
+                        // "' with lubricant.viscosity_law = '" // trim(l%viscosity_law) // "'", &
+                        "'roelands', 'barus' or that of the lubricant", status)
+         end if
       end associate
    end subroutine complete_lubricant
 

@@ -20,6 +20,8 @@ contains
       type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
       character(len=8), parameter :: names(2) = ["radius_x", "radius_y"]
+      character(len=9), parameter :: bodies(4) = ["radius_y1", "radius_y2", "radius_x1", "radius_x2"]
+      character(len=9) :: group, name
       integer :: one
 
       associate (c => input%contact)
@@ -44,7 +46,16 @@ contains
          c%radius_ratio = c%radius_x/c%radius_y
          associate (key => schema%keys(schema%find("contact", "radius_ratio")))
             if (key%allows(c%radius_ratio)) return
-            call refuse(schema, sources, "contact", "radius_y", "radius_x/radius_y is "//short(c%radius_ratio), &
+            group = "contact"
+            name = "radius_y"
+            if (input%bodies%given) then
+               group = "bodies"
+               name = bodies(1)
+               do one = size(bodies), 1, -1
+                  if (schema%given("bodies", bodies(one))) name = bodies(one)
+               end do
+            end if
+            call refuse(schema, sources, trim(group), trim(name), "radius_x/radius_y is "//short(c%radius_ratio), &
                         "a ratio in "//trim(key%allowed)//", an ellipse of at most 30 to 1", status)
          end associate
       end associate

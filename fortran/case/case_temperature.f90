@@ -3,6 +3,7 @@
 module ehl_case_temperature
    use ehl_case, only: case_t
    use ehl_case_contact, only: find_contact
+   use ehl_case_law, only: own_law
    use ehl_contact, only: contact_t
    use ehl_heat, only: dynamic_viscosity, temperature_viscosity, thermal_loading, thermal_reduction
    use ehl_kinds, only: dp
@@ -39,9 +40,13 @@ contains
       if (all(sheet <= 0.0_dp)) then
          do k = 1, size(sheet_keys)
             if (.not. schema%given("lubricant", trim(sheet_keys(k)))) cycle
+            ! temperature and expansion serve the laws of viscosity and density under temperature as well
+            if (own_law(input%lubricant) /= "") cycle
+            if (sheet_keys(k) /= "density_15" .and. input%lubricant%temperature_viscosity > 0.0_dp) cycle
             call refuse(schema, sources, "lubricant", trim(sheet_keys(k)), "lubricant." // trim(sheet_keys(k)) &
                         // " without the viscosities of the data sheet", "kinematic_viscosity_40 and " &
-                        // "kinematic_viscosity_100 beside it, or viscosity at the inlet temperature alone", status)
+                        // "kinematic_viscosity_100 beside it, temperature_viscosity, or viscosity at the inlet temperature " &
+                        // "alone", status)
             return
          end do
          return
@@ -87,7 +92,8 @@ contains
       real(dp) :: loading, reduction
 
       associate (l => input%lubricant, c => input%contact)
-         if (.not. l%thermal_reduction) return
+         if (l%thermal_friction == "always") call check_friction(schema, input, sources, status)
+         if (status%failed() .or. .not. l%thermal_reduction) return
          if (.not. c%si) then
             call refuse(schema, sources, "lubricant", "thermal_reduction", "lubricant.thermal_reduction with a contact " &
                         // "given by moes_m and moes_l, which has no velocity in m/s", &
@@ -96,7 +102,7 @@ contains
          else if (.not. l%temperature_viscosity > 0.0_dp) then
             call refuse(schema, sources, "lubricant", "thermal_reduction", "lubricant.thermal_reduction, and nothing " &
                         // "tells how the viscosity falls with temperature", &
-                        "temperature_viscosity, or kinematic_viscosity_40 and kinematic_viscosity_100", status)
+                        "temperature_viscosity, or kinematic_viscosity_40 and kinematic_viscosity_100, or name", status)
             return
          end if
          call find_contact(input, contact, scales, point)
@@ -108,4 +114,22 @@ contains
                      // short(loading), "a slower contact, or .false.", status)
       end associate
    end subroutine check_heat
+
+   !> What the temperature of the film needs that friction is always to be computed with
+   subroutine check_friction(schema, input, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(in) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+
+      if (.not. input%contact%si) then
+         call refuse(schema, sources, "lubricant", "thermal_friction", "lubricant.thermal_friction = 'always' with a contact " &
+                     // "given by moes_m and moes_l, which has no sliding speed in m/s", &
+                     "load, mean_velocity, radius and reduced_modulus, or 'auto'", status)
+      else if (.not. input%lubricant%temperature_viscosity > 0.0_dp) then
+         call refuse(schema, sources, "lubricant", "thermal_friction", "lubricant.thermal_friction = 'always', and nothing " &
+                     // "tells how the viscosity falls with temperature", &
+                     "temperature_viscosity, or kinematic_viscosity_40 and kinematic_viscosity_100, or 'auto'", status)
+      end if
+   end subroutine check_friction
 end module ehl_case_temperature

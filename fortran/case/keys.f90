@@ -4,6 +4,7 @@
 module ehl_keys
    use ehl_case, only: case_t, surface_case_t
    use ehl_case_key, only: kind_path, kind_text
+   use ehl_oils, only: oil_names
    use ehl_schema, only: schema_t
    implicit none (type, external)
    private
@@ -36,9 +37,13 @@ contains
                          "slide-to-roll ratio (u1 - u2)/u; follows from a given velocity_ratio of a surface")
          call self%integers("rough_surface", c%rough_surface, "[1, 2]", "body with &surface; the other has &second_surface")
          call self%reals("thermal_conductivity", c%thermal_conductivity, "W/(m K)", "[0.1, 500]", &
-                         "thermal conductivity of the solids, for the flash temperature")
+                         "thermal conductivity of the solids, for the heat of friction")
          call self%reals("thermal_diffusivity", c%thermal_diffusivity, "m^2/s", "[1e-8, 1e-3]", &
-                         "thermal diffusivity of the solids, for the flash temperature")
+                         "thermal diffusivity of the solids, for the heat of friction")
+         call self%reals("thermal_conductivity_2", c%thermal_conductivity_2, "W/(m K)", "0 or [0.1, 500]", &
+                         "that of body 2; 0: thermal_conductivity")
+         call self%reals("thermal_diffusivity_2", c%thermal_diffusivity_2, "m^2/s", "0 or [1e-8, 1e-3]", &
+                         "that of body 2; 0: thermal_diffusivity")
       end associate
       self%group = "bodies"
       associate (b => input%bodies)
@@ -54,14 +59,45 @@ contains
       end associate
       self%group = "lubricant"
       associate (l => input%lubricant)
+         call self%words("name", l%name, oil_words(), &
+                         "an oil whose constants are known ('pyehl lubricants'); keys given beside it rule")
+         call self%texts("table", l%table, kind_path, "measured viscosities over pressure and temperature: CSV")
          call self%reals("viscosity", l%viscosity, "Pa s", "[1e-4, 10]", "viscosity at ambient pressure")
          call self%reals("pressure_viscosity", l%pressure_viscosity, "1/Pa", "[1e-10, 1e-7]", &
                          "pressure-viscosity coefficient")
-         call self%words("viscosity_law", l%viscosity_law, "roelands|barus", "viscosity under pressure")
+         call self%words("viscosity_law", l%viscosity_law, "roelands|barus|dicke|yasutomi|table", &
+                         "viscosity under pressure; default that of name or table")
          call self%reals("roelands_z", l%roelands_z, "-", "[0.05, 2]", &
                          "Roelands exponent; default alpha p0/(ln eta0 + 9.67)")
          call self%reals("roelands_p0", l%roelands_p0, "Pa", "[1e7, 1e10]", "Roelands reference pressure")
-         call self%words("density_law", l%density_law, "dowson-higginson|incompressible", "density under pressure")
+         call self%reals("vogel_viscosity", l%vogel_viscosity, "Pa s", "0 or [1e-9, 1]", &
+                         "K of eta = K exp(B/(theta + C)), for dicke")
+         call self%reals("vogel_b", l%vogel_b, "K", "[0, 1e4]", "B of it")
+         call self%reals("vogel_c", l%vogel_c, "degC", "[-100, 300]", "C of it")
+         call self%reals("dicke_a1", l%dicke_a1, "Pa", "[-1e10, 1e10]", &
+                         "a1 of ln(eta/eta0) = p/(a1 + a2 theta + (b1 + b2 theta) p), theta in degC")
+         call self%reals("dicke_a2", l%dicke_a2, "Pa/K", "[-1e8, 1e8]", "a2 of it")
+         call self%reals("dicke_b1", l%dicke_b1, "-", "[-1, 1]", "b1 of it")
+         call self%reals("dicke_b2", l%dicke_b2, "1/K", "[-0.01, 0.01]", "b2 of it")
+         call self%reals("yasutomi_tg0", l%yasutomi_tg0, "degC", "[-200, 100]", &
+                         "glass temperature at ambient pressure, of the improved Yasutomi correlation")
+         call self%reals("yasutomi_a1", l%yasutomi_a1, "K", "[0, 1e4]", "A1 of it")
+         call self%reals("yasutomi_a2", l%yasutomi_a2, "1/Pa", "[0, 1e-7]", "A2 of it")
+         call self%reals("yasutomi_b1", l%yasutomi_b1, "1/Pa", "[0, 1e-6]", "b1 of it")
+         call self%reals("yasutomi_b2", l%yasutomi_b2, "-", "[-2, 0]", "b2 of it")
+         call self%reals("yasutomi_c1", l%yasutomi_c1, "-", "0 or [1, 100]", "C1 of it")
+         call self%reals("yasutomi_c2", l%yasutomi_c2, "K", "0 or [1, 500]", "C2 of it")
+         call self%reals("yasutomi_viscosity", l%yasutomi_viscosity, "Pa s", "[1e3, 1e15]", "viscosity of the glass")
+         call self%words("density_law", l%density_law, "dowson-higginson|incompressible|murnaghan", "density under pressure")
+         call self%reals("murnaghan_modulus", l%murnaghan_modulus, "Pa", "0 or [1e8, 1e12]", &
+                         "K00 of the bulk modulus K0 = K00 exp(-beta_K T), T in K")
+         call self%reals("murnaghan_rate", l%murnaghan_rate, "-", "0 or [1, 50]", "K0', its rate with pressure")
+         call self%reals("murnaghan_softening", l%murnaghan_softening, "1/K", "[0, 0.1]", "beta_K of it")
+         call self%reals("range_temperature_min", l%range_temperature_min, "degC", "[-100, 500]", &
+                         "the constants of the law were measured from there on; both 0: not known")
+         call self%reals("range_temperature_max", l%range_temperature_max, "degC", "[-100, 500]", "and up to there")
+         call self%reals("range_pressure_max", l%range_pressure_max, "Pa", "0 or [1e5, 1e11]", &
+                         "and up to this pressure; 0: not known")
          call self%words("shear_law", l%shear_law, "newtonian|eyring|limiting|carreau", &
                          "shear stress in the contact")
          call self%words("flow", l%flow, "consistent|newtonian", &
@@ -76,7 +112,7 @@ contains
          call self%reals("carreau_exponent", l%carreau_exponent, "-", "0 or [0.05, 1]", &
                          "power-law exponent n of Carreau; no default")
          call self%reals("temperature", l%temperature, "degC", "[-60, 250]", &
-                         "temperature of the inlet; needs the kinematic viscosities")
+                         "temperature of the inlet; needs what tells the viscosity by temperature")
          call self%reals("kinematic_viscosity_40", l%kinematic_viscosity_40, "mm^2/s", "0 or [1, 1e5]", &
                          "at 40 degC, as on data sheets; viscosity then follows. 0: not known")
          call self%reals("kinematic_viscosity_100", l%kinematic_viscosity_100, "mm^2/s", "0 or [0.5, 1e4]", &
@@ -89,7 +125,9 @@ contains
          call self%reals("temperature_viscosity", l%temperature_viscosity, "1/K", "0 or [1e-3, 0.3]", &
                          "-(d eta/dT)/eta; default from the kinematic viscosities, 0: not known")
          call self%reals("thermal_conductivity", l%thermal_conductivity, "W/(m K)", "[0.01, 2]", &
-                         "thermal conductivity of the oil, for thermal_reduction")
+                         "thermal conductivity of the oil, for its heat")
+         call self%words("thermal_friction", l%thermal_friction, "auto|always|never", &
+                         "friction with the temperature of the film; auto: where it counts and temperature_viscosity is known")
       end associate
       self%group = "grid"
       associate (g => input%grid)
@@ -148,10 +186,12 @@ contains
                          "smooth contact: solved, or semi-ellipse and uniform film as in the paper")
          call self%reals("film_thickness", p%film_thickness, "m", "[0, 1e-3]", &
                          "central film; 0: solved, or with smooth = 'hertz' from the Nijenbanning-Venner-Moes formula")
+         call self%reals("film_limit", p%film_limit, "m", "[0, 1e-3]", &
+                         "film below which the share of the contact is told; 0: none")
          call self%words("wavelength_convention", p%wavelength_convention, "components|wavevector|pattern", &
                          "what the wavelength of a component is, for reduction = 'amplitude'")
          call self%words("stiffness", p%stiffness, "exact|paper", "stiffness of the half-space")
-         call self%words("viscosity_law", p%viscosity_law, "roelands|barus|", &
+         call self%words("viscosity_law", p%viscosity_law, "roelands|barus|dicke|yasutomi|table|", &
                          "viscosity under pressure; default as in &lubricant")
          call self%logicals("load_balance", p%load_balance, "rebalance the pressure to carry the load")
          call self%integers("positions", p%positions, "[0, 4096]", &
@@ -167,6 +207,17 @@ contains
       end associate
       self%keys = self%keys(:self%n)
    end subroutine bind_keys
+
+   !> Names of oils as choices, with none as the last one
+   pure function oil_words() result(words)
+      character(len=:), allocatable :: words
+      integer :: k
+
+      words = ""
+      do k = 1, size(oil_names)
+         words = words//trim(oil_names(k))//"|"
+      end do
+   end function oil_words
 
    !> A surface, in the group that is set
    subroutine add_surface_keys(self, s)
@@ -202,6 +253,8 @@ contains
                       "size of the map along X; 0: that of the file; fractal: 8.29e-4")
       call self%reals("length_y", s%length_y, "m", "0 or [1e-9, 1]", &
                       "size of the map along Y; 0: that of the file; fractal: 8.29e-4")
+      call self%words("height_unit", s%height_unit, "m|mm|um|nm", &
+                      "unit of the heights of a map that names none (.npy, text), and of the places in a list x y z")
       call self%reals("crop_x_min", s%crop_x_min, "m", "[0, 1]", "the map begins there along X")
       call self%reals("crop_x_max", s%crop_x_max, "m", "[0, 1]", "the map ends there; 0: at its end")
       call self%reals("crop_y_min", s%crop_y_min, "m", "[0, 1]", "the map begins there along Y")

@@ -5,7 +5,7 @@ module ehl_heat
    implicit none (type, external)
    private
    public :: kinematic_viscosity, dynamic_viscosity, temperature_viscosity, thermal_loading, thermal_reduction, &
-             flash_temperature
+             flash_temperature, freezing, sheet_density
 
    !> 0 degC in kelvin, and the temperatures of data sheets [degC]
    real(dp), parameter :: freezing = 273.15_dp, sheet(2) = [40.0_dp, 100.0_dp], sheet_density = 15.0_dp
@@ -64,16 +64,16 @@ contains
                           /(1.0_dp + 0.213_dp*(1.0_dp + 2.23_dp*abs(slide_to_roll)**0.83_dp)*loading**0.64_dp)
    end function thermal_reduction
 
-   !> Greatest temperature rise [K] of two surfaces of one material that move at `speeds` [m/s] through the heat of a
-   !> Hertz contact, semi-elliptic over its circle: Tian & Kennedy 1994, J. Tribol. 116, 167, for one surface; the heat
+   !> Greatest temperature rise [K] of two surfaces that move at `speeds` [m/s] through the heat of a Hertz contact,
+   !> semi-elliptic over its circle: Tian & Kennedy 1994, J. Tribol. 116, 167, for one surface; the heat
    !> is shared so that both become as hot (Blok 1937)
    pure real(dp) function flash_temperature(flux, radius, speeds, conductivity, diffusivity)
       !> Mean heat flux [W/m^2], Hertz radius [m], of the solids: conductivity [W/(m K)], diffusivity [m^2/s]
-      real(dp), intent(in) :: flux, radius, speeds(2), conductivity, diffusivity
+      real(dp), intent(in) :: flux, radius, speeds(2), conductivity(2), diffusivity(2)
       real(dp) :: peclet(2)
 
       peclet = abs(speeds)*radius/(2.0_dp*diffusivity)
       ! each surface by itself would have 2.32 flux radius/(k sqrt(pi (1.234 + Pe)))
-      flash_temperature = 2.32_dp*flux*radius/(conductivity*sum(sqrt(pi*(1.234_dp + peclet))))
+      flash_temperature = 2.32_dp*flux*radius/sum(conductivity*sqrt(pi*(1.234_dp + peclet)))
    end function flash_temperature
 end module ehl_heat

@@ -1,9 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Viscosity and density of the lubricant as functions of pressure, row by row so that the
-!> choice of law is made once per row and the loops vectorise
+!> The lubricant: viscosity and density under pressure and temperature, and shear stress
 module ehl_lubricant
+   use ehl_barus, only: barus_t
+   use ehl_density_law, only: density_law_t
    use ehl_kinds, only: dp
+   use ehl_roelands, only: new_roelands
    use ehl_shear, only: shear_law_t
+   use ehl_simple_density, only: incompressible_t, new_dowson_higginson
+   use ehl_viscosity_law, only: viscosity_law_t
    implicit none (type, external)
    private
    public :: lubricant_t, new_lubricant
@@ -12,92 +16,84 @@ module ehl_lubricant
    integer, parameter :: viscosity_barus = 1, viscosity_roelands = 2
    integer, parameter :: density_constant = 1, density_dowson_higginson = 2
 
-   !> Pressure [Pa] and stiffening of the Dowson-Higginson density
-   real(dp), parameter :: dowson_pressure = 5.9e8_dp, dowson_limit = 1.34_dp
-
    !> Lubricant in Hertz units: pressures are scaled by p_h, viscosity by eta0, density by rho0
    type :: lubricant_t
-      integer :: viscosity_law = viscosity_roelands
-      integer :: density_law = density_dowson_higginson
-      !> alpha p_h
-      real(dp) :: alpha_bar = 0.0_dp
-      !> Roelands exponent z, reference pressure p0/p_h and prefactor alpha p0/z
-      real(dp) :: z = 0.0_dp, p0 = 1.0_dp, prefactor = 0.0_dp
-      !> Dowson-Higginson pressure 5.9e8 Pa/p_h
-      real(dp) :: d0 = 1.0_dp
-      !> Shear stress, for friction alone
+      class(viscosity_law_t), allocatable :: viscosity
+      class(density_law_t), allocatable :: compression
+      !> Shear stress
       type(shear_law_t) :: shear
    contains
       procedure :: log_viscosity
+      procedure :: log_viscosity_at
       procedure :: density
+      procedure :: density_at
    end type lubricant_t
 
 contains
 
-   !> Lubricant for a contact
-   pure function new_lubricant(viscosity_law, density_law, alpha_bar, hertz_pressure, z, &
-                               roelands_p0) result(lubricant)
+   !> Lubricant for a contact, with laws that need no constants of an oil but alpha and beta
+   function new_lubricant(viscosity_law, density_law, alpha_bar, hertz_pressure, z, roelands_p0, beta, expansion, &
+                          temperature) result(lubricant)
       integer, intent(in) :: viscosity_law, density_law
+      !> alpha p_h
       real(dp), intent(in) :: alpha_bar
       !> Hertz pressure and Roelands reference pressure [Pa]; a Hertz pressure of 0 (L = 0)
       !> means a lubricant of constant viscosity and density
       real(dp), intent(in) :: hertz_pressure, roelands_p0
       real(dp), intent(in) :: z
+      !> beta = -(d eta/dT)/eta and thermal expansion [1/K], temperature of the inlet [K]; not given: the temperature
+      !> changes nothing
+      real(dp), intent(in), optional :: beta, expansion, temperature
       type(lubricant_t) :: lubricant
+      real(dp) :: with_beta, with_expansion, inlet
 
-      lubricant%alpha_bar = alpha_bar
-      lubricant%z = z
-      if (hertz_pressure <= 0.0_dp) then
-         lubricant%viscosity_law = viscosity_barus
-         lubricant%density_law = density_constant
-         return
+      with_beta = 0.0_dp
+      with_expansion = 0.0_dp
+      inlet = 313.15_dp
+      if (present(beta)) with_beta = beta
+      if (present(expansion)) with_expansion = expansion
+      if (present(temperature)) inlet = temperature
+      if (hertz_pressure > 0.0_dp .and. viscosity_law == viscosity_roelands) then
+         allocate (lubricant%viscosity, source=new_roelands(alpha_bar, roelands_p0/hertz_pressure, z, with_beta, inlet))
+      else
+         allocate (lubricant%viscosity, source=barus_t(alpha_bar=alpha_bar, beta=with_beta))
       end if
-      lubricant%viscosity_law = viscosity_law
-      lubricant%density_law = density_law
-      lubricant%p0 = roelands_p0/hertz_pressure
-      lubricant%prefactor = alpha_bar*lubricant%p0/z
-      lubricant%d0 = dowson_pressure/hertz_pressure
+      if (hertz_pressure > 0.0_dp .and. density_law == density_dowson_higginson) then
+         allocate (lubricant%compression, source=new_dowson_higginson(hertz_pressure, with_expansion))
+      else
+         allocate (lubricant%compression, source=incompressible_t(with_expansion))
+      end if
    end function new_lubricant
 
-   !> ln(eta/eta0) at pressures p, and its slope in P.
-   !> Roelands: (alpha p0/z) (-1 + (1 + p/p0)^z); Barus: alpha p
+   !> ln(eta/eta0) at pressures p and the temperature of the inlet, and its slope in P
    pure subroutine log_viscosity(self, p, values, slope)
       class(lubricant_t), intent(in) :: self
       real(dp), intent(in) :: p(:)
       real(dp), intent(out) :: values(:), slope(:)
-      real(dp) :: scale, power
-      integer :: i
-
-      if (self%viscosity_law == viscosity_barus) then
-         values = self%alpha_bar*p
-         slope = self%alpha_bar
-      else
-         scale = 1.0_dp/self%p0
-         do i = 1, size(p)
-            power = exp(self%z*log(1.0_dp + p(i)*scale))
-            values(i) = self%prefactor*(power - 1.0_dp)
-            slope(i) = self%alpha_bar*power/(1.0_dp + p(i)*scale)
-         end do
-      end if
+      call self%viscosity%log_viscosity(p, values, slope)
    end subroutine log_viscosity
 
-   !> Density rho/rho0 = (5.9e8 + 1.34 p)/(5.9e8 + p) at pressures p, and its slope in P
+   !> ln(eta/eta0) at pressures p and rises of temperature over that of the inlet [K]
+   pure subroutine log_viscosity_at(self, p, rise, values)
+      class(lubricant_t), intent(in) :: self
+      real(dp), intent(in) :: p(:), rise(:)
+      real(dp), intent(out) :: values(:)
+      call self%viscosity%log_viscosity_at(p, rise, values)
+   end subroutine log_viscosity_at
+
+   !> Density rho/rho0 at pressures p and the temperature of the inlet, and its slope in P
    pure subroutine density(self, p, rho, slope)
       class(lubricant_t), intent(in) :: self
       real(dp), intent(in) :: p(:)
       real(dp), intent(out) :: rho(:), slope(:)
-      real(dp) :: inverse
-      integer :: i
-
-      if (self%density_law == density_constant) then
-         rho = 1.0_dp
-         slope = 0.0_dp
-      else
-         do i = 1, size(p)
-            inverse = 1.0_dp/(self%d0 + p(i))
-            rho(i) = (self%d0 + dowson_limit*p(i))*inverse
-            slope(i) = (dowson_limit - 1.0_dp)*self%d0*inverse*inverse
-         end do
-      end if
+      call self%compression%density(p, rho, slope)
    end subroutine density
+
+   !> Density rho/rho0 at pressures p and rises of temperature over that of the inlet [K]
+   pure subroutine density_at(self, p, rise, rho)
+      class(lubricant_t), intent(in) :: self
+      real(dp), intent(in) :: p(:), rise(:)
+      real(dp), intent(out) :: rho(:)
+      call self%compression%density_at(p, rise, rho)
+   end subroutine density_at
 end module ehl_lubricant

@@ -21,15 +21,24 @@ module ehl_plan_friction
       real(dp) :: load = 0.0_dp
       !> [Pa] oils are not Newtonian above this stress
       real(dp) :: newtonian_limit = 0.0_dp
-      !> Of the solids: [W/(m K)], [m^2/s]
-      real(dp) :: conductivity = 0.0_dp, diffusivity = 0.0_dp
+      !> Of body 1 and of body 2: [W/(m K)], [m^2/s]
+      real(dp) :: conductivity(2) = 0.0_dp, diffusivity(2) = 0.0_dp
       !> Film over the isothermal one, 1 where shear heating of the inlet is left out; thermal loading
       real(dp) :: reduction = 1.0_dp, loading = 0.0_dp
       !> [Pa s] viscosity that makes the film: that of the warmer inlet
       real(dp) :: inlet_viscosity = 0.0_dp
+   contains
+      procedure :: speeds
    end type sliding_t
 
 contains
+
+   !> Speeds of the surfaces [m/s]
+   pure function speeds(self)
+      class(sliding_t), intent(in) :: self
+      real(dp) :: speeds(2)
+      speeds = self%mean_velocity*(1.0_dp + [0.5_dp, -0.5_dp]*self%slide_to_roll)
+   end function speeds
 
    !> Motion, load and heat of a case
    pure function plan_sliding(input, contact, scales) result(sliding)
@@ -41,8 +50,12 @@ contains
       sliding%law = input%lubricant%shear_law
       sliding%slide_to_roll = input%contact%slide_to_roll
       sliding%newtonian_limit = input%lubricant%eyring_stress
-      sliding%conductivity = input%contact%thermal_conductivity
-      sliding%diffusivity = input%contact%thermal_diffusivity
+      associate (c => input%contact)
+         sliding%conductivity = [c%thermal_conductivity, c%thermal_conductivity_2]
+         sliding%diffusivity = [c%thermal_diffusivity, c%thermal_diffusivity_2]
+      end associate
+      if (.not. sliding%conductivity(2) > 0.0_dp) sliding%conductivity(2) = sliding%conductivity(1)
+      if (.not. sliding%diffusivity(2) > 0.0_dp) sliding%diffusivity(2) = sliding%diffusivity(1)
       if (.not. input%contact%si) return
       associate (c => input%contact, l => input%lubricant)
          sliding%mean_velocity = c%mean_velocity

@@ -3,30 +3,59 @@
 module ehl_plan_lubricant
    use ehl_case, only: case_t
    use ehl_kinds, only: dp
-   use ehl_lubricant, only: density_constant, density_dowson_higginson, lubricant_t, new_lubricant, &
-                            viscosity_barus, viscosity_roelands
+   use ehl_case_law, only: make_lubricant, own_law
+   use ehl_lubricant, only: lubricant_t
    use ehl_moes, only: operating_t
    use ehl_scales, only: scales_t
    use ehl_shear, only: shear_carreau, shear_eyring, shear_law_t, shear_limiting
+   use ehl_status, only: status_t
+   use ehl_text, only: fixed, to_text
    implicit none (type, external)
    private
-   public :: plan_lubricant
+   public :: plan_lubricant, law_note
 
 contains
 
    !> Viscosity, density and shear law of a case at its operating point
-   pure function plan_lubricant(input, point, scales) result(lubricant)
+   subroutine plan_lubricant(input, point, scales, lubricant, status)
       type(case_t), intent(in) :: input
       type(operating_t), intent(in) :: point
       type(scales_t), intent(in) :: scales
-      type(lubricant_t) :: lubricant
+      type(lubricant_t), intent(out) :: lubricant
+      type(status_t), intent(inout) :: status
 
-      lubricant = new_lubricant( &
-                  merge(viscosity_barus, viscosity_roelands, input%lubricant%viscosity_law == "barus"), &
-                  merge(density_constant, density_dowson_higginson, input%lubricant%density_law == "incompressible"), &
-                  point%alpha_bar, scales%pressure, input%lubricant%roelands_z, input%lubricant%roelands_p0)
+      call make_lubricant(input%lubricant, point%alpha_bar, scales%pressure, lubricant, status)
       lubricant%shear = shear_of(input, scales)
-   end function plan_lubricant
+   end subroutine plan_lubricant
+
+   !> A law with constants of an oil in words, and whether they were measured at the temperature of the inlet and the Hertz
+   !> pressure; not allocated for other laws
+   subroutine law_note(input, scales, note)
+      type(case_t), intent(in) :: input
+      type(scales_t), intent(in) :: scales
+      character(len=:), allocatable, intent(out) :: note
+      character(len=:), allocatable :: from
+
+      associate (l => input%lubricant)
+         if (own_law(l) == "") return
+         from = trim(l%viscosity_law)//" viscosity"
+         if (l%name /= "") from = trim(l%name)//", "//from
+         note = from//" at "//to_text(l%temperature)//" degC: "//trim(fixed(l%viscosity, "es9.3"))//" Pa s, alpha = "// &
+                trim(fixed(l%pressure_viscosity, "es9.3"))//" 1/Pa; "
+         if (.not. l%range_temperature_max > l%range_temperature_min .and. .not. l%range_pressure_max > 0.0_dp) then
+            note = note//"the range of the measurements behind it is not known"
+            return
+         end if
+         note = note//"measured from "//to_text(l%range_temperature_min)//" to "//to_text(l%range_temperature_max)//" degC"
+         if (l%range_pressure_max > 0.0_dp) note = note//" and up to "//fixed(l%range_pressure_max, "es9.3")//" Pa"
+         if (l%temperature < l%range_temperature_min .or. l%temperature > l%range_temperature_max) then
+            note = note//", BEYOND in temperature"
+         end if
+         if (l%viscosity_law == own_law(l) .and. l%range_pressure_max > 0.0_dp .and. scales%pressure > l%range_pressure_max) then
+            note = note//", BEYOND in pressure: p_h = "//fixed(scales%pressure, "es9.3")//" Pa"
+         end if
+      end associate
+   end subroutine law_note
 
    !> Shear law; a contact given by its Moes numbers has no sliding speed and stays Newtonian
    pure function shear_of(input, scales) result(shear)

@@ -155,6 +155,8 @@ contains
          why = group//".rotate"
       else if (s%sign /= 1) then
          why = group//".sign"
+      else if (s%height_unit /= "m") then
+         why = group//".height_unit"
       else if (abs(s%track) > 0.0_dp) then
          why = group//".track"
       else if (index(s%file, ".npy", back=.true.) /= len_trim(s%file) - 3) then

@@ -4,7 +4,7 @@ module ehl_plan_text
    use ehl_cycle, only: coarsening_alcouffe, cycle_options_t
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
-   use ehl_plan, only: plan_t
+   use ehl_plan, only: plan_t, too_coarse
    use ehl_plan_need, only: need_lines
    use ehl_steady, only: largest_error
    use ehl_surface_text, only: scene_lines, wave_lines
@@ -30,6 +30,7 @@ contains
       if (plan%scales%has_size()) call add("           a = "//fixed(plan%scales%length, "es10.4")//" m, p_h = "// &
                                             fixed(plan%scales%pressure, "es10.4")//" Pa")
       if (.not. plan%contact%is_round()) call tell_ellipse()
+      if (allocated(plan%lubricant_note)) call add("lubricant  "//plan%lubricant_note)
       call tell_friction()
       if (plan%surfaces%rough()) then
          call add(scene_lines(plan%surfaces))
@@ -56,6 +57,7 @@ contains
          write (row, "(i5,i8,i16,f11.6,3x,a)") k, grid%nx, grid%nx*grid%ny, grid%hx, trim(use_of(k))
          call add(trim(row))
       end do
+      if (too_coarse(plan) /= "") call add("warning    "//too_coarse(plan))
 
    contains
 
@@ -86,6 +88,7 @@ contains
             if (s%mean_velocity > 0.0_dp) speed = " ("//fixed(abs(s%slide_to_roll)*s%mean_velocity, "es10.3")//" m/s)"
             call add("friction   "//trim(s%law)//" shear stress, slide-to-roll ratio "//fixed(s%slide_to_roll, "f8.4")// &
                      speed//"; "//flow)
+            call add("           coefficients are "//plan%heat%note)
             if (s%loading > 0.0_dp) call add("heat       shear heating of the inlet (Gupta et al. 1992): film times "// &
                fixed(s%reduction, "f7.4")//" by an inlet viscosity of "//fixed(s%inlet_viscosity, "es10.3")// &
                " Pa s, which M and L belong to")

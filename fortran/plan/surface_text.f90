@@ -25,7 +25,7 @@ contains
       do k = 1, surfaces%count()
          label = "scene      "
          if (surfaces%count() > 1) label = label//"&"//trim(surfaces%of(k)%group)//": "
-         text = text//label//surface_words(surfaces%of(k)%surface)//newline
+         text = text//label//surface_words(surfaces%of(k)%surface, surfaces%rest())//newline
       end do
       if (surfaces%count() > 1 .and. .not. (surfaces%rest() .or. surfaces%some_rest() .or. surfaces%pass_once())) then
          text = text//indent//meeting_words(surfaces)//newline
@@ -64,15 +64,18 @@ contains
    end function window_words
 
    !> A surface, what it is and how it moves
-   function surface_words(surface) result(text)
+   function surface_words(surface, steady) result(text)
       class(surface_t), intent(in) :: surface
-      character(len=:), allocatable :: text, velocity
+      !> Whether nothing moves: the contact is steady
+      logical, intent(in) :: steady
+      character(len=:), allocatable :: text, velocity, still
 
+      still = " at rest"//trim(merge(", steady", "        ", steady))//"; "
       velocity = ", velocity ratio "//fixed(surface%velocity_ratio, "f7.4")
       select type (surface)
       type is (feature_t)
          if (surface%at_rest()) then
-            text = feature_words(surface)//" at rest, steady; its centre at X = x_start = "//fixed(surface%x_start, "f8.4")
+            text = feature_words(surface)//still//"its centre at X = x_start = "//fixed(surface%x_start, "f8.4")
          else
             text = feature_words(surface)//" passes once"//velocity//", its centre at X = 0 at T = "// &
                    fixed((surface%reach - surface%x_start)/surface%velocity_ratio, "f7.4")
@@ -80,7 +83,7 @@ contains
          text = text//newline//indent//size_words(surface)
       class default
          if (surface%at_rest()) then
-            text = "roughness at rest, steady; period "//fixed(surface%period, "f6.3")// &
+            text = "roughness"//still//"period "//fixed(surface%period, "f6.3")// &
                    " a, it is everywhere, its origin at X = x_start = "//fixed(surface%x_start, "f8.4")
          else
             text = "roughness on the move, period "//fixed(surface%period, "f6.3")//" a"//velocity

@@ -23,6 +23,7 @@ contains
       none = "none: the run ended with the status '"//summary%text("status")//"'"
       if (.not. ieee_is_finite(summary%number("H_c"))) then
          text = "H_c        "//none
+         if (summary%text("H_c_error_note") /= "") text = text//newline//"           "//summary%text("H_c_error_note")
          return
       end if
       text = film("c", "")//newline//film("min", rough_film())

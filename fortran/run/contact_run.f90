@@ -5,9 +5,10 @@ module ehl_contact_run
    use ehl_clock, only: clock_t, start_clock
    use ehl_frames, only: frames_t
    use ehl_grid, only: grid_t
+   use ehl_heated_friction, only: heated_t
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
-   use ehl_outcome, only: outcome_converged, outcome_running
+   use ehl_outcome, only: outcome_converged, outcome_running, outcome_target_missed
    use ehl_plan, only: plan_t
    use ehl_plan_surface, only: check_carried
    use ehl_predicted_start, only: predicted_start_t
@@ -20,7 +21,6 @@ module ehl_contact_run
    implicit none (type, external)
    private
    public :: contact_run_t
-
    type :: contact_run_t
       type(plan_t) :: plan
       !> Finest grid reached so far
@@ -44,6 +44,8 @@ module ehl_contact_run
       !> Its separation
       real(dp) :: h00_smooth = 0.0_dp
       type(frames_t) :: frames
+      !> Heat of the smooth contact, and of the rough one at the end
+      type(heated_t) :: smooth_heat, rough_heat
       !> State on disk, and to go on from when the smooth contact is solved
       type(checkpoint_t) :: checkpoint
       !> Of the same run on the next coarser grid: its friction ratio, if it converged, and how it ended; outcome_running: it
@@ -58,6 +60,7 @@ module ehl_contact_run
       procedure :: begin_rough
       procedure :: level
       procedure :: mu_ratio
+      procedure :: heat_ratio
       procedure :: save
    end type contact_run_t
 
@@ -75,6 +78,27 @@ module ehl_contact_run
          class(contact_run_t), intent(inout) :: self
          type(status_t), intent(inout) :: status
       end subroutine begin_again
+   end interface
+
+   ! in contact_heat.f90
+   interface
+      !> Friction and temperature of the present contact on a level; the temperature at every node if it is to be kept
+      module subroutine add_heat(self, n, keep, found)
+         class(contact_run_t), intent(in) :: self
+         integer, intent(in) :: n
+         logical, intent(in) :: keep
+         type(heated_t), intent(out) :: found
+      end subroutine add_heat
+
+      !> Friction with heat over that without it after a step; NaN where it is not computed
+      module real(dp) function step_heat(self)
+         class(contact_run_t), intent(in) :: self
+      end function step_heat
+
+      !> The same of the rough contact of a run that has converged, over the time of its mean; NaN where it is not known
+      module real(dp) function heat_ratio(self)
+         class(contact_run_t), intent(in) :: self
+      end function heat_ratio
    end interface
 
 contains
@@ -107,6 +131,8 @@ contains
       else if (self%plan%surfaces%move()) then
          call self%history%init([character(len=16) :: "step", "T", "mu_ratio", "H_c", "H_min", "P_max", "load_error", &
                                  "cycles", "residual"])
+         if (self%plan%heat%counts) call self%history%init([character(len=16) :: "step", "T", "mu_ratio", "H_c", "H_min", &
+                                                            "P_max", "load_error", "cycles", "residual", "heat_ratio"])
       else
          call self%history%init([character(len=16) :: "level", "points", "cycle", "H_c", "H_min", "P_max", "F", &
                                  "load_error", "residual", "H_c_algebraic"])
@@ -138,6 +164,9 @@ contains
       if (status%failed()) return
       self%grid = self%hierarchy%levels(n)%grid
       if (.not. self%roughness_is_due()) self%outcome = self%steady%outcome
+      if (self%plan%heat%counts .and. any(self%steady%outcome == [outcome_converged, outcome_target_missed])) then
+        call add_heat(self, n, .not. self%plan%surfaces%rough(), self%smooth_heat)
+      end if
       if (self%plan%surfaces%rough()) return
       associate (result => self%steady%results(n))
          call self%history%append([real(dp) :: n, self%grid%nx, result%cycles, result%m%film_central, &
@@ -193,6 +222,9 @@ contains
       end if
       self%seconds = self%seconds + clock%seconds()
       self%outcome = self%rest%outcome
+      if (self%plan%heat%counts .and. self%outcome == outcome_converged) then
+        call add_heat(self, self%steady%n, .true., self%rough_heat)
+      end if
       associate (rest => self%rest, m => self%rest%m)
          call self%history%append([real(dp) :: rest%total_cycles, rest%share, rest%mu_ratio(), m%film_central, &
                                    m%film_minimum, m%pressure_maximum, m%load_error, rest%residual])
@@ -204,6 +236,7 @@ contains
       class(contact_run_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
       type(clock_t) :: clock
+      real(dp), allocatable :: row(:)
 
       clock = start_clock()
       associate (transient => self%transient, m => self%transient%m, level => self%hierarchy%levels(self%steady%n))
@@ -216,11 +249,15 @@ contains
                 .not. self%checkpoint%found()) call begin_again(self, status)
             return
          end if
-         call self%history%append([real(dp) :: transient%step, transient%time, m%friction/transient%friction_smooth, &
-                                   m%film_central, m%film_minimum, m%pressure_maximum, m%load_error, transient%cycles, &
-                                   transient%residual])
+         row = [real(dp) :: transient%step, transient%time, m%friction/transient%friction_smooth, m%film_central, &
+                m%film_minimum, m%pressure_maximum, m%load_error, transient%cycles, transient%residual]
+         if (self%plan%heat%counts) row = [row, step_heat(self)]
+         call self%history%append(row)
          if (self%plan%surfaces%pass_once()) call transient%extremes%see(level, self%p_smooth, self%h_smooth, transient%time)
          self%outcome = transient_outcome(self%plan, transient)
+         if (self%plan%heat%counts .and. self%outcome == outcome_converged) then
+           call add_heat(self, self%steady%n, .true., self%rough_heat)
+         end if
          call self%frames%keep(level, transient%time, transient%time_step, self%plan%frame_interval, status)
       end associate
    end subroutine advance_step

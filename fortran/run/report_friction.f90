@@ -4,6 +4,7 @@ module ehl_report_friction
    use ehl_contact, only: contact_t
    use ehl_grid, only: grid_t
    use ehl_heat, only: flash_temperature
+   use ehl_heated_friction, only: heated_t
    use ehl_kinds, only: dp, pi
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
@@ -17,14 +18,17 @@ contains
 
    !> Coefficients, shear rate and stress of the smooth contact, flash temperature; null where they are not known or
    !> mean nothing
-   subroutine report_friction(record, plan, grid, p, h, friction, ratio)
+   subroutine report_friction(record, plan, grid, p, h, friction, ratio, smooth_heat, rough_heat, heat_ratio)
       type(record_t), intent(inout) :: record
       type(plan_t), intent(in) :: plan
       type(grid_t), intent(in) :: grid
       !> Pressure and film of the smooth contact, its friction integral, and the friction over it (1: smooth); nan:
       !> not known
       real(dp), intent(in) :: p(:, :), h(:, :), friction, ratio
-      real(dp) :: nothing, mu_smooth, mu, rate, stress, rise, speed, moment
+      !> Heat of the smooth contact and of the rough one at the end; friction of the rough one with it over that without it
+      type(heated_t), intent(in) :: smooth_heat, rough_heat
+      real(dp), intent(in) :: heat_ratio
+      real(dp) :: nothing, mu_smooth, mu, rate, stress, rise, rises(3), speed, moment, isothermal(2)
       character(len=:), allocatable :: note
 
       nothing = ieee_value(nothing, ieee_quiet_nan)
@@ -45,8 +49,7 @@ contains
             stress = greatest_stress(plan, p, h)
             if (shear%thins() .or. stress <= s%newtonian_limit) then
                mu_smooth = friction*shear%scale*plan%scales%length**2/s%load
-               note = "isothermal: the oil is not thinned by the flash temperature (Tian & Kennedy 1994)"
-               if (.not. plan%contact%is_round()) note = note//", which is known of round contacts alone"
+               note = plan%heat%note
             else
                note = "a ratio alone: the Newtonian shear stress reaches "//fixed(stress, "es8.1e2")// &
                       " Pa, and oils shear thin above some "//to_text(s%newtonian_limit)// &
@@ -54,10 +57,15 @@ contains
             end if
          end if
          mu = ratio*mu_smooth
+         isothermal = [mu, mu_smooth]
+         if (plan%heat%counts) then
+            mu_smooth = mu_smooth*smooth_heat%ratio()
+            mu = mu*merge(heat_ratio, smooth_heat%ratio(), plan%surfaces%rough())
+            if (ieee_is_finite(isothermal(2)) .and. .not. ieee_is_finite(mu_smooth)) note = "the temperature is not converged"
+         end if
          if (ieee_is_finite(mu) .and. plan%contact%is_round()) then
-            rise = flash_temperature(mu*s%load*speed/(pi*plan%scales%length**2), plan%scales%length, &
-                                     s%mean_velocity*(1.0_dp + [0.5_dp, -0.5_dp]*s%slide_to_roll), s%conductivity, &
-                                     s%diffusivity)
+            rise = flash_temperature(mu*s%load*speed/(pi*plan%scales%length**2), plan%scales%length, s%speeds(), &
+                                     s%conductivity, s%diffusivity)
          end if
          moment = nothing
          if (ieee_is_finite(friction)) moment = rolling_moment(grid, p, h)
@@ -67,6 +75,16 @@ contains
          call record%set("slide_to_roll", s%slide_to_roll)
          call record%set("mu", mu)
          call record%set("mu_smooth", mu_smooth)
+         call record%set("mu_isothermal", isothermal(1))
+         call record%set("mu_smooth_isothermal", isothermal(2))
+         if (plan%heat%counts) then
+            rises = nothing
+            if (ieee_is_finite(mu)) rises = smooth_heat%greatest
+            if (ieee_is_finite(mu) .and. plan%surfaces%rough()) rises = rough_heat%greatest
+            call record%set("temperature_rise_max_K", rises(1))
+            call record%set("temperature_rise_wall_1_max_K", rises(2))
+            call record%set("temperature_rise_wall_2_max_K", rises(3))
+         end if
          call record%set("shear_rate_mean_per_s", rate)
          call record%set("shear_stress_max_Pa", stress)
          call record%set("flash_temperature_K", rise)

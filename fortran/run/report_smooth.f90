@@ -5,7 +5,7 @@ module ehl_report_smooth
    use ehl_domain, only: too_small
    use ehl_kinds, only: dp, pi
    use ehl_level_result, only: discretisation_error, extrapolated, limit_error
-   use ehl_plan, only: plan_t, relative_wedge_error
+   use ehl_plan, only: plan_t, relative_errors, too_coarse
    use ehl_record, only: record_t
    use ehl_steady, only: steady_t
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
@@ -51,8 +51,8 @@ contains
          error = discretisation_error(m, steady%results(n - 1)%m) + steady%results(n)%algebraic
          limit = extrapolated(steady%results, n)
       else if (good) then
-         ! one grid alone: what such grids have been found to miss; H_min misses about twice as much
-         error = relative_wedge_error(plan%point, plan%finest)*[m%film_central, 2.0_dp*m%film_minimum]
+         ! one grid alone: what such grids have been found to miss
+         error = relative_errors(plan%contact, plan%point, plan%finest)*m%films()
       end if
       domain = nothing
       where (plan%domain_cost < 1.0_dp) domain = m%films()*plan%domain_cost/(1.0_dp - plan%domain_cost)
@@ -70,6 +70,7 @@ contains
       call record%set("H_min_error_domain", domain(2))
       if (good .and. .not. plan%domain_cost(1) < 1.0_dp) call record%set("H_c_error_note", too_small)
       if (good .and. .not. plan%domain_cost(2) < 1.0_dp) call record%set("H_min_error_note", too_small)
+      if (.not. good .and. too_coarse(plan) /= "") call record%set("H_c_error_note", too_coarse(plan))
       call record%set("error_estimate", trim(merge("two grids", "a priori ", coarser)))
       call report_limits(record, plan, steady, n, good)
       call record%set("H_c_algebraic_error", steady%results(n)%algebraic(1))

@@ -9,7 +9,7 @@ module ehl_result_folder
    use ehl_npy, only: write_npy
    use ehl_record, only: record_t
    use ehl_plan_text, only: plan_text
-   use ehl_solver, only: solver_t
+   use ehl_solver, only: field_length, solver_t
    use ehl_status, only: status_t
    use ehl_text, only: newline
    use ehl_version, only: version
@@ -23,7 +23,8 @@ module ehl_result_folder
       "case.nml"//newline//"plan.txt"//newline//"summary.json"//newline//"history.csv"//newline// &
       "X.npy"//newline//"Y.npy"//newline//"P.npy"//newline//"H.npy"//newline//"P_smooth.npy"//newline// &
       "H_smooth.npy"//newline//"RR.npy"//newline//"A_d.npy"//newline//"frame_T.npy"//newline// &
-      "frame_P.npy"//newline//"frame_H.npy"//newline
+      "frame_P.npy"//newline//"frame_H.npy"//newline//"temperature_rise_K.npy"//newline// &
+      "temperature_rise_wall_1_K.npy"//newline//"temperature_rise_wall_2_K.npy"//newline
 
 contains
 
@@ -57,7 +58,7 @@ contains
       type(status_t), intent(inout) :: status
       type(record_t) :: summary
       type(name_t), allocatable :: names(:)
-      character(len=24), allocatable :: files(:)
+      character(len=field_length), allocatable :: files(:)
       logical :: done
       integer :: k
 
@@ -69,7 +70,7 @@ contains
       if (.not. status%failed()) call solver%history%write_csv(folder // "history.csv", status)
       if (.not. status%failed() .and. input%output%fields) call write_fields(folder, solver, status)
       done = list_folder(folder, names)
-      files = [character(len=24) :: (names(k)%text, k=1, size(names)), "summary.json"]
+      files = [character(len=field_length) :: (names(k)%text, k=1, size(names)), "summary.json"]
       call summary%set("files", files)
       if (.not. status%failed()) call write_text(folder // "summary.json", summary%to_json(), status)
    end subroutine write_files
@@ -80,7 +81,7 @@ contains
       type(solver_t), intent(inout) :: solver
       type(status_t), intent(inout) :: status
       real(dp), allocatable :: x(:), y(:), values(:, :)
-      character(len=8), allocatable :: names(:)
+      character(len=field_length), allocatable :: names(:)
       integer :: i, ny, k
 
       associate (grid => solver%finest())

@@ -18,7 +18,10 @@ module ehl_solver
    use ehl_status, only: status_t
    implicit none (type, external)
    private
-   public :: solver_t
+   public :: solver_t, field_length
+
+   !> Longest name of a field
+   integer, parameter :: field_length = 32
 
    !> Cost of a step on the next coarser grid, in steps: it has a quarter of the nodes
    real(dp), parameter :: coarse_step = 0.25_dp
@@ -68,7 +71,7 @@ module ehl_solver
       end subroutine work
    end interface
 
-   ! in solver_results.f90
+   ! in solver_results.f90 and solver_fields.f90
    interface
       !> All results but fields, by name; dimensionless but for the SI values. Only a converged run has
       !> results: otherwise they are null, and the last iterate stands under names that begin with "last_".
@@ -78,10 +81,10 @@ module ehl_solver
       end function summary
 
       !> Names of the fields there are: P and H; in a transient run also those of the smooth contact, the roughness
-      !> RR and the deformed roughness A_d = H_smooth - H
+      !> RR and the deformed roughness A_d = H_smooth - H; where the heat of friction counts the rises of temperature
       module subroutine field_names(self, names)
          class(solver_t), intent(in) :: self
-         character(len=8), allocatable, intent(out) :: names(:)
+         character(len=field_length), allocatable, intent(out) :: names(:)
       end subroutine field_names
 
       !> A field on the whole domain, values(nx, full_ny) of the grid reached so far, or bilinear between its nodes of a
@@ -173,6 +176,7 @@ contains
       ! the same roughness, not the same share of another film
       call self%plan%surfaces%hand_over(surfaces)
       call make_plan(input, surfaces, self%coarse%plan, status)
+      self%coarse%plan%heat%counts = .false.
       call self%coarse%begin(status)
       self%coarse%checkpoint = self%coarse_checkpoint
       self%coarse%predicted = self%predicted%coarser()

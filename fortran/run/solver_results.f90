@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Results and fields of a run
+!> Results of a run
 submodule (ehl_solver) ehl_solver_results
    use ehl_domain, only: ratio_cost, too_small
    use ehl_level_result, only: discretisation_error, spike_grows
@@ -10,7 +10,6 @@ submodule (ehl_solver) ehl_solver_results
    use ehl_report_passage, only: report_passage
    use ehl_report_smooth, only: report_smooth
    use ehl_skipped_work, only: skipped_work
-   use ehl_status, only: ehl_bad_input, ehl_no_memory
    use ehl_surface_text, only: window_words
    use ehl_text, only: newline
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
@@ -148,8 +147,8 @@ contains
          if (self%plan%surfaces%unresolved > rounding) waves%unresolved = ieee_value(waves%unresolved, ieee_quiet_nan)
          waves%left_out = waves%unresolved
          waves%why = "waves that the grid leaves out are not in it: pyehl run predicts what they add"
-         if (self%plan%surfaces%rest() .or. self%plan%surfaces%count() > 1) waves%why = &
-            "waves that the grid leaves out are not in it: what they add is predicted for one surface on the move alone"
+         if (self%plan%surfaces%rest()) waves%why = &
+            "waves that the grid leaves out are not in it: what they add is predicted for surfaces on the move alone"
       end if
       if (.not. (self%plan%surfaces%left_out > rounding .and. self%plan%surfaces%has_spectrum())) waves%left_out = 0.0_dp
    end function waves_of
@@ -200,91 +199,25 @@ contains
       type(record_t), intent(inout) :: record
       !> Whether the smooth contact is converged
       logical, intent(in) :: good
-      real(dp) :: nothing, friction, ratio
+      real(dp) :: nothing, friction, ratio, heat_ratio
 
       nothing = ieee_value(nothing, ieee_quiet_nan)
       friction = merge(self%steady%results(self%level())%m%friction, nothing, good)
       ratio = 1.0_dp
       if (self%plan%surfaces%rough()) ratio = nothing
-      if ((self%in_steps .or. self%resting) .and. self%converged()) ratio = self%mu_ratio()
+      heat_ratio = nothing
+      if ((self%in_steps .or. self%resting) .and. self%converged()) then
+         ratio = self%mu_ratio()
+         if (self%plan%heat%counts) heat_ratio = self%heat_ratio()
+      end if
       if (self%in_steps .or. self%resting) then
-         call report_friction(record, self%plan, self%grid, self%p_smooth, self%h_smooth, friction, ratio)
+         call report_friction(record, self%plan, self%grid, self%p_smooth, self%h_smooth, friction, ratio, &
+                              self%smooth_heat, self%rough_heat, heat_ratio)
       else
          associate (level => self%hierarchy%levels(self%level()))
-            call report_friction(record, self%plan, level%grid, level%p, level%h, friction, ratio)
+            call report_friction(record, self%plan, level%grid, level%p, level%h, friction, ratio, &
+                                 self%smooth_heat, self%rough_heat, heat_ratio)
          end associate
       end if
    end subroutine summarise_friction
-
-   module procedure field_names
-      if (self%in_steps .or. self%resting) then
-         names = [character(len=8) :: "P", "H", "P_smooth", "H_smooth", "RR", "A_d"]
-      else
-         names = [character(len=8) :: "P", "H"]
-      end if
-   end procedure field_names
-
-   module procedure field
-      character(len=8), allocatable :: names(:)
-      real(dp), allocatable :: own(:, :)
-      integer :: stat
-
-      values = 0.0_dp
-      call self%field_names(names)
-      if (all(names /= name)) then
-         call status%fail(ehl_bad_input, "field '"//name//"' is not known: 'P' or 'H' was expected, with a rough "// &
-                          "surface also 'P_smooth', 'H_smooth', 'RR' or 'A_d'")
-         return
-      end if
-      associate (level => self%hierarchy%levels(self%level()))
-         allocate (own(level%grid%nx, level%grid%full_ny()), stat=stat)
-         if (stat /= 0) then
-            call status%fail(ehl_no_memory, "no memory for a field")
-            return
-         end if
-         select case (name)
-         case ("P")
-            call level%grid%unfold(level%p, own)
-         case ("H")
-            call level%grid%unfold(level%h, own)
-         case ("P_smooth")
-            call level%grid%unfold(self%p_smooth, own)
-         case ("H_smooth")
-            call level%grid%unfold(self%h_smooth, own)
-         case ("RR")
-            if (self%resting) then
-               call level%grid%unfold(self%rest%rr, own)
-            else
-               call level%grid%unfold(self%transient%rr, own)
-            end if
-         case default
-            call level%grid%unfold(self%h_smooth - level%h, own)
-         end select
-      end associate
-      call refine(own, values)
-   end procedure field
-
-   !> Values on a grid of the same extent that has as many or more nodes, bilinear in between
-   pure subroutine refine(coarse, fine)
-      real(dp), intent(in) :: coarse(:, :)
-      real(dp), intent(out) :: fine(:, :)
-      real(dp) :: s, t
-      integer :: i, j, k, l, m
-
-      if (all(shape(fine) == shape(coarse))) then
-         fine = coarse
-         return
-      end if
-      m = (size(fine, 1) - 1)/(size(coarse, 1) - 1)
-      do j = 1, size(fine, 2)
-         l = min((j - 1)/m + 1, size(coarse, 2) - 1)
-         t = real(j - 1 - (l - 1)*m, dp)/m
-         do i = 1, size(fine, 1)
-            k = min((i - 1)/m + 1, size(coarse, 1) - 1)
-            s = real(i - 1 - (k - 1)*m, dp)/m
-            fine(i, j) = (1.0_dp - t)*((1.0_dp - s)*coarse(k, l) + s*coarse(k + 1, l)) &
-                         + t*((1.0_dp - s)*coarse(k, l + 1) + s*coarse(k + 1, l + 1))
-         end do
-      end do
-   end subroutine refine
 end submodule ehl_solver_results

@@ -260,13 +260,13 @@ contains
    end function wanted
 
    !> Failure on a level: begin anew on the next finer one, where the discrete problem is better posed; on the finest one
-   !> once from the first level on with care, unless the film is negative: then there is hardly a solution
+   !> once from the first level on with care
    subroutine fail_level(self)
       class(steady_t), intent(inout) :: self
       logical :: finest
 
       finest = self%n == self%how%levels
-      if (finest .and. (self%careful .or. .not. self%how%may_restart .or. self%state == outcome_negative_film)) then
+      if (finest .and. (self%careful .or. .not. self%how%may_restart)) then
          self%outcome = self%state
          return
       end if

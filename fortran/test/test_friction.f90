@@ -2,16 +2,21 @@
 !> Friction integrals of uniform films, shear laws, and the heat of friction
 module test_friction
    use check, only: is_close, is_true
+   use ehl_contact, only: contact_t
+   use ehl_contact_factory, only: new_contact
    use ehl_film, only: update_coefficients
    use ehl_flow_factory, only: new_flow
    use ehl_grid, only: new_grid
    use ehl_heat, only: dynamic_viscosity, flash_temperature, kinematic_viscosity, temperature_viscosity, thermal_reduction
+   use ehl_heated_friction, only: film_heat_t, heat_film, heated_t
    use ehl_kinds, only: dp, pi
    use ehl_level, only: level_t
    use ehl_lubricant, only: density_dowson_higginson, new_lubricant, viscosity_barus
    use ehl_contact_results, only: measure, contact_results_t
    use ehl_shear, only: shear_carreau, shear_eyring, shear_law_t, shear_limiting, shear_newtonian, shear_stress
    use ehl_status, only: status_t
+   use ehl_text, only: to_text
+   use ehl_wall_heat, only: share_t, speed_of_rest, wall_heat_t
    implicit none (type, external)
    private
    public :: run_friction
@@ -27,6 +32,10 @@ contains
       call limits()
       call data_sheet()
       call flash()
+      call strip()
+      call speed_at_rest()
+      call heat_in_proportion()
+      call heated_film()
    end subroutine run_friction
 
    !> Friction integral of the uniform film with a shear law
@@ -114,15 +123,111 @@ contains
    subroutine flash()
       real(dp), parameter :: flux = 1.0e8_dp, a = 2.0e-4_dp, k = 46.0_dp, kappa = 1.25e-5_dp, fast = 1.0e6_dp
       !> Largest over s of the integral of sqrt(1 - x^2)/sqrt(s - x) over x from -1 to s, by quadrature
-      real(dp), parameter :: integral = 2.18830_dp
+      real(dp), parameter :: integral = 2.18830_dp, both(2) = 1.0_dp
 
-      call is_close(flash_temperature(flux, a, [0.0_dp, 0.0_dp], k, kappa)/(0.5_dp*flux*a/k), 1.5_dp*pi/4.0_dp, 2.0e-3_dp, &
-                    "two surfaces at rest under the same heat")
-      call is_close(flash_temperature(flux, a, [fast, fast], k, kappa)/(0.75_dp*flux/k*sqrt(kappa*a/(pi*fast))*integral), &
-                    1.0_dp, 2.0e-3_dp, "two fast surfaces")
+      call is_close(flash_temperature(flux, a, [0.0_dp, 0.0_dp], both*k, both*kappa)/(0.5_dp*flux*a/k), 1.5_dp*pi/4.0_dp, &
+                    2.0e-3_dp, "two surfaces at rest under the same heat")
+      call is_close(flash_temperature(flux, a, [fast, fast], both*k, both*kappa) &
+                    /(0.75_dp*flux/k*sqrt(kappa*a/(pi*fast))*integral), 1.0_dp, 2.0e-3_dp, "two fast surfaces")
+      call is_close(flash_temperature(flux, a, [fast, fast], [k, 4.0_dp*k], kappa*both), 0.4_dp*flash_temperature(flux, a, &
+                    [fast, fast], k*both, kappa*both), 1.0e-12_dp, "two materials")
       ! shared so that both are as hot: 1/T is the sum of those of each surface under all the heat
-      call is_close(1.0_dp/flash_temperature(flux, a, [0.0_dp, fast], k, kappa), &
-                    0.5_dp/flash_temperature(flux, a, [0.0_dp, 0.0_dp], k, kappa) &
-                    + 0.5_dp/flash_temperature(flux, a, [fast, fast], k, kappa), 1.0e-10_dp, "the heat is shared")
+      call is_close(1.0_dp/flash_temperature(flux, a, [0.0_dp, fast], both*k, both*kappa), &
+                    0.5_dp/flash_temperature(flux, a, [0.0_dp, 0.0_dp], both*k, both*kappa) &
+                    + 0.5_dp/flash_temperature(flux, a, [fast, fast], both*k, both*kappa), 1.0e-10_dp, "the heat is shared")
    end subroutine flash
+
+   !> Even heat on a strip: 2 A q sqrt(x - x_1) behind its front, and that of a strip that is missing behind its end
+   subroutine strip()
+      integer, parameter :: n = 65, first = 9, last = 40
+      real(dp), parameter :: step = 1.0e-6_dp, strengths(2) = [2.0e-6_dp, 5.0e-6_dp], q = 3.0e8_dp
+      type(wall_heat_t) :: walls
+      real(dp) :: heat(n), expected, from_front, from_end
+      integer :: i
+
+      call walls%start(n, step, strengths)
+      heat = 0.0_dp
+      heat(first:last) = q
+      do i = first + 1, n
+         from_front = step*(i - first + 0.5_dp)
+         from_end = step*(i - last - 0.5_dp)
+         expected = 2.0_dp*strengths(2)*q*(sqrt(from_front) - sqrt(max(0.0_dp, from_end)))
+         call is_close((walls%history(2, heat, first, min(i - 1, last), i) + walls%own(2)*merge(q, 0.0_dp, i <= last))/expected, &
+                       1.0_dp, 1.0e-12_dp, "even heat on a strip, node "//to_text(i))
+      end do
+   end subroutine strip
+
+   !> Under a Hertz contact a wall at rest is as hot as the formula of Tian & Kennedy says, round or not
+   subroutine speed_at_rest()
+      class(contact_t), allocatable :: contact
+      real(dp) :: wide
+
+      call new_contact(1.0_dp, 0.0_dp, contact)
+      call is_close(speed_of_rest(contact), 2.0_dp*1.234_dp, 2.0e-3_dp*2.468_dp, "a wall at rest, circle")
+      call new_contact(0.05_dp, 0.0_dp, contact)
+      wide = speed_of_rest(contact)
+      call is_true(wide < 2.0_dp, "more heat flows together under a wide contact")
+      call new_contact(0.05_dp, 0.5_dp*pi, contact)
+      call is_close(speed_of_rest(contact)/contact%ellipticity, wide, 1.0e-9_dp*wide, "the same, turned, is as hot at rest")
+   end subroutine speed_at_rest
+
+   !> What a wall takes: half of the heat between like walls, the more the better it conducts; T_2 - T_1 and the mean across
+   !> the film as by hand
+   subroutine heat_in_proportion()
+      type(wall_heat_t) :: walls
+      type(share_t) :: share
+      real(dp), parameter :: film = 2.0e-7_dp, k = 0.14_dp, q = 2.0e8_dp, before(2) = [3.0_dp, 8.0_dp]
+      real(dp) :: into(2), rise(2)
+
+      call walls%start(9, 1.0e-6_dp, [3.0e-6_dp, 3.0e-6_dp])
+      share = walls%share([7.0_dp, 7.0_dp], film, k)
+      call is_close(share%difference(1) + share%difference(2)*q, 0.0_dp, 1.0e-6_dp, "like walls take the same")
+      call is_close(share%film(1), 7.0_dp, 1.0e-12_dp, "the film between warm walls")
+      call walls%start(9, 1.0e-6_dp, [1.0e-6_dp, 9.0e-6_dp])
+      share = walls%share(before, film, k)
+      into = 0.5_dp*(q + [1.0_dp, -1.0_dp]*(share%difference(1) + share%difference(2)*q))
+      rise = before + walls%own*into
+      call is_close((into(1) - 0.5_dp*q)/(k*(rise(2) - rise(1))/film), 1.0_dp, 1.0e-12_dp, "heat through the film")
+      call is_close((share%film(1) + share%film(2)*q)/(0.5_dp*sum(rise) + q*film/(12.0_dp*k)), 1.0_dp, 1.0e-12_dp, &
+                    "mean across the film")
+      call is_true(into(1) > into(2), "the wall that conducts takes more")
+   end subroutine heat_in_proportion
+
+   !> A row of even pressure and film without walls that warm: every node has the temperature of its own film,
+   !> tau = G exp(-beta q h/(12 k_f)) for a Newtonian lubricant of Barus, q = tau u
+   subroutine heated_film()
+      real(dp), parameter :: beta = 0.04_dp, speed = 2.0_dp, conductivity = 0.14_dp, film = 1.0e-4_dp
+      type(level_t) :: level
+      type(heated_t) :: found
+      real(dp) :: q, q0, w, pressure(33, 33), films(33, 33)
+      integer :: k
+
+      level%grid = new_grid(33, 33, -2.0_dp, 2.0_dp, 2.0_dp, .false.)
+      level%lubricant = new_lubricant(viscosity_barus, density_dowson_higginson, alpha_bar, hertz_pressure, 0.6_dp, 1.96e8_dp, &
+                                      beta)
+      level%lubricant%shear = shear_law_t(shear_newtonian, 0.0_dp, 0.0_dp, 1.0_dp, scale, hertz_pressure)
+      pressure = p
+      films = h
+      call heat_film(film_heat_t(speed, conductivity, [1.0e-20_dp, 1.0e-20_dp], 1.0e-3_dp, film), level%grid, level%lubricant, &
+                     pressure, films, .true., 1, found)
+      ! q exp(q w) = q0 by Newton's method
+      q0 = newtonian*speed
+      w = beta*h*film/(12.0_dp*conductivity)
+      q = 0.0_dp
+      do k = 1, 60
+         q = q - (q - q0*exp(-w*q))/(1.0_dp + w*q0*exp(-w*q))
+      end do
+      call is_true(found%solved, "a film that heats itself")
+      call is_true(w*q > 0.5_dp, "the heat counts")
+      call is_close(found%ratio()*q0/q, 1.0_dp, 1.0e-7_dp, "friction of a film that heats itself")
+      call is_close(maxval(found%rise(:, :, 1))*beta/(w*q), 1.0_dp, 1.0e-7_dp, "its temperature")
+      call is_close(found%greatest(1)*beta/(w*q), 1.0_dp, 1.0e-7_dp, "its greatest temperature")
+      level%lubricant = new_lubricant(viscosity_barus, density_dowson_higginson, alpha_bar, hertz_pressure, 0.6_dp, 1.96e8_dp)
+      level%lubricant%shear = shear_law_t(shear_limiting, 0.0_dp, 0.05_dp, 1.0_dp, scale, hertz_pressure)
+      pressure(20:24, :) = 0.0_dp
+      call heat_film(film_heat_t(speed, conductivity, [1.0e-6_dp, 2.0e-6_dp], 1.0e-3_dp, film), level%grid, level%lubricant, &
+                     pressure, films, .false., 2, found)
+      call is_close(found%ratio(), 1.0_dp, 1.0e-7_dp, "a viscosity that no temperature changes")
+      call is_true(found%greatest(3) > found%greatest(2) .and. .not. allocated(found%rise), "the wall that conducts less is hotter")
+   end subroutine heated_film
 end module test_friction

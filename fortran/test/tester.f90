@@ -9,6 +9,7 @@ program tester
    use test_deflection, only: run_deflection
    use test_flow, only: run_flow
    use test_friction, only: run_friction
+   use test_lubricant, only: run_lubricant
    use test_mean, only: run_mean
    use test_policy, only: run_policy
    use test_predictor, only: run_predictor
@@ -48,6 +49,8 @@ program tester
       call run_flow()
    case ("friction")
       call run_friction()
+   case ("lubricant")
+      call run_lubricant()
    case ("policy")
       call run_policy()
    case ("predictor")

@@ -86,7 +86,7 @@ class _FirstRow(Watcher):
 def sweep_rows(scenes: Sequence[Scene], processes: Sequence[int]) -> list[dict[str, Any]]:
     """Run scenes with each number of worker processes.
 
-    `overhead_ms` is what a case costs beside itself, in the plan (without what every plan costs)
+    `overhead_ms` is the overhead per case, in the plan (without what every plan costs)
     and in one worker process; `busy` the share of the time of the workers that cases took;
     `efficiency` the throughput over that of the first number of processes times their ratio.
     """

@@ -16,7 +16,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of ``pyehl compare``."""
     parser.description = (
         "Compare a result or a study with a table of reference values: deviations, pass or fail. "
-        "Exit status: 0 all within their tolerances, 1 not, 2 bad input."
+        "Exit status: 0 all within their tolerances, 1 at least one outside, 2 bad input."
     )
     parser.add_argument("results", metavar="DIR", help="result folder, folder of a study, or CSV")
     parser.add_argument(

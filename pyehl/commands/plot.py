@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 import argparse
+import re
 from pathlib import Path
 
 from pyehl.errors import InputError
 from pyehl.plots.folder import FORMATS, UNITS, made, plot
-from pyehl.plots.movie import SUFFIXES, movie
+from pyehl.plots.movie import FRAME_SECONDS, SUFFIXES, movie
 from pyehl.plots.style import DPI
 from pyehl.results import load
 
@@ -32,6 +33,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--format", choices=FORMATS, default="png", help="default: png")
     parser.add_argument("--dpi", type=int, default=DPI, help=f"dots per inch (default: {DPI})")
     parser.add_argument(
+        "--width",
+        metavar="WIDTH",
+        default="",
+        help="of the figures, as 84mm or 3.3in for a column of a journal; letters of 7 points "
+        "(default: as wide as their panels want)",
+    )
+    parser.add_argument(
         "--movie",
         nargs="?",
         choices=SUFFIXES,
@@ -40,6 +48,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="a movie of the frames of a transient run (output.frame_interval) instead of the "
         "pictures: gif, or mp4 where the program ffmpeg is installed (default: gif)",
     )
+    parser.add_argument(
+        "--frame-seconds",
+        type=float,
+        default=FRAME_SECONDS,
+        metavar="S",
+        help=f"seconds that a frame of the movie is shown (default: {FRAME_SECONDS:g})",
+    )
+
+
+def _metres(text: str) -> float:
+    """Give a width in metres; 0 for none. InputError if it is no length with a unit."""
+    match = re.fullmatch(r"\s*(\d+(?:\.\d*)?|\.\d+)\s*(mm|cm|in)\s*", text)
+    if match is None:
+        if text:
+            raise InputError(f"--width {text}: expected a length with mm, cm or in, such as 84mm")
+        return 0.0
+    return float(match[1]) * {"mm": 1e-3, "cm": 1e-2, "in": 0.0254}[match[2]]
 
 
 def execute(args: argparse.Namespace) -> int:
@@ -49,10 +74,17 @@ def execute(args: argparse.Namespace) -> int:
         data = load(args.folder)
         if data.attrs.get("kind") == "prediction":
             raise InputError(f"{args.folder}: a prediction has no frames to make a movie of")
-        written = [movie(data, made(target), args.movie, args.units)]
+        written = [movie(data, made(target), args.movie, args.units, args.frame_seconds)]
     else:
-        words = {"units": args.units, "format": args.format, "dpi": args.dpi}
-        written = [target / f"{name}.{args.format}" for name in plot(args.folder, target, **words)]
+        figures = plot(
+            args.folder,
+            target,
+            units=args.units,
+            format=args.format,
+            dpi=args.dpi,
+            width=_metres(args.width),
+        )
+        written = [target / f"{name}.{args.format}" for name in figures]
     for path in written:
         print(path)
     return 0

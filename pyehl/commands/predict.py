@@ -5,48 +5,59 @@ from __future__ import annotations
 
 import argparse
 import math
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from pyehl.api import predict
 from pyehl.commands.arguments import add_case_arguments, add_force
+from pyehl.prediction.deformed import error_name
 from pyehl.prediction.friction import TRACKS
 from pyehl.prediction.result import Prediction
+from pyehl.surfaces import Topography
 
 __all__ = ["add_arguments", "execute", "report"]
 
 
 def report(prediction: Prediction) -> str:
     """Return the lines that ``pyehl predict`` prints."""
-    f, s = prediction.friction, prediction.surface
+    f, s, values = prediction.friction, prediction.surface, prediction.summary
     known = math.isfinite(prediction.film_minimum)
     least = f"h_min = {prediction.film_minimum * 1e6:.4g} um, " if known else ""
     lines = [*s.preparation.record.report()] if s.preparation else []
+    lines.append(_surface("surface", s))
+    if prediction.second:
+        other = prediction.second.surface
+        lines += other.preparation.record.report() if other.preparation else []
+        lines.append(_surface("second", other))
     lines += [
-        f"surface     {s.origin}: rms {s.rms_height * 1e6:.4g} um, "
-        f"{s.shape[0]} x {s.shape[1]} pixels, "
-        f"{s.length_x * 1e3:.4g} x {s.length_y * 1e3:.4g} mm",
         f"film        h_c = {prediction.film * 1e6:.4g} um ({prediction.film_source}), "
-        f"{least}least rough film {f.film_min * 1e6:.4g} um",
+        f"{least}least rough film {_told(values, 'h_min_rough_m', 1e6)} um",
         f"model       {_model(prediction)}",
     ]
     if f.status == "predicted":
+        lines += _deformed(values)
         lines += [
             f"mu_r/mu_s   {f.mu_ratio:.3f} over the passage, {f.mu_ratio_min:.3f} ... "
             f"{f.mu_ratio_max:.3f}   [{f.passage.size} positions, "
             f"{prediction.seconds * 1e3:.0f} ms]",
             f"            {_trust(prediction)}",
-            f"            {prediction.summary['note']}",
+            f"            {values['note']}",
         ]
         mean, spread = prediction.tracks
         lines.append(
             f"            {mean:.3f} +- {spread:.3f} over {prediction.track_count} tracks across it"
         )
-        values = prediction.summary
         if values["mu"] is not None:
             lines.append(
                 f"mu          {values['mu']:.4f}, smooth mu_s {values['mu_smooth']:.4f}; "
-                f"{values['mu_note']}: {values['flash_temperature_K']:.2g} K"
+                f"{values['mu_note']}"
             )
+            if values["temperature_rise_max_K"] is not None:
+                lines.append(
+                    f"heat        film {values['temperature_rise_max_K']:.2g} K warmer, isothermal "
+                    f"mu {values['mu_isothermal']:.4f}"
+                )
         strongest = sorted(prediction.bands, key=lambda band: -abs(band.rise))[:3]
         parts = ", ".join(
             f"{b.rise:+.4f} from {b.longest * 1e6:.0f} to {b.shortest * 1e6:.0f} um"
@@ -64,6 +75,39 @@ def report(prediction: Prediction) -> str:
     return "\n".join(lines)
 
 
+def _told(values: Mapping[str, Any], name: str, factor: float) -> str:
+    """Tell a number of a summary with its error, both times a factor."""
+    error = values[error_name(name)]
+    text = f"{values[name] * factor:.3g}"
+    return text if error is None else f"{text} +- {error * factor:.1g}"
+
+
+def _surface(name: str, tile: Topography) -> str:
+    return (
+        f"{name:12}{tile.origin}: rms {tile.rms_height * 1e6:.4g} um, "
+        f"{tile.shape[0]} x {tile.shape[1]} pixels, "
+        f"{tile.length_x * 1e3:.4g} x {tile.length_y * 1e3:.4g} mm"
+    )
+
+
+def _deformed(values: Mapping[str, Any]) -> list[str]:
+    """Say what becomes of the surface."""
+    text = (
+        f"deformed    rms {_told(values, 'rms_deformed_m', 1e6)} um, pressure rms "
+        f"{_told(values, 'rms_pressure_Pa', 1e-6)} MPa, greatest rise "
+        f"{_told(values, 'p_rise_max_Pa', 1e-6)} MPa"
+    )
+    film = []
+    if values["lambda_ratio_deformed"] is not None:
+        film.append(f"h_min over its rms {_told(values, 'lambda_ratio_deformed', 1.0)}")
+    if values["film_limit_m"] is not None:
+        film.append(
+            f"{_told(values, 'film_below_limit_share', 100.0)} % of the contact below "
+            f"{values['film_limit_m'] * 1e6:.4g} um"
+        )
+    return [text, *(f"            {', '.join(film)}" for _ in film[:1])]
+
+
 def _trust(prediction: Prediction) -> str:
     error = prediction.model_error
     text = f"model error {error:.3f}" if math.isfinite(error) else "model error unknown"
@@ -76,7 +120,8 @@ def _model(prediction: Prediction) -> str:
     options = prediction.options
     words = [f"{prediction.lubricant.viscosity_law} viscosity"]
     if options.reduction == "response":
-        words.append(f"complex response at velocity ratio {prediction.velocity_ratio:g}")
+        second = f" and {prediction.second.velocity_ratio:g}" if prediction.second else ""
+        words.append(f"complex response at velocity ratio {prediction.velocity_ratio:g}{second}")
     else:
         words.append(f"real amplitude ratio, wavelengths by {options.wavelength_convention}")
     words.append("smooth contact " + ("solved" if options.smooth == "solved" else "of Hertz"))

@@ -32,7 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "Redo figures and tables of a paper (all unless some are named), compare them with its "
         "numbers, and write a report. Started again it computes what is missing. What is left "
         f"out: {left_out} Exit status: 0 all deviations are within their tolerances or explained "
-        "by runs of the report, 1 not, 2 bad input, 130 interrupted."
+        "by runs of the report, 1 at least one neither, 2 bad input, 130 interrupted."
     )
     parser.add_argument("paper", choices=PAPERS, help="which paper")
     for kind in ("figure", "table"):

@@ -7,7 +7,7 @@ import argparse
 import time
 from pathlib import Path
 
-from pyehl.case import Case
+from pyehl.case import Case, exchanged
 from pyehl.commands.arguments import add_case_arguments, add_force
 from pyehl.commands.watching import Bar
 from pyehl.measured_response.folder import response
@@ -29,6 +29,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_force(parser)
     parser.add_argument(
+        "--second",
+        action="store_true",
+        help="at the velocity of the second surface of the case, not of the first",
+    )
+    parser.add_argument(
         "--quick", action="store_true", help="waves down to a/16 only, in a third of the time"
     )
 
@@ -36,6 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl response``."""
     case = Case.read(args.case, args.overrides)
+    case = exchanged(case) if args.second else case
     ratio = float(case.resolve()["surface"]["velocity_ratio"])
     # a step costs what its nodes do
     cost = {tier.name: float(tier.points**2) for tier in (TIERS[:-1] if args.quick else TIERS)}
@@ -54,6 +60,7 @@ def execute(args: argparse.Namespace) -> int:
             output=args.output,
             force=args.force,
             quick=args.quick,
+            second=args.second,
             progress=show,
         ).attrs
     finally:

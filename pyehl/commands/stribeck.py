@@ -31,8 +31,12 @@ from pyehl.studies.curve import (
 from pyehl.studies.curve_plan import KEYS, CurvePlan, plan_curve
 from pyehl.studies.curve_run import CSV, NETCDF, PICTURE, axes_of, perform
 from pyehl.studies.measured_friction import Measured, read_measured
+from pyehl.surfaces import rough_groups
+from pyehl.theory.load_share import AIHARA, LoadShare
 
 __all__ = ["add_arguments", "execute"]
+
+SLIP = KEYS["slide-to-roll"]
 
 Row = Mapping[str, Any]
 Array = NDArray[np.float64]
@@ -61,13 +65,36 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--measured", metavar="FILE.csv", help="measured friction, drawn over the curve"
     )
+    parser.add_argument(
+        "--boundary-friction",
+        type=float,
+        metavar="MU",
+        help="add what an empirical law says of thin films, where asperities have this friction",
+    )
+    parser.add_argument(
+        "--load-share",
+        type=float,
+        nargs=2,
+        default=AIHARA,
+        metavar=("B", "C"),
+        help="constants of that law: exp(-B Lambda^C) of the load is on asperities (default "
+        f"{AIHARA[0]:g} {AIHARA[1]:g})",
+    )
     parser.add_argument("--dpi", type=int, default=150, help="of the picture (default 150)")
     add_worker_arguments(parser)
 
 
 def _plan(args: argparse.Namespace) -> CurvePlan:
     axes = axes_of({name: getattr(args, name.replace("-", "_")) for name in KEYS})
-    return plan_curve(args.case, axes, options=args.overrides, ehl=args.ehl, seeds=args.surfaces)
+    mu = args.boundary_friction
+    return plan_curve(
+        args.case,
+        axes,
+        options=args.overrides,
+        ehl=args.ehl,
+        seeds=args.surfaces,
+        load_share=None if mu is None else LoadShare(mu, *args.load_share),
+    )
 
 
 def _measured(path: str, plan: CurvePlan) -> Measured:
@@ -76,7 +103,8 @@ def _measured(path: str, plan: CurvePlan) -> Measured:
     if len(keys) > 1:
         raise InputError("--measured: expected one curve, over one of the options")
     measured = read_measured(path, keys[0])
-    why = next((note for p in plan.points if (note := no_coefficient(p.settings))), "")
+    moving = [p.settings for p in plan.points if p.settings["contact"]["slide_to_roll"] != 0.0]
+    why = next((note for settings in moving if (note := no_coefficient(settings))), "")
     wanted = "mu_ratio" if why else "mu"
     if measured.ordinate != wanted:
         raise InputError(
@@ -106,6 +134,19 @@ def curves_of(plan: CurvePlan, rows: Sequence[Row]) -> list[tuple[str, Array, Se
     return [(name, np.array(places), those) for name, (places, those) in found.items()]
 
 
+def absolute_friction(plan: CurvePlan, rows: Sequence[Row]) -> bool:
+    """Whether all answers are coefficients of friction, where there is sliding.
+
+    A point whose smooth contact has no solution has a ratio, and is left out.
+    """
+    answers = [
+        row
+        for point, row in zip(plan.points, rows, strict=True)
+        if row["status"] in (FULL_FILM, OUTSIDE) and point.settings["contact"]["slide_to_roll"]
+    ]
+    return bool(answers) and all(row["mu"] is not None for row in answers)
+
+
 def draw(
     plan: CurvePlan, rows: Sequence[Row], measured: Measured | None, path: Path, dpi: int
 ) -> None:
@@ -117,11 +158,10 @@ def draw(
         draw_stribeck,
     )
     from pyehl.plots.style import save  # noqa: PLC0415
+    from pyehl.plots.traction import draw_traction  # noqa: PLC0415
 
     key = plan.study.keys[0]
-    # a point whose smooth contact has no solution has a ratio, and is left out
-    answers = [row for row in rows if row["status"] in (FULL_FILM, OUTSIDE)]
-    absolute = bool(answers) and all(row["mu"] is not None for row in answers)
+    absolute = absolute_friction(plan, rows)
     if measured is not None and measured.ordinate != ("mu" if absolute else "mu_ratio"):
         print(f"note: --measured: there is no {measured.ordinate} to draw it over", file=sys.stderr)
         measured = None
@@ -133,12 +173,34 @@ def draw(
             if beyond := measured.outside(key, places, those):
                 words = f"{beyond} of {len(measured.places)} measured points are beyond the curve"
                 print(f"note: {words}", file=sys.stderr)
-            over = {name: measured.over(name, key, places, those) for name in ABSCISSAE}
+            over = {name: measured.over(name, key, places, those) for name in (*ABSCISSAE, key)}
             overlay = Points(over, measured.friction, measured.error)
-    surface = plan.points[0].settings["surface"]
+    settings = plan.points[0].settings
+    kinds = [f"'{settings[group]['kind']}'" for group in rough_groups(settings)] or ["'smooth'"]
     count = f", {plan.surfaces} surfaces" if plan.surfaces > 1 else ""
-    words = f"surface '{surface['kind']}'{count}"
-    save(draw_stribeck(curves, words, overlay), path, dpi)
+    words = f"surface {' and '.join(kinds)}{count}; {_conditions(plan)}"
+    law = "" if plan.load_share is None else plan.load_share.words
+    if absolute and key == SLIP:
+        slips = [places for _, places, _ in curves_of(plan, rows)]
+        save(draw_traction(curves, slips, words, overlay, law), path, dpi)
+        return
+    save(draw_stribeck(curves, words, overlay, law), path, dpi)
+
+
+def _conditions(plan: CurvePlan) -> str:
+    """Give what is not varied of load, speed, slip and viscosity."""
+    settings = plan.points[0].settings
+    found = [
+        f"{sign} = {settings[group][key]:.4g}{unit}"
+        for sign, group, key, unit in (
+            ("w", "contact", "load", " N"),
+            ("u", "contact", "mean_velocity", " m/s"),
+            ("SRR", "contact", "slide_to_roll", ""),
+            ("η₀", "lubricant", "viscosity", " Pa s"),
+        )
+        if f"{group}.{key}" not in plan.study.keys
+    ]
+    return ", ".join(found)
 
 
 def report(plan: CurvePlan, rows: Sequence[Row]) -> str:
@@ -152,18 +214,46 @@ def report(plan: CurvePlan, rows: Sequence[Row]) -> str:
         "mu_ratio": "mu_r/mu_s",
         "mu_ratio_model_error": "+- model",
         "mu": "mu",
+        "mu_isothermal": "isothermal",
+        "temperature_rise_max_K": "rise [K]",
+        "mu_empirical": "empirical",
         "mu_ratio_ehl": "simulated",
     }
-    names = [name for name in columns if any(row[name] is not None for row in rows)]
+    names = [name for name in columns if any(row.get(name) is not None for row in rows)]
     head = [*(f"{key:>21}" for key in keys), *(f"{columns[name]:>10}" for name in names)]
     lines = ["  ".join([*head, "status"])]
     for point, row in zip(plan.points, rows, strict=True):
         cells = [f"{point.point.values[key]:>21}" for key in keys]
-        cells += [f"{'-' if row[n] is None else format(row[n], '.4g'):>10}" for n in names]
+        cells += [f"{'-' if row.get(n) is None else format(row[n], '.4g'):>10}" for n in names]
         lines.append("  ".join([*cells, str(row["status"])]))
     for label, places, those in curves_of(plan, rows):
         lines.append(f"{label + ': ' if label else ''}{full_film_ends(keys[0], places, those)[0]}")
+    if plan.load_share is not None:
+        lines.append(plan.load_share.words)
     return "\n".join(lines)
+
+
+def deviation(plan: CurvePlan, rows: Sequence[Row], measured: Measured) -> list[str]:
+    """Say how far the curve is from measured friction."""
+    key = plan.study.keys[0]
+    places = np.array([float(p.point.values[key]) for p in plan.points])
+    lines = []
+    for name in (measured.ordinate, "mu_empirical"):
+        if name not in rows[0]:
+            continue
+        found = measured.deviation(name, key, places, rows)
+        known = np.isfinite(found)
+        if not known.any():
+            lines.append(f"measured   no point where there is {name}")
+            continue
+        worst = int(np.nanargmax(np.abs(found)))
+        lines.append(
+            f"measured   {name} is off by {np.mean(found[known]):+.1%} in the mean, "
+            f"{np.sqrt(np.mean(found[known] ** 2)):.1%} rms, {found[worst]:+.1%} at the most "
+            f"({measured.abscissa} = {measured.places[worst]:.4g}); {known.sum()} of "
+            f"{known.size} points"
+        )
+    return lines
 
 
 def execute(args: argparse.Namespace) -> int:
@@ -194,6 +284,8 @@ def execute(args: argparse.Namespace) -> int:
         print("note: no point has a friction; there is no picture", file=sys.stderr)
     if not args.quiet:
         print(report(plan, rows))
+        if measured is not None:
+            print("\n".join(deviation(plan, rows, measured)))
         print(f"results    {', '.join(str(folder / name) for name in written)}")
     lost = [
         f"point {p.point.number + 1} of {len(rows)} ({p.point}): {row['status']}: {row['message']}"

@@ -11,8 +11,7 @@ import hashlib
 from collections.abc import Sequence
 from pathlib import Path
 
-from pyehl import namelist
-from pyehl.case import Case
+from pyehl.case import Case, exchanged
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.destination import check_files, made_by, mark, new_file
 from pyehl.errors import FileError, InputError
@@ -65,7 +64,7 @@ def execute(args: argparse.Namespace) -> int:
     if is_case:
         case = Case.read(args.case, args.overrides)
         if args.second:
-            case = _exchanged(case)
+            case = exchanged(case)
     else:
         name = str(Path(args.case).absolute()).replace("'", "''")
         text = f"&surface kind = 'map' file = '{name}' /"
@@ -96,22 +95,12 @@ def execute(args: argparse.Namespace) -> int:
         known = is_case or any(o.startswith(("contact.", "lubricant.")) for o in args.overrides)
         conditions = (
             operating.hertz_radius,
-            operating.moes_m,
-            operating.moes_l,
+            *operating.equivalent_moes,
             str(settings["psd"]["wavelength_convention"]),
         )
         for path in _write(surface, case, args.output, conditions if known else None, args.plots):
             print(path)
     return 0
-
-
-def _exchanged(case: Case) -> Case:
-    """Give the case with its surfaces, and their bodies, exchanged."""
-    groups = case.resolve()
-    contact = {**groups["contact"], "rough_surface": 3 - groups["contact"]["rough_surface"]}
-    second = groups.get("second_surface", {"kind": "smooth"})
-    groups |= {"contact": contact, "surface": second, "second_surface": groups["surface"]}
-    return Case.from_text(namelist.text_of(groups), origin="case with its surfaces exchanged")
 
 
 def _lines(surface: Topography) -> list[str]:

@@ -31,8 +31,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of ``pyehl sweep``."""
     parser.description = (
         "Run a case with many values, in worker processes; started again it runs what is missing. "
-        "Exit status: 0 all cases have a result, 1 not, 2 bad input (nothing has run), "
-        "130 interrupted."
+        "Exit status: 0 all cases have a result, 1 at least one has none, 2 bad input (nothing "
+        "has run), 130 interrupted."
     )
     parser.add_argument("case", metavar="CASE.nml|STUDY.toml", help="case file or study file")
     parser.add_argument(

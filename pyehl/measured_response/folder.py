@@ -12,18 +12,19 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from pyehl.case import Case
+from pyehl.case import Case, exchanged
 from pyehl.destination import Destination, write_json
 from pyehl.given import Option, path_of
 from pyehl.measured_response.measurement import measure, with_tiers
-from pyehl.measured_response.table import dataset, shipped_response, write_table
+from pyehl.measured_response.table import dataset, nabla_2, shipped_response, write_table
 from pyehl.measured_response.tiers import TIERS
 from pyehl.netcdf import write_netcdf
-from pyehl.prediction.smooth import solve_contact, zone_of
+from pyehl.prediction.errors import outside_range
+from pyehl.prediction.options import Options
+from pyehl.prediction.smooth import circle_of, solve_contact, zone_of
 from pyehl.results import scalars
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.response import fitted_range
 
 __all__ = ["destination", "response"]
 
@@ -52,6 +53,7 @@ def response(
     output: str | os.PathLike[str] | None = None,
     force: bool = False,
     quick: bool = False,
+    second: bool = False,
     progress: Callable[[str, int, int], object] | None = None,
 ) -> xr.Dataset:
     """Measure what the contact of a case makes of small waves of roughness; takes minutes.
@@ -69,6 +71,8 @@ def response(
         Other files may be in the folder; they stay.
     quick
         Waves down to a/16 only, in a third of the time.
+    second
+        At the velocity of the second surface of the case, not of the first.
     progress
         Called with the name of a run, its steps done and its steps in all.
 
@@ -96,6 +100,8 @@ def response(
     """
     inputs = () if isinstance(case, Case) else (case,)
     case = Case.of(case, *options)
+    if second:
+        case = exchanged(case)
     tiers = TIERS[:-1] if quick else TIERS
     with tempfile.TemporaryDirectory(prefix="pyehl-") as nothing:
         folder = nothing if output is None else path_of(output, "output")
@@ -116,18 +122,22 @@ def _write(case: Case, found: Mapping[str, Mapping[str, Any]], place: Destinatio
     settings = case.resolve()
     ratio = float(settings["surface"]["velocity_ratio"])
     operating = OperatingPoint.from_settings(settings)
-    zone = zone_of(solve_contact(settings), operating, Lubricant.from_settings(settings))
-    data = dataset(found, zone, operating, ratio)
+    smooth, lubricant = solve_contact(settings), Lubricant.from_settings(settings)
+    zone = zone_of(smooth, operating, lubricant)
+    moes = circle_of(smooth, operating, lubricant)
+    data = dataset(found, zone, operating, moes, ratio)
     at_centre = data.sel(X=0.0)
-    nabla = np.geomspace(float(data["nabla_2"].min()), float(data["nabla_2"].max()), 400)
-    q = 2.0 * np.pi / nabla * np.sqrt(operating.moes_m / operating.moes_l)
+    longest, shortest = (float(data["wavelength"][i]) for i in (0, -1))
+    q = np.geomspace(2.0 * np.pi / shortest, 2.0 * np.pi / longest, 400)
+    nabla = nabla_2(q, moes)
     lines = {}
     for direction in DIRECTIONS:
         kx, ky = q * np.cos(np.radians(direction)), q * np.sin(np.radians(direction))
-        lines[direction] = (nabla, shipped_response(kx, ky, zone, operating, ratio)[:, 1])
+        lines[direction] = (nabla, shipped_response(kx, ky, zone, moes, ratio)[:, 1])
     waves = {name: at_centre[name].values for name in ("nabla_2", "direction", "amplitude", "lag")}
     label = f"M = {operating.moes_m:.4g}, L = {operating.moes_l:.4g}, velocity ratio {ratio:g}"
     summary = _summary(found, at_centre["shipped_difference"].values, data.attrs)
+    summary["within_fitted_range"] = not outside_range(operating, ratio, Options())
     with with_tiers(place).fresh() as folder:
         write_table(data, folder / "response.csv")
         write_netcdf(folder / "response.nc", data)
@@ -156,12 +166,9 @@ def _summary(
     return {
         "kind": "response",
         "files": list(FILES),
-        **{name: values[name] for name in ("moes_m", "moes_l", "velocity_ratio")},
+        **{name: values[name] for name in ("moes_m", "moes_l", "ellipticity", "velocity_ratio")},
         "waves": int(difference.size),
         "tiers": tiers,
         "shipped_difference_rms": float(np.sqrt(np.mean(difference**2))),
         "shipped_difference_max": float(difference.max()),
-        "within_fitted_range": all(
-            low <= values[name] <= high for name, (low, high) in fitted_range().items()
-        ),
     }

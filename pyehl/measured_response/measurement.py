@@ -25,6 +25,7 @@ from pyehl.destination import Destination, file_errors, new_file
 from pyehl.errors import EhlError, InputError
 from pyehl.measured_response.superposition import superpose
 from pyehl.measured_response.tiers import TIERS, Tier, tier_waves
+from pyehl.prediction.options import turned
 from pyehl.studies.journal import difference
 from pyehl.studies.pool import processors
 from pyehl.theory.operating import OperatingPoint
@@ -39,12 +40,16 @@ def _identity(settings: Mapping[str, Mapping[str, Any]], velocity_ratio: float, 
     o = OperatingPoint.from_settings(settings)
     values = {
         "pyehl version": metadata.version("pyehl"),
-        "contact": [o.load, o.mean_velocity, o.radius, o.reduced_modulus],
+        "contact": [o.load, o.mean_velocity, o.radius, o.reduced_modulus, *_elliptical(o)],
         "lubricant": dict(settings["lubricant"]),
         "velocity_ratio": velocity_ratio,
         "tier": asdict(tier),
     }
     return json.dumps(values, sort_keys=True)
+
+
+def _elliptical(point: OperatingPoint) -> list[float]:
+    return [] if point.radius_ratio == 1.0 else [point.radius_ratio]
 
 
 def _file(folder: Path, tier: Tier) -> Path:
@@ -103,7 +108,9 @@ def measure(
     fails: those that have ended stay.
     """
     settings = case.resolve()
-    OperatingPoint.from_settings(settings).need_round("the response of the contact")
+    why = turned(settings)
+    if why:
+        raise InputError(why)
     ratio = float(settings["surface"]["velocity_ratio"])
     if not ratio > 0.0:
         raise InputError(

@@ -132,11 +132,16 @@ def transient_case(
 ) -> Case:
     """Return the case of a run with a tile of a side [a] at the operating point of a case."""
     o = OperatingPoint.from_settings(settings)
+    round_one = o.radius_ratio == 1.0
+    radii = {"radius_x": o.radius, "radius_y": o.radius / o.radius_ratio}
+    # as far to the sides of an ellipse as of a circle, with rows in halves of the radius
+    side = math.ceil(4.0 * (1.0 + o.ellipse.ellipticity)) / 4.0
+    rows = {} if round_one else {"points_y": round(0.5 * side * (points - 1)) + 1}
     return Case(
         contact={
             "load": o.load,
             "mean_velocity": o.mean_velocity,
-            "radius": o.radius,
+            **({"radius": o.radius} if round_one else radii),
             "reduced_modulus": o.reduced_modulus,
         },
         lubricant=settings["lubricant"],
@@ -148,7 +153,7 @@ def transient_case(
             "x_start": FRONT,
         },
         # the tiers count their nodes on 4 a by 4 a, whatever M and L
-        grid={"points": points, "x_inlet": -2.5, "x_outlet": 1.5, "y_extent": 2.0},
+        grid={"points": points, "x_inlet": -2.5, "x_outlet": 1.5, "y_extent": side, **rows},
         solver={"accuracy": ACCURACY, **solver},
         time={"steps": 100000, "estimate_error": False},
     )
@@ -167,7 +172,8 @@ def superpose(
 ) -> Superposition:
     """Run a tile of waves through the contact of a resolved case.
 
-    The domain is 4 a by 4 a with so many nodes per side; `velocity_ratio` is positive; `solver`
+    The domain is 4 a along the motion, with so many nodes, and reaches a beyond the sides of the
+    contact, on square cells; `velocity_ratio` is positive; `solver`
     are keys of that group, `slope` is amplitude times wavenumber [a/R], `filling` the way of the
     slowest wave before the period that is fitted begins [a]; `progress` is called with the steps
     done and in all. EhlError if the run ends before its time.

@@ -16,7 +16,7 @@ from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_transfer
 from pyehl.theory.transport import Zone, stiffness, transport
 
-__all__ = ["STATIONS", "dataset", "shipped_response", "write_table"]
+__all__ = ["STATIONS", "dataset", "nabla_2", "shipped_response", "write_table"]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -30,14 +30,14 @@ VARIABLES = {
     "kx": ("wavenumber along the motion", "1/a"),
     "ky": ("wavenumber across the motion", "1/a"),
     "wavelength": ("2 pi/|q|", "a"),
-    "nabla_2": ("wavelength over a times sqrt(M/L)", "1"),
+    "nabla_2": ("wavelength over a times sqrt(M/L) of the circle with the same inlet", "1"),
     "direction": ("angle of the crests to those across the motion", "degree"),
     "points": ("nodes per side of the grid", "1"),
     "fit_residual": ("rms left by the fit in time over the amplitude, at X = 0", "1"),
     "amplitude": ("|T|, film wave over roughness", "1"),
     "lag": ("phase of T", "degree"),
     "pressure": ("|pressure wave| over roughness", "p_h R/a^2"),
-    "pressure_ratio": ("pressure wave over pi/4 |q| (1 - T) of the half-space", "1"),
+    "pressure_ratio": ("pressure wave over that of the half-space, K (1 - T)", "1"),
     "shipped_amplitude": ("|T| of the response that the prediction uses", "1"),
     "shipped_lag": ("phase of T of the response that the prediction uses", "degree"),
     "shipped_difference": ("|T - T of the response that the prediction uses|", "1"),
@@ -45,10 +45,12 @@ VARIABLES = {
 
 
 def shipped_response(
-    kx: Array, ky: Array, zone: Zone, operating: OperatingPoint, velocity_ratio: float
+    kx: Array, ky: Array, zone: Zone, moes: tuple[float, float], velocity_ratio: float
 ) -> Complex:
-    """T at the STATIONS by :mod:`pyehl.theory.response`, (m, 3), for wavenumbers [1/a]."""
-    moes = operating.moes_m, operating.moes_l
+    """T at the STATIONS by :mod:`pyehl.theory.response`, (m, 3), for wavenumbers [1/a].
+
+    `moes`: M and L of the circular contact with the same inlet.
+    """
     inlet = inlet_transfer(zone, kx, ky, moes, velocity_ratio)
     slip = np.exp(1j * np.outer(kx * (velocity_ratio - 1.0), STATIONS + 1.0))
     parts = transport(zone, kx, ky, velocity_ratio, STATIONS)
@@ -56,8 +58,14 @@ def shipped_response(
     return np.stack(found, axis=-1)
 
 
+def nabla_2(q: Array, moes: tuple[float, float]) -> Array:
+    """Wavelength parameter of waves |q| [1/a], by M and L of the circle with the same inlet."""
+    moes_m, moes_l = moes
+    return np.asarray(2.0 * np.pi / q * np.sqrt(moes_m / moes_l))
+
+
 def _tier(
-    tier: Mapping[str, Any], zone: Zone, operating: OperatingPoint, velocity_ratio: float
+    tier: Mapping[str, Any], zone: Zone, moes: tuple[float, float], velocity_ratio: float
 ) -> dict[str, Array]:
     """All columns of one tier."""
     k0 = 2.0 * np.pi / float(tier["tile"])
@@ -65,19 +73,20 @@ def _tier(
     q = np.hypot(kx, ky)
     place = [int(np.argmin(np.abs(tier["x"] - station))) for station in STATIONS]
     t, pressure = tier["response"][:, place], tier["stiffness"][:, place]
-    shipped = shipped_response(kx, ky, zone, operating, velocity_ratio)
+    half_space = zone.stiffness * stiffness(q)[:, np.newaxis]
+    shipped = shipped_response(kx, ky, zone, moes, velocity_ratio)
     return {
         "kx": kx,
         "ky": ky,
         "wavelength": 2.0 * np.pi / q,
-        "nabla_2": 2.0 * np.pi / q * np.sqrt(operating.moes_m / operating.moes_l),
+        "nabla_2": nabla_2(q, moes),
         "direction": np.degrees(np.arctan2(ky, kx)),
         "points": np.full(kx.shape, round(4.0 / float(tier["spacing"])) + 1.0),
         "fit_residual": tier["residual"][:, place[1]],
         "amplitude": np.abs(t),
         "lag": np.degrees(np.angle(t)),
         "pressure": np.abs(pressure),
-        "pressure_ratio": np.abs(pressure / (stiffness(q)[:, np.newaxis] * (1.0 - t))),
+        "pressure_ratio": np.abs(pressure / (half_space * (1.0 - t))),
         "shipped_amplitude": np.abs(shipped),
         "shipped_lag": np.degrees(np.angle(shipped)),
         "shipped_difference": np.abs(t - shipped),
@@ -88,15 +97,17 @@ def dataset(
     tiers: Mapping[str, Mapping[str, Any]],
     zone: Zone,
     operating: OperatingPoint,
+    moes: tuple[float, float],
     velocity_ratio: float,
 ) -> xr.Dataset:
     """Give all waves of a measurement, the longest first.
 
     `tiers` are as :func:`pyehl.measured_response.measurement.measure` returns them; `zone` is the
-    smooth contact that the shipped response goes through. Over wave (m,), and over wave and X
+    smooth contact that the shipped response goes through, `moes` M and L of the circular contact
+    with the same inlet. Over wave (m,), and over wave and X
     (m, 3) at the STATIONS; each variable has units.
     """
-    parts = [_tier(tier, zone, operating, velocity_ratio) for tier in tiers.values()]
+    parts = [_tier(tier, zone, moes, velocity_ratio) for tier in tiers.values()]
     joined = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     order = np.argsort(-joined["wavelength"], kind="stable")
     names = np.repeat(list(tiers), [tier["along"].size for tier in tiers.values()])
@@ -110,6 +121,7 @@ def dataset(
         "title": "response of a lubricated contact to waves of roughness",
         "moes_m": operating.moes_m,
         "moes_l": operating.moes_l,
+        "ellipticity": operating.ellipse.ellipticity,
         "velocity_ratio": velocity_ratio,
     }
     return xr.Dataset(variables, {"X": place}, scalars)

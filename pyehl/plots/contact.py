@@ -32,7 +32,14 @@ from pyehl.plots.style import (
     pressure_unit,
 )
 
-__all__ = ["contours", "fringe_colours", "fringe_spacings", "interferogram", "pressure_and_film"]
+__all__ = [
+    "contours",
+    "fringe_colours",
+    "fringe_spacings",
+    "interferogram",
+    "pressure_and_film",
+    "pressure_map",
+]
 
 Array = NDArray[np.float64]
 
@@ -46,6 +53,8 @@ RED_SHARE = 0.9
 COHERENT_FRINGES = 8.0
 # Half side of the film maps [a]
 VIEW = 1.3
+# Maps that are so much higher than broad have few ticks, and captions of several lines
+SLENDER = 3.0
 
 
 def pressure_and_film(
@@ -158,6 +167,30 @@ def _frame(ax: Axes, x: Array, y: Array, scales: Scales | None, outline: Outline
     ax.set_ylabel(label_y)
     if scales is None:
         hertz_ticks(ax, outline)
+    elif outline.slender > SLENDER:
+        ax.locator_params(axis="x", nbins=2)
+        ax.tick_params(axis="x", rotation=90)
+
+
+def pressure_map(
+    x: Array,
+    y: Array,
+    pressure: Array,
+    scales: Scales | None = None,
+    *,
+    outline: Outline = CIRCLE,
+    ax: Axes | None = None,
+) -> Axes:
+    """Pressure P (nx, ny) as a map with a colour bar; other arguments as of `contours`."""
+    ax = axes_or_new(ax, 4.2, 3.6)
+    unit_p, label = pressure_unit(scales)
+    unit, _ = axis_unit(scales, "x")
+    image = ax.imshow(
+        pressure.T * unit_p, origin="lower", extent=extent_of(x, y, unit), cmap=SEQUENTIAL
+    )
+    colour_bar(image, ax, label, shrink=0.9, slender=outline.slender)
+    _frame(ax, x, y, scales, outline)
+    return ax
 
 
 def interferogram(
@@ -205,6 +238,8 @@ def interferogram(
     extent = extent_of(x[inner_x], y[inner_y], unit)
     colours = fringe_colours(fine, red, green).transpose(1, 0, 2)
     ax.imshow(colours, origin="lower", extent=extent, interpolation="antialiased")
+    if outline.slender > SLENDER:
+        caption = caption.replace(" and ", " and\n").replace(", ", ",\n")
     ax.text(
         0.03, 0.03, caption, transform=ax.transAxes, fontsize="small",
         bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 2.0},
@@ -255,6 +290,6 @@ def contours(
     shades = colormaps[SEQUENTIAL].with_extremes(over="white")
     filled = ax.contourf(x * unit, y * unit, h.T, levels=levels, cmap=shades, extend="max")
     ax.contour(x * unit, y * unit, h.T, levels=levels, colors="black", linewidths=0.3, alpha=0.6)
-    colour_bar(filled, ax, label, shrink=0.9)
+    colour_bar(filled, ax, label, shrink=0.9, slender=outline.slender)
     _frame(ax, x, y, scales, outline)
     return ax

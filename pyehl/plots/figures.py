@@ -1,61 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whole figures of results: panels side by side under a line that says what they show."""
+"""Figures of a solution: film, pressure and, of a transient run, friction."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from pyehl import namelist
-from pyehl.plots import contact, surface, transient
-from pyehl.plots.outline import Outline
-from pyehl.plots.style import (
-    BLUE,
-    VERMILLION,
-    Scales,
-    film_unit,
-    letter,
-    nearest,
-    new_figure,
-    pressure_unit,
-)
-from pyehl.surfaces import Topography, wavenumbers
+from pyehl.plots import contact, transient
+from pyehl.plots.outline import CIRCLE, Outline
+from pyehl.plots.panels import headline, no_second_label, panels
+from pyehl.plots.style import BLUE, VERMILLION, Scales, film_unit, nearest, pressure_unit
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.transport import stiffness
 
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["headline", "prediction_figures", "scales_of", "solution_figures"]
-
-Array = NDArray[np.float64]
-
-# Room below and above a row of panels [in]
-BELOW, ABOVE = 0.52, 0.57
-
-
-def headline(summary: Mapping[str, Any], scales: Scales | None = None) -> str:
-    """M, L, p_h, film and direction of motion in one line; the status unless it is a good one.
-
-    Of the scalars of a solution or a prediction, with scales in SI units, else in Hertz units.
-    """
-    parts = [f"$M$ = {summary['moes_m']:.4g}", f"$L$ = {summary['moes_l']:.4g}"]
-    parts.append(f"$p_h$ = {summary['hertz_pressure_Pa'] * 1e-9:.3g} GPa")
-    for name, word in (("c", "c"), ("min", r"\min")):
-        si, big = summary.get(f"h_{name}_m"), summary.get(f"H_{name}")
-        if si is None and scales is not None and big is not None:
-            si = big * scales.film
-        if si is not None and (scales is not None or big is None):
-            parts.append(rf"$h_{{{word}}}$ = {si * 1e6:.3g} $\mu$m")
-        elif big is not None:
-            parts.append(f"$H_{{{word}}}$ = {big:.3g}")
-    if summary["status"] not in ("converged", "predicted"):
-        parts.append(str(summary["status"]).upper())
-    return ",  ".join(parts) + r",  motion $\rightarrow$"
+__all__ = ["scales_of", "solution_figures"]
 
 
 def scales_of(data: xr.Dataset, units: str = "auto") -> Scales | None:
@@ -72,31 +34,15 @@ def _stretch(data: xr.Dataset) -> float:
     return min(2.0, max(1.0, across / along))
 
 
-def _row(
-    count: int,
-    size: tuple[float, float],
-    title: str,
-    *,
-    sharey: bool = False,
-    room: tuple[float, float, float] | None = None,
-) -> Figure:
-    """Make a figure with panels side by side.
+def _size(data: xr.Dataset, count: int, broad: float) -> tuple[float, float]:
+    """Width and height [in] of so many maps with equal axes; `broad`: width of those of a circle.
 
-    `room`: left of, between and right of the panels in inches, where it is known. Then nothing is
-    measured, which takes as long as to draw.
+    As narrow as maps of a wide contact and their colour bars are, and the title still is.
     """
-    if room is None:
-        figure = new_figure(*size)
-    else:
-        (width, height), (left, between, right) = size, room
-        panel = (width - left - right - (count - 1) * between) / count
-        figure = Figure(figsize=size)
-        figure.subplots_adjust(
-            left / width, BELOW / height, 1.0 - right / width, 1.0 - ABOVE / height, between / panel
-        )
-    letter(list(figure.subplots(1, count, sharey=sharey, squeeze=False)[0]))
-    figure.suptitle(title, fontsize="medium")
-    return figure
+    slender, height = Outline.of(data).slender, 3.6 * _stretch(data)
+    if slender <= 1.0:
+        return broad * count / 2, height
+    return min(broad * count / 2, max(6.4, count * ((height - 1.0) / slender + 1.4))), height
 
 
 def solution_figures(data: xr.Dataset, units: str = "auto") -> dict[str, Figure]:
@@ -121,7 +67,7 @@ def solution_figures(data: xr.Dataset, units: str = "auto") -> dict[str, Figure]
 
 
 def _centre_lines(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
-    figure = _row(2, (8.0, 3.5), title)
+    figure = panels(2, (8.0, 3.5), title)
     left, right = figure.axes
     x, y, p, h = (data[name].values for name in "XYPH")
     i, j = nearest(x, 0.0), nearest(y, 0.0)
@@ -138,8 +84,11 @@ def _centre_lines(data: xr.Dataset, scales: Scales | None, title: str) -> Figure
 
 
 def _film(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
-    figure = _row(2, (7.2, 3.6 * _stretch(data)), title, sharey=True)
-    left, right = figure.axes
+    """Film as fringes and as contours; of an ellipse the pressure, too."""
+    outline = Outline.of(data)
+    count = 2 if outline == CIRCLE else 3
+    figure = panels(count, _size(data, count, 7.2), title, sharey=True)
+    left, right, *more = figure.axes
     x, y, film = (data[name].values for name in "XYH")
     fringes = None
     if "H_smooth" in data:
@@ -147,15 +96,17 @@ def _film(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
             float(data.H_smooth.values[nearest(x, 0.0), nearest(y, 0.0)]) * film_unit(scales)[0],
             scales,
         )
-    outline = Outline.of(data)
     contact.interferogram(x, y, film, scales, fringes=fringes, outline=outline, ax=left)
     contact.contours(x, y, film, scales, outline=outline, ax=right)
-    right.set_ylabel("")
+    for ax in more:
+        contact.pressure_map(x, y, data["P"].values, scales, outline=outline, ax=ax)
+    for ax in (right, *more):
+        no_second_label(ax)
     return figure
 
 
 def _deformed(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
-    figure = _row(2, (8.2, 3.6 * _stretch(data)), title, sharey=True)
+    figure = panels(2, _size(data, 2, 8.2), title, sharey=True)
     x, y, rough, deformed = (data[name].values for name in ("X", "Y", "RR", "A_d"))
     outline = Outline.of(data)
     top = transient.roughness_top(x, y, rough, deformed, outline=outline)
@@ -165,12 +116,12 @@ def _deformed(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
             x, y, field, scales,
             top=top, name=name, bar=field is deformed, outline=outline, ax=ax,
         )  # fmt: skip
-    figure.axes[1].set_ylabel("")
+    no_second_label(figure.axes[1])
     return figure
 
 
 def _rough_and_smooth(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
-    figure = _row(2, (7.6, 3.4), title)
+    figure = panels(2, (7.6, 3.4), title)
     left, right = figure.axes
     x, row = data["X"].values, nearest(data["Y"].values, 0.0)
     for ax, name, unit, colour in (
@@ -187,7 +138,7 @@ def _rough_and_smooth(data: xr.Dataset, scales: Scales | None, title: str) -> Fi
 
 
 def _friction(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
-    figure = _row(1, (6.4, 3.6), title)
+    figure = panels(1, (6.4, 3.6), title)
     settings = namelist.values(data.attrs["case"])
     transient.friction_history(
         data.history_T.values,
@@ -202,68 +153,9 @@ def _friction(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
 
 
 def _extremes(data: xr.Dataset, scales: Scales | None, title: str) -> Figure:
-    figure = _row(1, (6.4, 3.8), title)
+    figure = panels(1, (6.4, 3.8), title)
     films = {"least film": data.history_H_min.values, "film at the centre": data.history_H_c.values}
     transient.extremes_history(
         data.history_T.values, data.history_P_max.values, films, scales, ax=figure.axes[0]
-    )
-    return figure
-
-
-def prediction_figures(
-    about: Mapping[str, Any],
-    arrays: Mapping[str, Array],
-    tables: Mapping[str, Mapping[str, Array]],
-) -> dict[str, Figure]:
-    """All figures of a prediction, by the names of their files.
-
-    `about` is its summary; of the `tables` ``passage`` and ``bands`` are shown.
-    """
-    title = headline(about)
-    size = about["length_x_m"], about["length_y_m"]
-    tile = Topography(arrays["surface"], size, about["surface"])
-    deformed = arrays["deformed"]
-    figure = _row(3, (11.6, 3.2), title, room=(0.8, 1.9, 0.8))
-    first, second, third = figure.axes
-    third.set_box_aspect(1.0)
-    surface.heights(tile, ax=first)
-    surface.spectrum_map(tile, ax=second)
-    flattened = _flattened(about, Topography(arrays["delta_p"], size))
-    surface.spectrum_line(tile, deformed, flattened, ax=third)
-    figure.axes[-1].set_box_aspect(1.0)
-    figures = {"surface_spectrum": figure}
-    figure = _row(2, (7.2, 3.4), title, sharey=True, room=(0.75, 0.35, 1.15))
-    for ax, values, name in zip(
-        list(figure.axes),
-        (tile.heights, deformed),
-        ("(a) undeformed,", "(b) deformed,"),
-        strict=True,
-    ):
-        last = values is deformed
-        surface.roughness(tile, values, about["hertz_radius_m"], name=name, bar=last, ax=ax)
-    figure.axes[1].set_ylabel("")
-    figures["roughness"] = figure
-    if about["status"] == "predicted":
-        figures["passage"] = _passage(tables, about["length_x_m"], title)
-    return figures
-
-
-def _flattened(about: Mapping[str, Any], tile: Topography) -> Array:
-    """Return what pressure [Pa] flattens of a tile [m]: it over E'|q|/4 of the half-space."""
-    stiff = stiffness(np.hypot(*wavenumbers(tile)) * about["hertz_radius_m"])
-    # the mean is not flattened
-    stiff[0, 0] = np.inf
-    unit = about["film_scale_m"] / about["hertz_pressure_Pa"]
-    part = np.fft.rfft2(tile.heights) * unit / stiff
-    return np.asarray(np.fft.irfft2(part, s=tile.shape))
-
-
-def _passage(tables: Mapping[str, Mapping[str, Array]], length: float, title: str) -> Figure:
-    figure = _row(2, (7.6, 3.2), title, room=(0.9, 1.05, 0.15))
-    left, right = figure.axes
-    surface.passage(tables["passage"]["shift_m"], tables["passage"]["mu_ratio"], length, ax=left)
-    columns = [tables["bands"][name] for name in ("longest_m", "shortest_m", "rise")]
-    surface.octaves(
-        [(float(a), float(b), float(c)) for a, b, c in zip(*columns, strict=True)], ax=right
     )
     return figure

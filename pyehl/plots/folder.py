@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 from pyehl.destination import check_files
 from pyehl.errors import InputError
 from pyehl.given import check_kind, path_of
-from pyehl.plots.figures import prediction_figures, solution_figures
-from pyehl.plots.style import DPI, save
+from pyehl.plots.figures import solution_figures
+from pyehl.plots.predicted import prediction_figures
+from pyehl.plots.style import DPI, page_width, save
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 __all__ = ["FORMATS", "UNITS", "made", "plot", "save_all"]
 
 FORMATS = ("png", "pdf", "svg")
+LEAST_WIDTH, MOST_WIDTH = 0.04, 0.4
+"""Widths of figures [m]."""
 UNITS = ("auto", "si", "hertz")
 # Arrays of a prediction that are drawn, with their units
 PREDICTED = {"surface": "m", "deformed": "m", "delta_p": "Pa"}
@@ -60,6 +63,7 @@ def plot(
     units: str = "auto",
     format: str = "png",
     dpi: int = DPI,
+    width: float = 0.0,
 ) -> dict[str, Figure]:
     """Draw the pictures of a result, and write them if a folder is given.
 
@@ -75,6 +79,9 @@ def plot(
         One of :data:`FORMATS`.
     dpi
         Dots per inch.
+    width
+        Of the figures [m], such as 0.084 for a column of a journal, with letters of 7 points; 0: as
+        wide as their panels want.
 
     Returns
     -------
@@ -101,6 +108,12 @@ def plot(
     check_kind(dpi, int, "dpi", "a whole number")
     if not 10 <= dpi <= 2400:
         raise InputError(f"--dpi {dpi}: 10 ... 2400 dots per inch were expected")
+    check_kind(width, (int, float), "width", "a number [m]")
+    if width and not LEAST_WIDTH <= width <= MOST_WIDTH:
+        raise InputError(
+            f"--width {width * 1e3:g}mm: {LEAST_WIDTH * 1e3:g} ... {MOST_WIDTH * 1e3:g} mm were "
+            "expected"
+        )
     # a prediction draws without them
     import xarray as xr  # noqa: PLC0415
 
@@ -110,10 +123,11 @@ def plot(
     data = results if isinstance(results, xr.Dataset) else load(folder)
     if "case" not in data.attrs:
         raise InputError(f"{folder}: expected a result of solve, load or predict")
-    if data.attrs.get("kind") == "prediction":
-        figures = _of_prediction(data)
-    else:
-        figures = solution_figures(data, units)
+    with page_width(width):
+        if data.attrs.get("kind") == "prediction":
+            figures = _of_prediction(data)
+        else:
+            figures = solution_figures(data, units)
     if not figures:
         raise InputError(
             f"{folder}: there are no fields to draw: the case has output.fields = .false.\n"

@@ -1,60 +1,98 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The frames of a transient run as a moving picture: fringes of the film, pressure and film."""
+"""The frames of a transient run as a moving picture: film, pressure and roughness of a passage."""
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
+import numpy as np
 import xarray as xr
 from matplotlib import animation
 from matplotlib.artist import Artist
 
 from pyehl.destination import check_files, mark, new_file
 from pyehl.errors import InputError
-from pyehl.plots import contact
-from pyehl.plots.figures import headline, scales_of
+from pyehl.plots import contact, transient
+from pyehl.plots.figures import scales_of
 from pyehl.plots.outline import Outline
+from pyehl.plots.panels import headline
 from pyehl.plots.style import film_unit, nearest, new_figure
+from pyehl.results import settings_of
+from pyehl.theory.operating import OperatingPoint
 
 __all__ = ["movie"]
 
 SUFFIXES = ("gif", "mp4")
-FRAMES_PER_SECOND, DPI = 12, 100
+FRAME_SECONDS, DPI = 0.08, 100
+# A GIF counts hundredths of a second, and viewers slow down frames that are shorter
+LEAST_SECONDS, MOST_SECONDS = 0.02, 10.0
 
 
-def movie(data: xr.Dataset, target: Path, suffix: str = "gif", units: str = "auto") -> Path:
+def _pace(data: xr.Dataset, seconds: float, *, si: bool) -> str:
+    """Say how long a frame is shown, and what time of the contact it stands for."""
+    times = data["T"].values
+    between = float(np.median(np.diff(times))) if times.size > 1 else 0.0
+    told = f"{between:.3g} $a/u$"
+    if si:
+        unit = OperatingPoint.from_settings(settings_of(data)).time_scale
+        told += f" = {between * unit * 1e6:.3g} $\\mu$s"
+    return f"{seconds:.3g} s per frame, which is {told} in the contact"
+
+
+def movie(
+    data: xr.Dataset,
+    target: Path,
+    suffix: str = "gif",
+    units: str = "auto",
+    seconds: float = FRAME_SECONDS,
+) -> Path:
     """Write the frames of a transient run as ``movie.gif`` or ``movie.mp4`` into a folder.
 
-    `data` is of a run with ``output.frame_interval`` above 0. InputError if there are no frames,
-    or no program ffmpeg for 'mp4', or another file has the name.
+    `data` is of a run with ``output.frame_interval`` above 0; each frame is shown for so many
+    `seconds`, which the picture states with the time between frames in the contact. The panels are
+    the film as fringes, pressure and film on the centre line, and the deformed roughness.
+    InputError if there are no frames, or no program ffmpeg for 'mp4', or another file has the name.
     """
     if "frame_H" not in data or data.sizes["T"] == 0:
         raise InputError(
             "there are no frames to make a movie of\n"
             "expected: the result of a transient run with output.frame_interval, such as 0.05"
         )
+    if not (math.isfinite(seconds) and LEAST_SECONDS <= seconds <= MOST_SECONDS):
+        raise InputError(
+            f"--frame-seconds {seconds:g}: expected {LEAST_SECONDS:g} ... {MOST_SECONDS:g} s"
+        )
     if suffix == "mp4" and not animation.writers.is_available("ffmpeg"):
         raise InputError("an MP4 needs the program ffmpeg, which is not here\nexpected: GIF")
+    # a GIF has whole hundredths
+    seconds = round(100.0 * seconds) / 100.0 if suffix == "gif" else seconds
     scales = scales_of(data, units)
+    outline = Outline.of(data)
     x, y, times = (data[name].values for name in "XYT")
     row = nearest(y, 0.0)
     most = 1.05 * max(1.0, float(data.frame_P.max()))
-    central = float(data["H_smooth"].values[nearest(x, 0.0), row]) * film_unit(scales)[0]
+    smooth = data["H_smooth"].values
+    central = float(smooth[nearest(x, 0.0), row]) * film_unit(scales)[0]
     fringes = contact.fringe_spacings(central, scales)
-    figure = new_figure(8.0, 3.8)
-    title = headline(data.attrs, scales)
+    deformed = smooth[:, :, np.newaxis] - data["frame_H"].values
+    top = transient.roughness_top(x, y, *np.moveaxis(deformed, 2, 0), outline=outline)
+    figure = new_figure(11.6, 3.9)
+    title = f"{headline(data.attrs, scales)}\n{_pace(data, seconds, si=scales is not None)}"
 
     def draw(frame: int) -> list[Artist]:
         figure.clear()
-        left, right = figure.subplots(1, 2)
+        left, middle, right = figure.subplots(1, 3)
         pressure, film = (data[name].values[:, :, frame] for name in ("frame_P", "frame_H"))
-        contact.interferogram(
-            x, y, film, scales, fringes=fringes, outline=Outline.of(data), ax=left
-        )
-        contact.pressure_and_film(x, pressure[:, row], film[:, row], scales, ax=right)
-        right.set_ylim(0.0, most * (1.0 if scales is None else scales.pressure * 1e-9))
-        right.set_xlim(left.get_xlim())
-        figure.suptitle(f"{title}\n$T$ = {times[frame]:.2f}", fontsize="medium")
+        contact.interferogram(x, y, film, scales, fringes=fringes, outline=outline, ax=left)
+        contact.pressure_and_film(x, pressure[:, row], film[:, row], scales, ax=middle)
+        middle.set_ylim(0.0, most * (1.0 if scales is None else scales.pressure * 1e-9))
+        middle.set_xlim(left.get_xlim())
+        transient.roughness(
+            x, y, deformed[:, :, frame], scales,
+            top=top, name="deformed roughness,", bar=True, outline=outline, ax=right,
+        )  # fmt: skip
+        figure.suptitle(f"{title};  $T$ = {times[frame]:.2f}", fontsize="medium")
         return []
 
     path = target / f"movie.{suffix}"
@@ -62,9 +100,12 @@ def movie(data: xr.Dataset, target: Path, suffix: str = "gif", units: str = "aut
     moving = animation.FuncAnimation(figure, draw, frames=times.size, blit=False)
     writer: animation.AbstractMovieWriter
     if suffix == "mp4":
-        writer = animation.FFMpegWriter(fps=FRAMES_PER_SECOND, metadata={"comment": mark("plot")})
+        about = {"comment": mark("plot")}
+        writer = animation.FFMpegWriter(fps=1.0 / seconds, metadata=about)  # type: ignore[arg-type]
     else:
-        writer = animation.PillowWriter(fps=FRAMES_PER_SECOND)
+        # whole milliseconds, of which the writer takes the integer part
+        rate = 1000.0 / (round(1000.0 * seconds) + 0.25)
+        writer = animation.PillowWriter(fps=rate)  # type: ignore[arg-type]
     with new_file(path) as partial:
         moving.save(partial, writer=writer, dpi=DPI)
         if suffix == "gif":

@@ -48,6 +48,12 @@ class Outline:
         return math.hypot(c, self.ellipticity * s), math.hypot(s, self.ellipticity * c)
 
     @property
+    def slender(self) -> float:
+        """How much further it reaches along y than along x."""
+        along, across = self.reach
+        return across / along
+
+    @property
     def chords(self) -> tuple[float, float]:
         """Half of its width on the x axis and on the y axis."""
         c, s = math.cos(math.radians(self.angle)), math.sin(math.radians(self.angle))

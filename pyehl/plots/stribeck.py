@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from textwrap import wrap
 from typing import Any
 
 import numpy as np
@@ -23,7 +24,7 @@ from pyehl.plots.style import (
 )
 from pyehl.theory import stribeck
 
-__all__ = ["ABSCISSAE", "Curve", "Points", "draw_stribeck"]
+__all__ = ["ABSCISSAE", "COLOURS", "Curve", "Points", "bars", "draw_stribeck"]
 
 Array = NDArray[np.float64]
 
@@ -63,11 +64,13 @@ class Curve:
         return self.column(name) * (self.column("mu_smooth") if self.absolute else 1.0)
 
 
-def draw_stribeck(curves: Sequence[Curve], surface: str, measured: Points | None = None) -> Figure:
+def draw_stribeck(
+    curves: Sequence[Curve], surface: str, measured: Points | None = None, law: str = ""
+) -> Figure:
     """Draw friction over all abscissae, a coefficient or a ratio mu_r/mu_s.
 
     `surface` says what the surface is in a few words; measured friction is laid over, and over
-    theta_2 the curve of Zhang et al. 2019.
+    theta_2 the curve of Zhang et al. 2019; `law` says what an empirical curve is.
     """
     absolute = curves[0].absolute
     # smooth surfaces have neither Lambda nor theta_2
@@ -86,7 +89,7 @@ def draw_stribeck(curves: Sequence[Curve], surface: str, measured: Points | None
             ax.errorbar(
                 measured.places[name],
                 measured.friction,
-                _bars(measured.error),
+                bars(measured.error),
                 fmt="k^",
                 ms=4,
                 mfc="none",
@@ -110,11 +113,11 @@ def draw_stribeck(curves: Sequence[Curve], surface: str, measured: Points | None
         unique.values(), unique.keys(), loc="outside lower center", ncols=5, fontsize="small"
     )
     words = "; ".join(f"{c.label + ': ' if c.label else ''}{c.ends}" for c in curves if c.ends)
-    figure.suptitle(f"{surface}\n{words}", fontsize="medium")
+    figure.suptitle("\n".join((surface, words, *wrap(law, 100))), fontsize="medium")
     return figure
 
 
-def _bars(error: Array) -> Array | None:
+def bars(error: Array) -> Array | None:
     """Give error bars, none where all are zero or unknown."""
     known = np.nan_to_num(error)
     return known if known.any() else None
@@ -133,13 +136,17 @@ def _draw_curve(ax: Axes, curve: Curve, name: str, colour: str) -> None:
         if wide.any():
             low, high = y[wide] - width[wide], y[wide] + width[wide]
             ax.fill_between(x[wide], low, high, color=colour, alpha=alpha, lw=0, label=label)
+    if curve.absolute and "mu_empirical" in curve.rows[0]:
+        empirical = curve.column("mu_empirical")
+        there = np.isfinite(x) & np.isfinite(empirical)
+        ax.plot(x[there], empirical[there], "--", lw=1.2, color=colour, label=f"empirical{tail}")
     full = curve.friction("mu_ratio_ehl")
     there = np.isfinite(full)
     if there.any():
         ax.errorbar(
             x[there],
             full[there],
-            _bars(curve.friction("mu_ratio_ehl_error")[there]),
+            bars(curve.friction("mu_ratio_ehl_error")[there]),
             fmt="s",
             ms=5,
             mfc="white",

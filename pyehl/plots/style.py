@@ -7,14 +7,19 @@ else in Hertz units.
 
 from __future__ import annotations
 
+import io
 import math
+import re
 import zlib
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.cm import ScalarMappable
@@ -32,6 +37,7 @@ __all__ = [
     "DPI",
     "GREEN",
     "GREY",
+    "PAGE_WIDTH",
     "SEQUENTIAL",
     "VERMILLION",
     "Scales",
@@ -49,13 +55,17 @@ __all__ = [
     "letter",
     "nearest",
     "new_figure",
+    "page_width",
+    "png",
     "pressure_unit",
     "save",
+    "wrapped",
 ]
 
 Array = NDArray[np.float64]
 
 DPI = 150
+INCH = 0.0254
 # For PNG files: twice as fast as the usual way, and as small
 COMPRESSION = {"compress_type": zlib.Z_RLE}
 # Okabe & Ito: told apart by everybody
@@ -75,6 +85,40 @@ class Scales:
     film: float
 
 
+# Width of the page that figures are drawn for [in]; 0: as wide as their panels want
+PAGE_WIDTH: ContextVar[float] = ContextVar("PAGE_WIDTH", default=0.0)
+# Letters as journals want them in their columns [pt], and how many go into an inch
+PAGE_FONT, LETTERS_PER_INCH = 7.0, 17.0
+
+
+@contextmanager
+def page_width(metres: float) -> Iterator[None]:
+    """Draw figures so wide, with letters of `PAGE_FONT`; 0: as wide as their panels want."""
+    if not metres:
+        yield
+        return
+    token = PAGE_WIDTH.set(metres / INCH)
+    try:
+        with rc_context({"font.size": PAGE_FONT, "axes.linewidth": 0.6, "lines.linewidth": 1.0}):
+            yield
+    finally:
+        PAGE_WIDTH.reset(token)
+
+
+def wrapped(title: str, width: float) -> str:
+    """Break a line of parts, ',  ' between them, so that it fits a width in inches."""
+    lines: list[str] = []
+    for part in title.split(",  "):
+        joined = f"{lines[-1]},  {part}" if lines else part
+        # what mathematics is written with is not seen
+        seen = len(re.sub(r"\\[a-z]+|[${}]", "", joined))
+        if lines and seen <= width * LETTERS_PER_INCH:
+            lines[-1] = joined
+        else:
+            lines.append(part)
+    return ",\n".join(lines)
+
+
 def new_figure(width: float, height: float) -> Figure:
     """Make an empty figure of a size in inches, laid out by itself."""
     return Figure(figsize=(width, height), layout="constrained")
@@ -89,9 +133,20 @@ def axes_or_new(ax: Axes | None, width: float, height: float) -> Axes:
     return ax
 
 
-def colour_bar(image: ScalarMappable, ax: Axes, label: str, *, shrink: float = 1.0) -> None:
-    """Put a colour bar beside axes, so much shorter than they are."""
-    beside = ax.inset_axes((1.04, 0.5 - 0.5 * shrink, 0.05, shrink))
+def colour_bar(
+    image: ScalarMappable,
+    ax: Axes,
+    label: str,
+    *,
+    shrink: float = 1.0,
+    slender: float = 1.0,
+) -> None:
+    """Put a colour bar beside axes, so much shorter than they are.
+
+    `slender`: height of the axes over their width, where they are slender.
+    """
+    unit = math.sqrt(max(1.0, slender))
+    beside = ax.inset_axes((1.0 + 0.04 * unit, 0.5 - 0.5 * shrink, 0.05 * unit, shrink))
     powers = POWERS if isinstance(image.norm, LogNorm) else None
     ax.figure.colorbar(image, cax=beside, format=powers).set_label(label)
 
@@ -133,7 +188,7 @@ def contact_heights(
     ax.set_xlim(-1.05 * along * radius, 1.05 * along * radius)
     ax.set_ylim(-1.05 * across * radius, 1.05 * across * radius)
     if bar:
-        colour_bar(image, ax, f"height [{unit}]", shrink=0.85)
+        colour_bar(image, ax, f"height [{unit}]", shrink=0.85, slender=outline.slender)
 
 
 def extent_of(
@@ -153,9 +208,18 @@ def save(figure: Figure, path: str | Path, dpi: int = DPI, command: str = "plot"
     options: dict[str, Any] = {"metadata": {"Creator": mark(command)}}
     if path.suffix == ".png":
         options = {"metadata": {"Software": mark(command)}, "pil_kwargs": COMPRESSION}
-    with new_file(path) as partial:
+    # fonts are put into PDF files as TrueType
+    with new_file(path) as partial, rc_context({"pdf.fonttype": 42, "ps.fonttype": 42}):
         figure.savefig(partial, dpi=dpi, **options)
     return path
+
+
+def png(figure: Figure, dpi: int) -> bytes:
+    """Give a figure as the bytes of a PNG."""
+    stream = io.BytesIO()
+    # small rather than quick: it goes into a page
+    figure.savefig(stream, format="png", dpi=dpi, pil_kwargs={"optimize": True})
+    return stream.getvalue()
 
 
 def letter(axes: Sequence[Axes]) -> None:

@@ -15,6 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from numpy.typing import NDArray
 
+from pyehl.plots.outline import Outline
 from pyehl.plots.style import (
     BLUE,
     DIVERGING,
@@ -124,13 +125,13 @@ def spectrum_line(
 def roughness(
     topography: Topography,
     values: Array,
-    hertz_radius: float,
+    semi_axes: tuple[float, float],
     *,
     name: str = "",
     bar: bool = True,
     ax: Axes | None = None,
 ) -> Axes:
-    """Draw a tile inside the Hertz circle, on the scale of the undeformed roughness.
+    """Draw a tile inside the Hertz ellipse, on the scale of the undeformed roughness.
 
     Parameters
     ----------
@@ -138,8 +139,8 @@ def roughness(
         The undeformed tile; repeated over the contact, its pixel [0, 0] at the centre.
     values
         Heights of the same shape that are drawn [m]: the undeformed or the deformed ones.
-    hertz_radius
-        a [m].
+    semi_axes
+        Of the contact, a along the motion and the other one [m].
     name
         What the field is called in the title, which also gives its rms.
     bar
@@ -148,23 +149,34 @@ def roughness(
     ax = axes_or_new(ax, 3.8, 3.1)
     nx, ny = topography.shape
     px, py = topography.pixel
-    half_x, half_y = int(hertz_radius / px), int(hertz_radius / py)
+    a, b = semi_axes
+    half_x, half_y = int(a / px), int(b / py)
     i, j = np.arange(-half_x, half_x + 1), np.arange(-half_y, half_y + 1)
-    inside = (i * px / hertz_radius)[:, None] ** 2 + (j * py / hertz_radius)[None, :] ** 2 <= 1.0
+    inside = (i * px / a)[:, None] ** 2 + (j * py / b)[None, :] ** 2 <= 1.0
     at = np.ix_(i % nx, j % ny)
     top = float(np.abs(topography.heights[at][inside]).max())
     unit, label = height_unit(top)
-    extent = extent_of(i * (px / hertz_radius), j * (py / hertz_radius))
+    extent = extent_of(i * (px / a), j * (py / a))
     shown = np.where(inside, values[at], np.nan) * unit
-    contact_heights(shown, extent, 1.0, top * unit, label, name=name, bar=bar, ax=ax)
+    outline = Outline(b / a)
+    contact_heights(
+        shown, extent, 1.0, top * unit, label, name=name, bar=bar, ax=ax, outline=outline
+    )
     ax.set_xlabel("$x/a$")
     ax.set_ylabel("$y/a$")
-    hertz_ticks(ax)
+    hertz_ticks(ax, outline)
     return ax
 
 
-def passage(shift: Array, ratio: Array, length: float, *, ax: Axes | None = None) -> Axes:
-    """mu_r/mu_s over one passage of the tile.
+def passage(
+    shift: Array,
+    ratio: Array,
+    length: float,
+    *,
+    second: Array | None = None,
+    ax: Axes | None = None,
+) -> Axes:
+    """mu_r/mu_s over one passage of the tile, or a common period of two.
 
     Parameters
     ----------
@@ -172,12 +184,17 @@ def passage(shift: Array, ratio: Array, length: float, *, ax: Axes | None = None
         (n,) displacement of the tile [m], equally spaced from 0, and mu_r/mu_s there [-].
     length
         Of the tile along x [m].
+    second
+        (n,) displacement of the tile of a second surface [m]. Where it goes back, the positions are
+        not those of a common period but all that two tiles may have, in no order of time.
     """
     ax = axes_or_new(ax, 3.8, 2.9)
-    fine = interpolated(ratio, 16)
-    at = np.arange(fine.size + 1) * length / fine.size
     mean = float(ratio.mean())
-    ax.plot(at * 1e3, np.append(fine, fine[0]), color=BLUE, lw=1.4)
+    if second is None or bool(np.all(np.diff(second) >= 0.0)):
+        fine = interpolated(ratio, 16)
+        length *= round(float(shift[-1]) * (1.0 + 1.0 / max(1, shift.size - 1)) / length) or 1
+        at = np.arange(fine.size + 1) * length / fine.size
+        ax.plot(at * 1e3, np.append(fine, fine[0]), color=BLUE, lw=1.4)
     ax.plot(shift * 1e3, ratio, "o", ms=3.0, color=BLUE)
     ax.axhline(mean, color=VERMILLION, lw=1.0, ls="--", label=f"mean {mean:.3f}")
     ax.axhline(1.0, color=GREY, lw=0.8, ls=":", label="smooth")

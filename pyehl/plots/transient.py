@@ -55,14 +55,15 @@ def eq_16(summary: Mapping[str, Any], settings: Mapping[str, Mapping[str, Any]])
     Returns
     -------
     float or None
-        None when the run is none that the equation is for: one rough surface, equal wavelengths
-        along X and Y, inside the range of the fit.
+        None when the run is none that the equation is for: a circular contact, one rough surface,
+        equal wavelengths along X and Y, inside the range of the fit.
     """
     surface = settings["surface"]
     film, amplitude = summary.get("H_c"), summary.get("amplitude")
     if settings.get("second_surface", {}).get("kind", "smooth") != "smooth":
         return None
-    if surface["kind"] != "harmonic" or not film or not amplitude:
+    elliptical = float(summary.get("ellipticity", 1.0)) != 1.0
+    if surface["kind"] != "harmonic" or elliptical or not film or not amplitude:
         return None
     wavelength = float(surface["wavelength_x"])
     if wavelength != float(surface["wavelength_y"]):

@@ -4,13 +4,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Band", "octaves"]
+from pyehl.theory.operating import OperatingPoint
+
+__all__ = ["Band", "joining", "octaves"]
 
 Array = NDArray[np.float64]
 
@@ -52,3 +54,44 @@ def octaves(
     filled = [k for k in range(int(octave.max()) + 1) if (present & (octave == k)).any()]
     for k in filled[-only:]:
         yield 2.0 * math.pi / (lowest * 2.0**k), octave == k, k == filled[-1]
+
+
+def joining(
+    waves: tuple[Array, Array, Array, Array],
+    below: Callable[[float], float],
+    total: float,
+    operating: OperatingPoint,
+    *,
+    brief: bool,
+) -> list[Band]:
+    """Return what each octave, or the last one alone (`brief`), adds when it joins the longer ones.
+
+    Of waves, arrays of the same shape: |q| [1/a], mean square height [a^4/R^2], |T| [-], pressure
+    over roughness [p_h R/a^2]. `below` gives mu_r/mu_s of the waves with |q| below a limit [1/a],
+    `total` is that of all.
+    """
+    q, power, deformed, pressure = waves
+    a, film, p_h = operating.hertz_radius, operating.film_scale, operating.hertz_pressure
+    found: list[Band] = []
+    before = 1.0
+    for longest, inside, last in octaves(q, power, only=2 if brief else 0):
+        ratio = total if last else below(4.0 * np.pi / longest)
+        if brief and not last:
+            before = ratio
+            continue
+        rms = [
+            math.sqrt(float((power * np.square(factor))[inside].sum()))
+            for factor in (np.ones_like(pressure), deformed, pressure)
+        ]
+        found.append(
+            Band(
+                longest=longest * a,
+                shortest=0.5 * longest * a,
+                rms_height=rms[0] * film,
+                rms_deformed=rms[1] * film,
+                rms_pressure=rms[2] * p_h,
+                rise=ratio - before,
+            )
+        )
+        before = ratio
+    return found

@@ -52,22 +52,26 @@ class BelowZero:
 
 
 def below_zero(
-    deformed: Array, pixel: tuple[float, float], hertz_radius: float, smooth_film: SmoothFilm
+    deformed: Array,
+    pixel: tuple[float, float],
+    semi_axes: tuple[float, float],
+    smooth_film: SmoothFilm,
 ) -> BelowZero:
     """Find where the film over a tile is below zero, in the strip that passes through the contact.
 
-    Every pixel of the tile within a of the track passes through the contact at some time, along
+    Every pixel of the tile within b of the track passes through the contact at some time, along
     its row, and meets the thinnest smooth film of that row. The share is the mean over the
     passage. The deformed roughness (nx, ny) [m], row 0 through the centre, is taken to be that at
-    the centre on the whole way. Pixel size and a in m; `smooth_film` is a function, see
-    `SmoothFilm`.
+    the centre on the whole way. Pixel size and the semi-axes a and b of the contact in m;
+    `smooth_film` is a function, see `SmoothFilm`.
     """
     ny = deformed.shape[1]
-    reach = int(hertz_radius / pixel[1])
+    a, b = semi_axes
+    reach = int(b / pixel[1])
     row = np.arange(-reach, reach + 1)
     y = np.asarray(row * pixel[1], dtype=np.float64)
-    x: Array = hertz_radius * ((2.0 * np.arange(STATIONS) + 1.0) / STATIONS - 1.0)
-    inside = np.hypot(x[:, np.newaxis], y[np.newaxis, :]) < hertz_radius
+    x: Array = a * ((2.0 * np.arange(STATIONS) + 1.0) / STATIONS - 1.0)
+    inside = np.hypot(x[:, np.newaxis], y[np.newaxis, :] * (a / b)) < a
     film = np.where(inside, smooth_film(x, y), np.inf)
     least = film.min(axis=0)
     top = deformed.max(axis=0)[row % ny]
@@ -145,7 +149,7 @@ class Advice:
 def advise(
     tile: Topography,
     deformed_of: DeformedOf,
-    hertz_radius: float,
+    semi_axes: tuple[float, float],
     smooth_film: SmoothFilm,
     without_shorter: Callable[[Topography, float], Topography],
     without_spikes: Callable[[float], Topography] | None = None,
@@ -160,7 +164,7 @@ def advise(
     """
 
     def film(other: Topography) -> BelowZero:
-        return below_zero(deformed_of(other), other.pixel, hertz_radius, smooth_film)
+        return below_zero(deformed_of(other), other.pixel, semi_axes, smooth_film)
 
     def carries(other: Topography) -> bool:
         return film(other).deepest > 0.0 and (known is None or known(other))
@@ -174,7 +178,11 @@ def advise(
         spikes = _spikes(made, without_spikes, carries)
     return Advice(
         below, x, y,
-        carrying_wavelength(tile, without_shorter, carries),
+        carrying_wavelength(
+            2.0 * min(tile.pixel),
+            max(tile.size),
+            lambda shortest: carries(without_shorter(tile, shortest)),
+        ),
         *(spikes or (None, None)),
     )  # fmt: skip
 

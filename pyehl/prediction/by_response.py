@@ -17,35 +17,40 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pyehl.prediction.bands import Band, octaves
-from pyehl.prediction.carrying import confirmed
+from pyehl.prediction.bands import Band, joining
+from pyehl.prediction.carrying import confirmed, within_range
 from pyehl.prediction.contact import HertzContact, Response
+from pyehl.prediction.deformed import film_levels
 from pyehl.prediction.errors import KNOWN_RATIO, model_error
-from pyehl.prediction.friction import RoughFriction, passed
+from pyehl.prediction.friction import BEYOND, LARGEST_RATIO, RoughFriction, outcome, passed
 from pyehl.prediction.options import Options
-from pyehl.prediction.passage import fewer_pixels, friction_along, short_mean, working_grid
+from pyehl.prediction.passage import (
+    friction_along,
+    longer_waves,
+    short_mean,
+    tracks_of,
+    working_grid,
+)
 from pyehl.prediction.rough_contact import Edge, RoughContact
-from pyehl.prediction.smooth import SmoothContact, zone_of
+from pyehl.prediction.smooth import SmoothContact, circle_of, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.prediction.waves import Waves
-from pyehl.surfaces import Topography, filtered, track_offsets
+from pyehl.surfaces import Topography, filtered
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["STIFFER", "Parts", "RoughPassage"]
+__all__ = ["LARGEST_RATIO", "STIFFER", "Parts", "RoughPassage"]
 
 Array = NDArray[np.float64]
 Parts = tuple[Topography, Spectrum, Transfer, Edge]
 
-# Points per Hertz radius at which the shear stress is taken: the tile is finer, and its other
+# Points per shorter semi-axis at which the shear stress is taken: the tile is finer, and its other
 # pixels are met at other positions
 POINTS = 60
 # Eq. 11 with wavelength 2 pi/|q| over E'|q|/4 (see `pyehl.prediction`)
 STIFFER = math.sqrt(2.0)
-# Largest mu_r/mu_s that is told
-LARGEST_RATIO = 10.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,18 +67,20 @@ class RoughPassage:
     velocity_ratio: float  # velocity of the rough surface over the mean velocity [-]
     mesh: float = 0.0  # mesh size on which its waves leak [a]; 0: as in nature
 
-    def _spectrum(self, tile: Topography) -> Spectrum:
+    def spectrum(self, tile: Topography) -> Spectrum:
+        """Components of a tile, in the units of the contact."""
         o = self.operating
         lengths = tile.length_x / o.hertz_radius, tile.length_y / o.hertz_radius
         return Spectrum.of(tile.heights / o.film_scale, *lengths)
 
-    def _transfer(self, spectrum: Spectrum) -> Transfer:
+    def transfer(self, spectrum: Spectrum) -> Transfer:
+        """Find what the contact makes of components."""
         o = self.operating
         if self.options.reduction == "response":
             zone = zone_of(self.contact, o, self.lubricant)
-            moes, u = (o.moes_m, o.moes_l), self.velocity_ratio
-            newtonian = self.lubricant.shear.law == "newtonian"
-            return Transfer.of(spectrum, zone, moes, u, at_amplitude=newtonian, mesh=self.mesh)
+            moes = circle_of(self.contact, o, self.lubricant)
+            u, weighs = self.velocity_ratio, self.lubricant.shear.weighs_flow
+            return Transfer.of(spectrum, zone, moes, u, at_amplitude=weighs, mesh=self.mesh)
         ratio = component_amplitude_ratio(
             spectrum.qx[:, np.newaxis],
             spectrum.qy[np.newaxis, :],
@@ -115,7 +122,8 @@ class RoughPassage:
 
     def _stride(self, spectrum: Spectrum) -> int:
         """Every so many-th pixel across the motion is a point of the contact."""
-        wanted = int(1.0 / (POINTS * max(spectrum.pixel)))
+        short = min(1.0, self.operating.ellipse.ellipticity)
+        wanted = int(short / (POINTS * max(spectrum.pixel)))
         stride = 1 if self.options.as_in_paper else max(1, wanted)
         while spectrum.shape[1] % stride:
             stride -= 1
@@ -123,16 +131,17 @@ class RoughPassage:
 
     def deformed(self) -> Array:
         """Deformed roughness (nx, ny) [m] at the centre of the contact, on the pixels given."""
-        spectrum = self._spectrum(self.topography)
-        t = self._transfer(spectrum).at_centre(spectrum, self.velocity_ratio)
+        spectrum = self.spectrum(self.topography)
+        t = self.transfer(spectrum).at_centre(spectrum, self.velocity_ratio)
         return np.asarray(spectrum.tile(t) * self.operating.film_scale)
 
     def parts(self) -> Parts:
         """Tile on the grid that is worked on, its components, and what becomes of them."""
         grid = working_grid(self.topography, self.operating, self.options.positions)
-        spectrum = self._spectrum(grid)
-        transfer = self._transfer(spectrum)
-        edge = Edge.of(spectrum, 1.0 - transfer.at_centre(spectrum, self.velocity_ratio))
+        spectrum = self.spectrum(grid)
+        transfer = self.transfer(spectrum)
+        flattened = 1.0 - transfer.at_centre(spectrum, self.velocity_ratio)
+        edge = Edge.of(spectrum, flattened, self.operating.ellipse)
         return grid, spectrum, transfer, edge
 
     def mean(self, parts: Parts | None = None) -> float:
@@ -157,6 +166,9 @@ class RoughPassage:
         grid, spectrum, transfer, edge = self.parts()
         with np.errstate(over="ignore", invalid="ignore"):
             contact = self._contact(spectrum, transfer, edge)
+            t = transfer.at_centre(spectrum, self.velocity_ratio)
+            limit = self.options.film_limit / self.operating.film_scale
+            contact.watch(film_levels(limit, [(spectrum.power, np.abs(t))]))
             passage = friction_along(contact, grid.shape[0], self.options.positions, LARGEST_RATIO)
             found = self._result(contact, grid, (spectrum, transfer, edge), passage, brief)
             if found.status != "predicted":
@@ -164,17 +176,14 @@ class RoughPassage:
             ratios = np.array(
                 [
                     found.mu_ratio if offset == 0.0 else short_mean(contact, grid.shape[0], track)
-                    for offset, track in self._tracks(grid, self._stride(spectrum), tracks)
+                    for offset, track in tracks_of(
+                        self.topography, grid, self._stride(spectrum), tracks
+                    )
                 ]
             )
             bands = self._bands(spectrum, transfer, edge, found.mu_ratio, brief)
         over = (float(ratios.mean()), float(ratios.std())) if tracks else (math.nan, math.nan)
         return found, over, bands
-
-    def _tracks(self, grid: Topography, stride: int, tracks: int) -> list[tuple[float, int]]:
-        """Offsets of the tracks [m], and in pixels that are multiples of the stride."""
-        offsets = track_offsets(self.topography, tracks) if tracks else []
-        return [(d, round(d / (stride * grid.pixel[1])) * stride) for d in offsets]
 
     def below(self, shortest: float) -> float:
         """mu_r/mu_s without the waves shorter than a length [a], over a few positions [-]."""
@@ -191,43 +200,26 @@ class RoughPassage:
         brief: bool,
     ) -> RoughFriction:
         ratios = passage[1]
-        o = self.operating
-        status, message = "predicted", "full film throughout the passage"
-        if contact.thinnest <= 0.0:
-            status = "film breakdown"
-            depth = -contact.thinnest * o.film_scale
-            message = (
-                f"deformed roughness reaches {depth:.3g} m through the film at a point of the "
-                "contact: no full film, no ratio"
-            )
-        elif self.options.load_balance and contact.imbalance >= 1.0:
-            status, message = "load lost", "the roughness pressure exceeds the load"
-        elif not np.all(np.isfinite(ratios)):
-            status, message = "overflow", "the viscosity at p_s + delta p is not a number"
-        elif float(ratios.mean()) > LARGEST_RATIO:
-            status = "beyond linear response"
-            high = f"{float(ratios.mean()):.3g}"
-            message = f"pressures that raise mu_r/mu_s to {high} are beyond a linear response"
-            if not brief:
-                message += self._carried(*parts)
+        status, message = outcome(contact, ratios, load_balance=self.options.load_balance)
+        if status == BEYOND and not brief:
+            message += self._carried(*parts)
         return passed(
             contact,
             (status, message),
-            passage,
-            pixel=grid.pixel[0],
-            film_unit=o.film_scale,
+            (np.asarray(passage[0] * grid.pixel[0], dtype=float), ratios, passage[2]),
+            film_unit=self.operating.film_scale,
             response=self._tiles(*parts[:2], grid.shape == self.topography.shape),
         )
 
     def _carried(self, spectrum: Spectrum, transfer: Transfer, edge: Edge) -> str:
         """Say which cut-off would bring the ratio into the range of the model; '' for none."""
-        low, high = min(spectrum.pixel), 2.0 * math.pi / float(spectrum.q[spectrum.q > 0].min())
-        if not self._below(spectrum, transfer, edge, 2.0 * math.pi / high) <= KNOWN_RATIO:
+        high = within_range(
+            lambda shortest: self._below(spectrum, transfer, edge, 2.0 * math.pi / shortest),
+            min(spectrum.pixel),
+            2.0 * math.pi / float(spectrum.q[spectrum.q > 0].min()),
+        )
+        if high is None:
             return ""
-        while high > 1.1 * low:
-            middle = math.sqrt(low * high)
-            known = self._below(spectrum, transfer, edge, 2.0 * math.pi / middle) <= KNOWN_RATIO
-            low, high = (low, middle) if known else (middle, high)
         longest = max(self.topography.length_x, self.topography.length_y)
         cut = confirmed(high * self.operating.hertz_radius, longest, self._known)
         if cut is None:
@@ -243,8 +235,8 @@ class RoughPassage:
     def _tiles(self, spectrum: Spectrum, transfer: Transfer, same: bool) -> Response:
         """Pressure and deformed roughness at the centre of the contact, on the pixels given."""
         if not same:
-            spectrum = self._spectrum(self.topography)
-            transfer = self._transfer(spectrum)
+            spectrum = self.spectrum(self.topography)
+            transfer = self.transfer(spectrum)
         t = transfer.at_centre(spectrum, self.velocity_ratio)
         o = self.operating
         pressure = transfer.pressure_at_centre(spectrum, self.velocity_ratio)
@@ -257,44 +249,19 @@ class RoughPassage:
         self, spectrum: Spectrum, transfer: Transfer, edge: Edge, total: float, brief: bool
     ) -> list[Band]:
         """Return what each octave, or the last one alone, adds when it joins all longer ones."""
-        o = self.operating
         t = transfer.at_centre(spectrum, self.velocity_ratio)
-        power = spectrum.power
         pressure = np.abs(transfer.pressure_at_centre(spectrum, self.velocity_ratio))
-        found: list[Band] = []
-        before = 1.0
-        for longest, inside, last in octaves(spectrum.q, power, only=2 if brief else 0):
-            ratio = total if last else self._below(spectrum, transfer, edge, 4.0 * np.pi / longest)
-            if brief and not last:
-                before = ratio
-                continue
-            rms = (
-                math.sqrt(float((power * np.square(factor))[inside].sum()))
-                for factor in (np.ones_like(pressure), np.abs(t), pressure)
-            )
-            heights, deformed, stress = rms
-            found.append(
-                Band(
-                    longest=longest * o.hertz_radius,
-                    shortest=0.5 * longest * o.hertz_radius,
-                    rms_height=heights * o.film_scale,
-                    rms_deformed=deformed * o.film_scale,
-                    rms_pressure=stress * o.hertz_pressure,
-                    rise=ratio - before,
-                )
-            )
-            before = ratio
-        return found
+        return joining(
+            (spectrum.q, spectrum.power, np.abs(t), pressure),
+            lambda limit: self._below(spectrum, transfer, edge, limit),
+            total,
+            self.operating,
+            brief=brief,
+        )
 
     def _below(self, spectrum: Spectrum, transfer: Transfer, edge: Edge, limit: float) -> float:
         """mu_r/mu_s of the waves with |q| below a limit [1/a], on as few pixels as they need."""
-        nx, ny = (
-            fewer_pixels(n, pixel * n, limit)
-            for n, pixel in zip(spectrum.shape, spectrum.pixel, strict=True)
-        )
-        index = spectrum.longest(nx, ny)
-        part = spectrum.kept(index, (nx, ny))
-        part.values[part.q >= limit] = 0.0
+        part, index = longer_waves(spectrum, limit, self.operating.ellipse.ellipticity)
         power = np.where(spectrum.q < limit, spectrum.power, 0.0)
         contact = self._contact(part, transfer.kept(index), edge.below(limit), power)
-        return short_mean(contact, nx)
+        return short_mean(contact, part.shape[0])

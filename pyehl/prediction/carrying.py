@@ -9,9 +9,10 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.prediction.errors import KNOWN_RATIO
 from pyehl.surfaces.tile import Topography
 
-__all__ = ["Carries", "carrying_outliers", "carrying_wavelength", "confirmed"]
+__all__ = ["Carries", "carrying_outliers", "carrying_wavelength", "confirmed", "within_range"]
 
 Array = NDArray[np.float64]
 
@@ -26,31 +27,30 @@ LEAST_THRESHOLD = 5.0
 
 
 def carrying_wavelength(
-    tile: Topography,
-    without_shorter: Callable[[Topography, float], Topography],
-    carries: Carries,
+    shortest: float,
+    longest: float,
+    carries: Callable[[float], bool],
     *,
     tolerance: float = 0.05,
 ) -> float | None:
-    """Find the cut-off [m] at which the film of a tile is full: shorter waves are taken off.
+    """Find the cut-off [m] at which the film is full: shorter waves are taken off.
 
-    Bisection in the logarithm of the wavelength to a relative `tolerance`, between two pixels and
-    the length of the tile; the film need not be full for every longer cut-off, but it is for the
-    one returned. `without_shorter` takes a tile and a wavelength [m]. None if even the longest
-    waves break the film.
+    Bisection in the logarithm of the wavelength to a relative `tolerance`, between a `shortest`
+    one, two pixels, and the `longest`, the length of the tile; the film need not be full for every
+    longer cut-off, but it is for the one returned. `carries` tells whether it is for a cut-off.
+    None if even the longest waves break the film.
     """
-    low = math.log(2.0 * min(tile.pixel))
-    high = math.log(max(tile.length_x, tile.length_y))
-    if not carries(without_shorter(tile, math.exp(high))):
+    low, high = math.log(shortest), math.log(longest)
+    if not carries(math.exp(high)):
         return None
     while high - low > tolerance:
         middle = 0.5 * (low + high)
-        if carries(without_shorter(tile, math.exp(middle))):
+        if carries(math.exp(middle)):
             high = middle
         else:
             low = middle
     rounded = _two_digits(math.exp(high))
-    return rounded if carries(without_shorter(tile, rounded)) else math.exp(high)
+    return rounded if carries(rounded) else math.exp(high)
 
 
 def carrying_outliers(
@@ -85,6 +85,21 @@ def carrying_outliers(
     if rounded > math.exp(least) or rounded < low or not carries(without_spikes(rounded)):
         rounded = math.exp(least)
     return rounded, int(np.count_nonzero(prominence > rounded))
+
+
+def within_range(below: Callable[[float], float], shortest: float, longest: float) -> float | None:
+    """Wavelength [a] without whose shorter waves mu_r/mu_s is in the range of the model.
+
+    Within a tenth, between a `shortest` one and the `longest` of the surface; None: there is none.
+    `below` gives mu_r/mu_s without waves shorter than a length.
+    """
+    low, high = shortest, longest
+    if not below(high) <= KNOWN_RATIO:
+        return None
+    while high > 1.1 * low:
+        middle = math.sqrt(low * high)
+        low, high = (low, middle) if below(middle) <= KNOWN_RATIO else (middle, high)
+    return high
 
 
 def confirmed(start: float, longest: float, good: Callable[[float], bool]) -> float | None:

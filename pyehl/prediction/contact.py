@@ -16,10 +16,14 @@ from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import shear_stress
 
-__all__ = ["HertzContact", "Response", "ShearedContact"]
+__all__ = ["INNER", "HertzContact", "Response", "ShearedContact"]
 
 Array = NDArray[np.float64]
+Single = NDArray[np.float32]
 
+INNER = 0.8
+"""Pressures are told within this distance from the centre: at the rim the roughness moves the edge
+of the contact to and fro [a]."""
 # Fewest points per Hertz radius when not all pixels are visited
 MIN_SAMPLES = 128
 
@@ -35,7 +39,7 @@ class Response:
 class ShearedContact:
     """Points of a contact, the shear stress integrals over them, and what was met so far."""
 
-    thinnest: float  # least film
+    thinnest: float  # least film, by which its end is known
     smooth: float  # sum of the stress of the smooth contact over the points, as `stress`
     points: int  # within the contact
     area: float  # that one of them stands for [m^2]
@@ -47,6 +51,29 @@ class ShearedContact:
         self.cavitated = 0  # points where the pressure is not positive
         self.count = 0  # positions
         self.imbalance = 0.0  # greatest share of the load that delta p carries or takes off [-]
+        self.greatest_rise = -math.inf  # of the pressure over the smooth contact within INNER
+        # Films of which the share of points below is counted, and the points that were below
+        self.levels: tuple[float, ...] = ()
+        self.below = np.zeros(0, dtype=np.int64)
+
+    def watch(self, levels: tuple[float, ...]) -> None:
+        """Count from now on how many points have less film than each of some levels."""
+        self.levels, self.below = levels, np.zeros(len(levels), dtype=np.int64)
+
+    def meet(self, rise: Array | Single, film: Array, inner: NDArray[np.bool_]) -> None:
+        """Note what a position has: rise of the pressure and film at points within the contact."""
+        greatest = float(rise.max(where=inner, initial=-math.inf))
+        self.greatest_rise = max(self.greatest_rise, greatest)
+        for i, level in enumerate(self.levels):
+            self.below[i] += np.count_nonzero(film < level)
+
+    def least_film(self) -> float:
+        """Least film that was met, as it is told."""
+        return self.thinnest
+
+    def shares(self) -> Array:
+        """Mean share of the contact below each level [-]."""
+        return np.asarray(self.below / max(1, self.count * self.points))
 
     def stress(self, pressure: Array, film: Array) -> Array:
         """Shear stress [Pa]; of a Newtonian oil divided by eta0 and the sliding speed."""
@@ -103,6 +130,7 @@ class HertzContact(ShearedContact):
         # every height within |y| < a passes through the contact
         self.thinnest = film - float(deformed[:, np.unique(j % ny)].max())
         self.semi_ellipse = np.sqrt(1.0 - self.radius_squared)
+        self.inner = self.radius_squared < INNER**2
         self.smooth = float(self.stress(self.semi_ellipse, np.array(film)).sum())
 
     def friction(self, step: int, track: int = 0) -> float:
@@ -112,6 +140,7 @@ class HertzContact(ShearedContact):
         film = self.film - deformed
         if min(self.thinnest, float(film.min())) <= 0.0:
             return math.nan
+        self.meet(delta, film, self.inner)
         # times the area of the circle, not of its pixels: the load is 2 pi/3
         carried = 1.5 * float(delta.mean())
         self.imbalance = max(self.imbalance, abs(carried))

@@ -11,25 +11,40 @@ from pyehl.prediction.options import Options
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import fitted_range
 
-__all__ = ["KNOWN_RATIO", "cutoff_error", "model_error", "outside_range"]
+__all__ = [
+    "KNOWN_RATIO",
+    "cutoff_error",
+    "model_error",
+    "outside_range",
+]
 
 # Error of mu_r/mu_s against the full simulation: a part that small waves and tracks make at any
 # ratio, and a part that grows with the rise. Measured in docs/evidence/prediction.
 CONSTANT = 0.01
 SHARE_OF_RISE = 0.07
+# The same where the flow obeys a shear law, which hardly lets the friction rise
+# (docs/evidence/thinning)
+CONSTANT_THINNING = 0.004
+SHARE_THINNING = 0.1
 # Largest ratio at which it was measured
 KNOWN_RATIO = 5.0
+# Ellipticities between which it was
+ELLIPTICITY = [0.39, 4.1]
 
 
-def model_error(mu_ratio: float) -> float:
+def model_error(mu_ratio: float, *, thins: bool = False) -> float:
     """Error of a predicted mu_r/mu_s [-]; NaN beyond the largest ratio that was measured.
 
     It covers the deviation from the full simulation of this package on 513 x 513 nodes in at least
-    nine of ten cases of docs/evidence/prediction.
+    nine of ten cases of docs/evidence/prediction; `thins`, where the flow obeys a shear law, on 257
+    x 257 nodes of docs/evidence/thinning.
     """
     if not mu_ratio <= KNOWN_RATIO:
         return math.nan
-    return CONSTANT + SHARE_OF_RISE * abs(mu_ratio - 1.0)
+    constant, share = CONSTANT, SHARE_OF_RISE
+    if thins:
+        constant, share = CONSTANT_THINNING, SHARE_THINNING
+    return constant + share * abs(mu_ratio - 1.0)
 
 
 def cutoff_error(bands: Sequence[Band]) -> float:
@@ -42,13 +57,18 @@ def cutoff_error(bands: Sequence[Band]) -> float:
 
 
 def outside_range(operating: OperatingPoint, velocity_ratio: float, options: Options) -> list[str]:
-    """Names of the numbers that lie outside the range in which the response was measured."""
+    """Names of the numbers that lie outside the range in which the response was measured.
+
+    `moes_m` and `moes_l` of an elliptical contact are those of the circle with the same inlet.
+    """
     if options.reduction != "response":
         return []
+    moes_m, moes_l = operating.equivalent_moes
     values = {
-        "moes_m": operating.moes_m,
-        "moes_l": operating.moes_l,
+        "moes_m": moes_m,
+        "moes_l": moes_l,
         "velocity_ratio": velocity_ratio,
+        "ellipticity": operating.ellipse.ellipticity,
     }
-    limits = fitted_range()
+    limits = fitted_range() | {"ellipticity": ELLIPTICITY}
     return [name for name, v in values.items() if not limits[name][0] <= v <= limits[name][1]]

@@ -14,12 +14,15 @@ import numpy as np
 from pyehl.arrays import write_csv
 from pyehl.destination import Destination, write_json
 from pyehl.prediction.result import Prediction
+from pyehl.prediction.sides import SECOND
 
 __all__ = ["destination", "write"]
 
 TABLES = ("passage", "spectrum", "bands")
 ARRAYS = ("x", "y", "surface", "deformed", "delta_p")
+ARRAYS_OF_TWO = tuple(f"{SECOND}{name}" for name in ARRAYS)
 PICTURES = ("surface_spectrum", "roughness", "passage")
+PICTURES_OF_SECOND = ("second_surface_spectrum", "second_roughness")
 
 
 def destination(
@@ -29,8 +32,11 @@ def destination(
     force: bool = False,
 ) -> Destination:
     """Give the place of the result of a prediction, to check it before there is one."""
-    names = [f"{name}.csv" for name in TABLES] + [f"{name}.npy" for name in ARRAYS]
-    names += [f"{name}.png" for name in PICTURES] + ["case.nml", "summary.json"]
+    names = [f"{name}.csv" for name in TABLES] + [f"{name}.npy" for name in ARRAYS + ARRAYS_OF_TWO]
+    names += [f"{name}.png" for name in PICTURES + PICTURES_OF_SECOND] + [
+        "case.nml",
+        "summary.json",
+    ]
     return Destination(folder, "prediction", tuple(names), tuple(inputs), force=force)
 
 
@@ -44,7 +50,8 @@ def write(
 
     Files: ``case.nml`` (resolved), ``summary.json``, ``passage.csv``, ``spectrum.csv``,
     ``bands.csv`` and, first index along x: ``x.npy`` (nx,), ``y.npy`` (ny,), ``surface.npy``,
-    ``deformed.npy`` [m], ``delta_p.npy`` [Pa], (nx, ny); with `plots` the pictures. InputError if
+    ``deformed.npy`` [m], ``delta_p.npy`` [Pa], (nx, ny), of a second rough surface the same as
+    ``second_x.npy`` and so on; with `plots` the pictures. InputError if
     the folder holds something other than an earlier prediction; FileError if it cannot be written.
     """
     with place.fresh() as folder:
@@ -64,8 +71,8 @@ def write(
 
 def _draw(prediction: Prediction, folder: Path) -> None:
     # matplotlib takes longer to import than the prediction takes to compute
-    from pyehl.plots.figures import prediction_figures  # noqa: PLC0415
     from pyehl.plots.folder import save_all  # noqa: PLC0415
+    from pyehl.plots.predicted import prediction_figures  # noqa: PLC0415
 
     made = prediction_figures(prediction.summary, prediction.arrays, prediction.tables)
     save_all(made, folder)

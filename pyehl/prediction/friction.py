@@ -12,12 +12,37 @@ from numpy.typing import NDArray
 from pyehl.prediction.contact import Response, ShearedContact
 from pyehl.surfaces import interpolated
 
-__all__ = ["TRACKS", "RoughFriction", "broken", "passed"]
+__all__ = [
+    "BEYOND",
+    "LARGEST_RATIO",
+    "TRACKS",
+    "RoughFriction",
+    "SecondPassage",
+    "broken",
+    "outcome",
+    "passed",
+]
 
 Array = NDArray[np.float64]
 
+BEYOND = "beyond linear response"
+"""Status where the ratio is larger than the model can tell."""
 TRACKS = 8
 """Tracks over which mean and spread are taken unless asked for otherwise."""
+
+
+LARGEST_RATIO = 10.0
+"""Largest mu_r/mu_s that is told."""
+
+
+@dataclass(frozen=True, slots=True)
+class SecondPassage:
+    """What the passage of a second rough surface adds."""
+
+    response: Response  # delta p and deformed roughness on the grid of its tile
+    shift: Array  # (n,) how far its tile has moved [m]
+    # Mean share of the contact where the film of both is not positive [-]
+    touching: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,38 +61,74 @@ class RoughFriction:
     # What half as many positions would miss at the others, relative to the mean: an upper estimate
     # of what the positions leave undecided. NaN for an odd number of them
     position_error: float
-    shift: Array  # (n,) how far the tile has moved [m], equally spaced over its length
+    # (n,) how far the tile has moved [m], equally spaced over its length. Of two rough surfaces
+    # over their common period; in the order of a lattice where there is none
+    shift: Array
     passage: Array  # (n,) mu_r/mu_s there [-]
     # Friction coefficient of the smooth contact at the slide-to-roll ratio [-]; without meaning for
     # a Newtonian lubricant
     mu_smooth: float
-    film_min: float  # least h_c - rr_d of the tile [m]
+    film_min: float  # least film over the passage [m]
+    # Greatest rise of the pressure over the passage, within :data:`~pyehl.prediction.contact.INNER`
+    # [Pa]
+    rise_max: float
+    # Mean share of the contact with less film than psd.film_limit [-], and what the error of the
+    # film makes of it; NaN without a limit
+    below_limit: float
+    below_limit_error: float
     cavitated_share: float  # mean share of the contact where p_s + delta p <= 0 [-]
     cavitated_friction: float  # bound of the share of the friction that comes from there [-]
     # Greatest |integral of delta p|/w over the passage [-], before any load balance
     load_error: float
     response: Response  # delta p and deformed roughness on the grid of the given tile
+    second: SecondPassage | None = None  # of the second rough surface
+
+
+def outcome(
+    contact: ShearedContact, ratios: Array, *, load_balance: bool = False
+) -> tuple[str, str]:
+    """Give status and message of a passage by mu_r/mu_s at its positions (n,).
+
+    `load_balance`: what the roughness carries is taken off the smooth contact.
+    """
+    if contact.thinnest <= 0.0:
+        depth = -contact.thinnest * contact.operating.film_scale
+        return "film breakdown", (
+            f"deformed roughness reaches {depth:.3g} m through the film at a point of the "
+            "contact: no full film, no ratio"
+        )
+    if load_balance and contact.imbalance >= 1.0:
+        return "load lost", "the roughness pressure exceeds the load"
+    if not np.all(np.isfinite(ratios)):
+        return "overflow", "the viscosity at p_s + delta p is not a number"
+    mean = float(ratios.mean())
+    if mean > LARGEST_RATIO:
+        message = f"pressures that raise mu_r/mu_s to {mean:.3g} are beyond a linear response"
+        return BEYOND, message
+    return "predicted", "full film throughout the passage"
 
 
 def passed(
     contact: ShearedContact,
     outcome: tuple[str, str],
-    passage: tuple[NDArray[np.int_], Array, float],
+    passage: tuple[Array, Array, float],
     *,
-    pixel: float,
     film_unit: float,
     response: Response,
+    second: SecondPassage | None = None,
+    periodic: bool = True,
 ) -> RoughFriction:
     """Put together what a contact has met in a passage, with its status and message.
 
-    `passage` is what :func:`pyehl.prediction.passage.friction_along` gives; a pixel along the
-    motion and the unit of films are in m.
+    `passage` is what :func:`pyehl.prediction.passage.friction_along` gives with the positions in m,
+    as the unit of films; `periodic`: the positions follow each other and return to the first.
     """
-    steps, ratios, error = passage
+    shift, ratios, error = passage
+    low, share, high = contact.shares() if contact.levels else (math.nan,) * 3
     status, message = outcome
     mean = least = greatest = math.nan
     if status == "predicted":
-        fine = interpolated(ratios, 8)
+        fine = interpolated(ratios, 8) if periodic else ratios
         mean, least, greatest = (float(v) for v in (ratios.mean(), fine.min(), fine.max()))
     return RoughFriction(
         status=status,
@@ -76,14 +137,18 @@ def passed(
         mu_ratio_min=least,
         mu_ratio_max=greatest,
         position_error=error,
-        shift=np.asarray(steps * pixel, dtype=np.float64),
+        shift=shift,
         passage=ratios,
         mu_smooth=contact.mu_smooth(),
-        film_min=float(contact.thinnest) * film_unit,
+        film_min=contact.least_film() * film_unit,
+        rise_max=contact.greatest_rise * contact.operating.hertz_pressure,
+        below_limit=float(share),
+        below_limit_error=0.5 * float(high - low),
         cavitated_share=contact.cavitated / max(1, contact.count * contact.points),
         cavitated_friction=contact.cavitated_bound(least) if status == "predicted" else math.nan,
         load_error=contact.imbalance,
         response=response,
+        second=second,
     )
 
 

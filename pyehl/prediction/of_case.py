@@ -6,21 +6,31 @@ from __future__ import annotations
 import math
 import os
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pyehl import surfaces
 from pyehl.errors import InputError
-from pyehl.prediction.breakdown import Advice, SmoothFilm, advise, below_zero
+from pyehl.prediction.bands import Band
+from pyehl.prediction.breakdown import Advice, BelowZero, SmoothFilm, advise, below_zero
 from pyehl.prediction.by_response import RoughPassage
-from pyehl.prediction.friction import TRACKS, broken
+from pyehl.prediction.friction import TRACKS, RoughFriction, SecondPassage, broken
+from pyehl.prediction.heated import heat_of
 from pyehl.prediction.options import Options, unpredictable
+from pyehl.prediction.pair import RoughPair
+from pyehl.prediction.pair_breakdown import (
+    PairAdvice,
+    PairBelowZero,
+    advise_pair,
+    pair_below_zero,
+)
 from pyehl.prediction.result import Prediction
+from pyehl.prediction.sides import SecondSurface
 from pyehl.prediction.smooth import SmoothContact, hertz_contact, read_contact, solve_contact
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
@@ -40,13 +50,15 @@ def predict(
     tracks: int = TRACKS,
     smooth: str | os.PathLike[str] | None = None,
     surface: surfaces.Topography | None = None,
+    second_surface: surfaces.Topography | None = None,
     brief: bool = False,
 ) -> Prediction:
     """Predict the relative friction of a resolved case, `text` being the same as namelist text.
 
     `tracks` across the surface, 1 to `MAX_TRACKS`, are for mean and spread; `smooth` is a result
-    folder with the smooth contact, in place of a solution on the spot; `surface` is the surface
-    before its spectrum is cut and off its track, by default made as the case says. `brief`:
+    folder with the smooth contact, in place of a solution on the spot; `surface` and
+    `second_surface` are surfaces before their spectrum is cut and off their track, by default made
+    as the case says. `brief`:
     mu_r/mu_s and its errors, bit for bit the same, but no tracks, of the bands the shortest alone,
     and no search for what would carry where there is no ratio.
 
@@ -55,48 +67,52 @@ def predict(
     """
     start = time.perf_counter()
     options = _options(settings, tracks)
-    settings = surfaces.one_rough(settings)
+    given = {"surface": surface, "second_surface": second_surface}
+    groups = surfaces.rough_groups(settings)
     operating = OperatingPoint.from_settings(settings)
-    operating.need_round("the prediction")
     lubricant = Lubricant.from_settings(settings, str(settings["psd"]["viscosity_law"]))
-    velocity_ratio = float(settings["surface"]["velocity_ratio"])
     if smooth is None:
         contact = _smooth_contact(settings, operating, lubricant, options)
     else:
         contact = read_contact(Path(smooth), operating)
+        if lubricant.shear.in_flow:
+            contact = replace(contact, thinning=solve_contact(settings).thinning)
     film = contact.central_film * operating.film_scale
-    if surface is None:
-        surface = surfaces.from_settings(settings, operating, film)
-    else:
-        surface = surfaces.finished(surface, settings["surface"])
-    passage = RoughPassage(surface, contact, operating, lubricant, options, velocity_ratio)
-    friction, over, bands = passage.run(0 if brief else tracks, brief=brief)
+    alone = []
+    for group in groups:
+        values = settings[group]
+        tile = given[group]
+        if tile is None:
+            tile = surfaces.from_settings({**settings, "surface": values}, operating, film)
+        else:
+            tile = surfaces.finished(tile, values)
+        ratio = float(values["velocity_ratio"])
+        alone.append(RoughPassage(tile, contact, operating, lubricant, options, ratio))
 
     def smooth_film(x: Array, y: Array) -> Array:
         """Smooth film [m] at places [m]."""
         a = operating.hertz_radius
         return contact.at(x / a, y / a)[1] * operating.film_scale
 
-    below = below_zero(
-        friction.response.deformed, surface.pixel, operating.hertz_radius, smooth_film
+    keys = [settings[group] for group in groups]
+    predicted = (_of_pair if len(alone) > 1 else _of_one)(
+        alone, keys, smooth_film, 0 if brief else tracks, brief=brief
     )
-    advice = None
-    if friction.status == "predicted" and below.deepest <= 0.0:
-        # the positions of the passage have missed it
-        friction = broken(friction, below.deepest)
-        over, bands = (math.nan, math.nan), []
-    if friction.status == "film breakdown" and not brief:
-        advice = _advice(passage, settings["surface"], smooth_film)
+    friction, over, bands, below, advice = predicted
+    second = None
+    if len(alone) > 1 and friction.second is not None:
+        other = alone[1]
+        second = SecondSurface(other.topography, other.velocity_ratio, friction.second)
     return Prediction(
         settings=settings,
         operating=operating,
         lubricant=lubricant,
         options=options,
-        velocity_ratio=velocity_ratio,
+        velocity_ratio=alone[0].velocity_ratio,
         film=film,
         film_minimum=contact.minimum_film * operating.film_scale,
         film_source=contact.source,
-        surface=surface,
+        surface=alone[0].topography,
         friction=friction,
         bands=bands,
         tracks=over,
@@ -105,7 +121,62 @@ def predict(
         track_count=0 if brief else tracks,
         below=below,
         advice=advice,
+        second=second,
+        heat=heat_of(settings, contact, lubricant),
     )
+
+
+def _of_one(
+    alone: Sequence[RoughPassage],
+    keys: Sequence[Mapping[str, Any]],
+    smooth_film: SmoothFilm,
+    tracks: int,
+    *,
+    brief: bool,
+) -> tuple[RoughFriction, tuple[float, float], list[Band], BelowZero, Advice | None]:
+    """Predict one surface: friction, over tracks, bands, and where the film ends."""
+    passage = alone[0]
+    friction, over, bands = passage.run(tracks, brief=brief)
+    below = below_zero(
+        friction.response.deformed,
+        passage.topography.pixel,
+        passage.operating.semi_axes,
+        smooth_film,
+    )
+    if friction.status == "predicted" and below.deepest <= 0.0:
+        # the positions of the passage have missed it
+        friction = broken(friction, below.deepest)
+        over, bands = (math.nan, math.nan), []
+    advice = None
+    if friction.status == "film breakdown" and not brief:
+        advice = _advice(passage, keys[0], smooth_film)
+    return friction, over, bands, below, advice
+
+
+def _of_pair(
+    alone: Sequence[RoughPassage],
+    keys: Sequence[Mapping[str, Any]],
+    smooth_film: SmoothFilm,
+    tracks: int,
+    *,
+    brief: bool,
+) -> tuple[RoughFriction, tuple[float, float], list[Band], PairBelowZero, PairAdvice | None]:
+    """Predict two surfaces, as `_of_one` does one."""
+    fronts = [float(group["x_start"]) for group in keys]
+    filters = [str(group.get("filter", "sharp")) for group in keys]
+    pair = RoughPair((alone[0], alone[1]), (fronts[0], fronts[1]), (filters[0], filters[1]))
+    friction, over, bands = pair.run(tracks, brief=brief)
+    second = cast("SecondPassage", friction.second)
+    deformed = [friction.response.deformed, second.response.deformed]
+    below = replace(pair_below_zero(pair, deformed, smooth_film), share=second.touching)
+    if friction.status == "predicted" and below.deepest <= 0.0:
+        # the positions of the passage have missed it
+        friction = broken(friction, below.deepest)
+        over, bands = (math.nan, math.nan), []
+    advice = None
+    if friction.status == "film breakdown" and not brief:
+        advice = advise_pair(pair, below, smooth_film)
+    return friction, over, bands, below, advice
 
 
 def _options(settings: Mapping[str, Mapping[str, Any]], tracks: int) -> Options:
@@ -119,6 +190,18 @@ def _options(settings: Mapping[str, Mapping[str, Any]], tracks: int) -> Options:
     if why:
         raise InputError(why)
     options = Options.from_settings(settings)
+    if OperatingPoint.from_settings(settings).radius_ratio != 1.0 and options != Options(
+        positions=options.positions
+    ):
+        raise InputError(
+            "psd: the model of the paper, and what is between it and the response, is for circular "
+            "contacts\nexpected: contact.radius, or the group psd as by default"
+        )
+    if options.as_in_paper and len(surfaces.rough_groups(settings)) > 1:
+        raise InputError(
+            "two rough surfaces: the model of the paper (psd.reduction = 'amplitude' with "
+            "psd.smooth = 'hertz') knows one\nexpected: psd.reduction = 'response'"
+        )
     if not options.as_in_paper and (options.load_balance or options.stiffness == "paper"):
         raise InputError(
             "psd.load_balance and psd.stiffness = 'paper' belong to the model of the paper: "
@@ -133,7 +216,7 @@ def _advice(passage: RoughPassage, group: Mapping[str, Any], smooth_film: Smooth
     return advise(
         surface,
         lambda tile: replace(passage, topography=tile).deformed(),
-        passage.operating.hertz_radius,
+        passage.operating.semi_axes,
         smooth_film,
         lambda tile, shortest: surfaces.filtered(tile, shortest, kind=kind),
         lambda threshold: surfaces.without_spikes(surface, threshold, group),

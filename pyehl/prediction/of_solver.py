@@ -23,14 +23,14 @@ class Predictions:
     ----------
     case
         The case of the run.
-    tile
-        Its surface, where it is not made as the case says; of a large one a part.
+    tiles
+        Its surfaces by group, where they are not made as the case says; of a large one a part.
     whole
-        Whether `tile` is not a part of the surface alone.
+        Whether none of `tiles` is a part of the surface alone.
     """
 
-    def __init__(self, case: Case, tile: Topography | None, *, whole: bool) -> None:
-        self._case, self._tile, self._whole = case, tile, whole
+    def __init__(self, case: Case, tiles: Mapping[str, Topography], *, whole: bool) -> None:
+        self._case, self._tiles, self._whole = case, tiles, whole
         self._resolution: Resolution | str | None = None
         self._resolved = self._told = False
 
@@ -39,13 +39,14 @@ class Predictions:
         if solver.start_fronts():
             from pyehl.prediction.start import hand_over  # noqa: PLC0415
 
-            hand_over(solver, one_rough(self._case.resolve()), self._tile, whole=self._whole)
+            tile = next(iter(self._tiles.values()), None)
+            hand_over(solver, one_rough(self._case.resolve()), tile, whole=self._whole)
 
     def _resolution_once(self) -> Resolution | str | None:
         """Predict what the grid does not resolve; text: why there is no prediction."""
         if not self._resolved:
             try:
-                self._resolution = resolution(self._case, self._tile)
+                self._resolution = resolution(self._case, self._tiles)
             except (EhlError, ValueError, ArithmeticError, OSError, MemoryError) as error:
                 why = str(error) or type(error).__name__
                 self._resolution = f"no mu_r/mu_s: {why.replace(chr(10), ' ')}"

@@ -7,41 +7,44 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import Any
 
-from pyehl.surfaces import FEATURES, one_rough, rough_groups
+from pyehl.surfaces import FEATURES, rough_groups
+from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["MAX_POSITIONS", "Options", "thinning_flow", "unpredictable"]
+__all__ = ["MAX_POSITIONS", "Options", "turned", "unpredictable"]
 
 MAX_POSITIONS = 4096
 """Most positions of a passage, as the schema of cases has it."""
 
 
 def unpredictable(settings: Mapping[str, Mapping[str, Any]]) -> str:
-    """Tell why nothing is predicted of the surfaces of a resolved case; '' where something is."""
-    if len(rough_groups(settings)) > 1:
-        return (
-            "two rough surfaces: the prediction knows one. What is missing: the response of the "
-            "contact to roughness at each of two velocities, and the cross terms of second order "
-            "between the surfaces\nexpected: 'pyehl run', or second_surface.kind = 'smooth'"
-        )
-    kind = str(one_rough(settings)["surface"]["kind"])
-    if kind == "smooth":
+    """Tell why nothing is predicted of a resolved case; '' where something is."""
+    if turned(settings):
+        return turned(settings)
+    groups = rough_groups(settings)
+    if not groups:
         return "surface.kind = 'smooth': a prediction needs a rough surface"
-    if kind in FEATURES:
-        return (
-            f"surface.kind = {kind!r}: a single feature passes once. A prediction is the mean "
-            "friction of roughness that fills the contact\nexpected: 'pyehl run', or "
-            "surface.kind = 'harmonic', 'map' or 'fractal'"
-        )
+    for group in groups:
+        kind = str(settings[group]["kind"])
+        if kind in FEATURES:
+            return (
+                f"{group}.kind = {kind!r}: a single feature passes once. A prediction is the mean "
+                "friction of roughness that fills the contact\nexpected: 'pyehl run', or "
+                f"{group}.kind = 'harmonic', 'map' or 'fractal'"
+            )
     return ""
 
 
-def thinning_flow(settings: Mapping[str, Mapping[str, Any]]) -> str:
-    """Tell why the flow of a resolved case is not predicted; '' where it is Newtonian."""
-    lubricant = settings["lubricant"]
-    law = str(lubricant["shear_law"])
-    if lubricant["flow"] != "consistent" or law not in ("eyring", "carreau"):
+def turned(settings: Mapping[str, Mapping[str, Any]]) -> str:
+    """Tell why an elliptical contact has no response; '' where an axis lies along the motion."""
+    contact = settings["contact"]
+    angle = float(contact.get("angle", 0.0))
+    if angle == 0.0 or OperatingPoint.from_settings(settings).radius_ratio == 1.0:
         return ""
-    return f"lubricant.flow = 'consistent': waves in a flow that obeys {law} are not predicted"
+    return (
+        f"contact.angle = {angle:g}: the response of an elliptical contact is known where an axis "
+        "lies along the motion. What is missing: an inlet that is oblique on the centre line\n"
+        "expected: contact.angle = 0 (at 90 degrees with the radii exchanged), or 'pyehl run'"
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +62,8 @@ class Options:
     # Whether the semi-ellipse gives up the load that delta p carries inside the contact: a Hertz
     # contact under the remaining load, p_h and a scaled by its cube root
     load_balance: bool = False
+    # Film below which the share of the contact is told [m]; 0: none
+    film_limit: float = 0.0
     # Positions of the surface over one passage; 0: doubled until mu_r/mu_s is resolved
     positions: int = 0
 

@@ -11,18 +11,27 @@ from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 from pyehl.prediction.options import MAX_POSITIONS
-from pyehl.surfaces import MAX_PIXELS, Topography, interpolated, resampled
+from pyehl.prediction.spectrum import Spectrum
+from pyehl.surfaces import MAX_PIXELS, Topography, interpolated, resampled, track_offsets
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["fewer_pixels", "friction_along", "short_mean", "working_grid"]
+__all__ = [
+    "POSITION_TOLERANCE",
+    "friction_along",
+    "longer_waves",
+    "short_mean",
+    "tracks_of",
+    "working_grid",
+]
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.int_]
 
-# Fewest positions of an automatic passage, and the error that half of them may make (relative)
-# for no more to be added
+# Fewest positions of an automatic passage
 FIRST_POSITIONS = 8
 POSITION_TOLERANCE = 2e-3
-# Pixels per Hertz radius below which a coarse map is interpolated
+"""Error that half of the positions may make (relative) for no more to be added."""
+# Pixels per semi-axis below which a coarse map is interpolated
 RADIUS_PIXELS = 48
 
 
@@ -32,9 +41,9 @@ def working_grid(topography: Topography, operating: OperatingPoint, positions: i
     InputError if that takes too many pixels.
     """
     nx, ny = topography.shape
-    finest = operating.hertz_radius / RADIUS_PIXELS
-    want_x = max(nx, math.ceil(topography.length_x / finest))
-    want_y = max(ny, math.ceil(topography.length_y / finest))
+    finest = operating.hertz_radius / RADIUS_PIXELS, operating.semi_axis_y / RADIUS_PIXELS
+    want_x = max(nx, math.ceil(topography.length_x / finest[0]))
+    want_y = max(ny, math.ceil(topography.length_y / finest[1]))
     multiple = positions or FIRST_POSITIONS * 4
     want_x = multiple * math.ceil(want_x / multiple)
     if want_x * want_y > MAX_PIXELS:
@@ -46,15 +55,43 @@ def working_grid(topography: Topography, operating: OperatingPoint, positions: i
     return resampled(topography, (want_x, want_y))
 
 
-def fewer_pixels(pixels: int, length: float, limit: float) -> int:
+def _fewer_pixels(pixels: int, length: float, limit: float, semi_axis: float) -> int:
     """Pixels for waves below a limit [1/a] in a contact, as `short_mean` takes them.
 
-    Of a tile of a length [a] that has so many.
+    Of a tile of a length [a] that has so many, along a semi-axis of the contact [a].
     """
+    if math.isinf(limit):
+        return pixels
     highest = int(limit * length / (2.0 * math.pi))
-    few = max(2 * highest + 2, math.ceil(RADIUS_PIXELS * length))
+    few = max(2 * highest + 2, math.ceil(RADIUS_PIXELS * length / semi_axis))
     few = FIRST_POSITIONS * math.ceil(few / FIRST_POSITIONS)
     return few if few < pixels else pixels
+
+
+def longer_waves(
+    spectrum: Spectrum, limit: float, ellipticity: float
+) -> tuple[Spectrum, tuple[Indices, Indices]]:
+    """Waves of a tile with |q| below a limit [1/a] on as few pixels as they need.
+
+    And the rows and columns that are left of the spectrum.
+    """
+    axes = 1.0, ellipticity
+    nx, ny = (
+        _fewer_pixels(n, pixel * n, limit, axis)
+        for n, pixel, axis in zip(spectrum.shape, spectrum.pixel, axes, strict=True)
+    )
+    index = spectrum.longest(nx, ny)
+    part = spectrum.kept(index, (nx, ny))
+    part.values[part.q >= limit] = 0.0
+    return part, index
+
+
+def tracks_of(
+    surface: Topography, grid: Topography, stride: int, tracks: int
+) -> list[tuple[float, int]]:
+    """Offsets of tracks of a surface [m], and in pixels of its grid, multiples of the stride."""
+    offsets = track_offsets(surface, tracks) if tracks else []
+    return [(d, round(d / (stride * grid.pixel[1])) * stride) for d in offsets]
 
 
 class HasFriction(Protocol):

@@ -4,16 +4,20 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from pyehl import surfaces
 from pyehl.case import Case
 from pyehl.errors import EhlError, InputError
 from pyehl.prediction.by_response import RoughPassage
-from pyehl.prediction.options import Options, thinning_flow, unpredictable
+from pyehl.prediction.options import Options, turned, unpredictable
+from pyehl.prediction.pair import RoughPair
 from pyehl.prediction.smooth import solve_contact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import Topography
+from pyehl.theory.film import central_film as formula_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
@@ -77,50 +81,67 @@ class Resolution:
         return self.mu_ratio - self.carried
 
 
-def resolution(case: Case, tile: Topography | None = None) -> Resolution | None:
+def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Resolution | None:
     """Predict what the grid of a case resolves.
 
     None for surfaces that are no tile of heights on the move, and for those without waves that the
-    grid does not resolve. `tile` is the surface on its track, of a large one a part, before the
-    spectrum is cut; None: made as the case says, of a large one the part of
-    :func:`pyehl.surfaces.part_of`. EhlError if the smooth contact has no solution, or the
-    prediction gives no ratio; InputError or FileError if the surface is not usable, InputError if
-    there are two rough ones and one is such a tile.
+    grid does not resolve. `tiles` are the surfaces by group on their tracks, of a large one a part,
+    before their spectrum is cut; one that is not there is made as the case says, of a large one the
+    part of :func:`pyehl.surfaces.part_of`. EhlError if the smooth contact has no solution, or the
+    prediction gives no ratio; InputError or FileError if a surface is not usable.
     """
-    settings = surfaces.one_rough(case.resolve())
-    rough = [settings[group] for group in surfaces.rough_groups(settings)]
+    settings = case.resolve()
+    groups = surfaces.rough_groups(settings)
+    rough = [settings[group] for group in groups]
     if not any(s["kind"] in ("map", "fractal") and s["velocity_ratio"] != 0.0 for s in rough):
         return None
-    if len(rough) > 1:
-        raise InputError(unpredictable(settings))
-    ratio = float(settings["surface"]["velocity_ratio"])
+    why = unpredictable(settings)
+    if why:
+        raise InputError(why)
     operating = OperatingPoint.from_settings(settings)
-    operating.need_round("the prediction of waves that the grid does not resolve")
+    if turned(settings):
+        raise InputError(turned(settings))
     lubricant = Lubricant.from_settings(settings)
     grid = settings["grid"]
-    mesh = max(float(grid["x_outlet"]) - float(grid["x_inlet"]), 2.0 * float(grid["y_extent"])) / (
-        int(grid["points"]) - 1
+    mesh = max(
+        (float(grid["x_outlet"]) - float(grid["x_inlet"])) / (int(grid["points"]) - 1),
+        2.0 * float(grid["y_extent"]) / (int(grid["points_y"]) - 1),
     )
-    part = ""
-    if tile is not None:
-        tile = surfaces.finished(tile, {**settings["surface"], "track": 0.0})
-        part = tile.origin
-    else:
-        # the film is the scale of harmonic patterns alone
-        tile = surfaces.from_settings(settings, operating, film=0.0)
-        middle = surfaces.part_of(tile.heights, tile.pixel, tile.origin)
-        if middle is not None:
-            tile, part = middle, middle.origin
+    # of two surfaces one may be a share of the film; else that is not asked for
+    film = formula_film(operating, lubricant) if len(groups) > 1 else 0.0
+    found = [_tile(settings, group, (tiles or {}).get(group), operating, film) for group in groups]
     shortest = NODES * mesh * operating.hertz_radius
-    if not Spectrum.of(tile.heights, tile.length_x, tile.length_y).share_below(shortest) > 0.0:
+    spectra = [Spectrum.of(tile.heights, tile.length_x, tile.length_y) for tile, _ in found]
+    if not any(spectrum.share_below(shortest) > 0.0 for spectrum in spectra):
         return None
-    why = thinning_flow(settings)
-    if why:
-        raise EhlError(why)
     contact = solve_contact(settings)
-    passage = RoughPassage(tile, contact, operating, lubricant, Options(), ratio)
-    found, _, _ = passage.run(0, brief=True)
-    if not math.isfinite(found.mu_ratio):
-        raise EhlError(f"{found.status}: {found.message}")
+    alone = [
+        RoughPassage(tile, contact, operating, lubricant, Options(), float(keys["velocity_ratio"]))
+        for (tile, _), keys in zip(found, rough, strict=True)
+    ]
+    passage: RoughPassage | RoughPair = alone[0]
+    if len(alone) > 1:
+        fronts = float(rough[0]["x_start"]), float(rough[1]["x_start"])
+        passage = RoughPair((alone[0], alone[1]), fronts)
+    friction, _, _ = passage.run(0, brief=True)
+    if not math.isfinite(friction.mu_ratio):
+        raise EhlError(f"{friction.status}: {friction.message}")
     resolved, carried = (passage.below(nodes * mesh) for nodes in (NODES, CARRIED))
-    return Resolution(found.mu_ratio, resolved, carried, shortest, part)
+    parts = " and ".join(part for _, part in found if part)
+    return Resolution(friction.mu_ratio, resolved, carried, shortest, parts)
+
+
+def _tile(
+    settings: Mapping[str, Mapping[str, Any]],
+    group: str,
+    tile: Topography | None,
+    operating: OperatingPoint,
+    film: float,
+) -> tuple[Topography, str]:
+    """Surface of a group with a film h_c [m], and its name where it is not the whole of it."""
+    if tile is not None:
+        tile = surfaces.finished(tile, {**settings[group], "track": 0.0})
+        return tile, tile.origin
+    tile = surfaces.from_settings({**settings, "surface": settings[group]}, operating, film)
+    middle = surfaces.part_of(tile.heights, tile.pixel, tile.origin)
+    return (tile, "") if middle is None else (middle, middle.origin)

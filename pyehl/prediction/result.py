@@ -14,11 +14,15 @@ from numpy.typing import NDArray
 from pyehl import display, namelist, surfaces
 from pyehl.prediction.bands import Band
 from pyehl.prediction.breakdown import Advice, BelowZero
+from pyehl.prediction.deformed import deformed_surface
 from pyehl.prediction.errors import cutoff_error, model_error, outside_range
 from pyehl.prediction.friction import TRACKS, RoughFriction
-from pyehl.prediction.options import Options, thinning_flow
+from pyehl.prediction.options import Options
+from pyehl.prediction.pair_breakdown import PairAdvice, PairBelowZero
+from pyehl.prediction.sides import SecondSurface, arrays, statistics
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.friction import absolute_friction
+from pyehl.theory.heat import Heat
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
@@ -44,7 +48,7 @@ NEWTONIAN_NOTE = (
     "Newtonian: a ratio at this slip, no absolute coefficient; shear thinning brings it close to "
     "1, see lubricant.shear_law"
 )
-THINNING_NOTE = (
+NEWTONIAN_FLOW_NOTE = (
     "; film and waves are those of a Newtonian flow: where the oil thins in it, too, the ratio is "
     "nearer to 1, see lubricant.flow"
 )
@@ -62,7 +66,7 @@ class Prediction:
     operating, lubricant, options
         The operating point, the lubricant with the viscosity law used, and how the model was read.
     velocity_ratio
-        Velocity of the rough surface over the mean velocity [-].
+        Velocity of the (first) rough surface over the mean velocity [-].
     film
         Smooth central film h_c [m].
     film_minimum
@@ -87,6 +91,10 @@ class Prediction:
         Where the film is below zero, and on which share of the contact.
     advice
         With the status ``"film breakdown"``: where the film ends, and what would carry.
+    second
+        The second rough surface; None: there is one.
+    heat
+        What the heat of sliding makes of friction; None: nothing.
 
     Examples
     --------
@@ -113,8 +121,10 @@ class Prediction:
     seconds: float
     text: str = ""
     track_count: int = TRACKS
-    below: BelowZero | None = None
-    advice: Advice | None = None
+    below: BelowZero | PairBelowZero | None = None
+    advice: Advice | PairAdvice | None = None
+    second: SecondSurface | None = None
+    heat: Heat | None = None
 
     def __repr__(self) -> str:
         """Give the ratio and the status in one line."""
@@ -134,7 +144,9 @@ class Prediction:
     def note(self) -> str:
         """What `mu_ratio` is."""
         note = STRESS_NOTE if self.thins else NEWTONIAN_NOTE
-        return note + THINNING_NOTE if thinning_flow(self.settings) else note
+        shear = self.lubricant.shear
+        note += NEWTONIAN_FLOW_NOTE if self.thins and not shear.in_flow else ""
+        return note + self.lubricant.beyond(self.operating.hertz_pressure)
 
     @property
     def mu_ratio(self) -> float:
@@ -144,50 +156,47 @@ class Prediction:
     @property
     def outside_range(self) -> list[str]:
         """What of the case lies outside the range in which the response was measured; mostly []."""
-        return outside_range(self.operating, self.velocity_ratio, self.options)
+        ratios = [self.velocity_ratio, *([self.second.velocity_ratio] if self.second else [])]
+        found = [outside_range(self.operating, ratio, self.options) for ratio in ratios]
+        return list(dict.fromkeys(name for names in found for name in names))
 
     @property
     def model_error(self) -> float:
         """Error of `mu_ratio` by the model, estimated [-]; NaN where it is not known."""
-        known = self.options.reduction == "response" and self.options.smooth == "solved"
-        if not known or self.outside_range or self.thins:
+        in_flow = self.lubricant.shear.in_flow
+        if not self._known or (self.thins and not in_flow):
             return math.nan
-        return model_error(self.mu_ratio)
+        return model_error(self.mu_ratio, thins=in_flow)
+
+    @property
+    def _known(self) -> bool:
+        """Whether the model is one whose errors were measured, and the case in its range."""
+        known = self.options.reduction == "response" and self.options.smooth == "solved"
+        return known and not self.outside_range
 
     @property
     def case_text(self) -> str:
         """The resolved case as namelist text."""
-        if self.text:
-            return self.text
-        return namelist.text_of(self.settings)
+        return self.text or namelist.text_of(self.settings)
 
     @property
     def arrays(self) -> dict[str, Array]:
         """Arrays x (nx,), y (ny,), surface, deformed [m] and delta_p [Pa] (nx, ny)."""
-        s, field = self.surface, self.friction.response
-        return {
-            "x": np.arange(s.shape[0], dtype=float) * s.pixel[0],
-            "y": np.arange(s.shape[1], dtype=float) * s.pixel[1],
-            "surface": np.asfortranarray(s.heights),
-            "deformed": np.asfortranarray(field.deformed),
-            "delta_p": np.asfortranarray(field.pressure),
-        }
+        first = arrays(self.surface, self.friction.response)
+        return first | self.second.arrays if self.second else first
 
     @property
     def tables(self) -> dict[str, dict[str, Array]]:
         """Columns of the tables ``passage``, ``spectrum`` and ``bands``."""
         f, o = self.friction, self.operating
+        second = {"second_shift_m": self.second.passage.shift} if self.second else {}
         q, c_iso = surfaces.psd_isotropic(self.surface)
+        convention = self.options.wavelength_convention
         ratio = component_amplitude_ratio(
-            q,
-            0.0,
-            o.hertz_radius,
-            o.moes_m,
-            o.moes_l,
-            convention=self.options.wavelength_convention,
+            q, 0.0, o.hertz_radius, *o.equivalent_moes, convention=convention
         )
         return {
-            "passage": {"shift_m": f.shift, "mu_ratio": f.passage},
+            "passage": {"shift_m": f.shift, **second, "mu_ratio": f.passage},
             "spectrum": {
                 "q_rad_per_m": q,
                 "c_iso_m4": c_iso,
@@ -211,7 +220,8 @@ class Prediction:
         """Draw mu_r/mu_s over the passage on `ax`, or on a new figure; returns the axes."""
         from pyehl.plots.surface import passage  # noqa: PLC0415 (matplotlib, as above)
 
-        return passage(self.friction.shift, self.friction.passage, self.surface.length_x, ax=ax)
+        f, second = self.friction, self.second.passage.shift if self.second else None
+        return passage(f.shift, f.passage, self.surface.length_x, second=second, ax=ax)
 
     def _bands(self) -> list[dict[str, float]]:
         return [
@@ -222,6 +232,7 @@ class Prediction:
     def summary(self) -> dict[str, Any]:
         """What ``summary.json`` holds; None for a number that does not exist."""
         f, o, s = self.friction, self.operating, self.surface
+        sigma = math.hypot(s.rms_height, self.second.surface.rms_height if self.second else 0.0)
         values: dict[str, Any] = {
             "kind": "prediction",
             "status": f.status,
@@ -250,25 +261,16 @@ class Prediction:
             "load_balance": self.options.load_balance,
             "shear_law": self.lubricant.shear.law,
             "slide_to_roll": o.slide_to_roll,
-            **absolute_friction(
-                o, self.lubricant, film=self.film, mu_smooth=f.mu_smooth, mu_ratio=f.mu_ratio
-            ),
+            **absolute_friction(o, self.lubricant, self.film, f.mu_smooth, f.mu_ratio, self.heat),
             "thermal_reduction": o.thermal_reduction,
             "h_c_m": self.film,
             "h_c_source": self.film_source,
             "h_min_m": self.film_minimum,
-            "h_min_rough_m": f.film_min,
-            "lambda_ratio": self.film_minimum / s.rms_height if s.rms_height > 0.0 else None,
-            "lambda_ratio_central": self.film / s.rms_height if s.rms_height > 0.0 else None,
-            "surface": s.origin,
-            "surface_preparation": s.preparation.record.summary() if s.preparation else None,
-            "seed": s.seed,
-            "pixels": list(s.shape),
-            "length_x_m": s.length_x,
-            "length_y_m": s.length_y,
-            "rms_height_m": s.rms_height,
-            "rms_deformed_m": float(np.std(f.response.deformed)),
-            "rms_pressure_Pa": float(np.std(f.response.pressure)),
+            "lambda_ratio": self.film_minimum / sigma if sigma > 0.0 else None,
+            "lambda_ratio_central": self.film / sigma if sigma > 0.0 else None,
+            **statistics(s, f.response),
+            **(self.second.summary(s) if self.second else {}),
+            **deformed_surface(f, self.film_minimum, self.options.film_limit, known=self._known),
             "cavitated_share": f.cavitated_share,
             "cavitated_friction": f.cavitated_friction,
             "load_error": f.load_error,
@@ -281,6 +283,10 @@ class Prediction:
             "bands": self._bands(),
             "wall_seconds": self.seconds,
         }
+        if o.radius_ratio != 1.0:
+            values["radius_ratio"] = o.radius_ratio
+            values["ellipticity"] = o.ellipse.ellipticity
+            values["semi_axis_y_m"] = o.semi_axis_y
         return {key: _finite(value) for key, value in values.items()}
 
 

@@ -15,10 +15,15 @@ point; s^2 is the variance of P1 and
                 (c <P1 t1>' - r/2 H <P1^2>') <P1^2> of the two.
 
 For Gaussian P1 the mean of P2 exp(b P1), and with it the friction, is then that of the convolution
-for every b. Lengths along the surface are scaled by a, heights by a^2/R, pressures by p_h.
+for every b. Of two rough surfaces P1 holds the waves of both, and the sum the pairs of one wave of
+each, too: they meet in all positions, so that no product of two has a mean.
+
+Lengths along the surface are scaled by a, heights by a^2/R, pressures by p_h.
 """
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,20 +41,26 @@ COARSER = 2
 
 
 class SecondOrder:
-    """gamma and s^2 of any surface on a tile, from the response of the contact to its waves.
+    """gamma and s^2 of any surfaces on some tiles, from the response of the contact to their waves.
 
-    At ascending stations X (n,) [a] of the smooth contact `zone`: T of the waves of the table of
-    the tile (n, m), and their pressure over roughness (n, m) [p_h R/a^2].
+    At ascending stations X (n,) [a] of the smooth contact `zone`, for each tile: T of the waves of
+    its table (n, m), and their pressure over roughness (n, m) [p_h R/a^2].
     """
 
     def __init__(
-        self, zone: Zone, stations: Array, table: WaveTable, ratios: Complex, pressures: Complex
+        self,
+        zone: Zone,
+        stations: Array,
+        tables: Sequence[WaveTable],
+        ratios: Sequence[Complex],
+        pressures: Sequence[Complex],
     ) -> None:
-        self._table = table
-        kx, ky = table.coarse(COARSER)
+        self._tables = tables
+        kx, ky = np.concatenate([table.coarse(COARSER) for table in tables], axis=1)
         # a wave stands for +-k_Y, too
         pairs = [
-            stiffness(np.hypot(kx[:, np.newaxis] + i * kx, ky[:, np.newaxis] + j * ky))
+            zone.stiffness
+            * stiffness(np.hypot(kx[:, np.newaxis] + i * kx, ky[:, np.newaxis] + j * ky))
             for i in (1, -1)
             for j in (1, -1)
         ]
@@ -57,7 +68,10 @@ class SecondOrder:
             np.interp(stations, zone.x, values)
             for values in (zone.film, zone.compressibility, zone.curvature)
         )
-        t, pressure = coarsened(ratios, COARSER), coarsened(pressures, COARSER)
+        t, pressure = (
+            np.concatenate([coarsened(part, COARSER) for part in parts], axis=1)
+            for parts in (ratios, pressures)
+        )
         self._squared = np.abs(pressure) ** 2
         mixed = (pressure * np.conj(t)).real
         self._source = c[:, np.newaxis] * mixed - (0.5 * r * film)[:, np.newaxis] * self._squared
@@ -65,13 +79,14 @@ class SecondOrder:
             sum(one / (1.0 + one * held) for one in pairs) / len(pairs) for held in film * c
         ]
 
-    def of(self, power: Array) -> tuple[Array, Array]:
+    def of(self, *powers: Array) -> tuple[Array, Array]:
         """Give gamma [1/p_h] and s^2 [p_h^2] at the stations, (n,) each.
 
-        `power` is the mean square of each component of the surface, shape of the spectrum
-        [a^4/R^2].
+        `powers` are, for each tile, the mean square of each component of the surface, shape of the
+        spectrum [a^4/R^2].
         """
-        few = self._table.gathered(power, COARSER)
+        parts = zip(self._tables, powers, strict=True)
+        few = np.concatenate([table.gathered(power, COARSER) for table, power in parts])
         squared, source = few * self._squared, few * self._source
         variance = squared.sum(axis=1)
         pairs = zip(squared, self._yielding, source, strict=True)

@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -19,12 +19,16 @@ from pyehl.arrays import read_array
 from pyehl.case import Case
 from pyehl.errors import EhlError, InputError
 from pyehl.handle import SolverHandle
+from pyehl.theory.film import circle_with_same_inlet
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.shear import ShearLaw
+from pyehl.theory.thinning import FlowFactors, flow_factors
 from pyehl.theory.transport import Zone
 
 __all__ = [
     "SmoothContact",
+    "circle_of",
     "forget",
     "hertz_contact",
     "read_contact",
@@ -43,6 +47,10 @@ FINEST = 1025
 """Grids up to this one are tried where there is no solution, or none to extrapolate from: the inlet
 of a contact under a high load is steep (M above 2000 or so)."""
 
+THINNING_POWER = -4.0 / 3.0
+"""Of the film in the viscosity that makes it, as waves notice it: the length of the inlet beside a
+wave is that of nabla_2, and M/L is a power -4/3 of the film in Hertz units."""
+
 
 @dataclass(frozen=True, slots=True)
 class SmoothContact:
@@ -58,6 +66,8 @@ class SmoothContact:
     source: str  # where it is from, in words
     minimum_film: float = math.nan  # H_min, extrapolated as H_c [a^2/R]; NaN where it is not known
     extrapolated: bool = False  # whether `central_film` is
+    # Viscosity at low shear over that of a Newtonian lubricant with as thick a film [-]
+    thinning: float = 1.0
 
     def at(self, x: Array, y: Array) -> tuple[Array, Array]:
         """P and H on the grid of places x (m,) and y (n,), both (m, n); outside P is zero."""
@@ -96,12 +106,15 @@ OF_SHEAR = (
 def smooth_case(settings: Mapping[str, Mapping[str, Any]]) -> str:
     """Text of the case whose solution is the smooth contact under a resolved case.
 
-    Cases that differ in their surface, their slip or their shear law alone have the same.
+    Cases that differ in their surface alone have the same; where the flow is Newtonian and the
+    inlet not heated by shear, so have those that differ in their slip or their shear law.
     """
     contact, lubricant = dict(settings["contact"]), dict(settings["lubricant"])
-    for key in OF_SHEAR:
-        lubricant.pop(key, None)
-    if not lubricant.get("thermal_reduction", False):
+    thins = ShearLaw.from_settings(settings).in_flow
+    if not thins:
+        for key in OF_SHEAR:
+            lubricant.pop(key, None)
+    if not (thins or lubricant.get("thermal_reduction", False)):
         for key in OF_SLIP:
             contact.pop(key, None)
     domain = {key: settings["grid"][key] for key in ("x_inlet", "x_outlet", "y_extent")}
@@ -114,7 +127,20 @@ def solve_contact(settings: Mapping[str, Mapping[str, Any]]) -> SmoothContact:
     The last few are kept, see `smooth_case`. EhlError if it does not converge on any grid up to
     FINEST.
     """
-    return _solved(smooth_case(settings))
+    found = _solved(smooth_case(settings))
+    if not ShearLaw.from_settings(settings).in_flow:
+        return found
+    newtonian = {**settings, "lubricant": {**settings["lubricant"], "flow": "newtonian"}}
+    film = found.central_film / _solved(smooth_case(newtonian)).central_film
+    return replace(found, thinning=film**THINNING_POWER)
+
+
+def circle_of(
+    contact: SmoothContact, operating: OperatingPoint, lubricant: Lubricant
+) -> tuple[float, float]:
+    """M and L [-] of the circular contact with the same inlet, in a Newtonian flow."""
+    film = contact.central_film / contact.thinning ** (1.0 / THINNING_POWER)
+    return circle_with_same_inlet(operating, lubricant, film)
 
 
 def forget() -> None:
@@ -205,7 +231,8 @@ def zone_of(contact: SmoothContact, operating: OperatingPoint, lubricant: Lubric
     middle = int(np.argmin(np.abs(contact.y)))
     pressure = np.maximum(contact.pressure[:, middle], 0.0)
     film = contact.film[:, middle]
-    return zone_on(contact.x, pressure, film, operating, lubricant)
+    zone = zone_on(contact.x, pressure, film, operating, lubricant)
+    return replace(zone, thinning=contact.thinning)
 
 
 def zone_on(
@@ -218,6 +245,9 @@ def zone_on(
     )
     rho, eta = lubricant.density_ratio(p), lubricant.viscosity_ratio(p)
     denser, thinner = lubricant.density_ratio(higher), lubricant.density_ratio(lower)
+    factors = None
+    if lubricant.shear.in_flow:
+        factors = _factors(film, np.gradient(pressure, x), eta, operating, lubricant)
     return Zone(
         x,
         pressure,
@@ -227,4 +257,19 @@ def zone_on(
         (denser - 2.0 * rho + thinner) / (step**2 * rho),
         np.log(lubricant.viscosity_ratio(higher) / eta) / step,
         rho * film**3 / (eta * operating.speed_parameter),
+        1.0 / operating.ellipse.kernel_ratio,
+        factors,
+        ellipticity=operating.ellipse.ellipticity,
     )
+
+
+def _factors(
+    film: Array, slope: Array, eta: Array, operating: OperatingPoint, lubricant: Lubricant
+) -> FlowFactors:
+    """Flow factors of films H [a^2/R] by dP/dX [p_h/a] and eta/eta0 [-], (n,) each."""
+    shear = lubricant.shear
+    h = film * operating.film_scale
+    newtonian = eta * lubricant.viscosity * operating.sliding_speed / h
+    gradient = h * slope * (operating.hertz_pressure / operating.hertz_radius)
+    parts = gradient / shear.scale, 0.0 * gradient
+    return flow_factors(shear.law, shear.carreau_exponent, newtonian / shear.scale, parts)

@@ -70,10 +70,12 @@ class Spectrum:
         factor: NDArray[np.complexfloating[Any, Any]] | Array,
         refinement: int = 1,
         stride: int = 1,
+        lines: NDArray[np.complexfloating[Any, Any]] | None = None,
     ) -> Array:
         """Heights (refinement nx, ny/stride) of the tile with its components times a factor.
 
-        In the precision of both.
+        In the precision of both. With `lines`, (ny, n), what :meth:`on_lines` gives, on
+        these, (refinement nx, n).
         """
         nx, _ = self.shape
         part = self.values * factor
@@ -81,12 +83,18 @@ class Spectrum:
             # the shortest wave of an even number of pixels has no phase of its own
             part[-1] = self.values[-1] * np.real(factor[-1])
             part[-1] *= 0.5 if refinement > 1 else 1.0
+        if lines is not None:
+            tile = np.fft.irfft(part @ lines, n=nx * refinement, axis=0)
+            return np.asarray(tile * (refinement / self.shape[1]))
         if stride > 1:
             # on every so many-th column waves that differ by its wavenumber are one
             part = part.reshape(part.shape[0], stride, -1).sum(axis=1)
-        lines = np.fft.ifft(part, axis=1)
-        tile = np.fft.irfft(lines, n=nx * refinement, axis=0)
+        tile = np.fft.irfft(np.fft.ifft(part, axis=1), n=nx * refinement, axis=0)
         return np.asarray(tile * (refinement / stride))
+
+    def on_lines(self, y: Array) -> NDArray[np.complexfloating[Any, Any]]:
+        """Waves across the motion (ny, n) at places Y (n,) [a], in the precision of the values."""
+        return np.exp(1j * np.outer(self.qy, y)).astype(self.values.dtype)
 
     def share_below(self, length: float) -> float:
         """Share of the variance in waves shorter than a length [a], 0 where it is rounding."""

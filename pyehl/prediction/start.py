@@ -22,9 +22,8 @@ from pyehl.errors import EhlError, InputError
 from pyehl.handle import SolverHandle
 from pyehl.prediction.by_response import Parts, RoughPassage
 from pyehl.prediction.errors import model_error, outside_range
-from pyehl.prediction.options import Options, thinning_flow
+from pyehl.prediction.options import Options
 from pyehl.prediction.rough_contact import (
-    EDGE_RADIUS,
     REACH,
     away_from_centre,
     slipped,
@@ -34,7 +33,6 @@ from pyehl.prediction.smooth import SmoothContact, solve_contact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.surfaces import Topography
-from pyehl.theory.disc import monomials
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import edge_gain
@@ -82,9 +80,6 @@ def starting_pressure(
     EhlError
         If the smooth contact has no solution.
     """
-    why = thinning_flow(settings)
-    if why:
-        raise InputError(why)
     passage = replace(_passage(settings, tile), mesh=float(x[1] - x[0]))
     beyond = outside_range(passage.operating, passage.velocity_ratio, passage.options)
     if beyond:
@@ -126,7 +121,8 @@ def hand_over(
 
 def _passage(settings: Mapping[str, Mapping[str, Any]], tile: Topography | None) -> RoughPassage:
     operating = OperatingPoint.from_settings(settings)
-    operating.need_round("the prediction")
+    if operating.radius_ratio != 1.0:
+        raise InputError("the start from the prediction is for circular contacts")
     lubricant = Lubricant.from_settings(settings)
     contact = solve_contact(settings)
     if tile is None:
@@ -162,8 +158,7 @@ class _Waves:
         self.second = second and [self.weights @ v for v in second]
         self._make_tiles(spectrum, transfer, passage.contact, ratio)
         radius = np.hypot(self.x, self.y)
-        held = np.minimum(1.0, EDGE_RADIUS / np.maximum(radius, 1e-12))
-        self.monomials = monomials(held * self.x, held * self.y, axis=0)
+        self.polynomials = self.edge.polynomials(*np.broadcast_arrays(self.x, self.y))
         self.fade = np.clip((REACH - radius) / EDGE_WIDTH, 0.0, 1.0)
 
     def _make_tiles(
@@ -171,7 +166,8 @@ class _Waves:
     ) -> None:
         """Splines through the pressure of driven and free waves, by station."""
         qx, qy = spectrum.qx[:, np.newaxis], spectrum.qy[np.newaxis, :]
-        gain = edge_gain(qx, qy, contact.central_film)
+        stiffening = transfer.stiffening
+        gain = stiffening * edge_gain(qx, qy, stiffening * contact.central_film)
         k, k_free = gain * stiffness(spectrum.q), gain * free_stiffness(qx, qy, ratio)
 
         def spline(factor: Complex) -> Array:
@@ -200,7 +196,7 @@ class _Waves:
             added += self.weights[..., i] * self._at(tile, self.slipped - front)
         if self.free_off is not None:
             added += self.off * self._at(self.free_off, self.slipped - front)
-        added += np.tensordot(self.edge.at(front, 0.0), self.monomials, 1)
+        added += np.tensordot(self.edge.at(front, 0.0), self.polynomials, 1)
         if self.second:
             gain, variance = self.second
             added += gain * (np.square(added) - variance)

@@ -6,6 +6,7 @@ Units: lengths along the surface by a, heights by a^2/R, pressures by p_h.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -29,9 +30,9 @@ MIDDLE = 1
 """The one of them at X = 0."""
 CENTRE = STATIONS[: MIDDLE + 1]
 OFF_CENTRE = 0.5
-"""The second distance from the centre line at which the free wave is made [a]."""
+"""The second distance from the centre line at which the free wave is made [semi-axis]."""
 
-# Standard deviation of the friction over Y [a], and the phase that may be interpolated over it
+# Standard deviation of the friction over Y [semi-axis], and the phase that may be interpolated
 FRICTION_LINES = 0.24
 BENDING = 0.2
 
@@ -54,11 +55,61 @@ def _at_amplitude(zone: Zone, variance: float) -> Zone:
     The leak is div(rho H^3/(eta lambda) grad P): it is slow where the waves raise the pressure and
     the viscosity, and friction comes from there. For a Gaussian delta P of `variance` s^2 [p_h^2]
     the leak lowers the mean of exp(b delta P), b = d ln eta/dP the thickening, at the rate of
-    small waves over that mean, exp(b^2 s^2/2).
+    small waves over that mean, exp(b^2 s^2/2). Where the lubricant thins in the flow, b is that of
+    eta/phi_x: it leaks and shears by what is left of the viscosity.
     """
+    b = zone.thickening
+    if zone.factors:
+        b = b * (1.0 - zone.factors.by_sliding)
     with np.errstate(over="ignore"):
-        gain = np.exp(0.5 * variance * np.square(zone.thickening))
+        gain = np.exp(0.5 * variance * np.square(b))
     return replace(zone, conductance=zone.conductance / gain)
+
+
+class _Entering:
+    """The waves of a tile as the inlet makes them, on the table of the tile."""
+
+    def __init__(
+        self, spectrum: Spectrum, velocity_ratio: float, zone: Zone, moes: tuple[float, float]
+    ) -> None:
+        self.bent = _bends(spectrum, velocity_ratio)
+        self.table, self.ratio = WaveTable(spectrum), velocity_ratio
+        self._power = spectrum.power
+        kx, ky = self.table.kx, self.table.ky
+        # the inlet of a strip off the centre line lies further along the motion
+        self._slip = velocity_ratio - 1.0
+        behind = kx * self._slip * (np.sqrt(1.0 - OFF_CENTRE**2) - 1.0)
+        lines = np.array([[0.0], [OFF_CENTRE]])
+        self._inlet = inlet_transfer(zone, kx, ky, moes, velocity_ratio, lines)
+        self._inlet[1] *= 1.0 if self.bent else np.exp(1j * behind)
+
+    def variance(self, zone: Zone, mesh: float) -> float:
+        """Mean square of their pressure at X = 0 where they leak as in a zone [p_h^2]."""
+        few = self.table.coarse()
+        carried = coarsened(self._inlet[0], 1) * np.exp(1j * few[0] * self._slip)
+        driven, free = transport(zone, *few, self.ratio, CENTRE, mesh)[MIDDLE]
+        pressure = zone.stiffness * wave_pressure(*few, self.ratio, driven, free * carried)
+        return float(self.table.gathered(self._power) @ np.square(np.abs(pressure)))
+
+    def at_stations(self, zone: Zone, mesh: float) -> tuple[list[Complex], Complex, Complex]:
+        """Where they leak as in a zone: what :class:`Transfer` holds, and T and pressure (n, m).
+
+        The first for the components of the tile: driven and free parts at the stations, then the
+        change off the centre line. The others for the table.
+        """
+        kx, ky, inlet = self.table.kx, self.table.ky, self._inlet
+        stations = transport(zone, kx, ky, self.ratio, STATIONS, mesh)
+        turned = [np.exp(1j * kx * self._slip * (x + 1.0)) for x in STATIONS]
+        parts = [(d, f * inlet[0] * t) for (d, f), t in zip(stations, turned, strict=True)]
+        ratios = np.array([d + f for d, f in parts])
+        k = zone.stiffness
+        pressures = np.array([k * wave_pressure(kx, ky, self.ratio, d, f) for d, f in parts])
+        found = self.table.spread(
+            [driven for driven, _ in stations]
+            + [free * inlet[0] for _, free in stations]
+            + [stations[MIDDLE][1] * (inlet[1] - inlet[0])]
+        )
+        return found, ratios, pressures
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +127,8 @@ class Transfer:
     bent: bool
     # The pressure of second order; None where the waves move with the roughness as they are
     second: SecondOrder | None = None
-    stiffening: float = 1.0  # stiffness over that of the half-space
+    stiffening: float = 1.0  # stiffness over that of the half-space under a circle
+    ellipticity: float = 1.0  # of the contact
 
     @classmethod
     def of(
@@ -89,41 +141,59 @@ class Transfer:
         at_amplitude: bool = False,
         mesh: float = 0.0,
     ) -> Transfer:
-        """Of a tile in a contact, from a table over |q| and direction; `moes` are M, L.
+        """Of a tile in a contact, from a table over |q| and direction.
+
+        `moes` are M, L of the circular contact with the same inlet.
 
         `at_amplitude`: the waves leak as those of the amplitude of the tile
         (:func:`_at_amplitude`), not as small ones. `mesh` [a]: they leak as on a grid.
         """
-        bent = _bends(spectrum, velocity_ratio)
-        table = WaveTable(spectrum)
-        kx, ky = table.kx, table.ky
-        # the inlet of a strip off the centre line lies further along the motion
-        slip = velocity_ratio - 1.0
-        behind = 1.0 if bent else np.exp(1j * kx * slip * (np.sqrt(1.0 - OFF_CENTRE**2) - 1.0))
-        lines = np.array([[0.0], [OFF_CENTRE]])
-        inlet = inlet_transfer(zone, kx, ky, moes, velocity_ratio, lines)
-        inlet[1] *= behind
+        tiles = [(spectrum, velocity_ratio)]
+        (found,) = cls.of_all(tiles, zone, moes, at_amplitude=at_amplitude, mesh=mesh)
+        return found
+
+    @classmethod
+    def of_all(
+        cls,
+        tiles: Sequence[tuple[Spectrum, float]],
+        zone: Zone,
+        moes: tuple[float, float],
+        *,
+        at_amplitude: bool = False,
+        mesh: float = 0.0,
+    ) -> list[Transfer]:
+        """Of the tiles that are in a contact at a time, each with its velocity ratio; else as `of`.
+
+        Their waves leak as those of the amplitude of all, and their pressure of second order is
+        one.
+        """
+        entering = [_Entering(*tile, zone, moes) for tile in tiles]
         leaking = zone
         if at_amplitude:
-            power, few = table.gathered(spectrum.power), table.coarse()
-            carried = coarsened(inlet[0], 1) * np.exp(1j * few[0] * slip)
             for _ in range(REPETITIONS):
-                driven, free = transport(leaking, *few, velocity_ratio, CENTRE, mesh)[MIDDLE]
-                pressure = wave_pressure(*few, velocity_ratio, driven, free * carried)
-                leaking = _at_amplitude(zone, float(power @ np.square(np.abs(pressure))))
-        stations = transport(leaking, kx, ky, velocity_ratio, STATIONS, mesh)
-        turned = [np.exp(1j * kx * slip * (x + 1.0)) for x in STATIONS]
-        parts = [(d, f * inlet[0] * t) for (d, f), t in zip(stations, turned, strict=True)]
-        ratios = np.array([d + f for d, f in parts])
-        pressures = np.array([wave_pressure(kx, ky, velocity_ratio, d, f) for d, f in parts])
-        found = table.spread(
-            [driven for driven, _ in stations]
-            + [free * inlet[0] for _, free in stations]
-            + [stations[MIDDLE][1] * (inlet[1] - inlet[0])]
+                variance = sum(waves.variance(leaking, mesh) for waves in entering)
+                leaking = _at_amplitude(zone, variance)
+        loaded = [waves.at_stations(leaking, mesh) for waves in entering]
+        second = SecondOrder(
+            zone,
+            STATIONS,
+            [waves.table for waves in entering],
+            [ratios for _, ratios, _ in loaded],
+            [pressures for _, _, pressures in loaded],
         )
         count = STATIONS.size
-        second = SecondOrder(zone, STATIONS, table, ratios, pressures)
-        return cls(found[:count], found[count:-1], found[-1], bent, second)
+        return [
+            cls(
+                found[:count],
+                found[count:-1],
+                found[-1],
+                waves.bent,
+                second,
+                zone.stiffness,
+                zone.ellipticity,
+            )
+            for waves, (found, _, _) in zip(entering, loaded, strict=True)
+        ]
 
     @classmethod
     def carried(cls, ratio: Array, stiffening: float = 1.0) -> Transfer:

@@ -23,6 +23,7 @@ from pyehl.theory.transport import free_stiffness, stiffness
 
 __all__ = ["REFINEMENT", "Waves"]
 
+Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Narrow = NDArray[np.complexfloating[Any, Any]]
 Single = NDArray[np.float32]
@@ -33,7 +34,11 @@ REFINEMENT = 4
 
 @dataclass(frozen=True, slots=True)
 class Waves:
-    """Film (less by) and pressure (more by) of driven and free waves as tiles, single precision."""
+    """Film (less by) and pressure (more by) of driven and free waves as tiles, single precision.
+
+    On lines of their own in place of the columns of the tile the driven waves are as fine as the
+    free ones.
+    """
 
     driven: Single  # over station (n, nx, ny/stride, 2): film, pressure
     free: Single | None  # the same (n, REFINEMENT nx, ny/stride, 2); None without free waves
@@ -50,32 +55,43 @@ class Waves:
         central_film: float,
         velocity_ratio: float,
         stride: int = 1,
+        lines: Array | None = None,
     ) -> Waves:
-        """Make the tiles of all waves in a contact with a film H_c [a^2/R]."""
+        """Make the tiles of all waves in a contact with a film H_c [a^2/R].
+
+        On the columns of the tile, or on lines Y (n,) [a].
+        """
         qx, qy = spectrum.qx[:, np.newaxis], spectrum.qy[np.newaxis, :]
-        gain = edge_gain(qx, qy, central_film)
+        stiffening = transfer.stiffening
+        gain = stiffening * edge_gain(
+            qx, qy, stiffening * central_film, ellipticity=transfer.ellipticity
+        )
         k = (stiffness(spectrum.q) * gain).astype(np.float32)
         k_free = (free_stiffness(qx, qy, velocity_ratio) * gain).astype(np.float32)
         narrow = spectrum.single()
+        across = None if lines is None else narrow.on_lines(lines)
         # a linear interpolation between the points dims a wave by this on average
         step = spectrum.qx * (np.pi / REFINEMENT / spectrum.qx[-1])
         bright = (1.0 / (1.0 - np.square(step) / 12.0)).astype(np.float32)[:, np.newaxis]
 
         def tiles(waves: list[tuple[Narrow, Narrow]], refinement: int) -> Single:
-            shape = spectrum.shape[0] * refinement, spectrum.shape[1] // stride, 2
+            columns = spectrum.shape[1] // stride if lines is None else lines.size
+            shape = spectrum.shape[0] * refinement, columns, 2
             found = np.empty((len(waves), *shape), dtype=np.float32)
             for place, pair in zip(found, waves, strict=True):
                 for i, factor in enumerate(pair):
-                    place[..., i] = narrow.tile(factor, refinement, stride)
+                    place[..., i] = narrow.tile(factor, refinement, stride, across)
             return found
 
         def free(waves: list[Complex]) -> Single:
             lit = (t.astype(np.complex64) * bright for t in waves)
             return tiles([(t, -k_free * t) for t in lit], REFINEMENT)
 
-        driven = (t.astype(np.complex64) for t in transfer.driven)
+        driven = [(t, k * (1 - t)) for t in (t.astype(np.complex64) for t in transfer.driven)]
+        if lines is not None:
+            driven = [(t * bright, pressure * bright) for t, pressure in driven]
         return cls(
-            tiles([(t, k * (1 - t)) for t in driven], 1),
+            tiles(driven, 1 if lines is None else REFINEMENT),
             free(transfer.free) if transfer.free else None,
             None if transfer.off_centre is None else free([transfer.off_centre]),
             stride,

@@ -92,4 +92,5 @@ def show(data: list[WaveSet], references: References, level: Level) -> Result:
         "Both schemes; the curves of the paper are not published as numbers.",
         notes,
         studies=[found.made for found in data],
+        unjudged="the paper gives neither the numbers nor the conditions of these curves",
     )

@@ -117,6 +117,7 @@ class Result:
     folder: Path = Path()
     wall: float = 0.0
     failed: str = ""  # which run has no result, so that the piece has none; '' for none
+    unjudged: str = ""  # why no number of it can be judged; '' where some can
 
     def file(self, suffix: str) -> Path:
         """Path of its '.csv' or '.png'."""
@@ -132,20 +133,29 @@ class Result:
         """Whether each deviation beyond its tolerance is explained by a finding."""
         return not self.failed and all(check.passed or check.explained for check in self.checks)
 
+    @property
+    def verdict(self) -> str:
+        """'pass', 'FAIL', 'not reproduced' (a finding shows why) or 'nothing to judge'."""
+        if not self.passed:
+            return "FAIL"
+        if not any(check.judged for check in self.checks):
+            return "nothing to judge"
+        return "pass" if all(check.passed for check in self.checks) else "not reproduced"
+
     def line(self) -> str:
         """Give the line of deviations."""
         if self.failed:
             return f"FAIL: {self.failed}"
         judged = [check for check in self.checks if check.judged]
+        if not judged:
+            return f"{self.verdict}: {self.unjudged}" if self.unjudged else self.verdict
         failed = [check for check in judged if not check.passed]
         explained = sum(check.explained for check in failed)
         line = f"{len(judged) - len(failed)} of {len(judged)} numbers within their tolerance"
         others = len(self.checks) - len(judged)
         line += f", {explained} not reproduced, explained below" if explained else ""
         line += f", {others} not judged" if others else ""
-        if not failed:
-            return f"pass: {line}"
-        return f"{'not reproduced' if explained == len(failed) else 'FAIL'}: {line}"
+        return f"{self.verdict}: {line}"
 
 
 class Piece(Protocol):

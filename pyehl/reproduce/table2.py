@@ -117,6 +117,7 @@ def show(data: Meshes, references: References, level: Level) -> Result:
         notes=notes,
         findings=_findings(data, level),
         studies=data.studies,
+        unjudged="the surface of the paper's table is not published",
         paper_seconds=f"{references['time.simulation'].value / 86400:g} days for a simulation",
     )
 

@@ -1,34 +1,30 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A Stribeck curve from the rows of its tasks: its columns, and where full film ends.
-
-theta_2 is that of Zhang et al. 2019, section 4.2, made for a pattern of one wavelength. For another
-surface it is taken for the pattern cos(2 pi x/wavelength) cos(2 pi y/wavelength) with the same rms
-height (A_i = 2 sigma) and the same mean wavenumber, which is 2 sqrt(2) pi/wavelength.
-"""
+"""A Stribeck curve from the rows of its tasks: its columns, and where full film ends."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 
-from pyehl import surfaces
+from pyehl.prediction.deformed import deformed_surfaces
 from pyehl.prediction.errors import KNOWN_RATIO
+from pyehl.studies.curve_pattern import SMOOTH, Pattern, kept_pattern
 from pyehl.studies.curve_plan import CurvePlan, CurvePoint, Settings
 from pyehl.studies.tasks import FAILED, why_none
 from pyehl.theory import stribeck
 from pyehl.theory.film import central_film
 from pyehl.theory.friction import absolute_friction
+from pyehl.theory.load_share import LoadShare
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
 __all__ = [
     "BREAKDOWN",
+    "EMPIRICAL",
     "FULL_FILM",
     "OUTSIDE",
     "UNITS",
@@ -36,7 +32,6 @@ __all__ = [
     "curve_rows",
     "full_film_ends",
     "no_coefficient",
-    "pattern",
 ]
 
 Row = Mapping[str, Any]
@@ -54,11 +49,25 @@ UNITS = {
     "h_min_error_m": "m",
     "lambda_ratio": "1",
     "lambda_ratio_central": "1",
+    "lambda_ratio_deformed": "1",
+    "lambda_ratio_deformed_error": "1",
+    "rms_deformed_m": "m",
+    "rms_deformed_error_m": "m",
+    "rms_pressure_Pa": "Pa",
+    "rms_pressure_error_Pa": "Pa",
+    "p_rise_max_Pa": "Pa",
+    "p_rise_max_error_Pa": "Pa",
+    "h_min_rough_m": "m",
+    "h_min_rough_error_m": "m",
+    "film_below_limit_share": "1",
+    "film_below_limit_error": "1",
     "theta_2": "1",
     "theta_2_wavelength_m": "m",
     "hersey": "1",
     "mu_smooth": "1",
     "mu": "1",
+    "mu_isothermal": "1",
+    "temperature_rise_max_K": "K",
     "mu_spread": "1",
     "mu_ratio": "1",
     "mu_ratio_spread": "1",
@@ -70,55 +79,40 @@ UNITS = {
     "surfaces": "1",
 }
 """Columns that are numbers, and their units; behind them come ``status`` and ``message``."""
-
-
-@dataclass(frozen=True, slots=True)
-class Pattern:
-    """The pattern of one wavelength that stands for a surface: rms height and wavelength [m]."""
-
-    rms_height: float
-    wavelength: float
-
-
-SMOOTH = Pattern(0.0, math.inf)
-
-
-def pattern(settings: Settings, operating: OperatingPoint, film: float) -> Pattern:
-    """Give the pattern that theta_2 is taken for, of a resolved case with a rough surface.
-
-    `film` is the central film [m], of which the amplitude of harmonic roughness may be a share.
-    """
-    if settings["surface"]["kind"] == "harmonic":
-        lengths = [float(settings["surface"][f"wavelength_{axis}"]) for axis in "xy"]
-        amplitude = surfaces.harmonic_amplitude(settings, operating, film)
-        return Pattern(0.5 * amplitude, min(lengths) * operating.hertz_radius)
-    tile = surfaces.from_settings(settings, operating, film)
-    qx, qy = surfaces.wavenumbers(tile)
-    power = np.abs(scipy.fft.rfft2(tile.heights)) ** 2
-    power[0, 0] = 0.0
-    # the half of the spectrum that is not there has the same power
-    last = -1 if tile.shape[1] % 2 == 0 else None
-    power[:, 1:last] *= 2.0
-    mean = float((np.hypot(qx, qy) * power).sum() / power.sum())
-    return Pattern(tile.rms_height, 2.0 * math.sqrt(2.0) * math.pi / mean)
+EMPIRICAL = {"asperity_load_share_empirical": "1", "mu_empirical": "1"}
+"""More of them where an empirical law of a thin film is asked for."""
 
 
 def curve_rows(plan: CurvePlan, rows: Mapping[int, Row]) -> list[dict[str, Any]]:
     """Give the columns of a curve at all points, in the order of the table.
 
-    Names and units are those of `UNITS`; None for a number that does not exist.
+    Names and units are those of `UNITS` and, where the plan has an empirical law, `EMPIRICAL`; None
+    for a number that does not exist.
     """
     kept: dict[str, Pattern] = {}
-    return [_at(point, rows, kept) for point in plan.points]
+    return [_at(point, rows, kept, plan.load_share) for point in plan.points]
 
 
-def _at(point: CurvePoint, rows: Mapping[int, Row], kept: dict[str, Pattern]) -> dict[str, Any]:
+def _empirical(values: Row, smooth: float | None, law: LoadShare) -> dict[str, Any]:
+    """Give what the law says; the film has the friction of the smooth contact where it ends."""
+    ratio = values["lambda_ratio_central"]
+    film = smooth if values["mu"] is None else values["mu"]
+    if ratio is None:
+        return dict.fromkeys(EMPIRICAL)
+    mu = None if film is None else law.friction(ratio, film)
+    return {"asperity_load_share_empirical": law.share(ratio), "mu_empirical": mu}
+
+
+def _at(
+    point: CurvePoint, rows: Mapping[int, Row], kept: dict[str, Pattern], law: LoadShare | None
+) -> dict[str, Any]:
     operating = OperatingPoint.from_settings(point.settings)
     nothing = {"status": FAILED, "message": "not done"}
     smooth = rows.get(point.smooth, nothing)
     found = [rows.get(number, nothing) for number in point.predictions]
     values: dict[str, Any] = dict.fromkeys(UNITS)
     values |= _film(smooth, operating)
+    values["temperature_rise_max_K"] = smooth.get("temperature_rise_max_K")
     h_c, h_min = values["h_c_m"], values["h_min_m"]
     film = h_c or central_film(operating, Lubricant.from_settings(point.settings))
     values |= {
@@ -130,16 +124,20 @@ def _at(point: CurvePoint, rows: Mapping[int, Row], kept: dict[str, Pattern]) ->
         "moes_l": operating.moes_l,
         "surfaces": len(found),
     }
-    likeness = _pattern(point.settings, operating, film, kept) if found else SMOOTH
+    likeness = kept_pattern(point.settings, operating, film, kept) if found else SMOOTH
     if h_c is not None and likeness.rms_height > 0.0:
         wavelength = likeness.wavelength / operating.hertz_radius
         ratio = h_c / (2.0 * likeness.rms_height)
         place = (operating.moes_m, operating.moes_l, wavelength, ratio)
+        # eq. 16 is for circular contacts
+        known = operating.moes_l > 0.0 and operating.radius_ratio == 1.0
         values["lambda_ratio"] = h_min / likeness.rms_height
         values["lambda_ratio_central"] = h_c / likeness.rms_height
-        values["theta_2"] = float(stribeck.theta_2(*place)) if operating.moes_l > 0.0 else None
+        values["theta_2"] = float(stribeck.theta_2(*place)) if known else None
         values["theta_2_wavelength_m"] = likeness.wavelength
     values |= _friction(found, smooth) if found else _smooth_friction(smooth)
+    if law is not None:
+        values |= _empirical(values, smooth.get("mu_smooth"), law)
     if point.full is not None:
         full = rows.get(point.full, nothing)
         if full["status"] == "converged":
@@ -156,18 +154,6 @@ def _at(point: CurvePoint, rows: Mapping[int, Row], kept: dict[str, Pattern]) ->
         if values["status"] in (FULL_FILM, OUTSIDE):
             values["status"] = UNSOLVED
     return values
-
-
-def _pattern(
-    settings: Settings, operating: OperatingPoint, film: float, kept: dict[str, Pattern]
-) -> Pattern:
-    """Give the pattern of a surface; one that knows nothing of the contact is made once."""
-    name = str(sorted(settings["surface"].items(), key=str))
-    if settings["surface"]["kind"] == "harmonic":
-        return pattern(settings, operating, film)
-    if name not in kept:
-        kept[name] = pattern(settings, operating, film)
-    return kept[name]
 
 
 def _film(smooth: Row, operating: OperatingPoint) -> dict[str, Any]:
@@ -192,6 +178,7 @@ def _smooth_friction(smooth: Row) -> dict[str, Any]:
     return {
         "mu_smooth": coefficient,
         "mu": coefficient,
+        "mu_isothermal": smooth.get("mu_smooth_isothermal"),
         "mu_ratio": 1.0,
         "mu_ratio_model_error": 0.0,
         "status": FULL_FILM,
@@ -214,14 +201,19 @@ def _friction(found: Sequence[Row], smooth: Row) -> dict[str, Any]:
     outside = sorted({row["outside_range"] for row in found if row.get("outside_range")})
     if any(row["mu_ratio"] > KNOWN_RATIO for row in found):
         outside.append(f"mu_ratio above {KNOWN_RATIO:g}")
-    coefficient = smooth.get("mu_smooth")
+    coefficient, isothermal = smooth.get("mu_smooth"), smooth.get("mu_smooth_isothermal")
     absolute: list[Row] = [
-        {"mu": None if None in (row.get("mu"), coefficient) else row["mu_ratio"] * coefficient}
+        {
+            name: None if None in (row.get("mu"), number) else row["mu_ratio"] * number
+            for name, number in (("mu", coefficient), ("mu_isothermal", isothermal))
+        }
         for row in found
     ]
     return {
         **_mean(found, "mu_ratio"),
         **_mean(absolute, "mu"),
+        **deformed_surfaces(found),
+        "mu_isothermal": _mean(absolute, "mu_isothermal")["mu_isothermal"],
         "mu_smooth": coefficient,
         "mu_ratio_model_error": _largest(found, "mu_ratio_model_error"),
         "status": OUTSIDE if outside else FULL_FILM,

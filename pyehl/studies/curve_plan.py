@@ -16,12 +16,13 @@ from typing import Any
 from pyehl import surfaces
 from pyehl.case import Case
 from pyehl.errors import InputError
-from pyehl.prediction.options import unpredictable
+from pyehl.prediction.options import turned, unpredictable
 from pyehl.studies.estimate import TaskList
 from pyehl.studies.plan import check_memory, duration, formula_film
 from pyehl.studies.study import MAX_CASES, Point, Study, make
 from pyehl.studies.tasks import Task
 from pyehl.studies.vary import Axis
+from pyehl.theory.load_share import LoadShare
 
 __all__ = ["KEYS", "CurvePlan", "CurvePoint", "plan_curve"]
 
@@ -35,7 +36,6 @@ KEYS = {
     "slide-to-roll": "contact.slide_to_roll",
 }
 """What a curve may go over, by the option of the command."""
-SEED = "surface.seed"
 MAX_SURFACES = 1000
 
 
@@ -59,12 +59,13 @@ class CurvePlan:
     points: tuple[CurvePoint, ...]  # points in the order of the table
     tasks: tuple[Task, ...]  # all tasks
     surfaces: int  # surfaces at each point
+    load_share: LoadShare | None = None  # the empirical law of a thin film, if it is asked for
 
     def identity(self) -> dict[str, Any]:
         """Give what makes this curve another one than others, as values of JSON."""
         full = [p.point.number for p in self.points if p.full is not None]
-        surfaces = [p.settings["surface"] for p in self.points]
-        maps = dict.fromkeys(str(s["file"]) for s in surfaces if s["kind"] == "map")
+        rough = [p.settings[g] for p in self.points for g in surfaces.rough_groups(p.settings)]
+        maps = dict.fromkeys(str(s["file"]) for s in rough if s["kind"] == "map")
         first = (*self.points[0].predictions, self.points[0].smooth)[0]
         found = self.study.identity(self.tasks[first].text, maps)
         return found | {"run": "stribeck", "surfaces": self.surfaces, "ehl": full}
@@ -97,13 +98,15 @@ def plan_curve(
     options: Iterable[str] = (),
     ehl: int = 0,
     seeds: int = 1,
+    load_share: LoadShare | None = None,
 ) -> CurvePlan:
     """Resolve and check all points of a curve. Smooth surfaces have mu_r/mu_s = 1.
 
     Every value of an axis, keys of `KEYS`, meets those of the others. The passage of the surface
     is solved in full at `ehl` points, spread over the curve; at each point there are `seeds`
-    surfaces, of the seed of the case and those that follow. InputError if a case is not
-    acceptable, which it names, or if there are too many.
+    surfaces, of the seed of the case and those that follow. `load_share` adds what an empirical law
+    says of thin films. InputError if a case is not acceptable, which it names, or if there are too
+    many.
     """
     study = make(case, axes, options=options, run="predict")
     size = study.size
@@ -132,39 +135,70 @@ def plan_curve(
         settings = rough.resolve()
         with study.named(point):
             _check(settings, seeds, ehl)
-        first = int(settings["surface"]["seed"])
-        varied = [rough, *(rough.with_options(f"{SEED}={first + k}") for k in range(1, seeds))]
-        if settings["surface"]["kind"] == "smooth":
-            varied = []
+            if load_share is not None:
+                _check_share(settings)
+        groups = surfaces.rough_groups(settings)
+        varied = [_with_seeds(rough, settings, k) for k in range(seeds if groups else 0)]
         points.append(
             CurvePoint(
                 point,
                 settings,
-                smooth=add(rough.with_options("surface.kind=smooth"), "solve"),
+                smooth=add(_smooth(rough, settings), "solve"),
                 predictions=tuple(add(made, "predict") for made in varied),
                 full=add(rough, "solve") if point.number in chosen else None,
             )
         )
-    return CurvePlan(study, tuple(points), tuple(tasks.tasks), seeds)
+    return CurvePlan(study, tuple(points), tuple(tasks.tasks), seeds, load_share)
+
+
+def _check_share(settings: Settings) -> None:
+    """Refuse what the empirical law of a thin film says nothing of."""
+    if settings["surface"]["kind"] == "smooth":
+        raise InputError(
+            "--boundary-friction: surface.kind = 'smooth' has no Lambda\nexpected: a rough surface"
+        )
+    if settings["lubricant"]["shear_law"] == "newtonian":
+        raise InputError(
+            "--boundary-friction: of a Newtonian lubricant there is a ratio of friction alone\n"
+            "expected: lubricant.shear_law = 'eyring', 'limiting' or 'carreau'"
+        )
 
 
 def _check(settings: Settings, seeds: int, ehl: int) -> None:
     """Refuse what no curve can be made of."""
-    kind = settings["surface"]["kind"]
-    if "second_surface" in surfaces.rough_groups(settings):
-        raise InputError(
-            "second_surface: a curve is predicted, and a prediction knows one rough surface\n"
-            "expected: second_surface.kind = 'smooth'"
-        )
-    if kind in surfaces.FEATURES:
-        raise InputError(unpredictable(settings))
-    if kind == "smooth" and ehl:
+    groups = surfaces.rough_groups(settings)
+    why = unpredictable(settings) if groups else ""
+    if why:
+        raise InputError(why)
+    if not groups and ehl:
         raise InputError(f"--ehl {ehl}: surface.kind = 'smooth' has no passage to solve")
-    if seeds > 1 and kind != "fractal":
-        raise InputError(f"--surfaces {seeds}: surface.kind = '{kind}' has no seed")
+    if seeds > 1 and not _fractal(settings):
+        kinds = " and ".join(f"{g}.kind = '{settings[g]['kind']}'" for g in groups or ["surface"])
+        raise InputError(f"--surfaces {seeds}: {kinds} has no seed")
     if "load" not in settings["contact"]:
         raise InputError("a Stribeck curve needs a contact in SI units (load, mean_velocity)")
     film = formula_film(settings)
-    film[0].need_round("a Stribeck curve")
-    if kind == "map":
-        surfaces.from_settings(settings, *film)
+    if turned(settings):
+        raise InputError(turned(settings))
+    for group in groups:
+        if settings[group]["kind"] == "map":
+            surfaces.from_settings({**settings, "surface": settings[group]}, *film)
+
+
+def _fractal(settings: Settings) -> list[str]:
+    """Name the groups of the surfaces that have a seed."""
+    groups = surfaces.rough_groups(settings)
+    return [group for group in groups if settings[group]["kind"] == "fractal"]
+
+
+def _with_seeds(case: Case, settings: Settings, ahead: int) -> Case:
+    """Give a case with the surfaces of seeds so many ahead."""
+    groups = _fractal(settings) if ahead else []
+    seeds = {f"{group}.seed": int(settings[group]["seed"]) + ahead for group in groups}
+    return case.with_options(seeds) if seeds else case
+
+
+def _smooth(case: Case, settings: Settings) -> Case:
+    """Give a case without its roughness."""
+    groups = {"surface", *surfaces.rough_groups(settings)}
+    return case.with_options({f"{group}.kind": "smooth" for group in sorted(groups, reverse=True)})

@@ -17,17 +17,22 @@ from pyehl.errors import InputError
 from pyehl.given import Option, check_kind, options_of, path_of
 from pyehl.netcdf import write_netcdf
 from pyehl.studies import table
-from pyehl.studies.curve import UNITS, curve_rows
+from pyehl.studies.curve import EMPIRICAL, UNITS, curve_rows
 from pyehl.studies.curve_plan import KEYS, CurvePlan, plan_curve
 from pyehl.studies.gather import Outcome, Watcher, gather
 from pyehl.studies.journal import NAME
 from pyehl.studies.vary import Axis, axis
+from pyehl.theory.load_share import AIHARA, LoadShare
 
 __all__ = ["CSV", "NETCDF", "PICTURE", "axes_of", "perform", "stribeck"]
 
 CSV, NETCDF, PICTURE = "stribeck.csv", "stribeck.nc", "stribeck.png"
 FILES = (CSV, NETCDF, PICTURE)
-COLUMNS = (*UNITS, "status", "message")
+
+
+def units_of(plan: CurvePlan) -> dict[str, str]:
+    """Give the columns of a curve that are numbers, and their units."""
+    return UNITS | (EMPIRICAL if plan.load_share is not None else {})
 
 
 def axes_of(values: Mapping[str, Any]) -> list[Axis]:
@@ -67,7 +72,8 @@ def perform(
     def write(done: Mapping[int, dict[str, Any]]) -> None:
         rows = dict(enumerate(curve_rows(plan, done)))
         points = (p.point for p in plan.points)
-        table.write_csv(folder / CSV, plan.study, points, rows, COLUMNS)
+        columns = (*units_of(plan), "status", "message")
+        table.write_csv(folder / CSV, plan.study, points, rows, columns)
 
     outcome = gather(
         plan.tasks,
@@ -86,8 +92,12 @@ def perform(
 
 def _dataset(plan: CurvePlan, rows: Sequence[Mapping[str, Any]]) -> xr.Dataset:
     """Give a curve as a Dataset whose dimensions are what was varied."""
-    found = {name: [row[name] for row in rows] for name in COLUMNS}
-    return table.over(plan.study, found, UNITS, {"title": "Stribeck curve of pyehl"}, float)
+    units = units_of(plan)
+    found = {name: [row[name] for row in rows] for name in (*units, "status", "message")}
+    attributes = {"title": "Stribeck curve of pyehl"}
+    if plan.load_share is not None:
+        attributes["empirical"] = plan.load_share.words
+    return table.over(plan.study, found, units, attributes, float)
 
 
 def stribeck(
@@ -100,6 +110,8 @@ def stribeck(
     slide_to_roll: Any = None,  # noqa: ANN401
     ehl: int = 0,
     surfaces: int = 1,
+    boundary_friction: float | None = None,
+    load_share: tuple[float, float] = AIHARA,
     output: str | os.PathLike[str] | None = None,
     force: bool = False,
     jobs: int = 0,
@@ -123,6 +135,11 @@ def stribeck(
         Points at which the passage of the surface is solved in full.
     surfaces
         Surfaces at each point: of the seed of the case and those that follow.
+    boundary_friction
+        Coefficient of friction of the asperities [-]: adds what an empirical law says of thin films
+        (``mu_empirical``); None: no number where the film ends.
+    load_share
+        B and C of that law: exp(-B Lambda^C) of the load is on asperities.
     output
         Folder for journal and table, from which an interrupted curve is resumed; None: nothing is
         kept on disk.
@@ -167,7 +184,8 @@ def stribeck(
         "slide-to-roll": slide_to_roll,
     }
     given = options_of(options)
-    plan = plan_curve(case, axes_of(values), options=given, ehl=ehl, seeds=surfaces)
+    law = None if boundary_friction is None else LoadShare(boundary_friction, *load_share)
+    plan = plan_curve(case, axes_of(values), options=given, ehl=ehl, seeds=surfaces, load_share=law)
     inputs = () if isinstance(case, Case) else (path_of(case, "case"),)
     with tempfile.TemporaryDirectory(prefix="pyehl-") as place:
         folder = place if output is None else path_of(output, "output")

@@ -14,7 +14,7 @@ from typing import Any
 from pyehl.case import Case
 from pyehl.prediction.smooth import POINTS, smooth_case
 from pyehl.studies.tasks import Task
-from pyehl.surfaces import FEATURES, one_rough, rough_groups
+from pyehl.surfaces import FEATURES, rough_groups
 from pyehl.theory.operating import OperatingPoint
 
 __all__ = ["TaskList", "seconds_of", "smooth_seconds"]
@@ -25,6 +25,8 @@ PREDICTION, PREDICTION_PIXEL = 0.1, 1.4e-6
 """Seconds of a prediction, and per pixel of its tile, without the smooth contact under it."""
 FULL = 2.8
 """How many times as long one with tracks and bands takes."""
+PAIR = 8.0
+"""How many times as long that of two rough surfaces takes as those of both alone."""
 FILM = 2e-3
 SMOOTH_LINE, SMOOTH_NODE = 5e-4, 5e-7
 """Seconds of a smooth contact per line and per node of its finest grid."""
@@ -45,9 +47,10 @@ def seconds_of(settings: Settings, run: str, *, shared: bool = False, full: bool
     if run == "film":
         return FILM
     if run == "predict":
-        surface = one_rough(settings)["surface"]
-        pixels = int(surface["pixels"]) if surface["kind"] == "fractal" else 256
-        alone = (PREDICTION + PREDICTION_PIXEL * pixels**2) * (FULL if full else 1.0)
+        rough = [settings[group] for group in rough_groups(settings)]
+        sides = [int(s["pixels"]) if s["kind"] == "fractal" else 256 for s in rough]
+        alone = sum(PREDICTION + PREDICTION_PIXEL * side**2 for side in sides)
+        alone *= (FULL if full else 1.0) * (PAIR if len(rough) > 1 else 1.0)
         solved = settings["psd"]["smooth"] == "solved" and not shared
         return alone + (smooth_seconds(POINTS) if solved else 0.0)
     grid = settings["grid"]

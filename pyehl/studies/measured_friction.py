@@ -41,6 +41,19 @@ class Measured:
         inside = (self.places >= low) & (self.places <= high)
         return int(np.count_nonzero(~inside))
 
+    def deviation(self, name: str, key: str, places: Array, rows: Sequence[Row]) -> Array:
+        """Give a column of the curve over the measured friction less 1 (n,); NaN outside of it.
+
+        Interpolated along the curve, between places that have the column.
+        """
+        source, target = (_column(n, key, places, rows) for n in (self.abscissa, name))
+        known = np.isfinite(source) & np.isfinite(target)
+        if np.count_nonzero(known) < 2:
+            return np.full(self.places.shape, np.nan)
+        order = np.argsort(source[known])
+        x, y = source[known][order], target[known][order]
+        return np.interp(self.places, x, y, left=np.nan, right=np.nan) / self.friction - 1.0
+
     def over(self, name: str, key: str, places: Array, rows: Sequence[Row]) -> Array:
         """Give the places in another column of the curve, (n,); NaN outside of the curve.
 
@@ -52,6 +65,7 @@ class Measured:
         source = _column(self.abscissa, key, places, rows)
         target = _column(name, key, places, rows)
         known = np.isfinite(source) & np.isfinite(target)
+        known[known] = (source[known] > 0.0) & (target[known] > 0.0)
         if np.count_nonzero(known) < 2:
             return np.full(self.places.shape, np.nan)
         order = np.argsort(source[known])

@@ -21,7 +21,8 @@ TRACKS = ("tracks", "mu_ratio_tracks", "mu_ratio_tracks_spread")
 
 KINDS = {"solve": "solution", "predict": "prediction", "film": "film"}
 NOT_IN_A_TABLE = frozenset(
-    "bands film_breakdown formulas pixels surface_preparation wall_seconds".split()
+    "bands film_breakdown formulas pixels second_pixels second_surface_preparation "
+    "surface_preparation wall_seconds".split()
 )
 """Quantities that are no number, truth value or word, and what `seconds` stands for."""
 

@@ -46,7 +46,7 @@ RADIUS_PIXELS = 64
 # Fractal tiles and maps up to so many pixels are kept, a few of them
 KEPT_PIXELS = 2**20
 # What a map is read by, and what a fractal tile follows from
-SCAN = ("file", "length_x", "length_y", "channel")
+SCAN = ("file", "length_x", "length_y", "channel", "height_unit")
 FRACTAL = (
     "pixels",
     "length_x",
@@ -185,6 +185,7 @@ def scan_of(surface: Mapping[str, Any]) -> Scan:
         float(surface.get("length_x", 0.0)) or None,
         float(surface.get("length_y", 0.0)) or None,
         str(surface.get("channel", "")),
+        str(surface.get("height_unit", "m")),
     )
 
 

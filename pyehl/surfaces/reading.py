@@ -19,6 +19,7 @@ from pyehl.errors import EhlError, FileError, InputError
 from pyehl.library import check_memory
 from pyehl.surfaces.instruments import read_instrument
 from pyehl.surfaces.memory import check_pixels
+from pyehl.surfaces.point_list import grid_of, is_list
 from pyehl.surfaces.text_map import read_text
 
 __all__ = ["Scan", "is_array_file", "plain_array", "read_scan"]
@@ -42,6 +43,8 @@ EXPORT = re.compile(
 # First characters of numbers, nan and inf among them
 NUMBER_BEGINS = "0123456789+-.nNiI,;"
 HEADER_LINES = 100
+UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
+"""Metres in the units of `surface.height_unit`."""
 LEAST_PIXELS = 4
 
 
@@ -95,15 +98,17 @@ def read_scan(
     length_x: float | None = None,
     length_y: float | None = None,
     channel: str = "",
+    height_unit: str = "m",
 ) -> Scan:
     """Read a height map with its size [m]: needed where the file has none, else in place of it.
 
     ``.npy`` (never pickled) or text (``.txt``, ``.csv``, ``.dat``, ``.asc``: one x per line, y
-    along the line, separated by blanks, commas or semicolons), heights in m, NaN where they are
-    missing; any other file must be one that SurfaceTopography reads. Where such a file names
-    neither size nor unit (MATLAB, HDF5), its heights are taken in m, too. `channel` is the name of
-    a channel of an instrument file, or its number, counted from 1; empty: the one that the file
-    calls its first height channel.
+    along the line, separated by blanks, commas or semicolons; or a list of the x, y and z of all
+    points of a grid), heights in `height_unit` ('m', 'mm', 'um' or 'nm'), as are the places of a
+    list, NaN where they are missing; any other file must be one that SurfaceTopography reads. Where
+    such a file names neither size nor unit (MATLAB, HDF5), its heights are in that unit, too.
+    `channel` is the name of a channel of an instrument file, or its number, counted from 1; empty:
+    the one that the file calls its first height channel.
 
     FileError if the file cannot be opened; NoMemoryError if it is larger than the memory;
     InputError if it is no matrix of numbers, has no size, has no such channel or its size cannot
@@ -113,14 +118,16 @@ def read_scan(
     if not path.is_file():
         raise FileError(f"{path}: no such height map")
     try:
-        return _read(path, length_x, length_y, channel)
+        return _read(path, length_x, length_y, channel, height_unit)
     except EhlError:
         raise
     except OSError as error:
         raise FileError(f"{path}: cannot read: {error.strerror or error}") from error
 
 
-def _read(path: Path, length_x: float | None, length_y: float | None, channel: str) -> Scan:
+def _read(
+    path: Path, length_x: float | None, length_y: float | None, channel: str, height_unit: str
+) -> Scan:
     """Read a file of any kind."""
     length = path.stat().st_size
     if length == 0:
@@ -128,20 +135,21 @@ def _read(path: Path, length_x: float | None, length_y: float | None, channel: s
     if path.suffix.lower() != ".npy":
         # a line of text may be as long as the file; the header of an array tells more
         check_memory(f"{path}: a file of this length", length)
-    own: tuple[float | None, float | None] = (None, None)
-    periodic, name, note = False, "", ""
+    name, note = "", ""
     array = is_array_file(path)
     if array:
-        if channel:
-            raise InputError(
-                f"{path}: surface.channel = '{channel}', but .npy and text hold one map alone"
-            )
-        if path.suffix.lower() == ".npy":
-            heights = _read_npy(path)
-        else:
-            heights, own, periodic = read_text(path)
+        heights, own, periodic = _read_array(path, channel)
     else:
         heights, own, periodic, name, note = read_instrument(path, channel)
+    if height_unit != "m":
+        if not array and not note:
+            raise InputError(
+                f"{path}: surface.height_unit = '{height_unit}', but the file names its unit itself"
+            )
+        heights *= UNITS[height_unit]
+        note = f"heights in {height_unit} by surface.height_unit"
+    if array and is_list(heights):
+        heights, own = grid_of(path, heights)
     _check_shape(path, heights.shape)
     x, y = length_x or own[0], length_y or own[1]
     if x is None or y is None:
@@ -161,10 +169,21 @@ def _read(path: Path, length_x: float | None, length_y: float | None, channel: s
     return scan
 
 
+def _read_array(path: Path, channel: str) -> tuple[Array, tuple[float | None, float | None], bool]:
+    """Heights, the size if the file has it, and whether it says 'periodic'."""
+    if channel:
+        raise InputError(
+            f"{path}: surface.channel = '{channel}', but .npy and text hold one map alone"
+        )
+    if path.suffix.lower() == ".npy":
+        return _read_npy(path), (None, None), False
+    return read_text(path)
+
+
 def _check_shape(path: Path, shape: tuple[int, ...]) -> None:
     """Refuse what is no map."""
     if min(shape) < LEAST_PIXELS:
-        lines = ("a profile along one line", "a profile of x and z", "a list of x, y and z")
+        lines = ("a profile along one line", "a profile of x and z")
         what = f"; is it {lines[shape[1] - 1]}?" if shape[1] <= len(lines) < shape[0] else ""
         raise InputError(
             f"{path}: the map must have at least {LEAST_PIXELS} x {LEAST_PIXELS} pixels, "

@@ -52,7 +52,8 @@ class SolverSurfaces:
     heights: tuple[NDArray[np.float64] | None, ...]
     options: tuple[str, ...]  # as those of `SolverSurface`
     preparations: dict[str, Record]  # how maps became tiles, by group
-    part: Topography | None  # what a prediction is made with, where it is not the case's surface
+    # What a prediction is made with by group, where it is not the surface of the case
+    parts: dict[str, Topography]
 
 
 def gather(
@@ -82,7 +83,7 @@ def gather(
         heights=tuple(own.heights for own in both.values()),
         options=tuple(option for own in both.values() for option in own.options),
         preparations={group: own.preparation for group, own in both.items() if own.preparation},
-        part=next((own.part for own in both.values() if own.part is not None), None),
+        parts={group: own.part for group, own in both.items() if own.part is not None},
     )
 
 
@@ -112,6 +113,7 @@ def for_solver(settings: Mapping[str, Mapping[str, Any]], group: str = "surface"
     scan, options = scan_of(surface), Options.from_settings(surface)
     sized = surface.get("length_x") and surface.get("length_y")
     changed = surface.get("track") or not scan.is_array or not sized
+    changed = changed or surface.get("height_unit", "m") != "m"
     changed = changed or not plain_array(str(surface["file"]))
     # a large map is in memory once
     heights, record = consume(scan, options)

@@ -18,6 +18,7 @@ Array = NDArray[np.float64]
 
 # What stands between separators
 WORD = re.compile(r"[^\s,;]+")
+DECIMAL = re.compile(r"[^\s;]+")
 OWN_SIZE = re.compile(r"^#\s*(length_[xy])\s*=\s*(\S+)\s*m\s*$")
 OWN_PERIODIC = re.compile(r"^#\s*periodic\s*$")
 
@@ -50,7 +51,10 @@ def read_text(path: Path) -> tuple[Array, tuple[float | None, float | None], boo
 
 def _row(path: Path, number: int, line: str) -> Array | None:
     """Heights of one line; None for an empty one."""
-    text = line.partition("#")[0].replace(";", " ")
+    text = line.partition("#")[0].rstrip()
+    # where something else separates the numbers a comma is a decimal comma
+    if ";" in text or "\t" in text.strip():
+        text = text.replace(",", ".").replace(";", " ")
     if "," in text:
         # "1,2 3,4" would otherwise be read as four heights
         commas = text.count(",")
@@ -59,7 +63,8 @@ def _row(path: Path, number: int, line: str) -> Array | None:
         if commas not in (len(words) - 1, len(words)):
             raise InputError(
                 f"{path}:{number}:{line.index(',') + 1}: commas and blanks both separate the "
-                "numbers; if the comma is a decimal comma, write a point"
+                "numbers; if the comma is a decimal comma, write a point, or a semicolon between "
+                "the numbers"
             )
     else:
         words = text.split()
@@ -70,8 +75,7 @@ def _row(path: Path, number: int, line: str) -> Array | None:
     except ValueError:
         bad = next(n for n, word in enumerate(words) if not _is_number(word))
         raise InputError(
-            f"{path}:{number}:{_column(line, bad)}: {words[bad]!r} is no number; expected: heights "
-            "in m"
+            f"{path}:{number}:{_column(line, bad)}: {words[bad]!r} is no number; expected: heights"
         ) from None
 
 
@@ -85,5 +89,6 @@ def _is_number(word: str) -> bool:
 
 def _column(line: str, index: int) -> int:
     """Column of a word of a line, from 1; behind its last one where it has fewer."""
-    words = list(WORD.finditer(line.partition("#")[0]))
+    text = line.partition("#")[0]
+    words = list((DECIMAL if ";" in text or "\t" in text.strip() else WORD).finditer(text))
     return words[index].start() + 1 if index < len(words) else words[-1].end() + 1

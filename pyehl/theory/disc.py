@@ -24,7 +24,7 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-__all__ = ["LARGEST", "disc_correction", "monomials"]
+__all__ = ["DEGREE", "LARGEST", "RADIUS", "disc_correction", "monomials", "spherical_bessel"]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -65,7 +65,7 @@ def _radial(z: Array, last: int) -> list[tuple[range, Array]]:
 def _series(qx: Array, qy: Array, theta: Array, radial: list[tuple[range, Array]]) -> Complex:
     """Sum the series at the angles (n,) that the radial parts (n, number of l) belong to."""
     q, phi = np.hypot(qx, qy), np.arctan2(qy, qx)
-    bessel = _bessel(radial[0][0].stop, q)
+    bessel = spherical_bessel(radial[0][0].stop, q)
     total = np.zeros((theta.size, q.size), dtype=complex)
     for m, (orders, values) in enumerate(radial):
         part = values @ np.stack([(-1) ** ((n - m) // 2) * (2 * n + 1) * bessel[n] for n in orders])
@@ -83,7 +83,7 @@ def _legendre(n: int, m: int, z: Array) -> Array:
     return np.asarray((-1.0) ** m * (1.0 - z * z) ** (0.5 * m) * derivative(z))
 
 
-def _bessel(count: int, q: Array) -> Array:
+def spherical_bessel(count: int, q: Array) -> Array:
     """Spherical Bessel functions of the orders below `count`, (count, m) (DLMF 10.54.2)."""
     place, weight = legendre.leggauss(2 * count)
     waves = np.exp(1j * np.outer(q, place)) * (0.5 * weight)

@@ -6,32 +6,33 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from pyehl.theory.heat import flash_temperature
+from pyehl.theory.heat import Heat, flash_temperature
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import shear_stress
 
 __all__ = ["absolute_friction"]
 
-ISOTHERMAL = "isothermal: the oil is not thinned by the flash temperature (Tian & Kennedy 1994)"
-
 
 def absolute_friction(
     operating: OperatingPoint,
     lubricant: Lubricant,
-    *,
     film: float,
     mu_smooth: float,
     mu_ratio: float,
+    heat: Heat | None = None,
 ) -> dict[str, Any]:
     """Coefficients of friction and what stands beside them in ``summary.json``.
 
     `film` is the central film h_c [m], taken to be the film everywhere in the contact; `mu_smooth`
     the coefficient of the smooth contact at the slide-to-roll ratio, `mu_ratio` friction over that
-    [-]. ``mu``, ``mu_smooth``, ``shear_rate_mean_per_s``, ``shear_stress_max_Pa`` (of the smooth
-    contact), ``flash_temperature_K``, NaN where there is none, and ``mu_note``: why, or the
-    caveat. A Newtonian coefficient is given where the stress stays below the Eyring stress.
+    [-], both isothermal; `heat` what the heat makes of the friction of the smooth contact, and is
+    taken to make of that of the rough one. ``mu``, ``mu_smooth``, the same isothermal, rises of
+    temperature, ``shear_rate_mean_per_s``, ``shear_stress_max_Pa`` (of the smooth contact),
+    ``flash_temperature_K``, NaN where there is none, and ``mu_note``: why, or the caveat. A
+    Newtonian coefficient is given where the stress stays below the Eyring stress.
     """
+    heat = heat or Heat()
     speed, law = operating.sliding_speed, lubricant.shear
     nothing = math.nan
     rate = stress = rise = nothing
@@ -49,26 +50,33 @@ def absolute_friction(
         newtonian = lubricant.viscosity * float(lubricant.viscosity_ratio(p)) * rate
         stress = float(shear_stress(newtonian, p, law))
         if law.law != "newtonian" or stress <= law.eyring_stress:
-            smooth, note = mu_smooth, ISOTHERMAL
+            smooth, note = mu_smooth, heat.note
         else:
             note = (
                 f"a ratio alone: the Newtonian shear stress reaches {stress:.1E} Pa, and oils "
                 f"shear thin above some {law.eyring_stress!r} Pa (lubricant.eyring_stress): give a "
                 "lubricant.shear_law"
             )
-    mu = mu_ratio * smooth
-    if math.isfinite(mu):
+    mu = mu_ratio * smooth * heat.ratio
+    rises = heat.rises if math.isfinite(mu) else Heat().rises
+    # the formula is for circles
+    if math.isfinite(mu) and operating.radius_ratio == 1.0:
         u, srr, a = operating.mean_velocity, operating.slide_to_roll, operating.hertz_radius
         rise = flash_temperature(
-            mu * operating.load * speed / (math.pi * a**2),
+            mu * operating.load * speed / (math.pi * a * operating.semi_axis_y),
             a,
             (u * (1.0 + 0.5 * srr), u * (1.0 - 0.5 * srr)),
-            operating.thermal_conductivity,
-            operating.thermal_diffusivity,
+            operating.thermal_conductivities,
+            operating.thermal_diffusivities,
         )
     return {
         "mu": mu,
-        "mu_smooth": smooth,
+        "mu_smooth": smooth * heat.ratio,
+        "mu_isothermal": mu_ratio * smooth,
+        "mu_smooth_isothermal": smooth,
+        "temperature_rise_max_K": rises[0],
+        "temperature_rise_wall_1_max_K": rises[1],
+        "temperature_rise_wall_2_max_K": rises[2],
         "shear_rate_mean_per_s": rate,
         "shear_stress_max_Pa": stress,
         "flash_temperature_K": rise,

@@ -1,14 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Temperature: shear heating of the inlet, flash temperature.
 
-The same formulas as in ``fortran/physics/heat.f90``, which the solver uses.
+The same formulas as in ``fortran/physics/heat.f90``, which the solver uses. The temperature of the
+film is computed there alone.
 """
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
-__all__ = ["flash_temperature", "thermal_loading", "thermal_reduction"]
+__all__ = ["Heat", "flash_temperature", "thermal_loading", "thermal_reduction"]
+
+
+@dataclass(frozen=True, slots=True)
+class Heat:
+    """What the heat of sliding makes of the friction of a contact."""
+
+    ratio: float = 1.0  # friction with it over that without it [-]; NaN: not known
+    # Greatest rises of temperature [K]: mean across the film, surfaces of body 1 and of body 2
+    rises: tuple[float, float, float] = (math.nan, math.nan, math.nan)
+    note: str = "isothermal"  # what a coefficient of friction is then, in words
 
 
 def thermal_loading(
@@ -36,10 +48,10 @@ def flash_temperature(
     flux: float,
     radius: float,
     speeds: tuple[float, float],
-    conductivity: float,
-    diffusivity: float,
+    conductivity: tuple[float, float],
+    diffusivity: tuple[float, float],
 ) -> float:
-    """Greatest temperature rise [K] of two surfaces of one material in a Hertz contact.
+    """Greatest temperature rise [K] of two surfaces in a Hertz contact.
 
     Heat in a semi-ellipse over the circle: Tian & Kennedy 1994, J. Tribol. 116, 167, for one
     surface, 2.32 q a/(k sqrt(pi (1.234 + Pe))), Pe = u a/(2 kappa). The heat is shared so that
@@ -47,6 +59,7 @@ def flash_temperature(
     speeds of the surfaces through the contact [m/s], k [W/(m K)] and kappa [m^2/s] of the solids.
     """
     roots = sum(
-        math.sqrt(math.pi * (1.234 + abs(u) * radius / (2.0 * diffusivity))) for u in speeds
+        k * math.sqrt(math.pi * (1.234 + abs(u) * radius / (2.0 * kappa)))
+        for u, k, kappa in zip(speeds, conductivity, diffusivity, strict=True)
     )
-    return 2.32 * flux * radius / (conductivity * roots)
+    return 2.32 * flux * radius / roots

@@ -11,8 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pyehl.errors import InputError
+from pyehl.errors import InputError, check
 from pyehl.given import positive
+from pyehl.library import lubricants, resolve
+from pyehl.namelist import text_of, values
 from pyehl.theory.shear import ShearLaw
 
 __all__ = ["Lubricant", "default_roelands_z"]
@@ -22,6 +24,14 @@ Array = NDArray[np.float64]
 # Dowson & Higginson 1966, density under pressure
 DENSITY_PRESSURE = 5.9e8
 DENSITY_FACTOR = 1.34
+# Laws without constants of an oil but alpha and beta
+SIMPLE_VISCOSITY = ("roelands", "barus")
+SIMPLE_DENSITY = ("dowson-higginson", "incompressible")
+# 0 degC, and the temperature at which Roelands' viscosity is infinite [K]
+FREEZING = 273.15
+ROELANDS_TEMPERATURE = 138.0
+# Temperature of `density_15` [degC]
+SHEET_DENSITY = 15.0
 
 
 def default_roelands_z(
@@ -52,15 +62,25 @@ class Lubricant:
     pressure_viscosity
         alpha [1/Pa].
     viscosity_law
-        ``"roelands"`` or ``"barus"``.
+        ``"roelands"`` or ``"barus"``; from a case also ``"dicke"``, ``"yasutomi"`` or ``"table"``.
     roelands_z
         Exponent [-]; 0 for the value of :func:`default_roelands_z`.
     roelands_p0
         [Pa].
     density_law
-        ``"dowson-higginson"`` or ``"incompressible"``.
+        ``"dowson-higginson"`` or ``"incompressible"``; from a case also ``"murnaghan"``.
     shear
         Shear stress in the contact, for friction.
+    temperature
+        Of the inlet, to which `viscosity` belongs [degC].
+    temperature_viscosity
+        beta = -(d eta/dT)/eta at ambient pressure and the temperature of the inlet [1/K].
+    thermal_expansion
+        Relative fall of the density with temperature, of that at 15 degC [1/K].
+    range_temperature_min, range_temperature_max, range_pressure_max
+        Where the constants of the law were measured [degC, Pa]; all 0: not known.
+    constants
+        The group ``lubricant`` of a resolved case as text, for laws with constants of an oil.
 
     Raises
     ------
@@ -73,6 +93,9 @@ class Lubricant:
     >>> oil = pyehl.Lubricant(viscosity=0.04, pressure_viscosity=2.2e-8)
     >>> round(float(oil.log_viscosity_ratio(1e9)), 2), round(float(oil.density_ratio(1e9)), 3)
     (15.16, 1.214)
+    >>> fva3 = pyehl.Lubricant.from_name("fva3", temperature=40.0)
+    >>> round(fva3.viscosity, 4), round(float(fva3.log_viscosity_ratio(1e9)), 2)
+    (0.0845, 16.34)
     """
 
     viscosity: float = 0.04
@@ -82,19 +105,29 @@ class Lubricant:
     roelands_p0: float = 1.96e8
     density_law: str = "dowson-higginson"
     shear: ShearLaw = field(default_factory=ShearLaw)
+    temperature: float = 40.0
+    temperature_viscosity: float = 0.0
+    thermal_expansion: float = 6.5e-4
+    range_temperature_min: float = 0.0
+    range_temperature_max: float = 0.0
+    range_pressure_max: float = 0.0
+    constants: str = ""
 
     def __post_init__(self) -> None:
         """Check the words and the numbers."""
         positive("viscosity", self.viscosity, "Pa s")
         positive("pressure_viscosity", self.pressure_viscosity, "1/Pa")
         positive("roelands_p0", self.roelands_p0, "Pa")
-        if self.viscosity_law not in ("roelands", "barus"):
+        if self.viscosity_law not in SIMPLE_VISCOSITY and not self.constants:
             raise InputError(
-                f"viscosity_law {self.viscosity_law!r}: expected 'roelands' or 'barus'"
+                f"viscosity_law {self.viscosity_law!r}: expected 'roelands' or 'barus', or "
+                "Lubricant.from_settings and a case with the constants of another law"
             )
-        if self.density_law not in ("dowson-higginson", "incompressible"):
+        if self.density_law not in SIMPLE_DENSITY and not self.constants:
             raise InputError(
-                f"density_law {self.density_law!r}: expected 'dowson-higginson' or 'incompressible'"
+                f"density_law {self.density_law!r}: expected 'dowson-higginson' or "
+                "'incompressible', or Lubricant.from_settings and a case with the constants of "
+                "another law"
             )
         if self.roelands_z == 0.0 and self.viscosity_law == "roelands":
             z = default_roelands_z(self.viscosity, self.pressure_viscosity, self.roelands_p0)
@@ -110,28 +143,85 @@ class Lubricant:
         group = settings["lubricant"]
         given = {name: group[name] for name in cls.__dataclass_fields__ if name in group}
         given["viscosity_law"] = viscosity_law or group["viscosity_law"]
+        laws = given["viscosity_law"], given.get("density_law", "incompressible")
+        if laws[0] not in SIMPLE_VISCOSITY or laws[1] not in SIMPLE_DENSITY:
+            given["constants"] = text_of(
+                {"lubricant": {**group, "viscosity_law": given["viscosity_law"]}}
+            )
         return cls(shear=ShearLaw.from_settings(settings), **given)
 
-    def log_viscosity_ratio(self, pressure: ArrayLike) -> Array:
-        """ln(eta/eta0) [-] at a pressure [Pa], any shape; NaN below -p0 (Roelands).
+    @classmethod
+    def from_name(cls, name: str, temperature: float = 40.0) -> Lubricant:
+        """Return an oil of :func:`pyehl.lubricants` at a temperature of the inlet [degC].
 
-        Roelands 1966: (alpha p0/z) ((1 + p/p0)^z - 1); Barus 1893: alpha p.
+        InputError for a name that is not there, with the nearest one.
         """
-        p = np.asarray(pressure, dtype=float)
+        group = text_of({"lubricant": {"name": name, "temperature": float(temperature)}})
+        return cls.from_settings(values(resolve(group, "the lubricant")))
+
+    def log_viscosity_ratio(self, pressure: ArrayLike, rise: ArrayLike = 0.0) -> Array:
+        """ln(eta/eta0) [-] at a pressure [Pa] and a rise of temperature [K], any shapes.
+
+        The rise is that over the temperature of the inlet. NaN below -p0 (Roelands).
+
+        Barus 1893: alpha p - beta T'; Roelands 1966: A ((1 + p/p0)^z (1 + T'/(T0 - 138 K))^-S0 - 1)
+        with A = alpha p0/z, S0 = beta (T0 - 138 K)/A and the rise T'.
+        """
+        p, warmer = np.asarray(pressure, dtype=float), np.asarray(rise, dtype=float)
+        if self.viscosity_law not in SIMPLE_VISCOSITY:
+            return self._compiled(p, warmer)[0]
         if self.viscosity_law == "barus":
-            return np.asarray(self.pressure_viscosity * p)
+            return np.asarray(self.pressure_viscosity * p - self.temperature_viscosity * warmer)
         factor = self.pressure_viscosity * self.roelands_p0 / self.roelands_z
+        above = self.temperature + FREEZING - ROELANDS_TEMPERATURE
+        s0 = self.temperature_viscosity * above / factor
         with np.errstate(invalid="ignore", divide="ignore"):
             power = np.exp(self.roelands_z * np.log(1.0 + p / self.roelands_p0))
+            power = power * np.exp(-s0 * np.log(1.0 + warmer / above))
         return np.asarray(factor * (power - 1.0))
 
-    def viscosity_ratio(self, pressure: ArrayLike) -> Array:
-        """eta/eta0 [-] at a pressure [Pa], any shape."""
-        return np.exp(self.log_viscosity_ratio(pressure))
+    def viscosity_ratio(self, pressure: ArrayLike, rise: ArrayLike = 0.0) -> Array:
+        """eta/eta0 [-] at a pressure [Pa] and a rise of temperature [K], any shapes."""
+        return np.exp(self.log_viscosity_ratio(pressure, rise))
 
-    def density_ratio(self, pressure: ArrayLike) -> Array:
-        """rho/rho0 [-] at a pressure [Pa], any shape (Dowson & Higginson 1966)."""
-        p = np.asarray(pressure, dtype=float)
+    def density_ratio(self, pressure: ArrayLike, rise: ArrayLike = 0.0) -> Array:
+        """rho/rho0 [-] at a pressure [Pa] and a rise of temperature [K], any shapes.
+
+        Dowson & Higginson 1966 under pressure, linear with temperature.
+        """
+        p, warmer = np.asarray(pressure, dtype=float), np.asarray(rise, dtype=float)
+        if self.density_law not in SIMPLE_DENSITY:
+            return self._compiled(p, warmer)[1]
+        expansion = self.thermal_expansion
+        inlet = 1.0 - expansion * (self.temperature - SHEET_DENSITY)
+        thinner = 1.0 - expansion / inlet * warmer
         if self.density_law == "incompressible":
-            return np.ones_like(p)
-        return np.asarray((DENSITY_PRESSURE + DENSITY_FACTOR * p) / (DENSITY_PRESSURE + p))
+            return np.ones_like(p) * thinner
+        return np.asarray(
+            (DENSITY_PRESSURE + DENSITY_FACTOR * p) / (DENSITY_PRESSURE + p) * thinner
+        )
+
+    def beyond(self, pressure: float) -> str:
+        """Say what is beyond the range of the constants at a pressure [Pa]; '' if nothing is."""
+        low, high, most = (
+            self.range_temperature_min,
+            self.range_temperature_max,
+            self.range_pressure_max,
+        )
+        words = ""
+        if low < high and not low <= self.temperature <= high:
+            words = f"; the lubricant was measured from {low:g} to {high:g} degC"
+        if 0.0 < most < pressure and self.constants:
+            words += f"; the lubricant was measured up to {most:.3g} Pa"
+        return words
+
+    def _compiled(self, pressure: Array, rise: Array) -> tuple[Array, Array]:
+        """ln(eta/eta0) and rho/rho0 by the laws of the solver."""
+        p, warmer = (np.array(a) for a in np.broadcast_arrays(pressure, rise))
+        log_viscosity, density = np.empty(p.size), np.empty(p.size)
+        check(
+            *lubricants.properties(
+                self.constants.encode(), p.ravel(), warmer.ravel(), log_viscosity, density
+            )
+        )
+        return log_viscosity.reshape(p.shape), density.reshape(p.shape)

@@ -4,13 +4,56 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from pyehl.errors import InputError
 from pyehl.theory.ellipse import Ellipse, ellipse
 
-__all__ = ["inlet_viscosity_ratio", "nijenbanning_venner_moes"]
+__all__ = ["inlet_viscosity_ratio", "nijenbanning_venner_moes", "regime"]
 
 CIRCLE = ellipse(1.0)
+# Asymptotes whose ratio is less are passed from one to the other
+ALIKE = 1.25
+
+
+class _Asymptotes(NamedTuple):
+    """Moes film numbers h/R (2U)^(-1/2) of the asymptotes [-]."""
+
+    rigid_iso: float
+    elastic_iso: float
+    rigid_piezo: float
+    elastic_piezo: float
+
+
+def _asymptotes(moes_m: float, moes_l: float, shape: Ellipse) -> _Asymptotes:
+    if not (moes_m > 0.0 and moes_l >= 0.0):
+        raise InputError(f"need M > 0 and L >= 0, not M = {moes_m:g}, L = {moes_l:g}")
+    d = shape.radius_ratio
+    elastic = 1.0 + 0.006 * math.log(d) + 0.63 * d ** (4 / 7)
+    return _Asymptotes(
+        145.0 * (1.0 + 0.796 * d ** (14 / 15)) ** (-15 / 7) / d * moes_m**-2,
+        3.18 * elastic ** (-14 / 25) * d ** (-1 / 15) * moes_m ** (-2 / 15),
+        1.29 * (1.691 + 0.691 * (d - 1.0)) ** (-2 / 3) * moes_l ** (2 / 3),
+        1.48 * elastic ** (-7 / 20) * d ** (-1 / 24) * moes_m ** (-1 / 12) * moes_l**0.75,
+    )
+
+
+def regime(moes_m: float, moes_l: float, shape: Ellipse = CIRCLE) -> str:
+    """Name the asymptote of the formula that is nearest, as 'elastic-piezoviscous'.
+
+    'rigid to elastic-...' where those two differ by less than `ALIKE`. InputError if M is not
+    positive or L is negative.
+    """
+    a = _asymptotes(moes_m, moes_l, shape)
+    isoviscous = max(a.rigid_iso, min(a.elastic_iso, 1.8 / shape.radius_ratio))
+    if min(a.rigid_piezo, a.elastic_piezo) > isoviscous:
+        # the thinner film of the two, and the thicker one below
+        softness, viscosity = a.rigid_piezo / a.elastic_piezo, "piezoviscous"
+    else:
+        softness, viscosity = a.elastic_iso / a.rigid_iso, "isoviscous"
+    if 1.0 / ALIKE < softness < ALIKE:
+        return f"rigid to elastic-{viscosity}"
+    return f"{'elastic' if softness > 1.0 else 'rigid'}-{viscosity}"
 
 
 def nijenbanning_venner_moes(moes_m: float, moes_l: float, shape: Ellipse = CIRCLE) -> float:
@@ -21,17 +64,8 @@ def nijenbanning_venner_moes(moes_m: float, moes_l: float, shape: Ellipse = CIRC
     Divide by the density ratio at p_h for a compressible lubricant. InputError if M is not positive
     or L is negative.
     """
-    if not (moes_m > 0.0 and moes_l >= 0.0):
-        raise InputError(f"need M > 0 and L >= 0, not M = {moes_m:g}, L = {moes_l:g}")
-    d = shape.radius_ratio
-    elastic = 1.0 + 0.006 * math.log(d) + 0.63 * d ** (4 / 7)
-    rigid_iso = 145.0 * (1.0 + 0.796 * d ** (14 / 15)) ** (-15 / 7) / d * moes_m**-2
-    elastic_iso = 3.18 * elastic ** (-14 / 25) * d ** (-1 / 15) * moes_m ** (-2 / 15)
-    rigid_piezo = 1.29 * (1.691 + 0.691 * (d - 1.0)) ** (-2 / 3) * moes_l ** (2 / 3)
-    elastic_piezo = (
-        1.48 * elastic ** (-7 / 20) * d ** (-1 / 24) * moes_m ** (-1 / 12) * moes_l**0.75
-    )
-    flat = 1.8 / d
+    rigid_iso, elastic_iso, rigid_piezo, elastic_piezo = _asymptotes(moes_m, moes_l, shape)
+    flat = 1.8 / shape.radius_ratio
     s = 1.5 * (1.0 + math.exp(-1.2 * elastic_iso / rigid_iso))
     isoviscous = rigid_iso**1.5 + (elastic_iso**-4 + flat**-4) ** (-3 / 8)
     piezoviscous = 0.0
@@ -48,13 +82,13 @@ def inlet_viscosity_ratio(
     """Viscosity over that of (M, L) [-] at which the formula gives `share` of the film.
 
     The form in which shear heating of the inlet enters: the film is that of the warmer oil. M and
-    L are of the isothermal contact; 0 < share <= 1.
+    L are of the isothermal contact; 0 < share.
     """
     if share == 1.0:
         return 1.0
     wanted = share * nijenbanning_venner_moes(moes_m, moes_l, shape)
     # the film rises with viscosity, nowhere by less than its 0.4th power
-    low, high = 2.5 * math.log(share), 0.0
+    low, high = sorted((2.5 * math.log(share), 0.0))
     for _ in range(60):
         middle = 0.5 * (low + high)
         ratio = math.exp(middle)

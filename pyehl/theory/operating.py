@@ -55,6 +55,8 @@ class OperatingPoint:
         Film over the isothermal one [-], which `viscosity` contains; 1 where it is not counted.
     radius_ratio
         R_x/R_y [-]; 1: circular.
+    thermal_conductivity_2, thermal_diffusivity_2
+        Of body 2, if it is of another material; 0: as body 1.
 
     Raises
     ------
@@ -84,6 +86,8 @@ class OperatingPoint:
     thermal_diffusivity: float = 1.25e-5
     thermal_reduction: float = 1.0
     radius_ratio: float = 1.0
+    thermal_conductivity_2: float = 0.0
+    thermal_diffusivity_2: float = 0.0
 
     def __post_init__(self) -> None:
         """Check the numbers."""
@@ -172,6 +176,8 @@ class OperatingPoint:
             slide_to_roll=slide_to_roll,
             thermal_conductivity=float(contact.get("thermal_conductivity", 46.0)),
             thermal_diffusivity=float(contact.get("thermal_diffusivity", 1.25e-5)),
+            thermal_conductivity_2=float(contact.get("thermal_conductivity_2", 0.0)),
+            thermal_diffusivity_2=float(contact.get("thermal_diffusivity_2", 0.0)),
             radius_ratio=radii[0] / radii[1],
         )
         if not lubricant.get("thermal_reduction", False):
@@ -193,6 +199,16 @@ class OperatingPoint:
         return abs(self.slide_to_roll) * self.mean_velocity
 
     @property
+    def thermal_conductivities(self) -> tuple[float, float]:
+        """Thermal conductivity of body 1 and of body 2 [W/(m K)]."""
+        return self.thermal_conductivity, self.thermal_conductivity_2 or self.thermal_conductivity
+
+    @property
+    def thermal_diffusivities(self) -> tuple[float, float]:
+        """Thermal diffusivity of body 1 and of body 2 [m^2/s]."""
+        return self.thermal_diffusivity, self.thermal_diffusivity_2 or self.thermal_diffusivity
+
+    @property
     def ellipse(self) -> Ellipse:
         """Shape of the dry contact."""
         return ellipse(self.radius_ratio)
@@ -209,18 +225,14 @@ class OperatingPoint:
         return self.ellipse.ellipticity * self.hertz_radius
 
     @property
+    def semi_axes(self) -> tuple[float, float]:
+        """Semi-axes of the dry contact along the motion and across it [m]."""
+        return self.hertz_radius, self.semi_axis_y
+
+    @property
     def hertz_pressure(self) -> float:
         """Maximum pressure p_h of the dry contact [Pa], 3 w/(2 pi a b) with its semi-axes."""
         return 1.5 * self.load / (math.pi * self.ellipse.ellipticity * self.hertz_radius**2)
-
-    def need_round(self, what: str) -> None:
-        """Raise InputError unless the contact is circular, naming what knows no ellipse."""
-        if self.radius_ratio != 1.0:
-            raise InputError(
-                f"{what} is for circular contacts, and this one has R_x/R_y = "
-                f"{self.radius_ratio:.4g}\nexpected: contact.radius, or radius_ratio = 1; 'pyehl "
-                "run' solves elliptical contacts"
-            )
 
     @property
     def speed(self) -> float:
@@ -246,6 +258,18 @@ class OperatingPoint:
     def moes_l(self) -> float:
         """Moes material number L = G (2U)^(1/4) [-]."""
         return float(self.material * (2.0 * self.speed) ** 0.25)
+
+    @property
+    def equivalent_moes(self) -> tuple[float, float]:
+        """M and L [-] of the circular contact with the same inlet on Y = 0; of a circle its own.
+
+        Of equal alpha_bar, and of equal lambda_bar where the stiffness of waves is the same: with
+        heights by kernel_ratio a^2/R_x. The dry contact near the edge is then that of the circle.
+        What the sides take off is not in it: :func:`pyehl.theory.film.circle_with_same_inlet`.
+        """
+        shape = self.ellipse
+        kernel = shape.kernel_ratio
+        return self.moes_m * kernel**1.25 / shape.ellipticity, self.moes_l * kernel**0.25
 
     @property
     def alpha_bar(self) -> float:

@@ -16,6 +16,10 @@ and 0 for long waves. z is a power law in the wavelength parameter nabla_2 = (wa
 sqrt(M/L) to first order (Venner & Lubrecht 1999), and real for ridges along the motion, which do
 not move. At low M L the inlet leaks: z has terms in 1/(M L), and |F| changes with slip. Away from
 the centre line the inlet is oblique and z grows.
+
+Where the lubricant thins by shear, B knows it, and of F - 1 the share
+:func:`pyehl.theory.transport.kept_of_inlet` remains; M and L are those of a Newtonian lubricant
+that makes as thick a film. Nothing of that is fitted.
 """
 
 from __future__ import annotations
@@ -30,15 +34,21 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pyehl.theory.transport import Zone, upstream
+from pyehl.theory.transport import Zone, kept_of_inlet, upstream
 
-__all__ = ["edge_gain", "fitted_range", "inlet_base", "inlet_fit", "inlet_transfer"]
+__all__ = ["edge_gain", "fitted_range", "inlet_base", "inlet_fit", "inlet_transfer", "thinned"]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 GAIN = (0.0674, 0.3085, 2.414, 28.44)
 """Constants of `edge_gain`, fitted by docs/evidence/response/gain.py."""
+
+CURVATURE = -1.75
+"""Power of the ellipticity in it."""
+
+OBLIQUE = (1.97, -1.2)
+"""What the ellipticity changes in the growth of z off the centre line: factor and power."""
 
 SHORT = 3.0
 """nabla_2 of the wave for which the transport equation counts half in the inlet; others do as well
@@ -48,7 +58,11 @@ LEAST_WEIGHT = 1e-4
 
 
 def edge_gain(
-    qx: ArrayLike, qy: ArrayLike, central_film: ArrayLike, constants: Sequence[float] | Array = GAIN
+    qx: ArrayLike,
+    qy: ArrayLike,
+    central_film: ArrayLike,
+    constants: Sequence[float] | Array = GAIN,
+    ellipticity: float = 1.0,
 ) -> Array:
     """Pressure of a wave in the contact over that of the half-space, K (1 - T), at its centre [-].
 
@@ -58,14 +72,17 @@ def edge_gain(
     or less, the largest 0.05. At M = 100, where little pressure is left to measure, it is wrong;
     for ridges of a/8 it is 2 % too low.
 
-    Wavenumbers [1/a], H_c [a^2/R]. The constants are factor and power of the film, weight of
-    oblique waves, |q| at which it fades [1/a].
+    In an ellipse it goes with the curvature of the inlet: measured on ellipticities from 0.4 to 4
+    (docs/evidence/ellipse), with the power `CURVATURE`.
+
+    Wavenumbers [1/a], H_c [a^2/R], of an ellipse over its kernel ratio. The constants are factor
+    and power of the film, weight of oblique waves, |q| at which it fades [1/a].
     """
     kx, ky = np.asarray(qx, dtype=float), np.asarray(qy, dtype=float)
     q = np.hypot(kx, ky)
     across = np.square(ky / np.maximum(q, 1e-12))
     factor, power, weight, fading = constants
-    film = factor * np.asarray(central_film, dtype=float) ** power
+    film = factor * np.asarray(central_film, dtype=float) ** power * ellipticity**CURVATURE
     fade = 1.0 + (q / fading) ** 2.5
     return np.asarray(1.0 + film * across * (1.0 + weight * (1.0 - across)) / fade)
 
@@ -93,11 +110,20 @@ def inlet_transfer(
     """G = mu/rho at X = -0.8, turned back to X = -1 [-].
 
     Of the smooth contact on the centre line, for wavenumbers [1/a] of the same shape, qx >= 0 (at
-    qx = 0 the value is real), M and L, U, and the distance from the centre line y [a], which is
-    broadcast.
+    qx = 0 the value is real), M and L of the circular contact with the same inlet, U, and the
+    distance from the centre line y [semi-axis], which is broadcast.
     """
+    moes = thinned(moes, zone.thinning)
     base = inlet_base(zone, qx, qy, moes, velocity_ratio)
-    return base * inlet_fit(qx, qy, moes, velocity_ratio, y)
+    fit = inlet_fit(qx, qy, moes, velocity_ratio, y, zone.ellipticity)
+    if zone.factors:
+        fit = 1.0 + kept_of_inlet(zone, qx, qy, velocity_ratio) * (fit - 1.0)
+    return base * fit
+
+
+def thinned(moes: tuple[float, float], thinning: float) -> tuple[float, float]:
+    """M and L with a viscosity that is lower by a factor."""
+    return moes[0] * thinning**0.75, moes[1] * thinning**-0.25
 
 
 def inlet_base(
@@ -127,6 +153,7 @@ def inlet_fit(
     moes: tuple[float, float],
     velocity_ratio: float,
     y: ArrayLike = 0.0,
+    ellipticity: float = 1.0,
 ) -> Complex:
     """F = G/(1 - w + w B): what is fitted of G [-].
 
@@ -149,7 +176,23 @@ def inlet_fit(
     origin, growth = (_polynomial(fit[name], variables) for name in ("origin", "growth"))
     shift = slip * (kx * origin + 1j * c * growth)
     oblique = fit["oblique"] * np.square(y)
+    if ellipticity != 1.0:
+        return np.asarray(np.exp(1j * shift) * _on_ellipse(log_z + 1j * angle, y, ellipticity))
     return np.asarray(np.exp(1j * shift) / (1.0 + np.exp(log_z + oblique + 1j * angle)))
+
+
+def _on_ellipse(log_z: Complex, y: ArrayLike, ellipticity: float) -> Complex:
+    """1/(1 + z) at y [semi-axis] of an ellipse, ln z on its centre line.
+
+    Where z grows faster than on a circle the rest of it does not turn the wave.
+    """
+    factor, power = OBLIQUE
+    round_growth = float(_fit()["oblique"])
+    growth = round_growth + factor * (ellipticity**power - 1.0)
+    turning = 1.0 + np.exp(log_z + min(growth, round_growth) * np.square(y))
+    whole = 1.0 + np.exp(log_z + growth * np.square(y))
+    loss = np.abs(turning) / np.abs(whole) if growth > round_growth else 1.0
+    return np.asarray(loss / turning)
 
 
 def _nabla_2(q: Array, moes: tuple[float, float]) -> Array:

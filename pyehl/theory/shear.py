@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Shear stress of the lubricant in the contact, for friction.
 
-The same laws as in ``fortran/physics/shear.f90``, for the prediction: its film and its waves are
-those of a Newtonian lubricant, whatever the law.
+The same laws as in ``fortran/physics/shear.f90``, for the prediction.
 """
 
 from __future__ import annotations
@@ -16,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import InputError
+from pyehl.theory.thinning import CODES, sliding_stress
 
 __all__ = ["LAWS", "ShearLaw", "shear_stress"]
 
@@ -38,6 +38,8 @@ class ShearLaw:
     # Stress G at which thinning begins [Pa] and power-law exponent n [-] of Carreau; no defaults
     carreau_stress: float = 0.0
     carreau_exponent: float = 0.0
+    # Whether the flow obeys the law, too: then Carreau's is that in stress form
+    in_flow: bool = False
 
     def __post_init__(self) -> None:
         """Check the word and the numbers."""
@@ -63,9 +65,20 @@ class ShearLaw:
     def from_settings(cls, settings: Mapping[str, Mapping[str, Any]]) -> ShearLaw:
         """From the group ``lubricant`` of a resolved case."""
         group = settings["lubricant"]
-        names = cls.__dataclass_fields__.keys() - {"law"}
+        names = cls.__dataclass_fields__.keys() - {"law", "in_flow"}
         given = {name: float(group[name]) for name in names if name in group}
-        return cls(law=str(group.get("shear_law", "newtonian")), **given)
+        law = str(group.get("shear_law", "newtonian"))
+        return cls(law, in_flow=law in CODES and group.get("flow") == "consistent", **given)
+
+    @property
+    def weighs_flow(self) -> bool:
+        """Whether friction grows with the pressure as the flow is slowed by it."""
+        return self.law == "newtonian" or self.in_flow
+
+    @property
+    def scale(self) -> float:
+        """Stress at which a law that thins flows does so [Pa]."""
+        return self.eyring_stress if self.law == "eyring" else self.carreau_stress
 
 
 def shear_stress(newtonian: ArrayLike, pressure: ArrayLike, law: ShearLaw) -> Array:
@@ -74,7 +87,8 @@ def shear_stress(newtonian: ArrayLike, pressure: ArrayLike, law: ShearLaw) -> Ar
     Eyring: tau_0 asinh(tau_N/tau_0) (Johnson & Tevaarwerk 1977, Proc. R. Soc. A 356, 215).
     Limiting: tau_L (1 - exp(-tau_N/tau_L)) (Bair & Winer 1979, J. Lubr. Technol. 101, 258).
     Carreau: tau_N (1 + (tau_N/G)^2)^((n - 1)/2), single Newtonian plateau (Bair 2007,
-    *High-Pressure Rheology for Quantitative Elastohydrodynamics*).
+    *High-Pressure Rheology for Quantitative Elastohydrodynamics*); where the flow obeys it,
+    tau (1 + (tau/G)^2)^((1 - n)/2n) = tau_N.
 
     tau_N = eta |u1 - u2|/h [Pa], eta the viscosity at that pressure, of any shape; p [Pa], at
     which only the limiting law looks, of one that broadcasts with it.
@@ -82,6 +96,9 @@ def shear_stress(newtonian: ArrayLike, pressure: ArrayLike, law: ShearLaw) -> Ar
     tau = np.asarray(newtonian, dtype=float)
     if law.law == "eyring":
         return np.asarray(law.eyring_stress * np.arcsinh(tau / law.eyring_stress))
+    if law.law == "carreau" and law.in_flow:
+        stress = law.carreau_stress
+        return stress * sliding_stress(law.law, law.carreau_exponent, tau / stress)
     if law.law == "carreau":
         thinning = 1.0 + (tau / law.carreau_stress) ** 2
         return np.asarray(tau * thinning ** (0.5 * (law.carreau_exponent - 1.0)))

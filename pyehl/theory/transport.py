@@ -7,9 +7,9 @@ scaled by the Hertz radius a, films by a^2/R, pressures by p_h, times by a/u; k 
 
 The half-space makes Pi = K (1 - T) + i K k/|q|^2 T', K = (pi/4)|q|, |q| = hypot(k, k_Y): to first
 order the stiffness of a wave whose amplitude changes along the motion (`wave_pressure`: of the
-wavenumber k U that it then has). The mass that the film wave holds is mu = rho (T - c H Pi), c =
-d ln rho/dP, and with eps = rho H^3/(eta lambda), delta ln eps = g = (c - d ln eta/dP) Pi - 3 T/H
-the Reynolds equation reads
+wavenumber k U that it then has). In an elliptical contact K is `Zone.stiffness` times as much.
+The mass that the film wave holds is mu = rho (T - c H Pi), c = d ln rho/dP, and with eps = rho
+H^3/(eta lambda), delta ln eps = g = (c - d ln eta/dP) Pi - 3 T/H the Reynolds equation reads
 
     mu' = i k (U - 1) mu + eps |q|^2 Pi - i k eps' Pi - (eps' + 2 i k eps) Pi' - eps Pi''
           - eps P' (i k g + g'),
@@ -22,19 +22,28 @@ which compressibility leaves with the roughness. eps |q|^2 Pi, the leak by visco
 (Morales-Espejel & Brizmer 2011), matters for short waves and low pressures; the terms behind it,
 what the flow of the smooth contact does to the wave, where it leaks a lot. In the inlet, where eps
 falls by orders of magnitude, the coefficients change slowly for short waves only: `upstream`.
+
+A lubricant that thins by shear flows phi_x times as easily along the motion and phi_y times across
+(:mod:`pyehl.theory.thinning`). Then eps |q|^2 is eps_t k^2 + eps_y k_Y^2 with eps_t = -dq_x/d(P'),
+eps' and eps'' terms have eps_t, eps P' is eps_x P', and of delta ln eps_x = g the part of the
+pressure is c - (d ln eta/dP) (1 - d ln phi_x/d ln B), that of the film 3 - d ln phi_x/d ln B +
+d ln phi_x/d ln S.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from pyehl.theory.thinning import FlowFactors
 
 __all__ = [
     "INLET",
     "Zone",
     "free_stiffness",
+    "kept_of_inlet",
     "stiffness",
     "transport",
     "upstream",
@@ -72,6 +81,12 @@ class Zone:
     curvature: Array  # (d^2 rho/dP^2)/rho [-]
     thickening: Array  # d ln eta/dP [-]
     conductance: Array  # eps = rho H^3/(eta lambda) [-]
+    stiffness: float = 1.0  # of waves, over that in a circular contact [-]
+    # How much more than a Newtonian lubricant flows, and how that changes; None: Newtonian
+    factors: FlowFactors | None = None
+    # Viscosity at low shear over that of a Newtonian lubricant with as thick a film [-]
+    thinning: float = 1.0
+    ellipticity: float = 1.0  # semi-axis across the motion over a [-]
 
 
 class _Flow:
@@ -86,41 +101,56 @@ class _Flow:
         inside = np.where((places >= zone.x[0]) & (places <= OUTLET), 1.0, 0.0)
         self.film, self.density = at(zone.film), at(zone.density)
         self.compressibility = at(zone.compressibility)
-        self.softening = at(zone.compressibility - zone.thickening)
-        self.conductance = np.exp(at(logarithm))
-        slope = inside * self.conductance
-        self.slope = slope * at(np.gradient(logarithm, zone.x))
-        self.gradient = slope * at(np.gradient(zone.pressure, zone.x))
+        f = zone.factors or _constant(zone.x, 1.0)
+        self.softening = at(zone.compressibility - zone.thickening * (1.0 - f.by_sliding))
+        self.power = at(3.0 - f.by_sliding + f.by_gradient)
+        self.across = np.exp(at(logarithm + np.log(f.across)))
+        along = logarithm + np.log(f.tangent)
+        self.along = np.exp(at(along))
+        self.slope = inside * self.along * at(np.gradient(along, zone.x))
+        flow = inside * np.exp(at(logarithm + np.log(f.along)))
+        self.gradient = flow * at(np.gradient(zone.pressure, zone.x))
+
+
+def _constant(x: Array, factor: float) -> FlowFactors:
+    """Flow factors at places (n,) of a Newtonian lubricant whose viscosity is less by a factor."""
+    phi, none = np.full_like(x, factor), np.zeros_like(x)
+    return FlowFactors(phi, phi, none, none, phi)
 
 
 class _Waves:
     """Waves (m,): T and the change of mu, both linear in mu, at the places of a flow."""
 
-    def __init__(self, qx: Array, qy: Array, velocity_ratio: float, spacing: float) -> None:
+    def __init__(
+        self, zone: Zone, qx: Array, qy: Array, velocity_ratio: float, spacing: float
+    ) -> None:
         cells = 0.5 * spacing / np.pi
         along, across = np.sinc(cells * qx), np.sinc(cells * qy)
         squared = qx * qx + qy * qy
-        # div grad of the pressure, by differences
-        self.squared = np.square(along * qx) + np.square(across * qy)
-        self.k = stiffness(np.sqrt(squared)) / (along * across)
+        # div grad of the pressure, by differences, and its part along X
+        self.squared_along = np.square(along * qx)
+        self.squared = self.squared_along + np.square(across * qy)
+        self.k = zone.stiffness * stiffness(np.sqrt(squared)) / (along * across)
         self.turned = 1j * qx
         self.slip = self.turned * (velocity_ratio - 1.0)
         self.changing = self.turned * self.k / np.maximum(squared, 1e-24)
 
     def at(self, flow: _Flow, i: int) -> tuple[Complex, Complex, Complex, Complex]:
         """Give a, b, t, s of mu' = a mu + b and T = t mu + s at the place i."""
-        e, h, rho, k = flow.conductance[i], flow.film[i], flow.density[i], self.k
+        e, h, rho, k = flow.along[i], flow.film[i], flow.density[i], self.k
         held = flow.compressibility[i] * h
         soft, slope, gradient = flow.softening[i], flow.slope[i], flow.gradient[i]
-        by_pressure = e * self.squared - self.turned * (slope + soft * gradient)
-        by_film = (3.0 / h * gradient) * self.turned
+        leak = flow.across[i] * self.squared + (e - flow.across[i]) * self.squared_along
+        by_pressure = leak - self.turned * (slope + soft * gradient)
+        bending = flow.power[i] / h * gradient
+        by_film = bending * self.turned
         by_change = -slope - (2.0 * e) * self.turned - soft * gradient
         share = 1.0 / (1.0 + k * held)
         # as if the amplitude did not change, then with its change
         t, s = share / rho + 0j, k * held * share + 0j
         p, r = -k * t, k * share + 0j
         for change in (self.changing, None):
-            left = 1.0 - by_change * p - (3.0 / h * gradient) * t
+            left = 1.0 - by_change * p - bending * t
             whole = self.slip + by_pressure * p + by_film * t
             # of e p a^2 + left a = whole the root that is whole/left where little leaks
             root = 2.0 / (left + np.sqrt(left * left + (4.0 * e) * p * whole))
@@ -136,7 +166,8 @@ class _Waves:
 def stiffness(q: ArrayLike) -> Array:
     """K = (pi/4)|q|: pressure [p_h] per height of flattening [a^2/R] of a wave |q| [1/a].
 
-    E'|q|/4 in Hertz units (Johnson 1985, Contact Mechanics, section 13.2).
+    E'|q|/4 in the Hertz units of a circle (Johnson 1985, Contact Mechanics, section 13.2); in those
+    of an ellipse this over its kernel ratio.
     """
     return 0.25 * np.pi * np.asarray(q, dtype=float)
 
@@ -151,7 +182,7 @@ def wave_pressure(
 ) -> Complex:
     """Pressure over roughness [p_h R/a^2]: what is flattened of it, by the stiffness of each part.
 
-    Wavenumbers of the roughness [1/a], U, driven and free parts of T [-].
+    Of a circle. Wavenumbers of the roughness [1/a], U, driven and free parts of T [-].
     """
     k, k_free = stiffness(np.hypot(qx, qy)), free_stiffness(qx, qy, velocity_ratio)
     return np.asarray(k * (1.0 - driven) - k_free * free)
@@ -168,7 +199,7 @@ def upstream(
     """
     lengths = np.diff(APPROACH)
     flow = _Flow(zone, APPROACH[:-1] + 0.5 * lengths)
-    waves = _Waves(qx, qy, velocity_ratio, spacing)
+    waves = _Waves(zone, qx, qy, velocity_ratio, spacing)
     # where nothing leaks or slips any mu is a solution: that of the undeformed wave
     mu = np.full(qx.shape, flow.density[0], dtype=complex)
     for i, h in enumerate(lengths):
@@ -179,6 +210,32 @@ def upstream(
         mu = mu * grown + (b * h) * way
     back = np.exp(-waves.slip * (INLET + 1.0))
     return np.asarray(mu * back / np.interp(INLET, zone.x, zone.density))
+
+
+def kept_of_inlet(
+    zone: Zone, qx: ArrayLike, qy: ArrayLike, velocity_ratio: float, spacing: float = 0.0
+) -> Array:
+    """Share of what an inlet adds to the transport equation that a thinning flow keeps (m,) [-].
+
+    The part that is fitted (:mod:`pyehl.theory.response`) arises where the leak lets go of the wave
+    in a Newtonian lubricant with as thick a film, spread as what is left of a wave from there at
+    INLET. A lubricant that thins leaks longer, so that the wave forgets it again: its modulus falls
+    by the difference of the two leaks on the rest of the way. Parameters as of `upstream`.
+    """
+    kx, ky = np.asarray(qx, dtype=float), np.asarray(qy, dtype=float)
+    lengths = np.diff(APPROACH)
+    places = APPROACH[:-1] + 0.5 * lengths
+    waves = _Waves(zone, kx, ky, velocity_ratio, spacing)
+    like = replace(zone, factors=_constant(zone.x, zone.thinning))
+    rates = [
+        np.array([h * waves.at(flow, i)[0].real for i, h in enumerate(lengths)])
+        for flow in (_Flow(like, places), _Flow(zone, places))
+    ]
+    # of a wave from the start of each step, and from the end of all
+    ways = [np.vstack([np.cumsum(r[::-1], 0)[::-1], np.zeros((1, kx.size))]) for r in rates]
+    left, less = np.exp(ways[0]), np.exp(ways[1] - ways[0])
+    arising = np.diff(left, axis=0)
+    return np.asarray((0.5 * arising * (less[1:] + less[:-1])).sum(0) / arising.sum(0))
 
 
 def _grown(turn: Complex) -> tuple[Complex, Complex]:
@@ -211,7 +268,7 @@ def transport(
     lengths = np.repeat((stations - starts) / steps, steps)
     middles = INLET + np.cumsum(lengths) - 0.5 * lengths
     flow, there = _Flow(zone, middles), _Flow(zone, stations)
-    waves = _Waves(qx, qy, velocity_ratio, spacing)
+    waves = _Waves(zone, qx, qy, velocity_ratio, spacing)
     free = np.full(qx.shape, np.interp(INLET, zone.x, zone.density), dtype=complex)
     driven = np.zeros(qx.shape, dtype=complex)
     ends = np.cumsum(steps)

@@ -5,12 +5,13 @@ from __future__ import annotations
 
 import json
 import math
+import re
 import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.special import ellipe, ellipk
+from scipy.special import ellipe, ellipk, elliprd
 
 import pyehl
 from pyehl.theory.ellipse import ellipse
@@ -289,6 +290,35 @@ def test_resolved_case_gives_the_same_bits(ehl: str, tmp_path: Path):
     )
     points_y = json.loads((tmp_path / "c" / "summary.json").read_text())["points_y"]
     assert points_y - 1 == 2 * (json.loads((first / "summary.json").read_text())["points_y"] - 1)
+
+
+def test_too_coarse_a_grid_names_one_that_will_do(ehl: str, tmp_path: Path):
+    """A narrow contact with a thin film: plan and result say how many nodes it takes."""
+    narrow = {"contact.radius_ratio": 25.0, "contact.moes_m": 8.0, "contact.moes_l": 10.0}
+    case = pyehl.Case.from_text("", narrow | {"grid.points": 33})
+    assert "warning    so few nodes have hardly a solution" in pyehl.check(case)
+    (tmp_path / "case.nml").write_text(case.text)
+    words = [ehl, tmp_path / "case.nml", "-o", tmp_path / "out"]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    (points,) = re.findall(r"H_c .*\n +so few .*: grid.points = (\d+) or more$", done.stdout, re.M)
+    words = [*words[:3], tmp_path / "fine", "--set", f"grid.points={points}"]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout
+    assert "warning" not in done.stdout
+    assert json.loads((tmp_path / "fine" / "summary.json").read_text())["restarts"] == 0
+
+
+@pytest.mark.parametrize("kappa", [0.1, 0.2, 0.5, 2.0, 5.0, 10.0])
+def test_from_a_tenth_to_ten(solve, kappa: float):
+    """Thick and thin films, with the M and L of the round contact with the same equations."""
+    shape = ellipse(float(elliprd(0.0, 1.0, kappa**2) / elliprd(0.0, kappa**2, 1.0)))
+    for m, ell in ((20.0, 2.0), (20.0, 15.0), (120.0, 5.0)):
+        point = m * kappa * shape.kernel_ratio**0.25, ell / shape.kernel_ratio**0.75
+        done = solve(
+            point, 129 if kappa > 0.15 else 257, {"contact.radius_ratio": shape.radius_ratio}
+        )
+        assert done.converged, (m, ell, done.summary["status"])
 
 
 @pytest.mark.parametrize(

@@ -14,6 +14,7 @@ import xarray as xr
 from matplotlib.image import imread
 from second_solver import START, VELOCITY, X_MATTERS, SecondSolver, Wave, Z
 
+import pyehl
 from pyehl import cli, schema
 from pyehl.case import Case
 from pyehl.errors import EhlError
@@ -80,6 +81,19 @@ def test_command(
     monkeypatch.setattr(measurement.metadata, "version", lambda name: "9.9.9")
     assert cli.main(tiny) == 2
     assert f"\n  pyehl version: there {here}, here 9.9.9\n" in capsys.readouterr().err
+
+
+@pytest.mark.long
+def test_waves_on_an_ellipse(monkeypatch: pytest.MonkeyPatch):
+    """A wide contact of a thick film, as the circle above."""
+    case = Case.from_text(CASE, ["contact.radius_ratio=0.5438"])
+    monkeypatch.setattr("pyehl.measured_response.folder.TIERS", TINY)
+    found = pyehl.response(case)
+    assert found.attrs["ellipticity"] == pytest.approx(1.5, abs=1e-4)
+    fine = found.where(found["tier"] == "middle", drop=True).sel(X=0.0)
+    assert fine.sizes["wave"] >= 2
+    assert float(fine["shipped_difference"].max()) < 0.03
+    assert float(abs(fine["pressure_ratio"] - 1.0).max()) < 0.1
 
 
 def test_bad_input_writes_nothing(

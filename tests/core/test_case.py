@@ -29,11 +29,13 @@ def test_resolved_case_reads_back(path: Path):
         "contact.radius", "contact.reduced_modulus", "contact.radius_x", "contact.radius_y",
         "contact.radius_ratio", "surface.amplitude", "surface.amplitude_over_film",
         "surface.width", "lubricant.temperature", "lubricant.density_15",
-        "lubricant.thermal_expansion",
+        "lubricant.thermal_expansion", "lubricant.name", "lubricant.table",
+        "contact.thermal_conductivity_2", "contact.thermal_diffusivity_2",
     }  # fmt: skip
     names = {f"{group}.{key}" for group, keys in groups.items() for key in keys}
     unused = {key.name for key in library.keys()} - names
-    others = ("bodies.", "second_surface.")
+    laws = ("vogel", "dicke", "yasutomi", "murnaghan", "range")
+    others = ("bodies.", "second_surface.", *(f"lubricant.{law}_" for law in laws))
     assert {name for name in unused if not name.startswith(others)} <= excluded
     assert "second_surface" not in groups
     for key in library.keys():

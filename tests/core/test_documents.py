@@ -21,6 +21,7 @@ import pytest
 
 import pyehl
 from pyehl import Case, library
+from pyehl.studies import curve
 
 ROOT = Path(__file__).parents[2]
 DOCUMENTS = (
@@ -48,6 +49,7 @@ EXEMPT = {
     "meson": ".ci/run",
     "sphinx-build": ".ci/run",
     "ford": ".ci/run",
+    "pyehl app": "app/test_page.py; it ends when somebody ends it",
 }
 # Options of meson itself, that are not in meson.options
 MESON_OPTIONS = {"buildtype"}
@@ -195,7 +197,7 @@ def test_keys_in_documents_are_keys(root: Path, name: str):
 
 
 # Files whose names look like keys
-FILES = {"case.nml", "surface.py", "case.py", "solver.py"}
+FILES = {"lubricant.nml", "case.nml", "surface.py", "case.py", "solver.py"}
 
 
 def test_every_module_is_in_a_map(root: Path):
@@ -225,8 +227,20 @@ def test_every_public_name_is_in_the_reference(root: Path):
 def test_every_subcommand_is_in_the_reference(root: Path):
     text = (root / "docs" / "reference" / "commands.md").read_text()
     modules = {path.stem for path in (root / "pyehl" / "commands").glob("[a-z]*.py")}
-    listed = set(re.findall(r"^\| `pyehl (\w+)", text, re.M))
+    listed = {n.replace("-", "_") for n in re.findall(r"^\| `pyehl ([\w-]+)", text, re.M)}
     assert listed == modules - {"arguments", "watching"}
+
+
+def test_every_status_has_a_line(root: Path):
+    """Statuses of runs, predictions and points of a curve, each in the table of its kind."""
+    text = (root / "docs/reference/statuses.md").read_text(encoding="utf-8")
+    source = (root / "fortran/base/outcome.f90").read_text(encoding="utf-8")
+    names = re.findall(r'"([^"]+)"', source[source.index("outcome_names(0:8)") :])
+    runs = {name.strip() for name in names} - {"running"}
+    points = {curve.FULL_FILM, curve.BREAKDOWN, curve.OUTSIDE, curve.UNSOLVED}
+    for head, expected in (("Runs", runs), ("Points of a curve", points)):
+        part = text.split(f"## {head}\n")[1].split("\n## ")[0]
+        assert set(re.findall(r"^\| `([^`]+)` \|", part, re.MULTILINE)) == expected
 
 
 def test_map_is_in_the_order_of_the_build(root: Path):

@@ -118,7 +118,7 @@ def test_both_drivers_end_with_the_same_lines(drive, tmp_path: Path):
         (CARRIED, ["time.estimate_error=.false."], "time.estimate_error is false"),
         (WAVE.format(65, 0.2), ["time.steps=160"], "because of time.steps"),
         (COARSE_FAILS, [], "coarser grid ended with the status 'negative film'"),
-        (LEFT_OUT, ["surface.velocity_ratio=0"], "predicted for one surface on the move alone"),
+        (LEFT_OUT, ["surface.velocity_ratio=0"], "predicted for surfaces on the move alone"),
     ],
     ids=["no coarser run", "time.steps", "coarser run fails", "at rest"],
 )

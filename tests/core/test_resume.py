@@ -25,8 +25,11 @@ WAVE = (
     "&grid points = {points} x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
     "&surface kind = 'harmonic' {extra} /\n&output frame_interval = 0.5 /\n"
 )
+# With the heat of friction in its history
 FRACTAL = (
-    "&contact load = 20.0 /\n&grid points = 65 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+    "&contact load = 20.0 slide_to_roll = 0.1 /\n"
+    "&lubricant shear_law = 'eyring' temperature_viscosity = 0.04 /\n"
+    "&grid points = 65 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
     "&surface kind = 'fractal' pixels = 32 length_x = 1e-4 length_y = 1e-4 rms_height = 2e-8 /\n"
 )
 OFTEN = ["--set", "output.checkpoint_interval=1e-3"]
@@ -109,6 +112,8 @@ def test_either_driver_goes_on_with_a_fractal_surface(drive, unbroken, tmp_path:
         done = drive(driver, "--resume", "out", "--set", "time.steps=0")
         assert (done.returncode, done.stderr) == (0, "")
         same(unbroken["fractal"] / "out", tmp_path / "out")
+        assert "heat_ratio" in (tmp_path / "out" / "history.csv").read_text().splitlines()[0]
+        assert (tmp_path / "out" / "temperature_rise_K.npy").is_file()
 
 
 def test_given_surface_is_kept_for_both_drivers(drive, tmp_path: Path):

@@ -53,6 +53,8 @@ SOLUTIONS = {
     ),
     "no solution": f"{MOES}&solver max_cycles = 1 /\n",
     "heated": SI + HEATED,
+    "heat of friction": SI + HEATED.replace("thermal_reduction = .true.", "shear_law = 'eyring'"),
+    "oil by name": SI + "&lubricant name = 'fva3' /\n",
     "ellipse": "&contact load = 20.0 radius_x = 0.01 radius_y = 0.02 /\n&grid points = 33 /\n",
     "wave": SI + WAVE.format(""),
     "mean that has not settled": f"{MOES}{WAVE.format('')}&time max_periods = 1 /\n",
@@ -83,9 +85,15 @@ def test_solutions(tmp_path: Path):
 
 
 def test_predictions(tmp_path: Path):
-    p = pyehl.predict(pyehl.Case.from_text("&surface kind = 'fractal' pixels = 64 /"))
-    # the folder lists its files
-    assert {*p.summary, "files"} == names("prediction")
+    rough = "&surface kind = 'fractal' pixels = 64 length_x = 1e-4 length_y = 1e-4 /\n"
+    ellipse = "&contact load = 20.0 radius_x = 0.01 radius_y = 0.02 /\n"
+    alone, oval, both = (
+        {*pyehl.predict(pyehl.Case.from_text(text)).summary, "files"}  # the folder lists them
+        for text in (rough, ellipse + rough, rough + rough.replace("surface", "second_surface"))
+    )
+    assert alone | oval | both == names("prediction")
+    of_two = {n for n in names("prediction") if n.startswith("second_")}
+    assert both - alone == of_two | {"surface_rms_m", "surface_slope"}
 
 
 def test_film_sheets():

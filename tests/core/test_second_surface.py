@@ -13,6 +13,7 @@ import pytest
 import pyehl
 from pyehl import Case, Solver, cli
 from pyehl.errors import InputError
+from pyehl.prediction.resolution import resolution
 
 CONTACT = (
     "&contact load = 20.0 slide_to_roll = 0.5 /\n"
@@ -226,37 +227,69 @@ def test_maps_are_prepared(heights, tmp_path: Path, monkeypatch, capsys):
         assert list(solver.preparations) == ["second_surface"]
 
 
-def test_prediction_knows_one(heights, tmp_path: Path, monkeypatch, capsys):
+def test_prediction_of_either_body_and_of_both(heights, tmp_path: Path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    first, second = FRACTAL.format("surface"), FRACTAL.format("second_surface")
+    (tmp_path / "case.nml").write_text(CONTACT + first + second)
+    assert cli.main(["predict", "case.nml", "--tracks", "1", "--no-plots", "-o", "one"]) == 0
+    summary = json.loads((tmp_path / "one" / "summary.json").read_text())
+    words = ["sweep", "case.nml", "--run", "predict", "--vary", "contact.slide_to_roll=0.4,0.5"]
+    assert cli.main([*words, "-o", "swept"]) == 0
+    rows = (tmp_path / "swept" / "results.csv").read_text().splitlines()
+    names, last = rows[0].split(","), rows[2].split(",")
+    swept = dict(zip(names, last, strict=True))
+    # more digits than a table has are not compared
+    assert float(swept["mu_ratio"]) == pytest.approx(summary["mu_ratio"], rel=1e-6)
+    assert float(swept["second_velocity_ratio"]) == 0.75
+    # one on body 2 is predicted by either name
+    alone = Case.from_text(CONTACT + second)
+    other = Case.from_text(CONTACT + first, ["contact.rough_surface=2"])
+    assert pyehl.predict(alone).mu_ratio == pyehl.predict(other).mu_ratio
+    # a single feature beside roughness has no mean
+    dent = CONTACT + first + "&second_surface kind = 'dent' amplitude = 1e-3 width = 1 /\n"
+    (tmp_path / "dent.nml").write_text(dent)
+    assert cli.main(["predict", "dent.nml", "-o", "two"]) == 2
+    assert "second_surface.kind = 'dent': a single feature" in capsys.readouterr().err
+    assert not (tmp_path / "two").exists()
+
+
+def test_curve_of_two(tmp_path: Path, monkeypatch, capsys):
+    """Other seeds of both; the film over the composite roughness."""
     monkeypatch.chdir(tmp_path)
     both = CONTACT + FRACTAL.format("surface") + FRACTAL.format("second_surface")
-    for words in (["predict"], ["sweep", "--run", "predict", "--vary", "contact.load=20,30"]):
-        (tmp_path / "case.nml").write_text(both)
-        assert cli.main([*words, "case.nml", "-o", "out"]) == 2
-        told = capsys.readouterr().err
-        assert "two rough surfaces" in told
-        assert "cross terms of second order" in told
-        assert not (tmp_path / "out").exists()
-    assert cli.main(["stribeck", "case.nml", "--speed", "1", "-o", "out"]) == 2
-    assert "second_surface.kind = 'smooth'" in capsys.readouterr().err
-    # one on body 2 is predicted by either name
-    second = Case.from_text(CONTACT + FRACTAL.format("second_surface"))
-    first = Case.from_text(CONTACT + FRACTAL.format("surface"), ["contact.rough_surface=2"])
-    assert pyehl.predict(second).mu_ratio == pyehl.predict(first).mu_ratio
-
-
-def test_waves_that_are_left_out_have_no_prediction(heights, tmp_path: Path):
-    """A run with two rough surfaces says that nothing is known of them."""
-    text = (
-        CONTACT.replace("65", "33") + FRACTAL.format("surface") + WAVE.format("second_surface", "")
+    (tmp_path / "case.nml").write_text(both)
+    words = ["stribeck", "case.nml", "--speed", "0.5", "--surfaces", "2", "--jobs", "1"]
+    assert cli.main([*words, "-o", "out"]) == 0
+    (path,) = tmp_path.glob("out/*.csv")
+    lines = [x for x in path.read_text().splitlines() if not x.startswith("#")]
+    row = dict(zip(lines[0].split(","), lines[1].split(","), strict=True))
+    keys = {"contact.mean_velocity": 0.5}
+    seeds = [{f"{group}.seed": 1 + k for group in ("surface", "second_surface")} for k in (0, 1)]
+    each = [pyehl.predict(Case.from_text(both, keys | seed), tracks=1) for seed in seeds]
+    assert each[0].mu_ratio != each[1].mu_ratio
+    assert float(row["mu_ratio"]) == pytest.approx(np.mean([p.mu_ratio for p in each]), rel=1e-6)
+    # of the solved contact on its own grid
+    assert float(row["lambda_ratio"]) * np.hypot(5e-9, 5e-9) == pytest.approx(
+        float(row["h_min_m"]), rel=1e-6
     )
+
+
+def test_waves_that_are_left_out_are_predicted(heights, tmp_path: Path):
+    """Of two rough surfaces, too, the error holds the waves that no grid has."""
+    text = CONTACT.replace("65", "33").replace("slide_to_roll = 0.5", "slide_to_roll = 0.2")
+    text += FRACTAL.format("surface") + FRACTAL.format("second_surface").replace("1e-4", "9e-5")
     with Solver(Case.from_text(text + "&time max_periods = 3 tolerance = 0.3 /\n")) as solver:
+        plan = solver.describe()
         solver.run()
         summary = solver.summary()
     assert summary["status"] == "converged"
     assert summary["variance_left_out"] > 0.1
-    assert summary["mu_ratio_error"] is None
-    assert summary["mu_ratio_error_left_out"] is None
-    assert "two rough surfaces: the prediction knows one" in summary["mu_ratio_error_note"]
+    assert "predicted   mu_r/mu_s" in plan
+    assert summary["mu_ratio_error_left_out"] > 0.0
+    alone = Case.from_text(text, {"second_surface.kind": "smooth"})
+    both, one = resolution(Case.from_text(text)), resolution(alone)
+    assert both.left_out != one.left_out
+    assert summary["mu_ratio_error_left_out"] == pytest.approx(abs(both.left_out), rel=1e-6)
 
 
 def test_second_surface_as_a_map(heights, tmp_path: Path, monkeypatch, capsys):

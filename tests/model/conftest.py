@@ -59,6 +59,7 @@ RESOLVED = {
         "reduction": "amplitude",
         "smooth": "hertz",
         "film_thickness": 0.2333e-6,
+        "film_limit": 0.0,
         "wavelength_convention": "components",
         "stiffness": "exact",
         "viscosity_law": "roelands",

@@ -60,7 +60,7 @@ def test_waves_that_a_coarse_grid_leaves_out_are_in_its_error(evidence):
     for coarse in csv.DictReader(x for x in lines if not x.startswith("#")):
         (row,) = (row for row in compare.rows() if row["name"] == coarse["name"])
         row["points"] = float(coarse["points"])
-        found = resolution(cases.case(row), cases.surface(row))
+        found = resolution(cases.case(row), {"surface": cases.surface(row)})
         difference = abs(fine[row["name"]] - float(coarse["mu_ratio"]))
         missed += difference > float(coarse["grid_error"])
         assert difference <= float(coarse["grid_error"]) + abs(found.left_out), row["name"]

@@ -30,6 +30,10 @@ density_15 = 880.0 shear_law = 'eyring' {more} / &contact mean_velocity = 5.0 sl
 &grid points = 257 /"""
 
 
+# Conductivity and diffusivity of both bodies
+STEEL = (46.0, 46.0), (1.25e-5, 1.25e-5)
+
+
 def kinematic_viscosity(t: float, at_40: float, at_100: float) -> float:
     """Kinematic viscosity [mm^2/s] at t [degC] by ASTM D341 through two points of a data sheet."""
     nu = np.array([at_40, at_100])
@@ -102,7 +106,7 @@ def test_inlet_viscosity():
 def test_flash_temperature_limits():
     q, a, k, kappa = 1e8, 2e-4, 46.0, 1.25e-5
     # at rest: 3 pi/8 q a/k for each surface under all the heat (the potential of a semi-ellipse)
-    rest = flash_temperature(q, a, (0.0, 0.0), k, kappa)
+    rest = flash_temperature(q, a, (0.0, 0.0), (k, k), (kappa, kappa))
     assert rest == pytest.approx(3 * math.pi / 16 * q * a / k, rel=2e-3)
     # fast: heat flows straight down, along the line through the centre
     s = np.linspace(0.0, 1.0, 201)[:, np.newaxis]
@@ -111,7 +115,9 @@ def test_flash_temperature_limits():
     greatest = float((2.0 * root * np.sqrt(1.0 + s) / 2000).sum(axis=1).max())
     u = 1e5
     expected = 0.5 * 1.5 * q / k * math.sqrt(kappa * a / (math.pi * u)) * greatest
-    assert flash_temperature(q, a, (u, u), k, kappa) == pytest.approx(expected, rel=2e-3)
+    assert flash_temperature(q, a, (u, u), (k, k), (kappa, kappa)) == pytest.approx(
+        expected, rel=2e-3
+    )
 
 
 def test_absolute_friction_of_the_solver():
@@ -128,7 +134,9 @@ def test_absolute_friction_of_the_solver():
     force = s["F"] * 0.04 * 2.0 * point.mean_velocity / point.film_scale * point.hertz_radius**2
     assert s["mu"] == pytest.approx(force / 600.0, rel=1e-12)
     flux = s["mu"] * 600.0 * point.sliding_speed / (math.pi * point.hertz_radius**2)
-    rise = flash_temperature(flux, point.hertz_radius, (0.0, 1.68), 46.0, 1.25e-5)
+    rise = flash_temperature(
+        flux, point.hertz_radius, (0.0, 1.68), (46.0, 46.0), (1.25e-5, 1.25e-5)
+    )
     assert s["flash_temperature_K"] == pytest.approx(rise, rel=1e-12)
     assert "isothermal" in s["mu_note"]
     h = s["H_c"] * point.film_scale
@@ -191,7 +199,9 @@ def test_absolute_friction_of_a_uniform_film():
     assert s["mu"] == pytest.approx(0.06)
     assert s["shear_rate_mean_per_s"] == pytest.approx(0.42 / 2e-7)
     flux = 0.06 * 600.0 * 0.42 / (math.pi * point.hertz_radius**2)
-    rise = flash_temperature(flux, point.hertz_radius, (1.05, 0.63), 46.0, 1.25e-5)
+    rise = flash_temperature(
+        flux, point.hertz_radius, (1.05, 0.63), (46.0, 46.0), (1.25e-5, 1.25e-5)
+    )
     assert s["flash_temperature_K"] == pytest.approx(rise, rel=1e-12)
     alone = absolute_friction(point, Lubricant(), film=2e-7, mu_smooth=1e3, mu_ratio=1.2)
     assert math.isnan(alone["mu"])

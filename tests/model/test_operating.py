@@ -75,6 +75,20 @@ def test_roelands_by_its_original_form():
     assert float(oil.log_viscosity_ratio(p)) == pytest.approx(expected, rel=1e-12)
 
 
+def test_roelands_under_temperature_by_its_original_form():
+    # (T - 138 K)^-S0 in his form, with beta its slope at ambient pressure
+    oil, p, rise = Lubricant(temperature=60.0, temperature_viscosity=0.035), 1.2e9, 40.0
+    level, above = math.log(oil.viscosity) + 9.67, 60.0 + 273.15 - 138.0
+    share = (1 + p / oil.roelands_p0) ** oil.roelands_z
+    share *= ((above + rise) / above) ** (-0.035 * above / level)
+    assert float(oil.log_viscosity_ratio(p, rise)) == pytest.approx(level * (share - 1), rel=1e-12)
+    for law in ("roelands", "barus"):
+        warm = Lubricant(viscosity_law=law, temperature_viscosity=0.035)
+        slope = float(warm.log_viscosity_ratio(0.0, 1e-3) - warm.log_viscosity_ratio(0.0, -1e-3))
+        assert slope / 2e-3 == pytest.approx(-0.035, rel=1e-6)
+        assert warm.log_viscosity_ratio(p, 0.0) == warm.log_viscosity_ratio(p)
+
+
 def test_roelands_ends_at_minus_p0():
     assert np.isnan(Lubricant().log_viscosity_ratio(-2e8))
     assert np.isfinite(Lubricant().log_viscosity_ratio(-1.9e8))

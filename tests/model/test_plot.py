@@ -12,7 +12,7 @@ from matplotlib.image import imread
 from matplotlib.transforms import Bbox
 
 from pyehl import cli, namelist
-from pyehl.plots import contact, figures, folder, style, surface, transient
+from pyehl.plots import contact, folder, panels, predicted, style, surface, transient
 from pyehl.prediction.folder import destination, write
 from pyehl.prediction.of_case import predict
 from pyehl.theory.operating import OperatingPoint
@@ -128,15 +128,15 @@ def test_every_function_takes_axes_and_returns_them(fields, settings):
 
 def test_headline():
     about = {"moes_m": 1000.0, "moes_l": 10.0, "hertz_pressure_Pa": 1.66e9, "status": "converged"}
-    title = figures.headline(about | {"H_c": 0.0243, "H_min": 0.008})
+    title = panels.headline(about | {"H_c": 0.0243, "H_min": 0.008})
     for part in ("$M$ = 1000", "$L$ = 10", "1.66 GPa", "= 0.0243", "= 0.008", "motion"):
         assert part in title
-    title = figures.headline(
+    title = panels.headline(
         about | {"H_c": 0.0243, "h_c_m": 2.3e-7, "h_min_m": 8e-8}, style.Scales(1.0, 1.0, 1.0)
     )
     assert "0.23 $" in title
     assert "0.08 $" in title
-    assert "FILM" in figures.headline(about | {"status": "negative film"})
+    assert "FILM" in panels.headline(about | {"status": "negative film"})
 
 
 def test_heights_and_what_is_left_of_each_wave(settings):
@@ -186,7 +186,7 @@ def test_writing_in_the_pictures_of_a_prediction_is_whole(settings, rms, length,
     settings["surface"] |= {"rms_height": rms, "length_x": length, "length_y": length, "pixels": 64}
     settings["psd"] |= {"reduction": reduction}
     result = predict(settings)
-    made = figures.prediction_figures(result.summary, result.arrays, result.tables)
+    made = predicted.prediction_figures(result.summary, result.arrays, result.tables)
     assert len(made) == 3
     for figure in made.values():
         figure.canvas.draw()

@@ -140,6 +140,69 @@ def test_array_axes(tmp_path):
             read_scan(tmp_path / name)
 
 
+@pytest.mark.parametrize(("unit", "factor"), [("mm", 1e3), ("um", 1e6), ("nm", 1e9)])
+def test_heights_in_other_units(tmp_path, unit, factor):
+    """Of files that name none; a file of an instrument does."""
+    z = slope_map()
+    np.savetxt(tmp_path / "map.txt", factor * z)
+    np.save(tmp_path / "map.npy", factor * z)
+    for name in ("map.txt", "map.npy"):
+        scan = read_scan(tmp_path / name, *SIZE, height_unit=unit)
+        assert scan.heights == pytest.approx(z, rel=1e-12, abs=1e-24)
+        assert unit in scan.note
+    WRITERS["x3p"](z, tmp_path / "scan.x3p")
+    with pytest.raises(ValueError, match="the file names its unit itself"):
+        read_scan(tmp_path / "scan.x3p", height_unit=unit)
+
+
+@pytest.mark.parametrize("separator", [";", "; ", "\t"])
+def test_decimal_commas(tmp_path, separator):
+    z = 1e6 * slope_map()
+    lines = (separator.join(f"{v:.9g}".replace(".", ",") for v in line) for line in z)
+    (tmp_path / "map.csv").write_text("\n".join(lines) + "\n")
+    scan = read_scan(tmp_path / "map.csv", *SIZE, height_unit="um")
+    assert scan.heights == pytest.approx(1e-6 * z, rel=1e-8)
+    (tmp_path / "bad.csv").write_text(separator.join(("1,0", "1,,0", "1", "2")) + "\n")
+    with pytest.raises(ValueError, match=rf"bad\.csv:1:{4 + len(separator)}: .* is no number"):
+        read_scan(tmp_path / "bad.csv", *SIZE)
+
+
+def test_lists_of_points(tmp_path):
+    """In any order, places rounded, a point missing; size and heights in one unit."""
+    z = slope_map()
+    nx, ny = z.shape
+    pixel = SIZE[0] / nx, SIZE[1] / ny
+    points = [(3e-6 + i * pixel[0], j * pixel[1], z[i, j]) for i in range(nx) for j in range(ny)]
+    np.random.default_rng(1).shuffle(points)
+    gone = points.pop()
+    np.savetxt(tmp_path / "list.xyz.txt", 1e6 * np.array(points), fmt="%.7g")
+    scan = read_scan(tmp_path / "list.xyz.txt", height_unit="um")
+    assert (scan.length_x, scan.length_y) == pytest.approx(SIZE, rel=1e-5)
+    missing = np.argwhere(np.isnan(scan.heights))
+    assert missing.tolist() == [[round((gone[0] - 3e-6) / pixel[0]), round(gone[1] / pixel[1])]]
+    assert np.nan_to_num(scan.heights - z) == pytest.approx(np.zeros_like(z), abs=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ((0, 0, 1.3), "point 1 of the list .* is off the grid"),
+        ((4, 1, np.nan), "point 5 of the list has no y"),
+        (
+            (5, slice(None), (0.0, 1.0, 9.0)),
+            "number 1 along x, 2 along y is in the list .* 2 times",
+        ),
+        ((slice(None), 1, 7.0), "all points of the list of x, y and z have the same y"),
+    ],
+)
+def test_lists_that_are_no_grid(tmp_path, change, message):
+    points = np.array([(i, j, 0.1 * i * j) for i in range(5) for j in range(6)], dtype=float)
+    points[change[:2]] = change[2]
+    np.savetxt(tmp_path / "list.txt", points)
+    with pytest.raises(ValueError, match=message):
+        read_scan(tmp_path / "list.txt", height_unit="um")
+
+
 def test_unreadable_instrument_file(tmp_path):
     (tmp_path / "scan.x3p").write_bytes(b"PK\x03\x04 and nothing else")
     with pytest.raises(ValueError, match=r"scan\.x3p: cannot be read as a height map"):
@@ -264,7 +327,7 @@ def test_profiles_are_refused(tmp_path):
     )
     with pytest.raises(ValueError, match="a profile along a line; a contact needs the map"):
         read_scan(tmp_path / "line.txt", *SIZE)
-    lists = {1: "a profile along one line", 2: "a profile of x and z", 3: "a list of x, y and z"}
+    lists = {1: "a profile along one line", 2: "a profile of x and z"}
     for columns, what in lists.items():
         np.savetxt(tmp_path / "list.txt", np.repeat(z[:, None], columns, axis=1))
         with pytest.raises(ValueError, match=f"not 30 x {columns}; is it {what}"):

@@ -15,7 +15,8 @@ from matplotlib.image import imread
 
 import pyehl
 from pyehl.cli import main
-from pyehl.studies.curve import BREAKDOWN, FULL_FILM, OUTSIDE, full_film_ends, pattern
+from pyehl.studies.curve import BREAKDOWN, FULL_FILM, OUTSIDE, full_film_ends
+from pyehl.studies.curve_pattern import pattern
 from pyehl.surfaces import harmonic
 from pyehl.theory import stribeck
 from pyehl.theory.operating import OperatingPoint

@@ -225,6 +225,8 @@ def test_waves_and_surfaces_on_coarse_grids(tmp_path: Path, monkeypatch: pytest.
     assert check_of(found["figure 7"], "our prediction").found < 0.02
     assert all(r.findings for r in (found["figure 6"], found["figure 7"], found["table 2"]))
     assert all(r.seconds > 0.0 for r in found.values())
+    assert found["figure 3"].line().startswith("nothing to judge: ")
+    assert found["table 2"].line().startswith("nothing to judge: ")
 
 
 def test_a_failure_that_a_run_explains():
@@ -236,6 +238,15 @@ def test_a_failure_that_a_run_explains():
     bare = replace(told, checks=[replace(check, finding="")])
     assert not bare.passed
     assert bare.line().startswith("FAIL")
+
+
+def test_what_has_no_number_to_judge_is_no_pass():
+    """Neither green in the report nor counted among the pieces that are within tolerances."""
+    free = Check("x", 2.0, 1.0, None, "of another surface", "there")
+    for checks in ((), (free,)):
+        found = Result(checks, unjudged="it is not published")
+        assert found.verdict == "nothing to judge"
+        assert found.line() == "nothing to judge: it is not published"
 
 
 def test_command(tmp_path: Path, capsys: Any):

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Compare the prediction with the simulated cases on ellipses.
+
+Writes table.csv and ellipse.png beside this file and prints bias, scatter and coverage. With
+--predict it only predicts, and writes predicted.csv, which is from before the simulations:
+
+    python docs/evidence/ellipse/compare.py [--predict]
+"""
+
+from __future__ import annotations
+
+import csv
+import itertools
+import sys
+from typing import Any
+
+import matplotlib as mpl
+import matplotlib.pyplot as plt
+import numpy as np
+
+from cases import HERE, case, read, surface
+from pyehl.prediction.by_response import RoughPassage
+from pyehl.prediction.errors import model_error
+from pyehl.prediction.options import Options
+from pyehl.prediction.smooth import solve_contact
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+
+LIMITS = (0.0, 1.5, 2.5)
+
+
+def prediction(row: dict[str, Any]) -> float:
+    """mu_r/mu_s of a row."""
+    settings = case(row).resolve()
+    operating, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
+    passage = RoughPassage(
+        surface(row), solve_contact(settings), operating, oil, Options(), row["velocity_ratio"]
+    )
+    return passage.run(0, brief=True)[0].mu_ratio
+
+
+def write(name: str, table: list[dict[str, Any]]) -> None:
+    """Write a table beside this file."""
+    with (HERE / name).open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, table[0].keys(), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(table)
+
+
+def predict() -> None:
+    """Write predicted.csv."""
+    table = []
+    for row in read("cases.csv"):
+        found = prediction(row)
+        table.append(
+            {
+                "name": row["name"],
+                "prediction": round(found, 4),
+                "model_error": round(model_error(found), 4),
+            }
+        )
+        print(*table[-1].values(), flush=True)
+    write("predicted.csv", table)
+
+
+def compare() -> None:
+    """Write table.csv and the figure."""
+    before = {row["name"]: row for row in read("predicted.csv")}
+    simulated = {row["name"]: row for row in read("simulated.csv")}
+    table = []
+    for row in read("cases.csv"):
+        run = simulated.get(row["name"])
+        if run is None or run["status"] != "converged":
+            continue
+        there, now = run["mu_ratio"], prediction(row)
+        first = before[row["name"]]["prediction"]
+        table.append(
+            {
+                "name": row["name"],
+                "ellipticity": row["ellipticity"],
+                "moes_m": row["moes_m"],
+                "moes_l": row["moes_l"],
+                "velocity_ratio": row["velocity_ratio"],
+                "mu_ratio": there,
+                "mu_ratio_error": round(run["mu_ratio_error_grid"] + run["mu_ratio_error_stop"], 4),
+                "predicted_before": first,
+                "deviation_before_percent": round(100.0 * (first / there - 1.0), 2),
+                "covered_before": int(abs(first - there) <= model_error(first)),
+                "prediction": round(now, 4),
+                "deviation_percent": round(100.0 * (now / there - 1.0), 2),
+                "model_error": round(model_error(now), 4),
+                "covered": int(abs(now - there) <= model_error(now)),
+            }
+        )
+        print(*table[-1].values(), flush=True)
+    write("table.csv", table)
+    report(table)
+    draw(table)
+
+
+def report(table: list[dict[str, Any]]) -> None:
+    """Print bias, scatter and coverage for ranges of the ratio."""
+    for low, high in itertools.pairwise(LIMITS):
+        part = [r for r in table if low < r["mu_ratio"] <= high]
+        for name in ("deviation_before_percent", "deviation_percent"):
+            d = np.array([r[name] for r in part])
+            if d.size:
+                print(
+                    f"{low} < mu_r/mu_s <= {high}: {d.size} cases, {name} mean {d.mean():.2f}, "
+                    f"largest {np.abs(d).max():.2f}"
+                )
+    for name in ("covered_before", "covered"):
+        print(f"{name}: {sum(r[name] for r in table)} of {len(table)}")
+
+
+def draw(table: list[dict[str, Any]]) -> None:
+    """Draw the deviations over the ellipticity."""
+    mpl.use("Agg")
+    figure, axes = plt.subplots(1, 2, figsize=(8.6, 3.9), layout="constrained")
+    ratio, error, before, model, kappa = (
+        np.array([r[name] for r in table])
+        for name in ("mu_ratio", "mu_ratio_error", "predicted_before", "model_error", "ellipticity")
+    )
+    colours = {"c": np.log2(kappa), "cmap": "cividis", "vmin": -2.0, "vmax": 2.0, "zorder": 3}
+    line = np.array([1.0, 2.6])
+    axes[0].plot(line, line, color="0.6", linewidth=1)
+    axes[0].errorbar(ratio, before, xerr=error, yerr=model, fmt="none", ecolor="0.5", linewidth=1)
+    dots = axes[0].scatter(ratio, before, s=28, **colours)
+    axes[0].set(
+        xlim=line,
+        ylim=line,
+        aspect="equal",
+        xlabel=r"$\mu_r/\mu_s$ simulated, 513 nodes along $X$",
+        ylabel=r"$\mu_r/\mu_s$ predicted before",
+    )
+    axes[1].axhline(0.0, color="0.6", linewidth=1)
+    off = before - ratio
+    axes[1].errorbar(kappa, off, yerr=error, fmt="none", ecolor="0.5", linewidth=1)
+    axes[1].scatter(kappa, off, s=28, **colours)
+    axes[1].set(
+        xscale="log",
+        xlabel=r"ellipticity $\kappa$: semi-axis across the motion over $a$",
+        ylabel="predicted less simulated",
+    )
+    ticks = [0.4, 0.6, 1.0, 1.5, 2.0, 3.0, 4.0]
+    axes[1].xaxis.set_major_locator(mpl.ticker.FixedLocator(ticks))
+    axes[1].xaxis.set_major_formatter(mpl.ticker.FormatStrFormatter("%g"))
+    axes[1].xaxis.set_minor_locator(mpl.ticker.NullLocator())
+    bar = figure.colorbar(dots, ax=axes[1], label=r"$\kappa$", ticks=[-1.0, 0.0, 1.0, 2.0])
+    bar.ax.set_yticklabels(["0.5", "1", "2", "4"])
+    figure.savefig(HERE / "ellipse.png", dpi=120)
+
+
+if __name__ == "__main__":
+    predict() if "--predict" in sys.argv[1:] else compare()

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Simulate cases of cases.csv that are not yet in simulated.csv, some minutes each on one core.
+
+python docs/evidence/ellipse/make.py [NAME ...]
+"""
+
+from __future__ import annotations
+
+import csv
+import sys
+
+from cases import HERE, case, read, surface
+from pyehl.solver import Solver
+
+COLUMNS = ("name status mu_ratio mu_ratio_error_grid mu_ratio_error_stop H_c steps seconds").split()
+
+
+def main() -> None:
+    """Simulate, one line of the table after the other."""
+    path = HERE / "simulated.csv"
+    if not path.exists():
+        path.write_text(",".join(COLUMNS) + "\n", encoding="utf-8")
+    for row in read("cases.csv"):
+        done = {line["name"] for line in read("simulated.csv")}
+        if row["name"] in done or (sys.argv[1:] and row["name"] not in sys.argv[1:]):
+            continue
+        with Solver.open(case(row), surface(row).heights) as solver:
+            solver.run()
+            summary = solver.summary() | {"name": row["name"]}
+        values = [summary.get(name) for name in COLUMNS]
+        with path.open("a", newline="", encoding="utf-8") as stream:
+            csv.writer(stream, lineterminator="\n").writerow(
+                [f"{v:.6g}" if isinstance(v, float) else v for v in values]
+            )
+        print(*values, flush=True)
+
+
+if __name__ == "__main__":
+    main()

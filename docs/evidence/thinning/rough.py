@@ -1,0 +1,228 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rough surfaces in lubricants that thin: predicted, then simulated.
+
+    python docs/evidence/thinning/rough.py predict      writes predicted.csv
+    python docs/evidence/thinning/rough.py simulate     adds what is missing to simulated.csv
+    python docs/evidence/thinning/rough.py compare      prints both
+
+A simulation is on 257 x 257 nodes and takes one to three minutes on one core. Waves shorter than
+eight nodes of that grid are cut off.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import pyehl
+from pyehl.prediction.contact import INNER
+from pyehl.solver import Solver
+from pyehl.theory.operating import OperatingPoint
+
+HERE = Path(__file__).parent
+POINTS = 257
+# The rms of the pressure is that near the centre, its greatest rise that within INNER
+CENTRE = 0.5
+TABLE1 = "load = 600 mean_velocity = 0.84 radius = 0.018 reduced_modulus = 2.26e11"
+BALL = "load = 300 mean_velocity = 0.5 radius = 0.0127 reduced_modulus = 1.24e11"
+THICK = "viscosity = 0.5 pressure_viscosity = 1.8e-8"
+EYRING = "shear_law = 'eyring' eyring_stress ="
+CARREAU = "shear_law = 'carreau' carreau_stress ="
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A contact with a lubricant and a fractal surface."""
+
+    contact: str
+    lubricant: str
+    velocity_ratio: float
+    rms: float  # [m]
+    hurst: float = 0.8
+    seed: int = 1
+    length: float = 1.0  # of the tile [a]
+
+
+def by_moes(moes_m: float, moes_l: float) -> str:
+    """Keys of a contact with M and L, the reference radius, modulus and lubricant."""
+    o = OperatingPoint.from_moes(moes_m, moes_l)
+    return (
+        f"load = {o.load!r} mean_velocity = {o.mean_velocity!r} radius = {o.radius!r} "
+        f"reduced_modulus = {o.reduced_modulus!r}"
+    )
+
+
+QUANTITIES = {
+    "mu_ratio": "mu_ratio_model_error",
+    "rms_pressure_Pa": "rms_pressure_error_Pa",
+    "p_rise_max_Pa": "p_rise_max_error_Pa",
+    "h_min_rough_m": "h_min_rough_error_m",
+}
+"""What is compared, and its stated error."""
+
+PLAN: dict[str, Row] = {
+    "e1": Row(TABLE1, f"{EYRING} 5e6", 1.01, 5e-8, 0.8, 11),
+    "e2": Row(TABLE1, f"{EYRING} 5e6", 1.1, 5e-8, 0.7, 12),
+    "e3": Row(TABLE1, f"{CARREAU} 5e6 carreau_exponent = 0.5", 1.01, 4e-8, 0.8, 13),
+    "e4": Row(TABLE1, f"{EYRING} 2e7", 1.005, 5e-8, 0.9, 14, 1.5),
+    "e5": Row(by_moes(300.0, 12.0), f"{EYRING} 5e6", 1.05, 6e-8, 0.8, 15),
+    "e6": Row(by_moes(300.0, 12.0), f"{CARREAU} 3e6 carreau_exponent = 0.7", 0.95, 5e-8, 0.8, 16),
+    "e7": Row(by_moes(500.0, 8.0), f"{EYRING} 8e6", 1.2, 4e-8, 0.6, 17),
+    "e8": Row(by_moes(500.0, 8.0), f"{CARREAU} 1e7 carreau_exponent = 0.4", 0.9, 4e-8, 0.8, 18),
+    "e9": Row(by_moes(200.0, 10.0), f"{EYRING} 1e7", 1.01, 6e-8, 1.0, 19),
+    "e10": Row(by_moes(200.0, 6.0), f"{EYRING} 3e6", 0.85, 2e-8, 0.8, 20),
+    "e11": Row(by_moes(2000.0, 12.0), f"{EYRING} 8e6", 1.02, 3e-8, 0.8, 21),
+    "e12": Row(
+        by_moes(1500.0, 6.0), f"{CARREAU} 8e6 carreau_exponent = 0.5", 1.05, 1.5e-8, 0.8, 22
+    ),
+    "e13": Row(BALL, f"{THICK} {CARREAU} 1e5 carreau_exponent = 0.8", 1.05, 5e-8, 0.8, 23),
+    "e14": Row(BALL, f"{THICK} {CARREAU} 3e6 carreau_exponent = 0.7", 1.005, 6e-8, 0.8, 24),
+    "e15": Row(BALL, f"{THICK} {EYRING} 4e6", 0.98, 8e-8, 0.8, 25, 0.75),
+    "e16": Row(by_moes(800.0, 15.0), f"{EYRING} 6e6", 1.15, 6e-8, 0.8, 26),
+    "e17": Row(by_moes(1000.0, 5.0), f"{EYRING} 5e6", 1.01, 1.5e-8, 0.8, 27),
+    "e18": Row(by_moes(600.0, 10.0), f"{EYRING} 1e7", 0.97, 5e-8, 0.7, 28, 1.25),
+}
+
+
+def case_of(row: Row) -> pyehl.Case:
+    """Make the case of a row."""
+    text = (
+        f"&contact {row.contact} /\n&lubricant {row.lubricant} /\n"
+        f"&grid points = {POINTS} x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+    )
+    a = OperatingPoint.from_settings(pyehl.Case.from_text(text).resolve()).hertz_radius
+    side = row.length * a
+    return pyehl.Case.from_text(
+        f"{text}&surface kind = 'fractal' rms_height = {row.rms!r} hurst = {row.hurst} "
+        f"seed = {row.seed} length_x = {side!r} length_y = {side!r} pixels = 128 "
+        f"velocity_ratio = {row.velocity_ratio} shortest_wavelength = {a / 8.0!r} /\n"
+    )
+
+
+def predicted(row: Row) -> dict[str, Any]:
+    """Predict a row."""
+    summary = pyehl.predict(case_of(row)).summary
+    names = "status", "rms_deformed_m", *QUANTITIES, *QUANTITIES.values()
+    return {name: summary[name] for name in names}
+
+
+def simulated(row: Row) -> dict[str, Any]:
+    """Simulate a row; pressure and film over the last period."""
+    case = case_of(row)
+    records: list[tuple[float, ...]] = []
+    with Solver.open(case) as run:
+        while not run.done:
+            run.advance()
+            summary = run.summary()
+            if not summary.get("steps"):
+                continue
+            if not records:
+                x, y = run.axes()
+                radius = np.hypot(x[:, np.newaxis], y[np.newaxis, :])
+                smooth = run.field("P_smooth")
+            rise, film = run.field("P") - smooth, run.field("H")
+            records.append(
+                (
+                    float(summary["T"]),
+                    float(np.square(rise[radius < CENTRE]).mean()),
+                    float(rise[radius < INNER].max()),
+                    float(film[radius < 1.0].min()),
+                )
+            )
+        summary = run.summary()
+    o = OperatingPoint.from_settings(case.resolve())
+    table = np.array(records)
+    last = table[table[:, 0] > table[-1, 0] - float(summary["T_period"])]
+    return {
+        "status": summary["status"],
+        "mu_ratio": summary["mu_ratio"],
+        "mu_ratio_error_grid": summary["mu_ratio_error_grid"],
+        "rms_pressure_Pa": math.sqrt(float(last[:, 1].mean())) * o.hertz_pressure,
+        "p_rise_max_Pa": float(last[:, 2].max()) * o.hertz_pressure,
+        "h_min_rough_m": float(last[:, 3].min()) * o.film_scale,
+        # of the smooth contact
+        "h_min_m": summary["H_min"] * o.film_scale,
+        "h_min_extrapolated_m": (summary["H_min_extrapolated"] or math.nan) * o.film_scale,
+    }
+
+
+def write(path: Path, rows: dict[str, dict[str, Any]]) -> None:
+    """Write rows by their names."""
+    names = list(dict.fromkeys(k for row in rows.values() for k in row))
+    with path.open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, ["name", *names], lineterminator="\n")
+        writer.writeheader()
+        for name, row in rows.items():
+            values = {k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()}
+            writer.writerow({"name": name, **values})
+
+
+def read(path: Path) -> dict[str, dict[str, Any]]:
+    """Read what `write` wrote."""
+    if not path.exists():
+        return {}
+    with path.open(newline="", encoding="utf-8") as stream:
+        return {row.pop("name"): row for row in csv.DictReader(stream)}
+
+
+def compare(predictions: dict[str, dict[str, Any]], simulations: dict[str, dict[str, Any]]) -> None:
+    """Print predicted beside simulated, and how many deviations the stated errors cover.
+
+    The least film is compared with that of a grid without error: what the smooth contact misses on
+    257 x 257 nodes is added to the simulated one.
+    """
+    covered: dict[str, list[bool]] = {name: [] for name in QUANTITIES}
+    relative: dict[str, list[float]] = {name: [] for name in QUANTITIES}
+    for row, found in simulations.items():
+        said = predictions[row]
+        print(f"{row:12s} {said['status']} / {found['status']}", end="")
+        if found["status"] != "converged" or said["status"] != "predicted":
+            print()
+            continue
+        for name, error in QUANTITIES.items():
+            p, s = float(said[name]), float(found[name])
+            if name == "h_min_rough_m":
+                s += float(found["h_min_extrapolated_m"]) - float(found["h_min_m"])
+            covered[name].append(abs(p - s) <= float(said[error]))
+            relative[name].append(p / s - 1.0)
+            stated = error_of(said, error, p)
+            print(f"  {name} {p:.5g} / {s:.5g} ({p / s - 1.0:+.2%}, error {stated})", end="")
+        print()
+    for name, values in relative.items():
+        spread = np.array(values)
+        print(
+            f"{name:16s} rms {np.sqrt(np.mean(spread**2)):.2%}, largest "
+            f"{np.abs(spread).max():.2%}, stated error covers {sum(covered[name])} of {spread.size}"
+        )
+
+
+def error_of(said: dict[str, Any], name: str, value: float) -> str:
+    """Give a stated error, relative."""
+    return f"{float(said[name]) / value:.2%}" if said[name] else "unknown"
+
+
+def main(arguments: list[str]) -> None:
+    """Predict, simulate or compare."""
+    what = arguments[0]
+    where = Path(arguments[1]) if len(arguments) > 1 else HERE
+    if what == "predict":
+        write(where / "predicted.csv", {name: predicted(row) for name, row in PLAN.items()})
+    elif what == "simulate":
+        found = read(where / "simulated.csv")
+        for name, row in PLAN.items():
+            if name not in found:
+                print(name, flush=True)
+                found[name] = simulated(row)
+                write(where / "simulated.csv", found)
+    elif what == "compare":
+        compare(read(where / "predicted.csv"), read(where / "simulated.csv"))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,236 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Results beside values of other programs and film formulas: python make.py.
+
+Runs all cases (some minutes of one processor), writes table.csv, formulas.csv and validation.png
+beside this file, and prints the tables of docs/validation.md. `python make.py show` prints and
+draws from the stored files.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+import sys
+from collections.abc import Iterator, Mapping
+from importlib import resources
+from importlib.resources.abc import Traversable
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import matplotlib.pyplot as plt
+import xarray as xr
+
+import pyehl
+from pyehl.theory.film import estimates
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+
+HERE = Path(__file__).resolve().parent
+ELLIPSES = HERE.parents[2] / "tests" / "cases" / "smooth_ellipses.csv"
+COLUMNS = ("group", "case", "quantity", "theirs", "ours", "error")
+FORMULA_COLUMNS = ("moes_m", "moes_l", "formula", "quantity", "ratio", "outside")
+
+PLACE = {"grid.x_inlet": -2.5, "grid.x_outlet": 1.5, "grid.border": "zero"}
+TABLE_1 = {
+    "contact.load": 600.0,
+    "contact.mean_velocity": 0.84,
+    "contact.radius": 0.018,
+    "contact.reduced_modulus": 2.26e11,
+    "lubricant.viscosity": 0.04,
+    "lubricant.pressure_viscosity": 2.2e-8,
+    "grid.y_extent": 2.0,
+}
+CARREAU = {
+    "contact.load": 30.0,
+    "contact.mean_velocity": 0.5,
+    "contact.radius": 0.0127,
+    "contact.reduced_modulus": 1.24e11,
+    "lubricant.viscosity": 0.5,
+    "lubricant.pressure_viscosity": 1.8e-8,
+    "lubricant.shear_law": "carreau",
+    "lubricant.carreau_stress": 1e5,
+    "lubricant.carreau_exponent": 0.8,
+    "grid.y_extent": 2.0,
+}
+# Films [m] and friction of the solver with which the flow factors of thinning oils were verified
+EYRING = {"lubricant.shear_law": "eyring", "lubricant.eyring_stress": 5e6}
+THINNING: dict[str, tuple[Mapping[str, Any], Mapping[str, float]]] = {
+    "Eyring 5 MPa, SRR 0.5": (
+        TABLE_1 | EYRING | {"contact.slide_to_roll": 0.5},
+        {"h_c_m": 2.3628e-7, "h_min_m": 8.337e-8, "mu_smooth": 0.05700},
+    ),
+    "Carreau 0.1 MPa, n = 0.8, SRR 0.1": (
+        CARREAU | {"contact.slide_to_roll": 0.1},
+        {"h_c_m": 6.6841e-7, "h_min_m": 4.5041e-7, "mu_smooth": 0.005821},
+    ),
+    "Carreau 0.1 MPa, n = 0.8, SRR 0": (
+        CARREAU | {"contact.slide_to_roll": 0.0},
+        {"h_c_m": 6.6982e-7, "h_min_m": 4.5062e-7},
+    ),
+}
+POINTS = [
+    (m, ell) for m in (20.0, 50.0, 100.0, 200.0, 500.0, 1000.0, 2000.0) for ell in (5, 10, 15)
+]
+
+
+def solved(options: Mapping[str, Any], points: int) -> xr.Dataset:
+    """Solve a smooth contact; it must converge."""
+    ds = pyehl.solve(pyehl.Case.from_text("", dict(options) | {"grid.points": points}))
+    assert ds.attrs["status"] == "converged", (options, ds.attrs["status"])
+    return ds
+
+
+def table_of(path: Traversable) -> list[dict[str, str]]:
+    """Rows of a table with comments."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    return list(csv.DictReader(line for line in lines if not line.startswith("#")))
+
+
+def smooth() -> Iterator[tuple[Any, ...]]:
+    """Circles, limits of fine grids."""
+    for row in table_of(resources.files("pyehl") / "reproduce" / "data" / "smooth.csv"):
+        if not row["H_c_extrapolated"]:
+            continue
+        keys = [key for key in row if "." in key and key not in ("grid.points", "grid.border")]
+        options = {key: float(row[key]) for key in keys} | {"grid.border": "zero"}
+        ds = solved(options, 513)
+        case = f"M = {row['contact.moes_m']}, L = {row['contact.moes_l']}"
+        case += f", z = {row['lubricant.roelands_z']}"
+        for name in ("H_c", "H_min"):
+            ours, error = float(ds[f"{name}_extrapolated"]), float(ds[f"{name}_error"])
+            yield "circle", case, name, float(row[f"{name}_extrapolated"]), ours, error
+
+
+def ellipses() -> Iterator[tuple[Any, ...]]:
+    """Ellipses, limits of fine grids."""
+    for row in table_of(ELLIPSES):
+        if row["cells"] != "limit":
+            continue
+        keys = {name: float(row[name]) for name in ("moes_m", "moes_l", "radius_ratio")}
+        options = {f"contact.{name}": value for name, value in keys.items()}
+        options |= PLACE | {"grid.y_extent": float(row["y_extent"]), "lubricant.roelands_z": 0.6684}
+        ds = solved(options, 513)
+        case = f"M = {row['moes_m']}, L = {row['moes_l']}, κ = {row['kappa']}"
+        for name in ("H_c", "H_min"):
+            ours, error = float(ds[f"{name}_extrapolated"]), float(ds[f"{name}_error"])
+            yield "ellipse", case, name, float(row[name]), ours, error
+
+
+def waviness() -> Iterator[tuple[Any, ...]]:
+    """Waves that move, on the same grid and by the same scheme."""
+    for row in table_of(resources.files("pyehl") / "reproduce" / "data" / "waviness.csv"):
+        if int(row["grid.points"]) > 257:
+            continue
+        words = ("surface.kind", "time.scheme")
+        options: dict[str, Any] = {
+            key: row[key] if key in words else float(row[key])
+            for key in row
+            if "." in key and key != "grid.points"
+        }
+        options |= {"time.estimate_error": False}
+        ds = solved(options, int(row["grid.points"]))
+        case = f"{row['grid.points']}², {row['time.scheme']}, A = {row['surface.amplitude']}"
+        case += f", λ = {row['surface.wavelength']} a"
+        value = float(ds.mu_ratio)
+        yield "waviness", case, "mu_ratio", float(row["mu_ratio"]), value, ""
+
+
+def thinning() -> Iterator[tuple[Any, ...]]:
+    """Oils that thin in the flow, limits of fine grids."""
+    for case, (options, theirs) in THINNING.items():
+        # the film of Table 1 is a third as thick
+        grids = (129, 257) if "carreau" in str(options) else (257, 513)
+        coarse, fine = (solved(PLACE | options, points) for points in grids)
+        for name, value in theirs.items():
+            ours = (4.0 * float(fine[name]) - float(coarse[name])) / 3.0
+            yield "thinning", case, name, value, ours, ""
+
+
+def formulas() -> Iterator[tuple[Any, ...]]:
+    """Film formulas over the solution."""
+    for moes_m, moes_l in POINTS:
+        options = {"contact.moes_m": moes_m, "contact.moes_l": float(moes_l)}
+        ds = solved(options, 513)
+        point = OperatingPoint.from_moes(moes_m, float(moes_l))
+        for found in estimates(point, Lubricant()):
+            for name, value in (("H_c", found.h_c), ("H_min", found.h_min)):
+                if math.isfinite(value):
+                    ratio = value / point.film_scale / float(ds[f"{name}_extrapolated"])
+                    yield moes_m, moes_l, found.name, name, ratio, bool(found.outside)
+
+
+def write(path: Path, columns: tuple[str, ...], rows: Iterator[tuple[Any, ...]]) -> None:
+    """Write a table, numbers to six digits."""
+    with path.open("w", newline="", encoding="utf-8") as file:
+        out = csv.writer(file, lineterminator="\n")
+        out.writerow(columns)
+        for row in rows:
+            out.writerow([f"{v:.6g}" if isinstance(v, float) else v for v in row])
+            file.flush()
+
+
+def show() -> None:
+    """Print the tables and draw the picture."""
+    rows = table_of(HERE / "table.csv")
+    for group in ("circle", "ellipse", "waviness", "thinning"):
+        print(
+            f"\n{group}\n\n| case | quantity | other program | pyehl | deviation |"
+            "\n|---|---|---|---|---|"
+        )
+        for row in rows:
+            if row["group"] == group:
+                share = 100.0 * (float(row["ours"]) / float(row["theirs"]) - 1.0)
+                values = f"{float(row['theirs']):.5g} | {float(row['ours']):.5g} | {share:+.2f} %"
+                print(f"| {row['case']} | {row['quantity']} | {values} |")
+    rows = table_of(HERE / "formulas.csv")
+    mpl.rcParams["legend.fontsize"] = 7
+    figure, axes = plt.subplots(1, 2, figsize=(8.0, 3.6), layout="constrained", sharex=True)
+    names = sorted({row["formula"] for row in rows})
+    for ax, quantity in zip(axes, ("H_c", "H_min"), strict=True):
+        for color, name in zip(("#0072b2", "#d55e00", "#009e73"), names, strict=True):
+            for moes_l, marker in {"5": "o", "10": "s", "15": "^"}.items():
+                chosen = [
+                    row
+                    for row in rows
+                    if (row["formula"], row["quantity"], row["moes_l"]) == (name, quantity, moes_l)
+                ]
+                ax.plot(
+                    [float(row["moes_m"]) for row in chosen],
+                    [float(row["ratio"]) for row in chosen],
+                    marker=marker,
+                    color=color,
+                    label=f"{name}, L = {moes_l}",
+                    lw=1,
+                    ms=4,
+                )
+        ax.axhline(1.0, color="0.5", lw=0.8)
+        ax.set(xscale="log", xlabel="Moes M", ylabel=f"{quantity} by formula over pyehl")
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    figure.savefig(HERE / "validation.png", dpi=120)
+    print("\n| formula | quantity | M | least | largest |\n|---|---|---|---|---|")
+    for name in names:
+        for quantity in ("H_c", "H_min"):
+            for low, high in ((20.0, 100.0), (200.0, 2000.0)):
+                found = [
+                    float(row["ratio"])
+                    for row in rows
+                    if (row["formula"], row["quantity"]) == (name, quantity)
+                    and low <= float(row["moes_m"]) <= high
+                ]
+                if found:
+                    span = f"{min(found):.3f} | {max(found):.3f}"
+                    print(f"| {name} | {quantity} | {low:g} to {high:g} | {span} |")
+
+
+def all_rows() -> Iterator[tuple[Any, ...]]:
+    """Rows of table.csv."""
+    for rows in (smooth, ellipses, waviness, thinning):
+        yield from rows()
+
+
+if __name__ == "__main__":
+    if "show" not in sys.argv[1:]:
+        write(HERE / "table.csv", COLUMNS, all_rows())
+        write(HERE / "formulas.csv", FORMULA_COLUMNS, formulas())
+    show()

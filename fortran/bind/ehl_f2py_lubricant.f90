@@ -1,0 +1,52 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Lubricants for Python; for the rules see ehl_f2py_solver
+module ehl_f2py_lubricant
+   use, intrinsic :: iso_c_binding, only: c_double, c_int
+   use ehl_case, only: case_t
+   use ehl_case_law, only: make_lubricant
+   use ehl_group_reader, only: read_groups
+   use ehl_handles, only: reply
+   use ehl_keys, only: bind_keys
+   use ehl_lubricant, only: lubricant_t
+   use ehl_oils, only: oils_text
+   use ehl_schema, only: schema_t
+   use ehl_source, only: source_t
+   use ehl_status, only: status_t
+   implicit none (type, external)
+   private
+   public :: oils, properties
+
+contains
+
+   !> Oils by name, as ehl_oils has them
+   subroutine oils(text)
+      character(len=32768), intent(out) :: text
+
+      text = oils_text()
+   end subroutine oils
+
+   !> ln(eta/eta0) and rho/rho0 of a lubricant at pressures p [Pa] and rises of temperature over that of the inlet [K]; `group`
+   !> is &lubricant of a resolved case
+   subroutine properties(group, n, p, rise, log_viscosity, density, stat, message)
+      character(len=*), intent(in) :: group
+      integer(c_int), intent(in) :: n
+      real(c_double), intent(inout) :: p(n), rise(n), log_viscosity(n), density(n)
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(case_t), target :: input
+      type(schema_t) :: schema
+      type(lubricant_t) :: lubricant
+      type(status_t) :: status
+
+      call bind_keys(schema, input)
+      call read_groups(source_t("the lubricant", group//new_line("a")), schema, status)
+      ! a pressure of 1 Pa in place of the Hertz pressure
+      if (.not. status%failed()) call make_lubricant(input%lubricant, input%lubricant%pressure_viscosity, 1.0_c_double, &
+                                                     lubricant, status)
+      if (.not. status%failed()) then
+         call lubricant%log_viscosity_at(p, rise, log_viscosity)
+         call lubricant%density_at(p, rise, density)
+      end if
+      call reply(status, stat, message)
+   end subroutine properties
+end module ehl_f2py_lubricant

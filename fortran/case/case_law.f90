@@ -1,0 +1,120 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Laws of viscosity and density of a case that rest on constants of the oil, or on a table of measured values
+module ehl_case_law
+   use ehl_ambient_viscosity, only: ambient_viscosity_t
+   use ehl_case, only: lubricant_case_t
+   use ehl_density_law, only: density_law_t
+   use ehl_dicke, only: new_dicke
+   use ehl_heat, only: freezing, sheet_density
+   use ehl_kinds, only: dp
+   use ehl_lubricant, only: density_constant, density_dowson_higginson, lubricant_t, new_lubricant, viscosity_barus, &
+                            viscosity_roelands
+   use ehl_murnaghan, only: new_murnaghan
+   use ehl_oils, only: oil_named, oil_t
+   use ehl_status, only: ehl_bad_input, status_t
+   use ehl_text, only: newline, to_text
+   use ehl_viscosity_file, only: read_isotherms
+   use ehl_viscosity_law, only: viscosity_law_t
+   use ehl_viscosity_table, only: isotherm_t, new_viscosity_table, viscosity_table_t
+   use ehl_yasutomi, only: new_yasutomi
+   implicit none (type, external)
+   private
+   public :: make_lubricant, make_viscosity, own_law
+
+contains
+
+   !> The law that gives viscosity and pressure-viscosity coefficient at the inlet by itself: that of the table, of the oil or
+   !> of the key; '' where these are given
+   pure function own_law(l) result(law)
+      type(lubricant_case_t), intent(in) :: l
+      character(len=:), allocatable :: law
+      type(oil_t) :: oil
+
+      law = ""
+      if (l%table /= "") then
+         law = "table"
+      else if (l%name /= "") then
+         oil = oil_named(trim(l%name))
+         law = trim(oil%viscosity_law)
+      else if (l%viscosity_law /= "roelands" .and. l%viscosity_law /= "barus") then
+         law = trim(l%viscosity_law)
+      end if
+   end function own_law
+
+   !> Viscosity and density of a case in Hertz units; the shear law is left Newtonian
+   subroutine make_lubricant(l, alpha_bar, hertz_pressure, lubricant, status)
+      type(lubricant_case_t), intent(in) :: l
+      !> alpha p_h; [Pa], 0: constant viscosity and density
+      real(dp), intent(in) :: alpha_bar, hertz_pressure
+      type(lubricant_t), intent(out) :: lubricant
+      type(status_t), intent(inout) :: status
+      class(viscosity_law_t), allocatable :: law
+      real(dp) :: expansion
+
+      ! relative to the density at the inlet
+      expansion = l%thermal_expansion/(1.0_dp - l%thermal_expansion*(l%temperature - sheet_density))
+      lubricant = new_lubricant(merge(viscosity_barus, viscosity_roelands, l%viscosity_law == "barus"), &
+                                merge(density_constant, density_dowson_higginson, l%density_law == "incompressible"), &
+                                alpha_bar, hertz_pressure, l%roelands_z, l%roelands_p0, l%temperature_viscosity, expansion, &
+                                l%temperature + freezing)
+      if (.not. hertz_pressure > 0.0_dp) return
+      if (l%viscosity_law /= "barus" .and. l%viscosity_law /= "roelands") then
+         call make_viscosity(l, trim(l%viscosity_law), hertz_pressure, law, status)
+         call move_alloc(law, lubricant%viscosity)
+      end if
+      if (l%density_law == "murnaghan") then
+         deallocate (lubricant%compression)
+         allocate (lubricant%compression, source=new_murnaghan(l%murnaghan_modulus, l%murnaghan_rate, l%murnaghan_softening, &
+                                                               expansion, hertz_pressure, l%temperature + freezing))
+      end if
+   end subroutine make_lubricant
+
+   !> A law with constants of the oil, by name
+   subroutine make_viscosity(l, name, hertz_pressure, law, status)
+      type(lubricant_case_t), intent(in) :: l
+      character(len=*), intent(in) :: name
+      !> [Pa]
+      real(dp), intent(in) :: hertz_pressure
+      class(viscosity_law_t), allocatable, intent(out) :: law
+      type(status_t), intent(inout) :: status
+      type(isotherm_t), allocatable :: isotherms(:)
+      type(viscosity_table_t) :: table
+
+      select case (name)
+      case ("dicke")
+         allocate (law, source=new_dicke(ambient_of(l), [l%dicke_a1, l%dicke_a2], [l%dicke_b1, l%dicke_b2], hertz_pressure, &
+                                         l%temperature))
+      case ("yasutomi")
+         allocate (law, source=new_yasutomi(l%yasutomi_tg0, l%yasutomi_a1, l%yasutomi_a2, l%yasutomi_b1, l%yasutomi_b2, &
+                                            l%yasutomi_c1, l%yasutomi_c2, l%yasutomi_viscosity, hertz_pressure, &
+                                            l%temperature))
+      case default
+         call read_isotherms(trim(l%table), isotherms, status)
+         if (status%failed()) return
+         if (size(isotherms) == 1) call check_single(l, isotherms(1), status)
+         table = new_viscosity_table(isotherms, hertz_pressure, l%temperature + freezing, l%temperature_viscosity)
+         allocate (law, source=table)
+      end select
+   end subroutine make_viscosity
+
+   !> Viscosity at ambient pressure
+   pure function ambient_of(l) result(ambient)
+      type(lubricant_case_t), intent(in) :: l
+      type(ambient_viscosity_t) :: ambient
+
+      ambient = ambient_viscosity_t([l%vogel_viscosity, l%vogel_b, l%vogel_c], &
+                                    [l%kinematic_viscosity_40, l%kinematic_viscosity_100], l%density_15, l%thermal_expansion)
+   end function ambient_of
+
+   !> A table of a single temperature holds at that one
+   subroutine check_single(l, isotherm, status)
+      type(lubricant_case_t), intent(in) :: l
+      type(isotherm_t), intent(in) :: isotherm
+      type(status_t), intent(inout) :: status
+
+      if (abs(isotherm%temperature - l%temperature - freezing) <= 0.01_dp) return
+      call status%fail(ehl_bad_input, trim(l%table)//": error: the table has the single temperature "// &
+                       to_text(isotherm%temperature - freezing)//" degC, and lubricant.temperature = "// &
+                       to_text(l%temperature)//newline//"expected: that temperature, or a table of two or more")
+   end subroutine check_single
+end module ehl_case_law

@@ -1,0 +1,228 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Oils by name, and laws with constants of an oil: what follows from them, and what contradicts
+module ehl_case_oil
+   use ehl_case, only: case_t, path_length
+   use ehl_case_contact, only: find_contact
+   use ehl_case_law, only: make_viscosity, own_law
+   use ehl_contact, only: contact_t
+   use ehl_files, only: absolute_path, folder_of
+   use ehl_heat, only: freezing
+   use ehl_kinds, only: dp
+   use ehl_moes, only: operating_t
+   use ehl_oils, only: oil_named, oil_t
+   use ehl_refusal, only: contradict, refuse, short
+   use ehl_scales, only: scales_t
+   use ehl_schema, only: schema_t
+   use ehl_source, only: source_t
+   use ehl_status, only: status_t
+   use ehl_text, only: to_text
+   use ehl_viscosity_law, only: viscosity_law_t
+   use ehl_viscosity_table, only: isotherm_t, viscosity_table_t
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   implicit none (type, external)
+   private
+   public :: complete_oil, complete_law, check_law
+
+   !> Relative difference of values that is none
+   real(dp), parameter :: rounding = 1.0e-6_dp
+   !> Greatest pressure at which a law must tell a viscosity, over the Hertz pressure
+   real(dp), parameter :: beyond_hertz = 1.5_dp
+
+contains
+
+   !> Constants of an oil where their keys are not given; the name of the table made absolute
+   subroutine complete_oil(schema, input, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(inout) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+      type(oil_t) :: oil
+      character(len=:), allocatable :: path
+      real(dp), pointer :: value
+      integer :: k, place
+
+      oil = oil_named(trim(input%lubricant%name))
+      do k = 1, size(oil%constants)
+         place = schema%find("lubricant", trim(oil%constants(k)%key))
+         value => schema%keys(place)%real_value
+         if (.not. schema%keys(place)%given) value = oil%constants(k)%value
+      end do
+      if (.not. schema%given("lubricant", "viscosity_law") .and. own_law(input%lubricant) /= "") then
+         input%lubricant%viscosity_law = own_law(input%lubricant)
+      end if
+      if (input%lubricant%table == "") then
+         if (input%lubricant%viscosity_law == "table") call refuse(schema, sources, "lubricant", "viscosity_law", &
+            "lubricant.viscosity_law = 'table' without lubricant.table", "table = '...', a CSV of measured viscosities", status)
+         return
+      end if
+      path = trim(input%lubricant%table)
+      ! A name in the case file starts at the folder of that file, an option at the working one
+      if (path(1:1) /= "/" .and. schema%keys(schema%find("lubricant", "table"))%source == 1) then
+         path = folder_of(sources(1)%name)//path
+      end if
+      path = absolute_path(path)
+      if (len(path) > path_length) then
+         call refuse(schema, sources, "lubricant", "table", "lubricant.table: the full name is longer than "// &
+                     to_text(path_length)//" characters", "a shorter path", status)
+      else
+         input%lubricant%table = path
+      end if
+   end subroutine complete_oil
+
+   !> Viscosity, pressure-viscosity coefficient and fall with temperature at the inlet, from the law that tells them
+   subroutine complete_law(schema, input, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(inout) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+      class(viscosity_law_t), allocatable :: law
+      real(dp) :: alpha(1), level(1), at(2)
+      !> [K] the error of the difference is its square over some hundred K^2
+      real(dp), parameter :: step = 0.01_dp
+
+      if (own_law(input%lubricant) == "") return
+      call check_constants(schema, input, sources, status)
+      if (status%failed()) return
+      associate (l => input%lubricant)
+         ! a pressure of 1 Pa
+         call make_viscosity(l, own_law(l), 1.0_dp, law, status)
+         if (status%failed()) return
+         call law%log_viscosity([0.0_dp], level, alpha)
+         call law%log_viscosity_at([0.0_dp, 0.0_dp], [-step, step], at)
+         select type (law)
+         type is (viscosity_table_t)
+            call take_range(law%isotherms)
+         class default
+            continue
+         end select
+         call follow("viscosity", l%viscosity, law%ambient_viscosity)
+         call follow("pressure_viscosity", l%pressure_viscosity, alpha(1))
+         ! an own value is another slope of the temperature in the laws of Roelands and Barus, and that of a table of a single
+         ! temperature
+         if (.not. schema%given("lubricant", "temperature_viscosity")) l%temperature_viscosity = (at(1) - at(2))/(2.0_dp*step)
+      end associate
+
+   contains
+
+      !> The range of a table where its keys are not given
+      subroutine take_range(isotherms)
+         type(isotherm_t), intent(in) :: isotherms(:)
+         integer :: k
+
+         associate (l => input%lubricant, n => size(isotherms))
+            if (.not. schema%given("lubricant", "range_temperature_min")) then
+               l%range_temperature_min = isotherms(1)%temperature - freezing
+            end if
+            if (.not. schema%given("lubricant", "range_temperature_max")) then
+               l%range_temperature_max = isotherms(n)%temperature - freezing
+            end if
+            if (schema%given("lubricant", "range_pressure_max")) return
+            l%range_pressure_max = minval([(isotherms(k)%p(size(isotherms(k)%p)), k=1, n)])
+         end associate
+      end subroutine take_range
+
+      !> A value that follows: taken where its key is not given, else it must be the given one
+      subroutine follow(name, value, follows)
+         character(len=*), intent(in) :: name
+         real(dp), intent(inout) :: value
+         real(dp), intent(in) :: follows
+         character(len=:), allocatable :: by
+
+         by = law_key(schema)
+         associate (key => schema%keys(schema%find("lubricant", name)))
+            if (.not. key%given) then
+               value = follows
+               if (.not. key%allows(follows)) call refuse(schema, sources, "lubricant", by, "lubricant."//name//" = "// &
+                  short(follows)//" follows from lubricant."//by//" at "//to_text(input%lubricant%temperature)//" degC", &
+                  key%type_text(), status)
+            else if (abs(value - follows) > rounding*follows) then
+               call contradict(schema, sources, "lubricant."//name, "lubricant."//by, name//", or the law that tells it", &
+                  status, "lubricant."//name//" = "//to_text(value)//", and the law gives "//short(follows)//" at "// &
+                  to_text(input%lubricant%temperature)//" degC")
+            end if
+         end associate
+      end subroutine follow
+   end subroutine complete_law
+
+   !> The key that asks for the law
+   function law_key(schema) result(name)
+      type(schema_t), intent(in) :: schema
+      character(len=:), allocatable :: name
+
+      name = "viscosity_law"
+      if (schema%given("lubricant", "name")) name = "name"
+      if (schema%given("lubricant", "table")) name = "table"
+   end function law_key
+
+   !> The constants that a law needs
+   subroutine check_constants(schema, input, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(in) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+      character(len=:), allocatable :: missing, expected
+
+      missing = ""
+      associate (l => input%lubricant)
+         select case (own_law(l))
+         case ("dicke")
+            expected = "vogel_viscosity, vogel_b and vogel_c, or kinematic_viscosity_40 and kinematic_viscosity_100; "// &
+                       "dicke_a1, dicke_a2, dicke_b1 and dicke_b2 with a1 + a2 theta above 0"
+            if (.not. (l%kinematic_viscosity_40 > 0.0_dp .or. (l%vogel_viscosity > 0.0_dp .and. &
+                l%temperature + l%vogel_c > 0.0_dp))) missing = "the viscosity at ambient pressure"
+            if (.not. l%dicke_a1 + l%dicke_a2*l%temperature > 0.0_dp) missing = "a positive a1 + a2 theta"
+         case ("yasutomi")
+            expected = "yasutomi_tg0, yasutomi_a1, yasutomi_a2, yasutomi_b1, yasutomi_b2, yasutomi_c1 and yasutomi_c2"
+            if (.not. (l%yasutomi_a1*l%yasutomi_a2*l%yasutomi_c1*l%yasutomi_c2 > 0.0_dp)) missing = "all of its constants"
+         case default
+            return
+         end select
+         if (missing /= "") call refuse(schema, sources, "lubricant", law_key(schema), "lubricant.viscosity_law = '"// &
+                                        own_law(l)//"' without "//missing, expected, status)
+      end associate
+   end subroutine check_constants
+
+   !> The law must tell a viscosity over all pressures of the contact, the density its constants
+   subroutine check_law(schema, input, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(in) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+      class(viscosity_law_t), allocatable :: law
+      class(contact_t), allocatable :: contact
+      type(scales_t) :: scales
+      type(operating_t) :: point
+      integer, parameter :: n = 300
+      real(dp), dimension(0:n) :: p, values, slope
+      integer :: k
+
+      associate (l => input%lubricant)
+         if (l%density_law == "murnaghan" .and. .not. l%murnaghan_modulus*l%murnaghan_rate > 0.0_dp) then
+            call refuse(schema, sources, "lubricant", "density_law", "lubricant.density_law = 'murnaghan' without its constants", &
+                        "murnaghan_modulus, murnaghan_rate and murnaghan_softening", status)
+         end if
+         if (l%range_temperature_max < l%range_temperature_min) then
+            call refuse(schema, sources, "lubricant", "range_temperature_max", "lubricant.range_temperature_max = "// &
+               to_text(l%range_temperature_max)//" below range_temperature_min = "//to_text(l%range_temperature_min), &
+               "a range of temperatures, or both 0", status)
+         end if
+         if (status%failed() .or. l%viscosity_law == "roelands" .or. l%viscosity_law == "barus") return
+         call find_contact(input, contact, scales, point)
+         if (.not. scales%pressure > 0.0_dp) return
+         call make_viscosity(l, trim(l%viscosity_law), scales%pressure, law, status)
+         if (status%failed()) return
+         p = beyond_hertz*[(real(k, dp), k=0, n)]/n
+         call law%log_viscosity(p, values, slope)
+         do k = 1, n
+            if (ieee_is_finite(values(k))) then
+               if (values(k) > values(k - 1)) cycle
+            end if
+            call refuse(schema, sources, "lubricant", law_key(schema), "the law '"//trim(l%viscosity_law)// &
+               "' has no viscosity that rises with pressure at "//short(p(k)*scales%pressure)//" Pa and "// &
+               to_text(l%temperature)//" degC, and the Hertz pressure is "//short(scales%pressure)//" Pa", &
+               "a law that tells the viscosity up to 1.5 times the Hertz pressure, or a lower load", status)
+            return
+         end do
+      end associate
+   end subroutine check_law
+end module ehl_case_oil

@@ -1,0 +1,117 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Temperature of two walls that move through the heat of a contact, row by row along the motion, and of the film between
+!> them
+!>
+!> A wall of conductivity k [W/(m K)] and diffusivity kappa [m^2/s] that moves at u [m/s] under the heat q(x) [W/m^2]:
+!>
+!>    rise(x) = 1/k sqrt(kappa/(pi u)) int q(x')/sqrt(x - x') dx',   x' < x                                            (1)
+!>
+!> (Carslaw & Jaeger 1959, section 10.7), exact where u a/(2 kappa) is large: the heat flows straight down. Where it is not
+!> u is raised by a constant times kappa/a, such that a wall at rest becomes as hot as it does under a Hertz contact; the
+!> squares of the inverse rises add up, as in Tian & Kennedy 1994, J. Tribol. 116, 167. The heat is constant over each cell
+!> of a row, and integrated exactly.
+!>
+!> Of the heat q = q_1 + q_2 that the film makes evenly across its thickness h wall 1 takes
+!>
+!>    q_1 = q/2 + k_f (T_2 - T_1)/h                                                                                    (2)
+!>
+!> and the mean across the film of conductivity k_f is (T_1 + T_2)/2 + q h/(12 k_f).
+module ehl_wall_heat
+   use ehl_contact, only: contact_t
+   use ehl_kinds, only: dp, pi
+   implicit none (type, external)
+   private
+   public :: wall_heat_t, wall_strength, speed_of_rest, share_t
+
+   !> Largest over s of int sqrt(1 - x^2)/sqrt(s - x) dx, x from -1 to s
+   real(dp), parameter :: fast_integral = 2.18830_dp
+
+   !> A row of equidistant nodes between two walls
+   type :: wall_heat_t
+      !> Rise of each wall at a node by unit heat of its own cell [K m^2/W]
+      real(dp) :: own(2) = 0.0_dp
+      !> The same of the cells upstream over that of the own one, the farthest first: of the cell m nodes upstream in
+      !> place n - m
+      real(dp), allocatable :: upstream(:)
+   contains
+      procedure :: start
+      procedure :: history
+      procedure :: share
+   end type wall_heat_t
+
+   !> What heat q [W/m^2] of a cell does there, all linear in q: value = at(1) + at(2) q
+   type :: share_t
+      !> Heat into wall 1 less that into wall 2 [W/m^2], mean rise across the film [K]
+      real(dp) :: difference(2) = 0.0_dp, film(2) = 0.0_dp
+   end type share_t
+
+contains
+
+   !> 1/k sqrt(kappa/(pi u)) of a wall [K m^(3/2)/W], `rest` that of speed_of_rest, length a [m]
+   pure real(dp) function wall_strength(speed, conductivity, diffusivity, rest, length)
+      real(dp), intent(in) :: speed, conductivity, diffusivity, rest, length
+      wall_strength = sqrt(diffusivity/(pi*(abs(speed) + rest*diffusivity/length)))/conductivity
+   end function wall_strength
+
+   !> Speed over kappa/a at which (1) makes the greatest rise of a wall at rest under a semi-ellipse of heat, whose rise is
+   !> a q l/(2 pi k), l = iint P/r in the centre; about 2.47 for a circle
+   pure real(dp) function speed_of_rest(contact)
+      class(contact_t), intent(in) :: contact
+      real(dp) :: potential, pressure(1), x, half
+
+      potential = -contact%dry_separation()/contact%kernel_factor()
+      ! half the length of the contact along the motion, through its centre
+      x = 0.5_dp*min(1.0_dp, contact%ellipticity)
+      call contact%pressure_row([x], 0.0_dp, pressure)
+      half = x/sqrt(1.0_dp - pressure(1)**2)
+      speed_of_rest = half*(2.0_dp*pi*fast_integral/potential)**2/pi
+   end function speed_of_rest
+
+   !> Prepare a row of n nodes a step [m] apart, between walls of these strengths
+   pure subroutine start(self, n, step, strengths)
+      class(wall_heat_t), intent(inout) :: self
+      integer, intent(in) :: n
+      real(dp), intent(in) :: step, strengths(2)
+      integer :: m
+
+      self%own = 2.0_dp*strengths*sqrt(0.5_dp*step)
+      if (allocated(self%upstream)) deallocate (self%upstream)
+      allocate (self%upstream(n - 1))
+      do m = 1, n - 1
+         self%upstream(n - m) = sqrt(2.0_dp*m + 1.0_dp) - sqrt(2.0_dp*m - 1.0_dp)
+      end do
+   end subroutine start
+
+   !> Rise [K] at node i by the heat into a wall [W/m^2] of the nodes from `first` to `last`, which are upstream of it
+   pure real(dp) function history(self, wall, heat, first, last, i)
+      class(wall_heat_t), intent(in) :: self
+      integer, intent(in) :: wall, first, last, i
+      real(dp), intent(in) :: heat(:)
+      real(dp) :: total
+      integer :: shift, k
+
+      shift = size(self%upstream) + 1 - i
+      total = 0.0_dp
+      !$omp simd reduction(+:total)
+      do k = first, last
+         total = total + self%upstream(shift + k)*heat(k)
+      end do
+      history = self%own(wall)*total
+   end function history
+
+   !> What the heat of a cell does, with the rises of the walls that it has from upstream [K], its film h [m] of
+   !> conductivity k_f [W/(m K)]
+   pure type(share_t) function share(self, before, film, conductivity)
+      class(wall_heat_t), intent(in) :: self
+      real(dp), intent(in) :: before(2), film, conductivity
+      real(dp) :: g, divisor
+
+      g = 2.0_dp*conductivity/film
+      divisor = 1.0_dp + 0.5_dp*g*sum(self%own)
+      associate (own => self%own)
+         share%difference = g*[before(2) - before(1), 0.5_dp*(own(2) - own(1))]/divisor
+         share%film = 0.25_dp*(own(1) - own(2))*share%difference + &
+                      [0.5_dp*sum(before), 0.25_dp*sum(own) + film/(12.0_dp*conductivity)]
+      end associate
+   end function share
+end module ehl_wall_heat

@@ -1,0 +1,32 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Viscosity at ambient pressure over temperature: from the two kinematic viscosities of a data sheet, or by Vogel 1921,
+!> eta = K exp(B/(theta + C))
+module ehl_ambient_viscosity
+   use ehl_heat, only: dynamic_viscosity
+   use ehl_kinds, only: dp
+   implicit none (type, external)
+   private
+   public :: ambient_viscosity_t
+
+   !> Constants of Vogel: K [Pa s], B [K], C [degC]; the data sheet, which rules where it is given: [mm^2/s] at 40 and 100 degC,
+   !> density at 15 degC [kg/m^3], thermal expansion [1/K]
+   type :: ambient_viscosity_t
+      real(dp) :: vogel(3) = 0.0_dp, sheet(2) = 0.0_dp, density = 0.0_dp, expansion = 0.0_dp
+   contains
+      procedure :: log_viscosity
+   end type ambient_viscosity_t
+
+contains
+
+   !> ln(eta/Pa s) at a temperature [degC]
+   pure real(dp) function log_viscosity(self, temperature)
+      class(ambient_viscosity_t), intent(in) :: self
+      real(dp), intent(in) :: temperature
+
+      if (self%sheet(1) > 0.0_dp) then
+         log_viscosity = log(dynamic_viscosity(temperature, self%sheet, self%density, self%expansion))
+      else
+         log_viscosity = log(self%vogel(1)) + self%vogel(2)/(temperature + self%vogel(3))
+      end if
+   end function log_viscosity
+end module ehl_ambient_viscosity

@@ -1,0 +1,66 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Density by Murnaghan 1944:
+!>
+!>    rho/rho(T) = (1 + K0' p/K0)^(1/K0'),   K0 = K00 exp(-beta_K T) with T in K
+!>
+!> under pressure, linear with temperature at ambient pressure
+module ehl_murnaghan
+   use ehl_density_law, only: density_law_t
+   use ehl_kinds, only: dp
+   implicit none (type, external)
+   private
+   public :: murnaghan_t, new_murnaghan
+
+   type, extends(density_law_t) :: murnaghan_t
+      private
+      !> K0' and, at the temperature of the inlet, K0/p_h
+      real(dp) :: rate = 1.0_dp, modulus = 1.0_dp
+      !> beta_K and relative fall of the density with temperature [1/K]
+      real(dp) :: softening = 0.0_dp, expansion = 0.0_dp
+   contains
+      procedure :: density
+      procedure :: density_at
+   end type murnaghan_t
+
+contains
+
+   !> The law by K00 [Pa], K0', beta_K [1/K], the thermal expansion [1/K], the Hertz pressure [Pa] and the temperature of the
+   !> inlet [K]
+   pure function new_murnaghan(modulus, rate, softening, expansion, hertz_pressure, temperature) result(law)
+      real(dp), intent(in) :: modulus, rate, softening, expansion, hertz_pressure, temperature
+      type(murnaghan_t) :: law
+
+      law%rate = rate
+      law%softening = softening
+      law%expansion = expansion
+      law%modulus = modulus*exp(-softening*temperature)/hertz_pressure
+   end function new_murnaghan
+
+   !> rho/rho0 at the temperature of the inlet, and its slope
+   pure subroutine density(self, p, rho, slope)
+      class(murnaghan_t), intent(in) :: self
+      real(dp), intent(in) :: p(:)
+      real(dp), intent(out) :: rho(:), slope(:)
+      real(dp) :: stiffer
+      integer :: i
+
+      do i = 1, size(p)
+         stiffer = 1.0_dp + self%rate*p(i)/self%modulus
+         rho(i) = exp(log(stiffer)/self%rate)
+         slope(i) = rho(i)/(stiffer*self%modulus)
+      end do
+   end subroutine density
+
+   !> rho/rho0 at rises of temperature [K]
+   pure subroutine density_at(self, p, rise, rho)
+      class(murnaghan_t), intent(in) :: self
+      real(dp), intent(in) :: p(:), rise(:)
+      real(dp), intent(out) :: rho(:)
+      integer :: i
+
+      do i = 1, size(p)
+         rho(i) = exp(log(1.0_dp + self%rate*p(i)/(self%modulus*exp(-self%softening*rise(i))))/self%rate) &
+                  *(1.0_dp - self%expansion*rise(i))
+      end do
+   end subroutine density_at
+end module ehl_murnaghan

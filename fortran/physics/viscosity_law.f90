@@ -1,0 +1,39 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What every law of viscosity under pressure and temperature can tell, row by row: the law is chosen once per row, and
+!> the loops of the laws vectorise
+module ehl_viscosity_law
+   use ehl_kinds, only: dp
+   implicit none (type, external)
+   private
+   public :: viscosity_law_t
+
+   !> Viscosity over eta0, that at ambient pressure and the temperature of the inlet
+   type, abstract :: viscosity_law_t
+      !> [Pa s] eta0, of laws that tell it
+      real(dp) :: ambient_viscosity = 0.0_dp
+   contains
+      procedure(log_viscosity), deferred :: log_viscosity
+      procedure(log_viscosity_at), deferred :: log_viscosity_at
+   end type viscosity_law_t
+
+   abstract interface
+      !> ln(eta/eta0) at pressures p over the Hertz pressure and the temperature of the inlet, and its slope in p
+      pure subroutine log_viscosity(self, p, values, slope)
+         import :: dp, viscosity_law_t
+         implicit none (type, external)
+         class(viscosity_law_t), intent(in) :: self
+         real(dp), intent(in) :: p(:)
+         real(dp), intent(out) :: values(:), slope(:)
+      end subroutine log_viscosity
+
+      !> ln(eta/eta0) at pressures p over the Hertz pressure and rises of temperature over that of the inlet [K]; without
+      !> a rise the values of log_viscosity, bit by bit
+      pure subroutine log_viscosity_at(self, p, rise, values)
+         import :: dp, viscosity_law_t
+         implicit none (type, external)
+         class(viscosity_law_t), intent(in) :: self
+         real(dp), intent(in) :: p(:), rise(:)
+         real(dp), intent(out) :: values(:)
+      end subroutine log_viscosity_at
+   end interface
+end module ehl_viscosity_law

@@ -1,0 +1,47 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> The heat of friction in a run: of the smooth contact, and of the rough one at its end and in some of its steps
+submodule (ehl_contact_run) ehl_contact_heat
+   use ehl_heated_friction, only: heat_film
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+   implicit none (type, external)
+
+   !> Steps in a period after which it is computed: what the heat takes from the friction changes slowly
+   integer, parameter :: samples = 32
+
+contains
+
+   module procedure add_heat
+      associate (level => self%hierarchy%levels(n))
+         call heat_film(self%plan%heat%film, level%grid, level%lubricant, level%p, level%h, keep, level%threads, found, &
+                        level%flow, level%rho)
+      end associate
+   end procedure add_heat
+
+   module procedure step_heat
+      type(heated_t) :: found
+
+      step_heat = ieee_value(step_heat, ieee_quiet_nan)
+      associate (mean => self%transient%mean)
+         if (mod(self%transient%step, max(1, nint(mean%period/(samples*mean%time_step)))) > 0) return
+      end associate
+      call add_heat(self, self%steady%n, .false., found)
+      step_heat = found%ratio()
+   end procedure step_heat
+
+   module procedure heat_ratio
+      real(dp), allocatable :: ratio(:), isothermal(:)
+
+      heat_ratio = ieee_value(heat_ratio, ieee_quiet_nan)
+      if (self%resting) then
+         heat_ratio = self%rough_heat%ratio()
+         return
+      end if
+      ratio = self%history%column("heat_ratio")
+      isothermal = self%history%column("mu_ratio")
+      associate (first => self%transient%mean%first_of_mean())
+         associate (there => ieee_is_finite(ratio(first:)))
+            if (any(there)) heat_ratio = sum(ratio(first:)*isothermal(first:), mask=there)/sum(isothermal(first:), mask=there)
+         end associate
+      end associate
+   end procedure heat_ratio
+end submodule ehl_contact_heat

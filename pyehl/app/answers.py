@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is computed for a position: the film on a grid, the prediction, a curve."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pyehl import api
+from pyehl.app.position import Position
+from pyehl.app.worker import Ticket
+from pyehl.errors import EhlError, InputError
+from pyehl.prediction.result import Prediction
+from pyehl.solver import Solver
+from pyehl.theory.operating import OperatingPoint
+
+__all__ = [
+    "COARSE",
+    "CURVES",
+    "FINE",
+    "CurvePoint",
+    "Film",
+    "Rough",
+    "curve",
+    "film",
+    "follow",
+    "places",
+    "rough",
+]
+
+Array = NDArray[np.float64]
+
+COARSE, FINE = 129, (257, 513)
+"""Nodes a side while a knob moves, and when it rests."""
+REST = 0.2
+"""A knob that has not been turned for so long rests [s]."""
+CURVES = {"mean velocity": "velocity", "slide-to-roll ratio": "slide_to_roll"}
+
+
+@dataclass(frozen=True, slots=True)
+class Film:
+    """The smooth contact on a grid; arrays are empty where there is no solution."""
+
+    points: int
+    summary: Mapping[str, Any]
+    point: OperatingPoint
+    sheet: Mapping[str, Any]  # film formulas
+    # x (nx,), y (ny,) [a]; pressure, film (nx, ny) in Hertz units
+    x: Array = field(repr=False)
+    y: Array = field(repr=False)
+    pressure: Array = field(repr=False)
+    film: Array = field(repr=False)
+
+    @property
+    def converged(self) -> bool:
+        """Whether it is a solution."""
+        return self.summary["status"] == "converged"
+
+
+@dataclass(frozen=True, slots=True)
+class Rough:
+    """The rough contact: a prediction, or why there is none."""
+
+    prediction: Prediction | None
+    why: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class CurvePoint:
+    """One point of a curve; NaN where there is no number."""
+
+    place: float
+    h_c: float = math.nan  # [m]
+    h_c_error: float = math.nan  # [m]
+    mu_ratio: float = math.nan
+    mu_ratio_error: float = math.nan
+    status: str = ""
+
+
+def film(position: Position, points: int, wanted: Callable[[], bool]) -> Film | None:
+    """Solve the smooth contact; None if it is not wanted any more.
+
+    InputError if the case is not acceptable.
+    """
+    case = position.case(points, smooth=True)
+    settings = case.resolve()
+    try:
+        sheet = api.film(case)
+    except InputError as error:
+        # a turned ellipse
+        sheet = {"formulas": [], "why": str(error)}
+    with Solver(case) as solver:
+        while not solver.done:
+            if not wanted():
+                return None
+            solver.advance()
+        summary = solver.summary()
+        empty = np.zeros((0, 0))
+        arrays = (np.zeros(0), np.zeros(0), empty, empty)
+        if solver.converged:
+            arrays = (*solver.axes(), solver.field("P"), solver.field("H"))
+    return Film(points, summary, OperatingPoint.from_settings(settings), sheet, *arrays)
+
+
+def rough(position: Position) -> Rough:
+    """Predict the rough contact, or say why it cannot be."""
+    try:
+        return Rough(api.predict(position.case(FINE[0])))
+    except (EhlError, OSError) as error:
+        return Rough(None, str(error))
+
+
+def follow(position: Position) -> Callable[[Ticket], None]:
+    """Give the job of a position: coarse at once, the rest when the knob rests."""
+
+    def job(ticket: Ticket) -> None:
+        found = film(position, COARSE, ticket.wanted)
+        if found is None:
+            return
+        ticket.tell(found)
+        if position.rough and ticket.newest():
+            ticket.tell(rough(position))
+        if not ticket.rest(REST):
+            return
+        for points in FINE:
+            found = film(position, points, ticket.newest)
+            if found is None:
+                return
+            ticket.tell(found)
+
+    return job
+
+
+def places(position: Position, over: str, count: int) -> list[float]:
+    """Values of a knob for a curve, around where it stands: a decade of speed, or 0 to 2."""
+    if over == "slide_to_roll":
+        return [float(f"{value:.3g}") for value in np.linspace(0.0, 1.8, count)]
+    middle = float(position.values[over])
+    ends = math.log10(middle / 4.0), math.log10(middle * 4.0)
+    return [float(f"{value:.3g}") for value in np.logspace(*ends, count)]
+
+
+def curve(
+    position: Position,
+    over: str,
+    values: Sequence[float],
+    wanted: Callable[[], bool],
+    points: int = COARSE,
+) -> Iterator[list[CurvePoint]]:
+    """Compute a curve over a knob; yields all points so far, until it is not wanted any more."""
+    found: list[CurvePoint] = []
+    for value in values:
+        made = _curve_point(position.turned(over, value), value, wanted, points)
+        if made is None:
+            return
+        found.append(made)
+        yield list(found)
+
+
+def _curve_point(
+    here: Position, value: float, wanted: Callable[[], bool], points: int
+) -> CurvePoint | None:
+    try:
+        solved = film(here, points, wanted)
+    except InputError as error:
+        return CurvePoint(value, status=str(error))
+    if solved is None:
+        return None
+    status = str(solved.summary["status"])
+    if not solved.converged:
+        return CurvePoint(value, status=status)
+    known = solved.summary["H_c_error"]
+    h_c = float(solved.summary["h_c_m"])
+    h_c_error = math.nan if known is None else float(known) * solved.point.film_scale
+    if not here.rough:
+        return CurvePoint(value, h_c, h_c_error, status=status)
+    answer = rough(here)
+    made = answer.prediction
+    if made is None:
+        return CurvePoint(value, h_c, h_c_error, status=answer.why)
+    status = made.friction.status
+    return CurvePoint(value, h_c, h_c_error, made.mu_ratio, made.model_error, status)

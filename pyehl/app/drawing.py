@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Fields as what a page draws: colours, levels, lines, in mm, nm and GPa."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import contourpy
+import numpy as np
+import scipy
+from numpy.typing import NDArray
+
+from pyehl.app.answers import Film
+from pyehl.plots.contact import fringe_colours, fringe_spacings
+from pyehl.plots.style import Scales
+from pyehl.prediction.result import Prediction
+
+__all__ = ["Map", "centre_lines", "contour_lines", "film_map", "octaves", "outline", "tiles"]
+
+Array = NDArray[np.float64]
+
+VIEW = 1.3
+# Pixels a side of the fringes
+PIXELS = 300
+LEVELS = 20
+
+
+class Map(NamedTuple):
+    """The film around the contact: colours (n, m) as RGBA, film (n, m) [nm], edges [mm]."""
+
+    colours: NDArray[np.uint32]
+    film: Array
+    left: float
+    bottom: float
+    width: float
+    height: float
+    x: Array
+    y: Array
+    caption: str
+
+
+def film_map(found: Film) -> Map:
+    """Film of a solution as two-colour fringes and as numbers; rows across the motion."""
+    a, b = 1.0, found.point.ellipse.ellipticity
+    inside_x, inside_y = np.abs(found.x) <= VIEW * a, np.abs(found.y) <= VIEW * b
+    film = found.film[np.ix_(inside_x, inside_y)] * found.point.film_scale * 1e9
+    x = found.x[inside_x] * found.point.hertz_radius * 1e3
+    y = found.y[inside_y] * found.point.hertz_radius * 1e3
+    middle = int(np.argmin(np.abs(x))), int(np.argmin(np.abs(y)))
+    central = float(film[middle]) * 1e-3
+    point = found.point
+    scales = Scales(point.hertz_radius, point.hertz_pressure, point.film_scale)
+    red, green, caption = fringe_spacings(central, scales)
+    factor = max(1, round(PIXELS / max(film.shape)))
+    fine = scipy.ndimage.zoom(film * 1e-3, factor, order=1, grid_mode=True, mode="nearest")
+    colours = (255.0 * fringe_colours(fine, red, green)).round().astype(np.uint8)
+    rgba = np.full((*colours.shape[:2], 4), 255, dtype=np.uint8)
+    rgba[..., :3] = colours
+    packed = np.ascontiguousarray(rgba.transpose(1, 0, 2)).view(np.uint32)[..., 0]
+    step_x, step_y = x[1] - x[0], y[1] - y[0]
+    return Map(
+        packed,
+        np.ascontiguousarray(film.T),
+        float(x[0] - 0.5 * step_x),
+        float(y[0] - 0.5 * step_y),
+        float(x[-1] - x[0] + step_x),
+        float(y[-1] - y[0] + step_y),
+        x,
+        y,
+        caption.replace(r"$\Delta h$ [$\mu$m]", "Δh [µm]"),
+    )
+
+
+def contour_lines(made: Map) -> tuple[list[Array], list[Array], list[float]]:
+    """Lines of equal film: x, y [mm] and the film [nm] of each."""
+    central = float(made.film[made.y.size // 2, made.x.size // 2])
+    low = float(made.film.min())
+    step = _round((1.6 * central - low) / LEVELS)
+    levels = step * np.arange(math.ceil(low / step), math.floor(1.6 * central / step) + 1)
+    generator = contourpy.contour_generator(made.x, made.y, made.film, name="serial")
+    xs, ys, films = [], [], []
+    for level in levels:
+        for line in map(np.asarray, generator.lines(float(level))):
+            xs.append(line[:, 0])
+            ys.append(line[:, 1])
+            films.append(float(level))
+    return xs, ys, films
+
+
+def _round(value: float) -> float:
+    """Give the 1, 2 or 5 times a power of ten nearest above."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return next(s * power for s in (1.0, 2.0, 5.0, 10.0) if s * power >= value * (1 - 1e-12))
+
+
+def centre_lines(found: Film) -> dict[str, dict[str, Array]]:
+    """Pressure [GPa], film [nm] and Hertz pressure on the lines through the centre, over mm."""
+    i, j = int(np.argmin(np.abs(found.x))), int(np.argmin(np.abs(found.y)))
+    point = found.point
+    lines = {}
+    for name, axis, half, pressure, film in (
+        ("x", found.x, 1.0, found.pressure[:, j], found.film[:, j]),
+        ("y", found.y, point.ellipse.ellipticity, found.pressure[i, :], found.film[i, :]),
+    ):
+        dry = np.sqrt(np.maximum(0.0, 1.0 - (axis / half) ** 2))
+        lines[name] = {
+            "place": axis * point.hertz_radius * 1e3,
+            "pressure": pressure * point.hertz_pressure * 1e-9,
+            "hertz": dry * point.hertz_pressure * 1e-9,
+            "film": film * point.film_scale * 1e9,
+        }
+    return lines
+
+
+def outline(found: Film) -> tuple[Array, Array]:
+    """Edge of the dry contact [mm]."""
+    angle = np.linspace(0.0, 2.0 * np.pi, 181)
+    a, b = found.point.hertz_radius * 1e3, found.point.semi_axis_y * 1e3
+    turn = math.radians(float(found.summary.get("angle_deg") or 0.0))
+    along, across = a * np.cos(angle), b * np.sin(angle)
+    c, s = math.cos(turn), math.sin(turn)
+    return c * along - s * across, s * along + c * across
+
+
+def tiles(made: Prediction) -> tuple[Array, Array, float, float, float]:
+    """Roughness before and in the contact (n, m) [nm], sizes [mm], largest of the scale [nm]."""
+    before = np.ascontiguousarray(made.surface.heights.T) * 1e9
+    after = np.ascontiguousarray(made.friction.response.deformed.T) * 1e9
+    most = max(1e-9, float(np.abs(before - before.mean()).max()))
+    size = made.surface.length_x * 1e3, made.surface.length_y * 1e3
+    return before - before.mean(), after - after.mean(), *size, most
+
+
+def octaves(made: Prediction) -> dict[str, list[float]]:
+    """Octaves of wavelengths [µm], and what each adds to mu_r/mu_s."""
+    bands = [band for band in made.bands if math.isfinite(band.rise)]
+    return {
+        "left": [band.shortest * 1e6 for band in bands],
+        "right": [band.longest * 1e6 for band in bands],
+        "rise": [band.rise for band in bands],
+    }

@@ -1,0 +1,268 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The pictures of the page, and how answers get into them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from bokeh.models import (
+    ColorBar,
+    ColumnDataSource,
+    HoverTool,
+    LinearAxis,
+    LinearColorMapper,
+    Range1d,
+    Whisker,
+)
+from bokeh.palettes import PuOr11, Viridis256
+from bokeh.plotting import figure
+from numpy.typing import NDArray
+
+from pyehl.app import drawing
+from pyehl.app.answers import CurvePoint, Film, Rough
+from pyehl.plots.style import BLUE, GREEN, GREY, VERMILLION
+
+__all__ = ["Pictures"]
+
+SIDE = 310
+TOOLS = "save,reset,wheel_zoom,pan"
+WHITE = "#ffffff"
+
+
+def _figure(title: str, x: str, y: str, **more: Any) -> Any:  # noqa: ANN401 (Bokeh has no types)
+    words: dict[str, Any] = {
+        "width": SIDE,
+        "height": SIDE,
+        "tools": "save,reset,wheel_zoom,pan",
+        **more,
+    }
+    made = figure(title=title, x_axis_label=x, y_axis_label=y, **words)
+    made.toolbar.autohide = True
+    made.title.text_font_size = "9pt"
+    return made
+
+
+def _map(title: str, **more: Any) -> Any:  # noqa: ANN401
+    ranges = {"x_range": Range1d(-1, 1), "y_range": Range1d(-1, 1)}
+    return _figure(title, "x [mm]", "y [mm]", match_aspect=True, **ranges, **more)
+
+
+class Pictures:
+    """Figures by what they show, and their sources."""
+
+    def __init__(self) -> None:
+        empty: dict[str, list[float]] = {"x": [], "y": [], "dw": [], "dh": []}
+        self.film = ColumnDataSource({"colours": [], "film": [], **empty})
+        self.contours = ColumnDataSource({"xs": [], "ys": [], "film": []})
+        self.edge = ColumnDataSource({"x": [], "y": []})
+        columns: dict[str, list[float]] = {"place": [], "pressure": [], "hertz": [], "film": []}
+        self.lines = {name: ColumnDataSource(columns) for name in "xy"}
+        self.tiles = ColumnDataSource({"before": [], "after": [], **empty})
+        self.octaves = ColumnDataSource({"left": [], "right": [], "rise": []})
+        self.passage = ColumnDataSource({"shift": [], "ratio": []})
+        names = ("place", "value", "low", "high", "status")
+        self.curve = {name: ColumnDataSource({n: [] for n in names}) for name in ("film", "ratio")}
+        self.levels = LinearColorMapper(palette=Viridis256, high_color=WHITE)
+        self.heights = LinearColorMapper(palette=PuOr11)
+        self.fringes, self.contour = self._film_maps()
+        self.along, self.across = (self._line(name) for name in "xy")
+        self.before, self.after = self._tile_maps()
+        self.bands, self.over = self._friction()
+        self.curves = [self._curve("film", "h_c [nm]"), self._curve("ratio", "μ_r/μ_s")]
+
+    def _film_maps(self) -> tuple[Any, Any]:
+        """Fringes and contours of the film."""
+        place = {"x": "x", "y": "y", "dw": "dw", "dh": "dh"}
+        fringes = _map("")
+        fringes.xaxis[0].axis_label = "x [mm], motion →"
+        fringes.image_rgba("colours", source=self.film, **place)
+        contour = _figure(
+            "film h [nm]", "x [mm]", "y [mm]", match_aspect=True, width=SIDE + 60,
+            x_range=fringes.x_range, y_range=fringes.y_range,
+        )  # fmt: skip
+        contour.image("film", source=self.film, color_mapper=self.levels, **place)
+        contour.multi_line("xs", "ys", source=self.contours, line_color="black", line_alpha=0.5)
+        contour.add_tools(HoverTool(tooltips=[("x, y [mm]", "$x, $y"), ("h [nm]", "@film")]))
+        contour.add_layout(ColorBar(color_mapper=self.levels, width=10), "right")
+        for picture in (fringes, contour):
+            picture.line("x", "y", source=self.edge, color=VERMILLION, line_dash="dashed")
+        return fringes, contour
+
+    def _line(self, name: str) -> Any:  # noqa: ANN401
+        """Pressure and film on a line through the centre."""
+        title = "along the motion" if name == "x" else "across the motion"
+        made = _figure(
+            title, f"{name} [mm]", "p [GPa]", height=260, width=SIDE + 30,
+            x_range=Range1d(-1, 1), y_range=Range1d(0, 1),
+        )  # fmt: skip
+        made.extra_y_ranges = {"film": Range1d(0, 1)}
+        made.add_layout(LinearAxis(y_range_name="film", axis_label="h [nm]"), "right")
+        source = self.lines[name]
+        made.line("place", "hertz", source=source, color=GREY, line_dash="dashed")
+        made.line("place", "pressure", source=source, color=BLUE, line_width=2)
+        made.line(
+            "place", "film", source=source, color=VERMILLION, line_width=2, y_range_name="film"
+        )
+        made.yaxis[0].axis_label_text_color = BLUE
+        made.yaxis[1].axis_label_text_color = VERMILLION
+        return made
+
+    def _tile_maps(self) -> tuple[Any, Any]:
+        """Roughness before and in the contact, on one scale."""
+        found: list[Any] = []
+        for name, title in (("before", "surface [nm]"), ("after", "in the contact [nm]")):
+            made = _map(title, width=SIDE + (60 if found else 0))
+            place = {"x": "x", "y": "y", "dw": "dw", "dh": "dh"}
+            made.image(name, source=self.tiles, color_mapper=self.heights, **place)
+            found.append(made)
+        found[1].add_layout(ColorBar(color_mapper=self.heights, width=10), "right")
+        return found[0], found[1]
+
+    def _friction(self) -> tuple[Any, Any]:
+        """Draw what octaves add, and the ratio over the passage."""
+        bands = _figure(
+            "what octaves of wavelengths add", "wavelength [µm]", "rise of μ_r/μ_s",
+            x_axis_type="log", height=260, x_range=Range1d(1, 1000), y_range=Range1d(0, 1),
+        )  # fmt: skip
+        bands.quad(
+            left="left", right="right", top="rise", bottom=0.0, source=self.octaves,
+            fill_color=GREEN, line_color="white",
+        )  # fmt: skip
+        over = _figure(
+            "over the passage", "displacement [mm]", "μ_r/μ_s", height=260,
+            x_range=Range1d(0, 1), y_range=Range1d(0, 2),
+        )  # fmt: skip
+        over.line("shift", "ratio", source=self.passage, color=BLUE, line_width=2)
+        return bands, over
+
+    def _curve(self, name: str, label: str) -> Any:  # noqa: ANN401
+        ranges = {"x_range": Range1d(0, 1), "y_range": Range1d(0, 1)}
+        made = _figure("", "", label, width=SIDE + 60, **ranges)
+        source = self.curve[name]
+        made.line("place", "value", source=source, color=BLUE)
+        made.scatter("place", "value", source=source, color=BLUE, size=6)
+        made.add_layout(Whisker(base="place", lower="low", upper="high", source=source))
+        made.add_tools(HoverTool(tooltips=[("value", "@value"), ("status", "@status")]))
+        return made
+
+    def show_film(self, found: Film) -> None:
+        """Show a solution; nothing where there is none."""
+        if not found.converged:
+            self.film.data = {name: [] for name in self.film.data}
+            self.contours.data = {name: [] for name in self.contours.data}
+            for source in self.lines.values():
+                source.data = {name: [] for name in source.data}
+            return
+        made = drawing.film_map(found)
+        central = float(made.film[made.y.size // 2, made.x.size // 2])
+        self.levels.update(low=float(made.film.min()), high=1.6 * central)
+        self.film.data = {
+            "colours": [made.colours],
+            "film": [made.film.astype(np.float32)],
+            "x": [made.left],
+            "y": [made.bottom],
+            "dw": [made.width],
+            "dh": [made.height],
+        }
+        self.contours.data = dict(
+            zip(("xs", "ys", "film"), drawing.contour_lines(made), strict=True)
+        )
+        x, y = drawing.outline(found)
+        self.edge.data = {"x": x, "y": y}
+        point = found.point
+        about = f"M = {point.moes_m:.4g}, L = {point.moes_l:.4g}"
+        self.fringes.title.text = f"{about}; {made.caption}"
+        self.contour.title.text = f"{about}, p_h = {point.hertz_pressure * 1e-9:.3g} GPa; h [nm]"
+        _fit(self.fringes, made)
+        for name, line in drawing.centre_lines(found).items():
+            self.lines[name].data = line
+            picture = self.along if name == "x" else self.across
+            way = "along" if name == "x" else "across"
+            picture.title.text = f"{about}; {way} the motion"
+            picture.extra_y_ranges["film"].end = 5.0 * central
+            picture.x_range.update(start=float(line["place"][0]), end=float(line["place"][-1]))
+            highest = max(float(line["pressure"].max()), point.hertz_pressure * 1e-9)
+            picture.y_range.end = 1.08 * highest
+
+    def show_rough(self, found: Rough) -> None:
+        """Show a prediction; nothing where there is none."""
+        made = found.prediction
+        if made is None:
+            for source in (self.tiles, self.octaves, self.passage):
+                source.data = {name: [] for name in source.data}
+            return
+        before, after, width, height, most = drawing.tiles(made)
+        self.heights.update(low=-most, high=most)
+        place = {"x": [0.0], "y": [0.0], "dw": [width], "dh": [height]}
+        self.tiles.data = {
+            "before": [before.astype(np.float32)],
+            "after": [after.astype(np.float32)],
+            **place,
+        }
+        for picture in (self.before, self.after):
+            picture.x_range.update(start=0.0, end=width)
+            picture.y_range.update(start=0.0, end=height)
+        point = made.operating
+        about = f"M = {point.moes_m:.4g}, L = {point.moes_l:.4g}"
+        self.before.title.text = f"{about}; surface [nm]"
+        self.after.title.text = f"{about}; in the contact [nm]"
+        self.bands.title.text = f"{about}; what octaves add"
+        self.over.title.text = f"{about}; over the passage"
+        octaves = self.octaves.data = drawing.octaves(made)
+        if octaves["rise"]:
+            self.bands.x_range.update(start=min(octaves["left"]), end=max(octaves["right"]))
+            _around(self.bands, [0.0, *octaves["rise"]])
+        known = made.friction.status == "predicted"
+        self.passage.data = {
+            "shift": made.friction.shift * 1e3 if known else [],
+            "ratio": made.friction.passage if known else [],
+        }
+        if known:
+            self.over.x_range.end = width
+            _around(self.over, made.friction.passage)
+
+    def show_curve(
+        self, points: Sequence[CurvePoint], places: Sequence[float], over: str, about: str
+    ) -> None:
+        """Show a curve as far as it is, over all of its places."""
+        for picture, name in zip(self.curves, ("film", "ratio"), strict=True):
+            picture.xaxis[0].axis_label = over
+            picture.title.text = about
+            found = self.curve[name].data = _columns(points, name)
+            picture.x_range.update(start=0.0, end=1.05 * float(max(places)))
+            known = np.nan_to_num(np.concatenate([found["low"], found["high"], found["value"]]))
+            _around(picture, [0.0, *known])
+
+
+def _columns(points: Sequence[CurvePoint], name: str) -> Mapping[str, Any]:
+    """Give places, values and ends of the bars of a curve."""
+    if name == "film":
+        value = np.array([p.h_c * 1e9 for p in points])
+        error = np.array([p.h_c_error * 1e9 for p in points])
+    else:
+        value = np.array([p.mu_ratio for p in points])
+        error = np.array([p.mu_ratio_error for p in points])
+    return {
+        "place": np.array([p.place for p in points]),
+        "value": value,
+        "low": value - error,
+        "high": value + error,
+        "status": [p.status for p in points],
+    }
+
+
+def _fit(picture: Any, made: drawing.Map) -> None:  # noqa: ANN401
+    """Show the whole map."""
+    side = max(made.width, made.height)
+    x, y = made.left + 0.5 * made.width, made.bottom + 0.5 * made.height
+    picture.x_range.update(start=x - 0.5 * side, end=x + 0.5 * side)
+    picture.y_range.update(start=y - 0.5 * side, end=y + 0.5 * side)
+
+
+def _around(picture: Any, values: Sequence[float] | NDArray[np.float64]) -> None:  # noqa: ANN401
+    """Let the y axis reach over values, with a little room."""
+    low, high = float(min(values)), float(max(values))
+    room = 0.05 * (high - low) or 1.0
+    picture.y_range.update(start=low - (room if low else 0.0), end=high + room)

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The knobs: names, units and ranges."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from pyehl.errors import InputError
+
+__all__ = ["GROUPS", "KNOBS", "STEPS", "Choice", "Knob", "Value", "shown"]
+
+Value = float | int | str
+
+# Places of a slider
+STEPS = 400
+
+
+@dataclass(frozen=True, slots=True)
+class Knob:
+    """A number that can be turned.
+
+    `low` and `high` are the ends of the slider; what is typed may lie beyond them.
+    """
+
+    name: str
+    label: str
+    unit: str
+    scale: float  # of the case file, for one unit of the knob
+    low: float
+    high: float
+    log: bool = True  # equal ratios over the slider
+    whole: bool = False
+
+    def at(self, place: int) -> Value:
+        """Give the value at a place of the slider, 0 to `STEPS`, with three digits."""
+        share = place / STEPS
+        if self.log:
+            value = self.low * (self.high / self.low) ** share
+        else:
+            value = self.low + (self.high - self.low) * share
+        return round(value) if self.whole else float(f"{value:.3g}")
+
+    def place(self, value: float) -> int:
+        """Give the nearest place of the slider."""
+        inside = min(max(value, self.low), self.high)
+        if self.log:
+            share = math.log(inside / self.low) / math.log(self.high / self.low)
+        else:
+            share = (inside - self.low) / (self.high - self.low)
+        return round(share * STEPS)
+
+    def read(self, text: str) -> Value:
+        """Read what was typed; InputError if it is no number."""
+        try:
+            value = int(text) if self.whole else float(text)
+        except ValueError:
+            kind = "a whole number" if self.whole else "a number"
+            unit = f" [{self.unit}]" if self.unit else ""
+            raise InputError(f"{self.label} = '{text}': expected {kind}{unit}") from None
+        if not math.isfinite(value):
+            raise InputError(f"{self.label} = '{text}': expected a finite number")
+        return value
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """One of several words."""
+
+    name: str
+    label: str
+    words: tuple[str, ...]
+
+    def read(self, text: str) -> str:
+        """Take a word; InputError if it is none of them."""
+        if text not in self.words:
+            raise InputError(f"{self.label} = '{text}': expected one of {', '.join(self.words)}")
+        return text
+
+
+GROUPS: dict[str, tuple[Knob | Choice, ...]] = {
+    "Operation": (
+        Knob("load", "load w", "N", 1.0, 1.0, 5000.0),
+        Knob("velocity", "mean velocity u", "m/s", 1.0, 0.01, 20.0),
+        Knob("slide_to_roll", "slide-to-roll ratio", "", 1.0, 0.0, 2.0, log=False),
+    ),
+    "Bodies": (
+        Knob("radius_x", "reduced radius along, R_x", "mm", 1e-3, 1.0, 200.0),
+        Knob("radius_y", "reduced radius across, R_y", "mm", 1e-3, 1.0, 200.0),
+        Knob("modulus_1", "E of body 1", "GPa", 1e9, 10.0, 700.0),
+        Knob("poisson_1", "ν of body 1", "", 1.0, 0.0, 0.5, log=False),
+        Knob("modulus_2", "E of body 2", "GPa", 1e9, 10.0, 700.0),
+        Knob("poisson_2", "ν of body 2", "", 1.0, 0.0, 0.5, log=False),
+    ),
+    "Oil": (
+        Choice("oil", "viscosity", ("at the inlet", "of the data sheet")),
+        Knob("viscosity", "η₀ at the inlet", "Pa s", 1.0, 0.002, 1.0),
+        Knob("kinematic_40", "ν at 40 °C", "mm²/s", 1.0, 5.0, 1000.0),
+        Knob("kinematic_100", "ν at 100 °C", "mm²/s", 1.0, 1.5, 60.0),
+        Knob("temperature", "inlet temperature", "°C", 1.0, -20.0, 150.0, log=False),
+        Knob("alpha", "pressure-viscosity α", "1/GPa", 1e-9, 5.0, 40.0),
+        Choice("shear_law", "shear stress", ("newtonian", "eyring", "limiting", "carreau")),
+        Knob("eyring_stress", "Eyring stress", "MPa", 1e6, 0.5, 50.0),
+        Knob("carreau_stress", "Carreau stress G", "MPa", 1e6, 0.01, 50.0),
+        Knob("carreau_exponent", "Carreau exponent n", "", 1.0, 0.2, 1.0, log=False),
+    ),
+    "Surface": (
+        Choice("surface", "surface", ("smooth", "fractal", "map")),
+        Knob("rms", "rms height σ", "nm", 1e-9, 1.0, 500.0),
+        Knob("hurst", "Hurst exponent", "", 1.0, 0.1, 1.0, log=False),
+        Knob("seed", "seed", "", 1.0, 1, 401, log=False, whole=True),
+        Knob("map_x", "map along x (0: of file)", "mm", 1e-3, 0, 4, log=False),
+        Knob("map_y", "map across (0: of file)", "mm", 1e-3, 0, 4, log=False),
+    ),
+}
+KNOBS = {knob.name: knob for group in GROUPS.values() for knob in group}
+
+# Which knobs are there for one value of another alone
+ONLY = {
+    "viscosity": ("oil", "at the inlet"),
+    "kinematic_40": ("oil", "of the data sheet"),
+    "kinematic_100": ("oil", "of the data sheet"),
+    "temperature": ("oil", "of the data sheet"),
+    "eyring_stress": ("shear_law", "eyring"),
+    "carreau_stress": ("shear_law", "carreau"),
+    "carreau_exponent": ("shear_law", "carreau"),
+    "rms": ("surface", "fractal"),
+    "hurst": ("surface", "fractal"),
+    "seed": ("surface", "fractal"),
+    "map_x": ("surface", "map"),
+    "map_y": ("surface", "map"),
+}
+
+
+def shown(name: str, values: Mapping[str, Value]) -> bool:
+    """Whether a knob matters with these values."""
+    other, word = ONLY.get(name, ("", ""))
+    return not other or values[other] == word

@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where things are on the page, and their words."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Callable, Mapping, Sequence
+from html import escape
+from typing import Any, Protocol
+
+from bokeh.layouts import column, row
+from bokeh.models import (
+    Button,
+    ColumnDataSource,
+    CustomJS,
+    Div,
+    FileInput,
+    Select,
+    TabPanel,
+    Tabs,
+    TextAreaInput,
+)
+
+from pyehl.app.answers import CURVES
+from pyehl.app.figures import Pictures
+from pyehl.app.knobs import GROUPS, Value, shown
+from pyehl.app.position import Position
+from pyehl.app.widgets import ERROR, WIDTH, KnobWidget
+
+__all__ = ["Layout"]
+
+SAVE = """
+const bytes = Uint8Array.from(atob(source.data.data[0]), c => c.charCodeAt(0));
+const link = document.createElement('a');
+link.href = URL.createObjectURL(new Blob([bytes]));
+link.download = source.data.name[0];
+link.click();
+setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+"""
+SAVE_TEXT = """
+const link = document.createElement('a');
+link.href = URL.createObjectURL(new Blob([area.value], {type: 'text/plain'}));
+link.download = 'case.nml';
+link.click();
+setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+"""
+COPY = "navigator.clipboard.writeText(area.value);"
+FORMATS = ("png", "svg", "pdf")
+WIDTHS = {"0": "as they are", "84": "84 mm (one column)", "174": "174 mm (two columns)"}
+MAPS = ".npy,.txt,.csv,.dat,.asc,.x3p,.sdf,.al3d,.opd,.plux,.sur,.gwy,.nc,.h5"
+
+
+class Hears(Protocol):
+    """What the page does when something happens."""
+
+    def turned(self, name: str, value: Value) -> None: ...
+    def open_case(self, name: str, data: bytes) -> None: ...
+    def upload(self, name: str, data: bytes) -> None: ...
+    def draw_curve(self, over: str) -> None: ...
+    def fetch(self, what: str) -> None: ...
+    def soon(self, do: Callable[[], None]) -> None: ...
+
+
+def _table(rows: Sequence[tuple[str, str]]) -> str:
+    cells = "".join(
+        f"<tr><td style='padding-right:1em;vertical-align:top'>{escape(name)}</td>"
+        f"<td><b>{escape(value)}</b></td></tr>"
+        for name, value in rows
+    )
+    return f"<table>{cells}</table>"
+
+
+class Layout:
+    """All that is on the page but the pictures, by name."""
+
+    def __init__(self, hears: Hears, pictures: Pictures, start: Position) -> None:
+        self.knobs = {
+            knob.name: KnobWidget(knob, start.values[knob.name], hears.turned)
+            for group in GROUPS.values()
+            for knob in group
+        }
+        self.status = Div(text="", name="status", width=350)
+        self.note = Div(text="", name="note", width=WIDTH, styles={"font-size": "85%"})
+        self.numbers = Div(text="", name="numbers", width=350)
+        self.rough = Div(text="", name="rough", width=350)
+        # the generation that was asked for, that is shown, and its nodes a side
+        self.stamp = ColumnDataSource(
+            {"asked": [0], "generation": [0], "points": [0]}, name="stamp"
+        )
+        self.parcel = ColumnDataSource({"name": [""], "data": [""]}, name="parcel")
+        self.parcel.js_on_change("data", CustomJS(args={"source": self.parcel}, code=SAVE))
+        self.case = TextAreaInput(
+            title="case file", rows=14, width=350, name="case", disabled=True,
+            stylesheets=["textarea{font-family:monospace;font-size:80%}"],
+        )  # fmt: skip
+        self.python = TextAreaInput(
+            title="the same in Python", rows=14, width=350, name="python", disabled=True,
+            stylesheets=["textarea{font-family:monospace;font-size:80%}"],
+        )  # fmt: skip
+        self.open_error = Div(text="", name="open_error", styles=ERROR, width=350)
+        self.upload_error = Div(text="", name="upload_error", styles=ERROR, width=WIDTH)
+        self.errand = Div(text="", name="errand", width=350)
+        self.figure_format = Select(options=list(FORMATS), value="png", width=80)
+        self.figure_width = Select(options=list(WIDTHS.items()), value="0", width=170)
+        self.upload = FileInput(accept=MAPS, name="upload", title="height map")
+        self.upload.on_change("value", self._file(hears, self.upload, hears.upload))
+        self.map_box = column(self.upload, self.upload_error, visible=False)
+        self.root = row(self._left(start), self._middle(hears, pictures), self._right(hears))
+        # so that the browser has what nothing draws
+        self.root.tags = [self.stamp, self.parcel]
+
+    def _file(
+        self,
+        hears: Hears,
+        widget: Any,  # noqa: ANN401
+        take: Callable[[str, bytes], None],
+    ) -> Callable[[str, object, object], None]:
+        """Hear a file that was chosen; its name and its content come one after the other."""
+        waits = False
+
+        def chosen() -> None:
+            nonlocal waits
+            waits = False
+            take(str(widget.filename), base64.b64decode(widget.value))
+
+        def heard(attribute: str, old: object, new: object) -> None:
+            nonlocal waits
+            if not waits:
+                waits = True
+                hears.soon(chosen)
+
+        widget.on_change("filename", heard)
+        return heard
+
+    def _left(self, start: Position) -> Any:  # noqa: ANN401
+        parts: list[Any] = [self.note]
+        for title, group in GROUPS.items():
+            parts.append(Div(text=f"<b>{escape(title)}</b>"))
+            parts += [self.knobs[knob.name].layout for knob in group]
+        parts.append(self.map_box)
+        self.show_knobs(start.values)
+        return column(*parts, width=WIDTH + 20)
+
+    def _middle(self, hears: Hears, p: Pictures) -> Any:  # noqa: ANN401
+        film = column(row(p.fringes, p.contour), row(p.along, p.across))
+        rough = column(row(p.before, p.after), row(p.bands, p.over))
+        buttons = []
+        for name in CURVES:
+            button = Button(label=f"curve over {name}", name=f"curve_{CURVES[name]}")
+            button.on_click(lambda name=name: hears.draw_curve(name))
+            buttons.append(button)
+        curve = column(row(*buttons), row(*p.curves))
+        panels = (("Film", film), ("Roughness", rough), ("Curve", curve))
+        tabs = [TabPanel(child=child, title=title) for title, child in panels]
+        return Tabs(tabs=tabs, name="tabs")
+
+    def _right(self, hears: Hears) -> Any:  # noqa: ANN401
+        copy, save = Button(label="Copy", name="copy"), Button(label="Save", name="save")
+        copy.js_on_click(CustomJS(args={"area": self.case}, code=COPY))
+        save.js_on_click(CustomJS(args={"area": self.case}, code=SAVE_TEXT))
+        opened = FileInput(accept=".nml,.txt", name="open", title="open a case file")
+        opened.on_change("value", self._file(hears, opened, hears.open_case))
+        copy_python = Button(label="Copy", name="copy_python")
+        copy_python.js_on_click(CustomJS(args={"area": self.python}, code=COPY))
+        report = Button(label="Report", name="fetch_report")
+        report.on_click(lambda: hears.fetch("report.html"))
+        figures = Button(label="Figures", name="fetch_figures")
+        figures.on_click(lambda: hears.fetch("figures.zip"))
+        return column(
+            self.status, self.numbers, self.rough, self.case, row(copy, save), opened,
+            self.open_error, self.python, copy_python,
+            row(report, figures, self.figure_format, self.figure_width), self.errand,
+        )  # fmt: skip
+
+    def show_knobs(self, values: Mapping[str, Value]) -> None:
+        """Show the knobs that matter."""
+        for name, knob in self.knobs.items():
+            knob.layout.visible = shown(name, values)
+        self.map_box.visible = values["surface"] == "map"
+
+    def show_case(self, case: str, python: str) -> None:
+        """Show the case file and the Python lines of the position."""
+        self.case.value, self.python.value = case, python
+
+    def busy(self, points: int) -> None:
+        """Say that the numbers are of an earlier position."""
+        self.status.text = f"computing on {points} × {points} nodes …"
+        self.status.styles = {"color": "#666666"}
+
+    def told(self, converged: bool) -> None:
+        """Show in colour whether there is a solution."""
+        self.status.styles = (
+            {"color": "#006e4e"} if converged else {"color": "#b00020", "font-weight": "bold"}
+        )
+
+    def failed(self, text: str) -> None:
+        """Say why there is no answer."""
+        self.status.text = escape(text)
+        self.told(converged=False)
+
+    def show_film(self, rows: Sequence[tuple[str, str]], status: str) -> None:
+        """Show the numbers of the smooth contact."""
+        self.numbers.text, self.status.text = _table(rows), escape(status)
+
+    def show_rough(self, rows: Sequence[tuple[str, str]]) -> None:
+        """Show the numbers of the rough contact; none for a smooth one."""
+        self.rough.text = f"<b>Rough contact</b>{_table(rows)}" if rows else ""
+
+    def fetched(self, text: str) -> None:
+        """Say how far a download is."""
+        self.errand.text = escape(text)

@@ -1,0 +1,219 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One page: its knobs, its worker, its pictures. Each tab of a browser has its own."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+from html import escape
+from typing import Any
+
+from bokeh.document import Document
+
+from pyehl.app import answers, downloads, words
+from pyehl.app.answers import COARSE, CURVES, FINE, Film, Rough
+from pyehl.app.figures import Pictures
+from pyehl.app.knobs import KNOBS, Value
+from pyehl.app.layout import Layout
+from pyehl.app.position import Position, from_case
+from pyehl.app.uploads import Uploads
+from pyehl.app.worker import Ticket, Worker
+from pyehl.case import Case
+from pyehl.errors import EhlError, InputError
+
+__all__ = ["Page"]
+
+# Nodes a side of the case file, the report and the figures
+POINTS = FINE[-1]
+CURVE_POINTS = 9
+NO_MAP = "there is no height map yet: expected an upload; the contact is smooth until then"
+
+
+class Page:
+    """A page of one tab, from its start to the end of its session."""
+
+    def __init__(self, document: Document, start: Position, note: str = "") -> None:
+        self.document, self.position = document, start
+        # where the knobs are: as the position, but for a map that is not there yet
+        self._wish = start
+        self.uploads = Uploads()
+        # what was uploaded and could not be read yet, for want of a size
+        self._pending: tuple[str, bytes] | None = None
+        self.pictures = Pictures()
+        self.layout = Layout(self, self.pictures, start)
+        self._shown = 0
+        self.worker = Worker(partial(self._later, self._answered), "pyehl-page")
+        self.errands = Worker(partial(self._later, self._fetched), "pyehl-errands")
+        document.title = "pyehl"
+        document.add_root(self.layout.root)
+        document.on_session_destroyed(self._ended)
+        self.layout.note.text = escape(note)
+        self._moved()
+
+    def _ended(self, context: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """End the threads, free the solvers, remove the uploads."""
+        self.worker.close()
+        self.errands.close()
+        self.uploads.close()
+
+    def _later(self, show: Any, generation: int, answer: Any) -> None:  # noqa: ANN401
+        """Show what a worker says when the page has time; called in its thread."""
+        self.document.add_next_tick_callback(partial(show, generation, answer))
+
+    def soon(self, do: Callable[[], None]) -> None:
+        """Do something when all that came with one message is there."""
+        self.document.add_next_tick_callback(do)
+
+    def turned(self, name: str, value: Value) -> None:
+        """Take a turned knob; what is wrong is said there, and the answer stays."""
+        wish = self._wish.turned(name, value)
+        self.layout.show_knobs(wish.values)
+        if name in ("map_x", "map_y") and self._pending is not None:
+            self._wish = wish
+            self.upload(*self._pending)
+            return
+        # until there is a map the contact is smooth
+        missing = wish.values["surface"] == "map" and not wish.file
+        tried = wish.turned("surface", "smooth") if missing else wish
+        try:
+            tried.case(COARSE)
+            if tried.values["surface"] == "map":
+                self.uploads.check(tried.file, *self._map_size(tried))
+        except InputError as error:
+            self.layout.knobs[name].say(self.uploads.nameless(str(error)))
+            return
+        self.layout.knobs[name].say("")
+        self.layout.knobs["surface"].say(NO_MAP if missing else "")
+        self._wish, self.position = wish, tried
+        self._moved()
+
+    def _map_size(self, position: Position) -> tuple[float, float]:
+        x, y = (float(position.values[name]) * 1e-3 for name in ("map_x", "map_y"))
+        return x, y
+
+    def _moved(self) -> None:
+        """Compute for the position, and keep the case file in step with it."""
+        self.layout.show_case(self.position.text(POINTS), words.python_lines(self.position, POINTS))
+        self.layout.busy(COARSE)
+        if not self.position.rough:
+            self.layout.show_rough([])
+        generation = self.worker.submit(answers.follow(self.position))
+        self.layout.stamp.data = {**self.layout.stamp.data, "asked": [generation]}
+
+    def _answered(self, generation: int, answer: Film | Rough | Exception) -> None:
+        """Show an answer, unless a newer one is there."""
+        if generation < self._shown or self.worker.closed:
+            return
+        self._shown = generation
+        self.document.hold("combine")
+        if isinstance(answer, Film):
+            self.pictures.show_film(answer)
+            self.layout.show_film(words.film_rows(answer), words.status_line(answer))
+            self.layout.told(answer.converged)
+        elif isinstance(answer, Rough):
+            self.pictures.show_rough(answer)
+            rows = words.rough_rows(answer)
+            self.layout.show_rough([(a, self.uploads.nameless(b)) for a, b in rows])
+        else:
+            self.layout.failed(self.uploads.nameless(str(answer)))
+        points = answer.points if isinstance(answer, Film) else 0
+        stamp = self.layout.stamp.data
+        self.layout.stamp.data = {
+            **stamp,
+            "generation": [generation],
+            "points": [points or stamp["points"][0]],
+        }
+        self.document.unhold()
+
+    def open_case(self, name: str, data: bytes) -> None:
+        """Put the knobs where an uploaded case file says."""
+        try:
+            text = data.decode("utf-8-sig")
+            case = Case.from_text(text, (), name)
+            self._wish, note = from_case(case, self.uploads.files)
+            self.position = self._wish
+        except (InputError, UnicodeDecodeError) as error:
+            self.layout.open_error.text = escape(self.uploads.nameless(str(error)))
+            return
+        self.layout.open_error.text = ""
+        self.layout.note.text = escape(note)
+        for knob, value in self.position.values.items():
+            self.layout.knobs[knob].set(value)
+        self.layout.show_knobs(self.position.values)
+        self._moved()
+
+    def upload(self, name: str, data: bytes) -> None:
+        """Take a height map, or say what its reader says."""
+        try:
+            path = self.uploads.add(name, data, *self._map_size(self._wish))
+            wish = replace(self._wish.turned("surface", "map"), file=path)
+            wish.case(COARSE)
+        except InputError as error:
+            self._pending = name, data
+            self.layout.upload_error.text = escape(self.uploads.nameless(str(error)))
+            return
+        self._pending = None
+        self.layout.upload_error.text = ""
+        self._wish = self.position = wish
+        self.layout.knobs["surface"].set("map")
+        self.layout.show_knobs(wish.values)
+        self._moved()
+
+    def draw_curve(self, over: str) -> None:
+        """Compute a curve over a knob, point by point."""
+        knob = CURVES[over]
+        here = self.position
+        unit = KNOBS[knob].unit  # type: ignore[union-attr]
+        label = f"{over} [{unit}]" if unit else over
+        about = ", ".join(
+            f"{name} = {here.values[key]:g} {unit}".strip()
+            for name, key, unit in (
+                ("w", "load", "N"),
+                ("u", "velocity", "m/s"),
+                ("SRR", "slide_to_roll", ""),
+            )
+            if key != knob
+        )
+        values = answers.places(here, knob, CURVE_POINTS)
+
+        def job(ticket: Ticket) -> None:
+            for points in answers.curve(here, knob, values, ticket.newest):
+                ticket.tell((points, values, label, about))
+
+        self.errands.submit(job)
+
+    def fetch(self, what: str) -> None:
+        """Make a file to save: 'report.html', or 'figures.zip'."""
+        here, layout = self.position, self.layout
+        layout.fetched("making it …")
+        suffix, width = layout.figure_format.value, float(layout.figure_width.value) * 1e-3
+
+        def job(ticket: Ticket) -> None:
+            if what == "report.html":
+                data = downloads.report_page(here, FINE[0])
+            else:
+                data = downloads.figures(here, FINE[0], suffix, width)
+            ticket.tell((what, data))
+
+        self.errands.submit(job)
+
+    def _fetched(self, generation: int, answer: Any) -> None:  # noqa: ANN401
+        """Show a curve so far, or hand a file to the browser."""
+        if self.errands.closed:
+            return
+        if isinstance(answer, Exception):
+            text = str(answer) if isinstance(answer, EhlError | OSError) else repr(answer)
+            self.layout.fetched(self.uploads.nameless(text))
+        elif isinstance(answer[1], bytes):
+            name, data = answer
+            self.layout.fetched("")
+            self.layout.parcel.data = {"name": [name], "data": [base64.b64encode(data).decode()]}
+        else:
+            self.document.hold("combine")
+            self.pictures.show_curve(*answer)
+            self.document.unhold()

@@ -1,0 +1,252 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where the knobs stand, and the case that belongs to it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from pyehl import namelist
+from pyehl.app.knobs import KNOBS, Knob, Value
+from pyehl.case import Case
+from pyehl.errors import InputError
+from pyehl.surfaces import rough_groups
+from pyehl.theory.operating import OperatingPoint
+
+__all__ = ["Position", "from_case"]
+
+# Keys that the knobs stand for; of an opened case all others are kept as they are
+OWNED = {
+    "bodies": None,
+    "contact": {
+        "load", "mean_velocity", "radius", "radius_x", "radius_y", "radius_ratio", "moes_m",
+        "moes_l", "reduced_modulus", "slide_to_roll",
+    },
+    "lubricant": {
+        "viscosity", "kinematic_viscosity_40", "kinematic_viscosity_100", "temperature",
+        "pressure_viscosity", "shear_law", "eyring_stress", "carreau_stress", "carreau_exponent",
+    },
+    "surface": {"kind", "rms_height", "hurst", "seed", "file", "length_x", "length_y"},
+    "grid": {"points"},
+}  # fmt: skip
+# Keys that are refused without the viscosities of a data sheet
+OF_SHEET = ("density_15", "thermal_expansion")
+STEEL = {"modulus_1": 206.0, "poisson_1": 0.3, "modulus_2": 206.0, "poisson_2": 0.3}
+DEFAULTS: dict[str, Value] = {
+    "oil": "at the inlet",
+    "kinematic_40": 68.0,
+    "kinematic_100": 8.8,
+    "temperature": 40.0,
+    "shear_law": "newtonian",
+    "eyring_stress": 5.0,
+    "carreau_stress": 5.0,
+    "carreau_exponent": 0.6,
+    "surface": "smooth",
+    "rms": 50.0,
+    "hurst": 0.8,
+    "seed": 1,
+    "map_x": 0.0,
+    "map_y": 0.0,
+}
+KINDS = ("smooth", "fractal", "map")
+
+
+@dataclass(frozen=True, slots=True)
+class Position:
+    """Values of all knobs, in their units; they are never changed, only replaced.
+
+    Attributes
+    ----------
+    values
+        By the names of `pyehl.app.knobs.KNOBS`.
+    base
+        What else the case says, as namelist text.
+    modulus
+        E' [Pa] of an opened case, until the moduli are turned; 0: by the moduli.
+    file
+        Height map of the surface 'map'; '': none yet.
+    """
+
+    values: Mapping[str, Value]
+    base: str = ""
+    modulus: float = 0.0
+    file: str = ""
+
+    def turned(self, name: str, value: Value) -> Position:
+        """Give the position with a knob turned."""
+        modulus = 0.0 if name in STEEL else self.modulus
+        return replace(self, values={**self.values, name: value}, modulus=modulus)
+
+    def _si(self, name: str) -> float:
+        knob = KNOBS[name]
+        assert isinstance(knob, Knob)
+        # the value of a decimal text, 22 1/GPa as 2.2e-8
+        return float(f"{float(self.values[name]) * knob.scale:.12g}")
+
+    def reduced_modulus(self) -> float:
+        """E' [Pa]: 2/E' = sum of (1 - nu^2)/E. InputError where the moduli make none."""
+        if self.modulus:
+            return self.modulus
+        total = 0.0
+        for body in ("1", "2"):
+            modulus, poisson = self._si(f"modulus_{body}"), float(self.values[f"poisson_{body}"])
+            if modulus <= 0.0 or not -1.0 < poisson <= 0.5:
+                raise InputError(
+                    f"body {body}: E = {modulus:g} Pa, ν = {poisson:g}: expected E above 0 and ν "
+                    "up to 0.5"
+                )
+            total += (1.0 - poisson**2) / modulus
+        return float(f"{2.0 / total:.12g}")
+
+    def options(self, points: int) -> dict[str, Value]:
+        """Give the keys of the case that the knobs stand for."""
+        v = self.values
+        found: dict[str, Value] = {
+            "contact.load": self._si("load"),
+            "contact.mean_velocity": self._si("velocity"),
+            "contact.slide_to_roll": float(v["slide_to_roll"]),
+            "contact.reduced_modulus": self.reduced_modulus(),
+            "lubricant.pressure_viscosity": self._si("alpha"),
+            "grid.points": points,
+        }
+        if v["radius_x"] == v["radius_y"]:
+            found["contact.radius"] = self._si("radius_x")
+        else:
+            found["contact.radius_x"] = self._si("radius_x")
+            found["contact.radius_y"] = self._si("radius_y")
+        if v["oil"] == "at the inlet":
+            found["lubricant.viscosity"] = self._si("viscosity")
+        else:
+            found["lubricant.kinematic_viscosity_40"] = float(v["kinematic_40"])
+            found["lubricant.kinematic_viscosity_100"] = float(v["kinematic_100"])
+            found["lubricant.temperature"] = float(v["temperature"])
+        if v["shear_law"] != "newtonian":
+            found["lubricant.shear_law"] = v["shear_law"]
+        if v["shear_law"] == "eyring":
+            found["lubricant.eyring_stress"] = self._si("eyring_stress")
+        if v["shear_law"] == "carreau":
+            found["lubricant.carreau_stress"] = self._si("carreau_stress")
+            found["lubricant.carreau_exponent"] = float(v["carreau_exponent"])
+        if v["surface"] != "smooth":
+            found |= self._surface()
+        return found
+
+    def _surface(self) -> dict[str, Value]:
+        v = self.values
+        if v["surface"] == "fractal":
+            return {
+                "surface.kind": "fractal",
+                "surface.rms_height": self._si("rms"),
+                "surface.hurst": float(v["hurst"]),
+                "surface.seed": int(v["seed"]),
+            }
+        if not self.file:
+            raise InputError("there is no height map yet: expected an upload")
+        found: dict[str, Value] = {"surface.kind": "map", "surface.file": self.file}
+        for knob, key in (("map_x", "length_x"), ("map_y", "length_y")):
+            if float(v[knob]) != 0.0:
+                found[f"surface.{key}"] = self._si(knob)
+        return found
+
+    def case(self, points: int, *, smooth: bool = False) -> Case:
+        """Give the case on a grid, or that of its smooth contact; InputError if it is none."""
+        base = self.base
+        if self.values["oil"] == "at the inlet":
+            lines = base.splitlines(keepends=True)
+            base = "".join(line for line in lines if line.split(" =")[0].strip() not in OF_SHEET)
+        case = Case.from_text(base, self.options(points), "the knobs")
+        return case.with_options("surface.kind=smooth") if smooth else case
+
+    def text(self, points: int) -> str:
+        """Give the case file: what was given, the map without its folder."""
+        text = namelist.given(self.case(points).text, comments=False)
+        return text.replace(self.file, Path(self.file).name) if self.file else text
+
+    @property
+    def rough(self) -> bool:
+        """Whether there is a rough surface."""
+        return self.values["surface"] != "smooth"
+
+
+def _kept(text: str) -> str:
+    """Give what the knobs do not stand for of a resolved case."""
+    groups = {}
+    for group, keys in namelist.values(namelist.given(text)).items():
+        owned = OWNED.get(group, set())
+        rest = {} if owned is None else {k: v for k, v in keys.items() if k not in owned}
+        if rest:
+            groups[group] = rest
+    return namelist.text_of(groups)
+
+
+def from_case(case: Case, files: Mapping[str, str] | None = None) -> tuple[Position, str]:
+    """Put the knobs where a case says; with a note on what is shown another way.
+
+    `files` are the maps that may be read, by their names; None: those of the case itself. A case
+    by M and L becomes one in SI units with the radius and the modulus of a steel ball. InputError
+    if the case has what no knob stands for.
+    """
+    settings = case.resolve()
+    if "second_surface" in rough_groups(settings):
+        raise InputError("second_surface: the page knows one rough surface, that of &surface")
+    surface = settings["surface"]
+    kind = str(surface["kind"])
+    if kind not in KINDS:
+        raise InputError(f"surface.kind = '{kind}': the page knows {', '.join(KINDS)}")
+    contact, lubricant = settings["contact"], settings["lubricant"]
+    # without what shear heating does to the viscosity
+    plain = {**lubricant, "thermal_reduction": False}
+    point = OperatingPoint.from_settings({"contact": contact, "lubricant": plain})
+    note = ""
+    if not point.si:
+        note = (
+            f"Given as M = {contact['moes_m']:g} and L = {contact['moes_l']:g}: the knobs show a "
+            "steel ball with these."
+        )
+    values: dict[str, Value] = {**DEFAULTS, **STEEL}
+    values |= {
+        "load": _tidy(point.load),
+        "velocity": _tidy(point.mean_velocity),
+        "slide_to_roll": point.slide_to_roll,
+        "radius_x": _tidy(point.radius * 1e3),
+        "radius_y": _tidy(point.radius / point.radius_ratio * 1e3),
+        "viscosity": _tidy(float(lubricant["viscosity"])),
+        "alpha": _tidy(point.pressure_viscosity * 1e9),
+        "shear_law": str(lubricant["shear_law"]),
+        "surface": kind,
+        "rms": _tidy(float(surface.get("rms_height", 5e-8)) * 1e9),
+        "hurst": float(surface.get("hurst", 0.8)),
+        "seed": int(surface.get("seed", 1)),
+        "map_x": _tidy(float(surface.get("length_x", 0.0)) * 1e3) if kind == "map" else 0.0,
+        "map_y": _tidy(float(surface.get("length_y", 0.0)) * 1e3) if kind == "map" else 0.0,
+    }
+    values |= _oil(lubricant)
+    file = str(surface.get("file", "")) if kind == "map" else ""
+    if file and files is not None:
+        name = Path(file).name
+        if name not in files:
+            raise InputError(f"surface.file = '{name}': expected an upload of this map first")
+        file = files[name]
+    position = Position(values, _kept(case.text), point.reduced_modulus, file)
+    return position, note
+
+
+def _oil(lubricant: Mapping[str, Any]) -> dict[str, Value]:
+    """Give the knobs of the oil that are not always there."""
+    found: dict[str, Value] = {"eyring_stress": _tidy(float(lubricant["eyring_stress"]) * 1e-6)}
+    if lubricant["shear_law"] == "carreau":
+        found["carreau_stress"] = _tidy(float(lubricant["carreau_stress"]) * 1e-6)
+        found["carreau_exponent"] = float(lubricant["carreau_exponent"])
+    if lubricant.get("kinematic_viscosity_40"):
+        found["oil"] = "of the data sheet"
+        found["kinematic_40"] = float(lubricant["kinematic_viscosity_40"])
+        found["kinematic_100"] = float(lubricant["kinematic_viscosity_100"])
+        found["temperature"] = float(lubricant["temperature"])
+    return found
+
+
+def _tidy(value: float) -> float:
+    """Leave out what a change of the unit adds to the digits."""
+    return float(f"{value:.12g}")

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The server of the page: on this machine alone, for browsers that were given its address."""
+
+from __future__ import annotations
+
+import logging
+import webbrowser
+from collections.abc import Callable
+
+from bokeh.application import Application
+from bokeh.application.handlers.function import FunctionHandler
+from bokeh.document import Document
+from bokeh.server.server import Server
+from bokeh.server.util import bind_sockets
+
+from pyehl.app.page import Page
+from pyehl.app.position import Position
+from pyehl.app.uploads import LARGEST
+from pyehl.errors import InputError
+
+__all__ = ["ADDRESS", "serve"]
+
+ADDRESS = "127.0.0.1"
+# A tab that was closed is gone after so long [ms]
+UNUSED = 3000
+
+
+def make_server(
+    start: Position, note: str, port: int = 0, made: Callable[[Page], None] | None = None
+) -> Server:
+    """Give a server that listens already; port 0: any that is free.
+
+    `made` is told each page. InputError if the port is taken.
+    """
+
+    def page(document: Document) -> None:
+        new = Page(document, start, note)
+        if made is not None:
+            made(new)
+
+    try:
+        sockets, found = bind_sockets(ADDRESS, port)
+    except OSError as error:
+        raise InputError(
+            f"--port {port}: {error.strerror or error}\nexpected: a free port, or none"
+        ) from error
+    for socket in sockets:
+        socket.close()
+    # what a tab is told of itself is not for the terminal
+    logging.getLogger("bokeh").setLevel(logging.ERROR)
+    logging.getLogger("tornado").setLevel(logging.ERROR)
+    return Server(
+        {"/": Application(FunctionHandler(page))},
+        address=ADDRESS,
+        port=found,
+        allow_websocket_origin=[f"{ADDRESS}:{found}", f"localhost:{found}"],
+        check_unused_sessions_milliseconds=UNUSED,
+        unused_session_lifetime_milliseconds=UNUSED,
+        websocket_max_message_size=2 * LARGEST,
+    )
+
+
+def serve(
+    start: Position,
+    note: str = "",
+    *,
+    port: int = 0,
+    browser: bool = True,
+    say: Callable[[str], object] = print,
+) -> None:
+    """Serve the page until it is interrupted. InputError if the port is taken."""
+    server = make_server(start, note, port)
+    address = f"http://{ADDRESS}:{server.port}/"
+    say(f"{address}  (Ctrl-C ends it)")
+    server.start()
+    if browser:
+        server.io_loop.add_callback(webbrowser.open, address)
+    try:
+        server.io_loop.start()
+    except KeyboardInterrupt:
+        say("ended")
+    finally:
+        server.stop()

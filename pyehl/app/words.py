@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the page says: numbers with errors, formulas beside them, Python lines."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from pathlib import Path
+
+from pyehl import namelist
+from pyehl.app.answers import Film, Rough
+from pyehl.app.position import Position
+from pyehl.display import with_error
+from pyehl.theory.moes_film import regime
+
+__all__ = ["film_rows", "python_lines", "rough_rows", "status_line"]
+
+NM = 1e9
+# Film ratios below which roughness touches, and from which a film is thick
+TOUCHING, THICK = 1.0, 3.0
+
+
+def status_line(found: Film) -> str:
+    """Say what the numbers are of."""
+    grid = f"{found.summary['points']} × {found.summary.get('points_y', found.summary['points'])}"
+    if not found.converged:
+        return f"No solution on {grid} nodes: the status is '{found.summary['status']}'."
+    return f"Converged on {grid} nodes."
+
+
+def film_rows(found: Film) -> list[tuple[str, str]]:
+    """Give names and values of the smooth contact."""
+    point, s = found.point, found.summary
+    rows = [
+        ("Moes load M", f"{point.moes_m:.4g}"),
+        ("Moes material L", f"{point.moes_l:.4g}"),
+        ("Hertz pressure p_h", f"{point.hertz_pressure * 1e-9:.4g} GPa"),
+    ]
+    if point.radius_ratio == 1.0:
+        rows.append(("contact radius a", f"{point.hertz_radius * 1e6:.4g} µm"))
+    else:
+        both = f"{point.hertz_radius * 1e6:.4g} × {point.semi_axis_y * 1e6:.4g} µm"
+        rows.append(("semi-axes, along × across", both))
+    rows.append(("regime", regime(point.moes_m, point.moes_l, point.ellipse)))
+    for small, big in (("h_c", "H_c"), ("h_min", "H_min")):
+        rows.append((small, _film(s, small, big, point.film_scale, converged=found.converged)))
+    for formula in found.sheet["formulas"]:
+        h_min = formula["h_min_m"]
+        text = f"h_c {formula['h_c_m'] * NM:.4g} nm"
+        text += "" if h_min is None else f", h_min {h_min * NM:.4g} nm"
+        rows.append(
+            (formula["name"], text + (" (outside its range)" if formula["outside"] else ""))
+        )
+    if found.converged:
+        rows.append(("largest pressure", f"{s['p_max_Pa'] * 1e-9:.4g} GPa"))
+        if s.get("mu_smooth") is not None:
+            rows.append(("friction μ_s, smooth", f"{s['mu_smooth']:.4f}"))
+    return rows
+
+
+def _film(s: Mapping[str, float], small: str, big: str, scale: float, *, converged: bool) -> str:
+    if not converged:
+        return "no solution"
+    error = s[f"{big}_error"]
+    return with_error(s[f"{small}_m"] * NM, None if error is None else error * scale * NM, "nm")
+
+
+def rough_rows(found: Rough) -> list[tuple[str, str]]:
+    """Give names and values of the rough contact."""
+    p = found.prediction
+    if p is None:
+        return [("no prediction", found.why)]
+    s = p.summary
+    rows = []
+    if p.friction.status == "predicted":
+        error = p.model_error if math.isfinite(p.model_error) else None
+        rows.append(("μ_r/μ_s", with_error(p.mu_ratio, error)))
+        rows.append(("over the passage", f"{s['mu_ratio_min']:.4g} … {s['mu_ratio_max']:.4g}"))
+        rows.append((f"over {p.track_count} tracks", with_error(*p.tracks)))
+        if error is None:
+            rows.append(("error of the model", "not known"))
+    else:
+        rows.append(("no prediction", f"{p.friction.status}: {p.friction.message}"))
+    if s["mu"] is not None:
+        rows.append(("friction μ", f"{s['mu']:.4f}; smooth {s['mu_smooth']:.4f}"))
+    if p.outside_range:
+        rows.append(("outside of the range", ", ".join(p.outside_range)))
+    if s["lambda_ratio"] is not None:
+        rows.append(("film ratio Λ = h_min/σ", f"{s['lambda_ratio']:.4g}: {_lambda(s)}"))
+    rows.append(("rms height σ", f"{s['rms_height_m'] * NM:.4g} nm"))
+    rows.append(("rms in the contact", f"{s['rms_deformed_m'] * NM:.4g} nm"))
+    rows.append(("least rough film", f"{(s['h_min_rough_m'] or math.nan) * NM:.4g} nm"))
+    if p.advice is not None:
+        rows += [("what would carry", line) for line in p.advice.report()]
+    return rows
+
+
+def _lambda(s: Mapping[str, float]) -> str:
+    if s["lambda_ratio"] < TOUCHING:
+        return "thinner than the roughness, which the contact flattens"
+    return "thick film" if s["lambda_ratio"] >= THICK else "film of the order of the roughness"
+
+
+def python_lines(position: Position, points: int) -> str:
+    """Give the lines that compute the same numbers."""
+    text = namelist.given(position.case(points).text)
+    groups = namelist.values(text)
+    if position.file:
+        groups["surface"]["file"] = Path(position.file).name
+    inner = []
+    for group, keys in groups.items():
+        items = "".join(f"        {_quoted(key)}: {_quoted(v)},\n" for key, v in keys.items())
+        inner.append(f"    {group}={{\n{items}    }},\n")
+    smooth = ', "surface.kind=smooth"' if position.rough else ""
+    lines = [
+        "import pyehl",
+        "",
+        f"case = pyehl.Case(\n{''.join(inner)})",
+        f"ds = pyehl.solve(case{smooth})",
+        "print(float(ds.h_c_m), float(ds.h_min_m))",
+    ]
+    if position.rough:
+        lines += ["p = pyehl.predict(case)", "print(p.mu_ratio, p.model_error)"]
+    return "\n".join(lines) + "\n"
+
+
+def _quoted(value: bool | int | float | str) -> str:
+    """Write a value as Python does, texts in double quotes."""
+    return json.dumps(value) if isinstance(value, str) else repr(value)

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One thread that computes for one page: the newest job alone, never two at a time.
+
+Each job gets a number, larger than those before it: its generation. What a job tells carries it, so
+that who shows answers can leave out one that is older than the one shown.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from typing import Any
+
+__all__ = ["Job", "Ticket", "Worker"]
+
+# A job that has been overtaken may go on for so long [s], so that something is seen while a knob
+# is turned without a pause
+GRACE = 0.4
+
+
+class Ticket:
+    """What a job knows of the world: whether it is still wanted, and whom to tell."""
+
+    def __init__(self, worker: Worker, generation: int) -> None:
+        self._worker, self.generation = worker, generation
+        self._began = time.monotonic()
+
+    def newest(self) -> bool:
+        """Whether no newer job was handed in."""
+        return self._worker.generation == self.generation
+
+    def wanted(self) -> bool:
+        """Whether an answer is still of use: the job is the newest, or began just now."""
+        if self._worker.closed:
+            return False
+        return self.newest() or time.monotonic() - self._began < GRACE
+
+    def rest(self, seconds: float) -> bool:
+        """Wait until so long after its beginning; whether the job is the newest one still."""
+        left = seconds - (time.monotonic() - self._began)
+        return self._worker.rest(self.generation, max(0.0, left))
+
+    def tell(self, answer: Any) -> None:  # noqa: ANN401 (of any kind)
+        """Hand over an answer."""
+        if not self._worker.closed:
+            self._worker.deliver(self.generation, answer)
+
+
+Job = Callable[[Ticket], None]
+
+
+class Worker:
+    """A thread with room for one job, the newest; what it replaces is forgotten.
+
+    `deliver` is called in this thread with the generation and an answer; a job that raises is
+    answered with the exception.
+    """
+
+    def __init__(self, deliver: Callable[[int, Any], None], name: str = "pyehl") -> None:
+        self.deliver = deliver
+        self.generation = 0
+        self.closed = False
+        self._job: Job | None = None
+        self._changed = threading.Condition()
+        self._thread = threading.Thread(target=self._work, name=name, daemon=True)
+        self._thread.start()
+
+    def submit(self, job: Job) -> int:
+        """Hand in a job in place of one that waits; returns its generation."""
+        with self._changed:
+            self.generation += 1
+            self._job = job
+            self._changed.notify_all()
+            return self.generation
+
+    def rest(self, generation: int, seconds: float) -> bool:
+        """Wait so long, or until there is a newer job; whether there is none."""
+        with self._changed:
+            self._changed.wait_for(
+                lambda: self.closed or self.generation != generation, timeout=seconds
+            )
+            return not self.closed and self.generation == generation
+
+    def close(self, patience: float = 10.0) -> None:
+        """End the thread, after the cycle it is in."""
+        with self._changed:
+            self.closed = True
+            self._job = None
+            self._changed.notify_all()
+        if threading.current_thread() is not self._thread:
+            self._thread.join(patience)
+
+    @property
+    def alive(self) -> bool:
+        """Whether the thread runs."""
+        return self._thread.is_alive()
+
+    def _work(self) -> None:
+        while True:
+            with self._changed:
+                self._changed.wait_for(lambda: self.closed or self._job is not None)
+                if self.closed or self._job is None:
+                    return
+                job, self._job = self._job, None
+                ticket = Ticket(self, self.generation)
+            try:
+                job(ticket)
+            except Exception as error:
+                ticket.tell(error)

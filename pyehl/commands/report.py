@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``pyehl report``: one HTML page about a result."""
+
+from __future__ import annotations
+
+import argparse
+
+from pyehl.reports.folder import report
+
+__all__ = ["add_arguments", "execute"]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments of ``pyehl report``."""
+    parser.add_argument(
+        "folder", metavar="DIR", help="folder of run, predict, stribeck, sweep or response"
+    )
+    parser.add_argument("-o", "--output", metavar="FILE.html", help="default: DIR/report.html")
+    parser.add_argument(
+        "--pdf",
+        action="store_true",
+        help="print it as PDF, too, by an installed Chromium or Chrome",
+    )
+
+
+def execute(args: argparse.Namespace) -> int:
+    """Run ``pyehl report``; 0 written, 1 not written, 2 bad input."""
+    path = report(args.folder, args.output, pdf=args.pdf)
+    print(path)
+    if args.pdf:
+        print(path.with_suffix(".pdf"))
+    return 0

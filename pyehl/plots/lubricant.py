@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pictures of lubricants: viscosity and shear stress of an oil, a shear law and what it fits."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from pyehl.plots.style import BLUE, GREEN, VERMILLION, letter, new_figure
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.shear import ShearLaw, shear_stress
+
+__all__ = ["draw_fit", "draw_oil"]
+
+Array = NDArray[np.float64]
+
+# Of the picture of an oil: rises of temperature [K], pressures [Pa]
+RISES = (0.0, 20.0, 60.0)
+PRESSURES = (1e8, 5e8, 1e9)
+HIGHEST = 1.5e9
+COLOURS = (BLUE, GREEN, VERMILLION)
+
+
+def draw_oil(
+    name: str, lubricant: Lubricant, measured: tuple[float, float, float], limit: float | None
+) -> Figure:
+    """Draw eta over p at some temperatures, and tau over the shear rate at some pressures.
+
+    `measured` are lowest and highest temperature [degC] and greatest pressure [Pa] of the
+    measurements, beyond which lines are dashed; infinite where they are not known. `limit` is the
+    limiting shear stress over pressure, None where neither is known.
+    """
+    figure = new_figure(9.0, 4.0)
+    left, right = figure.subplots(1, 2)
+    p = np.linspace(0.0, HIGHEST, 301)
+    for rise, colour in zip(RISES, COLOURS, strict=True):
+        eta = lubricant.viscosity * lubricant.viscosity_ratio(p, rise)
+        temperature = lubricant.temperature + rise
+        inside = measured[0] <= temperature <= measured[1]
+        known = (p <= measured[2]) & inside
+        label = f"{temperature:g} °C"
+        left.semilogy(1e-9 * p[known], eta[known], color=colour, label=label)
+        beyond = ~known if inside else p >= 0.0
+        left.semilogy(1e-9 * p[beyond], eta[beyond], "--", color=colour, lw=1)
+    left.set_xlabel("p [GPa]")
+    left.set_ylabel(r"$\eta$ [Pa s]")
+    left.legend(fontsize="small", title="dashed: beyond the range", title_fontsize="small")
+    law = ShearLaw() if limit is None else ShearLaw("limiting", limiting_coefficient=limit)
+    rate = np.geomspace(1e2, 1e8, 200)
+    for pressure, colour in zip(PRESSURES, COLOURS, strict=True):
+        newtonian = lubricant.viscosity * float(lubricant.viscosity_ratio(pressure)) * rate
+        right.loglog(rate, newtonian, ":", color=colour, lw=1)
+        if limit is not None:
+            tau = shear_stress(newtonian, pressure, law)
+            right.loglog(rate, tau, color=colour, label=f"{1e-9 * pressure:g} GPa")
+        else:
+            right.plot([], [], ":", color=colour, label=f"{1e-9 * pressure:g} GPa")
+    right.set_ylim(1e3, 1e9)
+    right.set_xlabel(r"$\dot\gamma$ [1/s]")
+    right.set_ylabel(r"$\tau$ [Pa]")
+    words = "Newtonian" if limit is None else f"dotted: Newtonian; limit {limit:g} p"
+    title = f"{lubricant.temperature:g} °C; {words}"
+    right.legend(fontsize="small", title=title, title_fontsize="small", loc="upper left")
+    letter([left, right])
+    figure.suptitle(name, fontsize="medium")
+    return figure
+
+
+def draw_fit(
+    slide_to_roll: Array, measured: Array, error: Array, curve: tuple[Array, Array], words: str
+) -> Figure:
+    """Draw a measured traction curve with its errors (n,), and a fitted one: places, friction."""
+    figure = new_figure(6.0, 4.2)
+    ax = figure.subplots()
+    bars = error if error.any() else None
+    ax.errorbar(slide_to_roll, measured, bars, fmt="k^", ms=5, mfc="none", capsize=2, lw=0.8)
+    ax.plot([], [], "k^", mfc="none", label="measured")
+    ax.plot(*curve, "o-", ms=3, color=BLUE, label=words)
+    ax.set_xlabel("slide-to-roll ratio")
+    ax.set_ylabel(r"$\mu$")
+    ax.set_xlim(left=0.0)
+    ax.set_ylim(bottom=0.0)
+    ax.legend()
+    return figure

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Panels side by side under a line that says what they show."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from pyehl.plots.style import PAGE_WIDTH, Scales, letter, new_figure, wrapped
+
+__all__ = ["headline", "no_second_label", "panels"]
+
+# Room below and above a row of panels [in]
+BELOW, ABOVE = 0.52, 0.57
+# Panels narrower than this are put below one another [in]
+LEAST_PANEL = 2.0
+
+
+def headline(summary: Mapping[str, Any], scales: Scales | None = None) -> str:
+    """M, L, p_h, film and direction of motion in one line; the status unless it is a good one.
+
+    Of the scalars of a solution or a prediction, with scales in SI units, else in Hertz units.
+    """
+    parts = [f"$M$ = {summary['moes_m']:.4g}", f"$L$ = {summary['moes_l']:.4g}"]
+    parts.append(f"$p_h$ = {summary['hertz_pressure_Pa'] * 1e-9:.3g} GPa")
+    for name, word in (("c", "c"), ("min", r"\min")):
+        si, big = summary.get(f"h_{name}_m"), summary.get(f"H_{name}")
+        if si is None and scales is not None and big is not None:
+            si = big * scales.film
+        if si is not None and (scales is not None or big is None):
+            parts.append(rf"$h_{{{word}}}$ = {si * 1e6:.3g} $\mu$m")
+        elif big is not None:
+            parts.append(f"$H_{{{word}}}$ = {big:.3g}")
+    if summary["status"] not in ("converged", "predicted"):
+        parts.append(str(summary["status"]).upper())
+    return ",  ".join(parts) + r",  motion $\rightarrow$"
+
+
+def panels(
+    count: int,
+    size: tuple[float, float],
+    title: str,
+    *,
+    sharey: bool = False,
+    room: tuple[float, float, float] | None = None,
+) -> Figure:
+    """Make a figure with panels side by side.
+
+    `room`: left of, between and right of the panels in inches, where it is known. Then nothing is
+    measured, which takes as long as to draw.
+    """
+    page = PAGE_WIDTH.get()
+    if page:
+        return _on_page(count, size, wrapped(title, page), page, sharey=sharey)
+    if room is None:
+        figure = new_figure(*size)
+    else:
+        (width, height), (left, between, right) = size, room
+        panel = (width - left - right - (count - 1) * between) / count
+        figure = Figure(figsize=size)
+        figure.subplots_adjust(
+            left / width, BELOW / height, 1.0 - right / width, 1.0 - ABOVE / height, between / panel
+        )
+    letter(list(figure.subplots(1, count, sharey=sharey, squeeze=False)[0]))
+    figure.suptitle(title, fontsize="medium")
+    return figure
+
+
+def _on_page(
+    count: int, size: tuple[float, float], title: str, width: float, *, sharey: bool
+) -> Figure:
+    """Make a figure as wide as a page, its panels below one another where they would be small."""
+    columns = count if width >= count * LEAST_PANEL else 1
+    rows = count // columns
+    height = max(LEAST_PANEL, size[1] * width / columns * count / size[0])
+    figure = new_figure(width, rows * height)
+    letter(list(figure.subplots(rows, columns, sharey=sharey, squeeze=False).ravel()))
+    figure.suptitle(title, fontsize="medium")
+    return figure
+
+
+def no_second_label(ax: Axes) -> None:
+    """Leave out the label of the y axis that panels side by side share."""
+    place = ax.get_subplotspec()
+    if place is not None and not place.is_first_col():
+        ax.set_ylabel("")

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The positions in which two rough tiles meet as they pass a contact, each at its own speed.
+
+Where they are back at their start after a few passages, the friction is that of this common period:
+a line over all pairs of positions. Else they meet in all positions in the course of time, and a
+lattice of points over these takes the mean: positions k/n of the one and m k/n of the other tile,
+k = 0 ... n - 1, with n = m^2 - 1. As m^2 is 1 modulo n, it is the same for either order of the two.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pyehl.prediction.options import MAX_POSITIONS
+from pyehl.prediction.passage import POSITION_TOLERANCE
+
+__all__ = ["SAME", "Meeting", "common_passages"]
+
+Array = NDArray[np.float64]
+Friction = Callable[[tuple[float, float]], float]
+"""mu_r/mu_s where two tiles have moved by so much [a]."""
+
+MOST_PASSAGES = 12
+"""Passages of a tile in a common period that is followed: products of waves that have a mean over
+a longer one are of that order."""
+SAME = 1e-9
+"""Relative difference of two times that is none."""
+LATTICES = (9, 13, 19, 27)
+"""m of the lattices of a mean over all positions, the next one where one is not enough."""
+SHORT = 7
+"""m of the lattice of a mean over a few positions."""
+FEW = 16
+"""Positions per passage of a mean over a few of them along a line."""
+
+
+def common_passages(
+    lengths: tuple[float, float], velocity_ratios: tuple[float, float]
+) -> tuple[int, int] | None:
+    """Numbers of passages after which two tiles of these lengths are back; None: of no few."""
+    one, other = (u / length for u, length in zip(velocity_ratios, lengths, strict=True))
+    if one == 0.0 or other == 0.0:
+        return int(one > 0.0), int(other > 0.0)
+    ratio = one / other
+    found = Fraction(ratio).limit_denominator(MOST_PASSAGES)
+    if found.numerator > MOST_PASSAGES or not math.isclose(found, ratio, rel_tol=SAME):
+        return None
+    return found.numerator, found.denominator
+
+
+@dataclass(frozen=True, slots=True)
+class Meeting:
+    """Two tiles on the move: their lengths [a], their velocity ratios, and where they begin [a]."""
+
+    lengths: tuple[float, float]
+    velocity_ratios: tuple[float, float]
+    fronts: tuple[float, float]
+
+    @property
+    def passages(self) -> tuple[int, int] | None:
+        """Passages of both in their common period; None: they meet in all positions."""
+        return common_passages(self.lengths, self.velocity_ratios)
+
+    def moved(self, k: int, n: int, m: int = 0) -> tuple[float, float]:
+        """How far the tiles have moved at the k-th of n positions [a].
+
+        Of the common period, or of the lattice of `m`, where it is that within a tile.
+        """
+        one, other = self.lengths
+        if self.passages:
+            return one * (self.passages[0] * k) / n, other * (self.passages[1] * k) / n
+        return one * k / n, other * (m * k % n) / n
+
+    def shifts(self, k: int, n: int, m: int = 0) -> tuple[float, float]:
+        """Where the tiles begin at the k-th of n positions [a], as `moved`."""
+        first, second = self.moved(k, n, m)
+        return self.fronts[0] + first, self.fronts[1] + second
+
+    def short_mean(self, friction: Friction) -> float:
+        """Mean of mu_r/mu_s over a few positions."""
+        passages = self.passages
+        n = FEW * max(passages) if passages else SHORT**2 - 1
+        return float(np.mean([friction(self.shifts(k, n, SHORT)) for k in range(n)]))
+
+    def mean(
+        self, friction: Friction, positions: int, largest: float
+    ) -> tuple[Array, Array, Array, float]:
+        """How far both have moved [a] (n,), mu_r/mu_s there, and what is undecided (relative).
+
+        `positions`: how many, of a lattice the next larger number; 0: as many as it takes. No more
+        are added to a mean above `largest`.
+        """
+        if self.passages:
+            return self._along(friction, positions, largest)
+        fewest = math.isqrt(positions) + 1 if positions else 0
+        before = math.nan
+        for m in [fewest] if positions else LATTICES:
+            n = m * m - 1
+            places = np.array([self.moved(k, n, m) for k in range(n)])
+            ratios = np.array([friction(self.shifts(k, n, m)) for k in range(n)])
+            mean = float(ratios.mean())
+            error = _undecided(ratios)
+            if not math.isfinite(mean) or mean > largest:
+                break
+            if not math.isnan(before):
+                error = max(error, abs(mean - before) / mean)
+                if error <= POSITION_TOLERANCE:
+                    break
+            before = mean
+        return places[:, 0], places[:, 1], ratios, error
+
+    def _along(
+        self, friction: Friction, positions: int, largest: float
+    ) -> tuple[Array, Array, Array, float]:
+        n = positions or FEW * max(self.passages or ())
+        ratios = np.array([friction(self.shifts(k, n)) for k in range(n)])
+        error = _undecided(ratios)
+        while not positions and error > POSITION_TOLERANCE and 2 * n <= MAX_POSITIONS:
+            if float(ratios.mean()) > largest:
+                break
+            between = [friction(self.shifts(k, 2 * n)) for k in range(1, 2 * n, 2)]
+            ratios = np.stack([ratios, between], axis=1).ravel()
+            n, error = 2 * n, _undecided(ratios)
+        places = np.array([self.moved(k, n) for k in range(n)])
+        return places[:, 0], places[:, 1], ratios, error
+
+
+def _undecided(ratios: Array) -> float:
+    """Return what every second position would miss of the mean, relative to it.
+
+    An upper estimate of what all of them leave undecided. NaN where there are not twice as many.
+    """
+    if ratios.size % 2:
+        return math.nan
+    halves = ratios[::2].mean(), ratios[1::2].mean()
+    return float(0.5 * abs(halves[0] - halves[1]) / ratios.mean())

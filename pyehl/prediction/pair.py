@@ -1,0 +1,302 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Friction of two rough surfaces that pass a contact at speeds of their own.
+
+To first order each surface is deformed as if the other one were smooth, at its own velocity ratio;
+film and pressure of both add up. Of second order are products of waves of both
+(:mod:`pyehl.prediction.second_order`), and the waves leak as those of the amplitude of both. The
+result does not depend on which of the two is the first.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pyehl.prediction.bands import Band, joining
+from pyehl.prediction.by_response import RoughPassage
+from pyehl.prediction.contact import Response
+from pyehl.prediction.deformed import film_levels
+from pyehl.prediction.errors import model_error
+from pyehl.prediction.friction import (
+    BEYOND,
+    LARGEST_RATIO,
+    RoughFriction,
+    SecondPassage,
+    outcome,
+    passed,
+)
+from pyehl.prediction.meeting import Meeting
+from pyehl.prediction.moving_together import as_one
+from pyehl.prediction.pair_contact import PairContact, TileOnPoints
+from pyehl.prediction.pair_cut_off import known_by_cut_off
+from pyehl.prediction.passage import longer_waves, working_grid
+from pyehl.prediction.rough_contact import Edge
+from pyehl.prediction.smooth import circle_of, zone_of
+from pyehl.prediction.spectrum import Spectrum
+from pyehl.prediction.transfer import Transfer
+from pyehl.surfaces import Topography, filtered, track_offsets
+
+__all__ = ["RoughPair"]
+
+Array = NDArray[np.float64]
+PairParts = list[tuple[Spectrum, Transfer, Edge]]
+
+
+@dataclass(frozen=True, slots=True)
+class RoughPair:
+    """Two rough tiles in a contact; each with what it would be alone."""
+
+    of: tuple[RoughPassage, RoughPassage]
+    fronts: tuple[float, float]  # where the tiles begin at the same time, along the motion [a]
+    # How their spectra are cut
+    filters: tuple[str, str] = ("sharp", "sharp")
+    # Their numbers in an order of their own: sums are taken in it
+    order: tuple[int, int] = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Find the order: the faster one first, else by size and heights."""
+
+        def key(k: int) -> tuple[float, ...] | tuple[object, ...]:
+            tile = self.of[k].topography
+            heights = np.ascontiguousarray(tile.heights).tobytes()
+            return (-self.of[k].velocity_ratio, self.fronts[k], *tile.size, *tile.shape, heights)
+
+        first = min((0, 1), key=key)
+        object.__setattr__(self, "order", (first, 1 - first))
+
+    @property
+    def meeting(self) -> Meeting:
+        """The positions in which they meet, in their order."""
+        a, (i, j) = self.of[0].operating.hertz_radius, self.order
+        first, second = self.of[i], self.of[j]
+        return Meeting(
+            (first.topography.length_x / a, second.topography.length_x / a),
+            (first.velocity_ratio, second.velocity_ratio),
+            (self.fronts[i], self.fronts[j]),
+        )
+
+    def parts(self, tiles: Sequence[Topography] | None = None) -> PairParts:
+        """Components of both tiles and what becomes of them, in their order.
+
+        Of `tiles` in place of those on the grids that are worked on, as they are.
+        """
+        one = self.of[0]
+        if tiles is None:
+            tiles = [working_grid(part.topography, part.operating, 0) for part in self.of]
+        passages = [self.of[k] for k in self.order]
+        spectra = [one.spectrum(tiles[k]) for k in self.order]
+        moving = [(s, p.velocity_ratio) for s, p in zip(spectra, passages, strict=True)]
+        if one.options.reduction == "response":
+            o = one.operating
+            transfers = Transfer.of_all(
+                moving,
+                zone_of(one.contact, o, one.lubricant),
+                circle_of(one.contact, o, one.lubricant),
+                at_amplitude=one.lubricant.shear.weighs_flow,
+                mesh=one.mesh,
+            )
+        else:
+            transfers = [one.transfer(spectrum) for spectrum in spectra]
+        return [
+            (
+                spectrum,
+                transfer,
+                Edge.of(spectrum, 1.0 - transfer.at_centre(spectrum, ratio), one.operating.ellipse),
+            )
+            for (spectrum, ratio), transfer in zip(moving, transfers, strict=True)
+        ]
+
+    def _moving(self, parts: PairParts) -> list[tuple[Spectrum, Transfer, float]]:
+        return [
+            (p[0], p[1], self.of[k].velocity_ratio) for p, k in zip(parts, self.order, strict=True)
+        ]
+
+    def _contact(
+        self, parts: PairParts, powers: Sequence[Array] | None = None, tracks: Sequence[float] = ()
+    ) -> PairContact:
+        """Contact of parts; `powers` of the components as the transfers were made for them.
+
+        `tracks`: how far both are moved across the motion [a].
+        """
+        one = self.of[0]
+        second = parts[0][1].second
+        powers = powers or [spectrum.power for spectrum, _, _ in parts]
+        found = PairContact(
+            one.contact,
+            one.operating,
+            one.lubricant,
+            [edge for _, _, edge in parts],
+            second.of(*powers) if second else None,
+        )
+        film, points = one.contact.central_film, (found.x, found.y, found.across)
+        ratios = [self.of[k].velocity_ratio for k in self.order]
+        found.tiles = tuple(
+            TileOnPoints(*part, film, ratio, points, track)
+            for part, ratio, track in zip(parts, ratios, tracks or (0.0, 0.0), strict=True)
+        )
+        return found
+
+    def responses(self) -> list[Response]:
+        """Pressure [Pa] and deformed roughness [m] of each at the centre, on its pixels."""
+        found: list[Response] = []
+        o = self.of[0].operating
+        parts = self.parts([one.topography for one in self.of])
+        for k in (0, 1):
+            spectrum, transfer, _ = parts[self.order.index(k)]
+            ratio = self.of[k].velocity_ratio
+            pressure = spectrum.tile(transfer.pressure_at_centre(spectrum, ratio))
+            deformed = spectrum.tile(transfer.at_centre(spectrum, ratio))
+            found.append(Response(pressure * o.hertz_pressure, deformed * o.film_scale))
+        return found
+
+    def as_one(self) -> RoughPassage | None:
+        """Return both as one surface where they move together; None where they do not."""
+        first, second = (self.of[k] for k in self.order)
+        if first.velocity_ratio != second.velocity_ratio:
+            return None
+        way = self.fronts[self.order[1]] - self.fronts[self.order[0]]
+        both = as_one(first.topography, second.topography, way * first.operating.hertz_radius)
+        return None if both is None else replace(first, topography=both)
+
+    def mean(self) -> float:
+        """mu_r/mu_s over a few positions [-]; NaN where the film ends."""
+        one = self.as_one()
+        if one is not None:
+            return one.mean()
+        with np.errstate(over="ignore", invalid="ignore"):
+            return self.meeting.short_mean(self._contact(self.parts()).friction)
+
+    def known(self) -> bool:
+        """Whether the error of the ratio is."""
+        return math.isfinite(model_error(self.mean()))
+
+    def run(
+        self, tracks: int = 8, *, brief: bool = False
+    ) -> tuple[RoughFriction, tuple[float, float], list[Band]]:
+        """Friction over all positions, mean and spread over tracks, and what each band adds.
+
+        The bands are those of the wavelengths of both. `brief`, and no tracks: as of
+        :meth:`RoughPassage.run`. The response of the result is that of the first surface.
+        """
+        one, meeting = self.of[0], self.meeting
+        together = self.as_one()
+        if together is not None:
+            alone, spread, bands = together.run(tracks, brief=brief)
+            responses = self.responses()
+            second = SecondPassage(responses[1], alone.shift, 0.0)
+            return replace(alone, response=responses[0], second=second), spread, bands
+        parts = self.parts()
+        with np.errstate(over="ignore", invalid="ignore"):
+            contact = self._contact(parts)
+            left = [(s.power, np.abs(t.at_centre(s, ratio))) for s, t, ratio in self._moving(parts)]
+            limit = one.options.film_limit / one.operating.film_scale
+            contact.watch(film_levels(limit, left))
+            places = meeting.mean(contact.friction, one.options.positions, LARGEST_RATIO)
+            found = self._result(contact, parts, places, brief)
+            if found.status != "predicted":
+                return found, (math.nan, math.nan), []
+            ratios = [
+                meeting.short_mean(
+                    (self._contact(parts, tracks=pair) if any(pair) else contact).friction
+                )
+                for pair in self._tracks(tracks)
+            ]
+            bands = self._bands(parts, found.mu_ratio, brief)
+        # sorted: the same for either order of the tracks
+        over = np.sort(ratios) if tracks else np.array([math.nan])
+        return found, (float(over.mean()), float(over.std())), bands
+
+    def _tracks(self, tracks: int) -> list[tuple[float, float]]:
+        """Pairs of tracks [a]: equally spaced on both, in opposite order."""
+        if not tracks:
+            return []
+        a = self.of[0].operating.hertz_radius
+        one, other = (
+            [offset / a for offset in track_offsets(self.of[k].topography, tracks)]
+            for k in self.order
+        )
+        return [(one[k], other[-k % tracks]) for k in range(tracks)]
+
+    def below(self, shortest: float) -> float:
+        """mu_r/mu_s without waves shorter than a length [a] of either, over a few positions [-]."""
+        one = self.as_one()
+        if one is not None:
+            return one.below(shortest)
+        limit = 2.0 * math.pi / shortest
+        with np.errstate(over="ignore", invalid="ignore"):
+            return self.below_limits(self.parts(), (limit, limit))
+
+    def below_limits(self, parts: PairParts, limits: tuple[float, float]) -> float:
+        """mu_r/mu_s of the waves with |q| below a limit [1/a] of each, in their order."""
+        kept: PairParts = []
+        powers = []
+        for (spectrum, transfer, edge), limit in zip(parts, limits, strict=True):
+            few, index = longer_waves(spectrum, limit, self.of[0].operating.ellipse.ellipticity)
+            powers.append(np.where(spectrum.q < limit, spectrum.power, 0.0))
+            kept.append((few, transfer.kept(index), edge.below(limit)))
+        return self.meeting.short_mean(self._contact(kept, powers).friction)
+
+    def _bands(self, parts: PairParts, total: float, brief: bool) -> list[Band]:
+        """Return what each octave, or the last one alone, adds when it joins all longer ones."""
+        waves = [
+            (
+                spectrum.q.ravel(),
+                spectrum.power.ravel(),
+                np.abs(transfer.at_centre(spectrum, ratio)).ravel(),
+                np.abs(transfer.pressure_at_centre(spectrum, ratio)).ravel(),
+            )
+            for spectrum, transfer, ratio in self._moving(parts)
+        ]
+        q, power, deformed, pressure = (np.concatenate(both) for both in zip(*waves, strict=True))
+        return joining(
+            (q, power, deformed, pressure),
+            lambda limit: self.below_limits(parts, (limit, limit)),
+            total,
+            self.of[0].operating,
+            brief=brief,
+        )
+
+    def _result(
+        self,
+        contact: PairContact,
+        parts: PairParts,
+        places: tuple[Array, Array, Array, float],
+        brief: bool,
+    ) -> RoughFriction:
+        o, ratios = self.of[0].operating, places[2]
+        status, message = outcome(contact, ratios)
+        if status == BEYOND and not brief:
+            message += known_by_cut_off(
+                [spectrum for spectrum, _, _ in parts],
+                self.order,
+                o.hertz_radius,
+                lambda limits: self.below_limits(parts, limits),
+                lambda numbers, length: self.without_shorter(numbers, length).run(0, brief=True)[0],
+            )
+        responses = self.responses()
+        moved = [places[0] * o.hertz_radius, places[1] * o.hertz_radius]
+        shifts = [moved[k] for k in self.order]
+        touching = contact.touching / (contact.count * contact.points)
+        return passed(
+            contact,
+            (status, message),
+            (shifts[0], ratios, places[3]),
+            film_unit=o.film_scale,
+            response=responses[0],
+            second=SecondPassage(responses[1], shifts[1], touching),
+            periodic=self.meeting.passages is not None,
+        )
+
+    def without_shorter(self, numbers: Sequence[int], shortest: float) -> RoughPair:
+        """Return the pair without waves shorter than a length [m] of the surfaces so numbered."""
+        first, second = (
+            replace(one, topography=filtered(one.topography, shortest, kind=self.filters[k]))
+            if k in numbers
+            else one
+            for k, one in enumerate(self.of)
+        )
+        return replace(self, of=(first, second))

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Friction of a contact at one position of each of two rough tiles.
+
+To first order film and pressure of the waves of both add up. The pressure of second order is that
+of the sum. Their tiles have pixels and lengths of their own, so that the points are on a grid of
+their own, and the waves are made on its lines.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pyehl import library
+from pyehl.prediction.rough_contact import REACH, Edge, WavyContact, pairs, slipped
+from pyehl.prediction.smooth import SmoothContact
+from pyehl.prediction.spectrum import Spectrum
+from pyehl.prediction.transfer import Transfer
+from pyehl.prediction.waves import REFINEMENT, Waves
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+
+__all__ = ["PairContact", "TileOnPoints"]
+
+Array = NDArray[np.float64]
+Single = NDArray[np.float32]
+
+POINTS = 60.5
+"""Points per semi-axis; half a one more, so that the next semi-axis has other ones."""
+
+
+class TileOnPoints:
+    """The waves of a moving tile on the points of a contact.
+
+    `points`: X and Y [a], and Y by the semi-axis across the motion. `track`: how far the tile is
+    moved across the motion [a].
+    """
+
+    def __init__(
+        self,
+        spectrum: Spectrum,
+        transfer: Transfer,
+        edge: Edge,
+        central_film: float,
+        velocity_ratio: float,
+        points: tuple[Array, Array, Array],
+        track: float = 0.0,
+    ) -> None:
+        x, y, across = points
+        self.edge, self.track = edge, track
+        self.waves = Waves.of(spectrum, transfer, central_film, velocity_ratio, lines=y - track)
+        self.scale = REFINEMENT / spectrum.pixel[0]
+        self.places = x[:, np.newaxis]
+        lines = across if transfer.bent else np.zeros(1)
+        way = slipped(self.places, lines, velocity_ratio, bent=transfer.bent)
+        self.free_places = self.places + way
+
+    def add(self, contact: PairContact, shift: float, total: Single) -> None:
+        """Add loss of film and gain of pressure (m, n, 2) where the tile has moved by a shift."""
+        waves, weights = self.waves, contact.weights
+        columns = np.arange(contact.y.size, dtype=np.int32)
+        for tile, places, weight, part in (
+            (waves.driven, self.places, weights, np.ones_like(contact.off)),
+            (waves.free, self.free_places, weights, np.ones_like(contact.off)),
+            (waves.off_centre, self.free_places, np.ones_like(weights[:, :1]), contact.off),
+        ):
+            if tile is None:
+                continue
+            at = (places - shift) * self.scale
+            low = np.floor(at)
+            library.waves.free_waves(
+                pairs(tile),
+                low.astype(np.int32).T,
+                columns,
+                (at - low).astype(np.float32).T,
+                weight.T,
+                part,
+                0,
+                pairs(total),
+            )
+        contact.add_edge(total, self.edge.at(shift, self.track))
+
+
+class PairContact(WavyContact):
+    """Points of a contact with the waves of two tiles."""
+
+    def __init__(
+        self,
+        contact: SmoothContact,
+        operating: OperatingPoint,
+        lubricant: Lubricant,
+        edges: Sequence[Edge],
+        second: tuple[Array, Array] | None,
+    ) -> None:
+        half = int(REACH * POINTS)
+        line = np.arange(-half, half + 1) / POINTS
+        super().__init__(
+            contact,
+            line,
+            line * operating.ellipse.ellipticity,
+            edges=edges,
+            area=operating.hertz_radius * operating.semi_axis_y / POINTS**2,
+            operating=operating,
+            lubricant=lubricant,
+            second=second,
+        )
+        self.tiles: tuple[TileOnPoints, ...] = ()
+        self.touching = 0  # points with a film that is not positive, at all positions
+
+    def friction(self, shifts: tuple[float, float]) -> float:
+        """Friction over that of the smooth contact, the tiles moved by shifts [a].
+
+        NaN where the film is not positive.
+        """
+        total = np.zeros((*self.film.shape, 2), dtype=np.float32)
+        for tile, shift in zip(self.tiles, shifts, strict=True):
+            tile.add(self, shift, total)
+        self.add_second(total)
+        self.touching += int(np.count_nonzero((total[..., 0] >= self.film) & self.inside))
+        return self.sheared(total)

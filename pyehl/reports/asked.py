@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What was asked: the conditions of a case in SI units and in the numbers of Moes and Hertz."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from pyehl.surfaces import rough_groups
+from pyehl.theory.operating import OperatingPoint
+
+__all__ = ["conditions", "numbers", "surface_words"]
+
+Settings = Mapping[str, Mapping[str, Any]]
+
+
+def conditions(settings: Settings) -> dict[str, str]:
+    """Give names and values in SI units of a resolved case."""
+    point = OperatingPoint.from_settings(settings)
+    contact, lubricant = settings["contact"], settings["lubricant"]
+    found = {}
+    if not point.si:
+        found["given as"] = "M and L; below with the radius and modulus of a steel ball"
+    found["load w"] = f"{point.load:.6g} N"
+    found["mean velocity u"] = f"{point.mean_velocity:.6g} m/s"
+    found["slide-to-roll ratio"] = f"{point.slide_to_roll:.4g}"
+    if point.radius_ratio == 1.0:
+        found["reduced radius R"] = f"{point.radius * 1e3:.6g} mm"
+    else:
+        across = point.radius / point.radius_ratio
+        found["reduced radii R_x, R_y"] = f"{point.radius * 1e3:.6g}, {across * 1e3:.6g} mm"
+        if contact.get("angle"):
+            found["turned by"] = f"{contact['angle']:g} deg against the motion"
+    found["reduced modulus E'"] = f"{point.reduced_modulus * 1e-9:.6g} GPa, 2/E' = Σ(1−ν²)/E"
+    found["viscosity η₀"] = f"{float(lubricant['viscosity']):.5g} Pa s at ambient pressure"
+    if lubricant.get("kinematic_viscosity_40"):
+        found["viscosity η₀"] += (
+            f", from {lubricant['kinematic_viscosity_40']:g} and "
+            f"{lubricant['kinematic_viscosity_100']:g} mm²/s at 40 and 100 °C"
+        )
+        found["inlet temperature"] = f"{lubricant['temperature']:g} °C"
+    found["pressure-viscosity α"] = f"{point.pressure_viscosity * 1e9:.5g} 1/GPa"
+    if point.thermal_reduction != 1.0:
+        found["shear heating of the inlet"] = (
+            f"film {point.thermal_reduction:.4f} of the isothermal one"
+        )
+    law, density = lubricant["viscosity_law"], lubricant["density_law"]
+    found["laws"] = f"viscosity {law}, density {density}, shear stress {lubricant['shear_law']}"
+    for group in rough_groups(settings):
+        found[group.replace("_", " ")] = surface_words(settings[group])
+    return found
+
+
+def surface_words(group: Mapping[str, Any]) -> str:
+    """Say in a few words what the surface of a group is."""
+    kind = str(group["kind"])
+    if kind == "fractal":
+        words = (
+            f"fractal, rms {float(group['rms_height']) * 1e9:.4g} nm, Hurst {group['hurst']:g}, "
+            f"seed {group['seed']}, {group['pixels']} pixels a side"
+        )
+    elif kind == "harmonic":
+        along, across = group["wavelength_x"], group["wavelength_y"]
+        words = f"harmonic wave, {along:g} a along and {across:g} a across the motion"
+    elif kind == "map":
+        words = f"map {group['file']}"
+    else:
+        si = bool(group.get("width_m"))
+        words = (
+            f"{kind}, {group['width_m'] * 1e3:g} mm wide"
+            if si
+            else f"{kind}, {group['width']:g} a wide"
+        )
+    return f"{words}; it moves at {group['velocity_ratio']:g} of the mean velocity"
+
+
+def numbers(settings: Settings) -> dict[str, str]:
+    """Give names and values of the numbers without units, and of the dry contact."""
+    point = OperatingPoint.from_settings(settings)
+    found = {
+        "Moes load M": f"{point.moes_m:.5g}",
+        "Moes material L": f"{point.moes_l:.5g}",
+        "U, G, W": f"{point.speed:.4g}, {point.material:.4g}, {point.load_number:.4g}",
+        "Hertz pressure p_h": f"{point.hertz_pressure * 1e-9:.5g} GPa",
+        "α p_h": f"{point.alpha_bar:.4g}",
+    }
+    if point.radius_ratio == 1.0:
+        found["contact radius a"] = f"{point.hertz_radius * 1e3:.5g} mm"
+    else:
+        found["semi-axes of the contact"] = (
+            f"{point.hertz_radius * 1e3:.5g} mm along, {point.semi_axis_y * 1e3:.5g} mm across "
+            "the motion"
+        )
+    found["unit of films a²/R"] = f"{point.film_scale * 1e6:.5g} µm"
+    return found

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A page as PDF, printed by an installed browser."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+
+from pyehl.destination import mark, new_file
+from pyehl.errors import EhlError, InputError
+
+__all__ = ["BROWSERS", "browser", "write_pdf"]
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+OPTIONS = (
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-pdf-header-footer",
+)
+PATIENCE = 120.0
+
+
+def browser() -> str:
+    """Give the path of a browser that prints; InputError if none is installed."""
+    for name in BROWSERS:
+        found = shutil.which(name)
+        if found:
+            return found
+    raise InputError(
+        f"--pdf: no browser is installed that prints pages\nexpected: one of {', '.join(BROWSERS)}"
+    )
+
+
+def write_pdf(page: Path, path: Path) -> Path:
+    """Print a page, whole or not at all; returns the path.
+
+    InputError if no browser is installed; EhlError if it does not print; FileError if the file
+    cannot be written.
+    """
+    program = browser()
+    with tempfile.TemporaryDirectory(prefix="pyehl-") as profile, new_file(path) as partial:
+        words = [*OPTIONS, f"--user-data-dir={profile}", f"--print-to-pdf={partial.resolve()}"]
+        try:
+            done = subprocess.run(
+                [program, *words, page.resolve().as_uri()],
+                capture_output=True,
+                timeout=PATIENCE,
+                check=False,
+            )
+        except (OSError, subprocess.TimeoutExpired) as error:
+            raise EhlError(f"{path}: {program} did not print: {error}") from error
+        if done.returncode != 0 or not partial.is_file():
+            told = done.stderr.decode(errors="replace").strip().splitlines()[-1:]
+            raise EhlError(f"{path}: {program} did not print: {' '.join(told)}")
+        # a comment behind the end, by which it is known as ours
+        with partial.open("ab") as stream:
+            stream.write(f"%{mark('report')}\n".encode())
+    return path

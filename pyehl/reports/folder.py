@@ -1,0 +1,252 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The report of a result folder."""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+from collections.abc import Mapping
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+from pyehl import library, namelist
+from pyehl.destination import check_files
+from pyehl.errors import FileError, InputError
+from pyehl.given import path_of
+from pyehl.plots.folder import plot
+from pyehl.plots.style import png
+from pyehl.reports import browser, page
+from pyehl.reports.answer import Judgement, answer, judge
+from pyehl.reports.asked import conditions, numbers
+from pyehl.reports.limits import limits, warnings
+from pyehl.reports.study import study_parts
+from pyehl.results import load, settings_of
+from pyehl.schema import QUANTITIES
+from pyehl.studies.journal import NAME
+
+__all__ = ["report"]
+
+# A page is to stay below this many bytes: its pictures are drawn with fewer dots where need be
+LARGEST = 2_000_000
+DOTS = (120, 100, 80, 60, 45)
+PICTURES = {
+    "centre_lines": "Pressure and film through the centre, along and across the motion",
+    "film": "Film as interference fringes and as contours",
+    "deformed_roughness": "Roughness before and in the contact",
+    "rough_and_smooth": "Pressure and film of the rough contact beside those of the smooth one",
+    "friction": "μ_r/μ_s over the time of the run",
+    "extremes": "Largest pressure and least film over the time of the run",
+    "surface_spectrum": "The surface, its spectrum, and what is left of it in the contact",
+    "roughness": "Roughness before and in the contact",
+    "passage": "μ_r/μ_s over the passage of the surface, and what each octave of wavelengths adds",
+}
+CITATION = (
+    "pyehl {version}: elastohydrodynamically lubricated point contacts with rough surfaces, by the "
+    "pyehl developers.",
+    "Y. Zhang, N. Biboulet, C.H. Venner & A.A. Lubrecht, Prediction of the Stribeck curve under "
+    "full-film elastohydrodynamic lubrication, Tribology International 2019, doi "
+    "10.1016/j.triboint.2019.01.028 (the method).",
+)
+
+
+def report(
+    folder: str | os.PathLike[str],
+    output: str | os.PathLike[str] | None = None,
+    *,
+    pdf: bool = False,
+) -> Path:
+    """Write one HTML page about a result, which needs neither network nor pyehl.
+
+    The page has what was asked (in SI units and in Moes numbers), the answer with its errors and a
+    judgement, pictures, tables, warnings, limits that apply, the case file, versions, and how to
+    cite. Folders of files on this machine are left out.
+
+    Parameters
+    ----------
+    folder
+        Result folder of ``run``, ``predict``, ``stribeck``, ``sweep`` or ``response``.
+    output
+        File to write; one that `report` wrote is replaced; default ``report.html`` in the folder.
+    pdf
+        Print it as PDF, too, beside it, by an installed Chromium or Chrome.
+
+    Returns
+    -------
+    Path
+        The page.
+
+    Raises
+    ------
+    InputError
+        If it is no result folder, another file is in the way, or no browser is installed.
+    FileError
+        If a file cannot be read or written.
+
+    Examples
+    --------
+    >>> import pyehl
+    >>> solved = pyehl.solve("cases/quick.nml", {"grid.points": 65}, output="out/reported")
+    >>> pyehl.report("out/reported").name
+    'report.html'
+    """
+    source = Path(path_of(folder, "folder"))
+    path = source / "report.html" if output is None else Path(path_of(output, "output"))
+    printed = path.with_suffix(".pdf")
+    inside = [entry for entry in source.iterdir() if entry != path] if source.is_dir() else []
+    check_files([path, printed] if pdf else [path], "report", inside if output else ())
+    if pdf:
+        browser.browser()
+    title, judgement, parts = _content(source)
+    parts = [page.verdict(*_spoken(judgement)), *parts, *_versions()]
+    page.write_page(path, title, parts, "report")
+    if pdf:
+        browser.write_pdf(path, printed)
+    return path
+
+
+def _spoken(judgement: Judgement) -> tuple[str, str, str]:
+    return judgement.word, judgement.why, judgement.kind
+
+
+def _content(folder: Path) -> tuple[str, Judgement, list[str]]:
+    """Give title, judgement and parts of the page of any result folder."""
+    if (folder / NAME).is_file():
+        return study_parts(folder)
+    try:
+        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    except FileNotFoundError as error:
+        raise InputError(
+            f"{folder}: no result folder (there is neither summary.json nor {NAME})\n"
+            "expected: what -o of run, predict, stribeck, sweep or response named"
+        ) from error
+    except (OSError, ValueError) as error:
+        raise FileError(f"{folder}: summary.json cannot be read: {error}") from error
+    if summary.get("kind") == "response":
+        return _response(folder, summary)
+    if summary.get("kind") not in ("solution", "prediction"):
+        raise InputError(
+            f"{folder}: a result of '{summary.get('kind')}' has no report\n"
+            "expected: a folder of run, predict, stribeck, sweep or response"
+        )
+    return _single(folder, summary)
+
+
+def _single(folder: Path, summary: Mapping[str, Any]) -> tuple[str, Judgement, list[str]]:
+    """Parts of the page of a solution or a prediction."""
+    data = load(folder)
+    settings, case = settings_of(data), str(data.attrs["case"])
+    told = judge(summary)
+    parts = [page.heading("What was asked")]
+    parts += [page.facts(conditions(settings)), page.facts(numbers(settings))]
+    parts.append(page.heading("The answer"))
+    found = answer(summary)
+    parts.append(page.facts(found) if found else page.paragraph(told.why, "fail"))
+    if summary.get("film_breakdown"):
+        parts.append(page.facts({k: str(v) for k, v in summary["film_breakdown"].items()}))
+    behind = []
+    if summary.get("bands"):
+        names = list(summary["bands"][0])
+        rows = [[_value(band[name]) for name in names] for band in summary["bands"]]
+        behind += [page.heading("Octaves of wavelengths"), page.table(names, rows)]
+    noted = warnings(summary)
+    behind.append(page.heading("Warnings"))
+    behind.append(page.bullets(noted) if noted else page.paragraph("None."))
+    behind += [page.heading("Limits that apply"), page.bullets(limits(settings, summary))]
+    behind += _case_parts(case)
+    behind.append(page.folded("All numbers", _all_numbers(summary)))
+    title = "Prediction of a rough contact" if summary["kind"] == "prediction" else _title(summary)
+    for dpi in DOTS:
+        pictures = _pictures(data, summary, dpi)
+        if sum(map(len, [*parts, *pictures, *behind])) < LARGEST:
+            break
+    maps = {str(group["file"]) for group in settings.values() if group.get("file")}
+    return title, told, [_nameless(text, maps) for text in [*parts, *pictures, *behind]]
+
+
+def _title(summary: Mapping[str, Any]) -> str:
+    return "Rough contact" if "mu_ratio_min" in summary or "H_c_rough" in summary else "Contact"
+
+
+def _nameless(text: str, maps: set[str]) -> str:
+    """Leave out where maps lie on this machine."""
+    for name in maps:
+        text = text.replace(name, Path(name).name)
+    return text
+
+
+def _pictures(data: Any, summary: Mapping[str, Any], dpi: int) -> list[str]:  # noqa: ANN401
+    """Draw the pictures of a Dataset, each with its words."""
+    if summary["kind"] == "solution" and "P" not in data:
+        return [page.paragraph("There are no pictures: the case has output.fields = .false.")]
+    parts = [page.heading("Pictures")]
+    facts = "; ".join(f"{name}: {value}" for name, value in answer(summary).items())
+    for name, figure in plot(data).items():
+        words = PICTURES.get(name, name)
+        parts.append(page.picture(png(figure, dpi), f"{words}. {facts}", f"{words}."))
+    return parts
+
+
+def _case_parts(case: str) -> list[str]:
+    short = namelist.given(case) or "! every value is the default\n"
+    return [
+        page.heading("The case"),
+        page.preformatted(short),
+        page.folded("Every value of it", page.preformatted(case)),
+    ]
+
+
+def _value(value: object) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def _all_numbers(summary: Mapping[str, Any]) -> str:
+    """Give the summary with units and meanings."""
+    known = {q.name: q for q in QUANTITIES}
+    rows = [
+        (name, _value(value), known[name].unit, known[name].meaning)
+        for name, value in summary.items()
+        if name in known and name not in ("bands", "files") and value is not None
+    ]
+    return page.table(("name", "value", "unit", "meaning"), rows)
+
+
+def _response(folder: Path, summary: Mapping[str, Any]) -> tuple[str, Judgement, list[str]]:
+    """Parts of the page of a measured response."""
+    case = (folder / "case.nml").read_text(encoding="utf-8")
+    settings = namelist.values(case)
+    words = "Amplitude and lag of small waves over their length, beside the shipped response"
+    within = bool(summary["within_fitted_range"])
+    rms, most = summary["shipped_difference_rms"], summary["shipped_difference_max"]
+    told = Judgement(
+        "Holds" if within else "Take with care",
+        f"{summary['waves']} waves; they differ from the shipped response by {rms:.2g} (rms) and "
+        f"{most:.2g} at most" + ("." if within else ", which was not fitted at such a point."),
+        "pass" if within else "care",
+    )
+    parts = [page.heading("What was asked"), page.facts(conditions(settings))]
+    parts += [page.facts(numbers(settings)), page.heading("The answer")]
+    if (folder / "response.png").is_file():
+        parts.append(page.picture((folder / "response.png").read_bytes(), told.why, words))
+    tiers = summary["tiers"]
+    parts.append(page.table(list(tiers[0]), [[_value(v) for v in t.values()] for t in tiers]))
+    parts.append(page.heading("Limits that apply"))
+    parts.append(page.bullets(limits(settings, {"kind": "solution"})[:2]))
+    return "Measured response", told, [*parts, *_case_parts(case)]
+
+
+def _versions() -> list[str]:
+    version = metadata.version("pyehl")
+    names = ("numpy", "scipy", "matplotlib", "xarray")
+    rows = {
+        "pyehl": f"{version}, library {library.version()}: {library.build()}",
+        "Python": platform.python_version(),
+        "packages": ", ".join(f"{name} {metadata.version(name)}" for name in names),
+    }
+    return [
+        page.heading("Versions"),
+        page.facts(rows),
+        page.heading("How to cite"),
+        page.bullets(text.format(version=version) for text in CITATION),
+    ]

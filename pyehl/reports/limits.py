@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Which of the limits of the model apply to a result, and what it warns of itself."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from pyehl.surfaces import FEATURES, rough_groups
+from pyehl.theory.operating import OperatingPoint
+
+__all__ = ["limits", "warnings"]
+
+Settings = Mapping[str, Mapping[str, Any]]
+Summary = Mapping[str, Any]
+
+# Rise of the temperature [K] above which an oil is thinner than computed, as cases/README.md says
+HOT = 10.0
+# Beyond it the pressure of smooth contacts was tried on some grids only [Pa]
+HIGH_PRESSURE = 4e9
+NOTES = {
+    "H_c_error_note": "The error of H_c is not known",
+    "H_min_error_note": "The error of H_min is not known",
+    "mu_ratio_error_note": "The error of μ_r/μ_s is not known",
+    "start_note": "The time steps began behind the front",
+    "mu_note": "Friction",
+    "note": "μ_r/μ_s",
+    "message": "Status",
+}
+
+
+def limits(settings: Settings, summary: Summary) -> list[str]:
+    """Say which limits of the model apply to a result, a sentence or two each."""
+    point = OperatingPoint.from_settings(settings)
+    law, flow = settings["lubricant"]["shear_law"], settings["lubricant"].get("flow", "newtonian")
+    rough = rough_groups(settings)
+    predicted = summary.get("kind") == "prediction"
+    found = [
+        "The inlet is fully flooded and the film is full: there is no starvation and no mixed "
+        "lubrication.",
+        "The flow is isothermal. The flash temperature is estimated where there is friction, and "
+        "not fed back."
+        if point.thermal_reduction == 1.0
+        else "Shear heating of the inlet is a factor on the film (Gupta et al. 1992); the contact "
+        "is isothermal.",
+    ]
+    if law == "newtonian" and point.sliding_speed > 0.0:
+        found.append(
+            "The oil is Newtonian: a coefficient of friction would have no meaning at these "
+            "pressures. Shear thinning brings μ_r/μ_s close to 1."
+        )
+    elif law in ("eyring", "carreau") and (predicted or flow == "newtonian"):
+        found.append("The shear law thins the friction alone: film and waves are Newtonian.")
+    elif law == "limiting":
+        found.append("The limiting stress bounds the friction alone, not the flow.")
+    if point.moes_m >= 500.0 and settings.get("grid", {}).get("border") != "flooded":
+        found.append(
+            "At the border of the domain P = 0, which takes a little of the film; what it takes is "
+            "part of the stated error."
+        )
+    if point.hertz_pressure > HIGH_PRESSURE:
+        found.append(
+            "Above a Hertz pressure of 4 GPa few grids were tried; the status says what came of it."
+        )
+    if rough:
+        found.append(
+            "μ_r/μ_s is that of one scan line of this surface at this slip. Between scan lines "
+            "of one surface it scatters by about 10 %."
+        )
+    if len(rough) == 1 and str(settings[rough[0]]["kind"]) in FEATURES:
+        found[-1] = "μ_r/μ_s is the mean over one passage of the feature."
+    if predicted:
+        found.append(
+            "It is a prediction from the spectrum: of second order in the height of the waves, for "
+            "waves that the film carries."
+        )
+    return found
+
+
+def warnings(summary: Summary) -> list[str]:
+    """Give what a summary says of what is not known or to be taken with care."""
+    found = [
+        f"{words}: {summary[name]}."
+        for name, words in NOTES.items()
+        if summary.get(name) and not (name == "message" and summary["status"] == "predicted")
+    ]
+    outside = summary.get("outside_range")
+    if outside:
+        found.append(
+            f"Outside of the range in which the response was measured: {', '.join(outside)}."
+        )
+    heat = summary.get("flash_temperature_K")
+    if heat is not None and heat > HOT:
+        found.append(
+            f"The flash temperature is {heat:.3g} K: the oil in the contact is thinner than "
+            "computed, and the friction less."
+        )
+    left_out = summary.get("variance_left_out") or 0.0
+    if left_out > 0.0:
+        found.append(f"The grid leaves out {100.0 * left_out:.2g} % of the height's variance.")
+    share = summary.get("film_below_zero_share") or 0.0
+    if share > 0.0:
+        found.append(f"The film would be below zero on {100.0 * share:.2g} % of the contact.")
+    lost = summary.get("cavitated_share") or 0.0
+    if lost > 0.0:
+        found.append(f"The pressure would be negative on {100.0 * lost:.2g} % of the contact.")
+    return found

@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The parts of the page of a sweep or a Stribeck curve, from its journal, table and picture."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from pyehl import library, namelist
+from pyehl.errors import InputError
+from pyehl.plots.study import Line, study_figure
+from pyehl.plots.style import png
+from pyehl.reports import page
+from pyehl.reports.answer import WELL_KNOWN, Judgement
+from pyehl.reports.asked import conditions, numbers
+from pyehl.reports.limits import limits
+from pyehl.studies.journal import read_header
+from pyehl.theory.operating import OperatingPoint
+
+__all__ = ["STUDY_DPI", "study_parts"]
+
+STUDY_DPI = 110
+TABLES = {"stribeck": "stribeck.csv"}
+GOOD = ("converged", "predicted", "computed", "full film")
+# Columns shown where they are there, with their errors
+COLUMNS = {
+    "h_c_m": "h_c_error_m",
+    "h_min_m": "h_min_error_m",
+    "H_c": "H_c_error",
+    "H_min": "H_min_error",
+    "lambda_ratio": "",
+    "theta_2": "",
+    "mu_ratio": "",
+    "mu_ratio_error": "",
+    "mu_ratio_model_error": "",
+    "mu_ratio_ehl": "mu_ratio_ehl_error",
+    "mu": "",
+}
+DRAWN = {
+    "h_c_m": "h_c_error_m",
+    "H_c": "H_c_error",
+    "h_min_m": "h_min_error_m",
+    "H_min": "H_min_error",
+    "mu_ratio": "mu_ratio_error",
+}
+ERRORS = {"mu_ratio": ("mu_ratio_error", "mu_ratio_model_error")}
+MOST_ROWS, MOST_LINES, MOST_PANELS = 200, 7, 3
+
+
+def study_parts(folder: Path) -> tuple[str, Judgement, list[str]]:
+    """Give title, judgement and parts of the page of a study.
+
+    InputError if the folder has no journal that can be read, or no table.
+    """
+    header = read_header(folder)
+    if header is None or "case" not in header:
+        raise InputError(f"{folder}: its journal cannot be read")
+    run = str(header["run"])
+    path = folder / TABLES.get(run, "results.csv")
+    try:
+        rows = pd.read_csv(path, keep_default_na=True)
+    except (OSError, ValueError) as error:
+        raise InputError(f"{path}: cannot be read: {error}") from error
+    keys = [str(key) for key in header["vary"]]
+    title = "Stribeck curve" if run == "stribeck" else f"Sweep ({run})"
+    size = int(np.prod([len(values) for values in header["vary"].values()]))
+    settings = namelist.values(str(header["case"]))
+    parts = [page.heading("What was asked")]
+    units = {key.name: key.unit for key in library.keys()}
+    parts.append(
+        page.facts(
+            {
+                _with_unit(key, units): ", ".join(f"{v}" for v in values)
+                for key, values in header["vary"].items()
+            }
+        )
+    )
+    parts.append(page.paragraph("The first case has:"))
+    parts += [page.facts(conditions(settings)), page.facts(numbers(settings))]
+    parts.append(page.heading("The answer"))
+    point = OperatingPoint.from_settings(settings)
+    about = (
+        f"{title}; first case $M$ = {point.moes_m:.4g}, $L$ = {point.moes_l:.4g}, "
+        f"$p_h$ = {point.hertz_pressure * 1e-9:.3g} GPa"
+    )
+    parts += _pictures(folder, rows, keys, units, about)
+    parts.append(_table(rows, keys))
+    told = [f"{text}" for text in dict.fromkeys(rows["message"].dropna()) if str(text).strip()]
+    if told:
+        parts += [page.heading("Warnings"), page.bullets(told[:20])]
+    parts.append(page.heading("Limits that apply"))
+    kind = "prediction" if run in ("predict", "stribeck") else "solution"
+    parts.append(page.bullets(limits(settings, {"kind": kind})))
+    parts.append(page.heading("The first case"))
+    parts.append(page.preformatted(namelist.given(str(header["case"]))))
+    return title, _judge(rows, size, zipped=bool(header["zip"])), parts
+
+
+def _with_unit(key: str, units: Mapping[str, str]) -> str:
+    return f"{key} [{units[key]}]" if units.get(key, "-") != "-" else key
+
+
+def _judge(rows: pd.DataFrame, size: int, *, zipped: bool) -> Judgement:
+    """Judge a study by what its rows say of themselves."""
+    counts = rows["status"].fillna("none").value_counts()
+    good = int(sum(counts.get(word, 0) for word in GOOD))
+    others = ", ".join(f"{n} '{word}'" for word, n in counts.items() if word not in GOOD)
+    missing = 0 if zipped else size - len(rows)
+    left = f"; {missing} are not done" if missing > 0 else ""
+    why = f"{good} of {len(rows)} cases have an answer{left}."
+    if others:
+        why += f" The others: {others}."
+    if good == 0:
+        return Judgement("No answer", why, "fail")
+    shares = _errors(rows)
+    if shares:
+        why += f" Largest errors: {', '.join(f'{n} {100.0 * v:.2g} %' for n, v in shares.items())}."
+    doubtful = any(share > WELL_KNOWN for share in shares.values())
+    if doubtful:
+        why += f" Above {100.0 * WELL_KNOWN:g} % a finer grid is worth its time."
+    if others or left or doubtful:
+        return Judgement("Take with care", why, "care")
+    return Judgement("Holds", why, "pass")
+
+
+def _errors(rows: pd.DataFrame) -> dict[str, float]:
+    """Give the largest relative error of each result whose errors are in the table."""
+    found = {}
+    for name, error in DRAWN.items():
+        for column in (*ERRORS.get(name, ()), error):
+            if name in rows and column in rows and rows[column].notna().any():
+                found[name] = float((rows[column] / rows[name].abs()).max())
+                break
+    return found
+
+
+def _cell(value: Any) -> str:  # noqa: ANN401 (of a table)
+    if isinstance(value, str):
+        return value
+    return "" if pd.isna(value) else f"{value:.5g}"
+
+
+def _table(rows: pd.DataFrame, keys: Sequence[str]) -> str:
+    names = [*keys]
+    for name, error in COLUMNS.items():
+        names += [n for n in (name, error) if n in rows and rows[n].notna().any()]
+    names.append("status")
+    shown = rows[names].head(MOST_ROWS)
+    kinds = ["pass" if word in GOOD else "care" for word in shown["status"]]
+    text = page.table(names, [[_cell(v) for v in row] for row in shown.values.tolist()], kinds)
+    if len(rows) > MOST_ROWS:
+        text += page.paragraph(f"The first {MOST_ROWS} of {len(rows)} rows.")
+    return text
+
+
+def _pictures(
+    folder: Path, rows: pd.DataFrame, keys: Sequence[str], units: Mapping[str, str], title: str
+) -> list[str]:
+    """Give the picture of a curve as it was drawn, else the results over the first key."""
+    drawn = folder / "stribeck.png"
+    if drawn.is_file():
+        words = "Friction over the Hersey number, the film ratio Lambda and theta_2"
+        return [page.picture(drawn.read_bytes(), f"{words}; the numbers are in the table.", words)]
+    if rows.empty or not pd.api.types.is_numeric_dtype(rows[keys[0]]):
+        return []
+    panels: list[tuple[str, list[Line]]] = []
+    for name in DRAWN:
+        if name in rows and rows[name].notna().any() and len(panels) < MOST_PANELS:
+            label = f"{name.removesuffix('_m')} [m]" if name.endswith("_m") else name
+            panels.append((label, _lines(rows, keys, name)))
+    if not panels:
+        return []
+    figure = study_figure(panels, _with_unit(keys[0], units), title)
+    names = ", ".join(label for label, _ in panels)
+    span = f"{rows[keys[0]].min():.4g} to {rows[keys[0]].max():.4g}"
+    words = f"{names} over {keys[0]} from {span}"
+    return [page.picture(png(figure, STUDY_DPI), f"{words}; numbers in the table.", words)]
+
+
+def _lines(rows: pd.DataFrame, keys: Sequence[str], name: str) -> list[Line]:
+    """Give a line for each value of the keys behind the first one; the first few."""
+    candidates = (*ERRORS.get(name, ()), DRAWN[name])
+    error = next((e for e in candidates if e in rows and rows[e].notna().any()), "")
+    groups = rows.groupby(list(keys[1:]), sort=False) if keys[1:] else [("", rows)]
+    lines = []
+    for value, those in groups:
+        values = value if isinstance(value, tuple) else (value,)
+        label = ", ".join(f"{k} = {v}" for k, v in zip(keys[1:], values, strict=False))
+        errors = those[error].to_numpy(float) if error else np.full(len(those), np.nan)
+        lines.append(
+            Line(label, those[keys[0]].to_numpy(float), those[name].to_numpy(float), errors)
+        )
+    return lines[:MOST_LINES]

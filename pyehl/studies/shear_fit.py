@@ -1,0 +1,239 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Parameters of a shear law from a measured traction curve.
+
+The friction is that of the package: smooth contacts with the law, solved at each slide-to-roll
+ratio. The search begins where the law over film and pressure of the Newtonian contact fits best.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pyehl import library, namelist
+from pyehl.errors import EhlError, InputError
+from pyehl.handle import SolverHandle
+from pyehl.prediction.smooth import SmoothContact, solve_contact
+from pyehl.studies.measured_friction import Measured
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.shear import ShearLaw, shear_stress
+
+if TYPE_CHECKING:
+    from scipy.optimize import OptimizeResult
+
+__all__ = ["PARAMETERS", "Fit", "Parameter", "fit_law"]
+
+Array = NDArray[np.float64]
+Settings = Mapping[str, Mapping[str, Any]]
+
+# Parameters of each law that is fitted, keys of &lubricant
+PARAMETERS = {
+    "eyring": ("eyring_stress",),
+    "limiting": ("limiting_coefficient",),
+    "carreau": ("carreau_stress", "carreau_exponent"),
+}
+# Where the search begins
+START = {
+    "eyring_stress": 5e6,
+    "limiting_coefficient": 0.06,
+    "carreau_stress": 5e6,
+    "carreau_exponent": 0.5,
+}
+# Difference of parameters (of the exponent, of logarithms of the others) for the slopes, whose
+# effect is far above the algebraic error of the contacts; change at which the search ends
+STEP, TOLERANCE = 0.03, 1e-4
+CONFIDENCE = 0.95
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """A fitted parameter: key, unit, value, and the ends of its confidence interval."""
+
+    key: str
+    unit: str
+    value: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, slots=True)
+class Fit:
+    """A shear law and the traction curve that it was fitted to."""
+
+    law: str
+    parameters: tuple[Parameter, ...]
+    slide_to_roll: Array  # (n,), ascending
+    measured: Array  # mu (n,)
+    error: Array  # of it (n,), zeros where none is given
+    fitted: Array  # mu by the package (n,)
+    points: int  # nodes along X of the contacts
+
+    @property
+    def residual_rms(self) -> float:
+        """Root mean square of fitted less measured mu [-]."""
+        return float(np.sqrt(np.mean((self.fitted - self.measured) ** 2)))
+
+    @property
+    def group(self) -> str:
+        """The law as ``&lubricant`` to paste into a case."""
+        values = {p.key: float(f"{p.value:.6g}") for p in self.parameters}
+        return namelist.text_of({"lubricant": {"shear_law": self.law, **values}})
+
+
+def fit_law(settings: Settings, law: str, measured: Measured, points: int) -> Fit:
+    """Fit a law, one of :data:`PARAMETERS`, to measured friction over the slide-to-roll ratio.
+
+    InputError for too few points; EhlError if a contact has no solution, or no fit is found.
+    """
+    # it takes long to import
+    from scipy.optimize import least_squares  # noqa: PLC0415
+
+    keys = PARAMETERS[law]
+    order = np.argsort(measured.places)
+    srr, mu, error = (v[order] for v in (measured.places, measured.friction, measured.error))
+    if srr.size <= len(keys):
+        raise InputError(
+            f"{srr.size} measured points for {len(keys)} parameters of '{law}'\nexpected: more "
+            "points than parameters"
+        )
+    weight = 1.0 / error if np.all(error > 0.0) else np.ones_like(mu)
+    base = _base(settings, points)
+    model = _Model(settings, law)
+    limits = np.array([_limits(key) for key in keys])
+    lower, upper = _to_search(keys, limits[:, 0]), _to_search(keys, limits[:, 1])
+    found = _to_search(keys, np.array([START[key] for key in keys]))
+
+    def search(friction: Callable[[Array], Array], start: Array) -> OptimizeResult:
+        return least_squares(
+            lambda x: weight * (friction(_to_values(keys, x)) - mu),
+            start,
+            bounds=(lower, upper),
+            x_scale="jac",
+            diff_step=STEP / np.maximum(np.abs(start), STEP),
+            xtol=TOLERANCE,
+            ftol=TOLERANCE,
+            gtol=None,
+        )
+
+    def solved(values: Array) -> Array:
+        return np.array([_friction(base, law, keys, values, float(s)) for s in srr])
+
+    begin = search(lambda values: model.friction(values, srr), found)
+    settled = search(solved, begin.x)
+    if not settled.success:
+        raise EhlError(f"the fit of '{law}' did not settle: {settled.message}")
+    found = settled.x
+    values = _to_values(keys, found)
+    if settled.active_mask.any():
+        told = ", ".join(f"{k} = {v:.4g}" for k, v in zip(keys, values, strict=True))
+        raise EhlError(
+            f"the fit of '{law}' ends at {told}, where the range of the key ends: the data do not "
+            "tell it"
+        )
+    ends = _intervals(keys, settled.jac, settled.fun, found)
+    units = {key.name.partition(".")[2]: key.unit for key in library.keys()}
+    parameters = tuple(
+        Parameter(key, units[key], float(value), *end)
+        for key, value, end in zip(keys, values, ends, strict=True)
+    )
+    return Fit(law, parameters, srr, mu, error, settled.fun / weight + mu, points)
+
+
+def _limits(key: str) -> tuple[float, float]:
+    """Give the ends of what a key allows besides 0."""
+    allowed = next(k.allowed for k in library.keys() if k.name == f"lubricant.{key}")
+    low, high = allowed.partition("[")[2].rstrip("]").split(",")
+    return float(low), float(high)
+
+
+def _to_search(keys: tuple[str, ...], values: Array) -> Array:
+    """Give parameters as they are searched for: all but the exponent in logarithms."""
+    linear = np.array(keys) == "carreau_exponent"
+    return np.where(linear, values, np.log(values))
+
+
+def _to_values(keys: tuple[str, ...], found: Array) -> Array:
+    linear = np.array(keys) == "carreau_exponent"
+    return np.where(linear, found, np.exp(np.where(linear, 0.0, found)))
+
+
+def _intervals(
+    keys: tuple[str, ...], jacobian: Array, residuals: Array, found: Array
+) -> list[tuple[float, float]]:
+    """Find the ends of the confidence intervals; infinite where the data tell nothing."""
+    from scipy.stats import t  # noqa: PLC0415
+
+    free = residuals.size - found.size
+    values, vectors = np.linalg.eigh(jacobian.T @ jacobian)
+    if values[0] <= 1e-12 * max(values[-1], 1e-300):
+        return [(-np.inf, np.inf)] * found.size
+    covariance = (vectors / values) @ vectors.T * float(residuals @ residuals) / free
+    width = t.ppf(0.5 + 0.5 * CONFIDENCE, free) * np.sqrt(np.diag(covariance))
+    low, high = _to_values(keys, found - width), _to_values(keys, found + width)
+    return [(float(a), float(b)) for a, b in zip(low, high, strict=True)]
+
+
+class _Model:
+    """Friction by a law over film and pressure of the Newtonian contact."""
+
+    def __init__(self, settings: Settings, law: str) -> None:
+        self.law = law
+        operating = OperatingPoint.from_settings(settings)
+        contact: SmoothContact = solve_contact(settings)
+        oil = Lubricant.from_settings(settings)
+        self.pressure = operating.hertz_pressure * contact.pressure
+        film = operating.film_scale * contact.film
+        self.rate = oil.viscosity * oil.viscosity_ratio(self.pressure) / film
+        cell = (contact.x[1] - contact.x[0]) * (contact.y[1] - contact.y[0])
+        self.area = float(cell) * operating.hertz_radius**2 / operating.load
+        self.velocity = operating.mean_velocity
+
+    def friction(self, values: Array, slide_to_roll: Array) -> Array:
+        """Coefficients of friction (n,) at slide-to-roll ratios."""
+        law = ShearLaw(self.law, **dict(zip(PARAMETERS[self.law], values, strict=True)))
+        return np.array(
+            [
+                self.area * shear_stress(s * self.velocity * self.rate, self.pressure, law).sum()
+                for s in slide_to_roll
+            ]
+        )
+
+
+def _base(settings: Settings, points: int) -> dict[str, dict[str, Any]]:
+    """Give what the contacts share: groups of a case without sliding and shear law."""
+    contact, oil, grid = (dict(settings[g]) for g in ("contact", "lubricant", "grid"))
+    for key in ("slide_to_roll", "rough_surface"):
+        contact.pop(key, None)
+    for key in ("limiting_stress", "limiting_coefficient"):
+        oil.pop(key, None)
+    domain = {key: grid[key] for key in ("x_inlet", "x_outlet", "y_extent", "border")}
+    return {"contact": contact, "lubricant": oil, "grid": {"points": points, **domain}}
+
+
+def _friction(
+    base: Mapping[str, Mapping[str, Any]],
+    law: str,
+    keys: tuple[str, ...],
+    values: Array,
+    slide_to_roll: float,
+) -> float:
+    """Coefficient of friction of a solved smooth contact."""
+    groups = {name: dict(group) for name, group in base.items()}
+    groups["contact"]["slide_to_roll"] = slide_to_roll
+    groups["lubricant"] |= {"shear_law": law} | dict(zip(keys, map(float, values), strict=True))
+    text = library.resolve(namelist.text_of(groups), "the contact of the fit")
+    with SolverHandle(text) as solver:
+        solver.run()
+        summary = solver.summary()
+    if summary["status"] != "converged" or summary["mu"] is None:
+        told = ", ".join(f"{k} = {v:.4g}" for k, v in zip(keys, values, strict=True))
+        raise EhlError(
+            f"the smooth contact at a slide-to-roll ratio of {slide_to_roll:g} with {told}: "
+            f"{summary['status']}"
+        )
+    return float(summary["mu"])

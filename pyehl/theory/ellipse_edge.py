@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pressure of a wave of roughness on a Hertz ellipse: the disc of :mod:`pyehl.theory.disc`.
+
+With x and y by the semi-axes, a pressure sum over m of a_m P_lm(z) cos(m theta)/z of one degree l
+deflects the ellipse into functions of the same degree (Galin 1953; Johnson 1985, Contact Mechanics,
+section 3.3). In Fourier space the ellipse is the disc with a kernel g(phi)/Q, 1/g^2 = cos^2 phi +
+sin^2 phi/kappa^2, and the integrals of j_l j_l' over Q vanish but for l = l', so that for each l
+there is one small set of equations, with the harmonics of g. The wavevector enters as Q = (q_x,
+kappa q_Y). Lengths by a, heights by a^2/R_x, pressures by p_h.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
+
+from pyehl.theory.disc import DEGREE, LARGEST, RADIUS, spherical_bessel
+from pyehl.theory.ellipse import Ellipse
+
+__all__ = ["EllipseEdge", "ellipse_edge"]
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+# Places along the short axis at which the polynomials are fitted, and angles of the integrals
+PLACES = 13
+ANGLES = 4096
+
+
+class EllipseEdge:
+    """What the edge of an ellipse does to the pressure of long waves, as polynomials.
+
+    Products of Chebyshev polynomials of x/a and y/b. Their degree along the short axis is that of
+    the disc, along the long one as much higher as the axis is longer.
+    """
+
+    def __init__(self, shape: Ellipse) -> None:
+        self.shape = shape
+        kappa = shape.ellipticity
+        short = min(1.0, kappa)
+        # largest wavenumber that feels the edge [1/a]
+        self.largest = LARGEST / short
+        degrees = math.ceil(DEGREE / short), math.ceil(DEGREE * kappa / short)
+        i, j = np.meshgrid(*(np.arange(n + 1) for n in degrees), indexing="ij")
+        kept = i * degrees[1] + j * degrees[0] <= degrees[0] * degrees[1]
+        self._powers = i[kept], j[kept]
+        lines = (
+            np.linspace(-RADIUS, RADIUS, math.ceil(PLACES * long / short)) for long in (1.0, kappa)
+        )
+        x, y = (values.ravel() for values in np.meshgrid(*lines, indexing="ij"))
+        inside = np.hypot(x, y) <= RADIUS
+        self.x, self.y = x[inside], y[inside]
+        self._inverse = np.linalg.pinv(self.functions(self.x, self.y).T)
+
+    def functions(self, x: Array, y: Array) -> Array:
+        """Polynomials (n, ...) at places by the semi-axes, x/a and y/b, within RADIUS."""
+        i, j = self._powers
+        along, across = (
+            np.moveaxis(chebyshev.chebvander(values / RADIUS, int(powers.max())), -1, 0)
+            for values, powers in ((x, i), (y, j))
+        )
+        return np.asarray(along[i] * across[j])
+
+    def correction(self, qx: Array, qy: Array) -> Complex:
+        """Return what waves (m,) [1/a] on the ellipse have in pressure beyond the half-space.
+
+        Coefficients (n, m) of `functions` [p_h per a^2/R_x].
+        """
+        kappa = self.shape.ellipticity
+        local = 0.25 * math.pi / self.shape.kernel_ratio * np.hypot(qx, qy)
+        phase = np.outer(self.x, qx) + np.outer(kappa * self.y, qy)
+        found = pressure(self.shape, qx, qy, self.x, self.y) - local * np.exp(1j * phase)
+        return np.asarray(self._inverse @ found)
+
+
+@lru_cache(maxsize=4)
+def ellipse_edge(shape: Ellipse) -> EllipseEdge:
+    """Return the polynomials of an ellipse; the last few are kept."""
+    return EllipseEdge(shape)
+
+
+def pressure(shape: Ellipse, qx: Array, qy: Array, x: Array, y: Array) -> Complex:
+    """Pressure [p_h] that deflects the ellipse by waves exp(i q r) [a^2/R_x] but for a constant.
+
+    Waves (m,) [1/a], places (n,) by the semi-axes: (n, m). It carries no load.
+    """
+    kappa = shape.ellipticity
+    q, phi = np.hypot(qx, kappa * qy), np.arctan2(kappa * qy, qx)
+    last = math.ceil(float(q.max())) + 12
+    bessel = spherical_bessel(last + 1, q)
+    z, theta = np.sqrt(1.0 - x * x - y * y), np.arctan2(y, x)
+    legendre = _legendre(last, np.append(z, 0.0))
+    harmonics = _harmonics(kappa, last)
+    total = np.zeros((x.size, q.size), dtype=complex)
+    for n in range(1, last + 1):
+        orders = np.arange(n % 2, n + 1, 2)
+        radial = legendre[n, orders]
+        radial = (radial[:, :-1] / radial[:, -1:] / z).T
+        together = harmonics[np.add.outer(orders, orders)]
+        apart = harmonics[np.abs(np.subtract.outer(orders, orders))]
+        part = np.zeros((x.size, q.size))
+        for sign, wave in ((1.0, np.cos), (-1.0, np.sin)):
+            # there is no sine of order 0
+            first = 1 if sign < 0.0 and orders[0] == 0 else 0
+            m = orders[first:]
+            if m.size:
+                matrix = 0.5 * (apart + sign * together)[first:, first:]
+                weights = np.linalg.solve(matrix, wave(np.outer(m, phi)))
+                part += (radial[:, first:] * wave(np.outer(theta, m))) @ weights
+        total += (1j**n * (2 * n + 1)) * part * bessel[n]
+    return np.asarray(math.pi / shape.kernel_ratio * total)
+
+
+def _harmonics(kappa: float, last: int) -> Array:
+    """Integrals of g(phi) cos(n phi) over the circle for n up to 2 `last`."""
+    phi = 2.0 * math.pi / ANGLES * np.arange(ANGLES)
+    g = 1.0 / np.hypot(np.cos(phi), np.sin(phi) / kappa)
+    return np.asarray(2.0 * math.pi / ANGLES * np.fft.rfft(g).real[: 2 * last + 1])
+
+
+def _legendre(last: int, z: Array) -> Array:
+    """Associated Legendre functions up to a degree at z (n,), orthonormal: (l, m, n)."""
+    from scipy.special import assoc_legendre_p_all  # noqa: PLC0415 (takes as long to load as pyehl)
+
+    # at z = 1 itself they come without the norm (scipy 1.17)
+    found = assoc_legendre_p_all(last, last, np.minimum(z, np.nextafter(1.0, 0.0)), norm=True)
+    return np.asarray(found[0, :, : last + 1])

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Friction of a contact whose film is thinner than its roughness, by an empirical law.
+
+Asperities carry the share exp(-B Lambda^C) of the load (Zhou & Hoeprich 1991, J. Tribol. 113, 590,
+eq. 29), Lambda being the central film over the composite rms height, and have a boundary friction
+of their own; the film has its friction on the rest of the load. B and C belong to a pair of
+surfaces.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from pyehl.errors import InputError
+
+__all__ = ["AIHARA", "LoadShare"]
+
+AIHARA = 1.8, 1.2
+"""B and C of Aihara 1987, J. Tribol. 109, 471, eq. 13 [-]."""
+
+
+@dataclass(frozen=True, slots=True)
+class LoadShare:
+    """The empirical law with its constants.
+
+    The constants of Aihara are a fit to the partial elastohydrodynamic contacts of Patir & Cheng:
+    below 0.4 GPa, roughness rather along the motion; above Lambda = 2 the film carries nearly all
+    of the load. InputError for a number out of range.
+    """
+
+    boundary_friction: float  # coefficient of friction of the asperities [-], up to 1
+    b: float = AIHARA[0]  # [-]
+    c: float = AIHARA[1]  # [-]
+
+    def __post_init__(self) -> None:
+        """Check the numbers."""
+        for name, number, most in (
+            ("boundary friction", self.boundary_friction, 1.0),
+            ("B", self.b, 100.0),
+            ("C", self.c, 10.0),
+        ):
+            if not (math.isfinite(number) and 0.0 < number <= most):
+                raise InputError(f"{name} = {number!r}: expected a number above 0, up to {most:g}")
+
+    @property
+    def words(self) -> str:
+        """The law with its numbers, and where its constants are from."""
+        source = (
+            "constants of Aihara 1987 for pressures below 0.4 GPa and Lambda up to 2"
+            if (self.b, self.c) == AIHARA
+            else "constants as given"
+        )
+        return (
+            f"empirical: exp(-{self.b:g} Lambda^{self.c:g}) of the load, Lambda = h_c/sigma, at a "
+            f"boundary friction of {self.boundary_friction:g} (Zhou & Hoeprich 1991; {source})"
+        )
+
+    def share(self, lambda_ratio: float) -> float:
+        """Share of the load that asperities carry [-], by h_c/sigma [-]."""
+        return math.exp(-self.b * lambda_ratio**self.c)
+
+    def friction(self, lambda_ratio: float, film: float) -> float:
+        """Coefficient of friction [-] by h_c/sigma [-] and the coefficient of the film [-]."""
+        share = self.share(lambda_ratio)
+        return share * self.boundary_friction + (1.0 - share) * film

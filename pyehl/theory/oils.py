@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Oils by name, and pressure-viscosity coefficients of any lubricant."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+
+from pyehl.errors import InputError, did_you_mean
+from pyehl.extension import lubricants as compiled
+from pyehl.library import returned
+from pyehl.theory.lubricant import Lubricant
+
+__all__ = ["Constant", "Oil", "film_forming", "known_oils", "oil", "reciprocal_isoviscous"]
+
+# Of the integrals over pressure [Pa]: where they end, and nodes
+HIGHEST_PRESSURE, NODES = 1e10, 20001
+
+
+@dataclass(frozen=True, slots=True)
+class Constant:
+    """A constant of an oil: key of ``&lubricant``, value in its unit, place in the source."""
+
+    key: str
+    value: float
+    place: str
+
+
+@dataclass(frozen=True, slots=True)
+class Oil:
+    """An oil whose constants are known: ``lubricant.name`` of a case."""
+
+    name: str
+    viscosity_law: str
+    title: str
+    source: str
+    range: str  # of the measurements behind the constants, in words
+    constants: tuple[Constant, ...]
+
+    def constant(self, key: str) -> float | None:
+        """Give the value of a constant, None where the source has none."""
+        return next((c.value for c in self.constants if c.key == key), None)
+
+    @property
+    def measured(self) -> tuple[float, float, float]:
+        """Lowest and highest temperature [degC], greatest pressure [Pa]; infinite: not known."""
+        keys = ("range_temperature_min", "range_temperature_max", "range_pressure_max")
+        found = [self.constant(key) for key in keys]
+        ends = (-math.inf, math.inf, math.inf)
+        low, high, pressure = (e if f is None else f for f, e in zip(found, ends, strict=True))
+        return low, high, pressure
+
+    def at(self, temperature: float) -> Lubricant:
+        """Give the lubricant at a temperature of the inlet [degC]."""
+        return Lubricant.from_name(self.name, temperature)
+
+
+@cache
+def known_oils() -> dict[str, Oil]:
+    """Give all oils by name."""
+    heads: dict[str, list[str]] = {}
+    constants: dict[str, list[Constant]] = {}
+    for line in returned(compiled.oils()).splitlines():
+        name, *cells = line.split("\t")
+        if name not in heads:
+            heads[name] = cells
+            constants[name] = []
+        else:
+            constants[name].append(Constant(cells[0], float(cells[1]), cells[2]))
+    return {
+        name: Oil(name, law, title, source, told, tuple(constants[name]))
+        for name, (law, title, source, told) in heads.items()
+    }
+
+
+def oil(name: str) -> Oil:
+    """Give an oil by its name; InputError with the nearest one."""
+    oils = known_oils()
+    if name not in oils:
+        raise InputError(
+            f"lubricant '{name}' is not known{did_you_mean(name, oils)}\nexpected: one of "
+            f"{', '.join(oils)}; any other oil by its constants, or by a table of measured values"
+        )
+    return oils[name]
+
+
+def _integral(lubricant: Lubricant, end: float) -> float:
+    """Integrate eta0/eta from ambient pressure to a higher one [Pa]; a glass counts as solid."""
+    # dense where the integrand is
+    p = end * np.linspace(0.0, 1.0, NODES) ** 3
+    with np.errstate(over="ignore", invalid="ignore"):
+        thinner = np.exp(-lubricant.log_viscosity_ratio(p))
+    beyond = ~np.isfinite(thinner) | (np.diff(thinner, prepend=thinner[0]) > 0.0)
+    if beyond.any():
+        # past the pole of a law
+        thinner[int(np.argmax(beyond)) :] = 0.0
+    return float(np.trapezoid(thinner, p))
+
+
+def reciprocal_isoviscous(lubricant: Lubricant) -> float:
+    """Reciprocal asymptotic isoviscous pressure alpha* [1/Pa].
+
+    1/alpha* is the integral of eta0/eta over pressure (Blok 1963), here up to 10 GPa.
+    """
+    return 1.0 / _integral(lubricant, HIGHEST_PRESSURE)
+
+
+def film_forming(lubricant: Lubricant) -> float:
+    """Film-forming coefficient alpha_film [1/Pa] of Bair, Liu & Wang 2006 (J. Tribol. 128, 624).
+
+    (1 - exp(-3)) over the integral of eta0/eta up to the pressure 3/alpha*.
+    """
+    return -math.expm1(-3.0) / _integral(lubricant, 3.0 / reciprocal_isoviscous(lubricant))

@@ -1,0 +1,354 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the page does, without a browser: knobs, cases, the worker, words, uploads."""
+
+from __future__ import annotations
+
+import resource
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pyehl
+from pyehl import namelist
+from pyehl.app import answers, downloads, drawing, words
+from pyehl.app.knobs import KNOBS, STEPS, Knob
+from pyehl.app.position import Position, from_case
+from pyehl.app.uploads import Uploads
+from pyehl.app.worker import Worker
+from pyehl.case import Case
+from pyehl.errors import InputError
+from pyehl.theory.moes_film import nijenbanning_venner_moes, regime
+
+
+@pytest.fixture
+def start() -> Position:
+    return from_case(Case())[0]
+
+
+def always() -> bool:
+    return True
+
+
+@pytest.mark.parametrize("name", [name for name, knob in KNOBS.items() if isinstance(knob, Knob)])
+def test_sliders_reach_their_ends(name):
+    knob = KNOBS[name]
+    assert knob.at(0) == pytest.approx(knob.low)
+    assert knob.at(STEPS) == pytest.approx(knob.high)
+    values = [knob.at(place) for place in range(STEPS + 1)]
+    assert values == sorted(values)
+    # three digits are less than a step of wide ranges
+    assert all(abs(knob.place(float(v)) - k) <= 3 for k, v in enumerate(values))
+
+
+@pytest.mark.parametrize("text", ["", "abc", "1,5", "nan", "inf"])
+def test_what_is_no_number_is_refused(text):
+    with pytest.raises(InputError, match="load w = "):
+        KNOBS["load"].read(text)
+
+
+def test_start_is_the_default_case(start):
+    """Untouched knobs are the case of all defaults, smooth, to the last bit."""
+    ours, theirs = start.case(129).resolve(), Case("", grid={"points": 129}).resolve()
+    for group in ("contact", "lubricant", "grid", "surface"):
+        assert ours[group] == theirs[group]
+
+
+CASES = {
+    "thinning": "&contact slide_to_roll = 0.5 /"
+    " &lubricant shear_law = 'eyring' eyring_stress = 7e6 /",
+    "carreau": "&lubricant shear_law = 'carreau' carreau_stress = 4e6 carreau_exponent = 0.7 /",
+    "sheet": "&lubricant kinematic_viscosity_40 = 46.0 kinematic_viscosity_100 = 6.8"
+    " temperature = 60.0 density_15 = 900.0 /",
+    "ellipse": "&contact radius_x = 0.01 radius_y = 0.03 /",
+    "fractal": "&surface kind = 'fractal' rms_height = 3e-8 hurst = 0.7 seed = 5 pixels = 128 /",
+    "kept": "&solver threads = 2 / &grid y_extent = 2.5 / &psd film_thickness = 2e-7 /",
+}
+
+
+@pytest.mark.parametrize("text", CASES.values(), ids=CASES)
+def test_opened_case_is_the_case(text):
+    """Knobs where a case says, and back: the same values of all keys."""
+    case = Case(text, grid={"points": 65})
+    position, note = from_case(case)
+    assert not note
+    ours, theirs = position.case(65).resolve(), case.resolve()
+    for group, keys in theirs.items():
+        for key, value in keys.items():
+            assert ours[group][key] == (pytest.approx(value, rel=1e-11) if isinstance(value, float)
+                                        else value), f"{group}.{key}"  # fmt: skip
+    again, _ = from_case(Case(position.text(65)))
+    assert again.values == position.values
+
+
+def test_oil_of_a_data_sheet_can_be_replaced():
+    position, _ = from_case(Case(CASES["sheet"]))
+    assert position.values["oil"] == "of the data sheet"
+    turned = position.turned("oil", "at the inlet").turned("viscosity", 0.05)
+    assert turned.case(65).resolve()["lubricant"]["viscosity"] == 0.05
+    assert turned.turned("oil", "of the data sheet").case(65).text == position.case(65).text
+
+
+def test_bodies_become_radii_and_modulus():
+    text = "&bodies radius_x1 = 0.01 radius_y1 = 0.01 radius_x2 = 0.04 radius_y2 = -0.011 /"
+    case = Case(text)
+    position, _ = from_case(case)
+    ours, theirs = (
+        pyehl.OperatingPoint.from_settings(c.resolve()) for c in (position.case(65), case)
+    )
+    assert ours.moes_m == pytest.approx(theirs.moes_m, rel=1e-10)
+    assert ours.radius_ratio == pytest.approx(theirs.radius_ratio, rel=1e-10)
+
+
+def test_moes_numbers_become_si(root: Path):
+    position, note = from_case(Case.read(root / "cases/quick.nml"))
+    assert "M = 200" in note
+    found = pyehl.OperatingPoint.from_settings(position.case(65).resolve())
+    assert found.moes_m == pytest.approx(200.0, rel=1e-9)
+    assert found.moes_l == pytest.approx(10.0, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("&surface kind = 'dent' amplitude = 0.1 /", "surface.kind = 'dent'"),
+        ("&second_surface kind = 'fractal' /", "second_surface"),
+    ],
+)
+def test_what_no_knob_stands_for_is_refused(text, why):
+    with pytest.raises(InputError, match=why):
+        from_case(Case(text))
+
+
+def test_moduli_of_the_bodies(start):
+    turned = start.turned("modulus_1", 70.0)
+    expected = 2.0 / (0.91 / 70e9 + 0.91 / 206e9)
+    assert turned.reduced_modulus() == pytest.approx(expected, rel=1e-10)
+    with pytest.raises(InputError, match="body 1"):
+        start.turned("poisson_1", 0.7).case(65)
+
+
+def test_film_is_that_of_a_run(start):
+    position = start.turned("load", 200.0)
+    found = answers.film(position, 65, always)
+    run = pyehl.solve(position.case(65))
+    assert found.summary["h_c_m"] == float(run.h_c_m)
+    assert np.array_equal(found.film, run.H.values)
+    rows = dict(words.film_rows(found))
+    error = float(run.H_c_error) * found.point.film_scale * 1e9
+    assert rows["h_c"] == words.with_error(float(run.h_c_m) * 1e9, error, "nm")
+    assert rows["regime"] == "rigid to elastic-piezoviscous"
+
+
+def test_ellipse_has_a_film_and_says_why_there_is_no_prediction(start):
+    position = start.turned("load", 100.0).turned("radius_y", 40.0).turned("surface", "fractal")
+    found = answers.film(position, 65, always)
+    assert found.converged
+    assert "semi-axes, along × across" in dict(words.film_rows(found))
+    x, y = drawing.outline(found)
+    assert y.max() / x.max() == pytest.approx(found.point.ellipse.ellipticity, rel=1e-3)
+    rough = answers.rough(position)
+    if rough.prediction is None:
+        assert words.rough_rows(rough) == [("no prediction", rough.why)]
+        assert "circular" in rough.why
+
+
+def test_no_solution_is_no_number(start):
+    found = answers.film(start.turned("load", 4000.0).turned("velocity", 0.1), 65, always)
+    assert not found.converged
+    rows = dict(words.film_rows(found))
+    assert rows["h_c"] == rows["h_min"] == "no solution"
+    assert words.status_line(found).startswith("No solution on 65 × 65 nodes: the status is")
+    assert found.film.size == 0
+
+
+def test_what_is_not_wanted_ends(start):
+    assert answers.film(start, 65, lambda: False) is None
+
+
+def test_rough_contact_is_that_of_a_prediction(start):
+    position = start.turned("surface", "fractal")
+    found = answers.rough(position)
+    prediction = pyehl.predict(position.case(257))
+    rows = dict(words.rough_rows(found))
+    assert rows["μ_r/μ_s"] == words.with_error(prediction.mu_ratio, prediction.model_error)
+    before, after, width, _, most = drawing.tiles(found.prediction)
+    assert before.shape == after.shape == (256, 256)
+    assert np.abs(before).max() == pytest.approx(most)
+    assert width == pytest.approx(0.829)
+    assert sum(drawing.octaves(found.prediction)["rise"]) == pytest.approx(
+        prediction.mu_ratio - 1.0, abs=1e-6
+    )
+
+
+def test_film_that_ends_says_what_would_carry(start):
+    position = start.turned("surface", "fractal").turned("rms", 400.0)
+    rows = words.rough_rows(answers.rough(position))
+    assert ("what would carry") in [name for name, _ in rows]
+    assert not any(name == "μ_r/μ_s" for name, _ in rows)
+
+
+def test_python_lines_give_the_numbers(start, capsys):
+    position = start.turned("load", 200.0).turned("surface", "fractal")
+    exec(words.python_lines(position, 65), {})
+    lines = capsys.readouterr().out.split()
+    found = answers.film(position, 65, always)
+    assert float(lines[0]) == found.summary["h_c_m"]
+    prediction = pyehl.predict(position.case(65))
+    assert float(lines[2]) == prediction.mu_ratio
+
+
+def test_case_file_is_short_and_complete(start):
+    position = start.turned("shear_law", "eyring").turned("surface", "fractal")
+    text = position.text(257)
+    assert "!" not in text
+    assert Case(text).resolve() == position.case(257).resolve()
+    assert set(namelist.values(text)) == {"contact", "lubricant", "surface", "grid"}
+
+
+def test_worker_does_the_newest_alone():
+    told: list[tuple[int, object]] = []
+    begun, go = threading.Event(), threading.Event()
+    worker = Worker(lambda generation, answer: told.append((generation, answer)))
+
+    def first(ticket):
+        begun.set()
+        assert go.wait(10.0)
+        ticket.tell("first")
+        if ticket.rest(5.0):
+            ticket.tell("never")
+
+    assert worker.submit(first) == 1
+    assert begun.wait(10.0)
+    worker.submit(lambda ticket: ticket.tell("overtaken"))
+    last = worker.submit(lambda ticket: ticket.tell("last"))
+    go.set()
+    end = time.monotonic() + 10.0
+    while len(told) < 2 and time.monotonic() < end:
+        time.sleep(0.01)
+    worker.close()
+    assert told == [(1, "first"), (last, "last")]
+    assert not worker.alive
+
+
+def test_worker_tells_what_is_raised_and_goes_on():
+    told: list[object] = []
+    worker = Worker(lambda generation, answer: told.append(answer))
+    done = threading.Event()
+
+    def bad(ticket):
+        raise InputError("no")
+
+    worker.submit(bad)
+    time.sleep(0.1)
+    worker.submit(lambda ticket: done.set())
+    assert done.wait(10.0)
+    worker.close()
+    assert [str(answer) for answer in told] == ["no"]
+
+
+def test_closed_worker_stops_a_solver(start):
+    """A tab that is closed does not compute on."""
+    worker = Worker(lambda generation, answer: None)
+    began = threading.Event()
+
+    def job(ticket):
+        began.set()
+        while ticket.wanted():
+            answers.film(start, 65, ticket.wanted)
+
+    worker.submit(job)
+    assert began.wait(10.0)
+    worker.close()
+    assert not worker.alive
+
+
+def test_upload_is_read_and_refused_in_the_words_of_the_reader(tmp_path):
+    uploads = Uploads()
+    heights = tmp_path / "ground.npy"
+    np.save(heights, 1e-8 * np.random.default_rng(1).normal(size=(32, 32)))
+    with pytest.raises(InputError) as refused:
+        uploads.add("ground.npy", heights.read_bytes())
+    with pytest.raises(pyehl.InputError) as theirs:
+        pyehl.surfaces.read_scan(heights)
+    assert str(refused.value) == str(theirs.value).replace(f"{tmp_path}/", "")
+    path = uploads.add("../../ground.npy", heights.read_bytes(), 1e-4, 1e-4)
+    assert Path(path).name == "ground.npy"
+    assert uploads.nameless(f"in {path}") == "in ground.npy"
+    with pytest.raises(InputError, match=r"bad\.npy"):
+        uploads.add("bad.npy", b"\x93NUMPY nonsense", 1e-4, 1e-4)
+    assert sorted(uploads.files) == ["ground.npy"]
+    assert sorted(p.name for p in Path(path).parent.iterdir()) == ["ground.npy"]
+    uploads.close()
+    assert not Path(path).exists()
+
+
+def test_case_may_not_name_a_file_of_the_machine(tmp_path):
+    np.save(tmp_path / "secret.npy", np.zeros((8, 8)))
+    text = f"&surface kind = 'map' file = '{tmp_path}/secret.npy' length_x = 1e-4 length_y = 1e-4 /"
+    with pytest.raises(InputError, match=r"'secret\.npy': expected an upload"):
+        from_case(Case(text), {})
+    position, _ = from_case(Case(text))
+    assert str(tmp_path) not in position.text(65)
+    assert str(tmp_path) not in words.python_lines(position, 65)
+
+
+def test_downloads(start):
+    import io
+    import zipfile
+
+    position = start.turned("load", 100.0)
+    page = downloads.report_page(position, 65)
+    assert b"Holds" in page or b"Take with care" in page
+    data = downloads.figures(position, 65, "svg", 0.084)
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        assert archive.namelist() == ["centre_lines.svg", "film.svg"]
+        # 84 mm are 238.1 points
+        assert b'width="238.110236pt"' in archive.read("film.svg")
+
+
+def test_curve(start):
+    position = start.turned("load", 100.0)
+    values = answers.places(position, "velocity", 3)
+    assert values == [0.21, 0.84, 3.36]
+    *_, last = answers.curve(position, "velocity", values, always, 65)
+    assert [p.place for p in last] == values
+    assert last[0].h_c < last[1].h_c < last[2].h_c
+    assert not list(answers.curve(position, "velocity", values, lambda: False, 65))
+
+
+@pytest.mark.parametrize(
+    ("moes_m", "moes_l", "name", "power"),
+    [
+        (0.5, 0.0, "rigid-isoviscous", -2.0),
+        (2000.0, 0.01, "elastic-isoviscous", -2.0 / 15.0),
+        (5.0, 40.0, "rigid-piezoviscous", 0.0),
+        (1e5, 10.0, "elastic-piezoviscous", -1.0 / 12.0),
+    ],
+)
+def test_regimes(moes_m, moes_l, name, power):
+    """The film goes with M as the asymptote does that is named."""
+    assert regime(moes_m, moes_l) == name
+    films = [nijenbanning_venner_moes(m, moes_l) * m ** (2 / 3) for m in (moes_m, 1.01 * moes_m)]
+    slope = np.log(films[1] / films[0]) / np.log(1.01)
+    assert slope == pytest.approx(power, abs=0.03 if power > -1.0 else 0.4)
+
+
+def test_a_thousand_turns_leave_nothing(start):
+    """No solver, no thread and no memory is left of positions that were passed."""
+
+    def film_and_back() -> None:
+        for k in range(100):
+            position = start.turned("load", 100.0 + k).turned("velocity", 2.0)
+            assert answers.film(position, 33, always) is not None
+
+    film_and_back()
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    threads = threading.active_count()
+    for _ in range(9):
+        film_and_back()
+    # kilobytes: less than 20 for a turn
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 20_000
+    assert threading.active_count() == threads

@@ -1,0 +1,307 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The page in a real browser, headless: what a person sees and does."""
+
+from __future__ import annotations
+
+import http.client
+import json
+import re
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from selenium.webdriver.common.action_chains import ActionChains
+
+import pyehl
+from pyehl.cli import main
+
+
+def rows_of(tab, name: str) -> dict[str, str]:
+    """Give names and values of a table that is seen."""
+    cells = tab.run(
+        "const d = new DOMParser().parseFromString("
+        "Bokeh.documents[0].get_model_by_name(arguments[0]).text, 'text/html');"
+        "return [...d.querySelectorAll('tr')].map(r => [...r.cells].map(c => c.textContent))",
+        name,
+    )
+    seen = " ".join(tab.words(name).split())
+    assert all(value in seen for _, value in cells)
+    return dict(cells)
+
+
+def test_numbers_are_those_of_pyehl_run(tab, tmp_path, capsys):
+    """A typed load, a dragged slider: to the last digit shown what ``pyehl run`` prints."""
+    tab.rest()
+    tab.type("load", "250")
+    handle = tab.element("slider_velocity", ".noUi-handle")
+    before = tab.stamp()[0]
+    ActionChains(tab.driver).click_and_hold(handle).move_by_offset(25, 0).release().perform()
+    tab.until(lambda: tab.stamp()[0] > before)
+    tab.rest()
+    rows = rows_of(tab, "numbers")
+    case = tmp_path / "case.nml"
+    case.write_text(tab.get("case", "value"))
+    assert "load = 250.0" in case.read_text()
+    velocity = float(re.search(r"mean_velocity = (\S+)", case.read_text())[1])
+    assert velocity > 0.84
+    assert tab.element("velocity", "input").get_attribute("value") == f"{velocity:g}"
+    assert main(["run", str(case), "-o", str(tmp_path / "out")]) == 0
+    told = capsys.readouterr().out.replace("+-", "±")
+    assert f"h_c {rows['h_c']}" in told
+    assert f"h_min {rows['h_min']}" in told
+    sheet = pyehl.film(case)
+    for formula in sheet["formulas"]:
+        assert f"{formula['h_c_m'] * 1e9:.4g} nm" in rows[formula["name"]]
+    assert rows["Moes load M"] == f"{sheet['moes_m']:.4g}"
+    assert "Converged on 513 × 513 nodes" in tab.words("status")
+
+
+def test_wrong_input_is_said_at_its_knob(tab):
+    tab.rest()
+    answer, asked = rows_of(tab, "numbers"), tab.stamp()[0]
+    for text, why in (("abc", "expected a number"), ("-5", "contact.load"), ("1e9", "1e9")):
+        tab.type("load", text)
+        tab.until(lambda why=why: why in tab.words("error_load").replace("000000000.0", "e9"))
+        assert not tab.get("error_velocity", "text")
+    assert tab.stamp()[0] == asked
+    assert rows_of(tab, "numbers") == answer
+    tab.type("load", "300")
+    tab.until(lambda: not tab.get("error_load", "text"))
+    tab.rest(129)
+    assert rows_of(tab, "numbers") != answer
+
+
+def test_surface_is_predicted(tab):
+    tab.rest(129)
+    tab.choose("surface", "fractal")
+    tab.rest()
+    tab.until(lambda: "μ_r/μ_s" in tab.get("rough", "text"))
+    rows = rows_of(tab, "rough")
+    case = pyehl.Case(tab.get("case", "value"))
+    prediction = pyehl.predict(case)
+    error = prediction.model_error
+    assert rows["μ_r/μ_s"] == f"{prediction.mu_ratio:.3f} ± {error:.3f}"
+    assert "Λ" in tab.words("rough")
+
+
+def test_map_is_taken_or_refused_in_the_words_of_its_reader(tab, served, tmp_path):
+    tab.rest(129)
+    tab.choose("surface", "map")
+    assert "no height map yet" in tab.until(lambda: tab.words("error_surface"))
+    bad = tmp_path / "bad.npy"
+    bad.write_bytes(b"\x93NUMPY nonsense")
+    field = tab.element("upload", "input")
+    field.send_keys(str(bad))
+    tab.until(lambda: "bad.npy" in tab.get("upload_error", "text"))
+    with pytest.raises(pyehl.EhlError) as reader:
+        pyehl.surfaces.read_scan(bad, 1e-4, 1e-4)
+    assert (
+        tab.words("upload_error").split() == str(reader.value).replace(f"{tmp_path}/", "").split()
+    )
+    good = tmp_path / "ground.npy"
+    heights = 2e-8 * np.sin(2.0 * np.pi * np.arange(64) / 64.0)[:, np.newaxis] * np.ones(64)
+    np.save(good, heights)
+    field.send_keys(str(good))
+    # an array has no size
+    tab.until(lambda: "ground.npy" in tab.get("upload_error", "text"))
+    tab.type("map_x", "0.4", wait=False)
+    tab.type("map_y", "0.4", wait=False)
+    tab.until(lambda: not tab.get("upload_error", "text"))
+    tab.until(lambda: "μ_r/μ_s" in tab.get("rough", "text"))
+    text = tab.get("case", "value")
+    assert "file = 'ground.npy'" in text
+    rows = rows_of(tab, "rough")
+    (tmp_path / "case.nml").write_text(text)
+    prediction = pyehl.predict(tmp_path / "case.nml")
+    assert rows["μ_r/μ_s"].startswith(f"{prediction.mu_ratio:.3f} ±")
+    # where the map lies is nowhere on the page
+    everything = json.dumps(served.pages[0].document.to_json(), default=str)
+    place = Path(served.pages[0].uploads.files["ground.npy"]).parent
+    assert place.name not in everything
+    assert str(tmp_path) not in everything
+
+
+def test_no_solution_is_shown_as_such(tab):
+    tab.rest(129)
+    tab.type("velocity", "0.05")
+    tab.type("load", "5000")
+    tab.until(lambda: "No solution" in tab.get("status", "text"))
+    rows = rows_of(tab, "numbers")
+    assert rows["h_c"] == rows["h_min"] == "no solution"
+
+
+def test_case_file_is_saved_and_opened(tab, tmp_path):
+    tab.rest(129)
+    tab.type("load", "321")
+    tab.element("save", "button").click()
+    saved = tmp_path / "downloads/case.nml"
+    tab.until(saved.exists)
+    assert saved.read_text() == tab.get("case", "value")
+    tab.type("load", "123")
+    other = tmp_path / "other.nml"
+    other.write_text(saved.read_text().replace("321", "456"))
+    tab.element("open", "input").send_keys(str(other))
+    tab.until(lambda: "load = 456.0" in tab.get("case", "value"))
+    assert tab.element("load", "input").get_attribute("value") == "456"
+    wrong = tmp_path / "wrong.nml"
+    wrong.write_text("&contact laod = 600.0 /")
+    tab.element("open", "input").send_keys(str(wrong))
+    tab.until(lambda: "did you mean 'load'" in tab.words("open_error"))
+    assert "wrong.nml:1" in tab.words("open_error")
+    assert "load = 456.0" in tab.get("case", "value")
+
+
+def test_report_is_given(tab, tmp_path):
+    tab.rest(129)
+    tab.element("fetch_report", "button").click()
+    saved = tmp_path / "downloads/report.html"
+    tab.until(saved.exists)
+    tab.until(lambda: "</html>" in saved.read_text())
+    assert "What was asked" in saved.read_text()
+
+
+def test_curve_is_drawn_on_demand(tab, served):
+    tab.rest()
+    tab.run("Bokeh.documents[0].get_model_by_name('tabs').active = 2")
+    tab.element("curve_velocity", "button").click()
+    source = served.pages[0].pictures.curve["film"]
+    tab.until(lambda: len(source.data["place"]) == 9)
+    films = source.data["value"]
+    assert np.all(np.diff(films[np.isfinite(films)]) > 0.0)
+
+
+def test_two_tabs_do_not_disturb_each_other_and_end(tab, served, monkeypatch):
+    tab.rest(129)
+    first = tab.driver.current_window_handle
+    tab.driver.switch_to.new_window("tab")
+    tab.driver.get(served.address)
+    tab.until(lambda: tab.run("return Boolean(window.Bokeh && Bokeh.documents.length)"))
+    tab.until(lambda: tab.stamp() is not None)
+    tab.type("load", "77")
+    tab.rest()
+    assert "load = 77.0" in tab.get("case", "value")
+    second = tab.driver.current_window_handle
+    tab.driver.switch_to.window(first)
+    assert "load = 600.0" in tab.get("case", "value")
+    assert len(served.pages) == 2
+    tab.driver.switch_to.window(second)
+    tab.driver.close()
+    tab.driver.switch_to.window(first)
+    closed, left = served.pages[1], served.pages[0]
+    tab.until(lambda: not closed.worker.alive and not closed.errands.alive)
+    assert not Path(closed.uploads._folder.name).exists()
+    assert left.worker.alive
+    tab.type("load", "99")
+    tab.rest(129)
+
+
+def test_an_older_answer_never_comes_last(tab, served):
+    """The slider is moved many times without a pause; what is seen belongs to its last place."""
+    tab.rest(129)
+    shown = []
+    page = served.pages[0]
+    answered = page._answered
+
+    def watch(generation, answer):
+        before = page._shown
+        answered(generation, answer)
+        shown.append((before, page._shown))
+
+    page._answered = watch
+    tab.run(
+        "const s = Bokeh.documents[0].get_model_by_name('slider_load');"
+        "for (let k = 0; k < 60; k++) setTimeout(() => { s.value = 150 + k }, 20 * k)"
+    )
+    time.sleep(1.5)
+    tab.rest()
+    assert all(after >= before for before, after in shown)
+    assert tab.stamp()[0] == tab.stamp()[1]
+    load = float(re.search(r"load = (\S+)", tab.get("case", "value"))[1])
+    assert load == pyehl.app.knobs.KNOBS["load"].at(209)
+    point = pyehl.OperatingPoint.from_settings(pyehl.Case(tab.get("case", "value")).resolve())
+    assert rows_of(tab, "numbers")["Moes load M"] == f"{point.moes_m:.4g}"
+
+
+def test_nothing_is_loaded_from_elsewhere(tab, served):
+    tab.rest(129)
+    names = tab.run("return performance.getEntriesByType('resource').map(e => e.name)")
+    assert names
+    assert all(name.startswith(served.address) for name in names)
+    assert not [e for e in tab.driver.get_log("browser") if e["level"] == "SEVERE"]
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "/etc/passwd",
+        "/static/../../../etc/passwd",
+        "/static/%2e%2e/%2e%2e/server.py",
+        "/static//etc/passwd",
+        "/cases/quick.nml",
+        "/summary.json",
+        "/pyehl/app/page.py",
+    ],
+)
+def test_nothing_else_is_served(served, path):
+    connection = http.client.HTTPConnection("127.0.0.1", served.port, timeout=10)
+    connection.request("GET", path)
+    answer = connection.getresponse()
+    body = answer.read()
+    connection.close()
+    assert answer.status in (403, 404), path
+    assert b"root:" not in body
+
+
+def test_only_this_machine_and_this_page(served):
+    """The socket listens at 127.0.0.1 alone, and takes no page of another origin."""
+    listening = [
+        line.split()[1]
+        for table in ("/proc/net/tcp", "/proc/net/tcp6")
+        for line in Path(table).read_text().splitlines()[1:]
+        if line.split()[3] == "0A" and line.split()[1].endswith(f":{served.port:04X}")
+    ]
+    assert listening == [f"0100007F:{served.port:04X}"]
+    head = {
+        "Upgrade": "websocket",
+        "Connection": "Upgrade",
+        "Sec-WebSocket-Key": "dGhlIHNhbXBsZSBub25jZQ==",
+        "Sec-WebSocket-Version": "13",
+        "Sec-WebSocket-Protocol": "bokeh, token",
+    }
+    for origin, expected in (("http://example.org", 403), (f"http://127.0.0.1:{served.port}", 0)):
+        connection = http.client.HTTPConnection("127.0.0.1", served.port, timeout=10)
+        connection.request("GET", "/ws", headers={**head, "Origin": origin})
+        status = connection.getresponse().status
+        connection.close()
+        # this page's own origin gets past the check, and fails for its token alone
+        assert (status == 403) == (expected == 403), (origin, status)
+
+
+@pytest.mark.long
+def test_a_thousand_turns_in_the_browser(tab, served):
+    """Memory and threads of the server stay what they are."""
+
+    def resident() -> int:
+        text = Path("/proc/self/status").read_text()
+        return int(re.search(r"VmRSS:\s+(\d+)", text)[1])
+
+    def turns(count: int) -> None:
+        for k in range(count):
+            before = tab.stamp()[0]
+            tab.run(
+                "Bokeh.documents[0].get_model_by_name('slider_load').value = arguments[0]",
+                100 + (7 * k) % 150,
+            )
+            tab.until(lambda before=before: tab.stamp()[0] > before)
+            if k % 10 == 0:
+                tab.rest(129)
+
+    tab.rest()
+    turns(100)
+    tab.rest()
+    before = resident()
+    turns(1000)
+    tab.rest()
+    # kilobytes; what the allocator keeps of the arrays of a few solvers
+    assert resident() - before < 60_000, json.dumps({"before": before, "after": resident()})

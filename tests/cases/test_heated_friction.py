@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Friction with the temperature of the film."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import pyehl
+
+FILM, WALL_1, WALL_2 = (f"temperature_rise{part}_K" for part in ("", "_wall_1", "_wall_2"))
+# Table 1 of Zhang et al. 2019, faster, with an Eyring stress of 5 MPa and the film of a Newtonian
+# flow; the temperature is that of the inlet of the data below
+FAST = {
+    "contact.load": 600.0,
+    "contact.mean_velocity": 5.0,
+    "contact.radius": 0.018,
+    "contact.reduced_modulus": 2.26e11,
+    "contact.slide_to_roll": 0.3,
+    "lubricant.viscosity": 0.04,
+    "lubricant.pressure_viscosity": 2.2e-8,
+    "lubricant.shear_law": "eyring",
+    "lubricant.flow": "newtonian",
+    "lubricant.temperature_viscosity": 0.04,
+    "grid.x_inlet": -2.5,
+    "grid.x_outlet": 1.5,
+    "grid.y_extent": 2.0,
+    "grid.border": "zero",
+}
+
+
+def test_as_another_program_on_the_fields(solve):
+    """Another program: 0.0330, isothermal 0.0563; 69 K in the film, 35 K on the walls' mean."""
+    done = solve(None, 257, FAST)
+    assert done["mu_isothermal"] == pytest.approx(0.0563, rel=6e-3)
+    assert done["mu"] == pytest.approx(0.0330, rel=6e-3)
+    assert done["temperature_rise_max_K"] == pytest.approx(69.0, abs=0.6)
+    walls = [done[f"temperature_rise_wall_{k}_max_K"] for k in (1, 2)]
+    assert np.mean(walls) == pytest.approx(35.0, abs=0.6)
+    # the faster wall carries more heat off, and the formula is made for such a contact
+    assert walls[0] < walls[1]
+    assert done["flash_temperature_K"] == pytest.approx(np.mean(walls), rel=0.03)
+    assert "temperature" in done["mu_note"]
+
+
+@pytest.mark.parametrize(("srr", "mu"), [(0.03, 0.043), (1.0, 0.021)])
+def test_traction_rises_and_falls(solve, srr, mu):
+    done = solve(None, 257, FAST | {"contact.slide_to_roll": srr})
+    assert done["mu"] == pytest.approx(mu, abs=6e-4)
+
+
+def test_where_it_does_not_count(solve):
+    """Slow sliding: not computed, and it would change nothing that could be told."""
+    slow = FAST | {"contact.slide_to_roll": 5e-5}
+    left_out = solve(None, 65, slow)
+    always = solve(None, 65, slow | {"lubricant.thermal_friction": "always"})
+    assert "temperature_rise_max_K" not in left_out.summary
+    assert "less than 0.1 %" in left_out["mu_note"]
+    assert left_out["mu"] == left_out["mu_isothermal"] == always["mu_isothermal"]
+    assert 0.999 * left_out["mu"] < always["mu"] < left_out["mu"]
+    never = solve(None, 65, FAST | {"lubricant.thermal_friction": "never"})
+    assert never["mu"] == never["mu_isothermal"]
+    assert "never" in never["mu_note"]
+
+
+def test_which_wall_is_hot(solve):
+    """A wall that stands still, one that conducts badly; the sense of the sliding."""
+    standing = solve(None, 65, FAST | {"contact.slide_to_roll": 2.0}, fields=True)
+    assert standing["temperature_rise_wall_2_max_K"] > 2 * standing["temperature_rise_wall_1_max_K"]
+    glass = {"contact.thermal_conductivity_2": 1.0, "contact.thermal_diffusivity_2": 5e-7}
+    on_glass = solve(None, 65, FAST | glass)
+    steel = solve(None, 65, FAST)
+    assert on_glass["temperature_rise_wall_2_max_K"] > 2 * steel["temperature_rise_wall_2_max_K"]
+    assert on_glass["mu"] < steel["mu"]
+    other = solve(None, 65, FAST | {"contact.slide_to_roll": -0.3})
+    assert other["mu"] == pytest.approx(steel["mu"], rel=1e-9)
+    assert other["temperature_rise_wall_1_max_K"] == pytest.approx(
+        steel["temperature_rise_wall_2_max_K"], rel=1e-9
+    )
+
+
+def test_fields(solve):
+    """Kelvin at the nodes: symmetric in Y, none before the contact, walls warm behind it."""
+    done = solve(None, 65, FAST, fields=True)
+    film, first, second = (done.field(name) for name in (FILM, WALL_1, WALL_2))
+    assert film.max() == pytest.approx(done["temperature_rise_max_K"], rel=1e-12)
+    assert np.array_equal(film, film[:, ::-1])
+    x = np.linspace(-2.5, 1.5, 65)
+    assert np.abs(film[x < -1.5]).max() < 0.1
+    behind = (x > 1.2)[:, np.newaxis] & (np.abs(np.linspace(-2, 2, 65)) < 0.5)[np.newaxis, :]
+    assert first[behind].min() > 5.0
+    assert second[behind].min() > first[behind].min()
+
+
+def test_elliptical_contact(solve):
+    """Row by row knows no shape: a contact wide across the motion and one along it."""
+    wide = {"contact.radius_x": 0.01, "contact.radius_y": 0.04}
+    long = {"contact.radius_x": 0.04, "contact.radius_y": 0.01}
+    keys = {key: value for key, value in FAST.items() if key not in ("contact.radius",)}
+    keys = {key: value for key, value in keys.items() if not key.startswith("grid.")}
+    found = [solve(None, 65, keys | shape) for shape in (wide, long)]
+    for done in found:
+        assert done["flash_temperature_K"] is None
+        assert 0.4 < done["mu"] / done["mu_isothermal"] < 0.9
+    # the same load and heat, but a longer way to take it up
+    assert (
+        found[1]["temperature_rise_wall_1_max_K"] > 1.1 * found[0]["temperature_rise_wall_1_max_K"]
+    )
+
+
+def test_no_heat_twice(solve):
+    """Shear heating of the inlet thins the film; what is in the contact begins cold."""
+    warm = FAST | {"lubricant.thermal_reduction": True}
+    done = solve(None, 65, warm)
+    assert done["inlet_viscosity_Pa_s"] < 0.04
+    # the same film from an oil as thin as that of the inlet; but then the contact is thin, too
+    film = {"lubricant.viscosity": done["inlet_viscosity_Pa_s"]}
+    z = {"lubricant.roelands_z": 2.2e-8 * 1.96e8 / (np.log(0.04) + 9.67)}
+    thin = solve(None, 65, FAST | film | z)
+    assert thin["H_c"] == pytest.approx(done["H_c"], rel=1e-9)
+    assert done["mu_isothermal"] > 1.005 * thin["mu_isothermal"]
+
+
+WAVE = {"surface.kind": "harmonic", "surface.amplitude_over_film": 0.3, "surface.wavelength": 1.0}
+
+
+@pytest.mark.parametrize("velocity", [1.15, 0.0])
+def test_rough_contact(solve, velocity):
+    """Ripples of pressure and film change friction with heat about as much as without it."""
+    keys = {"surface.velocity_ratio": velocity, "contact.slide_to_roll": 0.3}
+    if velocity == 0.0:
+        keys |= {"contact.slide_to_roll": -2.0}
+    done = solve(None, 65, FAST | WAVE | keys, fields=True)
+    assert done["mu_isothermal"] == pytest.approx(
+        done["mu_ratio"] * done["mu_smooth_isothermal"], rel=1e-12
+    )
+    assert done["mu"] < 0.8 * done["mu_isothermal"]
+    assert done["mu"] / done["mu_smooth"] == pytest.approx(done["mu_ratio"], rel=0.03)
+    assert done["temperature_rise_max_K"] == pytest.approx(done.field(FILM).max(), rel=1e-12)
+    if velocity:
+        history = done.history
+        known = np.isfinite(history["heat_ratio"])
+        known &= history["T"] >= done["T"] - done["T_mean"] - 1e-9
+        assert known.sum() > 8
+        mean = np.average(history["heat_ratio"][known], weights=history["mu_ratio"][known])
+        assert done["mu"] / done["mu_isothermal"] == pytest.approx(mean, rel=2e-3)
+
+
+def test_prediction_has_it_too():
+    """The prediction applies the heat of the smooth contact under it, on its own grid."""
+    keys = {
+        key: value
+        for key, value in FAST.items()
+        if not key.startswith("grid.") or key == "grid.border"
+    }
+    case = pyehl.Case.from_text("", keys | {"surface.kind": "fractal", "surface.pixels": 64})
+    found = pyehl.predict(case).summary
+    solved = pyehl.solve(case.with_options("surface.kind=smooth", "grid.points=257")).attrs
+    assert found["mu_smooth"] / found["mu_smooth_isothermal"] == pytest.approx(
+        solved["mu"] / solved["mu_isothermal"], rel=0.01
+    )
+    assert found["mu"] == pytest.approx(found["mu_ratio"] * found["mu_smooth"], rel=1e-12)
+    assert found["temperature_rise_max_K"] == pytest.approx(
+        solved["temperature_rise_max_K"], rel=0.02
+    )

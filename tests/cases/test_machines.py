@@ -1,0 +1,247 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contacts of machine elements: the cases of the how-tos, and what these say of them."""
+
+from __future__ import annotations
+
+import importlib
+import json
+import math
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pyehl
+from pyehl.commands.film import report
+
+NUMBER = re.compile(r"\d+\.\d+(?:E[-+]\d+)?")
+
+
+def texts(page: Path) -> list[str]:
+    """Lines of what a page says that is printed."""
+    blocks = re.findall(r"^```text\n(.*?)^```$", page.read_text(encoding="utf-8"), re.M | re.S)
+    return [line for block in blocks for line in block.splitlines()]
+
+
+def same(shown: list[str], printed: str) -> None:
+    """Each line is printed, number by number; residuals may differ."""
+    lines = {NUMBER.sub("#", line): line for line in printed.splitlines()}
+    for line in shown:
+        other = lines[NUMBER.sub("#", line)]
+        kept = [NUMBER.findall(text.partition("residual")[0]) for text in (line, other)]
+        for a, b in zip(*kept, strict=True):
+            assert float(b) == pytest.approx(float(a), rel=2e-3), line
+
+
+def test_ball_bearing(root: Path, ehl: str, tmp_path: Path):
+    case, page = root / "cases" / "ball_bearing.nml", root / "docs" / "howto" / "bearing.md"
+    words = [ehl, case, "-o", tmp_path / "out"]
+    run = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert run.returncode == 0, run.stdout
+    sheet = pyehl.film(case)
+    same(texts(page), f"{report(sheet)}\n{run.stdout}")
+    found = pyehl.load(tmp_path / "out").attrs
+    text = page.read_text(encoding="utf-8")
+    unit = found["film_scale_m"] * 1e9
+    films = [found[f"{name}_extrapolated"] * unit for name in ("H_c", "H_min")]
+    assert f"| {films[0]:.1f} nm | {films[1]:.1f} nm |" in text
+    for formula in sheet["formulas"]:
+        assert f"| {formula['h_c_m'] * 1e9:.1f} nm |" in text
+    assert f"{found['rolling_moment_N_m'] * 1e4:.2f}·10⁻⁴ N m" in text
+    assert f"is {1 - found['H_min'] / found['H_c']:.0%} below".replace("%", " %") in text
+    # bearing, speed and load make the case
+    given = pyehl.Case.read(case).resolve()
+    ball, pitch = 7.938e-3, 33.5e-3
+    assert given["bodies"]["radius_x1"] == pytest.approx(0.5 * ball)
+    assert given["bodies"]["radius_x2"] == pytest.approx(0.5 * (pitch - ball), rel=1e-3)
+    assert given["bodies"]["radius_y2"] == pytest.approx(-0.52 * ball, rel=1e-3)
+    speed = 2.0 * 3.14159265 * 3000.0 / 60.0 * pitch / 4.0 * (1.0 - (ball / pitch) ** 2)
+    assert given["contact"]["mean_velocity"] == pytest.approx(speed, rel=2e-3)
+    assert given["contact"]["load"] == pytest.approx(5.0 * 500.0 / 8.0)
+
+
+def test_gear_pair(root: Path, ehl: str, tmp_path: Path):
+    """The page has the numbers of the record, and the record those of the smooth contact."""
+    case, page = root / "cases" / "gear_pair.nml", root / "docs" / "howto" / "gear.md"
+    text = page.read_text(encoding="utf-8")
+    record = json.loads(page.with_suffix(".json").read_text(encoding="utf-8"))
+    unit = record["film_scale_m"] * 1e9
+    films = [record[f"{name}_extrapolated"] * unit for name in ("H_c", "H_min")]
+    assert f"| {films[0]:.1f} nm | {films[1]:.1f} nm |" in text
+    for formula in pyehl.film(case)["formulas"]:
+        assert f"| {formula['h_c_m'] * 1e9:.1f} nm |" in text
+    assert f"mu_r/mu_s  {record['mu_ratio']:.5f} +- {record['mu_ratio_error']:.5f}" in text
+    assert f"mu         {record['mu']:.5f}, smooth contact {record['mu_smooth']:.5f}" in text
+    assert f"rough {record['h_min_rough_m'] * 1e9:.2f} nm" in text
+    least = [round(record[name] * 1e9) for name in ("h_min_m", "h_min_rough_m")]
+    assert "least film from {} to {} nm".format(*least) in text
+    words = [ehl, case, "-o", tmp_path / "out"]
+    for group in ("surface", "second_surface"):
+        words += ["--set", f"{group}.kind=smooth"]
+    subprocess.run(words, capture_output=True, check=True)
+    found = json.loads((tmp_path / "out" / "summary.json").read_text())
+    for name in ("H_c", "H_min", "H_c_extrapolated", "mu_smooth"):
+        # steadied to another tolerance before time steps
+        assert found[name] == pytest.approx(record[name], rel=2e-3)
+    # the block that made the flanks makes them still
+    (block,) = re.findall(r"^```python\n(.*?)^```$", text, re.M | re.S)
+    (tmp_path / "cases").mkdir()
+    subprocess.run([sys.executable, "-P", "-c", block], cwd=tmp_path, check=True)
+    for name in ("flank_1.npy", "flank_2.npy"):
+        made, kept = (np.load(place / "cases" / name) for place in (tmp_path, root))
+        assert made == pytest.approx(kept, abs=1e-13)
+    # gears, speed and slip make the case
+    given = pyehl.Case.read(case).resolve()
+    angle = math.acos(90.0 * math.cos(math.radians(20.0)) / 91.5)
+    radius = 0.5 * 91.5e-3 * math.sin(angle)
+    assert given["bodies"]["radius_x1"] == pytest.approx(radius, rel=1e-3)
+    speeds = [2.0 * math.pi * n / 60.0 * radius for n in (1500.0, 1000.0)]
+    assert given["contact"]["mean_velocity"] == pytest.approx(0.5 * sum(speeds), rel=1e-3)
+    assert given["contact"]["slide_to_roll"] == pytest.approx(0.4)
+
+
+@pytest.mark.slow
+def test_gear_pair_made_anew(root: Path, ehl: str, tmp_path: Path):
+    """Three minutes: the record of the rough run."""
+    page = root / "docs" / "howto" / "gear.md"
+    record = json.loads(page.with_suffix(".json").read_text(encoding="utf-8"))
+    words = [ehl, root / "cases" / "gear_pair.nml", "-o", tmp_path / "out"]
+    subprocess.run(words, capture_output=True, check=True)
+    found = json.loads((tmp_path / "out" / "summary.json").read_text())
+    for name, value in record.items():
+        assert found[name] == (pytest.approx(value, rel=1e-4) if name != "status" else value), name
+
+
+def test_border_of_an_ellipse(root: Path, solve):
+    """The default is flooded, and thicker than tables with P = 0 on a small domain have it."""
+    text = (root / "docs" / "theory" / "border.md").read_text(encoding="utf-8")
+    keys = {"contact.radius_ratio": 0.35177, "lubricant.roelands_z": 0.6684}
+    place = {"grid.x_inlet": -2.5, "grid.x_outlet": 1.5, "grid.y_extent": 4.0}
+    for more, words in (({}, "along X is"), (place | {"grid.border": "zero"}, "`) it is")):
+        done = solve((200.0, 10.0), 257, keys | more)
+        assert f"{words} {done['H_c_extrapolated']:.4f}" in text
+
+
+def test_rolling_moment_grows_with_the_domain(root: Path, solve):
+    """In a round contact towards the asymptote of Biboulet & Houpert 2010, with its logarithm."""
+    text = (root / "docs" / "theory" / "border.md").read_text(encoding="utf-8")
+    shares = []
+    for width, points in ((4.0, 129), (8.0, 257), (16.0, 513)):
+        place = {"grid.x_inlet": -0.625 * width, "grid.x_outlet": 0.375 * width}
+        done = solve((100.0, 10.0), points, place | {"grid.y_extent": 0.5 * width})
+        shares.append(done["rolling_moment"] * 100.0 / 7.5)
+    assert "it is {:.2f}, {:.2f} and {:.2f} of the asymptote".format(*shares) in text
+    assert 0.9 < shares[2] < 1.0
+    assert shares[2] - shares[1] == pytest.approx(shares[1] - shares[0], rel=0.25)
+
+
+@pytest.mark.parametrize("radii", [(0.01, 0.1), (0.033, 0.01)])
+def test_order_and_limit_in_si_units(solve, radii):
+    """R_x/R_y of 0.1 and of 3.3: order 2, and one limit from any two grids."""
+    keys = {
+        "contact.load": 50.0,
+        "contact.mean_velocity": 1.0,
+        "contact.radius_x": radii[0],
+        "contact.radius_y": radii[1],
+    }
+    coarse, middle, fine = (solve(None, points, keys) for points in (65, 129, 257))
+    change = (middle["H_c"] - coarse["H_c"]) / (fine["H_c"] - middle["H_c"])
+    assert math.log2(change) == pytest.approx(2.0, abs=0.1)
+    for name, share in (("H_c", 0.003), ("H_min", 0.01)):
+        limit = fine[f"{name}_extrapolated"]
+        assert middle[f"{name}_extrapolated"] == pytest.approx(limit, rel=share)
+
+
+def test_a_sweep_over_ellipses(tmp_path: Path):
+    """Its rows are those of single runs."""
+    case = pyehl.Case.from_text("", {"contact.load": 50.0, "grid.points": 33})
+    radii = {"contact.radius_x": [0.01, 0.02], "contact.radius_y": [0.04, 0.01]}
+    table = pyehl.sweep(case, radii, zip=True, output=tmp_path / "sweep")
+    for k in range(2):
+        one = {key: values[k] for key, values in radii.items()}
+        with pyehl.Solver(case.with_options(one)) as solver:
+            solver.run()
+            assert float(table["H_c"].values[k]) == solver.summary()["H_c"]
+
+
+def test_resumed_on_an_ellipse(drive, tmp_path: Path):
+    """A wave on a turned contact, stopped and resumed, to the bits of an unbroken run."""
+    (tmp_path / "case.nml").write_text(
+        "&contact load = 20.0 radius_x = 0.01 radius_y = 0.02 angle = 20 /\n"
+        "&grid points = 33 /\n&output checkpoint_interval = 1e-3 /\n"
+        "&surface kind = 'harmonic' amplitude = 2e-3 wavelength = 1 x_start = 0 /\n"
+    )
+    assert drive("ehl", "case.nml", "-o", "whole", "--set", "time.steps=9").returncode == 1
+    assert drive("ehl", "case.nml", "-o", "out", "--set", "time.steps=5").returncode == 1
+    done = drive("pyehl", "--resume", "out", "--set", "time.steps=9")
+    assert "after step 5" in done.stdout
+    for file in ("history.csv", "P.npy", "RR.npy"):
+        assert (tmp_path / "out" / file).read_bytes() == (tmp_path / "whole" / file).read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("text", "place", "message", "remedy"),
+    [
+        ("&bodies radius_x1 = -0.01 radius_y1 = 0.01 /", "1:21", "does not open", "convex body"),
+        (
+            "&bodies radius_x1 = 0.01 radius_x2 = -0.01 radius_y1 = 0.01 /",
+            "1:38",
+            "does not open in this direction",
+            "larger radius than the convex one",
+        ),
+        ("&contact radius = 0.01 radius_x = 0.01 /", "1:35", "without contact.radius_y", "both"),
+        (
+            "&contact radius = 0.01 radius_x = 0.01 radius_y = 0.02 /",
+            "1:24",
+            "contradicts contact.radius",
+            "radius of a round contact, or",
+        ),
+        ("&contact radius_x = -0.01 radius_y = 0.02 /", "1:21", "out of range", "[1e-5, 1000]"),
+        ("&contact radius_ratio = 0.001 /", "1:25", "out of range", "[0.004, 250]"),
+        (
+            "&contact radius_x = 0.01 radius_y = 10.0 /",
+            "1:37",
+            "radius_x/radius_y is 1.000E-03",
+            "at most 30 to 1",
+        ),
+        (
+            "&surface kind = 'fractal' /\n&second_surface kind = 'map' /",
+            "2:24",
+            "second_surface.kind",
+            "file = '...', a height map",
+        ),
+    ],
+)
+def test_bad_input_has_place_and_remedy(text: str, place: str, message: str, remedy: str):
+    with pytest.raises(pyehl.InputError) as caught:
+        pyehl.Case.from_text(text)
+    said = str(caught.value)
+    assert place in said.partition("\n")[0], said
+    assert message in said, said
+    assert remedy in said.partition("expected")[2], said
+
+
+def test_evidence_of_ellipses_is_what_its_page_says(root: Path, capsys, monkeypatch):
+    """The shares and the errors by cells, from the records; most errors hold."""
+    folder = root / "docs" / "evidence" / "ellipses"
+    monkeypatch.syspath_prepend(str(folder))
+    text = (folder / "README.md").read_text(encoding="utf-8")
+    importlib.import_module("show").show()
+    printed = capsys.readouterr().out
+    shares = [tuple(map(int, pair)) for pair in re.findall(r": (\d+) of (\d+)$", printed, re.M)]
+    assert len(shares) == 8
+    for good, known in shares:
+        assert f"{good} of {known}" in text
+        assert good >= 0.88 * known
+    twice = re.findall(r"at most 2 times the stated: (\d+) of (\d+)$", printed, re.M)
+    assert all(int(good) >= 0.95 * int(known) for good, known in twice)
+    rows = [line for line in text.splitlines() if re.match(r"\| [\d.]+, \d+ \|", line)]
+    assert len(rows) == 7
+    for line in rows:
+        kappa, m = re.findall(r"[\d.]+", line)[:2]
+        found = re.findall(rf"^kappa {kappa}, M {m}: .* off by ([\d.]+)%$", printed, re.M)
+        shown = re.findall(r"([\d.]+) %", line)
+        assert shown == found[: len(shown)]

@@ -1,0 +1,264 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""``pyehl report``: one page about any result, which needs nothing but itself."""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+import re
+import shutil
+from html.parser import HTMLParser
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import pyehl
+from pyehl.cli import main
+from pyehl.display import with_error
+from pyehl.reports.answer import judge
+from pyehl.reports.limits import limits, warnings
+
+LARGEST = 2_000_000
+SMALL = "grid.points=65"
+
+
+class Page(HTMLParser):
+    """What is in a page: tags that are not closed, addresses, pictures, text."""
+
+    VOID = ("meta", "img", "br")
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.addresses: list[str] = []
+        self.pictures: list[tuple[str, bytes]] = []
+        self.words: list[str] = []
+        self.tags: set[str] = set()
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.add(tag)
+        known = dict(attrs)
+        if tag == "img":
+            head, _, data = known["src"].partition(",")
+            assert head == "data:image/png;base64"
+            self.pictures.append((known["alt"], base64.b64decode(data)))
+        else:
+            self.addresses += [known[name] for name in ("src", "href") if name in known]
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.words.append(data)
+
+    @property
+    def text(self) -> str:
+        return " ".join(" ".join(self.words).split())
+
+
+def read(path: Path) -> Page:
+    assert path.stat().st_size < LARGEST
+    page = Page(path.read_text(encoding="utf-8"))
+    assert not page.open
+    # nothing is loaded
+    assert not page.addresses
+    assert not page.tags & {"script", "link", "iframe", "object"}
+    assert all(len(words) > 20 for words, _ in page.pictures)
+    for _, data in page.pictures:
+        pixels = np.asarray(Image.open(io.BytesIO(data)).convert("L"))
+        assert pixels.std() > 5.0
+    for part in ("What was asked", "The answer", "Limits that apply", "Versions", "How to cite"):
+        assert part in page.text
+    return page
+
+
+@pytest.fixture(scope="module")
+def folders(tmp_path_factory, root: Path) -> Path:
+    place = tmp_path_factory.mktemp("results")
+    table1 = root / "cases/table1.nml"
+    pyehl.solve(table1, "grid.points=129", "surface.kind=smooth", output=place / "smooth")
+    pyehl.solve(root / "cases/dent.nml", SMALL, output=place / "rough")
+    pyehl.predict(table1, output=place / "prediction", plots=False)
+    vary = {"contact.moes_m": [50.0, 100.0, 200.0]}
+    pyehl.sweep(root / "cases/quick.nml", vary, SMALL, output=place / "sweep", jobs=1)
+    pyehl.stribeck(table1, "grid.points=129", speed=[0.6, 1.2], output=place / "curve", jobs=1)
+    return place
+
+
+@pytest.mark.parametrize(
+    ("name", "pictures"),
+    [("smooth", 2), ("rough", 6), ("prediction", 3), ("sweep", 1), ("curve", 1)],
+)
+def test_a_page_for_every_result(folders, tmp_path, name, pictures):
+    written = pyehl.report(folders / name, tmp_path / "page.html")
+    page = read(written)
+    assert len(page.pictures) == pictures
+    assert re.search(r"(Holds|Take with care)\.", page.text)
+    assert "Moes load M" in page.text
+    assert "600 N" in page.text or name in ("sweep", "rough")
+    assert not list(tmp_path.glob(".partial*"))
+
+
+def test_numbers_are_those_of_the_result(folders, tmp_path):
+    summary = json.loads((folders / "smooth/summary.json").read_text())
+    page = read(pyehl.report(folders / "smooth", tmp_path / "page.html"))
+    error = summary["H_c_error"] * summary["film_scale_m"] * 1e9
+    assert f"h_c = {with_error(summary['h_c_m'] * 1e9, error, 'nm')}" in page.text
+    assert f"H_c = {with_error(summary['H_c'], summary['H_c_error'])}" in page.text
+    assert summary["mu_note"] in page.text
+    prediction = json.loads((folders / "prediction/summary.json").read_text())
+    page = read(pyehl.report(folders / "prediction", tmp_path / "other.html"))
+    ratio = with_error(prediction["mu_ratio"], prediction["mu_ratio_model_error"])
+    assert f"{ratio}, between {prediction['mu_ratio_min']:.4g}" in page.text
+
+
+def test_the_case_in_it_can_be_run(folders, tmp_path, root):
+    """The short case of the page is the case that was run."""
+    text = pyehl.report(folders / "smooth", tmp_path / "page.html").read_text(encoding="utf-8")
+    short = re.search(r"<pre>(&amp;.*?)</pre>", text, re.DOTALL)[1]
+    (tmp_path / "case.nml").write_text(short.replace("&amp;", "&").replace("&#x27;", "'"))
+    again = pyehl.Case.read(tmp_path / "case.nml").resolve()
+    asked = ("grid.points=129", "surface.kind=smooth")
+    assert again == pyehl.Case.read(root / "cases/table1.nml", *asked).resolve()
+
+
+def test_no_answer_is_said(tmp_path, root):
+    with pytest.raises(pyehl.NotConverged):
+        pyehl.solve(root / "cases/quick.nml", SMALL, "solver.max_cycles=1", output=tmp_path / "run")
+    page = read(pyehl.report(tmp_path / "run", tmp_path / "page.html"))
+    assert "No answer. The status is 'cycle limit'" in page.text
+    assert "H_c =" not in page.text
+
+
+def test_broken_film_is_said(tmp_path, root):
+    found = pyehl.predict(
+        root / "cases/table1.nml", "surface.rms_height=4e-7", output=tmp_path / "run", plots=False
+    )
+    assert found.summary["status"] == "film breakdown"
+    page = read(pyehl.report(tmp_path / "run", tmp_path / "page.html"))
+    assert "No answer. The status is 'film breakdown'" in page.text
+    assert "carrying_shortest_wavelength_m" in page.text
+
+
+def test_a_failed_case_of_a_study_is_said(folders, tmp_path):
+    folder = tmp_path / "sweep"
+    shutil.copytree(folders / "sweep", folder)
+    rows = (folder / "results.csv").read_text().splitlines()
+    rows[1] = rows[1].replace(",converged,", ",cycle limit,")
+    (folder / "results.csv").write_text("\n".join(rows) + "\n")
+    page = read(pyehl.report(folder, tmp_path / "page.html"))
+    assert "Take with care. 2 of 3 cases have an answer. The others: 1 'cycle limit'" in page.text
+
+
+def test_where_maps_lie_is_left_out(tmp_path, root):
+    heights = 2e-8 * np.sin(2.0 * np.pi * np.arange(64) / 64.0)[:, np.newaxis] * np.ones(64)
+    np.save(tmp_path / "ground.npy", heights)
+    pyehl.predict(
+        root / "cases/table1.nml",
+        {"surface.kind": "map", "surface.file": str(tmp_path / "ground.npy")},
+        {"surface.length_x": 4e-4, "surface.length_y": 4e-4},
+        output=tmp_path / "run",
+        plots=False,
+    )
+    page = read(pyehl.report(tmp_path / "run", tmp_path / "page.html"))
+    assert "ground.npy" in page.text
+    assert str(tmp_path) not in (tmp_path / "page.html").read_text()
+
+
+def test_only_its_own_file_is_replaced(folders, tmp_path, capsys):
+    target = tmp_path / "page.html"
+    assert main(["report", str(folders / "smooth"), "-o", str(target)]) == 0
+    first = target.read_bytes()
+    assert main(["report", str(folders / "smooth"), "-o", str(target)]) == 0
+    assert target.read_bytes() == first
+    target.write_text("mine")
+    assert main(["report", str(folders / "smooth"), "-o", str(target)]) == 2
+    assert "did not write" in capsys.readouterr().err
+    assert target.read_text() == "mine"
+
+
+def test_a_run_replaces_the_report_with_its_result(tmp_path, root):
+    """The page belongs to the result: made of it, and gone with it."""
+    for _ in range(2):
+        pyehl.solve(root / "cases/quick.nml", SMALL, output=tmp_path / "run")
+        assert not (tmp_path / "run/report.html").exists()
+        assert pyehl.report(tmp_path / "run") == tmp_path / "run/report.html"
+    (tmp_path / "run/notes.html").write_text("mine")
+    with pytest.raises(pyehl.InputError, match=r"notes\.html"):
+        pyehl.solve(root / "cases/quick.nml", SMALL, output=tmp_path / "run")
+
+
+def test_what_is_no_result_is_refused(tmp_path):
+    with pytest.raises(pyehl.InputError, match="no result folder"):
+        pyehl.report(tmp_path)
+    (tmp_path / "summary.json").write_text('{"kind": "reproduce"}')
+    with pytest.raises(pyehl.InputError, match="a result of 'reproduce' has no report"):
+        pyehl.report(tmp_path)
+    (tmp_path / "summary.json").write_text("{")
+    with pytest.raises(pyehl.FileError, match="cannot be read"):
+        pyehl.report(tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["summary.json"]
+
+
+def test_pdf(folders, tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(pyehl.InputError, match="no browser is installed"):
+        pyehl.report(folders / "smooth", tmp_path / "page.html", pdf=True)
+    assert not (tmp_path / "page.html").exists()
+
+
+@pytest.mark.skipif(not shutil.which("chromium"), reason="no browser: chromium is not installed")
+def test_pdf_printed(folders, tmp_path):
+    for _ in range(2):
+        pyehl.report(folders / "smooth", tmp_path / "page.html", pdf=True)
+        data = (tmp_path / "page.pdf").read_bytes()
+        assert data.startswith(b"%PDF")
+        assert len(data) < LARGEST
+    (tmp_path / "page.pdf").write_bytes(b"%PDF mine")
+    with pytest.raises(pyehl.InputError, match="did not write"):
+        pyehl.report(folders / "smooth", tmp_path / "page.html", pdf=True)
+
+
+GOOD = {
+    "kind": "solution",
+    "status": "converged",
+    "H_c": 0.02,
+    "H_c_error": 0.0004,
+    "H_min": 0.01,
+    "H_min_error": 0.0002,
+}
+
+
+@pytest.mark.parametrize(
+    ("changed", "word", "why"),
+    [
+        ({}, "Holds", "H_c is known to 2 %, H_min is known to 2 %"),
+        ({"H_c_error": 0.002}, "Take with care", "H_c is known to 10 %"),
+        ({"H_c_error": None}, "Take with care", "the error of H_c is not known"),
+        ({"flash_temperature_K": 40.0}, "Take with care", "40 K"),
+        ({"status": "diverged"}, "No answer", "'diverged'"),
+    ],
+)
+def test_judgement(changed, word, why):
+    found = judge(GOOD | changed)
+    assert found.word == word
+    assert why in found.why
+
+
+def test_limits_that_apply(root):
+    settings = pyehl.Case.read(root / "cases/table1.nml").resolve()
+    told = " ".join(limits(settings, {"kind": "prediction"}))
+    assert "Newtonian" in told
+    assert "one scan line" in told
+    thinning = pyehl.Case.read(root / "cases/table1.nml", "lubricant.shear_law=eyring").resolve()
+    assert "film and waves are Newtonian" in " ".join(limits(thinning, {"kind": "prediction"}))
+    assert "film and waves are Newtonian" not in " ".join(limits(thinning, {"kind": "solution"}))
+    assert warnings({"status": "converged"}) == []
+    assert "moes_m" in warnings({"status": "predicted", "outside_range": ["moes_m"]})[0]

@@ -1,0 +1,249 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Oils by name, laws with constants of an oil, tables of measured values, alpha* and alpha_film."""
+
+from __future__ import annotations
+
+import json
+import math
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pyehl
+from pyehl import Case, InputError, Lubricant, cli
+from pyehl.theory.oils import film_forming, known_oils, reciprocal_isoviscous
+
+TABLE = (
+    "pressure_Pa,temperature_degC,viscosity_Pa_s\n"
+    "0,40,0.08\n2e8,40,6.0\n5e8,40,1100\n0,80,0.017\n2e8,80,0.5\n5e8,80,35\n"
+)
+T9 = {
+    "lubricant.viscosity_law": "yasutomi",
+    "lubricant.yasutomi_tg0": -83.2,
+    "lubricant.yasutomi_a1": 188.86,
+    "lubricant.yasutomi_a2": 0.719e-9,
+    "lubricant.yasutomi_b1": 8.2e-9,
+    "lubricant.yasutomi_b2": -0.5278,
+    "lubricant.yasutomi_c1": 16.09,
+    "lubricant.yasutomi_c2": 17.38,
+    "lubricant.density_law": "murnaghan",
+    "lubricant.murnaghan_modulus": 9.234e9,
+    "lubricant.murnaghan_rate": 10.545,
+    "lubricant.murnaghan_softening": 6.09e-3,
+}
+LIGHT = {"contact.load": 50.0, "grid.points": 65}
+
+
+def of_case(*options: dict[str, object]) -> Lubricant:
+    return Lubricant.from_settings(Case.of(Case.from_text(""), *options).resolve())
+
+
+@pytest.fixture
+def table(tmp_path: Path) -> Path:
+    path = tmp_path / "oil.csv"
+    path.write_text(TABLE)
+    return path
+
+
+@pytest.mark.parametrize("temperature", [20.0, 40.0, 60.0])
+def test_fva3_is_that_of_its_source(temperature: float):
+    """Table A1 of Wingertszahn et al. 2023 put into their eqs. 7 and 8, in bar and mPa s."""
+    oil = Lubricant.from_name("fva3", temperature)
+    assert oil.viscosity == pytest.approx(
+        1e-3 * 0.062 * math.exp(1021.7 / (temperature + 101.5517)), rel=1e-12
+    )
+    a, b = 327.7918 + 2.9862 * temperature, 4.419e-3 + 3.0115e-4 * temperature
+    for bar in (500.0, 4000.0, 16000.0):
+        assert float(oil.log_viscosity_ratio(1e5 * bar)) == pytest.approx(
+            bar / (a + b * bar), rel=1e-12
+        )
+    assert oil.pressure_viscosity == pytest.approx(1e-5 / a, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "a1", "a2", "b1", "b2", "at_40", "at_100"),
+    [
+        ("n100", -7.23e7, 3.48e5, 5.00e-3, -1.83e-5, 97.9, 8.61),
+        ("pao100", -5.73e7, 3.90e5, -39.50e-3, 23.54e-5, 94.1, 14.0),
+    ],
+)
+def test_oils_of_mann(
+    name: str, a1: float, a2: float, b1: float, b2: float, at_40: float, at_100: float
+):
+    """Tables 2 and 3 of Arana et al. 2019, whose theta is in K; density by the data sheet."""
+    density = {c.key: c.value for c in known_oils()[name].constants}["density_15"]
+    for temperature, kinematic in ((40.0, at_40), (100.0, at_100)):
+        oil = Lubricant.from_name(name, temperature)
+        rho = density * (1.0 - 6.5e-4 * (temperature - 15.0))
+        assert oil.viscosity == pytest.approx(1e-6 * kinematic * rho, rel=1e-9)
+        kelvin, p = temperature + 273.15, 3e8
+        exponent = p / (a1 + a2 * kelvin + (b1 + b2 * kelvin) * p)
+        assert float(oil.log_viscosity_ratio(p)) == pytest.approx(exponent, rel=1e-9)
+
+
+def test_mineral_oils_of_one_grade_agree():
+    """FVA 3, and its equivalent M100 of Arana et al., Table 2: 96 mm^2/s, 882 kg/m^3."""
+    oil = Lubricant.from_name("fva3", 40.0)
+    rho = 882.0 * (1.0 - 6.5e-4 * 25.0)
+    assert oil.viscosity == pytest.approx(96e-6 * rho, rel=0.03)
+
+
+def test_every_oil_has_sources_and_runs():
+    for name, oil in pyehl.lubricants().items():
+        assert oil.title
+        assert oil.source
+        assert oil.range
+        assert all(c.place for c in oil.constants)
+        data = pyehl.solve(Case.from_text(""), {"lubricant.name": name, **LIGHT})
+        assert name in data.attrs["lubricant_note"]
+        assert data.attrs["status"] == "converged"
+
+
+def test_slopes_at_the_inlet_follow_from_the_law(table: Path):
+    """Alpha and beta are the slopes of ln eta, and without a rise there is no other viscosity."""
+    for oil in (
+        Lubricant.from_name("fva3", 60.0),
+        of_case(T9, {"lubricant.temperature": 60.0}),
+        of_case({"lubricant.table": str(table), "lubricant.temperature": 60.0}),
+    ):
+        by_p = float(oil.log_viscosity_ratio(1e3) - oil.log_viscosity_ratio(0.0)) / 1e3
+        by_t = float(oil.log_viscosity_ratio(0.0, 0.01) - oil.log_viscosity_ratio(0.0, -0.01))
+        assert by_p == pytest.approx(oil.pressure_viscosity, rel=1e-3)
+        assert by_t / 0.02 == pytest.approx(-oil.temperature_viscosity, rel=1e-6)
+        assert float(oil.density_ratio(0.0)) == 1.0
+        assert float(oil.density_ratio(0.0, 50.0)) < 1.0 < float(oil.density_ratio(5e8, 50.0))
+
+
+def test_an_oil_is_as_thick_as_itself_at_another_inlet():
+    """The rise of temperature from one inlet to another gives the viscosity of that other one."""
+    cold, warm = Lubricant.from_name("fva3", 40.0), Lubricant.from_name("fva3", 75.0)
+    p = np.array([0.0, 3e8, 1e9])
+    there = cold.viscosity * cold.viscosity_ratio(p, 35.0)
+    assert there == pytest.approx(warm.viscosity * warm.viscosity_ratio(p), rel=1e-12)
+    rho = 1.0 - cold.thermal_expansion * np.array([25.0, 60.0])
+    assert float(cold.density_ratio(0.0, 35.0)) == pytest.approx(rho[1] / rho[0], rel=1e-12)
+
+
+def test_alpha_star_and_alpha_film():
+    """Barus: all the same; a law whose slope falls: smaller than at ambient pressure."""
+    barus = Lubricant(viscosity_law="barus", pressure_viscosity=2e-8)
+    assert reciprocal_isoviscous(barus) == pytest.approx(2e-8, rel=1e-4)
+    assert film_forming(barus) == pytest.approx(2e-8, rel=1e-4)
+    oil = Lubricant.from_name("fva3", 40.0)
+    assert reciprocal_isoviscous(oil) < film_forming(oil) < oil.pressure_viscosity
+    # van Leeuwen 2009, as Arana et al. print it (eq. 35): for Roelands, approximately
+    roelands = Lubricant()
+    alpha, z, p0 = roelands.pressure_viscosity, roelands.roelands_z, roelands.roelands_p0
+    assert reciprocal_isoviscous(roelands) == pytest.approx(
+        alpha / (1.0 + (1.0 - z) / (alpha * p0)), rel=0.005
+    )
+
+
+def test_a_table_gives_its_values_and_its_range(table: Path):
+    options = {"lubricant.table": str(table), "lubricant.temperature": 40.0}
+    oil = of_case(options)
+    assert oil.viscosity == pytest.approx(0.08)
+    assert np.exp(oil.log_viscosity_ratio([2e8, 5e8])) * 0.08 == pytest.approx([6.0, 1100.0])
+    warm = oil.viscosity * oil.viscosity_ratio([0.0, 2e8, 5e8], 40.0)
+    assert warm == pytest.approx([0.017, 0.5, 35.0])
+    data = pyehl.solve(Case.from_text(""), options, LIGHT)
+    assert "BEYOND in pressure" in data.attrs["lubricant_note"]
+    inside = {"contact.load": 1.0, "contact.mean_velocity": 0.01, "grid.points": 65}
+    data = pyehl.solve(Case.from_text(""), options, inside)
+    assert "BEYOND" not in data.attrs["lubricant_note"]
+    assert "up to 5.000E+08 Pa" in data.attrs["lubricant_note"]
+    hot = {**options, "lubricant.temperature": 100.0}
+    assert "BEYOND in temperature" in pyehl.check(Case.from_text(""), hot)
+
+
+def test_a_prediction_says_that_the_oil_was_not_measured_there():
+    options = {"lubricant.name": "pao100", "surface.kind": "fractal", "surface.pixels": 64}
+    note = pyehl.predict(Case.from_text(""), options).summary["note"]
+    assert "the lubricant was measured up to 5.1e+08 Pa" in note
+    assert "degC" not in note
+    hot = pyehl.predict(Case.from_text(""), options, {"lubricant.temperature": 90.0})
+    assert "from 25 to 60 degC" in hot.summary["note"]
+    options["lubricant.name"] = "fva3"
+    assert "measured" not in pyehl.predict(Case.from_text(""), options).summary["note"]
+
+
+def test_a_written_case_of_an_oil_reads_back(table: Path):
+    for options in ({"lubricant.name": "pao100"}, {"lubricant.table": str(table)}, T9):
+        case = Case.of(Case.from_text("", {"lubricant.temperature": 50.0, **options}))
+        assert Case.from_text(case.text).text == case.text
+        # another temperature is another viscosity: what follows is not given
+        warm = Case.from_text(case.text, {"lubricant.temperature": 70.0}).resolve()
+        assert warm["lubricant"]["viscosity"] < 0.7 * case.resolve()["lubricant"]["viscosity"]
+
+
+def test_keys_beside_a_name_rule():
+    group = Case.from_text(
+        "", {"lubricant.name": "fva3", "lubricant.thermal_conductivity": 0.15}
+    ).resolve()["lubricant"]
+    assert group["thermal_conductivity"] == 0.15
+    assert group["viscosity_law"] == "dicke"
+    group = Case.from_text(
+        "", {"lubricant.name": "fva3", "lubricant.viscosity_law": "roelands"}
+    ).resolve()["lubricant"]
+    assert (group["viscosity_law"], group["pressure_viscosity"]) == (
+        "roelands",
+        pytest.approx(2.2359e-8, rel=1e-4),
+    )
+
+
+def test_film_of_an_oil_is_near_that_of_roelands_with_its_alpha():
+    """M and L take alpha at ambient pressure, for every law: films differ by some per cent."""
+    films = [
+        pyehl.solve(
+            Case.from_text(""),
+            {"lubricant.name": "fva3", "lubricant.viscosity_law": law, "grid.points": 129},
+        )
+        for law in ("dicke", "roelands")
+    ]
+    assert float(films[0].moes_l) == float(films[1].moes_l)
+    assert float(films[0].H_c) == pytest.approx(float(films[1].H_c), rel=0.04)
+
+
+def test_a_pole_of_the_law_is_refused():
+    """Dicke with b1 < 0 has a pole at p = a/|b1|: here below the pressures of the contact."""
+    steep = {
+        "lubricant.viscosity_law": "dicke",
+        "lubricant.kinematic_viscosity_40": 68.0,
+        "lubricant.kinematic_viscosity_100": 8.7,
+        "lubricant.dicke_a1": 5e7,
+        "lubricant.dicke_b1": -0.05,
+    }
+    with pytest.raises(InputError, match="no viscosity that rises with pressure"):
+        Case.from_text("", steep)
+    assert Case.from_text("", {**steep, "contact.load": 1.0}).resolve()
+
+
+def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    assert cli.main(["lubricants", "fva3", "-o", str(tmp_path / "oils")]) == 0
+    printed = capsys.readouterr().out
+    assert "Wingertszahn" in printed
+    assert "alpha = 22.36/GPa" in printed
+    assert [path.name for path in (tmp_path / "oils").iterdir()] == ["fva3.png"]
+    # a picture of its own is replaced, another file is not
+    assert cli.main(["lubricants", "fva3", "-o", str(tmp_path / "oils")]) == 0
+    (tmp_path / "oils" / "n100.png").write_bytes(b"mine")
+    assert cli.main(["lubricants", "-o", str(tmp_path / "oils")]) == 2
+    assert (tmp_path / "oils" / "n100.png").read_bytes() == b"mine"
+    assert not (tmp_path / "oils" / "pao100.png").exists()
+    capsys.readouterr()
+    assert cli.main(["lubricants", "fva4"]) == 2
+    assert "did you mean 'fva3'" in capsys.readouterr().err
+
+
+def test_both_programs_take_an_oil(drivers: dict[str, list[str]], tmp_path: Path, table: Path):
+    case = tmp_path / "case.nml"
+    case.write_text("&contact load = 50.0 /\n&lubricant table = 'oil.csv' /\n&grid points = 65 /\n")
+    found = []
+    for name, command in drivers.items():
+        folder = tmp_path / name
+        subprocess.run([*command, str(case), "-o", str(folder)], check=True, capture_output=True)
+        summary = json.loads((folder / "summary.json").read_text())
+        found.append((summary["H_c"], summary["lubricant_note"]))
+    assert found[0] == found[1]

@@ -1,0 +1,363 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The prediction for two rough surfaces: exact special cases, sums of waves, positions, films."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import pyehl
+from pyehl import cli
+from pyehl.prediction.by_response import RoughPassage
+from pyehl.prediction.meeting import Meeting, common_passages
+from pyehl.prediction.options import Options
+from pyehl.prediction.pair import RoughPair
+from pyehl.prediction.pair_breakdown import pair_below_zero
+from pyehl.prediction.smooth import solve_contact, zone_of
+from pyehl.prediction.spectrum import Spectrum
+from pyehl.prediction.transfer import Transfer
+from pyehl.surfaces import Topography, fractal
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+
+POINT, OIL = OperatingPoint(), Lubricant()
+RADIUS = POINT.hertz_radius
+SI = "&contact load = 120.0 slide_to_roll = 0.2 /\n"
+FRACTAL = (
+    "&{} kind = 'fractal' pixels = 64 length_x = {} length_y = 2e-4 rms_height = {} seed = {} /\n"
+)
+# lengths of 2e-4 m at 1.1 and 0.9 times the mean velocity: common period
+FIRST = FRACTAL.format("{}", 2.2e-4, 1e-8, 3)
+SECOND = FRACTAL.format("{}", 1.8e-4, 2e-8, 4)
+
+
+def rough(seed: int, rms: float = 2e-8, length: float = 4e-4) -> Topography:
+    made = fractal(64, length, length, rms_height=rms, hurst=0.8, rolloff_wavenumber=0.0, seed=seed)
+    return replace(made, seed=None)
+
+
+def wave(length: float, amplitude: float) -> Topography:
+    """Ridges across the motion [a], [a^2/R]."""
+    x = np.cos(2.0 * np.pi * np.arange(64) / 64) * amplitude * POINT.film_scale
+    return Topography(np.repeat(x[:, np.newaxis], 64, axis=1), (length * RADIUS, RADIUS))
+
+
+@pytest.fixture(scope="module")
+def contact():
+    return solve_contact(pyehl.Case.from_text("").resolve())
+
+
+def alone(contact, tile, ratio, **options) -> RoughPassage:
+    return RoughPassage(tile, contact, POINT, OIL, Options(**options), ratio)
+
+
+def pair(contact, tiles, ratios, fronts=(-2.5, -2.5)) -> RoughPair:
+    first, second = (alone(contact, t, u) for t, u in zip(tiles, ratios, strict=True))
+    return RoughPair((first, second), fronts)
+
+
+@pytest.mark.parametrize("length", ["1.8e-4", "1.9e-4"], ids=["common period", "none"])
+def test_exchange_of_the_two(length):
+    """Body 1 with one roughness and body 2 with the other, named in either order: the same bits."""
+    second = SECOND.replace("0.00018", length)
+    texts = [SI, SI.replace("load", "rough_surface = 2 load")]
+    texts[0] += FIRST.format("surface") + second.format("second_surface")
+    texts[1] += second.format("surface") + FIRST.format("second_surface")
+    one, other = (pyehl.predict(pyehl.Case.from_text(text), tracks=3) for text in texts)
+    assert one.mu_ratio == other.mu_ratio > 1.05
+    assert one.bands == other.bands
+    for name in ("mu_ratio_min", "mu_ratio_max", "mu_ratio_tracks", "mu_ratio_tracks_spread",
+                 "h_min_rough_m", "lambda_ratio", "surface_rms_m", "surface_slope"):  # fmt: skip
+        assert one.summary[name] == other.summary[name], name
+    for name in ("velocity_ratio", "rms_height_m", "rms_deformed_m", "rms_pressure_Pa"):
+        assert one.summary[name] == other.summary[f"second_{name}"], name
+        assert other.summary[name] == one.summary[f"second_{name}"], name
+    assert np.array_equal(one.data.deformed_m.values, other.data.second_deformed_m.values)
+
+
+def test_smooth_second_surface_changes_nothing():
+    text = SI + FIRST.format("surface")
+    one = pyehl.predict(pyehl.Case.from_text(text))
+    other = pyehl.predict(pyehl.Case.from_text(text + "&second_surface kind = 'smooth' /\n"))
+    assert one.mu_ratio == other.mu_ratio
+    assert one.bands == other.bands
+
+
+def test_hardly_rough_second_surface(contact):
+    """The points of a pair are others than those of one surface."""
+    flat = rough(4, 1e-15)
+    for ratio in (1.05, 0.9):
+        single, _, _ = alone(contact, rough(3), ratio).run(0)
+        both, _, _ = pair(contact, (rough(3), flat), (ratio, 2.0 - ratio)).run(0)
+        # 1e-4 at 1.05, 6e-4 at 0.9
+        assert both.mu_ratio == pytest.approx(single.mu_ratio, rel=2e-3)
+
+
+def test_without_sliding_they_are_one_surface(contact):
+    one, other = rough(3), rough(4)
+    added = Topography(one.heights + other.heights, one.size)
+    single, over, bands = alone(contact, added, 1.0).run(3)
+    both, over_both, bands_both = pair(contact, (one, other), (1.0, 1.0)).run(3)
+    assert (both.mu_ratio, over_both, bands_both) == (single.mu_ratio, over, bands)
+    # two tiles of one are as long as one of the other
+    short = Topography(other.heights, (0.5 * other.length_x, other.length_y))
+    doubled = Topography(np.tile(short.heights, (2, 1)), other.size)
+    found, _, _ = pair(contact, (one, short), (1.0, 1.0)).run(0)
+    expected, _, _ = pair(contact, (one, doubled), (1.0, 1.0)).run(0)
+    assert found.mu_ratio == pytest.approx(expected.mu_ratio, rel=1e-6)
+
+
+def test_small_waves_are_deformed_as_if_alone(contact):
+    """The leak at an amplitude is of second order."""
+    tiles, ratios = (rough(3, 1e-11), rough(4, 1e-11)), (1.1, 0.9)
+    for found, tile, ratio in zip(
+        pair(contact, tiles, ratios).responses(), tiles, ratios, strict=True
+    ):
+        expected = alone(contact, tile, ratio).deformed()
+        assert found.deformed == pytest.approx(expected, abs=1e-6 * np.abs(expected).max())
+
+
+def test_rises_of_small_waves_add(contact):
+    """Where they meet in all positions, products of waves of different surfaces have no mean."""
+    apart = []
+    for rms in (4e-9, 2e-9):
+        tiles = rough(3, rms), rough(4, rms, 3.1e-4)
+        rise, _, _ = pair(contact, tiles, (1.1, 0.9)).run(0)
+        each = [alone(contact, t, u).run(0)[0] for t, u in zip(tiles, (1.1, 0.9), strict=True)]
+        sum_of_rises = sum(one.mu_ratio - 1.0 for one in each)
+        apart.append((rise.mu_ratio - 1.0) / sum_of_rises - 1.0)
+    assert abs(apart[1]) < 0.05
+
+
+def test_cross_terms_of_second_order(contact):
+    """Two surfaces at one velocity have gamma and variance of the sum of their spectra."""
+    zone = zone_of(contact, POINT, OIL)
+    moes = POINT.moes_m, POINT.moes_l
+    tiles = [rough(3), rough(4, 3e-8)]
+    spectra = [Spectrum.of(t.heights / POINT.film_scale, 1.0, 1.0) for t in tiles]
+    of = [s.power for s in spectra]
+    first, _ = Transfer.of_all([(s, 1.05) for s in spectra], zone, moes)
+    gain, variance = first.second.of(*of)
+    single = Transfer.of(spectra[0], zone, moes, 1.05)
+    gain_of_sum, variance_of_sum = single.second.of(of[0] + of[1])
+    assert gain == pytest.approx(gain_of_sum, rel=1e-9)
+    assert variance == pytest.approx(variance_of_sum, rel=1e-9)
+    # the pairs of one wave of each are most of it where neither is much the larger
+    alone_gain, alone_variance = first.second.of(of[0], 0.0 * of[1])
+    other_gain, other_variance = first.second.of(0.0 * of[0], of[1])
+    own = alone_gain * alone_variance**2 + other_gain * other_variance**2
+    cross = gain * variance**2 - own
+    assert np.all(cross > 0.5 * own)
+    # in other order the same
+    second = Transfer.of_all([(s, 1.05) for s in spectra[::-1]], zone, moes)[0].second
+    assert second.of(*of[::-1])[0] == pytest.approx(gain, rel=1e-12)
+
+
+def test_both_leak_as_the_amplitude_of_both(contact):
+    """Two halves of the power leak as the whole of it does."""
+    zone, moes = zone_of(contact, POINT, OIL), (POINT.moes_m, POINT.moes_l)
+    heights = rough(3, 4e-8).heights / POINT.film_scale
+    whole = Spectrum.of(heights, 1.0, 1.0)
+    half = Spectrum.of(heights / np.sqrt(2.0), 1.0, 1.0)
+    (one, _) = Transfer.of_all([(half, 1.05)] * 2, zone, moes, at_amplitude=True)
+    single = Transfer.of(whole, zone, moes, 1.05, at_amplitude=True)
+    small = Transfer.of(whole, zone, moes, 1.05)
+    assert one.free[1] == pytest.approx(single.free[1], rel=1e-9)
+    assert np.abs(single.free[1] - small.free[1]).max() > 5e-4
+
+
+def test_positions():
+    assert common_passages((1.1, 0.9), (1.1, 0.9)) == (1, 1)
+    assert common_passages((0.55, 0.9), (1.1, 0.9)) == (2, 1)
+    assert common_passages((1.0, 1.0), (1.2, 0.8)) == (3, 2)
+    assert common_passages((1.0, 1.0), (1.01, 0.99)) is None
+    assert common_passages((1.0, 1.0), (2.0, 0.0)) == (1, 0)
+    # along a common period: products that come back have a mean, by where they begin
+    q = 2.0 * np.pi
+    for ahead in (0.0, 0.2):
+        line = Meeting((1.1, 0.9), (1.1, 0.9), (0.0, ahead))
+        mean = line.short_mean(lambda s: np.cos(q * s[0] / 1.1) * np.cos(q * s[1] / 0.9))
+        assert mean == pytest.approx(0.5 * np.cos(q * ahead / 0.9), abs=1e-12)
+    # of all positions: products of different tiles have none
+    lattice = Meeting((1.0, 1.0), (1.01, 0.99), (0.0, 0.3))
+    for i, j in ((1, 0), (0, 1), (1, 1), (1, -1), (2, 3), (3, -1)):
+        mean = lattice.short_mean(lambda s, i=i, j=j: np.cos(q * (i * s[0] + j * s[1])))
+        assert mean == pytest.approx(0.0, abs=1e-12), (i, j)
+    # the same positions for the other order of the two
+    points = {lattice.moved(k, 48, 7) for k in range(48)}
+    assert points == {(b, a) for a, b in points}
+
+
+def test_what_is_left_undecided(contact):
+    found, _, _ = pair(contact, (rough(3), rough(4, length=3.7e-4)), (1.05, 0.95)).run(0)
+    more = pair(contact, (rough(3), rough(4, length=3.7e-4)), (1.05, 0.95))
+    of = tuple(replace(one, options=Options(positions=1600)) for one in more.of)
+    finer, _, _ = replace(more, of=of).run(0)
+    assert finer.passage.size == 1680
+    error = abs(found.mu_ratio / finer.mu_ratio - 1.0)
+    assert error < found.position_error + finer.position_error < 0.01
+
+
+@pytest.mark.parametrize("ahead", [0.1125, 0.3375])
+def test_waves_against_the_full_simulation(ahead):
+    """Waves of one period: the mean depends on where they meet, and so is predicted."""
+    keys = {
+        "contact.moes_m": 200.0, "contact.moes_l": 10.0, "contact.slide_to_roll": 0.2,
+        "grid.points": 129, "grid.x_inlet": -2.5, "grid.x_outlet": 1.5, "grid.y_extent": 2.0,
+        "surface.kind": "harmonic", "surface.amplitude": 5e-3, "surface.wavelength": 0.55,
+        "second_surface.kind": "harmonic", "second_surface.amplitude": 5e-3,
+        "second_surface.wavelength": 0.45, "second_surface.x_start": -2.5 - ahead,
+        "time.estimate_error": False,
+    }  # fmt: skip
+    case = pyehl.Case.from_text("", keys)
+    predicted, simulated = pyehl.predict(case, tracks=1), pyehl.solve(case)
+    assert float(simulated.T_period) == pytest.approx(0.5, rel=1e-9)
+    assert predicted.mu_ratio == pytest.approx(float(simulated.mu_ratio), rel=0.02)
+    assert float(simulated.mu_ratio) == pytest.approx({0.1125: 1.06, 0.3375: 1.34}[ahead], abs=0.02)
+
+
+def test_film_between_two_tiles(contact):
+    """Least film over all positions: the highest points of a line meet. In a common period few."""
+
+    def film(x, y):
+        return np.full((x.size, y.size), 1e-7)
+
+    rng = np.random.default_rng(1)
+    heights = [np.zeros((64, 64)) for _ in range(2)]
+    heights[0][10, 3], heights[1][40, 3] = 7e-8, 6e-8
+    heights[0][20, 5], heights[1][5, 6] = 9e-8, 9e-8
+    heights[0] += 1e-10 * rng.random((64, 64))
+    flat = Topography(np.ones((64, 64)), (RADIUS, RADIUS))
+    all_positions = pair(contact, (flat, flat), (1.01, 0.99))
+    found = pair_below_zero(all_positions, heights, film)
+    assert found.deepest == pytest.approx(-3e-8, abs=2e-10)
+    assert found.pixels == ((10, 3), (40, 3))
+    # tiles as long as their velocities are fast: a pixel of one is met by few of the other
+    longer = Topography(flat.heights, (1.01 * RADIUS, RADIUS))
+    shorter = Topography(flat.heights, (0.99 * RADIUS, RADIUS))
+    few = pair(contact, (longer, shorter), (1.01, 0.99), (-2.5, -2.5))
+    assert few.meeting.passages == (1, 1)
+    deepest = []
+    for ahead in np.arange(64) / 64:
+        moved = replace(few, fronts=(-2.5, -2.5 + ahead * 0.99))
+        deepest.append(pair_below_zero(moved, heights, film).deepest)
+    assert min(deepest) == pytest.approx(found.deepest, abs=1e-15)
+    # the others pass each other out of reach
+    assert sum(d > 5e-9 for d in deepest) > 50
+
+
+def breaking(load: float = 120.0) -> str:
+    return (
+        f"&contact load = {load} slide_to_roll = 0.2 mean_velocity = 0.1 /\n"
+        + FRACTAL.format("surface", 2.2e-4, 3e-9, 3)
+        + FRACTAL.format("second_surface", 1.7e-4, 6e-8, 4)
+    )
+
+
+def test_what_would_carry():
+    """The one that breaks the film must go, the other one alone does not help."""
+    found = pyehl.predict(pyehl.Case.from_text(breaking()))
+    assert found.summary["status"] == "film breakdown"
+    assert np.isnan(found.mu_ratio)
+    about = found.summary["film_breakdown"]
+    assert about["film_m"] < 0.0
+    assert 0.0 < about["share_of_contact"] < 1.0
+    assert about["carrying_shortest_wavelength_m"] is None
+    cut = about["carrying_second_shortest_wavelength_m"]
+    both = about["carrying_both_shortest_wavelength_m"]
+    assert 0.0 < both <= cut
+    told = "\n".join(found.advice.report())
+    assert "of surface meets x = " in told
+    assert f"second_surface.shortest_wavelength = {cut:.4g}" in told
+    mended = pyehl.predict(
+        pyehl.Case.from_text(breaking(), {"second_surface.shortest_wavelength": cut})
+    )
+    assert mended.summary["status"] == "predicted"
+    assert mended.model_error > 0.0
+
+
+def test_beyond_the_linear_response_names_cut_offs(contact):
+    tiles = rough(3, 2e-8), rough(4, 9.5e-8)
+    found, over, bands = pair(contact, tiles, (1.1, 0.9)).run()
+    assert found.status == "beyond linear response", found
+    assert np.isnan(over[0])
+    assert not bands
+    assert "second_surface.shortest_wavelength = " in found.message
+    assert "surface.shortest_wavelength with second_surface.shortest_wavelength = " in found.message
+
+
+def test_bands_hold_the_waves_of_both(contact):
+    tiles = wave(1.1, 2e-3), wave(0.225, 1e-3)
+    found, _, bands = pair(contact, tiles, (1.1, 0.9)).run(0)
+    assert len(bands) == 2
+    assert bands[0].longest == pytest.approx(1.1 * RADIUS)
+    heights = [a * POINT.film_scale / np.sqrt(2.0) for a in (2e-3, 1e-3)]
+    assert [band.rms_height for band in bands] == pytest.approx(heights, rel=1e-9)
+    assert sum(band.rise for band in bands) == pytest.approx(found.mu_ratio - 1.0, abs=1e-12)
+
+
+def test_composite_statistics():
+    """Rms height and slope of both together, and the film over them."""
+    keys = {
+        "contact.load": 120.0, "contact.slide_to_roll": 0.5,
+        "surface.kind": "harmonic", "surface.amplitude": 5e-3, "surface.wavelength": 1.0,
+        "second_surface.kind": "harmonic", "second_surface.amplitude": 3e-3,
+        "second_surface.wavelength": 0.5,
+    }  # fmt: skip
+    about = pyehl.predict(pyehl.Case.from_text("", keys), tracks=1).summary
+    scale, a = about["film_scale_m"], about["hertz_radius_m"]
+    rms = [0.5 * amplitude * scale for amplitude in (5e-3, 3e-3)]
+    assert (about["rms_height_m"], about["second_rms_height_m"]) == pytest.approx(rms, rel=1e-9)
+    assert about["surface_rms_m"] == pytest.approx(np.hypot(*rms), rel=1e-9)
+    slopes = [
+        r * np.sqrt(2.0) * 2.0 * np.pi / (length * a)
+        for r, length in zip(rms, (1.0, 0.5), strict=True)
+    ]
+    assert about["surface_slope"] == pytest.approx(np.hypot(*slopes), rel=1e-9)
+    assert about["lambda_ratio"] == pytest.approx(about["h_min_m"] / np.hypot(*rms), rel=1e-9)
+    assert about["outside_range"] == ["velocity_ratio"]
+
+
+def test_surfaces_in_memory():
+    """Arrays in place of both surfaces are predicted as from the case."""
+    text = SI + FIRST.format("surface") + SECOND.format("second_surface")
+    made = pyehl.predict(pyehl.Case.from_text(text), tracks=1)
+    given = pyehl.predict(
+        pyehl.Case.from_text(text),
+        surface=made.surface.heights,
+        second_surface=Topography(made.second.surface.heights, made.second.surface.size),
+        tracks=1,
+    )
+    assert given.mu_ratio == pytest.approx(made.mu_ratio, rel=1e-12)
+
+
+def test_folder(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    text = SI + FIRST.format("surface") + SECOND.format("second_surface")
+    (tmp_path / "case.nml").write_text(text)
+    assert cli.main(["predict", "case.nml", "--tracks", "2", "-o", "out"]) == 0
+    told = capsys.readouterr().out
+    assert "second      fractal" in told
+    assert "complex response at velocity ratio 1.1 and 0.9" in told
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    pictures = {"second_surface_spectrum.png", "second_roughness.png", "roughness.png"}
+    assert pictures <= set(summary["files"])
+    data = pyehl.load("out")
+    assert data.second_deformed_m.dims == ("second_x_m", "second_y_m")
+    assert float(data.second_deformed_m.std()) == pytest.approx(summary["second_rms_deformed_m"])
+    moved = data.passage_second_shift_m.values / data.passage_shift_m.values.clip(1e-12)
+    assert moved[1:] == pytest.approx(1.8 / 2.2)
+    # over the same folder, without the second: its files go
+    words = ["predict", "case.nml", "--tracks", "1", "-o", "out"]
+    assert cli.main([*words, "--set", "second_surface.kind=smooth"]) == 0
+    assert not list((tmp_path / "out").glob("second_*"))
+
+
+def test_model_of_the_paper_knows_one():
+    text = SI + FIRST.format("surface") + SECOND.format("second_surface")
+    keys = {"psd.reduction": "amplitude", "psd.smooth": "hertz"}
+    with pytest.raises(pyehl.InputError, match="two rough surfaces: the model of the paper"):
+        pyehl.predict(pyehl.Case.from_text(text, keys))

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Traction curves, and what an empirical law says where the film is thin."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from contextlib import redirect_stderr, redirect_stdout
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pyehl
+from pyehl.cli import main
+from pyehl.errors import InputError
+from pyehl.theory.load_share import AIHARA, LoadShare
+
+# A ball on a disc with a mineral oil
+BALL = """
+&contact load = 36.0 mean_velocity = 2.5 /
+&bodies radius_x1 = 9.525e-3 radius_y1 = 9.525e-3 /
+&lubricant
+   viscosity = 0.084 pressure_viscosity = 2.24e-8 temperature_viscosity = 0.05
+   thermal_conductivity = 0.134 shear_law = 'eyring'
+/
+&grid points = 65 /
+"""
+SLIP = "contact.slide_to_roll"
+
+
+def run(*words: str, expect: int = 0) -> str:
+    told, complaint = io.StringIO(), io.StringIO()
+    with redirect_stdout(told), redirect_stderr(complaint):
+        status = main(["stribeck", *words, "--jobs", "1"])
+    assert status == expect, told.getvalue() + complaint.getvalue()
+    return told.getvalue() + complaint.getvalue()
+
+
+def columns(folder: Path) -> dict[str, np.ndarray]:
+    with (folder / "stribeck.csv").open(newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    names = [name for name in rows[0] if name not in ("status", "message")]
+    return {name: np.array([float(row[name] or "nan") for row in rows]) for name in names}
+
+
+def test_rise_plateau_and_fall(tmp_path: Path):
+    """In proportion to slip at first, then hardly with it, then less by the heat."""
+    (tmp_path / "ball.nml").write_text(BALL)
+    (tmp_path / "measured.csv").write_text(f"{SLIP},mu\n0.1,0.033\n0.3,0.033\n0.9,0.02\n")
+    slips = "0,1e-7,2e-7,0.12,0.2,0.5"
+    told = run(
+        *(str(tmp_path / "ball.nml"), "--slide-to-roll", slips, "-o", str(tmp_path / "out")),
+        *("--measured", str(tmp_path / "measured.csv")),
+    )
+    found = columns(tmp_path / "out")
+    mu, isothermal = found["mu"], found["mu_isothermal"]
+    assert np.isnan(mu[0])
+    assert mu[2] == pytest.approx(2.0 * mu[1], rel=1e-3)
+    assert mu[4] == pytest.approx(mu[3], rel=0.02)
+    assert mu[5] < 0.96 * mu[4]
+    assert np.all(np.diff(isothermal[1:]) > 0.0)
+    assert np.isnan(found["temperature_rise_max_K"][:3]).all()
+    assert np.all(np.diff(found["temperature_rise_max_K"][3:]) > 0.0)
+    assert (tmp_path / "out" / "stribeck.png").is_file()
+    # the deviation at the two measured points on the curve, by hand
+    there = np.interp([0.1, 0.3], found[SLIP][1:], mu[1:]) / 0.033 - 1.0
+    assert f"off by {there.mean():+.1%} in the mean" in told
+    assert f"{np.sqrt(np.mean(there**2)):.1%} rms" in told
+    assert "2 of 3 points" in told
+
+
+def test_load_share_by_hand():
+    law = LoadShare(0.12)
+    assert law.share(0.0) == 1.0
+    assert law.share(1.0) == pytest.approx(math.exp(-1.8))
+    assert law.share(2.0) == pytest.approx(math.exp(-1.8 * 2.0**1.2))
+    assert law.friction(0.0, 0.04) == 0.12
+    assert law.friction(1.0, 0.04) == pytest.approx(0.04 + 0.08 * math.exp(-1.8))
+    assert LoadShare(0.12, 2.32, 0.97).share(2.0) == pytest.approx(0.0107, rel=0.01)
+    assert "Aihara" in law.words
+    assert "Aihara" not in LoadShare(0.12, 2.32, 0.97).words
+
+
+@pytest.mark.parametrize("numbers", [(0.0,), (1.5,), (0.1, -1.0), (0.1, 1.8, math.nan)])
+def test_load_share_refuses(numbers):
+    with pytest.raises(InputError, match="expected a number above 0"):
+        LoadShare(*numbers)
+
+
+def test_empirical_left_end(tmp_path: Path):
+    """Thin films tend to the boundary friction; no number without the flag."""
+    (tmp_path / "ball.nml").write_text(
+        BALL + "&surface kind = 'fractal' rms_height = 3e-7 shortest_wavelength = 1e-5 /\n"
+    )
+    words = (str(tmp_path / "ball.nml"), "--speed", "0.2,0.8,10", "--slide-to-roll", "0.05")
+    words += ("--set", "grid.points=129")
+    told = run(*words, "-o", str(tmp_path / "out"), "--boundary-friction", "0.12", expect=0)
+    found = columns(tmp_path / "out")
+    ratio = found["lambda_ratio_central"]
+    assert ratio[0] < 0.5
+    assert ratio[2] > 4.0
+    broken = np.isnan(found["mu"])
+    assert broken.tolist() == [True, False, False]
+    share = np.exp(-AIHARA[0] * ratio ** AIHARA[1])
+    assert found["asperity_load_share_empirical"] == pytest.approx(share, rel=1e-12)
+    expected = share * 0.12 + (1.0 - share) * found["mu"]
+    assert found["mu_empirical"][~broken] == pytest.approx(expected[~broken], rel=1e-12)
+    # where the film ends it has the friction of the smooth contact
+    assert share[0] * 0.12 < found["mu_empirical"][0] < share[0] * 0.12 + (1.0 - share[0]) * 0.06
+    assert found["mu_empirical"][2] == pytest.approx(found["mu"][2], rel=0.01)
+    assert "empirical: exp(-1.8 Lambda^1.2)" in told
+    # the same curve with another law: nothing is computed again
+    told = run(*words, "-o", str(tmp_path / "out"), *("--boundary-friction", "0.1"))
+    assert "6 of 6 tasks are done" in told
+    told = run(*words, "-o", str(tmp_path / "out"))
+    assert "Lambda^" not in told
+    assert not [name for name in columns(tmp_path / "out") if "empirical" in name]
+
+
+@pytest.mark.parametrize(
+    ("option", "words"),
+    [
+        ("surface.kind=smooth", "has no Lambda"),
+        ("surface.kind=fractal", "ratio of friction alone"),
+    ],
+)
+def test_no_empirical_number(tmp_path: Path, option: str, words: str):
+    case = pyehl.Case.from_text(BALL.replace("eyring", "newtonian"), [option])
+    with pytest.raises(InputError, match=words):
+        pyehl.stribeck(case, speed=[0.3, 0.6], boundary_friction=0.12)
+
+
+@pytest.fixture(scope="module")
+def stored(root: Path) -> dict[str, dict[str, np.ndarray]]:
+    """The tables of docs/evidence/traction."""
+    found = {}
+    for name in ("traction", "empirical"):
+        with (root / "docs" / "evidence" / "traction" / f"{name}.csv").open(newline="") as stream:
+            rows = list(csv.DictReader(stream))
+        names = [word for word in rows[0] if word not in ("status", "message")]
+        found[name] = {word: np.array([float(r[word] or "nan") for r in rows]) for word in names}
+    return found
+
+
+def test_the_howto_says_what_the_tables_say(root: Path, stored):
+    text = (root / "docs" / "howto" / "traction.md").read_text(encoding="utf-8")
+    t, e = stored["traction"], stored["empirical"]
+    mu, slip = t["mu"], t[SLIP]
+    top = int(np.nanargmax(mu))
+    flat = mu[(slip > 0.06) & (slip < 0.19)]
+    for sentence in (
+        f"At a ratio of {slip[1]:.3f} friction is {mu[1]:.4f} already",
+        f"Between 0.06 and 0.19 friction changes by {flat.max() / flat.min() - 1:.0%}".replace(
+            "%", " %"
+        ),
+        f"with its maximum of {mu[top]:.4f} at {slip[top]:.2f}",
+        f"At 0.5 friction is down to {mu[-1]:.4f}. The film is "
+        f"{t['temperature_rise_max_K'][-1]:.0f} K warmer",
+        f"an isothermal computation gives {t['mu_isothermal'][-1]:.4f}",
+        f"h_c is {1e9 * t['h_c_m'][0]:.0f} nm without sliding and {1e9 * t['h_c_m'][-1]:.0f} nm",
+        f"Here it is {e['mu_empirical'][0]:.3f} at 0.02 m/s, where asperities carry "
+        f"{e['asperity_load_share_empirical'][0]:.0%} of the load".replace("%", " %"),
+    ):
+        assert sentence in text, sentence
+    fast = e["contact.mean_velocity"] >= 0.5
+    assert np.all(np.abs(e["mu_empirical"][fast] / e["mu"][fast] - 1.0) < 0.004)
+
+
+def test_the_table_is_what_a_run_gives(cases: Path, tmp_path: Path, stored):
+    run(str(cases / "mtm.nml"), "--slide-to-roll", "0.125,0.5", "-o", str(tmp_path / "out"))
+    found, t = columns(tmp_path / "out"), stored["traction"]
+    for k, slip in enumerate(found[SLIP]):
+        row = int(np.argmin(np.abs(t[SLIP] - slip)))
+        for name in ("mu", "mu_isothermal", "temperature_rise_max_K", "h_c_m"):
+            assert found[name][k] == pytest.approx(t[name][row], rel=1e-4), name
