@@ -191,8 +191,10 @@ class Prediction:
         f, o = self.friction, self.operating
         second = {"second_shift_m": self.second.passage.shift} if self.second else {}
         q, c_iso = surfaces.psd_isotropic(self.surface)
-        how = {"convention": self.options.wavelength_convention}
-        ratio = component_amplitude_ratio(q, 0.0, o.hertz_radius, *o.equivalent_moes, **how)
+        how = self.options.wavelength_convention
+        ratio = component_amplitude_ratio(
+            q, 0.0, o.hertz_radius, *o.equivalent_moes, convention=how
+        )
         return {
             "passage": {"shift_m": f.shift, **second, "mu_ratio": f.passage},
             "spectrum": {
