@@ -118,6 +118,12 @@ def _add_stress(parser: argparse.ArgumentParser) -> None:
     _add_points(parser, stress_cases.GRIDS)
     _add_number(parser, "cases", 500, "how many")
     _add_number(parser, "seed", 1)
+    parser.add_argument(
+        "--shear-law",
+        choices=stress_cases.LAWS,
+        default="newtonian",
+        help="of all cases, each with a stress of its own (default: newtonian)",
+    )
     _add_number(parser, "jobs", 2, "worker processes")
 
 
@@ -200,9 +206,15 @@ def _stress(args: argparse.Namespace, answer: Answer) -> Rows:
     names = ("stress.json", "stress.png", *stress.folders())
     Destination(args.output, "bench stress", names, force=args.force).claim({})
     rows = stress.campaign(
-        args.cases, args.seed, args.output, jobs=args.jobs, grids=args.points, tell=_tell
+        args.cases,
+        args.seed,
+        args.output,
+        jobs=args.jobs,
+        grids=args.points,
+        law=args.shear_law,
+        tell=_tell,
     )
-    answer |= {"cases": args.cases, "seed": args.seed, "points": args.points}
+    answer |= {name: getattr(args, name) for name in ("cases", "seed", "points", "shear_law")}
     stress.write(rows, args.output, answer)
     figures.stress(rows, args.output / "stress.png")
     _print(stress.summary(rows), stress.COLUMNS, stress.MEANING)
