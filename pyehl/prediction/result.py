@@ -197,11 +197,7 @@ class Prediction:
         )
         return {
             "passage": {"shift_m": f.shift, **second, "mu_ratio": f.passage},
-            "spectrum": {
-                "q_rad_per_m": q,
-                "c_iso_m4": c_iso,
-                "amplitude_ratio_along_x": ratio,
-            },
+            "spectrum": {"q_rad_per_m": q, "c_iso_m4": c_iso, "amplitude_ratio_along_x": ratio},
             "bands": {
                 name: np.array([record[name] for record in self._bands()])
                 for name in BAND_COLUMNS.values()
