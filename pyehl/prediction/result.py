@@ -163,10 +163,10 @@ class Prediction:
     @property
     def model_error(self) -> float:
         """Error of `mu_ratio` by the model, estimated [-]; NaN where it is not known."""
-        in_flow = self.lubricant.shear.in_flow
+        kappa, in_flow = self.operating.ellipse.ellipticity, self.lubricant.shear.in_flow
         if not self._known or (self.thins and not in_flow):
             return math.nan
-        return model_error(self.mu_ratio, thins=in_flow)
+        return model_error(self.mu_ratio, thins=in_flow, ellipticity=kappa)
 
     @property
     def _known(self) -> bool:
