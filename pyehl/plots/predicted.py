@@ -63,9 +63,8 @@ def _side(
         strict=True,
     ):
         last = values is deformed
-        a = about["hertz_radius_m"]
-        axes = a, about.get("semi_axis_y_m", a)
-        surface.roughness(tile, values, axes, name=name, bar=last, ax=ax)
+        a, kappa = about["hertz_radius_m"], about.get("ellipticity", 1.0)
+        surface.roughness(tile, values, a, name=name, bar=last, ellipticity=kappa, ax=ax)
     no_second_label(figure.axes[1])
     figures[f"{prefix}roughness"] = figure
     return figures

@@ -125,10 +125,11 @@ def spectrum_line(
 def roughness(
     topography: Topography,
     values: Array,
-    semi_axes: tuple[float, float],
+    hertz_radius: float,
     *,
     name: str = "",
     bar: bool = True,
+    ellipticity: float = 1.0,
     ax: Axes | None = None,
 ) -> Axes:
     """Draw a tile inside the Hertz ellipse, on the scale of the undeformed roughness.
@@ -139,17 +140,19 @@ def roughness(
         The undeformed tile; repeated over the contact, its pixel [0, 0] at the centre.
     values
         Heights of the same shape that are drawn [m]: the undeformed or the deformed ones.
-    semi_axes
-        Of the contact, a along the motion and the other one [m].
+    hertz_radius
+        a [m], of an ellipse the semi-axis along the motion.
     name
         What the field is called in the title, which also gives its rms.
     bar
         Whether it has a colour bar.
+    ellipticity
+        The other semi-axis over a [-].
     """
     ax = axes_or_new(ax, 3.8, 3.1)
     nx, ny = topography.shape
     px, py = topography.pixel
-    a, b = semi_axes
+    a, b = hertz_radius, ellipticity * hertz_radius
     half_x, half_y = int(a / px), int(b / py)
     i, j = np.arange(-half_x, half_x + 1), np.arange(-half_y, half_y + 1)
     inside = (i * px / a)[:, None] ** 2 + (j * py / b)[None, :] ** 2 <= 1.0
@@ -158,7 +161,7 @@ def roughness(
     unit, label = height_unit(top)
     extent = extent_of(i * (px / a), j * (py / a))
     shown = np.where(inside, values[at], np.nan) * unit
-    outline = Outline(b / a)
+    outline = Outline(ellipticity)
     contact_heights(
         shown, extent, 1.0, top * unit, label, name=name, bar=bar, ax=ax, outline=outline
     )

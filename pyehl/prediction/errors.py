@@ -26,13 +26,16 @@ SHARE_OF_RISE = 0.07
 # (docs/evidence/thinning)
 CONSTANT_THINNING = 0.004
 SHARE_THINNING = 0.1
+# What is added where the contact is narrower than long, times that by which a/b exceeds 1
+# (docs/evidence/ellipse)
+NARROW = 0.01
 # Largest ratio at which it was measured
 KNOWN_RATIO = 5.0
 # Ellipticities between which it was
 ELLIPTICITY = [0.39, 4.1]
 
 
-def model_error(mu_ratio: float, *, thins: bool = False) -> float:
+def model_error(mu_ratio: float, *, thins: bool = False, ellipticity: float = 1.0) -> float:
     """Error of a predicted mu_r/mu_s [-]; NaN beyond the largest ratio that was measured.
 
     It covers the deviation from the full simulation of this package on 513 x 513 nodes in at least
@@ -44,7 +47,7 @@ def model_error(mu_ratio: float, *, thins: bool = False) -> float:
     constant, share = CONSTANT, SHARE_OF_RISE
     if thins:
         constant, share = CONSTANT_THINNING, SHARE_THINNING
-    return constant + share * abs(mu_ratio - 1.0)
+    return constant + share * abs(mu_ratio - 1.0) + NARROW * max(0.0, 1.0 / ellipticity - 1.0)
 
 
 def cutoff_error(bands: Sequence[Band]) -> float:

@@ -144,7 +144,8 @@ class Prediction:
     def note(self) -> str:
         """What `mu_ratio` is."""
         stress = STRESS_NOTE + ("" if self.lubricant.shear.in_flow else NEWTONIAN_FLOW_NOTE)
-        return stress if self.thins else NEWTONIAN_NOTE
+        note = stress if self.thins else NEWTONIAN_NOTE
+        return note + self.lubricant.beyond(self.operating.hertz_pressure)
 
     @property
     def mu_ratio(self) -> float:
@@ -161,10 +162,10 @@ class Prediction:
     @property
     def model_error(self) -> float:
         """Error of `mu_ratio` by the model, estimated [-]; NaN where it is not known."""
-        in_flow = self.lubricant.shear.in_flow
+        kappa, in_flow = self.operating.ellipse.ellipticity, self.lubricant.shear.in_flow
         if not self._known or (self.thins and not in_flow):
             return math.nan
-        return model_error(self.mu_ratio, thins=in_flow)
+        return model_error(self.mu_ratio, thins=in_flow, ellipticity=kappa)
 
     @property
     def _known(self) -> bool:
@@ -189,17 +190,13 @@ class Prediction:
         f, o = self.friction, self.operating
         second = {"second_shift_m": self.second.passage.shift} if self.second else {}
         q, c_iso = surfaces.psd_isotropic(self.surface)
-        convention = self.options.wavelength_convention
+        how = self.options.wavelength_convention
         ratio = component_amplitude_ratio(
-            q, 0.0, o.hertz_radius, *o.equivalent_moes, convention=convention
+            q, 0.0, o.hertz_radius, *o.equivalent_moes, convention=how
         )
         return {
             "passage": {"shift_m": f.shift, **second, "mu_ratio": f.passage},
-            "spectrum": {
-                "q_rad_per_m": q,
-                "c_iso_m4": c_iso,
-                "amplitude_ratio_along_x": ratio,
-            },
+            "spectrum": {"q_rad_per_m": q, "c_iso_m4": c_iso, "amplitude_ratio_along_x": ratio},
             "bands": {
                 name: np.array([record[name] for record in self._bands()])
                 for name in BAND_COLUMNS.values()

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import csv
 import math
+import re
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +15,7 @@ import pytest
 import pyehl
 from pyehl.errors import InputError
 from pyehl.measured_response.table import shipped_response
-from pyehl.prediction.errors import outside_range
+from pyehl.prediction.errors import model_error, outside_range
 from pyehl.prediction.options import Options
 from pyehl.prediction.smooth import solve_contact, zone_of
 from pyehl.theory.disc import RADIUS, disc_correction, monomials
@@ -220,3 +222,50 @@ def test_outside_of_the_range_by_the_same_inlet():
     for ratio, names in ((0.03, ["ellipticity"]), (NARROW, ["moes_m"]), (WIDE, []), (1.0, [])):
         point = OperatingPoint.from_moes(2900.0, 10.0, radius_ratio=ratio)
         assert outside_range(point, 1.02, Options()) == names
+
+
+@pytest.fixture(scope="module")
+def compare(root: Path):
+    """The module compare.py of the evidence."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(str(root / "docs" / "evidence" / "ellipse"))
+        import compare
+
+        yield compare
+        for name in ("compare", "cases"):
+            sys.modules.pop(name)
+
+
+@pytest.mark.parametrize("name", ["k040b", "k080", "k200b", "k400a"])
+def test_table_is_what_is_predicted(compare, name):
+    (row,) = (row for row in compare.read("cases.csv") if row["name"] == name)
+    (line,) = (line for line in compare.read("table.csv") if line["name"] == name)
+    (run,) = (run for run in compare.read("simulated.csv") if run["name"] == name)
+    found = compare.prediction(row)
+    assert found == pytest.approx(line["prediction"], rel=1e-3)
+    assert line["mu_ratio"] == run["mu_ratio"]
+    error = model_error(found, ellipticity=row["ellipticity"])
+    assert error == pytest.approx(line["model_error"], abs=2e-4)
+    assert abs(found - run["mu_ratio"]) <= error
+
+
+def test_readme_says_what_the_table_says(compare):
+    """Counts, largest deviations and coverage, of the predictions from before."""
+    text = (compare.HERE / "README.md").read_text().replace("−", "-")
+    table = compare.read("table.csv")
+    ended = [row for row in compare.read("simulated.csv") if row["status"] == "converged"]
+    assert len(table) == len(ended) == len(compare.read("cases.csv")) - 1
+    lines = re.findall(r"^\| [^|]+ \| (\d+) \| ([-\d.]+) % \| ([\d.]+) % \| (\d+) \|$", text, re.M)
+    limits = compare.LIMITS
+    for low, high, words in zip(limits[:-1], limits[1:], lines, strict=True):
+        part = [row for row in table if low < row["mu_ratio"] <= high]
+        off = [row["deviation_before_percent"] for row in part]
+        count, mean, largest, covered = map(float, words)
+        assert count == len(part)
+        assert mean == pytest.approx(sum(off) / len(off), abs=0.06)
+        assert largest == pytest.approx(max(map(abs, off)), abs=0.06)
+        assert covered == sum(row["covered_before"] for row in part)
+    stated = {row["name"]: row["model_error"] for row in compare.read("predicted.csv")}
+    for row in table:
+        off = abs(row["predicted_before"] - row["mu_ratio"])
+        assert row["covered_before"] == (off <= stated[row["name"]])

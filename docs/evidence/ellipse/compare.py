@@ -2,7 +2,7 @@
 """Compare the prediction with the simulated cases on ellipses.
 
 Writes table.csv and ellipse.png beside this file and prints bias, scatter and coverage. With
---predict it only predicts, and writes predicted.csv, which is from before the simulations:
+--predict it only predicts what is not yet in predicted.csv, which is from before the simulations:
 
     python docs/evidence/ellipse/compare.py [--predict]
 """
@@ -48,15 +48,18 @@ def write(name: str, table: list[dict[str, Any]]) -> None:
 
 
 def predict() -> None:
-    """Write predicted.csv."""
-    table = []
+    """Add to predicted.csv the cases that are not in it."""
+    table = read("predicted.csv")
+    there = {row["name"] for row in table}
     for row in read("cases.csv"):
+        if row["name"] in there:
+            continue
         found = prediction(row)
         table.append(
             {
                 "name": row["name"],
                 "prediction": round(found, 4),
-                "model_error": round(model_error(found), 4),
+                "model_error": round(model_error(found, ellipticity=row["ellipticity"]), 4),
             }
         )
         print(*table[-1].values(), flush=True)
@@ -74,6 +77,7 @@ def compare() -> None:
             continue
         there, now = run["mu_ratio"], prediction(row)
         first = before[row["name"]]["prediction"]
+        error = model_error(now, ellipticity=row["ellipticity"])
         table.append(
             {
                 "name": row["name"],
@@ -85,11 +89,11 @@ def compare() -> None:
                 "mu_ratio_error": round(run["mu_ratio_error_grid"] + run["mu_ratio_error_stop"], 4),
                 "predicted_before": first,
                 "deviation_before_percent": round(100.0 * (first / there - 1.0), 2),
-                "covered_before": int(abs(first - there) <= model_error(first)),
+                "covered_before": int(abs(first - there) <= before[row["name"]]["model_error"]),
                 "prediction": round(now, 4),
                 "deviation_percent": round(100.0 * (now / there - 1.0), 2),
-                "model_error": round(model_error(now), 4),
-                "covered": int(abs(now - there) <= model_error(now)),
+                "model_error": round(error, 4),
+                "covered": int(abs(now - there) <= error),
             }
         )
         print(*table[-1].values(), flush=True)

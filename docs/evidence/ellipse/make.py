@@ -12,7 +12,7 @@ import sys
 from cases import HERE, case, read, surface
 from pyehl.solver import Solver
 
-COLUMNS = ("name status mu_ratio mu_ratio_error_grid mu_ratio_error_stop H_c steps seconds").split()
+COLUMNS = ("name status mu_ratio mu_ratio_error_grid mu_ratio_error_stop H_c steps").split()
 
 
 def main() -> None:
