@@ -61,6 +61,7 @@ QUANTITIES = {
     "p_rise_rms_Pa": "p_rise_rms_error_Pa",
     "p_rise_max_Pa": "p_rise_max_error_Pa",
     "h_min_rough_m": "h_min_rough_error_m",
+    "rms_deformed_m": "rms_deformed_error_m",
 }
 """What is compared, and its stated error."""
 
@@ -106,7 +107,7 @@ def case_of(row: Row) -> pyehl.Case:
 def predicted(row: Row) -> dict[str, Any]:
     """Predict a row."""
     summary = pyehl.predict(case_of(row)).summary
-    names = "status", "rms_deformed_m", *QUANTITIES, *QUANTITIES.values()
+    names = "status", *QUANTITIES, *QUANTITIES.values()
     return {name: summary[name] for name in names}
 
 
@@ -123,7 +124,7 @@ def simulated(row: Row) -> dict[str, Any]:
             if not records:
                 x, y = run.axes()
                 radius = np.hypot(x[:, np.newaxis], y[np.newaxis, :])
-                smooth = run.field("P_smooth")
+                smooth, whole = run.field("P_smooth"), run.field("H_smooth")
             rise, film = run.field("P") - smooth, run.field("H")
             records.append(
                 (
@@ -131,6 +132,7 @@ def simulated(row: Row) -> dict[str, Any]:
                     float(np.square(rise[radius < NEAR]).mean()),
                     float(rise[radius < INNER].max()),
                     float(film[radius < 1.0].min()),
+                    float(np.square((film - whole)[radius < NEAR]).mean()),
                 )
             )
         summary = run.summary()
@@ -144,6 +146,7 @@ def simulated(row: Row) -> dict[str, Any]:
         "p_rise_rms_Pa": math.sqrt(float(last[:, 1].mean())) * o.hertz_pressure,
         "p_rise_max_Pa": float(last[:, 2].max()) * o.hertz_pressure,
         "h_min_rough_m": float(last[:, 3].min()) * o.film_scale,
+        "rms_deformed_m": math.sqrt(float(last[:, 4].mean())) * o.film_scale,
         # of the smooth contact
         "h_min_m": summary["H_min"] * o.film_scale,
         "h_min_extrapolated_m": (summary["H_min_extrapolated"] or math.nan) * o.film_scale,
@@ -184,7 +187,7 @@ def compare(predictions: dict[str, dict[str, Any]], simulations: dict[str, dict[
             print()
             continue
         for name, error in QUANTITIES.items():
-            if name not in said:
+            if error not in said:
                 continue
             p, s = float(said[name]), float(found[name])
             if name == "h_min_rough_m":
