@@ -16,6 +16,7 @@ module ehl_plan
    use ehl_plan_heat, only: heat_plan_t, plan_heat
    use ehl_plan_lubricant, only: law_note, plan_lubricant
    use ehl_plan_surface, only: check_carried, make_surfaces
+   use ehl_resolution, only: has_solution, relative_errors
    use ehl_scales, only: scales_t
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_steady, only: steady_options_t
@@ -25,19 +26,14 @@ module ehl_plan
    use ehl_wedge, only: wedge_narrow, wedge_separate
    implicit none (type, external)
    private
-   public :: plan_t, make_plan, relative_errors, too_coarse
+   public :: plan_t, make_plan
 
-   !> Nested iteration starts on a grid of at least that many nodes a side ...
+   !> Nested iteration starts on a grid of at least that many nodes a side that has a solution
    integer, parameter :: start_fewest = 33
-   !> ... whose wedge error, relative to the central film, is at most this
-   real(dp), parameter :: start_error = 0.6_dp
    !> Lengths of thick films, (2 H_c)^(1/2) [a], and largest mesh of the coarsest grid in terms of them
    real(dp), parameter :: thick_film = 0.8_dp, coarsest_mesh = 0.9_dp
    !> A-priori error of H_c of grids that resolve the inlet: a smooth contact that fails there begins again with care
    real(dp), parameter :: resolved_error = 0.1_dp
-   !> What grids miss in contacts that are narrow, over what they miss in round ones, by H_c and by H_min: 1 + a (1/kappa^2 - 1)
-   !> and b/kappa^2 (docs/evidence/ellipses)
-   real(dp), parameter :: narrow_central = 0.05_dp, narrow_minimum = 0.3_dp
    !> Most time steps until the friction of a rough surface can be known, and where their number is asked for
    integer, parameter :: most_steps = 100000, most_steps_asked_for = 1000000000
 
@@ -279,7 +275,7 @@ contains
       do level = 1, plan%levels
          if (level > 1) grid = grid%finer()
          if (plan%start == 0 .and. grid%nx >= start_fewest .and. &
-             unresolved(plan%contact, plan%point, grid) <= start_error) plan%start = level
+             has_solution(plan%contact, plan%point, grid)) plan%start = level
       end do
       if (plan%start == 0) plan%start = plan%levels
       plan%finest = grid
@@ -287,45 +283,4 @@ contains
          plan%may_restart = errors(1) <= resolved_error
       end associate
    end subroutine pick_grids
-
-   !> Rough a-priori errors of H_c and H_min by the second-order wedge term, relative: 0.16 M h^2 (fitted to grids of 65^2 to
-   !> 513^2 for 20 <= M <= 1000, 10 <= L <= 15), and twice that; more in narrow contacts, whose ends are sharp
-   pure function relative_errors(contact, point, grid) result(errors)
-      class(contact_t), intent(in) :: contact
-      type(operating_t), intent(in) :: point
-      type(grid_t), intent(in) :: grid
-      real(dp) :: errors(2)
-      real(dp) :: square
-
-      square = min(1.0_dp, contact%reach(2)/contact%reach(1))**2
-      errors = 0.16_dp*point%round_m*grid%hx**2
-      errors(1) = errors(1)*(1.0_dp + narrow_central*(1.0_dp/square - 1.0_dp))
-      errors(2) = 2.0_dp*errors(2)*max(1.0_dp, narrow_minimum/square)
-   end function relative_errors
-
-   !> What a grid has hardly a solution by: half of the a-priori error of H_min
-   pure real(dp) function unresolved(contact, point, grid)
-      class(contact_t), intent(in) :: contact
-      type(operating_t), intent(in) :: point
-      type(grid_t), intent(in) :: grid
-      real(dp) :: errors(2)
-
-      errors = relative_errors(contact, point, grid)
-      unresolved = 0.5_dp*errors(2)
-   end function unresolved
-
-   !> Why the finest grid has hardly a solution, with the nodes along X that will do; empty where it has one
-   pure function too_coarse(plan) result(text)
-      type(plan_t), intent(in) :: plan
-      character(len=:), allocatable :: text
-      type(grid_t) :: grid
-
-      text = ""
-      grid = plan%finest
-      do while (unresolved(plan%contact, plan%point, grid) > start_error)
-         grid = grid%finer()
-      end do
-      if (grid%nx > plan%finest%nx) text = "so few nodes have hardly a solution at this load: grid.points = "// &
-                                           to_text(grid%nx)//" or more"
-   end function too_coarse
 end module ehl_plan

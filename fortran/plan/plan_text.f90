@@ -4,8 +4,9 @@ module ehl_plan_text
    use ehl_cycle, only: coarsening_alcouffe, cycle_options_t
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
-   use ehl_plan, only: plan_t, too_coarse
+   use ehl_plan, only: plan_t
    use ehl_plan_need, only: need_lines
+   use ehl_resolution, only: too_coarse
    use ehl_steady, only: largest_error
    use ehl_surface_text, only: scene_lines, wave_lines
    use ehl_text, only: fixed, newline, to_text
@@ -20,6 +21,7 @@ contains
    function plan_text(plan) result(text)
       type(plan_t), intent(in) :: plan
       character(len=:), allocatable :: text
+      character(len=:), allocatable :: why
       type(grid_t) :: grid
       character(len=80) :: row
       integer :: k
@@ -57,7 +59,8 @@ contains
          write (row, "(i5,i8,i16,f11.6,3x,a)") k, grid%nx, grid%nx*grid%ny, grid%hx, trim(use_of(k))
          call add(trim(row))
       end do
-      if (too_coarse(plan) /= "") call add("warning    "//too_coarse(plan))
+      why = too_coarse(plan%contact, plan%point, plan%finest)
+      if (why /= "") call add("warning    "//why)
 
    contains
 

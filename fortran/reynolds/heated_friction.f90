@@ -62,14 +62,14 @@ contains
       type(grid_t), intent(in) :: grid
       type(lubricant_t), intent(in) :: lubricant
       !> Pressure and film, shape (nx, ny)
-      real(dp), intent(in) :: p(:, :), h(:, :)
+      real(dp), contiguous, intent(in) :: p(:, :), h(:, :)
       !> Whether the rises at the nodes are wanted
       logical, intent(in) :: keep
       integer, intent(in) :: threads
       type(heated_t), intent(out) :: found
       !> The flow with its stress of the isothermal contact, and the density (nx, ny); not given: the law at the sliding
       class(flow_t), intent(in), optional :: flow
-      real(dp), intent(in), optional :: rho(:, :)
+      real(dp), contiguous, intent(in), optional :: rho(:, :)
       type(wall_heat_t) :: walls
       real(dp), dimension(grid%ny) :: friction, isothermal
       real(dp) :: greatest(3, grid%ny), rise(grid%nx, 3), newtonian(grid%nx), stress(grid%nx)

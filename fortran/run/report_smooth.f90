@@ -5,8 +5,9 @@ module ehl_report_smooth
    use ehl_domain, only: too_small
    use ehl_kinds, only: dp, pi
    use ehl_level_result, only: discretisation_error, extrapolated, limit_error
-   use ehl_plan, only: plan_t, relative_errors, too_coarse
+   use ehl_plan, only: plan_t
    use ehl_record, only: record_t
+   use ehl_resolution, only: relative_errors, too_coarse
    use ehl_steady, only: steady_t
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    implicit none (type, external)
@@ -30,6 +31,7 @@ contains
       type(contact_results_t) :: m
       real(dp) :: error(2), limit(2), domain(2), nothing
       logical :: coarser
+      character(len=:), allocatable :: why
 
       nothing = ieee_value(nothing, ieee_quiet_nan)
       m = steady%results(n)%m
@@ -70,7 +72,8 @@ contains
       call record%set("H_min_error_domain", domain(2))
       if (good .and. .not. plan%domain_cost(1) < 1.0_dp) call record%set("H_c_error_note", too_small)
       if (good .and. .not. plan%domain_cost(2) < 1.0_dp) call record%set("H_min_error_note", too_small)
-      if (.not. good .and. too_coarse(plan) /= "") call record%set("H_c_error_note", too_coarse(plan))
+      why = too_coarse(plan%contact, plan%point, plan%finest)
+      if (.not. good .and. why /= "") call record%set("H_c_error_note", why)
       call record%set("error_estimate", trim(merge("two grids", "a priori ", coarser)))
       call report_limits(record, plan, steady, n, good)
       call record%set("H_c_algebraic_error", steady%results(n)%algebraic(1))

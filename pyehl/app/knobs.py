@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from pyehl.errors import InputError
+from pyehl.theory.oils import known_oils
 
 __all__ = ["GROUPS", "KNOBS", "STEPS", "Choice", "Knob", "Value", "shown"]
 
@@ -94,7 +95,8 @@ GROUPS: dict[str, tuple[Knob | Choice, ...]] = {
         Knob("poisson_2", "ν of body 2", "", 1.0, 0.0, 0.5, log=False),
     ),
     "Oil": (
-        Choice("oil", "viscosity", ("at the inlet", "of the data sheet")),
+        Choice("oil", "viscosity", ("at the inlet", "of the data sheet", "of an oil by name")),
+        Choice("oil_name", "oil", tuple(known_oils())),
         Knob("viscosity", "η₀ at the inlet", "Pa s", 1.0, 0.002, 1.0),
         Knob("kinematic_40", "ν at 40 °C", "mm²/s", 1.0, 5.0, 1000.0),
         Knob("kinematic_100", "ν at 100 °C", "mm²/s", 1.0, 1.5, 60.0),
@@ -116,12 +118,14 @@ GROUPS: dict[str, tuple[Knob | Choice, ...]] = {
 }
 KNOBS = {knob.name: knob for group in GROUPS.values() for knob in group}
 
-# Which knobs are there for one value of another alone
-ONLY = {
+# Which knobs are there for some values of another alone
+ONLY: dict[str, tuple[str, ...]] = {
+    "oil_name": ("oil", "of an oil by name"),
     "viscosity": ("oil", "at the inlet"),
+    "alpha": ("oil", "at the inlet", "of the data sheet"),
     "kinematic_40": ("oil", "of the data sheet"),
     "kinematic_100": ("oil", "of the data sheet"),
-    "temperature": ("oil", "of the data sheet"),
+    "temperature": ("oil", "of the data sheet", "of an oil by name"),
     "eyring_stress": ("shear_law", "eyring"),
     "carreau_stress": ("shear_law", "carreau"),
     "carreau_exponent": ("shear_law", "carreau"),
@@ -135,5 +139,7 @@ ONLY = {
 
 def shown(name: str, values: Mapping[str, Value]) -> bool:
     """Whether a knob matters with these values."""
-    other, word = ONLY.get(name, ("", ""))
-    return not other or values[other] == word
+    if name not in ONLY:
+        return True
+    other, *words = ONLY[name]
+    return values[other] in words

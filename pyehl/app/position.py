@@ -13,6 +13,7 @@ from pyehl.app.knobs import KNOBS, Knob, Value
 from pyehl.case import Case
 from pyehl.errors import InputError
 from pyehl.surfaces import rough_groups
+from pyehl.theory.oils import known_oils
 from pyehl.theory.operating import OperatingPoint
 
 __all__ = ["Position", "from_case"]
@@ -25,17 +26,18 @@ OWNED = {
         "moes_l", "reduced_modulus", "slide_to_roll",
     },
     "lubricant": {
-        "viscosity", "kinematic_viscosity_40", "kinematic_viscosity_100", "temperature",
+        "name", "viscosity", "kinematic_viscosity_40", "kinematic_viscosity_100", "temperature",
         "pressure_viscosity", "shear_law", "eyring_stress", "carreau_stress", "carreau_exponent",
     },
     "surface": {"kind", "rms_height", "hurst", "seed", "file", "length_x", "length_y"},
     "grid": {"points"},
 }  # fmt: skip
-# Keys that are refused without the viscosities of a data sheet
+# Keys of the oil of an opened case that no other oil has
 OF_SHEET = ("density_15", "thermal_expansion")
 STEEL = {"modulus_1": 206.0, "poisson_1": 0.3, "modulus_2": 206.0, "poisson_2": 0.3}
 DEFAULTS: dict[str, Value] = {
     "oil": "at the inlet",
+    "oil_name": next(iter(known_oils())),
     "kinematic_40": 68.0,
     "kinematic_100": 8.8,
     "temperature": 40.0,
@@ -67,12 +69,15 @@ class Position:
         E' [Pa] of an opened case, until the moduli are turned; 0: by the moduli.
     file
         Height map of the surface 'map'; '': none yet.
+    oil
+        How the opened case gives its oil: the value of the knob then.
     """
 
     values: Mapping[str, Value]
     base: str = ""
     modulus: float = 0.0
     file: str = ""
+    oil: Value = "at the inlet"
 
     def turned(self, name: str, value: Value) -> Position:
         """Give the position with a knob turned."""
@@ -108,20 +113,14 @@ class Position:
             "contact.mean_velocity": self._si("velocity"),
             "contact.slide_to_roll": float(v["slide_to_roll"]),
             "contact.reduced_modulus": self.reduced_modulus(),
-            "lubricant.pressure_viscosity": self._si("alpha"),
             "grid.points": points,
+            **self._oil(),
         }
         if v["radius_x"] == v["radius_y"]:
             found["contact.radius"] = self._si("radius_x")
         else:
             found["contact.radius_x"] = self._si("radius_x")
             found["contact.radius_y"] = self._si("radius_y")
-        if v["oil"] == "at the inlet":
-            found["lubricant.viscosity"] = self._si("viscosity")
-        else:
-            found["lubricant.kinematic_viscosity_40"] = float(v["kinematic_40"])
-            found["lubricant.kinematic_viscosity_100"] = float(v["kinematic_100"])
-            found["lubricant.temperature"] = float(v["temperature"])
         if v["shear_law"] != "newtonian":
             found["lubricant.shear_law"] = v["shear_law"]
         if v["shear_law"] == "eyring":
@@ -132,6 +131,21 @@ class Position:
         if v["surface"] != "smooth":
             found |= self._surface()
         return found
+
+    def _oil(self) -> dict[str, Value]:
+        v = self.values
+        temperature = {"lubricant.temperature": float(v["temperature"])}
+        if v["oil"] == "of an oil by name":
+            return {"lubricant.name": v["oil_name"], **temperature}
+        alpha = {"lubricant.pressure_viscosity": self._si("alpha")}
+        if v["oil"] == "at the inlet":
+            return {"lubricant.viscosity": self._si("viscosity"), **alpha}
+        return {
+            "lubricant.kinematic_viscosity_40": float(v["kinematic_40"]),
+            "lubricant.kinematic_viscosity_100": float(v["kinematic_100"]),
+            **temperature,
+            **alpha,
+        }
 
     def _surface(self) -> dict[str, Value]:
         v = self.values
@@ -153,7 +167,7 @@ class Position:
     def case(self, points: int, *, smooth: bool = False) -> Case:
         """Give the case on a grid, or that of its smooth contact; InputError if it is none."""
         base = self.base
-        if self.values["oil"] == "at the inlet":
+        if self.values["oil"] != self.oil:
             lines = base.splitlines(keepends=True)
             base = "".join(line for line in lines if line.split(" =")[0].strip() not in OF_SHEET)
         case = Case.from_text(base, self.options(points), "the knobs")
@@ -196,6 +210,8 @@ def from_case(case: Case, files: Mapping[str, str] | None = None) -> tuple[Posit
     if kind not in KINDS:
         raise InputError(f"surface.kind = '{kind}': the page knows {', '.join(KINDS)}")
     contact, lubricant = settings["contact"], settings["lubricant"]
+    if lubricant.get("table"):
+        raise InputError("lubricant.table: the page knows viscosities, data sheets and names")
     # without what shear heating does to the viscosity
     plain = {**lubricant, "thermal_reduction": False}
     point = OperatingPoint.from_settings({"contact": contact, "lubricant": plain})
@@ -229,8 +245,8 @@ def from_case(case: Case, files: Mapping[str, str] | None = None) -> tuple[Posit
         if name not in files:
             raise InputError(f"surface.file = '{name}': expected an upload of this map first")
         file = files[name]
-    position = Position(values, _kept(case.text), point.reduced_modulus, file)
-    return position, note
+    kept = _kept(case.text)
+    return Position(values, kept, point.reduced_modulus, file, values["oil"]), note
 
 
 def _oil(lubricant: Mapping[str, Any]) -> dict[str, Value]:
@@ -239,7 +255,11 @@ def _oil(lubricant: Mapping[str, Any]) -> dict[str, Value]:
     if lubricant["shear_law"] == "carreau":
         found["carreau_stress"] = _tidy(float(lubricant["carreau_stress"]) * 1e-6)
         found["carreau_exponent"] = float(lubricant["carreau_exponent"])
-    if lubricant.get("kinematic_viscosity_40"):
+    if lubricant.get("name"):
+        found["oil"] = "of an oil by name"
+        found["oil_name"] = str(lubricant["name"])
+        found["temperature"] = float(lubricant["temperature"])
+    elif lubricant.get("kinematic_viscosity_40"):
         found["oil"] = "of the data sheet"
         found["kinematic_40"] = float(lubricant["kinematic_viscosity_40"])
         found["kinematic_100"] = float(lubricant["kinematic_viscosity_100"])

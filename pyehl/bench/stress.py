@@ -64,6 +64,7 @@ def campaign(
     *,
     jobs: int = 1,
     grids: Sequence[int] = (65, 129, 257),
+    law: str = "newtonian",
     tell: Callable[[str], None] = lambda text: None,
 ) -> list[Row]:
     """Run so many cases of a seed and check what they say; a row for each.
@@ -73,7 +74,7 @@ def campaign(
     many cases as the one before.
     """
     rows: list[Row] = []
-    drawn = draw(cases, seed, grids)
+    drawn = draw(cases, seed, grids, law)
     for family in FAMILIES:
         mine = [case for case in drawn if case.family == family]
         if not mine:

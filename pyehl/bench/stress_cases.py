@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from pyehl.studies.study import Study, make
 from pyehl.studies.vary import Axis, Value
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["BOUNDS", "FAMILIES", "GRIDS", "StressCase", "draw", "study_of"]
+__all__ = ["BOUNDS", "FAMILIES", "GRIDS", "LAWS", "StressCase", "draw", "study_of"]
 
 ROELANDS_Z = 0.6684
 """Of waves, in place of the default 0.66841: that of the second solver, which checks some."""
@@ -24,6 +24,8 @@ BOUNDS = {65: 400, 129: 300, 257: 200}
 """Most steps of a case by its grid; one that needs more is ended there."""
 FAMILIES = {"smooth": 0.15, "wave": 0.5, "rest": 0.1, "fractal": 0.12, "feature": 0.13}
 """Kinds of scenes, and the share of each."""
+LAWS = ("newtonian", "eyring", "carreau")
+"""Shear laws that the cases of a campaign may have, with a stress and an exponent for each case."""
 # Where the roughness begins to matter, and where it fills the contact [a]
 MATTERS, FILLED = -1.25, 1.05
 # Lengths of waves along X and along Y [a]; the last is none at all
@@ -52,15 +54,37 @@ class StressCase:
         return 2.0 * float(grid["y_extent"]) / (self.points - 1)
 
 
-def draw(cases: int, seed: int, grids: Sequence[int] = GRIDS) -> list[StressCase]:
+def draw(
+    cases: int, seed: int, grids: Sequence[int] = GRIDS, law: str = "newtonian"
+) -> list[StressCase]:
     """Draw cases; the same for the same seed. Half of them on the first grid, and so on."""
     generator = np.random.default_rng(seed)
     names = list(FAMILIES)
     shares = np.cumsum(list(FAMILIES.values()))
-    return [
+    drawn = [
         _one(names[int(np.searchsorted(shares, (k + 0.5) / cases * shares[-1]))], generator, grids)
         for k in range(cases)
     ]
+    if law == "newtonian":
+        return drawn
+    # the scenes are those without a law
+    generator = np.random.default_rng((seed, LAWS.index(law)))
+    return [_with_law(case, law, generator) for case in drawn]
+
+
+def _with_law(case: StressCase, law: str, generator: np.random.Generator) -> StressCase:
+    """Give a case a stress, which needs a contact in SI units."""
+    case = replace(case, moes_l=max(case.moes_l, 1.0))
+    values = {key: value for key, value in case.values.items() if not key.startswith("contact.")}
+    values |= _si(case) | {"lubricant.shear_law": law}
+    low, high = (3e5, 3e7) if law == "eyring" else (3e4, 1e7)
+    stress = math.exp(generator.uniform(math.log(low), math.log(high)))
+    values[f"lubricant.{law}_stress"] = float(f"{stress:.3g}")
+    if law == "carreau":
+        values["lubricant.carreau_exponent"] = float(f"{generator.uniform(0.3, 0.9):.3g}")
+    if case.family == "smooth":
+        values["contact.slide_to_roll"] = float(f"{generator.uniform(0.0, 1.9):.3g}")
+    return replace(case, values=values)
 
 
 def _one(family: str, generator: np.random.Generator, grids: Sequence[int]) -> StressCase:

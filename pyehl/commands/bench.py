@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -17,10 +17,10 @@ from pyehl.bench import (
     smooth,
     step,
     stress,
-    stress_cases,
     sweep,
     workprec,
 )
+from pyehl.bench.arguments import DECLARE
 from pyehl.bench.unit import machine
 from pyehl.commands.arguments import add_force
 from pyehl.destination import Destination, check_files, mark, write_json
@@ -32,106 +32,6 @@ __all__ = ["add_arguments", "execute"]
 
 Rows = list[dict[str, Any]]
 Answer = dict[str, Any]
-
-GRIDS = (65, 129, 257, 513, 1025)
-STEP_GRIDS = GRIDS[1:4]
-
-
-def _numbers(text: str) -> list[int]:
-    try:
-        return [int(word) for word in text.split(",")]
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(f"'{text}' is not like 129,257") from error
-
-
-def _add_list(
-    parser: argparse.ArgumentParser, name: str, default: Sequence[Any], what: str, told: str = ""
-) -> None:
-    """Numbers or names with commas between."""
-    numbers = not any(isinstance(word, str) for word in default)
-    parser.add_argument(
-        f"--{name}",
-        type=_numbers if numbers else lambda text: text.split(","),
-        default=list(default),
-        metavar="N,N,..." if numbers else "NAME,NAME,...",
-        help=f"{what} (default: {told or ','.join(map(str, default))})",
-    )
-
-
-def _add_points(parser: argparse.ArgumentParser, default: Sequence[int], told: str = "") -> None:
-    _add_list(parser, "points", default, "nodes per side", told)
-
-
-def _add_threads(parser: argparse.ArgumentParser, what: str = "threads") -> None:
-    _add_list(parser, "threads", (1, 2), f"numbers of {what}")
-
-
-def _add_scenes(parser: argparse.ArgumentParser, names: Sequence[str]) -> None:
-    _add_list(parser, "scenes", names, f"of {', '.join(names)}", "all")
-
-
-def _add_number(parser: argparse.ArgumentParser, name: str, default: float, what: str = "") -> None:
-    told = f"{what} (default: {default:g})" if what else f"default: {default:g}"
-    parser.add_argument(f"--{name}", type=type(default), default=default, help=told)
-
-
-def _add_deflection(parser: argparse.ArgumentParser) -> None:
-    _add_points(parser, GRIDS)
-    _add_threads(parser)
-
-
-def _add_smooth(parser: argparse.ArgumentParser) -> None:
-    _add_points(parser, GRIDS)
-    _add_threads(parser)
-    _add_list(parser, "engines", ("mlmi", "fft"), "of the deflection")
-    _add_number(parser, "moes-m", 1000.0)
-    _add_number(parser, "moes-l", 10.0)
-
-
-def _add_step(parser: argparse.ArgumentParser) -> None:
-    _add_points(parser, STEP_GRIDS)
-    _add_threads(parser)
-    names = list(dict.fromkeys(scene.name for scene in step.CASES))
-    _add_list(parser, "cases", names, "wave: of Fig. 2, fractal: of Table 1", "both")
-    parser.add_argument("--scheme", choices=("narrow", "paper"), default="narrow")
-    _add_number(parser, "steps", step.STEPS, "timed steps")
-    front = "X of the front of the roughness when the timed steps begin; that takes many steps on "
-    _add_number(parser, "front", step.FILLED, f"{front}fine grids where the contact is to be full")
-    parser.add_argument(
-        "--error",
-        action="store_true",
-        help="whole runs too, for the error of mu_r/mu_s against the finest grid",
-    )
-
-
-def _add_sweep(parser: argparse.ArgumentParser) -> None:
-    _add_threads(parser, "worker processes")
-    _add_scenes(parser, [scene.name for scene in sweep.SCENES])
-
-
-def _add_skips(parser: argparse.ArgumentParser) -> None:
-    _add_points(parser, (skips.LEAST,))
-    _add_scenes(parser, list(skips.SCENES))
-
-
-def _add_stress(parser: argparse.ArgumentParser) -> None:
-    _add_points(parser, stress_cases.GRIDS)
-    _add_number(parser, "cases", 500, "how many")
-    _add_number(parser, "seed", 1)
-    _add_number(parser, "jobs", 2, "worker processes")
-
-
-def _add_faults(parser: argparse.ArgumentParser) -> None:
-    _add_number(parser, "seed", 1)
-    _add_number(parser, "kills", 200)
-    _add_number(parser, "inputs", 2000, "mutated ones")
-
-
-def _add_workprec(parser: argparse.ArgumentParser) -> None:
-    _add_points(parser, (), "those of each scene")
-    _add_threads(parser)
-    _add_scenes(parser, [scene.name for scene in workprec.SCENES])
-    parser.add_argument("--full", action="store_true", help="the finest grids too, for reference")
 
 
 def _print(rows: Rows, columns: Columns, *notes: str) -> Rows:
@@ -200,9 +100,15 @@ def _stress(args: argparse.Namespace, answer: Answer) -> Rows:
     names = ("stress.json", "stress.png", *stress.folders())
     Destination(args.output, "bench stress", names, force=args.force).claim({})
     rows = stress.campaign(
-        args.cases, args.seed, args.output, jobs=args.jobs, grids=args.points, tell=_tell
+        args.cases,
+        args.seed,
+        args.output,
+        jobs=args.jobs,
+        grids=args.points,
+        law=args.shear_law,
+        tell=_tell,
     )
-    answer |= {"cases": args.cases, "seed": args.seed, "points": args.points}
+    answer |= {name: getattr(args, name) for name in ("cases", "seed", "points", "shear_law")}
     stress.write(rows, args.output, answer)
     figures.stress(rows, args.output / "stress.png")
     _print(stress.summary(rows), stress.COLUMNS, stress.MEANING)
@@ -250,29 +156,35 @@ def _tell(text: str) -> None:
     print(text, file=sys.stderr)
 
 
-# What is measured, the arguments, what does it. Those that write a folder write their JSON into it
-FILES: dict[str, tuple[str, Callable[..., None], Callable[..., Rows]]] = {
-    "deflection": ("time and error of the elastic deflection", _add_deflection, _deflection),
-    "smooth": ("time, error and memory of smooth contacts", _add_smooth, _smooth),
-    "step": ("time of a step of a transient run", _add_step, _step),
-    "sweep": ("cases per core-hour of studies", _add_sweep, _sweep),
-    "skips": ("what a scene does not need, and what that saves", _add_skips, _skips),
-    "workprec": ("error against processor seconds of all settings", _add_workprec, _workprec),
+# What is measured, and what does it. Those that write a folder write their JSON into it
+FILES: dict[str, tuple[str, Callable[..., Rows]]] = {
+    "deflection": (
+        "time and error of the elastic deflection",
+        _deflection,
+    ),
+    "smooth": ("time, error and memory of smooth contacts", _smooth),
+    "step": ("time of a step of a transient run", _step),
+    "sweep": ("cases per core-hour of studies", _sweep),
+    "skips": ("what a scene does not need, and what that saves", _skips),
+    "workprec": (
+        "error against processor seconds of all settings",
+        _workprec,
+    ),
 }
-FOLDERS: dict[str, tuple[str, Callable[..., None], Callable[..., Rows]]] = {
-    "stress": ("where the solver converges: random cases", _add_stress, _stress),
-    "faults": ("kills, damaged states, mutated input", _add_faults, _faults),
+FOLDERS: dict[str, tuple[str, Callable[..., Rows]]] = {
+    "stress": ("where the solver converges: random cases", _stress),
+    "faults": ("kills, damaged states, mutated input", _faults),
 }
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of ``pyehl bench``."""
     subparsers = parser.add_subparsers(dest="what", metavar="WHAT", required=True)
-    for name, (text, add, _) in (FILES | FOLDERS).items():
+    for name, (text, _) in (FILES | FOLDERS).items():
         sub = subparsers.add_parser(
             name, help=text, description=f"Measure: {text}.", allow_abbrev=False
         )
-        add(sub)
+        DECLARE[name](sub)
         place = ("DIR", "folder of results; an interrupted campaign is resumed in it")
         if name == "faults":
             place = ("DIR", "an empty folder to work in")
@@ -291,7 +203,7 @@ def execute(args: argparse.Namespace) -> int:
         pictures = [args.output.with_suffix(".png")] if args.what == "workprec" else []
         check_files([args.output, *pictures], "bench")
     answer: Answer = {"source": mark("bench"), "what": args.what, "machine": machine()}
-    _, _, measure = (FILES | FOLDERS)[args.what]
+    _, measure = (FILES | FOLDERS)[args.what]
     rows = measure(args, answer)
     if args.what in FILES and args.output is not None:
         answer["rows"] = rows

@@ -10,7 +10,16 @@ from importlib import metadata
 
 __all__ = ["add_arguments", "execute", "lines"]
 
-LIBRARIES = ("numpy", "scipy", "matplotlib", "pandas", "tqdm", "xarray", "SurfaceTopography")
+LIBRARIES = (
+    "bokeh",
+    "numpy",
+    "scipy",
+    "matplotlib",
+    "pandas",
+    "tqdm",
+    "xarray",
+    "SurfaceTopography",
+)
 
 
 def _version(name: str) -> str:

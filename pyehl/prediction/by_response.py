@@ -79,9 +79,8 @@ class RoughPassage:
         if self.options.reduction == "response":
             zone = zone_of(self.contact, o, self.lubricant)
             moes = circle_of(self.contact, o, self.lubricant)
-            u = self.velocity_ratio
-            newtonian = self.lubricant.shear.law == "newtonian"
-            return Transfer.of(spectrum, zone, moes, u, at_amplitude=newtonian, mesh=self.mesh)
+            u, weighs = self.velocity_ratio, self.lubricant.shear.weighs_flow
+            return Transfer.of(spectrum, zone, moes, u, at_amplitude=weighs, mesh=self.mesh)
         ratio = component_amplitude_ratio(
             spectrum.qx[:, np.newaxis],
             spectrum.qy[np.newaxis, :],

@@ -52,10 +52,8 @@ class RoughPair:
 
     of: tuple[RoughPassage, RoughPassage]
     fronts: tuple[float, float]  # where the tiles begin at the same time, along the motion [a]
-    # How their spectra are cut
-    filters: tuple[str, str] = ("sharp", "sharp")
-    # Their numbers in an order of their own: sums are taken in it
-    order: tuple[int, int] = field(init=False)
+    filters: tuple[str, str] = ("sharp", "sharp")  # how their spectra are cut
+    order: tuple[int, int] = field(init=False)  # of their numbers, in which sums are taken
 
     def __post_init__(self) -> None:
         """Find the order: the faster one first, else by size and heights."""
@@ -96,7 +94,7 @@ class RoughPair:
                 moving,
                 zone_of(one.contact, o, one.lubricant),
                 circle_of(one.contact, o, one.lubricant),
-                at_amplitude=one.lubricant.shear.law == "newtonian",
+                at_amplitude=one.lubricant.shear.weighs_flow,
                 mesh=one.mesh,
             )
         else:

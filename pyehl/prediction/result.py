@@ -145,7 +145,8 @@ class Prediction:
         """What `mu_ratio` is."""
         note = STRESS_NOTE if self.thins else NEWTONIAN_NOTE
         shear = self.lubricant.shear
-        return note + NEWTONIAN_FLOW_NOTE if self.thins and not shear.in_flow else note
+        note += NEWTONIAN_FLOW_NOTE if self.thins and not shear.in_flow else ""
+        return note + self.lubricant.beyond(self.operating.hertz_pressure)
 
     @property
     def mu_ratio(self) -> float:
@@ -190,17 +191,13 @@ class Prediction:
         f, o = self.friction, self.operating
         second = {"second_shift_m": self.second.passage.shift} if self.second else {}
         q, c_iso = surfaces.psd_isotropic(self.surface)
-        convention = self.options.wavelength_convention
+        how = self.options.wavelength_convention
         ratio = component_amplitude_ratio(
-            q, 0.0, o.hertz_radius, *o.equivalent_moes, convention=convention
+            q, 0.0, o.hertz_radius, *o.equivalent_moes, convention=how
         )
         return {
             "passage": {"shift_m": f.shift, **second, "mu_ratio": f.passage},
-            "spectrum": {
-                "q_rad_per_m": q,
-                "c_iso_m4": c_iso,
-                "amplitude_ratio_along_x": ratio,
-            },
+            "spectrum": {"q_rad_per_m": q, "c_iso_m4": c_iso, "amplitude_ratio_along_x": ratio},
             "bands": {
                 name: np.array([record[name] for record in self._bands()])
                 for name in BAND_COLUMNS.values()

@@ -55,10 +55,14 @@ def _at_amplitude(zone: Zone, variance: float) -> Zone:
     The leak is div(rho H^3/(eta lambda) grad P): it is slow where the waves raise the pressure and
     the viscosity, and friction comes from there. For a Gaussian delta P of `variance` s^2 [p_h^2]
     the leak lowers the mean of exp(b delta P), b = d ln eta/dP the thickening, at the rate of
-    small waves over that mean, exp(b^2 s^2/2).
+    small waves over that mean, exp(b^2 s^2/2). Where the lubricant thins in the flow, b is that of
+    eta/phi_x: it leaks and shears by what is left of the viscosity.
     """
+    b = zone.thickening
+    if zone.factors:
+        b = b * (1.0 - zone.factors.by_sliding)
     with np.errstate(over="ignore"):
-        gain = np.exp(0.5 * variance * np.square(zone.thickening))
+        gain = np.exp(0.5 * variance * np.square(b))
     return replace(zone, conductance=zone.conductance / gain)
 
 

@@ -77,6 +77,8 @@ class Lubricant:
         beta = -(d eta/dT)/eta at ambient pressure and the temperature of the inlet [1/K].
     thermal_expansion
         Relative fall of the density with temperature, of that at 15 degC [1/K].
+    range_temperature_min, range_temperature_max, range_pressure_max
+        Where the constants of the law were measured [degC, Pa]; all 0: not known.
     constants
         The group ``lubricant`` of a resolved case as text, for laws with constants of an oil.
 
@@ -106,6 +108,9 @@ class Lubricant:
     temperature: float = 40.0
     temperature_viscosity: float = 0.0
     thermal_expansion: float = 6.5e-4
+    range_temperature_min: float = 0.0
+    range_temperature_max: float = 0.0
+    range_pressure_max: float = 0.0
     constants: str = ""
 
     def __post_init__(self) -> None:
@@ -195,6 +200,20 @@ class Lubricant:
         return np.asarray(
             (DENSITY_PRESSURE + DENSITY_FACTOR * p) / (DENSITY_PRESSURE + p) * thinner
         )
+
+    def beyond(self, pressure: float) -> str:
+        """Say what is beyond the range of the constants at a pressure [Pa]; '' if nothing is."""
+        low, high, most = (
+            self.range_temperature_min,
+            self.range_temperature_max,
+            self.range_pressure_max,
+        )
+        words = ""
+        if low < high and not low <= self.temperature <= high:
+            words = f"; the lubricant was measured from {low:g} to {high:g} degC"
+        if 0.0 < most < pressure and self.constants:
+            words += f"; the lubricant was measured up to {most:.3g} Pa"
+        return words
 
     def _compiled(self, pressure: Array, rise: Array) -> tuple[Array, Array]:
         """ln(eta/eta0) and rho/rho0 by the laws of the solver."""

@@ -71,6 +71,11 @@ class ShearLaw:
         return cls(law, in_flow=law in CODES and group.get("flow") == "consistent", **given)
 
     @property
+    def weighs_flow(self) -> bool:
+        """Whether friction grows with the pressure as the flow is slowed by it."""
+        return self.law == "newtonian" or self.in_flow
+
+    @property
     def scale(self) -> float:
         """Stress at which a law that thins flows does so [Pa]."""
         return self.eyring_stress if self.law == "eyring" else self.carreau_stress

@@ -62,6 +62,7 @@ CASES = {
     "carreau": "&lubricant shear_law = 'carreau' carreau_stress = 4e6 carreau_exponent = 0.7 /",
     "sheet": "&lubricant kinematic_viscosity_40 = 46.0 kinematic_viscosity_100 = 6.8"
     " temperature = 60.0 density_15 = 900.0 /",
+    "name": "&lubricant name = 'fva3' temperature = 60.0 /",
     "ellipse": "&contact radius_x = 0.01 radius_y = 0.03 /",
     "fractal": "&surface kind = 'fractal' rms_height = 3e-8 hurst = 0.7 seed = 5 pixels = 128 /",
     "kept": "&solver threads = 2 / &grid y_extent = 2.5 / &psd film_thickness = 2e-7 /",

@@ -4,11 +4,14 @@
 from __future__ import annotations
 
 import importlib
+import json
 import math
 import re
 import subprocess
+import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import pyehl
@@ -58,6 +61,58 @@ def test_ball_bearing(root: Path, ehl: str, tmp_path: Path):
     speed = 2.0 * 3.14159265 * 3000.0 / 60.0 * pitch / 4.0 * (1.0 - (ball / pitch) ** 2)
     assert given["contact"]["mean_velocity"] == pytest.approx(speed, rel=2e-3)
     assert given["contact"]["load"] == pytest.approx(5.0 * 500.0 / 8.0)
+
+
+def test_gear_pair(root: Path, ehl: str, tmp_path: Path):
+    """The page has the numbers of the record, and the record those of the smooth contact."""
+    case, page = root / "cases" / "gear_pair.nml", root / "docs" / "howto" / "gear.md"
+    text = page.read_text(encoding="utf-8")
+    record = json.loads(page.with_suffix(".json").read_text(encoding="utf-8"))
+    unit = record["film_scale_m"] * 1e9
+    films = [record[f"{name}_extrapolated"] * unit for name in ("H_c", "H_min")]
+    assert f"| {films[0]:.1f} nm | {films[1]:.1f} nm |" in text
+    for formula in pyehl.film(case)["formulas"]:
+        assert f"| {formula['h_c_m'] * 1e9:.1f} nm |" in text
+    assert f"mu_r/mu_s  {record['mu_ratio']:.5f} +- {record['mu_ratio_error']:.5f}" in text
+    assert f"mu         {record['mu']:.5f}, smooth contact {record['mu_smooth']:.5f}" in text
+    assert f"rough {record['h_min_rough_m'] * 1e9:.2f} nm" in text
+    least = [round(record[name] * 1e9) for name in ("h_min_m", "h_min_rough_m")]
+    assert "least film from {} to {} nm".format(*least) in text
+    words = [ehl, case, "-o", tmp_path / "out"]
+    for group in ("surface", "second_surface"):
+        words += ["--set", f"{group}.kind=smooth"]
+    subprocess.run(words, capture_output=True, check=True)
+    found = json.loads((tmp_path / "out" / "summary.json").read_text())
+    for name in ("H_c", "H_min", "H_c_extrapolated", "mu_smooth"):
+        # steadied to another tolerance before time steps
+        assert found[name] == pytest.approx(record[name], rel=2e-3)
+    # the block that made the flanks makes them still
+    (block,) = re.findall(r"^```python\n(.*?)^```$", text, re.M | re.S)
+    (tmp_path / "cases").mkdir()
+    subprocess.run([sys.executable, "-P", "-c", block], cwd=tmp_path, check=True)
+    for name in ("flank_1.npy", "flank_2.npy"):
+        made, kept = (np.load(place / "cases" / name) for place in (tmp_path, root))
+        assert made == pytest.approx(kept, abs=1e-13)
+    # gears, speed and slip make the case
+    given = pyehl.Case.read(case).resolve()
+    angle = math.acos(90.0 * math.cos(math.radians(20.0)) / 91.5)
+    radius = 0.5 * 91.5e-3 * math.sin(angle)
+    assert given["bodies"]["radius_x1"] == pytest.approx(radius, rel=1e-3)
+    speeds = [2.0 * math.pi * n / 60.0 * radius for n in (1500.0, 1000.0)]
+    assert given["contact"]["mean_velocity"] == pytest.approx(0.5 * sum(speeds), rel=1e-3)
+    assert given["contact"]["slide_to_roll"] == pytest.approx(0.4)
+
+
+@pytest.mark.slow
+def test_gear_pair_made_anew(root: Path, ehl: str, tmp_path: Path):
+    """Three minutes: the record of the rough run."""
+    page = root / "docs" / "howto" / "gear.md"
+    record = json.loads(page.with_suffix(".json").read_text(encoding="utf-8"))
+    words = [ehl, root / "cases" / "gear_pair.nml", "-o", tmp_path / "out"]
+    subprocess.run(words, capture_output=True, check=True)
+    found = json.loads((tmp_path / "out" / "summary.json").read_text())
+    for name, value in record.items():
+        assert found[name] == (pytest.approx(value, rel=1e-4) if name != "status" else value), name
 
 
 def test_border_of_an_ellipse(root: Path, solve):

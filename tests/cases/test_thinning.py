@@ -3,8 +3,13 @@
 
 from __future__ import annotations
 
+import subprocess
+from pathlib import Path
+
 import numpy as np
 import pytest
+
+import pyehl
 
 PAPER = {
     "grid.x_inlet": -2.5,
@@ -108,3 +113,21 @@ def test_short_waves_leak(solve):
         for flow in ("consistent", "newtonian")
     }
     assert left["consistent"] < left["newtonian"]
+
+
+def test_a_run_that_was_stopped_is_resumed_to_the_same_bits(ehl: str, tmp_path: Path):
+    """Factors and stress are made of film and pressure, so that a checkpoint needs none of them."""
+    keys = CARREAU | WAVE | {"grid.points": 65, "contact.slide_to_roll": 0.3}
+    (tmp_path / "case.nml").write_text(pyehl.Case.from_text("", keys).text)
+
+    def run(*words: str) -> int:
+        return subprocess.run([ehl, *words, "--quiet"], cwd=tmp_path, check=False).returncode
+
+    assert run("case.nml", "-o", "whole") == 1
+    assert run("case.nml", "-o", "parts", "--set", "time.steps=5") == 1
+    assert run("--resume", "parts", "--set", "time.steps=12") == 1
+    whole, parts = (pyehl.load(tmp_path / name) for name in ("whole", "parts"))
+    assert whole.attrs["steps"] == parts.attrs["steps"] == 12
+    assert np.array_equal(whole["P"], parts["P"])
+    assert np.array_equal(whole["H"], parts["H"])
+    assert whole.attrs["last_mu_ratio"] == parts.attrs["last_mu_ratio"]

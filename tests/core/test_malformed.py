@@ -72,6 +72,31 @@ FAULTS: list[tuple[str, str, list[str], list[str]]] = [
     ("exponent out of range", "&lubricant carreau_exponent = §1.2 /", [], ["0 or [0.05, 1]"]),
     ("no Eyring stress", "&lubricant eyring_stress = §0.0 /", [], ["[1e4, 1e9]"]),
     ("temperature alone", "&lubricant temperature = §80.0 /", [], ["kinematic_viscosity_40"]),
+    (
+        "heat of friction without a size",
+        "&contact moes_m = 200.0 / &lubricant thermal_friction = §'always' /",
+        [],
+        ["no sliding speed", "'auto'"],
+    ),
+    (
+        "heat of an oil that nothing is known of",
+        "&lubricant thermal_friction = §'always' /",
+        [],
+        ["temperature_viscosity", "kinematic_viscosity_40"],
+    ),
+    ("a heat that is no word", "&lubricant thermal_friction = §'on' /", [], ["'auto', 'always', or 'never'"]),
+    (
+        "body that conducts nothing",
+        "&contact thermal_conductivity_2 = §0.01 /",
+        [],
+        ["0 or [0.1, 500]"],
+    ),
+    (
+        "bodies that make no ellipse",
+        "&bodies radius_x1 = 9.5 radius_y1 = §9.5e-3 /",
+        [],
+        ["radius_x/radius_y", "30 to 1"],
+    ),
     ("half a data sheet", "&lubricant kinematic_viscosity_40 = §68.0 /", [], ["both"]),
     (
         "data sheet upside down",

@@ -158,6 +158,17 @@ def test_a_table_gives_its_values_and_its_range(table: Path):
     assert "BEYOND in temperature" in pyehl.check(Case.from_text(""), hot)
 
 
+def test_a_prediction_says_that_the_oil_was_not_measured_there():
+    options = {"lubricant.name": "pao100", "surface.kind": "fractal", "surface.pixels": 64}
+    note = pyehl.predict(Case.from_text(""), options).summary["note"]
+    assert "the lubricant was measured up to 5.1e+08 Pa" in note
+    assert "degC" not in note
+    hot = pyehl.predict(Case.from_text(""), options, {"lubricant.temperature": 90.0})
+    assert "from 25 to 60 degC" in hot.summary["note"]
+    options["lubricant.name"] = "fva3"
+    assert "measured" not in pyehl.predict(Case.from_text(""), options).summary["note"]
+
+
 def test_a_written_case_of_an_oil_reads_back(table: Path):
     for options in ({"lubricant.name": "pao100"}, {"lubricant.table": str(table)}, T9):
         case = Case.of(Case.from_text("", {"lubricant.temperature": 50.0, **options}))

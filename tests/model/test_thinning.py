@@ -17,6 +17,7 @@ from pyehl.case import Case
 from pyehl.prediction.resolution import resolution
 from pyehl.prediction.smooth import solve_contact, zone_of
 from pyehl.prediction.start import starting_pressure
+from pyehl.prediction.transfer import _at_amplitude
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_transfer
@@ -205,3 +206,16 @@ def test_start_from_the_prediction():
         for options in ((), ("lubricant.flow='newtonian'",))
     )
     assert 0.0 < np.std(thin) < np.std(newtonian)
+
+
+def test_leak_of_finite_waves_goes_by_what_is_left_of_the_viscosity():
+    settings = table_1().resolve()
+    o, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
+    zone = zone_of(solve_contact(settings), o, oil)
+    newtonian = replace(zone, factors=None)
+    pressed = zone.pressure > 0.5
+    thin, slow = (
+        _at_amplitude(one, 0.05**2).conductance / one.conductance for one in (zone, newtonian)
+    )
+    assert slow[pressed].max() < 0.95
+    np.testing.assert_allclose(thin[pressed], 1.0, atol=1e-6)

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
+import pyehl
 from pyehl.bench import (
     faults_inputs,
     precision,
@@ -107,6 +108,20 @@ def test_cases_of_a_campaign_cover_what_can_be_asked_for():
     # every run has a bound: steps asked for, or few enough until the mean can settle
     for case in moving:
         assert case.values["time.steps"] in (0, stress_cases.BOUNDS[case.points])
+
+
+def test_cases_with_a_shear_law_are_the_same_scenes():
+    plain = stress_cases.draw(60, 1)
+    for law in ("eyring", "carreau"):
+        thinning = stress_cases.draw(60, 1, law=law)
+        assert thinning == stress_cases.draw(60, 1, law=law)
+        assert [case.family for case in thinning] == [case.family for case in plain]
+        stresses = [case.values[f"lubricant.{law}_stress"] for case in thinning]
+        assert max(stresses) > 10.0 * min(stresses)
+        for case in thinning:
+            resolved = pyehl.Case.from_text("", case.values).resolve()
+            assert resolved["lubricant"]["shear_law"] == law
+            assert resolved["lubricant"]["flow"] == "consistent"
 
 
 def test_mutated_inputs(tmp_path: Path):

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figures in the width of a column, and movies that state their pace."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+import pyehl
+from pyehl.cli import main
+from pyehl.plots.movie import movie
+from pyehl.plots.style import DPI, new_figure, page_width, save, wrapped
+
+POINTS_PER_MM = 72.0 / 25.4
+
+
+@pytest.fixture(scope="module")
+def moving(tmp_path_factory, root: Path) -> Path:
+    folder = tmp_path_factory.mktemp("moving") / "dent"
+    pyehl.solve(
+        root / "cases/dent.nml", "grid.points=33", "output.frame_interval=0.5", output=folder,
+        check=False,
+    )  # fmt: skip
+    return folder
+
+
+@pytest.mark.parametrize(("given", "wide"), [("84mm", 84.0), ("17.4cm", 174.0), ("3.3in", 83.82)])
+def test_pdf_is_as_wide_as_asked_with_its_fonts(moving, tmp_path, given, wide):
+    words = ["plot", str(moving), "-o", str(tmp_path), "--format", "pdf", "--width", given]
+    assert main(words) == 0
+    files = sorted(tmp_path.glob("*.pdf"))
+    assert len(files) == 6
+    for file in files:
+        data = file.read_bytes()
+        box = re.search(rb"/MediaBox \[ 0 0 (\S+) (\S+) \]", data)
+        assert float(box[1]) == pytest.approx(wide * POINTS_PER_MM, abs=0.01)
+        # TrueType fonts as a whole, none drawn as Type 3
+        assert b"/FontFile2" in data
+        assert b"/Type3" not in data
+
+
+def test_svg_needs_no_font(moving, tmp_path):
+    pyehl.plot(moving, tmp_path, format="svg", width=0.084)
+    for file in tmp_path.glob("*.svg"):
+        text = file.read_text(encoding="utf-8")
+        assert "<text" not in text
+        wide = float(re.search(r'<svg [^>]*width="([\d.]+)pt"', text)[1])
+        assert wide == pytest.approx(84.0 * POINTS_PER_MM, abs=0.01)
+
+
+def test_narrow_figures_have_their_panels_below_one_another(moving):
+    narrow, wide, usual = (pyehl.plot(moving, width=w)["film"] for w in (0.084, 0.174, 0.0))
+    left, right = narrow.axes[:2]
+    assert left.get_position().y0 > right.get_position().y1
+    left, right = wide.axes[:2]
+    assert left.get_position().x1 < right.get_position().x0
+    assert usual.get_figwidth() == pytest.approx(7.2)
+    assert {text.get_fontsize() for text in narrow.axes[0].get_xticklabels()} == {7.0}
+    # what was drawn for a page does not change what is drawn after it
+    assert new_figure(2.0, 2.0).subplots().title.get_fontsize() > 7.0
+
+
+def test_every_figure_names_its_conditions(moving):
+    for width in (0.0, 0.084):
+        for name, figure in pyehl.plot(moving, width=width).items():
+            title = figure.get_suptitle()
+            assert "$M$ =" in title, name
+            assert "$p_h$ =" in title, name
+
+
+def test_titles_are_broken_between_parts():
+    title = ",  ".join(["$M$ = 1000", "$L$ = 10.02", "$p_h$ = 1.66 GPa", r"$h_{\min}$ = 0.08"])
+    lines = wrapped(title, 1.7).split(",\n")
+    assert len(lines) == 2
+    assert ",  ".join(lines) == title
+    assert wrapped(title, 8.0) == title
+
+
+@pytest.mark.parametrize(
+    ("given", "why"),
+    [("84", "a length with mm, cm or in"), ("84 px", "84 px"), ("5mm", "40 ... 400 mm")],
+)
+def test_other_widths_are_refused(moving, tmp_path, capsys, given, why):
+    assert main(["plot", str(moving), "-o", str(tmp_path), "--width", given]) == 2
+    assert why in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
+def test_movie_keeps_its_pace_and_states_it(moving, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr("pyehl.plots.movie.DPI", 40)
+    words = ["plot", str(moving), "-o", str(tmp_path), "--movie", "--frame-seconds"]
+    assert main([*words, "0.21"]) == 0
+    data = pyehl.load(moving)
+    with Image.open(tmp_path / "movie.gif") as picture:
+        assert picture.n_frames == data.sizes["T"]
+        assert picture.info["duration"] == 210
+    assert main([*words, "0.001"]) == 2
+    assert "expected 0.02 ... 10 s" in capsys.readouterr().err
+    titles = []
+    monkeypatch.setattr(
+        "matplotlib.figure.Figure.suptitle", lambda self, text, **more: titles.append(text)
+    )
+    movie(data, tmp_path, seconds=0.5)
+    unit = float(data["t_s"][1] - data["t_s"][0]) * 1e6
+    assert all("0.5 s per frame" in title for title in titles)
+    assert all(rf"= {unit:.3g} $\mu$s in the contact" in title for title in titles)
+    assert len(set(titles)) == data.sizes["T"]
+
+
+def test_width_of_a_page_ends_with_it(tmp_path):
+    with page_width(0.084):
+        figure = new_figure(84.0 / 25.4, 2.0)
+    path = save(figure, tmp_path / "page.png", DPI)
+    with Image.open(path) as picture:
+        assert picture.size[0] == pytest.approx(84.0 / 25.4 * DPI, abs=1.0)
