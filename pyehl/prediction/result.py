@@ -143,9 +143,8 @@ class Prediction:
     @property
     def note(self) -> str:
         """What `mu_ratio` is."""
-        note = STRESS_NOTE if self.thins else NEWTONIAN_NOTE
-        shear = self.lubricant.shear
-        note += NEWTONIAN_FLOW_NOTE if self.thins and not shear.in_flow else ""
+        stress = STRESS_NOTE + ("" if self.lubricant.shear.in_flow else NEWTONIAN_FLOW_NOTE)
+        note = stress if self.thins else NEWTONIAN_NOTE
         return note + self.lubricant.beyond(self.operating.hertz_pressure)
 
     @property
@@ -266,6 +265,7 @@ class Prediction:
             **statistics(s, f.response),
             **(self.second.summary(s) if self.second else {}),
             **deformed_surface(f, self.film_minimum, self.options.film_limit, known=self._known),
+            "rms_pressure_Pa": float(np.std(f.response.pressure)),
             "cavitated_share": f.cavitated_share,
             "cavitated_friction": f.cavitated_friction,
             "load_error": f.load_error,
