@@ -221,7 +221,8 @@ p | rms_deformed_error_m | m | estimate of its error
 p | lambda_ratio_deformed | - | h_min/rms_deformed_m: smooth contact, deformed surface
 p | lambda_ratio_deformed_error | - | estimate of its error
 p | rms_pressure_Pa | Pa | rms of the pressure change at the centre
-p | rms_pressure_error_Pa | Pa | estimate of its error
+p | p_rise_rms_Pa | Pa | rms of the rise of the pressure over a passage, within 0.5 a of the centre
+p | p_rise_rms_error_Pa | Pa | estimate of its error
 p | p_rise_max_Pa | Pa | largest rise of the pressure over a passage, within 0.8 a of the centre
 p | p_rise_max_error_Pa | Pa | estimate of its error
 p | second_surface | | the second surface in words

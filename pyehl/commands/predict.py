@@ -94,7 +94,7 @@ def _deformed(values: Mapping[str, Any]) -> list[str]:
     """Say what becomes of the surface."""
     text = (
         f"deformed    rms {_told(values, 'rms_deformed_m', 1e6)} um, pressure rms "
-        f"{_told(values, 'rms_pressure_Pa', 1e-6)} MPa, greatest rise "
+        f"{_told(values, 'p_rise_rms_Pa', 1e-6)} MPa, greatest rise "
         f"{_told(values, 'p_rise_max_Pa', 1e-6)} MPa"
     )
     film = []

@@ -16,7 +16,7 @@ from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import shear_stress
 
-__all__ = ["INNER", "HertzContact", "Response", "ShearedContact"]
+__all__ = ["INNER", "NEAR", "HertzContact", "Response", "ShearedContact"]
 
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
@@ -24,6 +24,8 @@ Single = NDArray[np.float32]
 INNER = 0.8
 """Pressures are told within this distance from the centre: at the rim the roughness moves the edge
 of the contact to and fro [a]."""
+NEAR = 0.5
+"""Their rms is told within this distance [a]."""
 # Fewest points per Hertz radius when not all pixels are visited
 MIN_SAMPLES = 128
 
@@ -52,6 +54,7 @@ class ShearedContact:
         self.count = 0  # positions
         self.imbalance = 0.0  # greatest share of the load that delta p carries or takes off [-]
         self.greatest_rise = -math.inf  # of the pressure over the smooth contact within INNER
+        self.squared_rise = 0.0  # sum over the positions of its mean square within NEAR
         # Films of which the share of points below is counted, and the points that were below
         self.levels: tuple[float, ...] = ()
         self.below = np.zeros(0, dtype=np.int64)
@@ -60,8 +63,12 @@ class ShearedContact:
         """Count from now on how many points have less film than each of some levels."""
         self.levels, self.below = levels, np.zeros(len(levels), dtype=np.int64)
 
-    def meet(self, rise: Array | Single, film: Array, inner: NDArray[np.bool_]) -> None:
+    def meet(
+        self, rise: Array | Single, film: Array, inner: NDArray[np.bool_], near: NDArray[np.bool_]
+    ) -> None:
         """Note what a position has: rise of the pressure and film at points within the contact."""
+        squares = np.square(rise, dtype=np.float64)
+        self.squared_rise += float(squares.mean(where=near)) if near.any() else math.nan
         greatest = float(rise.max(where=inner, initial=-math.inf))
         self.greatest_rise = max(self.greatest_rise, greatest)
         for i, level in enumerate(self.levels):
@@ -70,6 +77,10 @@ class ShearedContact:
     def least_film(self) -> float:
         """Least film that was met, as it is told."""
         return self.thinnest
+
+    def rise_rms(self) -> float:
+        """Rms of the rise of the pressure over the positions within NEAR [p_h]."""
+        return math.sqrt(self.squared_rise / max(1, self.count))
 
     def shares(self) -> Array:
         """Mean share of the contact below each level [-]."""
@@ -130,7 +141,7 @@ class HertzContact(ShearedContact):
         # every height within |y| < a passes through the contact
         self.thinnest = film - float(deformed[:, np.unique(j % ny)].max())
         self.semi_ellipse = np.sqrt(1.0 - self.radius_squared)
-        self.inner = self.radius_squared < INNER**2
+        self.inner, self.near = (self.radius_squared < r**2 for r in (INNER, NEAR))
         self.smooth = float(self.stress(self.semi_ellipse, np.array(film)).sum())
 
     def friction(self, step: int, track: int = 0) -> float:
@@ -140,7 +151,7 @@ class HertzContact(ShearedContact):
         film = self.film - deformed
         if min(self.thinnest, float(film.min())) <= 0.0:
             return math.nan
-        self.meet(delta, film, self.inner)
+        self.meet(delta, film, self.inner, self.near)
         # times the area of the circle, not of its pixels: the load is 2 pi/3
         carried = 1.5 * float(delta.mean())
         self.imbalance = max(self.imbalance, abs(carried))

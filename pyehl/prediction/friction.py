@@ -69,8 +69,9 @@ class RoughFriction:
     # a Newtonian lubricant
     mu_smooth: float
     film_min: float  # least film over the passage [m]
-    # Greatest rise of the pressure over the passage, within :data:`~pyehl.prediction.contact.INNER`
-    # [Pa]
+    # Rise of the pressure over the passage, its rms within :data:`~pyehl.prediction.contact.NEAR`
+    # and the greatest within :data:`~pyehl.prediction.contact.INNER` [Pa]
+    rise_rms: float
     rise_max: float
     # Mean share of the contact with less film than psd.film_limit [-], and what the error of the
     # film makes of it; NaN without a limit
@@ -141,6 +142,7 @@ def passed(
         passage=ratios,
         mu_smooth=contact.mu_smooth(),
         film_min=contact.least_film() * film_unit,
+        rise_rms=contact.rise_rms() * contact.operating.hertz_pressure,
         rise_max=contact.greatest_rise * contact.operating.hertz_pressure,
         below_limit=float(share),
         below_limit_error=0.5 * float(high - low),

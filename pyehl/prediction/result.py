@@ -143,9 +143,8 @@ class Prediction:
     @property
     def note(self) -> str:
         """What `mu_ratio` is."""
-        note = STRESS_NOTE if self.thins else NEWTONIAN_NOTE
-        shear = self.lubricant.shear
-        note += NEWTONIAN_FLOW_NOTE if self.thins and not shear.in_flow else ""
+        stress = STRESS_NOTE + ("" if self.lubricant.shear.in_flow else NEWTONIAN_FLOW_NOTE)
+        note = stress if self.thins else NEWTONIAN_NOTE
         return note + self.lubricant.beyond(self.operating.hertz_pressure)
 
     @property
@@ -188,12 +187,11 @@ class Prediction:
     @property
     def tables(self) -> dict[str, dict[str, Array]]:
         """Columns of the tables ``passage``, ``spectrum`` and ``bands``."""
-        f, o = self.friction, self.operating
+        f, o, convention = self.friction, self.operating, self.options.wavelength_convention
         second = {"second_shift_m": self.second.passage.shift} if self.second else {}
         q, c_iso = surfaces.psd_isotropic(self.surface)
-        how = self.options.wavelength_convention
         ratio = component_amplitude_ratio(
-            q, 0.0, o.hertz_radius, *o.equivalent_moes, convention=how
+            q, 0.0, o.hertz_radius, *o.equivalent_moes, convention=convention
         )
         return {
             "passage": {"shift_m": f.shift, **second, "mu_ratio": f.passage},
@@ -267,6 +265,7 @@ class Prediction:
             **statistics(s, f.response),
             **(self.second.summary(s) if self.second else {}),
             **deformed_surface(f, self.film_minimum, self.options.film_limit, known=self._known),
+            "rms_pressure_Pa": float(np.std(f.response.pressure)),
             "cavitated_share": f.cavitated_share,
             "cavitated_friction": f.cavitated_friction,
             "load_error": f.load_error,

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl import library
-from pyehl.prediction.contact import INNER, ShearedContact
+from pyehl.prediction.contact import INNER, NEAR, ShearedContact
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import OFF_CENTRE, STATIONS
@@ -147,7 +147,7 @@ class WavyContact(ShearedContact):
         self.radius = np.hypot(self.x[:, np.newaxis], self.across[np.newaxis, :])
         self.inside = (self.radius < REACH) & (self.pressure > 0.0)
         self.points = int(np.count_nonzero(self.inside))
-        self.inner = self.inside & (self.radius < INNER)
+        self.inner, self.near = (self.inside & (self.radius < r) for r in (INNER, NEAR))
         self.missing = _missing(contact, self.film)
         self.least = math.inf
         self.weights = station_weights(self.x).astype(np.float32)
@@ -198,7 +198,7 @@ class WavyContact(ShearedContact):
         film[~self.inside] = math.inf
         whole = film + self.missing
         self.least = min(self.least, float(whole.min()))
-        self.meet(change[..., 1], whole, self.inner)
+        self.meet(change[..., 1], whole, self.inner, self.near)
         film[~self.inside] = 1.0
         np.maximum(pressure, 0.0, out=pressure)
         with np.errstate(over="ignore"):

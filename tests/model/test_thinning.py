@@ -151,7 +151,7 @@ def test_friction_hardly_rises():
     assert newtonian.mu_ratio > 1.2
     assert abs(predicted.mu_ratio - 1.0) < 0.01
     assert 0.0 < predicted.model_error < 0.01
-    assert predicted.summary["rms_pressure_Pa"] < newtonian.summary["rms_pressure_Pa"]
+    assert predicted.summary["p_rise_rms_Pa"] < newtonian.summary["p_rise_rms_Pa"]
     assert "Newtonian" not in predicted.note
 
 
@@ -183,13 +183,14 @@ def test_the_deformed_surface_in_numbers():
     assert s["rms_deformed_m"] == pytest.approx(np.std(response.deformed))
     assert s["lambda_ratio_deformed"] == pytest.approx(s["h_min_m"] / s["rms_deformed_m"])
     # the centre of the contact meets every point of the tile, in the waves of its own place
-    assert s["p_rise_max_Pa"] > 2.0 * s["rms_pressure_Pa"]
+    assert s["p_rise_max_Pa"] > 2.0 * s["p_rise_rms_Pa"]
+    assert s["p_rise_rms_Pa"] == pytest.approx(s["rms_pressure_Pa"], rel=0.1)
     assert s["h_min_rough_m"] < s["h_min_m"]
-    for name in ("rms_deformed_error_m", "rms_pressure_error_Pa", "h_min_rough_error_m"):
+    for name in ("rms_deformed_error_m", "p_rise_rms_error_Pa", "h_min_rough_error_m"):
         assert s[name] > 0.0
     outside = replace(found, operating=replace(found.operating, load=1e5)).summary
     assert outside["outside_range"]
-    assert outside["rms_pressure_error_Pa"] is None
+    assert outside["p_rise_rms_error_Pa"] is None
 
 
 def test_waves_that_a_grid_leaves_out():
@@ -219,3 +220,34 @@ def test_leak_of_finite_waves_goes_by_what_is_left_of_the_viscosity():
     )
     assert slow[pressed].max() < 0.95
     np.testing.assert_allclose(thin[pressed], 1.0, atol=1e-6)
+
+
+def test_simulated_surfaces(root):
+    """The stated errors of the table cover the deviations; no constant of T was chosen on them."""
+    folder = root / "docs" / "evidence" / "thinning"
+
+    def read(name: str) -> dict[str, dict[str, str]]:
+        with (folder / name).open(newline="", encoding="utf-8") as stream:
+            return {row["name"]: row for row in csv.DictReader(stream)}
+
+    said, found, committed = read("predicted.csv"), read("simulated.csv"), read("committed.csv")
+    assert len(found) >= 16
+    errors = {
+        "mu_ratio": ("mu_ratio_model_error", 0.0065),
+        "p_rise_rms_Pa": ("p_rise_rms_error_Pa", 0.05),
+        "p_rise_max_Pa": ("p_rise_max_error_Pa", 0.15),
+        "h_min_rough_m": ("h_min_rough_error_m", 0.11),
+    }
+    for name, (error, most) in errors.items():
+        values = []
+        for row, simulated in found.items():
+            p, s = float(said[row][name]), float(simulated[name])
+            if name == "h_min_rough_m":
+                s += float(simulated["h_min_extrapolated_m"]) - float(simulated["h_min_m"])
+            values.append((abs(p / s - 1.0), abs(p - s) <= float(said[row][error])))
+        assert max(off for off, _ in values) < most, name
+        assert sum(covered for _, covered in values) >= 0.9 * len(values), name
+    for row in found:
+        assert float(said[row]["mu_ratio"]) == pytest.approx(
+            float(committed[row]["mu_ratio"]), rel=1e-3
+        )

@@ -64,6 +64,8 @@ def of_table() -> dict[str, Measured]:
         here = [row for row in rows if row["run"] == name]
         kx, ky = (np.array([float(row[k]) for row in here[:: STATIONS.size]]) for k in ("kx", "ky"))
         for column, end in (("T", ""), ("newtonian", "-newtonian")):
+            if end and PLAN[name].points != POINTS:
+                continue
             parts = [float(row[f"{column}_re"]) + 1j * float(row[f"{column}_im"]) for row in here]
             found[f"{name}{end}"] = kx, ky, np.array(parts).reshape(-1, STATIONS.size)
     return found
@@ -74,15 +76,15 @@ class Waves:
 
     def __init__(self, run: Run, measured: Measured) -> None:
         self.kx, self.ky, self.measured = measured
-        self.ratio = run.velocity_ratio
+        self.ratio, self.points = run.velocity_ratio, run.points
         settings = case_of(run).resolve()
         self.operating = OperatingPoint.from_settings(settings)
-        self.zone = zone(settings, self.operating)
+        self.zone = zone(settings, self.operating, run.points)
         self.film = float(np.interp(0.0, self.zone.x, self.zone.film))
 
     def predicted(self, thinning: float = 1.0, of_grid: Complex | float = 1.0) -> Complex:
         """T at the STATIONS (m, 3); `of_grid` is what the grid makes of the fitted part."""
-        o, spacing = self.operating, SIDE / (POINTS - 1)
+        o, spacing = self.operating, SIDE / (self.points - 1)
         waves = self.kx, self.ky
         here = replace(self.zone, thinning=thinning)
         moes = thinned((o.moes_m, o.moes_l), thinning)
@@ -103,9 +105,9 @@ class Waves:
         return np.asarray((self.measured[:, 0] - none) / (whole - none))
 
 
-def zone(settings: dict[str, dict[str, Any]], operating: OperatingPoint) -> Zone:
+def zone(settings: dict[str, dict[str, Any]], operating: OperatingPoint, points: int) -> Zone:
     """Centre line of the smooth contact on the grid of the runs."""
-    grid = {"points": POINTS, "x_inlet": -2.5, "x_outlet": 1.5, "y_extent": 2.0}
+    grid = {"points": points, "x_inlet": -2.5, "x_outlet": 1.5, "y_extent": 2.0}
     case = Case(contact=settings["contact"], lubricant=settings["lubricant"], grid=grid)
     with Solver.open(case) as solver:
         solver.run()
@@ -120,7 +122,10 @@ def zone(settings: dict[str, dict[str, Any]], operating: OperatingPoint) -> Zone
 def predicted(waves: Waves, newtonian: Waves) -> tuple[Complex, Complex]:
     """T at the STATIONS, with what the twin shows the grid to do and without (m, 3)."""
     thinning = (waves.film / newtonian.film) ** THINNING_POWER
-    return waves.predicted(thinning, newtonian.of_grid()), waves.predicted(thinning)
+    plain = waves.predicted(thinning)
+    if np.isnan(newtonian.measured).all():
+        return plain, plain
+    return waves.predicted(thinning, newtonian.of_grid()), plain
 
 
 def main(arguments: list[str]) -> None:
@@ -130,7 +135,9 @@ def main(arguments: list[str]) -> None:
     worst = []
     for name, run in PLAN.items():
         waves = Waves(run, measured[name])
-        newtonian = Waves(twin(run), measured[f"{name}-newtonian"])
+        # on a finer grid there is no twin: with NaNs for its waves
+        nothing = waves.kx, waves.ky, np.full_like(waves.measured, np.nan)
+        newtonian = Waves(twin(run), measured.get(f"{name}-newtonian", nothing))
         film = waves.film / newtonian.film
         t, plain = predicted(waves, newtonian)
         o = waves.operating

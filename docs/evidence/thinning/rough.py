@@ -3,7 +3,7 @@
 
     python docs/evidence/thinning/rough.py predict      writes predicted.csv
     python docs/evidence/thinning/rough.py simulate     adds what is missing to simulated.csv
-    python docs/evidence/thinning/rough.py compare      prints both
+    python docs/evidence/thinning/rough.py compare [committed.csv]      prints both
 
 A simulation is on 257 x 257 nodes and takes one to three minutes on one core. Waves shorter than
 eight nodes of that grid are cut off.
@@ -21,14 +21,12 @@ from typing import Any
 import numpy as np
 
 import pyehl
-from pyehl.prediction.contact import INNER
+from pyehl.prediction.contact import INNER, NEAR
 from pyehl.solver import Solver
 from pyehl.theory.operating import OperatingPoint
 
 HERE = Path(__file__).parent
 POINTS = 257
-# The rms of the pressure is that near the centre, its greatest rise that within INNER
-CENTRE = 0.5
 TABLE1 = "load = 600 mean_velocity = 0.84 radius = 0.018 reduced_modulus = 2.26e11"
 BALL = "load = 300 mean_velocity = 0.5 radius = 0.0127 reduced_modulus = 1.24e11"
 THICK = "viscosity = 0.5 pressure_viscosity = 1.8e-8"
@@ -60,7 +58,7 @@ def by_moes(moes_m: float, moes_l: float) -> str:
 
 QUANTITIES = {
     "mu_ratio": "mu_ratio_model_error",
-    "rms_pressure_Pa": "rms_pressure_error_Pa",
+    "p_rise_rms_Pa": "p_rise_rms_error_Pa",
     "p_rise_max_Pa": "p_rise_max_error_Pa",
     "h_min_rough_m": "h_min_rough_error_m",
 }
@@ -130,7 +128,7 @@ def simulated(row: Row) -> dict[str, Any]:
             records.append(
                 (
                     float(summary["T"]),
-                    float(np.square(rise[radius < CENTRE]).mean()),
+                    float(np.square(rise[radius < NEAR]).mean()),
                     float(rise[radius < INNER].max()),
                     float(film[radius < 1.0].min()),
                 )
@@ -143,7 +141,7 @@ def simulated(row: Row) -> dict[str, Any]:
         "status": summary["status"],
         "mu_ratio": summary["mu_ratio"],
         "mu_ratio_error_grid": summary["mu_ratio_error_grid"],
-        "rms_pressure_Pa": math.sqrt(float(last[:, 1].mean())) * o.hertz_pressure,
+        "p_rise_rms_Pa": math.sqrt(float(last[:, 1].mean())) * o.hertz_pressure,
         "p_rise_max_Pa": float(last[:, 2].max()) * o.hertz_pressure,
         "h_min_rough_m": float(last[:, 3].min()) * o.film_scale,
         # of the smooth contact
@@ -186,6 +184,8 @@ def compare(predictions: dict[str, dict[str, Any]], simulations: dict[str, dict[
             print()
             continue
         for name, error in QUANTITIES.items():
+            if name not in said:
+                continue
             p, s = float(said[name]), float(found[name])
             if name == "h_min_rough_m":
                 s += float(found["h_min_extrapolated_m"]) - float(found["h_min_m"])
@@ -195,10 +195,14 @@ def compare(predictions: dict[str, dict[str, Any]], simulations: dict[str, dict[
             print(f"  {name} {p:.5g} / {s:.5g} ({p / s - 1.0:+.2%}, error {stated})", end="")
         print()
     for name, values in relative.items():
+        if not values:
+            continue
         spread = np.array(values)
         print(
             f"{name:16s} rms {np.sqrt(np.mean(spread**2)):.2%}, largest "
-            f"{np.abs(spread).max():.2%}, stated error covers {sum(covered[name])} of {spread.size}"
+            f"{np.abs(spread).max():.2%}, {np.count_nonzero(np.abs(spread) <= 0.05)} within 5 %, "
+            f"{np.count_nonzero(np.abs(spread) <= 0.005)} within 0.5 %, stated error covers "
+            f"{sum(covered[name])} of {spread.size}"
         )
 
 
@@ -210,18 +214,18 @@ def error_of(said: dict[str, Any], name: str, value: float) -> str:
 def main(arguments: list[str]) -> None:
     """Predict, simulate or compare."""
     what = arguments[0]
-    where = Path(arguments[1]) if len(arguments) > 1 else HERE
     if what == "predict":
-        write(where / "predicted.csv", {name: predicted(row) for name, row in PLAN.items()})
+        write(HERE / "predicted.csv", {name: predicted(row) for name, row in PLAN.items()})
     elif what == "simulate":
-        found = read(where / "simulated.csv")
+        found = read(HERE / "simulated.csv")
         for name, row in PLAN.items():
             if name not in found:
                 print(name, flush=True)
                 found[name] = simulated(row)
-                write(where / "simulated.csv", found)
+                write(HERE / "simulated.csv", found)
     elif what == "compare":
-        compare(read(where / "predicted.csv"), read(where / "simulated.csv"))
+        table = arguments[1] if len(arguments) > 1 else "predicted.csv"
+        compare(read(HERE / table), read(HERE / "simulated.csv"))
 
 
 if __name__ == "__main__":

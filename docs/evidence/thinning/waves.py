@@ -4,8 +4,8 @@
     python docs/evidence/thinning/waves.py FOLDER [NAME ...]
 
 Each run is a tile of 4 a with 25 waves of small amplitude on 257 x 257 nodes, as those of
-docs/evidence/response, and each has a twin with Newtonian flow, ``NAME-newtonian``; a run whose
-file is there is not made again.
+docs/evidence/response, and each has a twin with Newtonian flow, ``NAME-newtonian``; two more are on
+513 x 513 nodes. A run whose file is there is not made again.
 """
 
 from __future__ import annotations
@@ -56,6 +56,7 @@ class Run:
     lubricant: str
     velocity_ratio: float  # the slide-to-roll ratio is twice its distance from 1
     angles: str = "even"  # of ANGLES
+    points: int = POINTS  # nodes per side
 
 
 PLAN = {
@@ -92,6 +93,13 @@ PLAN = {
         1.1,
         "steep",
     ),
+    "table1-eyring-02-fine": Run(TABLE1, "shear_law = 'eyring'", 1.01, points=513),
+    "m500-carreau-20-fine": Run(
+        by_moes(500.0, 8.0),
+        "shear_law = 'carreau' carreau_stress = 1e6 carreau_exponent = 0.6",
+        1.1,
+        points=513,
+    ),
 }
 
 
@@ -101,12 +109,9 @@ def twin(run: Run) -> Run:
 
 
 def runs() -> dict[str, Run]:
-    """All runs by their names."""
-    return {
-        f"{name}{end}": run if not end else twin(run)
-        for name, run in PLAN.items()
-        for end in ("", "-newtonian")
-    }
+    """Give all runs by their names; those on finer grids have no twins."""
+    twins = {f"{name}-newtonian": twin(r) for name, r in PLAN.items() if r.points == POINTS}
+    return PLAN | twins
 
 
 def waves_of(run: Run) -> WaveSet:
@@ -142,7 +147,7 @@ def main(arguments: list[str]) -> None:
         found = superpose(
             case_of(run).resolve(),
             waves,
-            points=POINTS,
+            points=run.points,
             velocity_ratio=run.velocity_ratio,
             filling=SETTLED,
             solver={"threads": 1},
