@@ -79,7 +79,8 @@ def _told(values: Mapping[str, Any], name: str, factor: float) -> str:
     """Tell a number of a summary with its error, both times a factor."""
     error = values[error_name(name)]
     text = f"{values[name] * factor:.3g}"
-    return text if error is None else f"{text} +- {error * factor:.1g}"
+    # to one digit, without a power of ten
+    return text if error is None else f"{text} +- {float(f'{error * factor:.1g}'):g}"
 
 
 def _surface(name: str, tile: Topography) -> str:

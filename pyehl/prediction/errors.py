@@ -28,7 +28,7 @@ CONSTANT_THINNING = 0.004
 SHARE_THINNING = 0.1
 # What is added where the contact is narrower than long, times that by which a/b exceeds 1
 # (docs/evidence/ellipse)
-NARROW = 0.01
+NARROW = 0.025
 # Largest ratio at which it was measured
 KNOWN_RATIO = 5.0
 # Ellipticities between which it was

@@ -210,8 +210,6 @@ class RoughPair:
 
     def _tracks(self, tracks: int) -> list[tuple[float, float]]:
         """Pairs of tracks [a]: equally spaced on both, in opposite order."""
-        if not tracks:
-            return []
         a = self.of[0].operating.hertz_radius
         one, other = (
             [offset / a for offset in track_offsets(self.of[k].topography, tracks)]

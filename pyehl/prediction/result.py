@@ -187,12 +187,11 @@ class Prediction:
     @property
     def tables(self) -> dict[str, dict[str, Array]]:
         """Columns of the tables ``passage``, ``spectrum`` and ``bands``."""
-        f, o = self.friction, self.operating
+        f, o, convention = self.friction, self.operating, self.options.wavelength_convention
         second = {"second_shift_m": self.second.passage.shift} if self.second else {}
         q, c_iso = surfaces.psd_isotropic(self.surface)
-        how = self.options.wavelength_convention
         ratio = component_amplitude_ratio(
-            q, 0.0, o.hertz_radius, *o.equivalent_moes, convention=how
+            q, 0.0, o.hertz_radius, *o.equivalent_moes, convention=convention
         )
         return {
             "passage": {"shift_m": f.shift, **second, "mu_ratio": f.passage},

@@ -44,8 +44,10 @@ Complex = NDArray[np.complex128]
 GAIN = (0.0674, 0.3085, 2.414, 28.44)
 """Constants of `edge_gain`, fitted by docs/evidence/response/gain.py."""
 
-CURVATURE = -1.75
+CURVATURE = -2.35
 """Power of the ellipticity in it."""
+NARROW = 4.0
+"""Power with which the weight of oblique waves in it falls in narrow contacts."""
 
 OBLIQUE = (1.97, -1.2)
 """What the ellipticity changes in the growth of z off the centre line: factor and power."""
@@ -73,7 +75,7 @@ def edge_gain(
     for ridges of a/8 it is 2 % too low.
 
     In an ellipse it goes with the curvature of the inlet: measured on ellipticities from 0.4 to 4
-    (docs/evidence/ellipse), with the power `CURVATURE`.
+    (docs/evidence/ellipse), with the power `CURVATURE`; in narrow ones it is mainly that of ridges.
 
     Wavenumbers [1/a], H_c [a^2/R], of an ellipse over its kernel ratio. The constants are factor
     and power of the film, weight of oblique waves, |q| at which it fades [1/a].
@@ -84,6 +86,7 @@ def edge_gain(
     factor, power, weight, fading = constants
     film = factor * np.asarray(central_film, dtype=float) ** power * ellipticity**CURVATURE
     fade = 1.0 + (q / fading) ** 2.5
+    weight *= min(1.0, ellipticity) ** NARROW
     return np.asarray(1.0 + film * across * (1.0 + weight * (1.0 - across)) / fade)
 
 

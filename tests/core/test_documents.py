@@ -231,6 +231,14 @@ def test_every_subcommand_is_in_the_reference(root: Path):
     assert listed == modules - {"arguments", "watching"}
 
 
+def test_number_of_an_oil_in_the_readme(root: Path):
+    """Friction of Table 1 with an Eyring stress, as the readme has it."""
+    text = (root / "README.md").read_text(encoding="utf-8")
+    summary = pyehl.predict(root / "cases/table1.nml", {"lubricant.shear_law": "eyring"}).summary
+    assert f"the coefficient of friction is {summary['mu']:.4f}" in text
+    assert f"the roughness adds {100.0 * (summary['mu_ratio'] - 1.0):.1f} % to it" in text
+
+
 def test_every_status_has_a_line(root: Path):
     """Statuses of runs, predictions and points of a curve, each in the table of its kind."""
     text = (root / "docs/reference/statuses.md").read_text(encoding="utf-8")

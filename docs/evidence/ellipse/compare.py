@@ -39,6 +39,12 @@ def prediction(row: dict[str, Any]) -> float:
     return passage.run(0, brief=True)[0].mu_ratio
 
 
+def _error(run: dict[str, Any]) -> float | None:
+    """Error of a simulation; None where the coarse grid has no full film."""
+    grid = run["mu_ratio_error_grid"]
+    return None if grid is None else round(grid + run["mu_ratio_error_stop"], 4)
+
+
 def write(name: str, table: list[dict[str, Any]]) -> None:
     """Write a table beside this file."""
     with (HERE / name).open("w", newline="", encoding="utf-8") as stream:
@@ -86,7 +92,7 @@ def compare() -> None:
                 "moes_l": row["moes_l"],
                 "velocity_ratio": row["velocity_ratio"],
                 "mu_ratio": there,
-                "mu_ratio_error": round(run["mu_ratio_error_grid"] + run["mu_ratio_error_stop"], 4),
+                "mu_ratio_error": _error(run),
                 "predicted_before": first,
                 "deviation_before_percent": round(100.0 * (first / there - 1.0), 2),
                 "covered_before": int(abs(first - there) <= before[row["name"]]["model_error"]),
@@ -122,7 +128,7 @@ def draw(table: list[dict[str, Any]]) -> None:
     mpl.use("Agg")
     figure, axes = plt.subplots(1, 2, figsize=(8.6, 3.9), layout="constrained")
     ratio, error, before, model, kappa = (
-        np.array([r[name] for r in table])
+        np.array([r[name] for r in table], dtype=float)
         for name in ("mu_ratio", "mu_ratio_error", "predicted_before", "model_error", "ellipticity")
     )
     colours = {"c": np.log2(kappa), "cmap": "cividis", "vmin": -2.0, "vmax": 2.0, "zorder": 3}

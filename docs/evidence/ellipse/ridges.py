@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Static ridges along the motion on ellipses, at X = Y = 0, beside the prediction: ridges.csv.
+
+python docs/evidence/ellipse/ridges.py
+
+Film and pressure by docs/evidence/response/ridges.py, on 129 nodes along X; M and L are those of
+the circular contact with the same dry inlet.
+"""
+
+from __future__ import annotations
+
+import csv
+import sys
+
+import numpy as np
+
+from cases import HERE, case_of_circle
+from pyehl.prediction.smooth import circle_of, solve_contact, zone_of
+from pyehl.theory.ellipse_edge import EllipseEdge
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.response import edge_gain, inlet_transfer
+from pyehl.theory.transport import stiffness, transport
+
+POINTS = 129
+WAVELENGTHS = (1.0, 0.5, 1.0 / 3.0, 0.25)
+CONTACTS = (
+    (0.4, 500.0, 10.0),
+    (0.5, 300.0, 12.0),
+    (0.6, 250.0, 8.0),
+    (1.0, 500.0, 10.0),
+    (2.0, 500.0, 10.0),
+)
+COLUMNS = "ellipticity moes_m moes_l wavelength T predicted_T pressure predicted_pressure".split()
+
+
+def main() -> None:
+    """Solve and predict all ridges."""
+    sys.path.insert(0, str(HERE.parent / "response"))
+    from ridges import ridges  # noqa: PLC0415 (the one of that folder)
+
+    lines = [COLUMNS]
+    ky = 2.0 * np.pi / np.array(WAVELENGTHS)
+    still = np.zeros(1)
+    for contact in CONTACTS:
+        settings = case_of_circle(*contact, 1.0).resolve()
+        point, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
+        found = ridges(settings, WAVELENGTHS, points=POINTS)
+        middle = int(np.argmin(np.abs(found["x"])))
+        smooth = solve_contact(settings)
+        zone = zone_of(smooth, point, oil)
+        inlet = inlet_transfer(zone, 0.0 * ky, ky, circle_of(smooth, point, oil), 1.0)
+        ((driven, free),) = transport(zone, 0.0 * ky, ky, 1.0, still)
+        t = (driven + free * inlet).real
+        edge = EllipseEdge(point.ellipse)
+        beyond = (edge.functions(still, still).T @ edge.correction(0.0 * ky, ky))[0].real
+        film = zone.stiffness * smooth.central_film
+        gain = edge_gain(0.0 * ky, ky, film, ellipticity=point.ellipse.ellipticity)
+        pressure = (zone.stiffness * stiffness(ky) * gain + beyond) * (1.0 - t)
+        columns = found["response"][:, middle], t, found["stiffness"][:, middle], pressure
+        for values in zip(WAVELENGTHS, *columns, strict=True):
+            lines.append([f"{v:.4g}" for v in (*contact, *values)])
+            print(*lines[-1], flush=True)
+    with (HERE / "ridges.csv").open("w", newline="", encoding="utf-8") as stream:
+        csv.writer(stream, lineterminator="\n").writerows(lines)
+
+
+if __name__ == "__main__":
+    main()
