@@ -187,7 +187,7 @@ def compare(predictions: dict[str, dict[str, Any]], simulations: dict[str, dict[
             print()
             continue
         for name, error in QUANTITIES.items():
-            if error not in said:
+            if error not in said or not found[name]:
                 continue
             p, s = float(said[name]), float(found[name])
             if name == "h_min_rough_m":
