@@ -20,9 +20,9 @@ from pyehl.bench import (
     sweep,
     workprec,
 )
-from pyehl.bench.arguments import DECLARE
 from pyehl.bench.unit import machine
 from pyehl.commands.arguments import add_force
+from pyehl.commands.bench_arguments import DECLARE
 from pyehl.destination import Destination, check_files, mark, write_json
 from pyehl.display import Columns, text_table
 from pyehl.errors import InputError

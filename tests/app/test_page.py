@@ -18,16 +18,20 @@ from pyehl.cli import main
 
 
 def rows_of(tab, name: str) -> dict[str, str]:
-    """Give names and values of a table that is seen."""
-    cells = tab.run(
-        "const d = new DOMParser().parseFromString("
-        "Bokeh.documents[0].get_model_by_name(arguments[0]).text, 'text/html');"
-        "return [...d.querySelectorAll('tr')].map(r => [...r.cells].map(c => c.textContent))",
-        name,
-    )
-    seen = " ".join(tab.words(name).split())
-    assert all(value in seen for _, value in cells)
-    return dict(cells)
+    """Give names and values of a table when they are what is seen."""
+
+    def shown() -> list[list[str]] | None:
+        cells = tab.run(
+            "const d = new DOMParser().parseFromString("
+            "Bokeh.documents[0].get_model_by_name(arguments[0]).text, 'text/html');"
+            "return [...d.querySelectorAll('tr')].map(r => [...r.cells].map(c => c.textContent))",
+            name,
+        )
+        # the browser paints after the model has changed
+        seen = " ".join(tab.words(name).split())
+        return cells if all(value in seen for _, value in cells) else None
+
+    return dict(tab.until(shown))
 
 
 def test_numbers_are_those_of_pyehl_run(tab, tmp_path, capsys):

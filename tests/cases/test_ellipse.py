@@ -361,6 +361,7 @@ def test_refusals(options: list[str], message: str):
 def test_what_is_for_circles_says_so():
     case = pyehl.Case.from_text(
         "&contact radius_x = 0.01 radius_y = 0.02 / &surface kind = 'fractal' /"
+        "&psd reduction = 'amplitude' smooth = 'hertz' /"
     )
     with pytest.raises(pyehl.InputError, match="for circular contacts"):
         pyehl.predict(case)

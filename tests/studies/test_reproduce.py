@@ -157,7 +157,7 @@ def test_figures_1_and_5_and_the_report(tmp_path: Path):
     assert [r.name for r in results] == ["figure 1", "figure 5"]
     assert all(r.passed for r in results)
     page = (tmp_path / "report.html").read_text()
-    assert page.count("src='data:image/png;base64,") == 2
+    assert page.count('src="data:image/png;base64,') == 2
     assert "machine  this one" in page
     targets = [t for t in re.findall(r"href='([^']+)'", page) if not t.startswith("#")]
     assert len(targets) == 2
