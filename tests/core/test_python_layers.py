@@ -119,8 +119,8 @@ def test_benchmarks_and_the_paper_use_what_is_public(root: Path, folder: str):
         assert not private, f"{name} uses {private}"
 
 
-# What subcommands share
-SHARED = ("commands.arguments", "commands.watching")
+# What subcommands share, and the arguments of one that has many
+SHARED = ("commands.arguments", "commands.bench_arguments", "commands.watching")
 
 
 def test_nobody_imports_a_command(graph: dict[str, set[str]]):
