@@ -55,11 +55,20 @@ contains
       integer :: start, last, k, key
 
       call bind_keys(schema, input)
-      sources = [source_t(origin, text//newline)]
+      ! part by part: array constructors of texts leave copies of them behind
+      allocate (sources(1 + options_in(options)))
+      sources(1)%name = origin
+      sources(1)%text = text//newline
       start = 1
+      k = 1
       do while (start <= len(options))
          last = start + index(options(start:)//newline, newline) - 2
-         if (last >= start) sources = [sources, source_t("--set "//options(start:last), options(start:last)//newline, .false.)]
+         if (last >= start) then
+            k = k + 1
+            sources(k)%name = "--set "//options(start:last)
+            sources(k)%text = options(start:last)//newline
+            sources(k)%has_lines = .false.
+         end if
          start = last + 2
       end do
       ! faults of options are told when they are read
@@ -77,6 +86,20 @@ contains
       input%given = schema%keys%given
       call check_case(schema, input, sources, status)
    end subroutine read_case
+
+   !> How many lines are not empty
+   pure integer function options_in(options)
+      character(len=*), intent(in) :: options
+      character(len=1) :: before
+      integer :: i
+
+      options_in = 0
+      before = newline
+      do i = 1, len(options)
+         if (before == newline .and. options(i:i) /= newline) options_in = options_in + 1
+         before = options(i:i)
+      end do
+   end function options_in
 
    !> Key of an option group.key=value
    subroutine find_option(source, schema, key, name, status)
