@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 import threading
 from pathlib import Path
 
@@ -121,18 +123,27 @@ def test_closed_solver_raises():
             errors.check(*ehl.act(wrong, b"interrupt", b"")[2:])
 
 
+PLACES = """
+import pytest
+from pyehl import Case, Solver, errors
+
+case = Case.from_text(
+    "&contact moes_m = 100.0 /\\n"
+    "&grid points = 17 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\\n"
+)
+opened = [Solver(case) for _ in range(64)]
+with pytest.raises(errors.NoMemoryError, match="64"):
+    Solver(case)
+for solver in opened:
+    solver.close()
+with Solver(case) as again:
+    assert not again.done
+"""
+
+
 def test_places_run_out_and_come_back():
-    case = Case.from_text(
-        "&contact moes_m = 100.0 /\n"
-        "&grid points = 17 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
-    )
-    opened = [Solver(case) for _ in range(64)]
-    with pytest.raises(errors.NoMemoryError, match="64"):
-        Solver(case)
-    for solver in opened:
-        solver.close()
-    with Solver(case) as again:
-        assert not again.done
+    """In a process of its own: other tests may have solvers open."""
+    subprocess.run([sys.executable, "-P", "-c", PLACES], check=True)
 
 
 def test_solvers_in_threads_do_not_disturb_each_other():
