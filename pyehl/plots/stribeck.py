@@ -24,7 +24,7 @@ from pyehl.plots.style import (
 )
 from pyehl.theory import stribeck
 
-__all__ = ["ABSCISSAE", "COLOURS", "Curve", "Points", "bars", "draw_stribeck"]
+__all__ = ["ABSCISSAE", "COLOURS", "Curve", "Points", "draw_stribeck"]
 
 Array = NDArray[np.float64]
 
@@ -43,6 +43,20 @@ class Points:
     places: Mapping[str, Array]
     friction: Array
     error: Array
+
+    def draw(self, ax: Axes, abscissa: str) -> None:
+        """Draw them as measured ones, with bars where an error is known."""
+        ax.errorbar(
+            self.places[abscissa],
+            self.friction,
+            _bars(self.error),
+            fmt="k^",
+            ms=4,
+            mfc="none",
+            capsize=2,
+            lw=0.8,
+            label="measured",
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,17 +100,7 @@ def draw_stribeck(
             _draw_curve(ax, curve, name, colour)
         _shade(ax, curves, name)
         if measured is not None:
-            ax.errorbar(
-                measured.places[name],
-                measured.friction,
-                bars(measured.error),
-                fmt="k^",
-                ms=4,
-                mfc="none",
-                capsize=2,
-                lw=0.8,
-                label="measured",
-            )
+            measured.draw(ax, name)
         if name == "theta_2" and not absolute:
             _draw_eq_16(ax)
         ax.set_xscale("log")
@@ -117,7 +121,7 @@ def draw_stribeck(
     return figure
 
 
-def bars(error: Array) -> Array | None:
+def _bars(error: Array) -> Array | None:
     """Give error bars, none where all are zero or unknown."""
     known = np.nan_to_num(error)
     return known if known.any() else None
@@ -146,7 +150,7 @@ def _draw_curve(ax: Axes, curve: Curve, name: str, colour: str) -> None:
         ax.errorbar(
             x[there],
             full[there],
-            bars(curve.friction("mu_ratio_ehl_error")[there]),
+            _bars(curve.friction("mu_ratio_ehl_error")[there]),
             fmt="s",
             ms=5,
             mfc="white",

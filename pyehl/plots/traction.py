@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from pyehl.plots.stribeck import COLOURS, Curve, Points, bars
+from pyehl.plots.stribeck import COLOURS, Curve, Points
 from pyehl.plots.style import letter, new_figure
 
 __all__ = ["draw_traction"]
@@ -54,17 +54,7 @@ def draw_traction(
             known = np.isfinite(rise)
             axes[1].plot(slip[known], rise[known], "o-", ms=3, lw=1.2, color=colour)
     if measured is not None:
-        axes[0].errorbar(
-            measured.places["contact.slide_to_roll"],
-            measured.friction,
-            bars(measured.error),
-            fmt="k^",
-            ms=4,
-            mfc="none",
-            capsize=2,
-            lw=0.8,
-            label="measured",
-        )
+        measured.draw(axes[0], "contact.slide_to_roll")
     for ax in axes:
         ax.set_xlabel("slide-to-roll ratio")
         ax.grid(visible=True, which="major", color="0.92", lw=0.6)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import tempfile
@@ -16,7 +17,6 @@ __all__ = ["BROWSERS", "browser", "write_pdf"]
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 OPTIONS = (
     "--headless",
-    "--no-sandbox",
     "--disable-gpu",
     "--disable-quic",
     "--no-first-run",
@@ -47,7 +47,10 @@ def write_pdf(page: Path, path: Path) -> Path:
     """
     program = browser()
     with tempfile.TemporaryDirectory(prefix="pyehl-") as profile, new_file(path) as partial:
-        words = [*OPTIONS, f"--user-data-dir={profile}", f"--print-to-pdf={partial.resolve()}"]
+        # as root chromium runs without its sandbox or not at all
+        root = ["--no-sandbox"] if os.geteuid() == 0 else []
+        words = [*OPTIONS, *root, f"--user-data-dir={profile}"]
+        words.append(f"--print-to-pdf={partial.resolve()}")
         try:
             done = subprocess.run(
                 [program, *words, page.resolve().as_uri()],
