@@ -13,7 +13,7 @@ module ehl_resolution
    !> Most that half of the a-priori error of H_min may be where the equations have a solution
    real(dp), parameter :: most_unresolved = 0.6_dp
    !> What grids miss in contacts that are narrow, over what they miss in round ones, by H_c and by H_min: 1 + a (1/kappa^2 - 1)
-   !> and b/kappa^2 (docs/evidence/ellipses)
+   !> and b/kappa^2 (docs/evidence/errors_ellipses)
    real(dp), parameter :: narrow_central = 0.05_dp, narrow_minimum = 0.3_dp
 
 contains

@@ -22,6 +22,10 @@ import numpy as np
 import pyehl
 
 HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE.parent))
+
+from tables import numbers_of, shares  # noqa: E402
+
 SEED = 20261
 SMOOTH, ROUGH = 80, 60
 # Nodes a side of the largest doubled domain
@@ -135,23 +139,8 @@ def rough_rows(case: Row) -> list[Row]:
 
 
 def numbers(name: str) -> list[Row]:
-    """Read a table; None where there is no number."""
-
-    def value(text: str) -> float | str | None:
-        try:
-            return float(text)
-        except ValueError:
-            return text or None
-
-    with (HERE / f"{name}.csv").open(encoding="utf-8", newline="") as stream:
-        return [{k: value(v) for k, v in row.items()} for row in csv.DictReader(stream)]
-
-
-def shares(rows: list[Row], name: str, true: str, stated: str, factor: float) -> tuple[int, int]:
-    """Count the rows whose true error is at most `factor` times the stated one, and all of them."""
-    known = [row for row in rows if None not in (row[name], row[true], row[stated])]
-    good = sum(abs(row[name] - row[true]) <= factor * row[stated] for row in known)
-    return good, len(known)
+    """Read a table of this folder."""
+    return numbers_of(HERE / f"{name}.csv")
 
 
 def show() -> None:

@@ -2,32 +2,16 @@
 
 from __future__ import annotations
 
-import csv
+import sys
 from pathlib import Path
 from typing import Any
 
 HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE.parent))
+
+from tables import numbers_of, shares  # noqa: E402
+
 Row = dict[str, Any]
-
-
-def numbers(name: str) -> list[Row]:
-    """Read a table; None where there is no number."""
-
-    def value(text: str) -> float | str | None:
-        try:
-            return float(text)
-        except ValueError:
-            return text or None
-
-    with (HERE / f"{name}.csv").open(encoding="utf-8", newline="") as stream:
-        return [{k: value(v) for k, v in row.items()} for row in csv.DictReader(stream)]
-
-
-def shares(rows: list[Row], name: str, true: str, stated: str, factor: float) -> tuple[int, int]:
-    """Count the rows whose true error is at most `factor` times the stated one, and all of them."""
-    known = [row for row in rows if None not in (row[name], row[true], row[stated])]
-    good = sum(abs(row[name] - row[true]) <= factor * row[stated] for row in known)
-    return good, len(known)
 
 
 def cells(rows: list[Row], point: tuple[float, float]) -> dict[float, tuple[float, float]]:
@@ -53,9 +37,35 @@ def cells(rows: list[Row], point: tuple[float, float]) -> dict[float, tuple[floa
     }
 
 
+def over_estimate(rows: list[Row], ratio: float) -> tuple[list[float], list[float]]:
+    """Give true errors of H_c and H_min over the a-priori ones (fortran/plan/resolution.f90).
+
+    In narrow contacts, on cells so many times as long across the motion as along it.
+    """
+    found: tuple[list[float], list[float]] = [], []
+    narrow = [row for row in rows if row["kappa"] < 1.0 and row["ratio"] == ratio]
+    for row in narrow:
+        finer = [
+            other
+            for other in narrow
+            if (other["kappa"], other["moes_m"]) == (row["kappa"], row["moes_m"])
+            and other["points"] == 2 * row["points"] - 1
+            and other["points_y"] == 2 * row["points_y"] - 1
+        ]
+        if not finer or "converged" not in row["status"] or not finer[0]["H_c"]:
+            continue
+        square = row["kappa"] ** 2
+        rough = 0.16 * row["moes_m"] * (4.0 / (row["points"] - 1)) ** 2
+        stated = (1.0 + 0.05 * (1.0 / square - 1.0), 2.0 * max(1.0, 0.3 / square))
+        for name, factor, ratios in zip(("H_c", "H_min"), stated, found, strict=True):
+            limit = (4.0 * finer[0][name] - row[name]) / 3.0
+            ratios.append(abs(row[name] / limit - 1.0) / (rough * factor))
+    return found
+
+
 def show() -> None:
     """Print the shares of the errors that hold, and what cells are worth."""
-    rows = numbers("errors")
+    rows = numbers_of(HERE / "errors.csv")
     points = {(row["kappa"], row["moes_m"]) for row in rows}
     done = sum(row["status"] == "converged" for row in rows)
     print(f"{len(points)} contacts, {done} of {len(rows)} runs converged")
@@ -67,11 +77,15 @@ def show() -> None:
         for factor in (1.0, 2.0):
             good, known = shares(rows, name, f"{name}_limit", f"{name}_error", factor)
             print(f"{name}: true error at most {factor:g} times the stated: {good} of {known}")
-    rows = numbers("cells")
+    rows = numbers_of(HERE / "cells.csv")
     for point in sorted({(row["kappa"], row["moes_m"]) for row in rows}):
         for ratio, (nodes, error) in cells(rows, point).items():
             print("kappa {:g}, M {:g}:".format(*point), end=" ")
             print(f"cells 1 : {ratio:.2f}, {nodes:.0f} nodes, H_c off by {error:.2%}")
+    for ratio in (0.25, 0.5):
+        for name, found in zip(("H_c", "H_min"), over_estimate(rows, ratio), strict=True):
+            span = f"{min(found):.2f} to {max(found):.2f} times the a-priori one ({len(found)})"
+            print(f"{name}, narrow contacts, cells 1 : {ratio:g}: the error is {span}")
 
 
 if __name__ == "__main__":

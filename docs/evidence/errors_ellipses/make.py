@@ -1,8 +1,8 @@
 """Measure whether what runs on elliptical contacts state holds, and what their cells are worth.
 
-    python docs/evidence/ellipses/make.py errors     # errors.csv
-    python docs/evidence/ellipses/make.py cells      # cells.csv
-    python docs/evidence/ellipses/make.py show       # what both tables say
+    python docs/evidence/errors_ellipses/make.py errors     # errors.csv
+    python docs/evidence/errors_ellipses/make.py cells      # cells.csv
+    python docs/evidence/errors_ellipses/make.py show       # what both tables say
 
 M and L are those of the round contact with the same equations (Biboulet & Houpert 2010), kappa is
 the semi-axis across the motion over that along it. Points are drawn from a seed that was not used
