@@ -226,7 +226,7 @@ def test_bad_input_has_place_and_remedy(text: str, place: str, message: str, rem
 
 def test_evidence_of_ellipses_is_what_its_page_says(root: Path, capsys, monkeypatch):
     """The shares and the errors by cells, from the records; most errors hold."""
-    folder = root / "docs" / "evidence" / "ellipses"
+    folder = root / "docs" / "evidence" / "errors_ellipses"
     monkeypatch.syspath_prepend(str(folder))
     text = (folder / "README.md").read_text(encoding="utf-8")
     importlib.import_module("show").show()
