@@ -98,7 +98,7 @@ contains
       type(status_t), intent(inout) :: status
       !> Heights of the maps of both surfaces [m], X first, in place of files; of size 0: none
       real(dp), intent(in), optional :: heights(:, :), second_heights(:, :)
-      real(dp) :: rho(1), slope(1)
+      real(dp) :: rho(1), slope(1), film
 
       call pick_contact(input, plan)
       plan%flooded = input%grid%border == "flooded"
@@ -106,8 +106,9 @@ contains
       if (status%failed()) return
       call law_note(input, plan%scales, plan%lubricant_note)
       call plan%lubricant%density([1.0_dp], rho, slope)
-      plan%film_expected = plan%contact%film_formula(plan%point%moes_m, plan%point%moes_l)/rho(1)
-      plan%heat = plan_heat(input, plan%contact, plan%scales, plan%sliding, plan%lubricant, plan%film_expected)
+      film = plan%contact%film_formula(plan%point%moes_m, plan%point%moes_l)/rho(1)
+      plan%heat = plan_heat(input, plan%contact, plan%scales, plan%sliding, plan%lubricant, film)
+      plan%film_expected = plan%lubricant%shear%thinned_film(film, plan%point%speed_parameter)
       plan%engine = trim(input%solver%deflection)
       plan%accuracy = input%solver%accuracy
       plan%max_cycles = input%solver%max_cycles

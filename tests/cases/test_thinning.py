@@ -74,6 +74,27 @@ def test_strong_thinning(solve):
     assert sliding["H_c"] < rolling["H_c"] < thin["H_c"]
 
 
+@pytest.mark.parametrize("srr", [1.0, 1.4])
+def test_films_far_below_the_newtonian_one(solve, srr):
+    """n = 0.3: the film is a seventh of the Newtonian one, from which the solver cannot begin."""
+    done = solve(
+        None, 65, CARREAU | {"lubricant.carreau_exponent": 0.3, "contact.slide_to_roll": srr}
+    )
+    newtonian = solve(None, 65, CARREAU | {"lubricant.flow": "newtonian"})
+    assert done["status"] == "converged"
+    assert done["restarts"] == 0
+    assert done["H_c"] < newtonian["H_c"] / 6.0
+
+
+def test_kept_factors_leave_the_result_alone(solve):
+    """A run that keeps its factors from cycle to cycle, to two ends."""
+    keys = CARREAU | {"lubricant.carreau_exponent": 0.5, "contact.slide_to_roll": 0.5}
+    usual, strict = (solve(None, 65, keys | {"solver.accuracy": a}) for a in (0.1, 0.001))
+    assert strict["cycles"] > usual["cycles"]
+    assert usual["H_c"] == pytest.approx(strict["H_c"], rel=1e-4)
+    assert usual["H_min"] == pytest.approx(strict["H_min"], rel=2e-4)
+
+
 def test_laws_that_leave_the_flow_newtonian(solve):
     newtonian = solve(None, 65, CARREAU | {"lubricant.shear_law": "newtonian"})
     for keys in (
