@@ -100,13 +100,15 @@ contains
    end function thins_flow
 
    !> About the central film of a lubricant that thins in the flow, from that of a Newtonian one, for solvers to begin with:
-   !> h goes with eta^(2/3), the viscosity is that in the inlet at the shear rate (u + |u1 - u2|)/h
+   !> h goes with eta^(2/3), the viscosity is that in the inlet, where alpha p = 1, at the shear rate (u + |u1 - u2|)/h. It may
+   !> well be less than the film, but no solver should begin with much more.
    pure real(dp) function thinned_film(self, newtonian, speed_parameter) result(film)
       class(shear_law_t), intent(in) :: self
       !> [a^2/R]; lambda_bar = 12 eta0 u/(a^2/R) over gradient_scale
       real(dp), intent(in) :: newtonian, speed_parameter
       !> The film changes by less than 0.7 of what it did before
       integer, parameter :: steps = 30
+      real(dp), parameter :: inlet_viscosity = exp(1.0_dp)
       type(thinning_t) :: thinning
       real(dp) :: b
       integer :: k
@@ -115,7 +117,7 @@ contains
       if (.not. self%thins_flow()) return
       thinning = self%thinning()
       do k = 1, steps
-         b = (speed_parameter*self%gradient_scale/12.0_dp + self%scale)/(self%stress*film)
+         b = inlet_viscosity*(speed_parameter*self%gradient_scale/12.0_dp + self%scale)/(self%stress*film)
          film = newtonian*(thinning%sliding_stress(b)/b)**(2.0_dp/3.0_dp)
       end do
    end function thinned_film

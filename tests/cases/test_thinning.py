@@ -115,6 +115,29 @@ def test_time_steps_of_half_and_whole_domains(solve, keys):
     assert np.allclose(runs[0].field("P"), runs[1].field("P"), rtol=0.0, atol=2e-4)
 
 
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"surface.velocity_ratio": 1.05},
+        {
+            "lubricant.shear_law": "eyring",
+            "lubricant.eyring_stress": 4e6,
+            "surface.velocity_ratio": 1.1,
+        },
+    ],
+)
+def test_steps_are_solved_well_below_the_grid_error(solve, keys):
+    """Though their tolerance follows from the friction of a Newtonian lubricant."""
+    wave = {"surface.kind": "harmonic", "surface.amplitude": 0.06, "surface.wavelength": 0.5}
+    keys = CARREAU | wave | {"time.estimate_error": False} | keys
+    usual = solve(None, 65, keys)
+    strict = solve(None, 65, keys | {"time.steps": usual["steps"], "solver.accuracy": 0.0025})
+    finer = solve(None, 129, keys)
+    assert strict["cycles_per_step"] > usual["cycles_per_step"]
+    algebraic = abs(usual["mu_ratio"] - strict["mu_ratio"])
+    assert algebraic < 0.1 * 4.0 / 3.0 * abs(finer["mu_ratio"] - usual["mu_ratio"])
+
+
 def test_short_waves_leak(solve):
     """Where the oil thins less of a wave is flattened."""
     left = {
