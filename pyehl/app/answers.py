@@ -37,8 +37,9 @@ Array = NDArray[np.float64]
 
 COARSE, FINE = 129, (257, 513)
 """Nodes a side while a knob moves, and when it rests."""
-REST = 0.2
-"""A knob that has not been turned for so long rests [s]."""
+REST = 0.12
+"""A knob that has not been turned for so long rests [s]: a hand that drags a slider turns it more
+often, and a finer film may still come within 0.4 s."""
 CURVES = {"mean velocity": "velocity", "slide-to-roll ratio": "slide_to_roll"}
 
 

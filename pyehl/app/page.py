@@ -10,13 +10,15 @@ from functools import partial
 from html import escape
 from typing import Any
 
+from bokeh.core.templates import get_env
 from bokeh.document import Document
+from bokeh.events import DocumentReady
 
 from pyehl.app import answers, downloads, words
 from pyehl.app.answers import COARSE, CURVES, FINE, Film, Rough
 from pyehl.app.figures import Pictures
 from pyehl.app.knobs import KNOBS, Value
-from pyehl.app.layout import Layout
+from pyehl.app.layout import PICTURES, TEMPLATE, Layout
 from pyehl.app.position import Position, from_case
 from pyehl.app.uploads import Uploads
 from pyehl.app.worker import Ticket, Worker
@@ -47,9 +49,17 @@ class Page:
         self.worker = Worker(partial(self._later, self._answered), "pyehl-page")
         self.errands = Worker(partial(self._later, self._fetched), "pyehl-errands")
         document.title = "pyehl"
-        document.add_root(self.layout.root)
+        document.template = get_env().from_string("{% extends base %}" + TEMPLATE)
+        document.template_variables["pictures"] = PICTURES
+        for root in self.layout.roots.values():
+            document.add_root(root)
         document.on_session_destroyed(self._ended)
         self.layout.note.text = escape(note)
+        self._show_case()
+        # what is sent before the browser listens is lost
+        document.on_event(DocumentReady, self._ready)
+
+    def _ready(self, event: object) -> None:
         self._moved()
 
     def _ended(self, context: object) -> None:
@@ -98,12 +108,15 @@ class Page:
 
     def _moved(self) -> None:
         """Compute for the position, and keep the case file in step with it."""
-        self.layout.show_case(self.position.text(POINTS), words.python_lines(self.position, POINTS))
-        self.layout.busy(COARSE)
+        generation = self.worker.submit(answers.follow(self.position))
+        self._show_case()
         if not self.position.rough:
             self.layout.show_rough([])
-        generation = self.worker.submit(answers.follow(self.position))
         self.layout.stamp.data = {**self.layout.stamp.data, "asked": [generation]}
+
+    def _show_case(self) -> None:
+        self.layout.show_case(self.position.text(POINTS), words.python_lines(self.position, POINTS))
+        self.layout.busy(COARSE)
 
     def _answered(self, generation: int, answer: Film | Rough | Exception) -> None:
         """Show an answer, unless a newer one is there."""
@@ -113,8 +126,8 @@ class Page:
         self.document.hold("combine")
         if isinstance(answer, Film):
             self.pictures.show_film(answer)
-            self.layout.show_film(words.film_rows(answer), words.status_line(answer))
-            self.layout.told(answer.converged)
+            rows, status = words.film_rows(answer), words.status_line(answer)
+            self.layout.show_film(rows, status, converged=answer.converged)
         elif isinstance(answer, Rough):
             self.pictures.show_rough(answer)
             rows = words.rough_rows(answer)
