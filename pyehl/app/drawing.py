@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from pyehl.app.answers import Film
 from pyehl.plots.contact import fringe_colours, fringe_spacings
+from pyehl.plots.outline import Outline
 from pyehl.plots.style import Scales
 from pyehl.prediction.result import Prediction
 
@@ -43,10 +44,16 @@ class Map(NamedTuple):
     caption: str
 
 
+def _edge(found: Film) -> Outline:
+    """Edge of the dry contact in Hertz radii."""
+    angle = float(found.summary.get("angle_deg") or 0.0)
+    return Outline(found.point.ellipse.ellipticity, angle)
+
+
 def film_map(found: Film) -> Map:
     """Film of a solution as two-colour fringes and as numbers; rows across the motion."""
-    a, b = 1.0, found.point.ellipse.ellipticity
-    inside_x, inside_y = np.abs(found.x) <= VIEW * a, np.abs(found.y) <= VIEW * b
+    along, across = _edge(found).reach
+    inside_x, inside_y = np.abs(found.x) <= VIEW * along, np.abs(found.y) <= VIEW * across
     film = found.film[np.ix_(inside_x, inside_y)] * found.point.film_scale * 1e9
     x = found.x[inside_x] * found.point.hertz_radius * 1e3
     y = found.y[inside_y] * found.point.hertz_radius * 1e3
@@ -101,10 +108,11 @@ def centre_lines(found: Film) -> dict[str, dict[str, Array]]:
     """Pressure [GPa], film [nm] and Hertz pressure on the lines through the centre, over mm."""
     i, j = int(np.argmin(np.abs(found.x))), int(np.argmin(np.abs(found.y)))
     point = found.point
+    half_x, half_y = _edge(found).chords
     lines = {}
     for name, axis, half, pressure, film in (
-        ("x", found.x, 1.0, found.pressure[:, j], found.film[:, j]),
-        ("y", found.y, point.ellipse.ellipticity, found.pressure[i, :], found.film[i, :]),
+        ("x", found.x, half_x, found.pressure[:, j], found.film[:, j]),
+        ("y", found.y, half_y, found.pressure[i, :], found.film[i, :]),
     ):
         dry = np.sqrt(np.maximum(0.0, 1.0 - (axis / half) ** 2))
         lines[name] = {
@@ -120,7 +128,7 @@ def outline(found: Film) -> tuple[Array, Array]:
     """Edge of the dry contact [mm]."""
     angle = np.linspace(0.0, 2.0 * np.pi, 181)
     a, b = found.point.hertz_radius * 1e3, found.point.semi_axis_y * 1e3
-    turn = math.radians(float(found.summary.get("angle_deg") or 0.0))
+    turn = math.radians(_edge(found).angle)
     along, across = a * np.cos(angle), b * np.sin(angle)
     c, s = math.cos(turn), math.sin(turn)
     return c * along - s * across, s * along + c * across

@@ -60,7 +60,7 @@ class Pictures:
         self.edge = ColumnDataSource({"x": [], "y": []})
         columns: dict[str, list[float]] = {"place": [], "pressure": [], "hertz": [], "film": []}
         self.lines = {name: ColumnDataSource(columns) for name in "xy"}
-        self.tiles = ColumnDataSource({"before": [], "after": [], **empty})
+        self.tiles = ColumnDataSource({"before": [], "after": [], **empty}, name="tiles")
         self.octaves = ColumnDataSource({"left": [], "right": [], "rise": []})
         self.passage = ColumnDataSource({"shift": [], "ratio": []})
         names = ("place", "value", "low", "high", "status")
@@ -163,19 +163,20 @@ class Pictures:
         """Show a solution; nothing where there is none."""
         if not found.converged:
             self._empty(self.film, self.contours, self.edge, *self.lines.values())
+            self.changes.send()
             return
         change = self.changes.of
         made = drawing.film_map(found)
         lowest = float(made.film.min())
         change(self.levels, low=lowest, high=drawing.HIGHEST * made.central)
         film = {"colours": [made.colours], "film": [made.film.astype(np.float32)]}
-        place = {"x": [made.left], "y": [made.bottom], "dw": [made.width], "dh": [made.height]}
-        change(self.film, data={**film, **place})
-        for source, line in (
+        box = {"x": [made.left], "y": [made.bottom], "dw": [made.width], "dh": [made.height]}
+        change(self.film, data={**film, **box})
+        for source, (x, y) in (
             (self.contours, drawing.contour_lines(made)),
             (self.edge, drawing.outline(found)),
         ):
-            change(source, data={"x": line[0], "y": line[1]})
+            change(source, data={"x": x, "y": y})
         point = found.point
         about = f"M = {point.moes_m:.4g}, L = {point.moes_l:.4g}"
         highest = point.hertz_pressure * 1e-9
@@ -198,6 +199,7 @@ class Pictures:
         made = found.prediction
         if made is None:
             self._empty(self.tiles, self.octaves, self.passage)
+            self.changes.send()
             return
         change = self.changes.of
         before, after, width, height, most = drawing.tiles(made)
@@ -223,9 +225,10 @@ class Pictures:
             change(self.bands.x_range, start=min(octaves["left"]), end=max(octaves["right"]))
             self._around(self.bands, [0.0, *octaves["rise"]])
         known = made.friction.status == "predicted"
-        shift = made.friction.shift * 1e3 if known else []
-        change(self.passage, data={"shift": shift, "ratio": made.friction.passage if known else []})
+        self._empty(self.passage)
         if known:
+            shift, ratio = made.friction.shift * 1e3, made.friction.passage
+            change(self.passage, data={"shift": shift, "ratio": ratio})
             change(self.over.x_range, end=width)
             self._around(self.over, made.friction.passage)
         self.changes.send()
@@ -249,7 +252,6 @@ class Pictures:
         """Show nothing of these."""
         for source in sources:
             self.changes.of(source, data={name: [] for name in source.data})
-        self.changes.send()
 
     def _fit(self, picture: Any, made: drawing.Map) -> None:  # noqa: ANN401
         """Show the whole map."""

@@ -49,8 +49,8 @@ WIDTHS = {"0": "as they are", "84": "84 mm (one column)", "174": "174 mm (two co
 MAPS = ".npy,.txt,.csv,.dat,.asc,.x3p,.sdf,.al3d,.opd,.plux,.sur,.gwy,.nc,.h5"
 
 
-# Each part and each picture is a root of its own: where a size changes, be it by a text, the browser
-# lays out the root anew and paints all pictures in it
+# Each part and each picture is a root of its own: where a size changes, be it by a text, the
+# browser lays out the root anew and paints all pictures in it
 TEMPLATE = """
 {% block contents %}
 <div style="display: flex">
@@ -235,9 +235,7 @@ class Layout:
         # with its colour in it: one change for the browser
         self.status.text = f'<span style="{style}">{escape(text)}</span>'
 
-    def show_film(
-        self, rows: Sequence[tuple[str, str]], status: str, *, converged: bool
-    ) -> None:
+    def show_film(self, rows: Sequence[tuple[str, str]], status: str, *, converged: bool) -> None:
         """Show the numbers of the smooth contact, and whether there is a solution."""
         self.numbers.text = _table(rows)
         if converged:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from pyehl.display import with_error
-from pyehl.reports.limits import HOT
+from pyehl.reports.limits import unheated
 
 __all__ = ["WELL_KNOWN", "Judgement", "answer", "judge"]
 
@@ -133,8 +133,8 @@ def judge(summary: Summary) -> Judgement:
     outside = summary.get("outside_range")
     if outside:
         doubts.append(f"{', '.join(outside)} outside of the range of the response")
-    heat = summary.get("flash_temperature_K")
-    if heat is not None and heat > HOT:
+    heat = unheated(summary)
+    if heat is not None:
         doubts.append(f"the flash temperature is {heat:.3g} K")
     first = f"The status is '{status}'; {', '.join(known)}" if known else f"The status is {status}"
     if doubts:
