@@ -104,7 +104,12 @@ def test_both_drivers_end_with_the_same_lines(drive, tmp_path: Path):
         ratio = f"mu_r/mu_s  {v['mu_ratio']:.{decimals}f} +- {v['mu_ratio_error']:.{decimals}f}"
         assert lines["pyehl"][4] == ratio
         if name == "carried":
-            assert lines["ehl"] == lines["pyehl"]
+            assert lines["ehl"][:-1] == lines["pyehl"][:-1]
+            # these waves add next to nothing, which a prediction alone can say
+            assert lines["ehl"][-1].startswith(
+                "judgement  unresolved waves: they hold 5.2 % of the "
+            )
+            assert lines["pyehl"][-1].startswith("judgement  full film: the least film over ")
             assert values["ehl"]["mu_ratio_error"] == v["mu_ratio_error"]
         else:
             assert values["ehl"]["mu_ratio_error"] is None

@@ -107,9 +107,7 @@ def write(name: str, rows: list[Row]) -> None:
         writer = csv.DictWriter(stream, [*keys, *NAMES[name]], lineterminator="\n")
         writer.writeheader()
         for row in rows:
-            writer.writerow(
-                {k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()}
-            )
+            writer.writerow({k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()})
 
 
 def number(row: Row, name: str) -> float:
