@@ -150,6 +150,7 @@ class _Lubricants:
     def properties(
         self, group: bytes, p: _Array, rise: _Array, log_viscosity: _Array, density: _Array
     ) -> tuple[int, bytes]: ...
+    def alpha_origin(self, text: bytes) -> tuple[bytes, int, bytes]: ...
 
 ehl_f2py_solver: _Solver
 ehl_f2py_predicted: _Predicted

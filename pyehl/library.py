@@ -29,6 +29,7 @@ __all__ = [
     "Conclusion",
     "Deflection",
     "Key",
+    "alpha_origin",
     "build",
     "check_memory",
     "checkpoint_case",
@@ -98,6 +99,16 @@ def checkpoint_case(results: str | os.PathLike[str]) -> Path:
     path, status, message = functions.checkpoint_case(os.fsencode(results))
     check(status, message)
     return Path(os.fsdecode(path.rstrip()))
+
+
+def alpha_origin(text: str) -> str:
+    """Say where the pressure-viscosity coefficient of a case is from; '' if it was given.
+
+    InputError if the text is no case.
+    """
+    note, status, message = lubricants.alpha_origin(text_of(text, "the text of a case"))
+    check(status, message)
+    return returned(note)
 
 
 WORTH = ("holds", "with care", "no answer")

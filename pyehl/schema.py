@@ -165,6 +165,7 @@ s | rolling_moment_N_m | N m | the same
 spt | shear_law | | law of the shear stress
 sp | slide_to_roll | - | (u1 - u2)/u
 t | residual_rms | - | root mean square of fitted less measured mu
+sp | pressure_viscosity_note | | where alpha is from, if the case does not give it
 s | lubricant_note | | law with constants of an oil, its range, and whether the contact is beyond it
 s | inlet_viscosity_Pa_s | Pa s | viscosity of the inlet
 s | thermal_loading | - | loading parameter of shear heating

@@ -129,6 +129,8 @@ contains
             text = text//word//" is known to "//percent(share)//" only; "
          end if
       end do
+      if (summary%text("pressure_viscosity_note") /= "") text = text//"alpha was not given "// &
+         "(pressure_viscosity_note); "
       if (summary%text("outside_range") /= "") text = text//summary%text("outside_range")//" outside of the range of the "// &
          "response; "
    end function of_errors

@@ -78,6 +78,7 @@ contains
       call record%set("alpha_bar", plan%point%alpha_bar)
       call record%set("speed_parameter", plan%point%speed_parameter)
       call record%set("hertz_pressure_Pa", plan%scales%pressure)
+      if (plan%alpha_note /= "") call record%set("pressure_viscosity_note", plan%alpha_note)
       if (allocated(plan%lubricant_note)) call record%set("lubricant_note", plan%lubricant_note)
       if (plan%scales%has_size()) then
          call record%set("hertz_radius_m", plan%scales%length)

@@ -168,10 +168,9 @@ class Prediction:
     @property
     def why_no_error(self) -> str:
         """Why `model_error` is not known; '' where it is."""
-        thins_alone = self.thins and not self.lubricant.shear.in_flow
-        return why_no_error(
-            self.mu_ratio, self.outside_range, self.options, friction_alone_thins=thins_alone
-        )
+        alone = self.thins and not self.lubricant.shear.in_flow
+        outside, options = self.outside_range, self.options
+        return why_no_error(self.mu_ratio, outside, options, friction_alone_thins=alone)
 
     @property
     def _known(self) -> bool:
@@ -254,6 +253,7 @@ class Prediction:
             "viscosity_law": self.lubricant.viscosity_law,
             "roelands_z": self.lubricant.roelands_z or None,
             "load_balance": self.options.load_balance,
+            "pressure_viscosity_note": library.alpha_origin(self.text),
             "shear_law": self.lubricant.shear.law,
             "slide_to_roll": o.slide_to_roll,
             **absolute_friction(o, self.lubricant, self.film, f.mu_smooth, f.mu_ratio, self.heat),

@@ -214,7 +214,8 @@ def _friction(found: Sequence[Row], smooth: Row) -> dict[str, Any]:
         status = BREAKDOWN if broken else UNSOLVED
         share = f"{broken or len(lost)} of {len(found)} surfaces: " if len(found) > 1 else ""
         row = next(row for row in lost if not broken or row["status"] == BREAKDOWN)
-        return {"status": status, "message": f"{share}{why_none(row)}"}
+        message = f"{share}{why_none(row)}"
+        return {"mu_smooth": smooth.get("mu_smooth"), "status": status, "message": message}
     outside = sorted({row["outside_range"] for row in found if row.get("outside_range")})
     if any(row["mu_ratio"] > KNOWN_RATIO for row in found):
         outside.append(f"mu_ratio above {KNOWN_RATIO:g}")

@@ -118,7 +118,8 @@ FAULTS: list[tuple[str, str, list[str], list[str]]] = [
     ),
     (
         "too hot an oil",
-        "&lubricant temperature=250.0 kinematic_viscosity_40=§1.2 kinematic_viscosity_100=0.6 /",
+        "&lubricant temperature=250.0 kinematic_viscosity_40=§1.2 kinematic_viscosity_100=0.6 "
+        "pressure_viscosity=2.2e-8 /",
         [],
         ["lubricant.roelands_z"],
     ),

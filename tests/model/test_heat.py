@@ -57,7 +57,7 @@ def test_viscosity_of_a_case_is_that_of_the_data_sheet(t):
     near = [resolved(t + d)["lubricant"]["viscosity"] for d in (-0.5, 0.5)]
     # a difference over one kelvin
     assert oil["temperature_viscosity"] == pytest.approx(math.log(near[0] / near[1]), rel=2e-4)
-    z = 2.2e-8 * 1.96e8 / (math.log(oil["viscosity"]) + 9.67)
+    z = oil["pressure_viscosity"] * 1.96e8 / (math.log(oil["viscosity"]) + 9.67)
     assert oil["roelands_z"] == pytest.approx(z, rel=1e-14)
 
 
