@@ -8,7 +8,7 @@ module ehl_conclusion
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
    private
-   public :: conclusion
+   public :: conclusion, resumption
 
    real(dp), parameter :: nanometres = 1.0e9_dp, gigapascals = 1.0e-9_dp
 
@@ -155,6 +155,25 @@ contains
          if (heat /= "") heat = "heat       "//heat//" warmer"//newline
       end function heat
    end function conclusion
+
+   !> How a run with this status can go on, up to the name of its result folder; empty where it would end the same way
+   function resumption(status, program) result(text)
+      character(len=*), intent(in) :: status
+      !> As a person calls it
+      character(len=*), intent(in) :: program
+      character(len=:), allocatable :: text
+
+      select case (status)
+      case ("interrupted", "failed")
+         text = "to resume: "//program//" --resume "
+      case ("not settled")
+         text = "to go on with a larger time.max_periods or time.steps (--set): "//program//" --resume "
+      case ("cycle limit")
+         text = "to go on with a larger solver.max_cycles (--set): "//program//" --resume "
+      case default
+         text = ""
+      end select
+   end function resumption
 
    !> A value with its error to two digits, and as many digits itself: '1.185 +- 0.048'
    function with_error(value, error, plain, unit) result(text)

@@ -167,9 +167,10 @@ def _at(
 def conclude(point: CurvePoint, row: Row) -> library.Conclusion:
     """Judge a point of a curve by its columns, and give its last lines."""
     status = "predicted" if row["status"] in (FULL_FILM, OUTSIDE) else row["status"]
-    note = "" if row["mu_ratio_model_error"] is not None else row["message"]
+    message = str(row["message"]).removeprefix(f"{status}: ")
+    note = "" if row["mu_ratio_model_error"] is not None else message
     law = point.settings["lubricant"]["shear_law"]
-    more = {"status": status, "mu_ratio_error_note": note, "shear_law": law}
+    more = {"status": status, "message": message, "mu_ratio_error_note": note, "shear_law": law}
     return library.conclude({**row, **more})
 
 

@@ -66,6 +66,9 @@ def test_measured_data_that_are_refused(tmp_path: Path, text: str, says: str):
         ("eyring", f"{KEY},mu_ratio\n1,1.2\n", "it holds mu_ratio, the curve mu"),
         ("eyring", f"{KEY},mu\n0.1,0.05\n9,0.05\n", "lies on the curve, which goes from 0.5 to 2"),
         ("eyring", "speed,mu\n1,0.05\n", "expected: one of contact.mean_velocity"),
+        ("eyring", f"{KEY};mu\n1;0.05\n", "with commas between columns, not ';'"),
+        ("eyring", f"{KEY},mu\n1,0,0,05\n", "4 values for 2 columns"),
+        ("eyring", f"{KEY},mu\n1,0\n", "mu = '0'"),
         ("eyring", "", "m.csv: cannot read: No such file"),
     ],
 )
