@@ -48,7 +48,7 @@ def test_measured_data_over_other_abscissae(tmp_path: Path):
         ("u,hersey,mu\n1,1,2\n", "expected: one of u, hersey"),
         ("u,mu\n1,high\n", ":2: error: mu = 'high'"),
         ("u,mu\n1,0.1\n-1,0.1\n", ":3: error: u = '-1'"),
-        ("u,mu\n1\n", ":2: error: mu = 'nothing'"),
+        ("u,mu\n1\n", ":2: error: 1 values for 2 columns"),
         ("u,mu\n", "there are no rows"),
     ],
 )
