@@ -38,11 +38,13 @@ def limits(settings: Settings, summary: Summary) -> list[str]:
     found = [
         "The inlet is fully flooded and the film is full: there is no starvation and no mixed "
         "lubrication.",
-        "The flow is isothermal. The flash temperature is estimated where there is friction, and "
-        "not fed back."
+        "Pressure and film thickness are isothermal."
         if point.thermal_reduction == 1.0
-        else "Shear heating of the inlet is a factor on the film (Gupta et al. 1992); the contact "
-        "is isothermal.",
+        else "Shear heating of the inlet is a factor on the film (Gupta et al. 1992); pressure and "
+        "film in the contact are isothermal.",
+        "Friction is that of the temperature of film and walls."
+        if summary.get("temperature_rise_max_K") is not None
+        else "Friction is isothermal; the flash temperature is an estimate, and not fed back.",
     ]
     if law == "newtonian" and point.sliding_speed > 0.0:
         found.append(
@@ -90,7 +92,8 @@ def warnings(summary: Summary) -> list[str]:
             f"Outside of the range in which the response was measured: {', '.join(outside)}."
         )
     heat = summary.get("flash_temperature_K")
-    if heat is not None and heat > HOT:
+    counts = summary.get("temperature_rise_max_K") is not None
+    if heat is not None and heat > HOT and not counts:
         found.append(
             f"The flash temperature is {heat:.3g} K: the oil in the contact is thinner than "
             "computed, and the friction less."

@@ -15,6 +15,7 @@ import pytest
 import pyehl
 from pyehl.cli import main
 from pyehl.errors import InputError
+from pyehl.studies.curve import WORDS
 from pyehl.theory.load_share import AIHARA, LoadShare
 
 # A ball on a disc with a mineral oil
@@ -41,7 +42,7 @@ def run(*words: str, expect: int = 0) -> str:
 def columns(folder: Path) -> dict[str, np.ndarray]:
     with (folder / "stribeck.csv").open(newline="") as stream:
         rows = list(csv.DictReader(stream))
-    names = [name for name in rows[0] if name not in ("status", "message")]
+    names = [name for name in rows[0] if name not in WORDS]
     return {name: np.array([float(row[name] or "nan") for row in rows]) for name in names}
 
 
