@@ -35,7 +35,7 @@ contains
       type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
       real(dp) :: sheet(2), follows
-      character(len=23) :: at
+      character(len=23) :: at, by
       integer :: k
 
       sheet = [input%lubricant%kinematic_viscosity_40, input%lubricant%kinematic_viscosity_100]
@@ -75,8 +75,10 @@ contains
                end if
             end associate
          else if (abs(l%viscosity - follows) > rounding*follows) then
-            call contradict(schema, sources, "lubricant.viscosity", "lubricant.kinematic_viscosity_40", &
-               "viscosity, or the kinematic viscosities", status, "lubricant.viscosity = " // to_text(l%viscosity) &
+            by = "kinematic_viscosity_40"
+            if (.not. schema%given("lubricant", trim(by))) by = "name"
+            call contradict(schema, sources, "lubricant.viscosity", "lubricant."//trim(by), &
+               "viscosity, or what tells it", status, "lubricant.viscosity = " // to_text(l%viscosity) &
                // ", and the data sheet gives " // short(follows) // " Pa s at " // to_text(l%temperature) // " degC")
          end if
       end associate

@@ -35,6 +35,7 @@ contains
       type(scales_t), intent(in) :: scales
       character(len=:), allocatable, intent(out) :: note
       character(len=:), allocatable :: from
+      logical :: temperatures
 
       associate (l => input%lubricant)
          if (own_law(l) == "") return
@@ -42,13 +43,18 @@ contains
          if (l%name /= "") from = trim(l%name)//", "//from
          note = from//" at "//to_text(l%temperature)//" degC: "//trim(fixed(l%viscosity, "es9.3"))//" Pa s, alpha = "// &
                 trim(fixed(l%pressure_viscosity, "es9.3"))//" 1/Pa; "
-         if (.not. l%range_temperature_max > l%range_temperature_min .and. .not. l%range_pressure_max > 0.0_dp) then
+         temperatures = abs(l%range_temperature_min) + abs(l%range_temperature_max) > 0.0_dp
+         if (.not. temperatures .and. .not. l%range_pressure_max > 0.0_dp) then
             note = note//"the range of the measurements behind it is not known"
             return
          end if
-         note = note//"measured from "//to_text(l%range_temperature_min)//" to "//to_text(l%range_temperature_max)//" degC"
-         if (l%range_pressure_max > 0.0_dp) note = note//" and up to "//fixed(l%range_pressure_max, "es9.3")//" Pa"
-         if (l%temperature < l%range_temperature_min .or. l%temperature > l%range_temperature_max) then
+         note = note//"measured"
+         if (temperatures) then
+            note = note//" from "//to_text(l%range_temperature_min)//" to "//to_text(l%range_temperature_max)//" degC"
+            if (l%range_pressure_max > 0.0_dp) note = note//" and"
+         end if
+         if (l%range_pressure_max > 0.0_dp) note = note//" up to "//fixed(l%range_pressure_max, "es9.3")//" Pa"
+         if (temperatures .and. (l%temperature < l%range_temperature_min .or. l%temperature > l%range_temperature_max)) then
             note = note//", BEYOND in temperature"
          end if
          if (l%viscosity_law == own_law(l) .and. l%range_pressure_max > 0.0_dp .and. scales%pressure > l%range_pressure_max) then
