@@ -146,7 +146,8 @@ contains
       call reply(status, stat, message)
    end subroutine keep
 
-   !> The "plan" in a few lines, one line of "progress", the "conclusion" of a run that has ended, its "resumption", or the "summary" as JSON
+   !> The "plan" in a few lines, one line of "progress", the "conclusion" of a run that has ended, its "resumption", or the
+   !> "summary" as JSON
    subroutine describe(handle, what, text, stat, message)
       integer(c_int), intent(in) :: handle
       character(len=*), intent(in) :: what

@@ -110,8 +110,12 @@ contains
       character(len=:), allocatable :: text
       integer :: worth
 
-      call good%take_json('{'//new_line("a")//' "status": "converged",'//new_line("a")//' "H_c": 0.02,'//new_line("a")// &
-                          ' "H_c_error": 1e-4,'//new_line("a")//' "h_min_m": 3e-8'//new_line("a")//'}')
+      call record%set("status", "converged")
+      call record%set("H_c", 0.02_dp)
+      call record%set("H_c_error", 1.0e-4_dp)
+      call record%set("h_min_m", 3.0e-8_dp)
+      ! as Python hands a summary over
+      call good%take_json(record%to_json())
       call judge(good, text, worth)
       call is_text(text, "full film: the least film is 30.0 nm, 3 times an rms roughness of 10.0 nm", "full film")
       call is_equal(worth, holds, "worth of a full film")

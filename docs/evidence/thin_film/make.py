@@ -86,10 +86,8 @@ def simulated(seed: int, speed: float, flow: str, points: int) -> Row:
     except pyehl.NotConverged as error:
         data = error.results
     found = {name: data.attrs.get(name) for name in NAMES["simulated.csv"]}
-    if data.attrs["status"] == "converged":
-        last = data.history_T > float(data.history_T[-1]) - data.attrs["T_mean"] - 1e-9
-        found["P_max_rough"] = float(data.history_P_max[last].max())
-    return found
+    variables = [name for name in found if name in data]
+    return found | {name: float(data[name]) for name in variables}
 
 
 def read(name: str) -> list[Row]:
@@ -115,28 +113,39 @@ def number(row: Row, name: str) -> float:
     return float(row[name] or math.nan)
 
 
-def show() -> None:
-    """Print predicted beside simulated."""
+def with_error(value: float, error: float, form: str) -> str:
+    """Give a number with its error, or without one."""
+    if not math.isfinite(value):
+        return "–"
+    return format(value, form) + (f" ± {error:{form}}" if math.isfinite(error) else "")
+
+
+def lines() -> list[str]:
+    """Give the table of predicted beside simulated."""
     known = {tuple(row[k] for k in KEYS[:3]): row for row in read("predicted.csv")}
-    print("| surface, speed, flow | predicted | least film | nodes | simulated | least film | P |")
-    print("|---|---|---|---|---|---|---|")
+    found = [
+        "| surface | speed [m/s] | flow | predicted | least film [nm] | nodes | simulated "
+        "| least film [nm] | greatest pressure [p_h] |",
+        "|---|---|---|---|---|---|---|---|---|",
+    ]
     for row in read("simulated.csv"):
         said = known[tuple(row[k] for k in KEYS[:3])]
-        ratio = said["status"]
-        if said["status"] == "predicted":
-            ratio = f"{number(said, 'mu_ratio'):.4f} ± {number(said, 'mu_ratio_model_error'):.4f}"
-        film = [f"{1e9 * number(said, k):.0f}" for k in ("h_min_rough_m", "h_min_rough_error_m")]
-        found = row["status"]
-        if row["status"] == "converged":
-            error = number(row, "mu_ratio_error")
-            found = f"{number(row, 'mu_ratio'):.4f} ± {error:.4f}"
-            if not math.isfinite(error):
-                found = f"{number(row, 'mu_ratio'):.4f}, error not known"
-        print(
-            f"| {row['seed']}, {float(row['speed']):g} m/s, {row['flow']} | {ratio} | "
-            f"{' ± '.join(film).replace(' ± nan', '')} | {row['points']} | {found} | "
-            f"{1e9 * number(row, 'h_min_rough_m'):.0f} | {number(row, 'P_max_rough'):.2f} |"
-        )
+        ratios = []
+        for values, good, error in (
+            (said, "predicted", "mu_ratio_model_error"),
+            (row, "converged", "mu_ratio_error"),
+        ):
+            text = with_error(number(values, "mu_ratio"), number(values, error), ".4f")
+            ratios.append(text if values["status"] == good else values["status"])
+        least = [1e9 * number(said, name) for name in ("h_min_rough_m", "h_min_rough_error_m")]
+        cells = [
+            *(row["seed"], f"{float(row['speed']):g}", row["flow"], ratios[0]),
+            *(with_error(*least, ".0f"), row["points"], ratios[1]),
+            with_error(1e9 * number(row, "h_min_rough_m"), math.nan, ".0f"),
+            with_error(number(row, "P_max_rough"), math.nan, ".1f"),
+        ]
+        found.append(f"| {' | '.join(cells)} |")
+    return found
 
 
 def main(arguments: list[str]) -> None:
@@ -156,7 +165,7 @@ def main(arguments: list[str]) -> None:
                 rows.append(dict(zip(KEYS, run, strict=True)) | simulated(*run))
                 write("simulated.csv", rows)
     elif arguments == ["show"]:
-        show()
+        print("\n".join(lines()))
     else:
         raise SystemExit(__doc__)
 
