@@ -192,6 +192,6 @@ def run(
         say(f"results: {name}")
         if solver.converged:
             solver.end_keeping()
-        elif has_state:
-            say(f"state: {name}.checkpoint\nto resume: pyehl run --resume {name}")
+        elif has_state and solver.resumption():
+            say(f"state: {name}.checkpoint\n{solver.resumption()}{name}")
         return Outcome(solver.converged, request.wanted and not solver.converged)

@@ -12,7 +12,7 @@ module ehl_plan_lubricant
    use ehl_text, only: fixed, to_text
    implicit none (type, external)
    private
-   public :: plan_lubricant, law_note
+   public :: plan_lubricant, law_note, alpha_note
 
 contains
 
@@ -62,6 +62,23 @@ contains
          end if
       end associate
    end subroutine law_note
+
+   !> Where a pressure-viscosity coefficient is from that nobody gave; empty where one was given
+   function alpha_note(input) result(note)
+      type(case_t), intent(in) :: input
+      character(len=:), allocatable :: note
+      !> Least and largest z of the oils that are known by name, at 40 and 100 degC, see tests/model/test_lubricants.py
+      character(len=*), parameter :: known = "0.42 to 0.74"
+
+      note = ""
+      associate (l => input%lubricant)
+         if (l%alpha_estimated) note = "alpha = "//fixed(l%pressure_viscosity, "es9.3")//" 1/Pa at "//to_text(l%temperature)// &
+            " degC is an estimate by the z of a mineral oil (Roelands): oils have z = "//known// &
+            ", which is -17 to +12 % of the film; give lubricant.pressure_viscosity"
+         if (l%alpha_default) note = "alpha = "//fixed(l%pressure_viscosity, "es9.3")// &
+            " 1/Pa is the default, that of another oil; give lubricant.pressure_viscosity"
+      end associate
+   end function alpha_note
 
    !> Shear law; a contact given by its Moes numbers has no sliding speed and stays Newtonian
    pure function shear_of(input, scales) result(shear)

@@ -108,6 +108,11 @@ def _judge(rows: pd.DataFrame, size: int) -> Judgement:
     why = f"{good} of {len(rows)} cases have an answer{left}."
     if others:
         why += f" The others: {others}."
+    thin = False
+    if "judgement" in rows:
+        words = rows["judgement"].dropna().str.partition(":")[0].value_counts()
+        why += f" By their judgements: {', '.join(f'{n} {word}' for word, n in words.items())}."
+        thin = any(word != "full film" for word in words.index)
     if good == 0:
         return Judgement("No answer", why, "fail")
     shares = _errors(rows)
@@ -116,7 +121,7 @@ def _judge(rows: pd.DataFrame, size: int) -> Judgement:
     doubtful = any(share > WELL_KNOWN for share in shares.values())
     if doubtful:
         why += f" Above {100.0 * WELL_KNOWN:g} % a finer grid is worth its time."
-    if others or left or doubtful:
+    if others or left or doubtful or thin:
         return Judgement("Take with care", why, "care")
     return Judgement("Holds", why, "pass")
 

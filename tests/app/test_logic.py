@@ -425,7 +425,7 @@ def test_regimes(moes_m, moes_l, name, power):
     assert regime(moes_m, moes_l) == name
     films = [nijenbanning_venner_moes(m, moes_l) * m ** (2 / 3) for m in (moes_m, 1.01 * moes_m)]
     slope = np.log(films[1] / films[0]) / np.log(1.01)
-    assert slope == pytest.approx(power, abs=0.03 if power > -1.0 else 0.4)
+    assert slope == pytest.approx(power, abs=0.03)
 
 
 def test_a_thousand_turns_leave_nothing(start):

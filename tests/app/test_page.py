@@ -147,10 +147,10 @@ def test_a_surface_that_is_turned_to_smooth_leaves_nothing(tab, page):
     def comes_late():
         page._shown = 0
         answered(*late[-1])
+        page.layout.note.text = "it came"
 
     page.soon(comes_late)
-    tab.type("load", "650")
-    tab.rest()
+    tab.until(lambda: tab.get("note", "text") == "it came")
     assert late
     assert not tab.get("rough", "text")
     assert tab.run("return Bokeh.documents[0].get_model_by_name('tiles').data.before.length") == 0

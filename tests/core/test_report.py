@@ -100,7 +100,7 @@ def test_a_page_for_every_result(folders, tmp_path, name, pictures):
     written = pyehl.report(folders / name, tmp_path / "page.html")
     page = read(written)
     assert len(page.pictures) == pictures
-    assert re.search(r"(Holds|Take with care)\.", page.text)
+    assert re.search(r"(Full film|Thin film|Holds|Take with care|Unresolved waves)\.", page.text)
     assert "Moes load M" in page.text
     assert "600 N" in page.text or name in ("sweep", "rough")
     assert not list(tmp_path.glob(".partial*"))
@@ -110,13 +110,14 @@ def test_numbers_are_those_of_the_result(folders, tmp_path):
     summary = json.loads((folders / "smooth/summary.json").read_text())
     page = read(pyehl.report(folders / "smooth", tmp_path / "page.html"))
     error = summary["H_c_error"] * summary["film_scale_m"] * 1e9
-    assert f"h_c = {with_error(summary['h_c_m'] * 1e9, error, 'nm')}" in page.text
+    assert f"h_c {with_error(summary['h_c_m'] * 1e9, error, 'nm')}" in page.text
     assert f"H_c = {with_error(summary['H_c'], summary['H_c_error'])}" in page.text
+    assert summary["judgement"].partition(": ")[2][1:] in page.text.replace("μ_r/μ_s", "mu_r/mu_s")
     assert summary["mu_note"] in page.text
     prediction = json.loads((folders / "prediction/summary.json").read_text())
     page = read(pyehl.report(folders / "prediction", tmp_path / "other.html"))
     ratio = with_error(prediction["mu_ratio"], prediction["mu_ratio_model_error"])
-    assert f"{ratio}, between {prediction['mu_ratio_min']:.4g}" in page.text
+    assert f"{ratio}; between {prediction['mu_ratio_min']:.4g}" in page.text
 
 
 def test_the_case_in_it_can_be_run(folders, tmp_path, root):
@@ -143,7 +144,8 @@ def test_broken_film_is_said(tmp_path, root):
     )
     assert found.summary["status"] == "film breakdown"
     page = read(pyehl.report(tmp_path / "run", tmp_path / "page.html"))
-    assert "No answer. The status is 'film breakdown'" in page.text
+    assert "Film breakdown. " in page.text
+    assert found.summary["message"][1:] in page.text
     assert "carrying_shortest_wavelength_m" in page.text
 
 
@@ -314,20 +316,26 @@ GOOD = {
 
 
 @pytest.mark.parametrize(
-    ("changed", "word", "why"),
+    ("changed", "word", "why", "kind"),
     [
-        ({}, "Holds", "H_c is known to 2 %, H_min is known to 2 %"),
-        ({"H_c_error": 0.002}, "Take with care", "H_c is known to 10 %"),
-        ({"H_c_error": None}, "Take with care", "the error of H_c is not known"),
-        ({"flash_temperature_K": 40.0}, "Take with care", "40 K"),
+        ({}, "Full film", "Smooth surfaces", "pass"),
+        ({"H_c_error": 0.002}, "Full film", "H_c is known to 10 %", "care"),
+        ({"H_c_error": None}, "Full film", "the error of H_c is not known", "care"),
+        ({"flash_temperature_K": 40.0}, "Full film", "40.0 K", "care"),
         # the friction has it already
-        ({"flash_temperature_K": 40.0, "temperature_rise_max_K": 9.0}, "Holds", "known"),
-        ({"status": "diverged"}, "No answer", "'diverged'"),
+        (
+            {"flash_temperature_K": 40.0, "temperature_rise_max_K": 9.0},
+            "Full film",
+            "Smooth surfaces",
+            "pass",
+        ),
+        ({"h_min_m": 5e-9}, "Thin film", "The least film is 5.00 nm", "care"),
+        ({"status": "diverged"}, "No answer", "'diverged'", "fail"),
     ],
 )
-def test_judgement(changed, word, why):
+def test_judgement(changed, word, why, kind):
     found = judge(GOOD | changed)
-    assert found.word == word
+    assert (found.word, found.kind) == (word, kind)
     assert why in found.why
 
 

@@ -101,6 +101,67 @@ def test_every_oil_has_sources_and_runs():
         assert data.attrs["status"] == "converged"
 
 
+SHEET = "&lubricant kinematic_viscosity_40 = 46 kinematic_viscosity_100 = 6.8 {} /"
+MINERAL_Z = 0.6
+
+
+def exponent(oil: Lubricant) -> float:
+    """Roelands exponent with the alpha of an oil at ambient pressure."""
+    return oil.pressure_viscosity * 1.96e8 / (math.log(oil.viscosity) + 9.67)
+
+
+def test_band_of_a_coefficient_that_was_not_given(root: Path):
+    """The exponents of the oils by name are what the note and the how-to say."""
+    cold, hot = (
+        {name: exponent(Lubricant.from_name(name, t)) for name in pyehl.lubricants()}
+        for t in (40.0, 100.0)
+    )
+    text = (root / "docs/howto/lubricants.md").read_text(encoding="utf-8")
+    assert (
+        f"z is {cold['fva3']:.2f} (mineral), {cold['n100']:.2f} (naphthenic) and "
+        f"{cold['pao100']:.2f} (polyalphaolefin) at 40 °C"
+    ) in text
+    assert all(hot[name] == pytest.approx(cold[name], rel=0.04) for name in cold)
+    note = str(
+        pyehl.solve(Case.from_text(SHEET.format("")), LIGHT).attrs["pressure_viscosity_note"]
+    )
+    assert f"z = {min(cold.values()):.2f} to {max(cold.values()):.2f}" in note
+    least, most = (100.0 * ((pick(cold.values()) / MINERAL_Z) ** 0.53 - 1.0) for pick in (min, max))
+    assert f"which is {least:.0f} to {most:+.0f} % of the film" in note
+
+
+@pytest.mark.parametrize("temperature", [40.0, 80.0])
+def test_coefficient_of_a_data_sheet_is_that_of_roelands(temperature: float):
+    case = Case.from_text(SHEET.format(f"temperature = {temperature}"))
+    lubricant = case.resolve()["lubricant"]
+    alpha = MINERAL_Z * (math.log(lubricant["viscosity"]) + 9.67) / 1.96e8
+    assert lubricant["pressure_viscosity"] == pytest.approx(alpha, rel=1e-12)
+    assert lubricant["roelands_z"] == pytest.approx(MINERAL_Z, rel=1e-12)
+    # written out and read again it follows still
+    again = Case.from_text(case.text, ["lubricant.roelands_z=0.7"]).resolve()
+    assert again["lubricant"]["pressure_viscosity"] == pytest.approx(alpha * 0.7 / 0.6, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (SHEET.format(""), "is an estimate"),
+        (SHEET.format("roelands_z = 0.65"), ""),
+        (SHEET.format("pressure_viscosity = 1.8e-8"), ""),
+        ("&lubricant viscosity = 0.05 /", "is the default"),
+        ("&lubricant viscosity = 0.05 pressure_viscosity = 1.8e-8 /", ""),
+        ("&lubricant name = 'fva3' /", ""),
+        ("", ""),
+    ],
+)
+def test_a_coefficient_that_was_not_given_is_named(text: str, words: str, tmp_path: Path):
+    (tmp_path / "case.nml").write_text(text)
+    data = pyehl.solve(tmp_path / "case.nml", LIGHT)
+    note = str(data.attrs.get("pressure_viscosity_note", ""))
+    assert (words in note) if words else not note
+    assert ("alpha was not given" in data.attrs["judgement"]) == bool(words)
+
+
 def test_slopes_at_the_inlet_follow_from_the_law(table: Path):
     """Alpha and beta are the slopes of ln eta, and without a rise there is no other viscosity."""
     for oil in (
