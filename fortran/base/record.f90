@@ -131,7 +131,7 @@ contains
    end function has
 
    !> The number under a name; NaN where there is none
-   real(dp) function number(self, name)
+   pure real(dp) function number(self, name)
       class(record_t), intent(in) :: self
       character(len=*), intent(in) :: name
       character(len=:), allocatable :: value

@@ -29,7 +29,7 @@ contains
    contains
 
       !> Whether a number is there
-      logical function known(name)
+      pure logical function known(name)
          character(len=*), intent(in) :: name
          known = ieee_is_finite(summary%number(name))
       end function known

@@ -152,7 +152,7 @@ def plan_curve(
 
 def _check_share(settings: Settings) -> None:
     """Refuse what the empirical law of a thin film says nothing of."""
-    if settings["surface"]["kind"] == "smooth":
+    if not surfaces.rough_groups(settings):
         raise InputError(
             "--boundary-friction: surface.kind = 'smooth' has no Lambda\nexpected: a rough surface"
         )
