@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -26,28 +27,19 @@ __all__ = ["STUDY_DPI", "study_parts"]
 STUDY_DPI = 110
 TABLES = {"stribeck": "stribeck.csv"}
 GOOD = ("converged", "predicted", "computed", "full film")
-# Columns shown where they are there, with their errors
-COLUMNS = {
-    "h_c_m": "h_c_error_m",
-    "h_min_m": "h_min_error_m",
-    "H_c": "H_c_error",
-    "H_min": "H_min_error",
-    "lambda_ratio": "",
-    "theta_2": "",
-    "mu_ratio": "",
-    "mu_ratio_error": "",
-    "mu_ratio_model_error": "",
-    "mu_ratio_ehl": "mu_ratio_ehl_error",
-    "mu": "",
+# Columns shown where they are there, each with the columns that may hold its error
+COLUMNS: dict[str, tuple[str, ...]] = {
+    "h_c_m": ("h_c_error_m",),
+    "h_min_m": ("h_min_error_m",),
+    "H_c": ("H_c_error",),
+    "H_min": ("H_min_error",),
+    "lambda_ratio": (),
+    "theta_2": (),
+    "mu_ratio": ("mu_ratio_error", "mu_ratio_model_error"),
+    "mu_ratio_ehl": ("mu_ratio_ehl_error",),
+    "mu": (),
 }
-DRAWN = {
-    "h_c_m": "h_c_error_m",
-    "H_c": "H_c_error",
-    "h_min_m": "h_min_error_m",
-    "H_min": "H_min_error",
-    "mu_ratio": "mu_ratio_error",
-}
-ERRORS = {"mu_ratio": ("mu_ratio_error", "mu_ratio_model_error")}
+DRAWN = ("h_c_m", "H_c", "h_min_m", "H_min", "mu_ratio")
 MOST_ROWS, MOST_LINES, MOST_PANELS = 200, 7, 3
 
 
@@ -67,7 +59,9 @@ def study_parts(folder: Path) -> tuple[str, Judgement, list[str]]:
         raise InputError(f"{path}: cannot be read: {error}") from error
     keys = [str(key) for key in header["vary"]]
     title = "Stribeck curve" if run == "stribeck" else f"Sweep ({run})"
-    size = int(np.prod([len(values) for values in header["vary"].values()]))
+    # keys that move together count once
+    led = {key for group in header["zip"] for key in group[1:]}
+    size = math.prod(len(values) for key, values in header["vary"].items() if key not in led)
     settings = namelist.values(str(header["case"]))
     parts = [page.heading("What was asked")]
     units = {key.name: key.unit for key in library.keys()}
@@ -97,23 +91,28 @@ def study_parts(folder: Path) -> tuple[str, Judgement, list[str]]:
     parts.append(page.bullets(limits(settings, {"kind": kind})))
     parts.append(page.heading("The first case"))
     parts.append(page.preformatted(namelist.given(str(header["case"]))))
-    return title, _judge(rows, size, zipped=bool(header["zip"])), parts
+    return title, _judge(rows, size), parts
 
 
 def _with_unit(key: str, units: Mapping[str, str]) -> str:
     return f"{key} [{units[key]}]" if units.get(key, "-") != "-" else key
 
 
-def _judge(rows: pd.DataFrame, size: int, *, zipped: bool) -> Judgement:
+def _judge(rows: pd.DataFrame, size: int) -> Judgement:
     """Judge a study by what its rows say of themselves."""
     counts = rows["status"].fillna("none").value_counts()
     good = int(sum(counts.get(word, 0) for word in GOOD))
     others = ", ".join(f"{n} '{word}'" for word, n in counts.items() if word not in GOOD)
-    missing = 0 if zipped else size - len(rows)
+    missing = size - len(rows)
     left = f"; {missing} are not done" if missing > 0 else ""
     why = f"{good} of {len(rows)} cases have an answer{left}."
     if others:
         why += f" The others: {others}."
+    thin = False
+    if "judgement" in rows:
+        words = rows["judgement"].dropna().str.partition(":")[0].value_counts()
+        why += f" By their judgements: {', '.join(f'{n} {word}' for word, n in words.items())}."
+        thin = any(word != "full film" for word in words.index)
     if good == 0:
         return Judgement("No answer", why, "fail")
     shares = _errors(rows)
@@ -122,7 +121,7 @@ def _judge(rows: pd.DataFrame, size: int, *, zipped: bool) -> Judgement:
     doubtful = any(share > WELL_KNOWN for share in shares.values())
     if doubtful:
         why += f" Above {100.0 * WELL_KNOWN:g} % a finer grid is worth its time."
-    if others or left or doubtful:
+    if others or left or doubtful or thin:
         return Judgement("Take with care", why, "care")
     return Judgement("Holds", why, "pass")
 
@@ -130,8 +129,8 @@ def _judge(rows: pd.DataFrame, size: int, *, zipped: bool) -> Judgement:
 def _errors(rows: pd.DataFrame) -> dict[str, float]:
     """Give the largest relative error of each result whose errors are in the table."""
     found = {}
-    for name, error in DRAWN.items():
-        for column in (*ERRORS.get(name, ()), error):
+    for name in DRAWN:
+        for column in COLUMNS[name]:
             if name in rows and column in rows and rows[column].notna().any():
                 found[name] = float((rows[column] / rows[name].abs()).max())
                 break
@@ -146,8 +145,8 @@ def _cell(value: Any) -> str:  # noqa: ANN401 (of a table)
 
 def _table(rows: pd.DataFrame, keys: Sequence[str]) -> str:
     names = [*keys]
-    for name, error in COLUMNS.items():
-        names += [n for n in (name, error) if n in rows and rows[n].notna().any()]
+    for name, errors in COLUMNS.items():
+        names += [n for n in (name, *errors) if n in rows and rows[n].notna().any()]
     names.append("status")
     shown = rows[names].head(MOST_ROWS)
     kinds = ["pass" if word in GOOD else "care" for word in shown["status"]]
@@ -176,15 +175,19 @@ def _pictures(
         return []
     figure = study_figure(panels, _with_unit(keys[0], units), title)
     names = ", ".join(label for label, _ in panels)
+    count = len(rows[list(keys[1:])].drop_duplicates()) if keys[1:] else 1
+    shown = len(panels[0][1])
     span = f"{rows[keys[0]].min():.4g} to {rows[keys[0]].max():.4g}"
     words = f"{names} over {keys[0]} from {span}"
+    if shown < count:
+        words += f" (the first {shown} of {count} lines)"
     return [page.picture(png(figure, STUDY_DPI), f"{words}; numbers in the table.", words)]
 
 
 def _lines(rows: pd.DataFrame, keys: Sequence[str], name: str) -> list[Line]:
     """Give a line for each value of the keys behind the first one; the first few."""
-    candidates = (*ERRORS.get(name, ()), DRAWN[name])
-    error = next((e for e in candidates if e in rows and rows[e].notna().any()), "")
+    known = (e for e in COLUMNS[name] if e in rows and rows[e].notna().any())
+    error = next(known, "")
     groups = rows.groupby(list(keys[1:]), sort=False) if keys[1:] else [("", rows)]
     lines = []
     for value, those in groups:
