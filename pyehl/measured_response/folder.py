@@ -137,7 +137,7 @@ def _write(case: Case, found: Mapping[str, Mapping[str, Any]], place: Destinatio
     waves = {name: at_centre[name].values for name in ("nabla_2", "direction", "amplitude", "lag")}
     label = f"M = {operating.moes_m:.4g}, L = {operating.moes_l:.4g}, velocity ratio {ratio:g}"
     summary = _summary(found, at_centre["shipped_difference"].values, data.attrs)
-    summary["within_fitted_range"] = not outside_range(operating, ratio, Options())
+    summary["within_fitted_range"] = not outside_range(operating, ratio, Options(), smooth.thinning)
     with with_tiers(place).fresh() as folder:
         write_table(data, folder / "response.csv")
         write_netcdf(folder / "response.nc", data)

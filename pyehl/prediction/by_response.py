@@ -66,6 +66,8 @@ class RoughPassage:
     options: Options
     velocity_ratio: float  # velocity of the rough surface over the mean velocity [-]
     mesh: float = 0.0  # mesh size on which its waves leak [a]; 0: as in nature
+    groups: tuple[str, ...] = ("surface",)  # groups of the case that its tile is of
+    filter_kind: str = "sharp"  # how its spectrum is cut
 
     def spectrum(self, tile: Topography) -> Spectrum:
         """Components of a tile, in the units of the contact."""
@@ -224,11 +226,13 @@ class RoughPassage:
         cut = confirmed(high * self.operating.hertz_radius, longest, self._known)
         if cut is None:
             return ""
-        return f"; surface.shortest_wavelength = {cut:g} would leave {KNOWN_RATIO:g} or less"
+        keys = " and ".join(f"{group}.shortest_wavelength" for group in self.groups)
+        return f"; {keys} = {cut:g} would leave {KNOWN_RATIO:g} or less"
 
     def _known(self, shortest: float) -> bool:
         """Whether the tile without waves shorter than a length [m] has a ratio that is known."""
-        part = replace(self, topography=filtered(self.topography, shortest_wavelength=shortest))
+        tile = filtered(self.topography, shortest_wavelength=shortest, kind=self.filter_kind)
+        part = replace(self, topography=tile)
         found, _, _ = part.run(0, brief=True)
         return found.status == "predicted" and found.mu_ratio <= KNOWN_RATIO
 

@@ -34,6 +34,8 @@ NARROW = 0.025
 KNOWN_RATIO = 5.0
 # Ellipticities between which it was
 ELLIPTICITY = [0.39, 4.1]
+# Of the viscosity, by the film of lubricants that thin in the inlet (docs/evidence/thinning)
+THINNING = [0.95, 1.5]
 
 
 def model_error(mu_ratio: float, *, thins: bool = False, ellipticity: float = 1.0) -> float:
@@ -81,10 +83,13 @@ def cutoff_error(bands: Sequence[Band]) -> float:
     return abs(bands[-1].rise) if bands else math.nan
 
 
-def outside_range(operating: OperatingPoint, velocity_ratio: float, options: Options) -> list[str]:
+def outside_range(
+    operating: OperatingPoint, velocity_ratio: float, options: Options, thinning: float = 1.0
+) -> list[str]:
     """Names of the numbers that lie outside the range in which the response was measured.
 
-    `moes_m` and `moes_l` of an elliptical contact are those of the circle with the same inlet.
+    `moes_m` and `moes_l` of an elliptical contact are those of the circle with the same dry inlet.
+    `thinning`: viscosity at low shear over that of a Newtonian lubricant with as thick a film.
     """
     if options.reduction != "response":
         return []
@@ -94,6 +99,7 @@ def outside_range(operating: OperatingPoint, velocity_ratio: float, options: Opt
         "moes_l": moes_l,
         "velocity_ratio": velocity_ratio,
         "ellipticity": operating.ellipse.ellipticity,
+        "thinning": thinning,
     }
-    limits = fitted_range() | {"ellipticity": ELLIPTICITY}
+    limits = fitted_range() | {"ellipticity": ELLIPTICITY, "thinning": THINNING}
     return [name for name, v in values.items() if not limits[name][0] <= v <= limits[name][1]]

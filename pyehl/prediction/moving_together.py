@@ -11,7 +11,7 @@ from fractions import Fraction
 import numpy as np
 
 from pyehl.prediction.meeting import SAME
-from pyehl.surfaces import Topography, resampled, shifted
+from pyehl.surfaces import MAX_PIXELS, Topography, resampled, shifted
 
 __all__ = ["as_one"]
 
@@ -22,7 +22,8 @@ MOST = 12
 def as_one(first: Topography, second: Topography, ahead: float) -> Topography | None:
     """Return a tile with the heights of two, the second one ahead by a way [m] along the motion.
 
-    It holds whole tiles of both. None: not so few of both are as long.
+    It holds whole tiles of both. None: not so few of both are as long, or they have too many
+    pixels.
     """
     if ahead != 0.0:
         second = shifted(second, ahead)
@@ -31,9 +32,14 @@ def as_one(first: Topography, second: Topography, ahead: float) -> Topography | 
     for ratio, a, b in zip(counts, first.size, second.size, strict=True):
         if ratio.numerator > MOST or not math.isclose(ratio * a, b, rel_tol=SAME):
             return None
+    nx, ny = (
+        max(ratio.numerator * m, ratio.denominator * n)
+        for ratio, m, n in zip(counts, first.shape, second.shape, strict=True)
+    )
+    if nx * ny > MAX_PIXELS:
+        return None
     first = _repeated(first, [ratio.numerator for ratio in counts])
     second = _repeated(second, [ratio.denominator for ratio in counts])
-    nx, ny = (max(pixels) for pixels in zip(first.shape, second.shape, strict=True))
     heights = resampled(first, (nx, ny)).heights + resampled(second, (nx, ny)).heights
     return Topography(heights, first.size, f"{first.origin} and {second.origin}")
 

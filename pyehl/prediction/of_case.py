@@ -86,8 +86,9 @@ def predict(
             tile = surfaces.from_settings({**settings, "surface": values}, operating, film)
         else:
             tile = surfaces.finished(tile, values)
-        ratio = float(values["velocity_ratio"])
-        alone.append(RoughPassage(tile, contact, operating, lubricant, options, ratio))
+        ratio, kind = float(values["velocity_ratio"]), str(values.get("filter", "sharp"))
+        conditions = contact, operating, lubricant, options, ratio
+        alone.append(RoughPassage(tile, *conditions, groups=(group,), filter_kind=kind))
 
     def smooth_film(x: Array, y: Array) -> Array:
         """Smooth film [m] at places [m]."""
@@ -127,6 +128,7 @@ def predict(
         advice=advice,
         second=second,
         heat=heat_of(settings, contact, lubricant),
+        thinning=contact.thinning,
     )
 
 
@@ -172,7 +174,15 @@ def _of_pair(
     friction, over, bands = pair.run(tracks, brief=brief)
     second = cast("SecondPassage", friction.second)
     deformed = [friction.response.deformed, second.response.deformed]
-    below = replace(pair_below_zero(pair, deformed, smooth_film), share=second.touching)
+    share, together = second.touching, pair.as_one()
+    if together is not None:
+        share = below_zero(
+            together.deformed(),
+            together.topography.pixel,
+            together.operating.semi_axes,
+            smooth_film,
+        ).share
+    below = replace(pair_below_zero(pair, deformed, smooth_film), share=share)
     if friction.status == "predicted" and below.deepest <= 0.0:
         # the positions of the passage have missed it
         friction = broken(friction, below.deepest)
@@ -194,9 +204,8 @@ def _options(settings: Mapping[str, Mapping[str, Any]], tracks: int) -> Options:
     if why:
         raise InputError(why)
     options = Options.from_settings(settings)
-    if OperatingPoint.from_settings(settings).radius_ratio != 1.0 and options != Options(
-        positions=options.positions
-    ):
+    as_by_default = Options(positions=options.positions, film_limit=options.film_limit)
+    if OperatingPoint.from_settings(settings).radius_ratio != 1.0 and options != as_by_default:
         raise InputError(
             "psd: the model of the paper, and what is between it and the response, is for circular "
             "contacts\nexpected: contact.radius, or the group psd as by default"

@@ -53,10 +53,10 @@ class RoughPair:
     of: tuple[RoughPassage, RoughPassage]
     fronts: tuple[float, float]  # where the tiles begin at the same time, along the motion [a]
     filters: tuple[str, str] = ("sharp", "sharp")  # how their spectra are cut
-    order: tuple[int, int] = field(init=False)  # of their numbers, in which sums are taken
+    order: tuple[int, int] = field(init=False)  # in which the two are summed, by their numbers
 
     def __post_init__(self) -> None:
-        """Find the order: the faster one first, else by size and heights."""
+        """Find the order: the faster one first, else by where it begins, size and heights."""
 
         def key(k: int) -> tuple[float, ...] | tuple[object, ...]:
             tile = self.of[k].topography
@@ -158,7 +158,8 @@ class RoughPair:
             return None
         way = self.fronts[self.order[1]] - self.fronts[self.order[0]]
         both = as_one(first.topography, second.topography, way * first.operating.hertz_radius)
-        return None if both is None else replace(first, topography=both)
+        groups = self.of[0].groups + self.of[1].groups
+        return None if both is None else replace(first, topography=both, groups=groups)
 
     def mean(self) -> float:
         """mu_r/mu_s over a few positions [-]; NaN where the film ends."""

@@ -123,6 +123,7 @@ class Prediction:
     second: SecondSurface | None = None
     heat: Heat | None = None
     film_errors: tuple[float, float] = (math.nan, math.nan)
+    thinning: float = 1.0  # viscosity over that of a Newtonian lubricant with as thick a film [-]
 
     def __repr__(self) -> str:
         """Give the ratio and the status in one line."""
@@ -154,7 +155,7 @@ class Prediction:
     def outside_range(self) -> list[str]:
         """What of the case lies outside the range in which the response was measured; mostly []."""
         ratios = [self.velocity_ratio, *([self.second.velocity_ratio] if self.second else [])]
-        found = [outside_range(self.operating, ratio, self.options) for ratio in ratios]
+        found = [outside_range(self.operating, u, self.options, self.thinning) for u in ratios]
         return list(dict.fromkeys(name for names in found for name in names))
 
     @property
@@ -268,7 +269,6 @@ class Prediction:
             **statistics(s, f.response),
             **(self.second.summary(s) if self.second else {}),
             **deformed_surface(f, self.film_minimum, self.options.film_limit, known=self._known),
-            "rms_pressure_Pa": float(np.std(f.response.pressure)),
             "cavitated_share": f.cavitated_share,
             "cavitated_friction": f.cavitated_friction,
             "load_error": f.load_error,

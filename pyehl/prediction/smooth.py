@@ -223,6 +223,9 @@ def read_contact(folder: str | Path, operating: OperatingPoint) -> SmoothContact
         there = summary[name]
         if not math.isclose(there, here, rel_tol=1e-4):
             raise InputError(f"{folder}: {name} is {there:.6g} there and {here:.6g} in the case")
+    there, here = float(summary.get("radius_ratio") or 1.0), operating.radius_ratio
+    if not math.isclose(there, here, rel_tol=1e-4):
+        raise InputError(f"{folder}: radius_ratio is {there:.6g} there and {here:.6g} in the case")
     middle = np.argmin(np.abs(x)), np.argmin(np.abs(y))
     source = f"smooth contact in {folder}"
     central, least = float(film[middle]), float(film.min())

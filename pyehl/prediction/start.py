@@ -81,13 +81,16 @@ def starting_pressure(
         If the smooth contact has no solution.
     """
     passage = replace(_passage(settings, tile), mesh=float(x[1] - x[0]))
-    beyond = outside_range(passage.operating, passage.velocity_ratio, passage.options)
+    beyond = outside_range(
+        passage.operating, passage.velocity_ratio, passage.options, passage.contact.thinning
+    )
     if beyond:
         raise InputError(f"{', '.join(beyond)} outside the range of the prediction")
     parts = passage.parts()
+    # takes the waves that the grid does not carry off the spectrum
+    waves = _Waves(passage, parts, x, y)
     if not math.isfinite(model_error(passage.mean(parts))):
         raise InputError("the pressures are beyond a linear response")
-    waves = _Waves(passage, parts, x, y)
     pressure = np.zeros((x.size, y.size, len(fronts)), order="F")
     for k, front in enumerate(fronts):
         pressure[(*waves.place, k)] = waves.pressure(front)
@@ -166,8 +169,7 @@ class _Waves:
     ) -> None:
         """Splines through the pressure of driven and free waves, by station."""
         qx, qy = spectrum.qx[:, np.newaxis], spectrum.qy[np.newaxis, :]
-        stiffening = transfer.stiffening
-        gain = stiffening * edge_gain(qx, qy, stiffening * contact.central_film)
+        gain = edge_gain(qx, qy, contact.central_film)
         k, k_free = gain * stiffness(spectrum.q), gain * free_stiffness(qx, qy, ratio)
 
         def spline(factor: Complex) -> Array:

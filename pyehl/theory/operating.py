@@ -261,7 +261,7 @@ class OperatingPoint:
 
     @property
     def equivalent_moes(self) -> tuple[float, float]:
-        """M and L [-] of the circular contact with the same inlet on Y = 0; of a circle its own.
+        """M and L [-] of the circle with the same dry inlet on Y = 0; of a circle its own.
 
         Of equal alpha_bar, and of equal lambda_bar where the stiffness of waves is the same: with
         heights by kernel_ratio a^2/R_x. The dry contact near the edge is then that of the circle.

@@ -11,8 +11,10 @@ import pytest
 
 import pyehl
 from pyehl import cli
+from pyehl.prediction import moving_together
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.meeting import Meeting, common_passages
+from pyehl.prediction.moving_together import as_one
 from pyehl.prediction.options import Options
 from pyehl.prediction.pair import RoughPair
 from pyehl.prediction.pair_breakdown import pair_below_zero
@@ -287,6 +289,38 @@ def test_beyond_the_linear_response_names_cut_offs(contact):
     assert not bands
     assert "second_surface.shortest_wavelength = " in found.message
     assert "surface.shortest_wavelength with second_surface.shortest_wavelength = " in found.message
+
+
+def test_advice_names_the_surfaces_that_it_cuts(contact):
+    """Both where they move as one, the second one where it alone is rough."""
+    both = pair(contact, (rough(3, 9e-8), rough(4, 9e-8)), (1.0, 1.0))
+    first, second = both.of
+    named = replace(both, of=(first, replace(second, groups=("second_surface",))))
+    assert named.as_one().groups == ("surface", "second_surface")
+    alone_ = replace(named.of[1], topography=rough(4, 1.2e-7), velocity_ratio=1.1)
+    found, _, _ = alone_.run(0)
+    assert found.status == "beyond linear response", found
+    assert "; second_surface.shortest_wavelength = " in found.message
+    assert "; surface." not in found.message
+
+
+def test_share_of_a_breakdown_where_both_move_as_one():
+    text = (
+        "&contact load = 120.0 slide_to_roll = 0.0 mean_velocity = 0.1 /\n"
+        + FRACTAL.format("surface", 2e-4, 3e-9, 3)
+        + FRACTAL.format("second_surface", 2e-4, 2e-7, 4)
+    )
+    summary = pyehl.predict(pyehl.Case.from_text(text)).summary
+    assert summary["status"] == "film breakdown"
+    assert 0.0 < summary["film_breakdown"]["share_of_contact"] < 1.0
+
+
+def test_no_tile_of_too_many_pixels(monkeypatch):
+    one, other = rough(3, length=4e-4), rough(4, length=4e-4 * 12 / 11)
+    both = as_one(one, other, 0.0)
+    assert both.length_x == pytest.approx(12 * one.length_x)
+    monkeypatch.setattr(moving_together, "MAX_PIXELS", both.heights.size - 1)
+    assert as_one(one, other, 0.0) is None
 
 
 def test_bands_hold_the_waves_of_both(contact):

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.errors import KNOWN_RATIO
 from pyehl.prediction.options import Options
 from pyehl.prediction.resolution import resolution
-from pyehl.prediction.smooth import hertz_contact, solve_contact, zone_of
+from pyehl.prediction.smooth import hertz_contact, read_contact, solve_contact, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer, _at_amplitude
 from pyehl.prediction.waves import Waves
@@ -165,6 +166,10 @@ def test_smooth_contact_from_a_result_folder(tmp_path):
         pyehl.predict("cases/table1.nml", "contact.load=500.0", smooth=folder)
     with pytest.raises(pyehl.InputError, match="not a result folder"):
         pyehl.predict("cases/table1.nml", smooth=tmp_path)
+    point = OperatingPoint.from_moes(given.operating.moes_m, given.operating.moes_l)
+    assert read_contact(folder, point).central_film > 0.0
+    with pytest.raises(pyehl.InputError, match=r"radius_ratio is 1 there and 0\.5"):
+        read_contact(folder, replace(point, radius_ratio=0.5))
 
 
 def test_what_a_grid_does_not_resolve():

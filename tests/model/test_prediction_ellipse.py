@@ -217,11 +217,22 @@ def test_what_is_refused():
         pyehl.response(pyehl.Case.from_text("", ellipse_of | ROUGH | {"contact.angle": 30.0}))
 
 
+def test_share_below_a_film():
+    """Asked for on an ellipse as on a circle."""
+    ellipse_of = {"contact.moes_m": 300.0, "contact.moes_l": 10.0, "contact.radius_ratio": WIDE}
+    case = pyehl.Case.from_text("", ellipse_of | ROUGH)
+    limit = pyehl.predict(case).summary["h_min_m"]
+    found = pyehl.predict(case.with_options(f"psd.film_limit={limit!r}")).summary
+    assert 0.0 < found["film_below_limit_share"] < 0.5
+
+
 def test_outside_of_the_range_by_the_same_inlet():
     """An ellipticity that was not measured, and M that is in range by R_x alone."""
     for ratio, names in ((0.03, ["ellipticity"]), (NARROW, ["moes_m"]), (WIDE, []), (1.0, [])):
         point = OperatingPoint.from_moes(2900.0, 10.0, radius_ratio=ratio)
         assert outside_range(point, 1.02, Options()) == names
+        # an oil that thins in the inlet more than one that was measured
+        assert outside_range(point, 1.02, Options(), 18.0) == [*names, "thinning"]
 
 
 @pytest.fixture(scope="module")

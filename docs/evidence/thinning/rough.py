@@ -86,6 +86,17 @@ PLAN: dict[str, Row] = {
     "e16": Row(by_moes(800.0, 15.0), f"{EYRING} 6e6", 1.15, 6e-8, 0.8, 26),
     "e17": Row(by_moes(1000.0, 5.0), f"{EYRING} 5e6", 1.01, 1.5e-8, 0.8, 27),
     "e18": Row(by_moes(600.0, 10.0), f"{EYRING} 1e7", 0.97, 5e-8, 0.7, 28, 1.25),
+    # simulated later: nothing of the prediction was chosen with these in view
+    "f1": Row(TABLE1, f"{EYRING} 1e7", 1.02, 5e-8, 0.8, 41),
+    "f2": Row(by_moes(400.0, 9.0), f"{EYRING} 5e6", 1.03, 5e-8, 0.7, 42, 1.25),
+    "f3": Row(by_moes(700.0, 12.0), f"{CARREAU} 5e6 carreau_exponent = 0.6", 0.98, 5e-8, 0.8, 43),
+    "f4": Row(by_moes(250.0, 8.0), f"{EYRING} 8e6", 1.05, 4e-8, 0.9, 44),
+    "f5": Row(by_moes(1200.0, 9.0), f"{EYRING} 6e6", 0.95, 2.5e-8, 0.8, 45, 0.75),
+    "f6": Row(
+        by_moes(500.0, 14.0), f"{CARREAU} 1e7 carreau_exponent = 0.5", 1.1, 7e-8, 0.8, 46, 1.5
+    ),
+    "f7": Row(BALL, f"{THICK} {EYRING} 5e6", 1.01, 8e-8, 0.8, 47),
+    "f8": Row(by_moes(900.0, 7.0), f"{EYRING} 5e6", 0.9, 2e-8, 0.7, 48),
 }
 
 
@@ -181,13 +192,15 @@ def compare(predictions: dict[str, dict[str, Any]], simulations: dict[str, dict[
     covered: dict[str, list[bool]] = {name: [] for name in QUANTITIES}
     relative: dict[str, list[float]] = {name: [] for name in QUANTITIES}
     for row, found in simulations.items():
+        if row not in predictions:
+            continue
         said = predictions[row]
         print(f"{row:12s} {said['status']} / {found['status']}", end="")
         if found["status"] != "converged" or said["status"] != "predicted":
             print()
             continue
         for name, error in QUANTITIES.items():
-            if error not in said or not found[name]:
+            if not said.get(error) or not found[name]:
                 continue
             p, s = float(said[name]), float(found[name])
             if name == "h_min_rough_m":
