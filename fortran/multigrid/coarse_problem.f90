@@ -59,6 +59,13 @@ contains
       end do
       !$omp end parallel do
       coarse%poiseuille%frozen = .false.
+      if (allocated(fine%boundary)) then
+         coarse%boundary%frozen = .true.
+         coarse%boundary%rate = fine%boundary%rate
+         do j = 1, coarse%grid%ny
+            coarse%boundary%touching(:, j) = merge(fine%boundary%touching(::2, 2*j - 1), 0.0_dp, coarse%p(:, j) > cavity_pressure)
+         end do
+      end if
       call update_coefficients(coarse)
       if (kind_of_coarsening == coarsening_alcouffe) call build_galerkin(fine, coarse, coarsening)
       call restrict_residual(fine, coarse, coarsening%transfer)
@@ -200,6 +207,7 @@ contains
          fine%h00 = coarse%h00
       end if
       coarse%poiseuille%frozen = .false.
+      if (allocated(coarse%boundary)) coarse%boundary%frozen = .false.
       nx = fine%grid%nx
       !$omp parallel do default(none) shared(fine, coarse, space, transfer, coarsening, nx) private(row) &
       !$omp num_threads(fine%threads) if(fine%parallel) schedule(static)

@@ -94,7 +94,11 @@ contains
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
          below = level%grid%south(j)
-         call level%flow%greatest_around(j, below, greatest)
+         if (allocated(level%boundary)) then
+            call level%boundary%greatest_flowing(level%flow%eps(:, :, level%flow%across), j, below, greatest)
+         else
+            call level%flow%greatest_around(j, below, greatest)
+         end if
          call flowing_around(level%p(:, below), level%p(:, j), level%p(:, j + 1), space%dipole(:, j))
          do i = 2, level%grid%nx - 1
             space%dipole(i, j) = merge(space%dipole(i, j), 0.0_dp, greatest(i) < limit)
@@ -121,6 +125,14 @@ contains
       do j = first, last
          below = level%grid%south(j)
          largest = max(level%flow%eps(:, below, across), level%flow%eps(:, j, across), level%flow%eps(:, j + 1, across))
+         if (allocated(level%boundary)) then
+            ! the layer holds a node as if nothing could flow there
+            associate (touching => level%boundary%touching)
+               largest = max(level%flow%eps(:, below, across)*(1.0_dp - touching(:, below)), &
+                             level%flow%eps(:, j, across)*(1.0_dp - touching(:, j)), &
+                             level%flow%eps(:, j + 1, across)*(1.0_dp - touching(:, j + 1)))
+            end associate
+         end if
          do i = 1 + around, nx - around
             share = largest(i)
             do k = 1, around

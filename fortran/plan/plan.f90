@@ -107,6 +107,7 @@ contains
       call law_note(input, plan%scales, plan%lubricant_note)
       call plan%lubricant%density([1.0_dp], rho, slope)
       plan%film_expected = plan%contact%film_formula(plan%point%moes_m, plan%point%moes_l)/rho(1)
+      plan%film_expected = max(plan%film_expected, plan%lubricant%boundary_film)
       plan%heat = plan_heat(input, plan%contact, plan%scales, plan%sliding, plan%lubricant, plan%film_expected)
       plan%engine = trim(input%solver%deflection)
       plan%accuracy = input%solver%accuracy

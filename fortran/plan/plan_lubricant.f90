@@ -26,6 +26,7 @@ contains
 
       call make_lubricant(input%lubricant, point%alpha_bar, scales%pressure, lubricant, status)
       lubricant%shear = shear_of(input, scales)
+      if (input%contact%si) lubricant%boundary_film = input%lubricant%boundary_film/scales%film
    end subroutine plan_lubricant
 
    !> A law with constants of an oil in words, and whether they were measured at the temperature of the inlet and the Hertz

@@ -12,6 +12,9 @@ module ehl_contact_results
    !> Largest relative error of the force balance of a solution
    real(dp), parameter :: load_tolerance = 1.0e-6_dp
 
+   !> Share of the boundary film that may be missing at a node of a solution
+   real(dp), parameter :: film_tolerance = 1.0e-2_dp
+
    !> Results of one state. Dimensionless: films by a^2/R, pressure by p_h.
    type :: contact_results_t
       !> Film at X = Y = 0, smallest film, largest pressure
@@ -26,6 +29,8 @@ module ehl_contact_results
       real(dp) :: load_error = 0.0_dp
       !> Whether every number is finite, and every film positive
       logical :: finite = .false., positive = .false.
+      !> Whether no film is thinner than the boundary film; an iterate may be
+      logical :: holds = .true.
    contains
       procedure :: films
    end type contact_results_t
@@ -47,7 +52,11 @@ contains
       do j = 1, level%grid%ny
          smallest(j) = minval(level%h(:, j))
          largest(j) = maxval(level%p(:, j))
-         call level%flow%stress_row(level%lubricant, level%p, level%h, level%rho(:, j), j, viscous, stress)
+         if (allocated(level%boundary)) then
+            call level%flow%stress_row(level%lubricant, level%p, level%boundary%film, level%rho(:, j), j, viscous, stress)
+         else
+            call level%flow%stress_row(level%lubricant, level%p, level%h, level%rho(:, j), j, viscous, stress)
+         end if
          newtonian(j) = sum(viscous)*level%grid%weight(j)
          friction(j) = newtonian(j)
          if (thins) friction(j) = sum(stress)*level%grid%weight(j)
@@ -64,6 +73,10 @@ contains
       m%finite = abs(m%load_error) < huge(1.0_dp) .and. abs(m%film_central) < huge(1.0_dp) &
                  .and. m%friction < huge(1.0_dp) .and. abs(m%film_minimum) < huge(1.0_dp)
       m%positive = all(smallest > 0.0_dp)
+      if (allocated(level%boundary)) then
+         m%positive = .true.
+         m%holds = minval(level%mass_content) >= (1.0_dp - film_tolerance)*level%boundary%thickness
+      end if
    end function measure
 
    !> Central film and smallest film

@@ -2,6 +2,7 @@
 !> One grid of the hierarchy with everything that lives on it
 module ehl_level
    use, intrinsic :: iso_fortran_env, only: int64
+   use ehl_boundary_film, only: boundary_film_t
    use ehl_deflection, only: deflection_t
    use ehl_flow, only: flow_t
    use ehl_grid, only: grid_t
@@ -26,6 +27,8 @@ module ehl_level
       class(flow_t), allocatable :: flow
       type(poiseuille_t) :: poiseuille
       type(wedge_t) :: wedge
+      !> Contact at a boundary film; not allocated where there is none
+      type(boundary_film_t), allocatable :: boundary
       !> Rigid separation H00
       real(dp) :: h00 = 0.0_dp
       !> Value that the pressure sum must take (2 pi/3 on the finest grid)
@@ -67,6 +70,10 @@ contains
       call self%flow%setup(self%grid, status)
       call self%poiseuille%setup(self%grid)
       call self%wedge%set_steady(self%grid%hx)
+      if (self%lubricant%boundary_film > 0.0_dp) then
+         allocate (self%boundary)
+         call self%boundary%setup(self%grid, self%lubricant%boundary_film, status)
+      end if
       self%parallel = self%threads > 1
    end subroutine setup
 
@@ -76,5 +83,6 @@ contains
 
       bytes = self%poiseuille%product%bytes()
       if (allocated(self%p)) bytes = bytes + self%flow%bytes() + 8*8*size(self%p, kind=int64)
+      if (allocated(self%boundary)) bytes = bytes + self%boundary%bytes()
    end function bytes
 end module ehl_level

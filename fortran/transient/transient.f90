@@ -197,7 +197,8 @@ contains
          before = self%residual
          self%options = self%policy%options
          call self%improve(hierarchy)
-         call self%policy%after_cycle(self%step + 1, self%meets(), before, self%residual, next)
+         call self%policy%after_cycle(self%step + 1, self%meets() .and. self%m%holds, before, &
+                                        self%residual, next)
          if (next == step_ends) exit
          if (self%cycles == 1) then
             first = self%m
