@@ -63,7 +63,9 @@ contains
          coarse%boundary%frozen = .true.
          coarse%boundary%rate = fine%boundary%rate
          do j = 1, coarse%grid%ny
-            coarse%boundary%touching(:, j) = merge(fine%boundary%touching(::2, 2*j - 1), 0.0_dp, coarse%p(:, j) > cavity_pressure)
+            call weight_row(coarse%grid, fine%boundary%touching, j, coarse%boundary%touching(:, j))
+            coarse%boundary%touching(:, j) = merge(1.0_dp, 0.0_dp, coarse%boundary%touching(:, j) > 0.5_dp .and. &
+ coarse%p(:, j) > cavity_pressure)
          end do
       end if
       call update_coefficients(coarse)

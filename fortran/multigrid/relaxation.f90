@@ -95,11 +95,14 @@ contains
       do j = first, last
          below = level%grid%south(j)
          if (allocated(level%boundary)) then
-            call level%boundary%greatest_flowing(level%flow%eps(:, :, level%flow%across), j, below, greatest)
+            call level%boundary%greatest_flowing(level%p, level%flow%eps(:, :, level%flow%across), j, below, greatest)
          else
             call level%flow%greatest_around(j, below, greatest)
          end if
          call flowing_around(level%p(:, below), level%p(:, j), level%p(:, j + 1), space%dipole(:, j))
+         ! the change of a touching node is a dipole beside a cavity, too
+         if (allocated(level%boundary)) where (level%p(:, j) > 0.0_dp) space%dipole(:, j) = max(space%dipole(:, j), &
+                                                                                        level%boundary%touching(:, j))
          do i = 2, level%grid%nx - 1
             space%dipole(i, j) = merge(space%dipole(i, j), 0.0_dp, greatest(i) < limit)
          end do

@@ -223,6 +223,7 @@ contains
       plan%step_cycle = cycle_of(plan%step_cycle_letter)
       plan%step_cycle%pre = 1
       plan%step_cycle%post = 2
+      if (plan%lubricant%boundary_film > 0.0_dp) plan%second_cycle = plan%cycle
       plan%coarsening_may_change = input%solver%coarsening == "auto"
       plan%step_cycle%coarsening = merge(coarsening_alcouffe, coarsening_classical, &
                                          input%solver%coarsening == "alcouffe")
@@ -276,12 +277,12 @@ contains
       do level = 1, plan%levels
          if (level > 1) grid = grid%finer()
          if (plan%start == 0 .and. grid%nx >= start_fewest .and. &
-             has_solution(plan%contact, plan%point, grid)) plan%start = level
+             (plan%lubricant%boundary_film > 0.0_dp .or. has_solution(plan%contact, plan%point, grid))) plan%start = level
       end do
       if (plan%start == 0) plan%start = plan%levels
       plan%finest = grid
       associate (errors => relative_errors(plan%contact, plan%point, grid))
-         plan%may_restart = errors(1) <= resolved_error
+         plan%may_restart = errors(1) <= resolved_error .or. plan%lubricant%boundary_film > 0.0_dp
       end associate
    end subroutine pick_grids
 end module ehl_plan

@@ -20,6 +20,7 @@ module ehl_boundary_film
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
+   use ehl_node_state, only: cavity_pressure
    use ehl_status, only: ehl_no_memory, status_t
    implicit none (type, external)
    private
@@ -123,23 +124,27 @@ contains
       end do
    end subroutine residual_row
 
-   !> Largest conductance across of the flowing ones of each node of row j and its four neighbours, in columns 2 to nx-1
-   pure subroutine greatest_flowing(self, eps, j, south, values)
+   !> Of each node of row j and its four neighbours, in columns 2 to nx-1: the largest conductance of those that flow
+   pure subroutine greatest_flowing(self, p, eps, j, south, values)
       class(boundary_film_t), intent(in) :: self
-      !> Shape (nx, ny)
-      real(dp), contiguous, intent(in) :: eps(:, :)
+      !> Pressure and conductance across, shape (nx, ny)
+      real(dp), contiguous, intent(in) :: p(:, :), eps(:, :)
       integer, intent(in) :: j, south
       !> Shape (nx)
       real(dp), contiguous, intent(inout) :: values(:)
       integer :: i
 
-      associate (touching => self%touching)
-         do i = 2, size(values) - 1
-            values(i) = max(eps(i, j)*(1.0_dp - touching(i, j)), eps(i - 1, j)*(1.0_dp - touching(i - 1, j)), &
-                            eps(i + 1, j)*(1.0_dp - touching(i + 1, j)), eps(i, j + 1)*(1.0_dp - touching(i, j + 1)), &
-                            eps(i, south)*(1.0_dp - touching(i, south)))
-         end do
-      end associate
+      do i = 2, size(values) - 1
+         values(i) = max(of(i, j), of(i - 1, j), of(i + 1, j), of(i, j + 1), of(i, south))
+      end do
+
+   contains
+
+      !> Conductance of a node if it flows, else 0
+      pure real(dp) function of(k, l)
+         integer, intent(in) :: k, l
+         of = merge(eps(k, l)*(1.0_dp - self%touching(k, l)), 0.0_dp, p(k, l) > cavity_pressure)
+      end function of
    end subroutine greatest_flowing
 
    !> Last touching node of row j whose film is below the layer; 2 if there is none
