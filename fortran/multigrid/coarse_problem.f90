@@ -103,6 +103,7 @@ contains
       real(dp) :: operator_row(coarse%grid%nx), residual(coarse%grid%nx)
       integer :: i, j
 
+      if (allocated(coarse%boundary)) call restrict_touching(fine, coarse)
       ! row 1 of a folded grid consists of half cells
       if (coarse%poiseuille%frozen .and. fine%grid%mirror) fine%residual(:, 1) = 0.5_dp*fine%residual(:, 1)
       !$omp parallel do default(none) shared(fine, coarse, transfer) private(i, operator_row, residual) &
@@ -115,6 +116,7 @@ contains
          else
             call weight_row(coarse%grid, fine%residual, j, residual)
          end if
+         if (allocated(coarse%boundary)) residual = merge(coarse%residual(:, j), residual, coarse%boundary%touching(:, j) > 0.0_dp)
          do i = 2, coarse%grid%nx - 1
             coarse%rhs(i, j) = operator_row(i) + residual(i)
             if (coarse%p(i, j) > cavity_pressure) cycle
@@ -129,6 +131,21 @@ contains
       end do
       !$omp end parallel do
    end subroutine restrict_residual
+
+   !> Residuals of touching nodes to those of the coarse level, and to these alone: in the equation of a flowing node they would
+   !> be a source that the motion carries through the contact. Those of flowing nodes are left.
+   subroutine restrict_touching(fine, coarse)
+      type(level_t), intent(inout) :: fine, coarse
+      integer :: j
+
+      do j = 1, fine%grid%ny
+         fine%boundary%film(:, j) = fine%residual(:, j)*fine%boundary%touching(:, j)
+         fine%residual(:, j) = fine%residual(:, j) - fine%boundary%film(:, j)
+      end do
+      do j = coarse%grid%first_inner(), coarse%grid%ny - 1
+         call weight_row(coarse%grid, fine%boundary%film, j, coarse%residual(:, j))
+      end do
+   end subroutine restrict_touching
 
    !> Transfer from the fine operator, and the Poiseuille operator of the coarse level. It stays as it is
    !> while the coarse level is solved: made to follow P and H of that level, it diverges in the contact.
