@@ -26,6 +26,10 @@ module ehl_boundary_film
    private
    public :: boundary_film_t
 
+   !> A touching node lifts off where it would by more than this share of the layer: behind a zone of touching nodes the lubricant
+   !> has the film of the layer, too, and rounding would decide on their states
+   real(dp), parameter :: hold = 1.0e-2_dp
+
    !> Arrays of shape (nx, ny)
    type :: boundary_film_t
       !> H_b [a^2/R]
@@ -85,12 +89,15 @@ contains
       !> rho H, rhs - N, and the share that the deflection has in what answers the latter; shape (nx)
       real(dp), contiguous, intent(in) :: mass_content(:), residual(:), share(:)
       integer, intent(in) :: j
+      real(dp) :: held
       integer :: i
 
+      held = hold*self%rate*self%thickness
       self%touching(1, j) = 0.0_dp
       self%touching(size(residual), j) = 0.0_dp
       do i = 2, size(residual) - 1
-         self%touching(i, j) = merge(1.0_dp, 0.0_dp, self%rate*(mass_content(i) - self%thickness) < share(i)*residual(i))
+         self%touching(i, j) = merge(1.0_dp, 0.0_dp, self%rate*(mass_content(i) - self%thickness) &
+                                                     < share(i)*residual(i) + held*self%touching(i, j))
       end do
    end subroutine find_row
 
