@@ -24,7 +24,7 @@ module ehl_boundary_film
    use ehl_status, only: ehl_no_memory, status_t
    implicit none (type, external)
    private
-   public :: boundary_film_t
+   public :: boundary_film_t, hold
 
    !> A touching node lifts off where it would by more than this share of the layer: behind a zone of touching nodes the lubricant
    !> has the film of the layer, too, and rounding would decide on their states

@@ -33,7 +33,7 @@ module ehl_reynolds
    use ehl_node_state, only: silence_content
    implicit none (type, external)
    private
-   public :: film_residual, find_touching, reynolds_operator, update_residual
+   public :: film_residual, find_touching, flow_operator, reynolds_operator, update_residual
 
 contains
 

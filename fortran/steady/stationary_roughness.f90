@@ -4,6 +4,7 @@
 module ehl_stationary_roughness
    use ehl_contact, only: contact_t
    use ehl_contact_results, only: contact_results_t, load_tolerance, measure
+   use ehl_cycle, only: careful_cycle
    use ehl_film, only: refresh
    use ehl_hierarchy, only: hierarchy_t
    use ehl_iteration, only: iteration_t, reduction
@@ -42,6 +43,8 @@ module ehl_stationary_roughness
       !> Friction integral of the smooth contact
       real(dp) :: friction_smooth = 1.0_dp
       real(dp), private :: tolerance = 1.0e-4_dp
+      !> Whether the error is that of the load share, and not of the friction
+      logical, private :: by_load_share = .false.
       !> The roughness [a^2/R], pressure of the smooth contact and of the last share solved, (nx, ny)
       real(dp), allocatable :: rr(:, :), p_done(:, :)
       real(dp) :: h00_done = 0.0_dp
@@ -71,6 +74,7 @@ contains
       self%contact = contact
       self%n = n
       self%options = how%cycle
+      if (allocated(level%boundary)) self%options = careful_cycle(how%cycle)
       self%max_cycles = how%max_cycles
       self%tolerance = friction_tolerance*how%accuracy
       if (allocated(self%rr)) deallocate (self%rr, self%p_done)
@@ -82,6 +86,7 @@ contains
       call surfaces%roughness(level%grid, 0.0_dp, self%rr, moving=.false.)
       self%m = measure(level)
       self%friction_smooth = self%m%friction
+      self%by_load_share = allocated(level%boundary) .and. .not. level%lubricant%boundary_stress > 0.0_dp
    end subroutine start
 
    !> One cycle. All of it is
@@ -125,6 +130,8 @@ contains
       may_balance = .false.
       if (self%unsound() /= outcome_running) return
       change = abs(self%m%friction - before%friction)/self%m%friction
+      ! without that of the boundary film it is the friction of next to nothing
+      if (self%by_load_share) change = abs(self%m%touching%load_share - before%touching%load_share)
       q = reduction([change], [self%change], self%cycles)
       self%algebraic = change*q/(1.0_dp - q)
       self%change = change
