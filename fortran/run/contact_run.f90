@@ -21,6 +21,10 @@ module ehl_contact_run
    implicit none (type, external)
    private
    public :: contact_run_t
+
+   !> Columns of the history of a contact at a boundary film, as numbers() of ehl_touching has them
+   character(len=16), parameter :: touching_names(3) = [character(len=16) :: "load_share", "contact_area", "layer_supply"]
+
    type :: contact_run_t
       type(plan_t) :: plan
       !> Finest grid reached so far
@@ -48,9 +52,9 @@ module ehl_contact_run
       type(heated_t) :: smooth_heat, rough_heat
       !> State on disk, and to go on from when the smooth contact is solved
       type(checkpoint_t) :: checkpoint
-      !> Of the same run on the next coarser grid: its friction ratio, if it converged, and how it ended; outcome_running: it
+      !> Of the same run on the next coarser grid: its friction ratio and load share, if it converged, and how it ended; outcome_running: it
       !> has not
-      real(dp) :: coarse_ratio = 0.0_dp
+      real(dp) :: coarse_ratio = 0.0_dp, coarse_load_share = 0.0_dp
       integer :: coarse_outcome = outcome_running
    contains
       procedure :: begin
@@ -60,6 +64,7 @@ module ehl_contact_run
       procedure :: begin_rough
       procedure :: level
       procedure :: mu_ratio
+      procedure :: touching
       procedure :: heat_ratio
       procedure :: save
    end type contact_run_t
@@ -133,6 +138,7 @@ contains
                                  "cycles", "residual"])
          if (self%plan%heat%counts) call self%history%init([character(len=16) :: "step", "T", "mu_ratio", "H_c", "H_min", &
                                                             "P_max", "load_error", "cycles", "residual", "heat_ratio"])
+         if (self%plan%lubricant%boundary_film > 0.0_dp) call self%history%add(touching_names)
       else
          call self%history%init([character(len=16) :: "level", "points", "cycle", "H_c", "H_min", "P_max", "F", &
                                  "load_error", "residual", "H_c_algebraic"])
@@ -252,6 +258,7 @@ contains
          row = [real(dp) :: transient%step, transient%time, m%friction/transient%friction_smooth, m%film_central, &
                 m%film_minimum, m%pressure_maximum, m%load_error, transient%cycles, transient%residual]
          if (self%plan%heat%counts) row = [row, step_heat(self)]
+         if (self%plan%lubricant%boundary_film > 0.0_dp) row = [row, m%touching%numbers()]
          call self%history%append(row)
          if (self%plan%surfaces%pass_once()) call transient%extremes%see(level, self%p_smooth, self%h_smooth, transient%time)
          self%outcome = transient_outcome(self%plan, transient)
@@ -281,6 +288,27 @@ contains
       end if
    end function mu_ratio
 
+   !> Load share, area [a^2] and supply of the contact of a run that has converged (touching.f90); in time steps their means
+   !> over the time of the mean friction ratio
+   function touching(self) result(numbers)
+      class(contact_run_t), intent(in) :: self
+      real(dp) :: numbers(3)
+      integer :: k, first
+
+      if (self%in_steps) then
+         first = self%transient%mean%first_of_mean()
+         do k = 1, 3
+            associate (values => self%history%column(touching_names(k)))
+               numbers(k) = sum(values(first:))/max(1, size(values) - first + 1)
+            end associate
+         end do
+      else if (self%resting) then
+         numbers = self%rest%m%touching%numbers()
+      else
+         numbers = self%steady%results(self%level())%m%touching%numbers()
+      end if
+   end function touching
+
    !> Write the state under names that begin with a prefix. Before the first time step there is nothing that is worth it.
    subroutine save(self, prefix, text, status)
       class(contact_run_t), intent(inout) :: self
@@ -290,6 +318,7 @@ contains
 
       if (.not. self%in_steps .or. self%transient%step == 0) return
       call self%checkpoint%write(prefix, text, self%transient, self%history, self%frames, &
-                                 [self%seconds, self%coarse_ratio, real(self%coarse_outcome, dp)], status)
+                                 [self%seconds, self%coarse_ratio, real(self%coarse_outcome, dp), &
+                                  self%coarse_load_share], status)
    end subroutine save
 end module ehl_contact_run

@@ -8,6 +8,7 @@ module ehl_report_friction
    use ehl_kinds, only: dp, pi
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
+   use ehl_report_touching, only: no_boundary_friction
    use ehl_text, only: fixed, to_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    implicit none (type, external)
@@ -18,10 +19,12 @@ contains
 
    !> Coefficients, shear rate and stress of the smooth contact, flash temperature; null where they are not known or
    !> mean nothing
-   subroutine report_friction(record, plan, grid, p, h, friction, ratio, smooth_heat, rough_heat, heat_ratio)
+   subroutine report_friction(record, plan, grid, p, h, known, friction, ratio, smooth_heat, rough_heat, heat_ratio)
       type(record_t), intent(inout) :: record
       type(plan_t), intent(in) :: plan
       type(grid_t), intent(in) :: grid
+      !> Whether friction is known where the bodies touch
+      logical, intent(in) :: known
       !> Pressure and film of the smooth contact, its friction integral, and the friction over it (1: smooth); nan:
       !> not known
       real(dp), intent(in) :: p(:, :), h(:, :), friction, ratio
@@ -42,6 +45,8 @@ contains
             note = "a ratio alone: moes_m and moes_l give no sliding speed in m/s"
          else if (.not. speed > 0.0_dp) then
             note = "a ratio alone, that of vanishing sliding: there is no sliding, and rolling friction is not computed"
+         else if (.not. known) then
+            note = no_boundary_friction
          else if (.not. ieee_is_finite(friction)) then
             note = "the smooth contact is not converged"
          else

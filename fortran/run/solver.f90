@@ -204,11 +204,23 @@ contains
          self%coarse_outcome = outcome_failed
          self%coarse_message = status%message
       end if
-      if (self%coarse_outcome == outcome_converged) self%coarse_ratio = self%coarse%mu_ratio()
+      if (self%coarse_outcome == outcome_converged) then
+         self%coarse_ratio = self%coarse%mu_ratio()
+         if (self%plan%lubricant%boundary_film > 0.0_dp) self%coarse_load_share = load_share_of(self%coarse)
+      end if
       self%coarse_work = coarse_step*self%coarse%transient%step
       self%coarse_seconds = self%coarse%seconds
       deallocate (self%coarse)
    end subroutine end_coarse
+
+   !> Share of the load that contact carries in a run that has converged
+   real(dp) function load_share_of(run)
+      type(contact_run_t), intent(in) :: run
+      real(dp) :: numbers(3)
+
+      numbers = run%touching()
+      load_share_of = numbers(1)
+   end function load_share_of
 
    !> How the run stands; a surface at rest has not ended before its error is known
    pure integer function stand(self)
