@@ -109,6 +109,10 @@ contains
       plan%film_expected = plan%contact%film_formula(plan%point%moes_m, plan%point%moes_l)/rho(1)
       plan%film_expected = max(plan%film_expected, plan%lubricant%boundary_film)
       plan%heat = plan_heat(input, plan%contact, plan%scales, plan%sliding, plan%lubricant, plan%film_expected)
+      if (plan%lubricant%boundary_film > 0.0_dp) then
+         plan%heat%counts = .false.
+         plan%heat%note = "isothermal: the heat where bodies touch at the boundary film is not computed"
+      end if
       plan%engine = trim(input%solver%deflection)
       plan%accuracy = input%solver%accuracy
       plan%max_cycles = input%solver%max_cycles

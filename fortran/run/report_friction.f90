@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Absolute friction of a run, where it means something, and the heat of it
 module ehl_report_friction
+   use ehl_boundary_film, only: hold
    use ehl_contact, only: contact_t
    use ehl_grid, only: grid_t
    use ehl_heat, only: flash_temperature
@@ -135,11 +136,11 @@ contains
       mean_inverse = mean_inverse/area
    end function mean_inverse
 
-   !> Greatest shear stress [Pa]
+   !> Greatest shear stress of the lubricant [Pa]; where the bodies touch it has none
    pure real(dp) function greatest_stress(plan, p, h)
       type(plan_t), intent(in) :: plan
       real(dp), intent(in) :: p(:, :), h(:, :)
-      real(dp) :: log_eta(size(p, 1)), slope(size(p, 1)), stress(size(p, 1))
+      real(dp), dimension(size(p, 1)) :: log_eta, slope, stress, rho
       integer :: j
 
       greatest_stress = 0.0_dp
@@ -147,6 +148,10 @@ contains
          call plan%lubricant%log_viscosity(p(:, j), log_eta, slope)
          stress = exp(log_eta)/h(:, j)
          if (plan%lubricant%shear%thins()) call plan%lubricant%shear%reduce(p(:, j), stress)
+         if (plan%lubricant%boundary_film > 0.0_dp) then
+            call plan%lubricant%density(p(:, j), rho, slope)
+            where (rho*h(:, j) <= (1.0_dp + hold)*plan%lubricant%boundary_film) stress = 0.0_dp
+         end if
          greatest_stress = max(greatest_stress, plan%lubricant%shear%scale*maxval(stress))
       end do
    end function greatest_stress
