@@ -90,6 +90,10 @@ contains
          else if (l%boundary_film > 0.0_dp .and. l%thermal_friction == "always") then
             call contradict(schema, sources, "lubricant.boundary_film", "lubricant.thermal_friction", &
                             "thermal_friction = 'auto' or 'never'", status, "the heat where bodies touch is not computed")
+         else if (l%boundary_film > 0.0_dp .and. input%solver%coarsening == "alcouffe") then
+            call contradict(schema, sources, "lubricant.boundary_film", "solver.coarsening", &
+                            "coarsening = 'auto' or 'classical'", status, &
+                            "transfers by the conductance do not converge where bodies touch")
          end if
       end associate
    end subroutine check_boundary_film

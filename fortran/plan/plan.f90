@@ -228,7 +228,8 @@ contains
       plan%step_cycle%pre = 1
       plan%step_cycle%post = 2
       if (plan%lubricant%boundary_film > 0.0_dp) plan%second_cycle = plan%cycle
-      plan%coarsening_may_change = input%solver%coarsening == "auto"
+      ! the conductance of touching nodes says nothing about their changes
+      plan%coarsening_may_change = input%solver%coarsening == "auto" .and. .not. plan%lubricant%boundary_film > 0.0_dp
       plan%step_cycle%coarsening = merge(coarsening_alcouffe, coarsening_classical, &
                                          input%solver%coarsening == "alcouffe")
    end subroutine pick_cycle

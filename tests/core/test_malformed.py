@@ -84,6 +84,12 @@ FAULTS: list[tuple[str, str, list[str], list[str]]] = [
         [],
         ["the heat where bodies touch", "'auto' or 'never'"],
     ),
+    (
+        "boundary film and Alcouffe",
+        "&lubricant boundary_film = 1e-9 / &solver §coarsening = 'alcouffe' /",
+        [],
+        ["lubricant.boundary_film", "'auto' or 'classical'"],
+    ),
     ("no Eyring stress", "&lubricant eyring_stress = §0.0 /", [], ["[1e4, 1e9]"]),
     ("temperature alone", "&lubricant temperature = §80.0 /", [], ["kinematic_viscosity_40"]),
     (
