@@ -59,20 +59,31 @@ contains
       end do
       !$omp end parallel do
       coarse%poiseuille%frozen = .false.
-      if (allocated(fine%boundary)) then
-         coarse%boundary%frozen = .true.
-         coarse%boundary%rate = fine%boundary%rate
-         do j = 1, coarse%grid%ny
-            call weight_row(coarse%grid, fine%boundary%touching, j, coarse%boundary%touching(:, j))
-            coarse%boundary%touching(:, j) = merge(1.0_dp, 0.0_dp, coarse%boundary%touching(:, j) > 0.5_dp .and. &
- coarse%p(:, j) > cavity_pressure)
-         end do
-      end if
+      if (allocated(fine%boundary)) call freeze_states(fine, coarse)
       call update_coefficients(coarse)
       if (kind_of_coarsening == coarsening_alcouffe) call build_galerkin(fine, coarse, coarsening)
       call restrict_residual(fine, coarse, coarsening%transfer)
       call pass_load_on(fine, coarse)
    end subroutine restrict_problem
+
+   !> States of the coarse nodes while their level is solved: those touch that have pressure and around which more than half
+   !> touches
+   subroutine freeze_states(fine, coarse)
+      type(level_t), intent(in) :: fine
+      type(level_t), intent(inout) :: coarse
+      logical :: touches(coarse%grid%nx)
+      integer :: j
+
+      associate (boundary => coarse%boundary)
+         boundary%frozen = .true.
+         boundary%rate = fine%boundary%rate
+         do j = 1, coarse%grid%ny
+            call weight_row(coarse%grid, fine%boundary%touching, j, boundary%touching(:, j))
+            touches = boundary%touching(:, j) > 0.5_dp .and. coarse%p(:, j) > cavity_pressure
+            boundary%touching(:, j) = merge(1.0_dp, 0.0_dp, touches)
+         end do
+      end associate
+   end subroutine freeze_states
 
    !> Coarse row j by full weighting, on the border by injection
    pure subroutine weight_row(coarse, fine, j, values)

@@ -8,7 +8,7 @@ module ehl_coarsest
    use ehl_grid, only: grid_t
    use ehl_kernel, only: fill_kernel
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
+   use ehl_level, only: film_of_flow, level_t, touches_at
    use ehl_node_state, only: cavitate, cavity_pressure
    use ehl_poiseuille, only: most_neighbours
    use ehl_reynolds, only: reynolds_operator
@@ -233,7 +233,7 @@ contains
                cycle
             end if
             at = i + (j - 1)*nx
-            if (touches(i, j)) then
+            if (touches_at(level, i, j)) then
                call add_film(i, j, -level%boundary%rate*level%rho(i, j))
                call add_pressure(i, j, -level%boundary%rate*level%h_drho_dp(i, j))
                cycle
@@ -247,10 +247,10 @@ contains
                   ! a Galerkin operator does not change
                   if (level%poiseuille%frozen) cycle
                   part = rate(m)*(level%p(ii, jj) - level%p(i, j))
-                  own = own + flow%film_power(i, j, d)*flow%eps(i, j, d)/film(i, j)*part
+                  own = own + flow%film_power(i, j, d)*flow%eps(i, j, d)/film_of_flow(level, i, j)*part
                   call add_pressure(ii, jj, flow%eps(ii, jj, d)*flow%dlneps_dp(ii, jj, d)*part)
                   call add_pressure(i, j, flow%eps(i, j, d)*flow%dlneps_dp(i, j, d)*part)
-                  call add_film(ii, jj, flow%film_power(ii, jj, d)*flow%eps(ii, jj, d)/film(ii, jj)*part)
+                  call add_film(ii, jj, flow%film_power(ii, jj, d)*flow%eps(ii, jj, d)/film_of_flow(level, ii, jj)*part)
                end associate
             end do
             c = level%wedge%weights(i)
@@ -274,23 +274,6 @@ contains
       self%factorisations = self%factorisations + 1
 
    contains
-
-      !> Whether a node touches
-      pure logical function touches(i, j)
-         integer, intent(in) :: i, j
-         touches = .false.
-         if (allocated(level%boundary)) touches = level%boundary%touching(i, j) > 0.0_dp
-      end function touches
-
-      !> The film that the lubricant flows through
-      pure real(dp) function film(i, j)
-         integer, intent(in) :: i, j
-         if (allocated(level%boundary)) then
-            film = level%boundary%film(i, j)
-         else
-            film = level%h(i, j)
-         end if
-      end function film
 
       subroutine add_pressure(ii, jj, value)
          integer, intent(in) :: ii, jj

@@ -13,7 +13,7 @@ module ehl_level
    use ehl_wedge, only: wedge_t
    implicit none (type, external)
    private
-   public :: level_t
+   public :: film_of_flow, is_touching, level_t, touches_at
 
    !> Fields of one level, arrays of shape (nx, ny). Dimensionless: P by p_h, lengths by a,
    !> films by a^2/R. The equations are in reynolds.f90, film.f90 and force_balance.f90.
@@ -76,6 +76,33 @@ contains
       end if
       self%parallel = self%threads > 1
    end subroutine setup
+
+   !> Whether bodies touch at a boundary film
+   pure logical function is_touching(level)
+      type(level_t), intent(in) :: level
+      is_touching = allocated(level%boundary)
+      if (is_touching) is_touching = any(level%boundary%touching > 0.0_dp)
+   end function is_touching
+
+   !> Whether they touch at node (i, j)
+   pure logical function touches_at(level, i, j)
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: i, j
+      touches_at = allocated(level%boundary)
+      if (touches_at) touches_at = level%boundary%touching(i, j) > 0.0_dp
+   end function touches_at
+
+   !> Film that the lubricant flows through at node (i, j)
+   pure real(dp) function film_of_flow(level, i, j)
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: i, j
+
+      if (allocated(level%boundary)) then
+         film_of_flow = level%boundary%film(i, j)
+      else
+         film_of_flow = level%h(i, j)
+      end if
+   end function film_of_flow
 
    !> Allocated bytes, the engine's apart
    pure integer(int64) function bytes(self)

@@ -10,7 +10,10 @@ module ehl_touching
    use ehl_reynolds, only: flow_operator
    implicit none (type, external)
    private
-   public :: touching_t, measure_touching, touches
+   public :: touching_t, measure_touching, touches, touching_names
+
+   !> What `numbers` gives
+   character(len=*), parameter :: touching_names(3) = [character(len=12) :: "load_share", "contact_area", "layer_supply"]
 
    !> Of one state; without a boundary film all of it is 0
    type :: touching_t

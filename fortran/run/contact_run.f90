@@ -17,14 +17,11 @@ module ehl_contact_run
    use ehl_steady, only: steady_t
    use ehl_stopping_criterion, only: transient_outcome
    use ehl_table, only: table_t
+   use ehl_touching, only: touching_names
    use ehl_transient, only: transient_t
    implicit none (type, external)
    private
    public :: contact_run_t
-
-   !> Columns of the history of a contact at a boundary film, as numbers() of ehl_touching has them
-   character(len=16), parameter :: touching_names(3) = [character(len=16) :: "load_share", "contact_area", "layer_supply"]
-
    type :: contact_run_t
       type(plan_t) :: plan
       !> Finest grid reached so far
@@ -52,8 +49,8 @@ module ehl_contact_run
       type(heated_t) :: smooth_heat, rough_heat
       !> State on disk, and to go on from when the smooth contact is solved
       type(checkpoint_t) :: checkpoint
-      !> Of the same run on the next coarser grid: its friction ratio and load share, if it converged, and how it ended; outcome_running: it
-      !> has not
+      !> Of the same run on the next coarser grid: its friction ratio and load share, if it converged, and how it ended;
+      !> outcome_running: it has not
       real(dp) :: coarse_ratio = 0.0_dp, coarse_load_share = 0.0_dp
       integer :: coarse_outcome = outcome_running
    contains
@@ -64,7 +61,6 @@ module ehl_contact_run
       procedure :: begin_rough
       procedure :: level
       procedure :: mu_ratio
-      procedure :: touching
       procedure :: heat_ratio
       procedure :: save
    end type contact_run_t
@@ -287,27 +283,6 @@ contains
          mu_ratio = self%transient%mean%mean(0.0_dp)
       end if
    end function mu_ratio
-
-   !> Load share, area [a^2] and supply of the contact of a run that has converged (touching.f90); in time steps their means
-   !> over the time of the mean friction ratio
-   function touching(self) result(numbers)
-      class(contact_run_t), intent(in) :: self
-      real(dp) :: numbers(3)
-      integer :: k, first
-
-      if (self%in_steps) then
-         first = self%transient%mean%first_of_mean()
-         do k = 1, 3
-            associate (values => self%history%column(touching_names(k)))
-               numbers(k) = sum(values(first:))/max(1, size(values) - first + 1)
-            end associate
-         end do
-      else if (self%resting) then
-         numbers = self%rest%m%touching%numbers()
-      else
-         numbers = self%steady%results(self%level())%m%touching%numbers()
-      end if
-   end function touching
 
    !> Write the state under names that begin with a prefix. Before the first time step there is nothing that is worth it.
    subroutine save(self, prefix, text, status)

@@ -16,6 +16,7 @@ module ehl_solver
    use ehl_record, only: record_t
    use ehl_smooth_film, only: film_by_finer_grids, known_film
    use ehl_status, only: status_t
+   use ehl_touching_mean, only: load_share_of
    implicit none (type, external)
    private
    public :: solver_t, field_length
@@ -212,15 +213,6 @@ contains
       self%coarse_seconds = self%coarse%seconds
       deallocate (self%coarse)
    end subroutine end_coarse
-
-   !> Share of the load that contact carries in a run that has converged
-   real(dp) function load_share_of(run)
-      type(contact_run_t), intent(in) :: run
-      real(dp) :: numbers(3)
-
-      numbers = run%touching()
-      load_share_of = numbers(1)
-   end function load_share_of
 
    !> How the run stands; a surface at rest has not ended before its error is known
    pure integer function stand(self)

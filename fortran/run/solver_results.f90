@@ -13,6 +13,7 @@ submodule (ehl_solver) ehl_solver_results
    use ehl_skipped_work, only: skipped_work
    use ehl_surface_text, only: window_words
    use ehl_text, only: newline
+   use ehl_touching_mean, only: touching_of
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    implicit none (type, external)
 
@@ -211,11 +212,11 @@ contains
       coarser = numbers(1)
       why = "there is no solution on the next coarser grid"
       if (self%plan%surfaces%rough()) then
-         if (self%converged()) numbers = self%touching()
+         if (self%converged()) numbers = touching_of(self)
          if (self%coarse_outcome == outcome_converged) coarser = self%coarse_load_share
          why = why_no_grid_error(self)
       else if (good) then
-         numbers = self%touching()
+         numbers = touching_of(self)
          n = self%level()
          if (n > 1) then
             if (self%steady%results(n - 1)%solved) coarser = self%steady%results(n - 1)%m%touching%load_share
@@ -234,7 +235,7 @@ contains
       numbers = 0.0_dp
       if (self%resting) numbers = self%rest%m%touching%numbers()
       if (self%in_steps) numbers = self%transient%m%touching%numbers()
-      if (self%in_steps .and. self%converged()) numbers = self%touching()
+      if (self%in_steps .and. self%converged()) numbers = touching_of(self)
       knows_friction = .not. (numbers(1) > 0.0_dp .or. self%steady%results(self%level())%m%touching%load_share > 0.0_dp)
    end function knows_friction
 

@@ -4,12 +4,12 @@
 module ehl_stationary_roughness
    use ehl_contact, only: contact_t
    use ehl_contact_results, only: contact_results_t, load_tolerance, measure
-   use ehl_cycle, only: careful_cycle
+   use ehl_cycle, only: careful_cycle, cycle_options_t
    use ehl_film, only: refresh
    use ehl_hierarchy, only: hierarchy_t
    use ehl_iteration, only: iteration_t, reduction
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
+   use ehl_level, only: is_touching, level_t
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_outcome, only: outcome_converged, outcome_negative_film, outcome_running
    use ehl_status, only: ehl_no_memory, status_t
@@ -45,8 +45,10 @@ module ehl_stationary_roughness
       !> Friction integral of the smooth contact
       real(dp) :: friction_smooth = 1.0_dp
       real(dp), private :: tolerance = 1.0e-4_dp
-      !> Whether there is contact at a boundary film; whether the error is that of its load share, and not of the friction
-      logical, private :: touches = .false., by_load_share = .false.
+      !> Its cycles, unless they are to be careful
+      type(cycle_options_t), private :: cycle
+      !> Whether the error of a contact that touches at a boundary film is that of its load share, and not of the friction
+      logical, private :: by_load_share = .false.
       !> The roughness [a^2/R], pressure of the smooth contact and of the last share solved, (nx, ny)
       real(dp), allocatable :: rr(:, :), p_done(:, :)
       real(dp) :: h00_done = 0.0_dp
@@ -75,8 +77,7 @@ contains
       if (status%failed()) return
       self%contact = contact
       self%n = n
-      self%options = how%cycle
-      if (allocated(level%boundary)) self%options = careful_cycle(how%cycle)
+      self%cycle = how%cycle
       self%max_cycles = how%max_cycles
       self%tolerance = friction_tolerance*how%accuracy
       if (allocated(self%rr)) deallocate (self%rr, self%p_done)
@@ -88,8 +89,7 @@ contains
       call surfaces%roughness(level%grid, 0.0_dp, self%rr, moving=.false.)
       self%m = measure(level)
       self%friction_smooth = self%m%friction
-      self%touches = allocated(level%boundary)
-      self%by_load_share = self%touches .and. .not. level%lubricant%boundary_stress > 0.0_dp
+      self%by_load_share = .not. level%lubricant%boundary_stress > 0.0_dp
    end subroutine start
 
    !> One cycle. All of it is
@@ -107,6 +107,8 @@ contains
       associate (level => hierarchy%levels(self%n))
          if (self%due) call grow(self, level)
          if (self%outcome /= outcome_running) return
+         self%options = self%cycle
+         if (is_touching(level)) self%options = careful_cycle(self%cycle)
          call self%improve(hierarchy)
          self%total_cycles = self%total_cycles + 1
          if (self%state == outcome_running) return
@@ -134,12 +136,15 @@ contains
       if (self%unsound() /= outcome_running) return
       change = abs(self%m%friction - before%friction)/self%m%friction
       ! without that of the boundary film it is the friction of next to nothing
-      if (self%by_load_share) change = abs(self%m%touching%load_share - before%touching%load_share)
+      if (self%by_load_share .and. self%m%touching%load_share > 0.0_dp) then
+         change = abs(self%m%touching%load_share - before%touching%load_share)
+      end if
       q = reduction([change], [self%change], self%cycles)
       self%algebraic = change*q/(1.0_dp - q)
       self%change = change
       ! nodes that lift off and touch again from cycle to cycle leave such an error
-      may_balance = self%touches .and. self%residual <= residual_tolerance .and. abs(self%m%load_error) <= small_load_error
+      may_balance = self%m%touching%load_share > 0.0_dp .and. self%residual <= residual_tolerance .and. &
+                    abs(self%m%load_error) <= small_load_error
    end function may_balance
 
    !> Whether the present share is solved; the first cycle cannot tell
