@@ -144,7 +144,8 @@ contains
    end subroutine restrict_residual
 
    !> Residuals of touching nodes to those of the coarse level, and to these alone: in the equation of a flowing node they would
-   !> be a source that the motion carries through the contact. Those of flowing nodes are left.
+   !> be a source that the motion carries through the contact. Those of flowing nodes are left. The film of the flow, which is
+   !> found anew after the coarse problem, lends its place.
    subroutine restrict_touching(fine, coarse)
       type(level_t), intent(inout) :: fine, coarse
       integer :: j

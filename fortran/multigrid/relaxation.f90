@@ -11,7 +11,7 @@ module ehl_relaxation
    use ehl_flow, only: along
    use ehl_level, only: level_t
    use ehl_line_system, only: last_awake, solve_lines
-   use ehl_node_state, only: cavitate, change_flowing, flowing_around
+   use ehl_node_state, only: cavitate, cavity_pressure, change_flowing, flowing_around
    use ehl_workspace, only: line_width, workspace_t
    !$ use omp_lib, only: omp_get_thread_num
    implicit none (type, external)
@@ -100,9 +100,10 @@ contains
             call level%flow%greatest_around(j, below, greatest)
          end if
          call flowing_around(level%p(:, below), level%p(:, j), level%p(:, j + 1), space%dipole(:, j))
-         ! the change of a touching node is a dipole beside a cavity, too
-         if (allocated(level%boundary)) where (level%p(:, j) > 0.0_dp) space%dipole(:, j) = max(space%dipole(:, j), &
-                                                                                        level%boundary%touching(:, j))
+         if (allocated(level%boundary)) then
+            ! the change of a touching node is a dipole beside a cavity, too
+            where (level%p(:, j) > cavity_pressure) space%dipole(:, j) = max(space%dipole(:, j), level%boundary%touching(:, j))
+         end if
          do i = 2, level%grid%nx - 1
             space%dipole(i, j) = merge(space%dipole(i, j), 0.0_dp, greatest(i) < limit)
          end do
