@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from pyehl.case import Case, with_surface
+from pyehl.case import Case, files_of, with_surface
 from pyehl.errors import InputError, NotConverged
 from pyehl.given import Option, check_kind, path_of
 from pyehl.prediction import film_sheet, folder, of_case
@@ -185,7 +185,7 @@ def predict(
     inputs, name = ([], "") if isinstance(case, Case) else ([case], path_of(case, "case"))
     case = Case.of(case, *options)
     tiles: dict[str, Topography | None] = {"surface": None, "second_surface": None}
-    inputs += [str(group.get("file", "")) for group in case.resolve().values()]
+    inputs += files_of(case.resolve())
     for group, given in (("surface", surface), ("second_surface", second_surface)):
         if given is not None:
             case, tiles[group] = with_surface(case, given, group)

@@ -14,7 +14,7 @@ from pyehl.given import Option, check_kind, path_of
 if TYPE_CHECKING:
     from pyehl.surfaces import Surface, Topography
 
-__all__ = ["Case", "with_surface"]
+__all__ = ["Case", "exchanged", "files_of", "with_surface"]
 
 
 @dataclass(frozen=True, slots=True, repr=False, init=False)
@@ -147,6 +147,12 @@ class Case:
         values; amplitude or amplitude_over_film.
         """
         return namelist.values(self.text)
+
+
+def files_of(settings: Mapping[str, Mapping[str, Any]]) -> list[str]:
+    """Give the files that a resolved case reads: height maps, a table of viscosities."""
+    maps = [group["file"] for group in settings.values() if group.get("kind") == "map"]
+    return [str(name) for name in (*maps, settings["lubricant"].get("table")) if name]
 
 
 def with_surface(case: Case, surface: Surface, group: str = "surface") -> tuple[Case, Topography]:

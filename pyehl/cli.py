@@ -28,7 +28,7 @@ SUBCOMMANDS = {
     "check": "print a case resolved, and how it would be solved",
     "predict": "predict the relative friction of a rough surface from its PSD",
     "stribeck": "friction against speed, film ratio and theta_2",
-    "app": "a contact to play with, in the browser",
+    "app": "an interactive contact, in the browser",
     "sweep": "many cases with one table of results",
     "reproduce": "the figures and tables of a paper, redone and compared",
     "compare": "results against a table of references",

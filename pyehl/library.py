@@ -9,10 +9,12 @@ Hertz pressure p_h, lengths by the Hertz radius a, films and deflections by a^2/
 
 from __future__ import annotations
 
+import json
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,11 +25,15 @@ from pyehl.extension import solvers as ehl
 from pyehl.given import Option, options_of, path_of, text_of
 
 __all__ = [
+    "WORTH",
+    "Conclusion",
     "Deflection",
     "Key",
+    "alpha_origin",
     "build",
     "check_memory",
     "checkpoint_case",
+    "conclude",
     "deflection",
     "ehl",
     "free_bytes",
@@ -93,6 +99,57 @@ def checkpoint_case(results: str | os.PathLike[str]) -> Path:
     path, status, message = functions.checkpoint_case(os.fsencode(results))
     check(status, message)
     return Path(os.fsdecode(path.rstrip()))
+
+
+def alpha_origin(text: str) -> str:
+    """Say where the pressure-viscosity coefficient of a case is from; '' if it was given.
+
+    InputError if the text is no case.
+    """
+    note, status, message = lubricants.alpha_origin(text_of(text, "the text of a case"))
+    check(status, message)
+    return returned(note)
+
+
+WORTH = ("holds", "with care", "no answer")
+"""What a result may be worth, in the order of fortran/run/judgement.f90."""
+
+
+@dataclass(frozen=True, slots=True)
+class Conclusion:
+    """What a solution or a prediction ends with.
+
+    Attributes
+    ----------
+    lines
+        What was found, by name, and behind it the judgement.
+    judgement
+        A word and the reason for it.
+    worth
+        One of `WORTH`.
+    """
+
+    lines: Mapping[str, str]
+    judgement: str
+    worth: str
+
+    def __str__(self) -> str:
+        """Give the lines as ``ehl`` prints them."""
+        return "\n".join(f"{name:11}{text}" for name, text in self.lines.items())
+
+
+def conclude(summary: Mapping[str, Any]) -> Conclusion:
+    """Give the last lines of a solution or a prediction from its summary, and judge it."""
+    told: dict[str, Any] = {}
+    for name, value in summary.items():
+        if isinstance(value, list) and all(isinstance(word, str) for word in value):
+            told[name] = ", ".join(value)
+        elif value is None or isinstance(value, bool | int | float | str):
+            told[name] = " ".join(value.split()) if isinstance(value, str) else value
+    text = json.dumps(told, indent=1, ensure_ascii=False)
+    block, judgement, worth = functions.conclude(text.encode(errors="replace"))
+    lines = {line[:11].rstrip(): line[11:] for line in returned(block).splitlines()}
+    return Conclusion(lines, returned(judgement), WORTH[worth])
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,7 +20,7 @@ import numpy as np
 
 from pyehl import library
 from pyehl.arrays import read_array
-from pyehl.case import Case
+from pyehl.case import Case, files_of
 from pyehl.destination import Destination
 from pyehl.errors import FileError, InputError
 from pyehl.solver import Solver
@@ -167,8 +167,7 @@ def run(
     holds something else than results, or cannot be written; EhlError if the solver failed: nothing
     is written then.
     """
-    settings = case.resolve()
-    sources = (*inputs, *(str(settings.get(group, {}).get("file", "")) for group in GROUPS))
+    sources = (*inputs, *files_of(case.resolve()))
     Destination(folder, "solution", inputs=sources, force=force).check()
     request = StopRequest()
     with signals_to(request.take), _open(case, resumed, (surface, second_surface)) as solver:
@@ -193,6 +192,6 @@ def run(
         say(f"results: {name}")
         if solver.converged:
             solver.end_keeping()
-        elif has_state:
-            say(f"state: {name}.checkpoint\nto resume: pyehl run --resume {name}")
+        elif has_state and solver.resumption():
+            say(f"state: {name}.checkpoint\n{solver.resumption()}{name}")
         return Outcome(solver.converged, request.wanted and not solver.converged)

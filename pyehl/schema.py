@@ -34,6 +34,7 @@ sprt | files | | names of the files of the result in its folder
 sp | status | | 'converged', 'predicted', or why there is no result
 s | converged | | whether the results are a solution
 p | message | | the status in a sentence
+sp | judgement | | what the result is worth: a word, the reason, and what else to know
 s | version | | version of the library
 sp | wall_seconds | s | time of the run
 s | bytes | byte | memory of the solver
@@ -94,8 +95,10 @@ s | last_F | - | friction integral at the end of a run without a solution
 s | last_mu_ratio | - | mu_r/mu_s at the end of a run without a solution
 s | last_mu_ratio_mean | - | its mean over a period at the end of a run without a solution
 sp | h_c_m | m | central film of the smooth contact
+sp | h_c_error_m | m | estimate of its error
 p | h_c_source | | where it is from
 sp | h_min_m | m | minimum film of the smooth contact
+sp | h_min_error_m | m | estimate of its error
 s | p_max_Pa | Pa | largest pressure
 s | load_beyond | - | share of the load that the pressure beyond the border carries
 sp | load_error | - | relative error of the force balance
@@ -109,11 +112,11 @@ s | H_min_rough_T | a/u | when
 s | H_min_rough_X | a | where
 s | H_min_rough_Y | a | where
 sp | h_min_rough_m | m | minimum film of the rough contact, as H_min_rough
-s | P_max_rough | p_h | largest pressure of a rough surface at rest, or while a feature passes
+s | P_max_rough | p_h | largest pressure of the rough contact: at rest, in T_mean, or in a passage
 s | P_max_rough_T | a/u | when
 s | P_max_rough_X | a | where
 s | P_max_rough_Y | a | where
-s | p_max_rough_Pa | Pa | largest pressure while a feature passes
+s | p_max_rough_Pa | Pa | largest pressure of the rough contact, as P_max_rough
 s | P_rise_max | p_h | largest rise of the pressure over the smooth contact at the same place
 s | P_rise_max_T | a/u | when
 s | P_rise_max_X | a | where
@@ -132,7 +135,7 @@ sp | mu_ratio_min | - | its least value
 sp | mu_ratio_max | - | its largest value
 s | mu_ratio_extrapolated | - | mu_ratio extrapolated to fine grids, where both resolve the surface
 s | mu_ratio_error | - | error of mu_ratio: the sum of its parts; null if one is not known
-s | mu_ratio_error_note | | why the error is not known; else empty
+sp | mu_ratio_error_note | | why the error is not known; else empty
 s | mu_ratio_error_grid | - | part of the error from the grid, by two grids
 s | mu_ratio_error_stop | - | part of the error from the end of the run
 s | mu_ratio_error_window | - | part of it where two surfaces have no common period
@@ -168,6 +171,7 @@ s | rolling_moment_N_m | N m | the same
 spt | shear_law | | law of the shear stress
 sp | slide_to_roll | - | (u1 - u2)/u
 t | residual_rms | - | root mean square of fitted less measured mu
+sp | pressure_viscosity_note | | where alpha is from, if the case does not give it
 s | lubricant_note | | law with constants of an oil, its range, and whether the contact is beyond it
 s | inlet_viscosity_Pa_s | Pa s | viscosity of the inlet
 s | thermal_loading | - | loading parameter of shear heating

@@ -228,6 +228,11 @@ class Solver(SolverHandle):
         self._predictions.tell(self, super().summary())
         return self._text("conclusion")
 
+    def resumption(self) -> str:
+        """Tell how a run that ended can go on, up to the name of its folder; '' if it cannot."""
+        text = self._text("resumption")
+        return f"{text} " if text else ""
+
     def dataset(self) -> xarray.Dataset:
         """Give the results so far, the same as `pyehl.load` of the folder that `write` makes."""
         # xarray takes long to import, and most runs only write

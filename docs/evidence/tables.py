@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Tables of evidence: numbers of a CSV file, and how many stated errors hold."""
 
 from __future__ import annotations

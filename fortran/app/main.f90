@@ -8,11 +8,12 @@ program ehl
    use ehl_case_writer, only: options_text
    use ehl_clock, only: clock_t, start_clock
    use ehl_checkpoint_folder, only: checkpoint_path, find_checkpoint, checkpoint_folder_t
-   use ehl_conclusion, only: conclusion
+   use ehl_conclusion, only: conclusion, resumption
    use ehl_destination, only: destination_t
    use ehl_kinds, only: dp
    use ehl_plan_need, only: making_need
    use ehl_plan_text, only: plan_text
+   use ehl_record, only: record_t
    use ehl_result_folder, only: result_names, write_results
    use ehl_signals, only: stop_wanted, watch_signals
    use ehl_solver, only: solver_t
@@ -31,7 +32,8 @@ program ehl
    type(destination_t) :: destination
    type(status_t) :: status
    type(clock_t) :: clock
-   character(len=:), allocatable :: note, case_file, fresh
+   type(record_t) :: summary
+   character(len=:), allocatable :: note, case_file, fresh, hint
    real(dp), allocatable :: heights(:, :), second_heights(:, :)
 
    call get_arguments(arguments, status)
@@ -55,7 +57,7 @@ program ehl
    destination%kind = "solution"
    destination%names = result_names
    destination%inputs = arguments%case_file // newline // trim(input%surface%file) // newline // &
-                        trim(input%second_surface%file) // newline
+                        trim(input%second_surface%file) // newline // trim(input%lubricant%table) // newline
    destination%kept = ""
    destination%force = arguments%force
    call destination%check(status)
@@ -90,8 +92,10 @@ program ehl
       call checkpoints%close()
       stop exit_ok, quiet=.true.
    end if
-   if (checkpoints%has_state()) call say("state: " // checkpoint_path(arguments%folder) // newline &
-                                    // "to resume: ehl --resume " // arguments%folder)
+   summary = solver%summary()
+   hint = resumption(summary%text("status"), "ehl")
+   if (checkpoints%has_state() .and. hint /= "") call say("state: " // checkpoint_path(arguments%folder) // newline &
+                                                     // hint // arguments%folder)
    if (stop_wanted()) stop exit_interrupted, quiet=.true.
    stop exit_failed, quiet=.true.
 

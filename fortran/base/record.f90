@@ -34,6 +34,7 @@ module ehl_record
       procedure :: number
       procedure :: text => text_value
       procedure :: to_json
+      procedure :: take_json
    end type record_t
 
 contains
@@ -130,7 +131,7 @@ contains
    end function has
 
    !> The number under a name; NaN where there is none
-   real(dp) function number(self, name)
+   pure real(dp) function number(self, name)
       class(record_t), intent(in) :: self
       character(len=*), intent(in) :: name
       character(len=:), allocatable :: value
@@ -177,6 +178,26 @@ contains
       end if
       text = text // newline // "}" // newline
    end function to_json
+
+   !> Take the values of a JSON object that has one value a line, as `to_json` writes it
+   subroutine take_json(self, text)
+      class(record_t), intent(inout) :: self
+      character(len=*), intent(in) :: text
+      integer :: start, last, first, colon
+
+      start = 1
+      do while (start <= len(text))
+         last = start + index(text(start:)//newline, newline) - 2
+         first = index(text(start:last), '"')
+         colon = index(text(start:last), '": ')
+         if (first > 0 .and. colon > first) then
+            first = start + first
+            colon = start + colon
+            call self%put(text(first:colon - 2), text(colon + 2:last - merge(1, 0, text(last:last) == ",")))
+         end if
+         start = last + 2
+      end do
+   end subroutine take_json
 
    !> A number; null when it is not finite
    pure function json_real(value) result(text)

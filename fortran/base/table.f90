@@ -23,7 +23,6 @@ module ehl_table
       integer :: rows = 0
    contains
       procedure :: init
-      procedure :: add
       procedure :: append
       procedure :: n_rows
       procedure :: n_columns
@@ -49,17 +48,6 @@ contains
       allocate (self%values(size(names), 64))
       self%rows = 0
    end subroutine init
-
-   !> Name more columns and drop all rows
-   subroutine add(self, names)
-      class(table_t), intent(inout) :: self
-      character(len=*), intent(in) :: names(:)
-      character(len=column_name_length) :: all(size(self%names) + size(names))
-
-      all(:size(self%names)) = self%names
-      all(size(self%names) + 1:) = names
-      call self%init(all)
-   end subroutine add
 
    !> Add a row; values(:) has one number per column
    subroutine append(self, values)

@@ -7,22 +7,25 @@ module ehl_f2py_functions
    use ehl_case_writer, only: case_text, options_text
    use ehl_checkpoint_folder, only: find_checkpoint
    use ehl_clock, only: clock_t, start_clock
+   use ehl_conclusion, only: conclusion
    use ehl_deflection, only: deflection_t
    use ehl_deflection_factory, only: new_deflection
    use ehl_destination, only: destination_t
    use ehl_grid, only: grid_t
    use ehl_handles, only: reply
    use ehl_heated_friction, only: heat_film, heated_t
+   use ehl_judgement, only: judge
    use ehl_kinds, only: pi
    use ehl_lubricant, only: lubricant_t
    use ehl_memory, only: check_memory, free_bytes
    use ehl_plan_heat, only: heat_plan_t, plan_given
+   use ehl_record, only: record_t
    use ehl_result_folder, only: result_names
    use ehl_status, only: status_t
    use ehl_version, only: build_text, version
    implicit none (type, external)
    private
-   public :: resolve, checkpoint_case, place, needs_memory, memory_left, keys, about, deflection, heated
+   public :: resolve, checkpoint_case, place, needs_memory, memory_left, keys, about, conclude, deflection, heated
 
 contains
 
@@ -128,6 +131,21 @@ contains
       version_text = version
       compiler_text = build_text()
    end subroutine about
+
+   !> The last lines of a result from its summary (JSON, one value a line), and what it is worth: see ehl_judgement
+   subroutine conclude(summary, text, judgement, worth)
+      character(len=*), intent(in) :: summary
+      character(len=8192), intent(out) :: text
+      character(len=4096), intent(out) :: judgement
+      integer(c_int), intent(out) :: worth
+      type(record_t) :: record
+      character(len=:), allocatable :: line
+
+      call record%take_json(summary)
+      text = conclusion(record)
+      call judge(record, line, worth)
+      judgement = line
+   end subroutine conclude
 
    !> Elastic deflection w of the pressure p by one engine, and the mean seconds of an application
    subroutine deflection(engine, nx, ny, p, w, hx, hy, mirror, accuracy, threads, repeats, &

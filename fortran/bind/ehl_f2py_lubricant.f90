@@ -4,17 +4,19 @@ module ehl_f2py_lubricant
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use ehl_case, only: case_t
    use ehl_case_law, only: make_lubricant
+   use ehl_case_reader, only: read_case
    use ehl_group_reader, only: read_groups
    use ehl_handles, only: reply
    use ehl_keys, only: bind_keys
    use ehl_lubricant, only: lubricant_t
    use ehl_oils, only: oils_text
+   use ehl_plan_lubricant, only: alpha_note
    use ehl_schema, only: schema_t
    use ehl_source, only: source_t
    use ehl_status, only: status_t
    implicit none (type, external)
    private
-   public :: oils, properties
+   public :: oils, properties, alpha_origin
 
 contains
 
@@ -49,4 +51,19 @@ contains
       end if
       call reply(status, stat, message)
    end subroutine properties
+
+   !> Where the pressure-viscosity coefficient of a case is from, if it was not given; blank where it was
+   subroutine alpha_origin(text, note, stat, message)
+      character(len=*), intent(in) :: text
+      character(len=512), intent(out) :: note
+      integer(c_int), intent(out) :: stat
+      character(len=4096), intent(out) :: message
+      type(case_t), target :: input
+      type(status_t) :: status
+
+      note = ""
+      call read_case(text, "the case of a prediction", "", input, status)
+      if (.not. status%failed()) note = alpha_note(input)
+      call reply(status, stat, message)
+   end subroutine alpha_origin
 end module ehl_f2py_lubricant

@@ -10,7 +10,7 @@ module ehl_f2py_solver
    use ehl_case, only: case_t
    use ehl_case_reader, only: read_case
    use ehl_checkpoint_folder, only: checkpoint_path
-   use ehl_conclusion, only: conclusion
+   use ehl_conclusion, only: conclusion, resumption
    use ehl_grid, only: grid_t
    use ehl_handles, only: drop_handle, new_handle, reply, run_of, run_t
    use ehl_plan_text, only: plan_text
@@ -146,7 +146,8 @@ contains
       call reply(status, stat, message)
    end subroutine keep
 
-   !> The "plan" in a few lines, one line of "progress", the "conclusion" of a run that has ended, or the "summary" as JSON
+   !> The "plan" in a few lines, one line of "progress", the "conclusion" of a run that has ended, its "resumption", or the
+   !> "summary" as JSON
    subroutine describe(handle, what, text, stat, message)
       integer(c_int), intent(in) :: handle
       character(len=*), intent(in) :: what
@@ -167,6 +168,9 @@ contains
             text = run%solver%progress()
          case ("conclusion")
             text = conclusion(run%solver%summary())
+         case ("resumption")
+            record = run%solver%summary()
+            text = resumption(record%text("status"), "pyehl run")
          case default
             record = run%solver%summary()
             text = record%to_json()

@@ -62,6 +62,9 @@ module ehl_case
       character(len=path_length) :: table = ""
       real(dp) :: viscosity = 0.04_dp
       real(dp) :: pressure_viscosity = 2.2e-8_dp
+      !> Whether it is an estimate from a data sheet, or the default beside a viscosity that was given. No keys; set by the
+      !> reader.
+      logical :: alpha_estimated = .false., alpha_default = .false.
       character(len=word_length) :: viscosity_law = "roelands"
       !> Set by the reader
       real(dp) :: roelands_z = 0.0_dp

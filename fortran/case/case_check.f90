@@ -9,7 +9,7 @@ module ehl_case_check
    use ehl_case_oil, only: check_law, complete_law, complete_oil
    use ehl_case_radii, only: complete_radii
    use ehl_case_surface, only: check_surfaces, complete_surfaces
-   use ehl_case_temperature, only: check_heat, complete_viscosity
+   use ehl_case_temperature, only: check_heat, complete_alpha, complete_viscosity
    use ehl_grid, only: coarsest_most, find_levels
    use ehl_refusal, only: refuse
    use ehl_schema, only: schema_t
@@ -34,6 +34,7 @@ contains
       call complete_radii(schema, input, sources, status)
       if (.not. status%failed()) call complete_oil(schema, input, sources, status)
       if (.not. status%failed()) call complete_viscosity(schema, input, sources, status)
+      if (.not. status%failed()) call complete_alpha(schema, input, sources, status)
       if (.not. status%failed()) call complete_law(schema, input, sources, status)
       if (.not. status%failed()) call check_operating_point(schema, input, sources, status)
       if (.not. status%failed()) call complete_domain(schema, input)
@@ -55,12 +56,13 @@ contains
       type(schema_t), intent(in) :: schema
       type(case_t), intent(inout) :: input
       type(source_t), intent(in) :: sources(:)
-      type(status_t) :: ignored(7)
+      type(status_t) :: ignored(8)
 
       call check_contact_kind(schema, input, sources, ignored(1))
       call complete_radii(schema, input, sources, ignored(5))
       call complete_oil(schema, input, sources, ignored(6))
       call complete_viscosity(schema, input, sources, ignored(2))
+      call complete_alpha(schema, input, sources, ignored(8))
       call complete_law(schema, input, sources, ignored(7))
       call complete_domain(schema, input)
       call complete_kinematics(schema, input, sources, ignored(3))

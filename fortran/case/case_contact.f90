@@ -192,23 +192,31 @@ contains
       type(schema_t), intent(in) :: schema
       type(case_t), target :: usual
       type(schema_t) :: defaults
-      character(len=9), parameter :: groups(8) = [character(len=9) :: "contact", "contact", "contact", "contact", &
-                                                  "contact", "contact", "lubricant", "lubricant"]
-      character(len=18), parameter :: names(8) = [character(len=18) :: si_keys, "viscosity", "pressure_viscosity"]
-      !> Powers of ten around their defaults that are common
-      real(dp), parameter :: common(8) = [3.0_dp, 2.0_dp, 1.0_dp, 0.5_dp, 1.0_dp, 1.0_dp, 2.0_dp, 0.5_dp]
+      character(len=9), parameter :: groups(12) = [character(len=9) :: "contact", "contact", "contact", "contact", &
+         "contact", "contact", "lubricant", "lubricant", "bodies", "bodies", "bodies", "bodies"]
+      character(len=18), parameter :: names(12) = [character(len=18) :: si_keys, "viscosity", "pressure_viscosity", &
+                                                   "radius_x1", "radius_y1", "radius_x2", "radius_y2"]
+      !> Powers of ten around their defaults that are common; the radii of bodies around that of the ball
+      real(dp), parameter :: common(12) = [3.0_dp, 2.0_dp, 1.0_dp, 0.5_dp, 1.0_dp, 1.0_dp, 2.0_dp, 0.5_dp, 1.0_dp, 1.0_dp, &
+                                           1.0_dp, 1.0_dp]
       real(dp) :: unusual, most
       integer :: k, at
 
       call bind_keys(defaults, usual)
       usual%contact%radius_x = usual%contact%radius
       usual%contact%radius_y = usual%contact%radius
+      usual%bodies%radius_x1 = usual%contact%radius
+      usual%bodies%radius_y1 = usual%contact%radius
+      usual%bodies%radius_x2 = usual%contact%radius
+      usual%bodies%radius_y2 = usual%contact%radius
       culprit = schema%find("lubricant", "viscosity")
       most = -1.0_dp
       do k = 1, size(names)
          at = schema%find(groups(k), names(k))
          if (.not. schema%keys(at)%given) cycle
-         unusual = abs(log10(schema%keys(at)%real_value/defaults%keys(at)%real_value))/common(k)
+         ! flat
+         if (groups(k) == "bodies" .and. .not. abs(schema%keys(at)%real_value) > 0.0_dp) cycle
+         unusual = abs(log10(abs(schema%keys(at)%real_value)/defaults%keys(at)%real_value))/common(k)
          if (unusual <= most) cycle
          most = unusual
          culprit = at

@@ -3,7 +3,6 @@
 module ehl_case_law
    use ehl_ambient_viscosity, only: ambient_viscosity_t
    use ehl_case, only: lubricant_case_t
-   use ehl_density_law, only: density_law_t
    use ehl_dicke, only: new_dicke
    use ehl_heat, only: freezing, sheet_density
    use ehl_kinds, only: dp
@@ -19,7 +18,7 @@ module ehl_case_law
    use ehl_yasutomi, only: new_yasutomi
    implicit none (type, external)
    private
-   public :: make_lubricant, make_viscosity, own_law
+   public :: make_lubricant, make_viscosity, own_law, uses_law
 
 contains
 
@@ -40,6 +39,13 @@ contains
          law = trim(l%viscosity_law)
       end if
    end function own_law
+
+   !> Whether a law tells the viscosity of the inlet, or how it rises with pressure
+   pure logical function uses_law(l, name)
+      type(lubricant_case_t), intent(in) :: l
+      character(len=*), intent(in) :: name
+      uses_law = own_law(l) == name .or. l%viscosity_law == name
+   end function uses_law
 
    !> Viscosity and density of a case in Hertz units; the shear law is left Newtonian
    subroutine make_lubricant(l, alpha_bar, hertz_pressure, lubricant, status)

@@ -1,11 +1,11 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Oils by name, and laws with constants of an oil: what follows from them, and what contradicts
 module ehl_case_oil
-   use ehl_case, only: case_t, path_length
+   use ehl_case, only: case_t
    use ehl_case_contact, only: find_contact
-   use ehl_case_law, only: make_viscosity, own_law
+   use ehl_case_law, only: make_viscosity, own_law, uses_law
+   use ehl_case_path, only: find_file
    use ehl_contact, only: contact_t
-   use ehl_files, only: absolute_path, folder_of
    use ehl_heat, only: freezing
    use ehl_kinds, only: dp
    use ehl_moes, only: operating_t
@@ -37,12 +37,15 @@ contains
       type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
       type(oil_t) :: oil
-      character(len=:), allocatable :: path
       real(dp), pointer :: value
       integer :: k, place
+      logical :: vogel
 
       oil = oil_named(trim(input%lubricant%name))
+      vogel = any(schema%keys%given .and. schema%keys%group == "lubricant" .and. index(schema%keys%name, "vogel_") == 1)
       do k = 1, size(oil%constants)
+         ! the data sheet would rule over what was given
+         if (vogel .and. index(oil%constants(k)%key, "kinematic_") == 1) cycle
          place = schema%find("lubricant", trim(oil%constants(k)%key))
          value => schema%keys(place)%real_value
          if (.not. schema%keys(place)%given) value = oil%constants(k)%value
@@ -55,18 +58,7 @@ contains
             "lubricant.viscosity_law = 'table' without lubricant.table", "table = '...', a CSV of measured viscosities", status)
          return
       end if
-      path = trim(input%lubricant%table)
-      ! A name in the case file starts at the folder of that file, an option at the working one
-      if (path(1:1) /= "/" .and. schema%keys(schema%find("lubricant", "table"))%source == 1) then
-         path = folder_of(sources(1)%name)//path
-      end if
-      path = absolute_path(path)
-      if (len(path) > path_length) then
-         call refuse(schema, sources, "lubricant", "table", "lubricant.table: the full name is longer than "// &
-                     to_text(path_length)//" characters", "a shorter path", status)
-      else
-         input%lubricant%table = path
-      end if
+      call find_file(schema, sources, "lubricant", "table", input%lubricant%table, status)
    end subroutine complete_oil
 
    !> Viscosity, pressure-viscosity coefficient and fall with temperature at the inlet, from the law that tells them
@@ -154,32 +146,37 @@ contains
       if (schema%given("lubricant", "table")) name = "table"
    end function law_key
 
-   !> The constants that a law needs
+   !> The constants that the laws in use need
    subroutine check_constants(schema, input, sources, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(in) :: input
       type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
-      character(len=:), allocatable :: missing, expected
 
-      missing = ""
       associate (l => input%lubricant)
-         select case (own_law(l))
-         case ("dicke")
-            expected = "vogel_viscosity, vogel_b and vogel_c, or kinematic_viscosity_40 and kinematic_viscosity_100; "// &
-                       "dicke_a1, dicke_a2, dicke_b1 and dicke_b2 with a1 + a2 theta above 0"
-            if (.not. (l%kinematic_viscosity_40 > 0.0_dp .or. (l%vogel_viscosity > 0.0_dp .and. &
-                l%temperature + l%vogel_c > 0.0_dp))) missing = "the viscosity at ambient pressure"
-            if (.not. l%dicke_a1 + l%dicke_a2*l%temperature > 0.0_dp) missing = "a positive a1 + a2 theta"
-         case ("yasutomi")
-            expected = "yasutomi_tg0, yasutomi_a1, yasutomi_a2, yasutomi_b1, yasutomi_b2, yasutomi_c1 and yasutomi_c2"
-            if (.not. (l%yasutomi_a1*l%yasutomi_a2*l%yasutomi_c1*l%yasutomi_c2 > 0.0_dp)) missing = "all of its constants"
-         case default
-            return
-         end select
-         if (missing /= "") call refuse(schema, sources, "lubricant", law_key(schema), "lubricant.viscosity_law = '"// &
-                                        own_law(l)//"' without "//missing, expected, status)
+         if (uses_law(l, "dicke")) then
+            call need("dicke", l%kinematic_viscosity_40 > 0.0_dp .or. &
+                      (l%vogel_viscosity > 0.0_dp .and. l%temperature + l%vogel_c > 0.0_dp), "the viscosity at ambient pressure", &
+                      "vogel_viscosity, vogel_b and vogel_c, or kinematic_viscosity_40 and kinematic_viscosity_100")
+            call need("dicke", l%dicke_a1 + l%dicke_a2*l%temperature > 0.0_dp, "a positive a1 + a2 theta", &
+                      "dicke_a1, dicke_a2, dicke_b1 and dicke_b2 with a1 + a2 theta above 0")
+         end if
+         if (uses_law(l, "yasutomi")) then
+            call need("yasutomi", l%yasutomi_a1*l%yasutomi_a2*l%yasutomi_c1*l%yasutomi_c2 > 0.0_dp, "all of its constants", &
+                      "yasutomi_tg0, yasutomi_a1, yasutomi_a2, yasutomi_b1, yasutomi_b2, yasutomi_c1 and yasutomi_c2")
+         end if
       end associate
+
+   contains
+
+      subroutine need(law, there, missing, expected)
+         character(len=*), intent(in) :: law, missing, expected
+         logical, intent(in) :: there
+
+         if (there .or. status%failed()) return
+         call refuse(schema, sources, "lubricant", law_key(schema), "lubricant.viscosity_law = '"//law//"' without "// &
+                     missing, expected, status)
+      end subroutine need
    end subroutine check_constants
 
    !> The law must tell a viscosity over all pressures of the contact, the density its constants

@@ -11,6 +11,9 @@ module ehl_case_radii
    private
    public :: complete_radii
 
+   !> Relative difference of values that is none
+   real(dp), parameter :: rounding = 1.0e-6_dp
+
 contains
 
    !> Both radii, and their ratio, from what was given
@@ -67,25 +70,39 @@ contains
       type(case_t), intent(inout) :: input
       type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
-      character(len=15), parameter :: rivals(7) = [character(len=15) :: "radius", "radius_x", "radius_y", &
-                                                   "reduced_modulus", "moes_m", "moes_l", "radius_ratio"]
+      character(len=15), parameter :: rivals(7) = [character(len=15) :: "radius_x", "radius_y", "reduced_modulus", "radius", &
+                                                   "moes_m", "moes_l", "radius_ratio"]
+      real(dp) :: follows(3)
+      logical :: agrees(size(rivals))
+      character(len=9) :: name
       integer :: k, first
 
       first = findloc(schema%keys%given .and. schema%keys%group == "bodies", .true., dim=1)
       input%bodies%given = first > 0
       if (first == 0) return
-      do k = 1, size(rivals)
-         if (.not. schema%given("contact", trim(rivals(k)))) cycle
-         call contradict(schema, sources, schema%keys(first)%full_name(), "contact."//trim(rivals(k)), &
-                         "the bodies, or reduced radii and modulus, or Moes numbers", status)
-         return
-      end do
       associate (b => input%bodies, c => input%contact)
-         c%reduced_modulus = 2.0_dp/((1.0_dp - b%poisson_1**2)/b%modulus_1 + (1.0_dp - b%poisson_2**2)/b%modulus_2)
-         c%radius_x = reduced_radius([b%radius_x1, b%radius_x2])
-         c%radius_y = reduced_radius([b%radius_y1, b%radius_y2])
+         follows = [reduced_radius([b%radius_x1, b%radius_x2]), reduced_radius([b%radius_y1, b%radius_y2]), &
+                    2.0_dp/((1.0_dp - b%poisson_1**2)/b%modulus_1 + (1.0_dp - b%poisson_2**2)/b%modulus_2)]
+         ! a resolved case has these with the bodies
+         agrees = .false.
+         agrees(:3) = abs([c%radius_x, c%radius_y, c%reduced_modulus] - follows) <= rounding*follows
+         do k = 1, size(rivals)
+            if (agrees(k) .or. .not. schema%given("contact", trim(rivals(k)))) cycle
+            call contradict(schema, sources, schema%keys(first)%full_name(), "contact."//trim(rivals(k)), &
+                            "the bodies, or reduced radii and modulus, or Moes numbers", status)
+            return
+         end do
+         c%radius_x = follows(1)
+         c%radius_y = follows(2)
+         c%reduced_modulus = follows(3)
          call check_closed(schema, sources, "radius_x", [b%radius_x1, b%radius_x2], c%radius_x, status)
          call check_closed(schema, sources, "radius_y", [b%radius_y1, b%radius_y2], c%radius_y, status)
+         associate (key => schema%keys(schema%find("contact", "reduced_modulus")))
+            if (status%failed() .or. key%allows(c%reduced_modulus)) return
+            name = merge("modulus_1", "modulus_2", b%modulus_1 < b%modulus_2)
+            call refuse(schema, sources, "bodies", name, "contact.reduced_modulus = "//short(c%reduced_modulus)// &
+                        " follows from the bodies", key%type_text(), status)
+         end associate
       end associate
    end subroutine complete_bodies
 
@@ -111,14 +128,19 @@ contains
       character(len=*), intent(in) :: name
       real(dp), intent(in) :: radii(2), reduced
       type(status_t), intent(inout) :: status
-      character(len=1) :: concave
+      character(len=1) :: place
 
       if (status%failed()) return
       associate (key => schema%keys(schema%find("contact", name)))
          if (reduced > 0.0_dp .and. key%allows(reduced)) return
+         place = merge("1", "2", radii(1) < 0.0_dp .or. .not. abs(radii(2)) > 0.0_dp)
+         if (reduced > 0.0_dp) then
+            call refuse(schema, sources, "bodies", name//place, "contact."//name//" = "//short(reduced)// &
+                        " follows from the bodies", key%type_text(), status)
+            return
+         end if
       end associate
-      concave = merge("1", "2", radii(1) < 0.0_dp)
-      call refuse(schema, sources, "bodies", name//concave, "bodies."//name//"1 = "//short(radii(1))//" and "//name//"2 = "// &
+      call refuse(schema, sources, "bodies", name//place, "bodies."//name//"1 = "//short(radii(1))//" and "//name//"2 = "// &
                   short(radii(2))//": the gap does not open in this direction", "a convex body, and a concave one (negative) "// &
                   "only with a larger radius than the convex one", status)
    end subroutine check_closed

@@ -1,15 +1,15 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The two surfaces of a case: defaults that depend on other keys, and what each kind needs
 module ehl_case_surface
-   use ehl_case, only: case_t, is_feature, path_length, surface_case_t
+   use ehl_case, only: case_t, is_feature, surface_case_t
    use ehl_case_feature, only: check_arrival, check_feature, late_start
-   use ehl_files, only: absolute_path, file_exists, folder_of, is_file
+   use ehl_case_path, only: find_file
+   use ehl_files, only: file_exists, is_file
    use ehl_kinds, only: dp
    use ehl_refusal, only: contradict, refuse, short
    use ehl_schema, only: schema_t
    use ehl_source, only: source_t
    use ehl_status, only: status_t
-   use ehl_text, only: to_text
    implicit none (type, external)
    private
    public :: complete_surfaces, check_surfaces
@@ -147,27 +147,16 @@ contains
       type(surface_case_t), intent(inout) :: s
       type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
-      character(len=:), allocatable :: path
 
-      path = trim(s%file)
-      ! A name in the case file starts at the folder of that file, an option at the working one
-      if (path(1:1) /= "/" .and. schema%keys(schema%find(group, "file"))%source == 1) then
-         path = folder_of(sources(1)%name) // path
-      end if
-      path = absolute_path(path)
-      if (len(path) > path_length) then
-         call refuse(schema, sources, group, "file", group//".file: the full name is longer " &
-            // "than " // to_text(path_length) // " characters", "a shorter path", status)
-      else if (s%kind == "map") then
+      call find_file(schema, sources, group, "file", s%file, status)
+      if (status%failed() .or. s%kind /= "map") return
+      if (.not. file_exists(trim(s%file))) then
          ! the heights of a tile that pyehl has made come from it, or are kept beside the results
-         if (.not. file_exists(path) .and. .not. s%tile_x > 0.0_dp) then
-            call refuse(schema, sources, group, "file", group//".file: there is no file " // path, &
-               "a height map: .npy, text or a file of an instrument", status)
-         else if (file_exists(path)) then
-            if (.not. is_file(path)) call refuse(schema, sources, group, "file", group//".file: " // path &
-               // " is a folder, a device or a pipe", "a height map: .npy, text or a file of an instrument", status)
-         end if
+         if (.not. s%tile_x > 0.0_dp) call refuse(schema, sources, group, "file", group//".file: there is no file "//trim(s%file), &
+                                                  "a height map: .npy, text or a file of an instrument", status)
+      else if (.not. is_file(trim(s%file))) then
+         call refuse(schema, sources, group, "file", group//".file: "//trim(s%file)//" is a folder, a device or a pipe", &
+                     "a height map: .npy, text or a file of an instrument", status)
       end if
-      if (.not. status%failed()) s%file = path
    end subroutine find_map
 end module ehl_case_surface

@@ -16,11 +16,13 @@ module ehl_case_temperature
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: complete_viscosity, check_heat
+   public :: complete_viscosity, complete_alpha, check_heat
 
    !> Keys that mean nothing without the kinematic viscosities
    character(len=17), parameter :: sheet_keys(3) = &
       [character(len=17) :: "temperature", "density_15", "thermal_expansion"]
+   !> Exponent z of Roelands 1966 of a mineral oil
+   real(dp), parameter :: mineral_z = 0.6_dp
    !> Relative difference of viscosities that is none
    real(dp), parameter :: rounding = 1.0e-6_dp
 
@@ -33,7 +35,7 @@ contains
       type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
       real(dp) :: sheet(2), follows
-      character(len=23) :: at
+      character(len=23) :: at, by
       integer :: k
 
       sheet = [input%lubricant%kinematic_viscosity_40, input%lubricant%kinematic_viscosity_100]
@@ -73,12 +75,38 @@ contains
                end if
             end associate
          else if (abs(l%viscosity - follows) > rounding*follows) then
-            call contradict(schema, sources, "lubricant.viscosity", "lubricant.kinematic_viscosity_40", &
-               "viscosity, or the kinematic viscosities", status, "lubricant.viscosity = " // to_text(l%viscosity) &
+            by = "kinematic_viscosity_40"
+            if (.not. schema%given("lubricant", trim(by))) by = "name"
+            call contradict(schema, sources, "lubricant.viscosity", "lubricant."//trim(by), &
+               "viscosity, or what tells it", status, "lubricant.viscosity = " // to_text(l%viscosity) &
                // ", and the data sheet gives " // short(follows) // " Pa s at " // to_text(l%temperature) // " degC")
          end if
       end associate
    end subroutine complete_viscosity
+
+   !> Pressure-viscosity coefficient beside the viscosities of a data sheet, which has none: of Roelands' law with a z that
+   !> does not change with temperature, the given one or that of a mineral oil
+   subroutine complete_alpha(schema, input, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(inout) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+
+      associate (l => input%lubricant)
+         if (own_law(l) /= "" .or. schema%given("lubricant", "pressure_viscosity")) return
+         if (.not. l%kinematic_viscosity_40 > 0.0_dp) then
+            l%alpha_default = input%contact%si .and. schema%given("lubricant", "viscosity")
+            return
+         end if
+         l%alpha_estimated = .not. schema%given("lubricant", "roelands_z")
+         l%pressure_viscosity = merge(mineral_z, l%roelands_z, l%alpha_estimated)*(log(l%viscosity) + 9.67_dp)/l%roelands_p0
+         associate (key => schema%keys(schema%find("lubricant", "pressure_viscosity")))
+            if (.not. key%allows(l%pressure_viscosity)) call refuse(schema, sources, "lubricant", "kinematic_viscosity_40", &
+               "lubricant.pressure_viscosity = "//short(l%pressure_viscosity)//" follows from the data sheet at "// &
+               to_text(l%temperature)//" degC", key%type_text(), status)
+         end associate
+      end associate
+   end subroutine complete_alpha
 
    !> What shear heating of the inlet needs, and where its formula ends
    subroutine check_heat(schema, input, sources, status)

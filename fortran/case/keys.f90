@@ -191,7 +191,7 @@ contains
          call self%reals("film_thickness", p%film_thickness, "m", "[0, 1e-3]", &
                          "central film; 0: solved, or with smooth = 'hertz' from the Nijenbanning-Venner-Moes formula")
          call self%reals("film_limit", p%film_limit, "m", "[0, 1e-3]", &
-                         "film below which the share of the contact is told; 0: none")
+                         "film; the share of the contact with less is reported; 0: none")
          call self%words("wavelength_convention", p%wavelength_convention, "components|wavevector|pattern", &
                          "what the wavelength of a component is, for reduction = 'amplitude'")
          call self%words("stiffness", p%stiffness, "exact|paper", "stiffness of the half-space")

@@ -19,6 +19,8 @@ module ehl_viscosity_file
       [character(len=16) :: "pressure_Pa", "temperature_degC", "viscosity_Pa_s"]
    !> What is accepted of them
    real(dp), parameter :: least(3) = [0.0_dp, -100.0_dp, 1.0e-6_dp], greatest(3) = [1.0e11_dp, 500.0_dp, 1.0e15_dp]
+   !> Highest pressure [Pa] that is as good as none: it changes the viscosity by some 2 %
+   real(dp), parameter :: ambient = 1.0e6_dp
    character(len=*), parameter :: header = "a line with the names pressure_Pa, temperature_degC and viscosity_Pa_s"
 
    !> A state and the line that has it, by the place of its first character
@@ -178,7 +180,7 @@ contains
       is_before = a%values(2) < b%values(2) .or. (.not. a%values(2) > b%values(2) .and. a%values(1) < b%values(1))
    end function is_before
 
-   !> Two pressures or more, each once, and a viscosity that rises with them
+   !> Two pressures or more, the first ambient, each once, and a viscosity that rises with them
    subroutine check_isotherm(source, states, status)
       type(source_t), intent(in) :: source
       type(state_t), intent(in) :: states(:)
@@ -188,6 +190,11 @@ contains
       if (size(states) == 1) then
          call status%fail(ehl_bad_input, point_at(source, states(1)%first, states(1)%last, "a single pressure at "// &
             to_text(states(1)%values(2))//" degC", "two pressures or more at each temperature"))
+         return
+      else if (states(1)%values(1) > ambient) then
+         call status%fail(ehl_bad_input, point_at(source, states(1)%first, states(1)%last, "the lowest pressure at "// &
+            to_text(states(1)%values(2))//" degC", "a viscosity at ambient pressure, "//to_text(ambient)// &
+            " Pa or less, at each temperature"))
          return
       end if
       do k = 2, size(states)

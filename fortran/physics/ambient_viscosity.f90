@@ -18,13 +18,13 @@ module ehl_ambient_viscosity
 
 contains
 
-   !> ln(eta/Pa s) at a temperature [degC]
+   !> ln(eta/Pa s) at a temperature [degC]; that of the least number where there is no viscosity
    pure real(dp) function log_viscosity(self, temperature)
       class(ambient_viscosity_t), intent(in) :: self
       real(dp), intent(in) :: temperature
 
       if (self%sheet(1) > 0.0_dp) then
-         log_viscosity = log(dynamic_viscosity(temperature, self%sheet, self%density, self%expansion))
+         log_viscosity = log(max(tiny(1.0_dp), dynamic_viscosity(temperature, self%sheet, self%density, self%expansion)))
       else
          log_viscosity = log(self%vogel(1)) + self%vogel(2)/(temperature + self%vogel(3))
       end if

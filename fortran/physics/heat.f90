@@ -29,12 +29,13 @@ contains
       viscosity = z - exp(-0.7487_dp - 3.295_dp*z + 0.6119_dp*z**2 - 0.3193_dp*z**3)
    end function kinematic_viscosity
 
-   !> Viscosity [Pa s] at a temperature [degC]; density at 15 degC [kg/m^3], its relative fall per kelvin
+   !> Viscosity [Pa s] at a temperature [degC]; density at 15 degC [kg/m^3], its relative fall per kelvin. None where the line
+   !> of the density has come to zero, above 1000 degC: an estimate of the heat may ask there, a contact is never so hot.
    pure real(dp) function dynamic_viscosity(temperature, points, density, expansion)
       real(dp), intent(in) :: temperature, points(2), density, expansion
 
       dynamic_viscosity = 1.0e-6_dp*kinematic_viscosity(temperature, points) &
-                          *density*(1.0_dp - expansion*(temperature - sheet_density))
+                          *density*max(0.0_dp, 1.0_dp - expansion*(temperature - sheet_density))
    end function dynamic_viscosity
 
    !> Temperature-viscosity coefficient -(d eta/dT)/eta [1/K] of the same oil

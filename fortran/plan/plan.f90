@@ -14,7 +14,7 @@ module ehl_plan
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_plan_friction, only: plan_point, plan_sliding, sliding_t
    use ehl_plan_heat, only: heat_plan_t, plan_heat
-   use ehl_plan_lubricant, only: law_note, plan_lubricant
+   use ehl_plan_lubricant, only: alpha_note, law_note, plan_lubricant
    use ehl_plan_surface, only: check_carried, make_surfaces
    use ehl_resolution, only: has_solution, relative_errors
    use ehl_scales, only: scales_t
@@ -49,7 +49,7 @@ module ehl_plan
       !> Whether the smooth contact may touch at the boundary film
       logical :: touches = .false.
       !> Law with constants of an oil, and the range of these
-      character(len=:), allocatable :: lubricant_note
+      character(len=:), allocatable :: lubricant_note, alpha_note
       !> What absolute friction needs to know
       type(sliding_t) :: sliding
       !> The heat of it
@@ -110,6 +110,7 @@ contains
       call plan_lubricant(input, plan%point, plan%scales, plan%lubricant, status)
       if (status%failed()) return
       call law_note(input, plan%scales, plan%lubricant_note)
+      plan%alpha_note = alpha_note(input)
       call plan%lubricant%density([1.0_dp], rho, slope)
       plan%film_expected = plan%contact%film_formula(plan%point%moes_m, plan%point%moes_l)/rho(1)
       plan%touches = plan%lubricant%boundary_film > contact_from*plan%film_expected
@@ -154,7 +155,7 @@ contains
       if (plan%surfaces%pass_once()) then
          plan%why_front = "a single feature passes once"
       else if (plan%surfaces%count() > 1) then
-         plan%why_front = "two rough surfaces are not predicted"
+         plan%why_front = "the start from the prediction is for one rough surface"
       else if (plan%target_error > 0.0_dp) then
          plan%why_front = "the grid of grid.target_error is not known before"
       end if

@@ -27,6 +27,8 @@ module ehl_plan_heat
       !> Whether it is computed
       logical :: counts = .false.
       type(film_heat_t) :: film
+      !> Rise of temperature up to which the viscosity was measured [K]; huge: not known
+      real(dp) :: measured_rise = huge(1.0_dp)
       !> What a coefficient of friction is, in words: with or without it, and why
       character(len=:), allocatable :: note
    end type heat_plan_t
@@ -62,17 +64,18 @@ contains
          heat%conductivity = l%thermal_conductivity
          heat%length = scales%length
          heat%film = scales%film
+         if (l%range_temperature_max > l%range_temperature_min) plan%measured_rise = l%range_temperature_max - l%temperature
          rest = speed_of_rest(contact)
          heat%strengths = [wall(1), wall(2)]
          stress = stress_at(0.0_dp)
          if (.not. lubricant%shear%thins() .and. stress > sliding%newtonian_limit) then
-            plan%note = "isothermal: a Newtonian stress above lubricant.eyring_stress makes no heat that could be told"
+            plan%note = "isothermal: the Newtonian stress is above lubricant.eyring_stress, its heat is not computed"
             return
          end if
          rise = flash_temperature(stress*heat%speed, scales%length, sliding%speeds(), sliding%conductivity, &
                                   sliding%diffusivity) + stress*heat%speed*film*scales%film/(12.0_dp*heat%conductivity)
          warm = stress_at(rise)
-         plan%counts = l%thermal_friction == "always" .or. stress - warm >= least_change*stress
+         plan%counts = l%thermal_friction == "always" .or. .not. stress - warm < least_change*stress
          if (plan%counts) then
             plan%note = "with the temperature of film and walls; pressure and film thickness are isothermal"
          else

@@ -12,7 +12,7 @@ module ehl_plan_lubricant
    use ehl_text, only: fixed, to_text
    implicit none (type, external)
    private
-   public :: plan_lubricant, law_note
+   public :: plan_lubricant, law_note, alpha_note
 
 contains
 
@@ -40,6 +40,7 @@ contains
       type(scales_t), intent(in) :: scales
       character(len=:), allocatable, intent(out) :: note
       character(len=:), allocatable :: from
+      logical :: temperatures
 
       associate (l => input%lubricant)
          if (own_law(l) == "") return
@@ -47,13 +48,18 @@ contains
          if (l%name /= "") from = trim(l%name)//", "//from
          note = from//" at "//to_text(l%temperature)//" degC: "//trim(fixed(l%viscosity, "es9.3"))//" Pa s, alpha = "// &
                 trim(fixed(l%pressure_viscosity, "es9.3"))//" 1/Pa; "
-         if (.not. l%range_temperature_max > l%range_temperature_min .and. .not. l%range_pressure_max > 0.0_dp) then
+         temperatures = abs(l%range_temperature_min) + abs(l%range_temperature_max) > 0.0_dp
+         if (.not. temperatures .and. .not. l%range_pressure_max > 0.0_dp) then
             note = note//"the range of the measurements behind it is not known"
             return
          end if
-         note = note//"measured from "//to_text(l%range_temperature_min)//" to "//to_text(l%range_temperature_max)//" degC"
-         if (l%range_pressure_max > 0.0_dp) note = note//" and up to "//fixed(l%range_pressure_max, "es9.3")//" Pa"
-         if (l%temperature < l%range_temperature_min .or. l%temperature > l%range_temperature_max) then
+         note = note//"measured"
+         if (temperatures) then
+            note = note//" from "//to_text(l%range_temperature_min)//" to "//to_text(l%range_temperature_max)//" degC"
+            if (l%range_pressure_max > 0.0_dp) note = note//" and"
+         end if
+         if (l%range_pressure_max > 0.0_dp) note = note//" up to "//fixed(l%range_pressure_max, "es9.3")//" Pa"
+         if (temperatures .and. (l%temperature < l%range_temperature_min .or. l%temperature > l%range_temperature_max)) then
             note = note//", BEYOND in temperature"
          end if
          if (l%viscosity_law == own_law(l) .and. l%range_pressure_max > 0.0_dp .and. scales%pressure > l%range_pressure_max) then
@@ -61,6 +67,23 @@ contains
          end if
       end associate
    end subroutine law_note
+
+   !> Where a pressure-viscosity coefficient is from that nobody gave; empty where one was given
+   function alpha_note(input) result(note)
+      type(case_t), intent(in) :: input
+      character(len=:), allocatable :: note
+      !> Least and largest z of the oils that are known by name, at 40 and 100 degC, see tests/model/test_lubricants.py
+      character(len=*), parameter :: known = "0.42 to 0.74"
+
+      note = ""
+      associate (l => input%lubricant)
+         if (l%alpha_estimated) note = "alpha = "//fixed(l%pressure_viscosity, "es9.3")//" 1/Pa at "//to_text(l%temperature)// &
+            " degC is an estimate by the z of a mineral oil (Roelands): oils have z = "//known// &
+            ", which is -17 to +12 % of the film; give lubricant.pressure_viscosity"
+         if (l%alpha_default) note = "alpha = "//fixed(l%pressure_viscosity, "es9.3")// &
+            " 1/Pa is the default, that of another oil; give lubricant.pressure_viscosity"
+      end associate
+   end function alpha_note
 
    !> Shear law; a contact given by its Moes numbers has no sliding speed and stays Newtonian
    pure function shear_of(input, scales) result(shear)

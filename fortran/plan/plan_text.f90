@@ -33,6 +33,7 @@ contains
                                             fixed(plan%scales%pressure, "es10.4")//" Pa")
       if (.not. plan%contact%is_round()) call tell_ellipse()
       if (allocated(plan%lubricant_note)) call add("lubricant  "//plan%lubricant_note)
+      if (plan%alpha_note /= "") call add("lubricant  "//plan%alpha_note)
       call tell_friction()
       if (plan%surfaces%rough()) then
          call add(scene_lines(plan%surfaces))

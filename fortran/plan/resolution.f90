@@ -10,7 +10,7 @@ module ehl_resolution
    private
    public :: relative_errors, has_solution, too_coarse
 
-   !> Most that half of the a-priori error of H_min may be where the equations have a solution
+   !> Most that half of the a-priori error of H_min may be where the equations have a solution (docs/robustness.md)
    real(dp), parameter :: most_unresolved = 0.6_dp
    !> What grids miss in contacts that are narrow, over what they miss in round ones, by H_c and by H_min: 1 + a (1/kappa^2 - 1)
    !> and b/kappa^2 (docs/evidence/errors_ellipses)
@@ -57,7 +57,7 @@ contains
       do while (.not. has_solution(contact, point, grid))
          grid = grid%finer()
       end do
-      if (grid%nx > finest%nx) text = "so few nodes have hardly a solution at this load: grid.points = "// &
+      if (grid%nx > finest%nx) text = "the grid is too coarse for a solution at this load: grid.points = "// &
                                       to_text(grid%nx)//" or more"
    end function too_coarse
 end module ehl_resolution

@@ -1,59 +1,60 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What a run ends with: a few lines for a person, from its summary
+!> What a run or a prediction ends with: a few lines for a person, from its summary
 module ehl_conclusion
+   use ehl_judgement, only: judge
    use ehl_kinds, only: dp
    use ehl_record, only: record_t
    use ehl_text, only: fixed, newline, to_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
    private
-   public :: conclusion
+   public :: conclusion, resumption
 
-   real(dp), parameter :: nanometres = 1.0e9_dp
+   real(dp), parameter :: nanometres = 1.0e9_dp, gigapascals = 1.0e-9_dp
 
 contains
 
-   !> Films with their errors, in nm where the case has a size; friction and film over roughness where there are any
+   !> Names in the first 11 columns: films and pressure with their errors, in nm and GPa where the case has a size, friction,
+   !> heat, and what all that is worth
    function conclusion(summary) result(text)
       type(record_t), intent(in) :: summary
       character(len=:), allocatable :: text
-      character(len=:), allocatable :: none
-      real(dp) :: mu
+      character(len=:), allocatable :: judgement
+      integer :: worth
 
-      none = "none: the run ended with the status '"//summary%text("status")//"'"
-      if (.not. ieee_is_finite(summary%number("H_c"))) then
-         text = "H_c        "//none
-         if (summary%text("H_c_error_note") /= "") text = text//newline//"           "//summary%text("H_c_error_note")
-         return
-      end if
-      text = film("c", "")//newline//film("min", rough_film())
-      if (summary%has("mu_ratio")) text = text//newline//ratio()
-      mu = summary%number("mu")
-      if (ieee_is_finite(mu)) then
-         text = text//newline//"mu         "//fixed(mu, "f9.5")
-         if (summary%has("mu_ratio")) text = text//", smooth contact "//fixed(summary%number("mu_smooth"), "f9.5")
-      end if
-      if (summary%has("lambda_ratio")) text = text//newline//"Lambda     h_min/sigma "// &
-                                              fixed(summary%number("lambda_ratio"), "f9.3")//", h_c/sigma "// &
-                                              fixed(summary%number("lambda_ratio_central"), "f9.3")//", smooth films"
+      text = film("c", "")//film("min", rough_film())//pressure()//lambda()//ratio()//friction()//heat()
+      call judge(summary, judgement, worth)
+      text = text//"judgement  "//judgement
 
    contains
+
+      !> Whether a number is there
+      pure logical function known(name)
+         character(len=*), intent(in) :: name
+         known = ieee_is_finite(summary%number(name))
+      end function known
 
       !> Central or minimum film
       function film(which, more)
          character(len=*), intent(in) :: which, more
          character(len=:), allocatable :: film
-         real(dp) :: scale, value, error
+         character(len=:), allocatable :: in_metres
 
-         value = summary%number("H_"//which)
-         error = summary%number("H_"//which//"_error")
-         film = "H_"//which//repeat(" ", 9 - len(which))//with_error(value, error, "f10.6")
-         if (summary%has("film_scale_m")) then
-            scale = summary%number("film_scale_m")*nanometres
-            film = film//", h_"//which//" "//with_error(value*scale, error*scale, "f10.2")//" nm"
+         film = ""
+         in_metres = ""
+         if (known("h_"//which//"_m")) then
+            in_metres = with_error(summary%number("h_"//which//"_m")*nanometres, &
+                                   summary%number("h_"//which//"_error_m")*nanometres, "f10.2", " nm")
          end if
-         if (summary%text("error_estimate") == "a priori") film = film//" (error a priori)"
-         film = film//more
+         if (known("H_"//which)) then
+            film = "H_"//which//repeat(" ", 9 - len(which))// &
+                   with_error(summary%number("H_"//which), summary%number("H_"//which//"_error"), "f10.6", "")
+            if (in_metres /= "") film = film//", h_"//which//" "//in_metres
+            if (summary%text("error_estimate") == "a priori") film = film//" (error a priori)"
+         else if (in_metres /= "") then
+            film = "h_"//which//repeat(" ", 9 - len(which))//in_metres//", smooth contact"
+         end if
+         if (film /= "") film = film//more//newline
       end function film
 
       !> The least film of the rough contact, where it is known
@@ -61,41 +62,133 @@ contains
          character(len=:), allocatable :: rough_film
 
          rough_film = ""
-         if (.not. ieee_is_finite(summary%number("H_min_rough"))) return
-         rough_film = "; rough "//fixed(summary%number("H_min_rough"), "f10.6")
-         if (summary%has("h_min_rough_m")) then
+         if (known("h_min_rough_m")) then
             rough_film = "; rough "//fixed(summary%number("h_min_rough_m")*nanometres, "f10.2")//" nm"
+            if (known("h_min_rough_error_m")) rough_film = "; rough "//with_error(summary%number("h_min_rough_m")*nanometres, &
+               summary%number("h_min_rough_error_m")*nanometres, "f10.2", " nm")
+         else if (known("H_min_rough")) then
+            rough_film = "; rough "//fixed(summary%number("H_min_rough"), "f10.6")
          end if
       end function rough_film
 
-      !> Friction ratio
+      !> The greatest pressures of the smooth and the rough contact
+      function pressure()
+         character(len=:), allocatable :: pressure
+
+         pressure = ""
+         if (known("P_max")) then
+            pressure = "p_max      "//with_error(summary%number("P_max"), summary%number("P_max_error"), "f10.4", " p_h")
+            if (known("p_max_Pa")) pressure = pressure//", "//giga("p_max_Pa")
+            if (known("p_max_rough_Pa")) then
+               pressure = pressure//"; rough "//giga("p_max_rough_Pa")
+            else if (known("P_max_rough")) then
+               pressure = pressure//"; rough "//fixed(summary%number("P_max_rough"), "f10.4")//" p_h"
+            end if
+         else if (known("p_max_Pa")) then
+            pressure = "p_max      "//giga("p_max_Pa")
+         else if (known("h_c_m")) then
+            pressure = "p_h        "//giga("hertz_pressure_Pa")
+         end if
+         if (known("p_rise_max_Pa")) pressure = pressure//"; rough "//with_error(summary%number("p_rise_max_Pa")*gigapascals, &
+            summary%number("p_rise_max_error_Pa")*gigapascals, "f10.4", " GPa")//" above the smooth contact"
+         if (pressure /= "") pressure = pressure//newline
+      end function pressure
+
+      !> A pressure in GPa
+      function giga(name)
+         character(len=*), intent(in) :: name
+         character(len=:), allocatable :: giga
+         giga = fixed(summary%number(name)*gigapascals, "f10.4")//" GPa"
+      end function giga
+
+      !> Film over roughness
+      function lambda()
+         character(len=:), allocatable :: lambda
+
+         lambda = ""
+         if (.not. known("lambda_ratio")) return
+         lambda = "Lambda     h_min/sigma "//fixed(summary%number("lambda_ratio"), "f9.3")//", h_c/sigma "// &
+                  fixed(summary%number("lambda_ratio_central"), "f9.3")//", smooth films over undeformed roughness"//newline
+      end function lambda
+
+      !> Friction ratio, and why its error is not known
       function ratio()
          character(len=:), allocatable :: ratio
+         real(dp) :: error
 
-         ratio = "mu_r/mu_s  "
-         if (.not. ieee_is_finite(summary%number("mu_ratio"))) then
-            ratio = ratio//none
+         ratio = ""
+         if (.not. known("mu_ratio")) return
+         error = summary%number("mu_ratio_error")
+         if (summary%has("mu_ratio_model_error")) error = summary%number("mu_ratio_model_error")
+         ratio = "mu_r/mu_s  "//with_error(summary%number("mu_ratio"), error, "f9.5", "")
+         if (summary%text("mu_ratio_error_note") /= "") ratio = ratio//": "//summary%text("mu_ratio_error_note")
+         ratio = ratio//newline
+      end function ratio
+
+      !> Coefficient of friction with the law that it is by, or why there is none
+      function friction()
+         character(len=:), allocatable :: friction
+
+         friction = ""
+         if (known("mu")) then
+            friction = "mu         "//fixed(summary%number("mu"), "f9.5")
+            if (summary%has("mu_ratio")) friction = friction//", smooth contact "//fixed(summary%number("mu_smooth"), "f9.5")
+         else if (known("mu_smooth")) then
+            friction = "mu         smooth contact "//fixed(summary%number("mu_smooth"), "f9.5")
+         else if (summary%text("mu_note") /= "" .and. (known("H_c") .or. known("h_c_m"))) then
+            friction = "mu         none: "//summary%text("mu_note")//newline
             return
          end if
-         ratio = ratio//with_error(summary%number("mu_ratio"), summary%number("mu_ratio_error"), "f9.5")
-         if (summary%text("mu_ratio_error_note") /= "") ratio = ratio//": "//summary%text("mu_ratio_error_note")
-      end function ratio
+         if (friction /= "") friction = friction//"; law '"//summary%text("shear_law")//"'"//newline
+      end function friction
+
+      !> Rises of temperature
+      function heat()
+         character(len=:), allocatable :: heat
+
+         heat = ""
+         if (known("temperature_rise_max_K")) heat = "film "//fixed(summary%number("temperature_rise_max_K"), "f9.1")//" K"
+         if (known("flash_temperature_K")) then
+            if (heat /= "") heat = heat//", "
+            heat = heat//"surfaces "//fixed(summary%number("flash_temperature_K"), "f9.1")//" K (flash temperature)"
+         end if
+         if (heat /= "") heat = "heat       "//heat//" warmer"//newline
+      end function heat
    end function conclusion
 
+   !> How a run with this status can go on, up to the name of its result folder; empty where it would end the same way
+   function resumption(status, program) result(text)
+      character(len=*), intent(in) :: status
+      !> As a person calls it
+      character(len=*), intent(in) :: program
+      character(len=:), allocatable :: text
+
+      select case (status)
+      case ("interrupted", "failed")
+         text = "to resume: "//program//" --resume "
+      case ("not settled")
+         text = "to go on with a larger time.max_periods or time.steps (--set): "//program//" --resume "
+      case ("cycle limit")
+         text = "to go on with a larger solver.max_cycles (--set): "//program//" --resume "
+      case default
+         text = ""
+      end select
+   end function resumption
+
    !> A value with its error to two digits, and as many digits itself: '1.185 +- 0.048'
-   function with_error(value, error, plain) result(text)
+   function with_error(value, error, plain, unit) result(text)
       real(dp), intent(in) :: value, error
       !> Edit descriptor of a value whose error is not known
-      character(len=*), intent(in) :: plain
+      character(len=*), intent(in) :: plain, unit
       character(len=:), allocatable :: text
       character(len=:), allocatable :: form
 
       if (.not. ieee_is_finite(error)) then
-         text = fixed(value, plain)//", error not known"
+         text = fixed(value, plain)//unit//", error not known"
          return
       end if
       form = "f24."//to_text(min(9, max(0, 1 - floor(log10(max(abs(error), tiny(error)))))))
-      text = without_point(fixed(value, form))//" +- "//without_point(fixed(error, form))
+      text = without_point(fixed(value, form))//" +- "//without_point(fixed(error, form))//unit
    end function with_error
 
    !> A number without a point at its end

@@ -2,7 +2,7 @@
 !> The heat of friction in a run: of the smooth contact, and of the rough one at its end and in some of its steps
 submodule (ehl_contact_run) ehl_contact_heat
    use ehl_heated_friction, only: heat_film
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    implicit none (type, external)
 
    !> Steps in a period after which it is computed: what the heat takes from the friction changes slowly
@@ -21,15 +21,13 @@ contains
       type(heated_t) :: found
 
       step_heat = ieee_value(step_heat, ieee_quiet_nan)
-      associate (mean => self%transient%mean)
-         if (mod(self%transient%step, max(1, nint(mean%period/(samples*mean%time_step)))) > 0) return
-      end associate
+      if (mod(self%transient%step, interval(self)) > 0) return
       call add_heat(self, self%steady%n, .false., found)
       step_heat = found%ratio()
    end procedure step_heat
 
    module procedure heat_ratio
-      real(dp), allocatable :: ratio(:), isothermal(:)
+      real(dp), allocatable :: ratio(:), isothermal(:), step(:)
 
       heat_ratio = ieee_value(heat_ratio, ieee_quiet_nan)
       if (self%resting) then
@@ -38,10 +36,21 @@ contains
       end if
       ratio = self%history%column("heat_ratio")
       isothermal = self%history%column("mu_ratio")
+      step = self%history%column("step")
       associate (first => self%transient%mean%first_of_mean())
-         associate (there => ieee_is_finite(ratio(first:)))
-            if (any(there)) heat_ratio = sum(ratio(first:)*isothermal(first:), mask=there)/sum(isothermal(first:), mask=there)
+         ! not a number as soon as the temperature of one of them was not solved
+         associate (due => mod(nint(step(first:)), interval(self)) == 0)
+            if (any(due)) heat_ratio = sum(ratio(first:)*isothermal(first:), mask=due)/sum(isothermal(first:), mask=due)
          end associate
       end associate
    end procedure heat_ratio
+
+   !> Steps from one in which the heat is computed to the next
+   pure integer function interval(self)
+      class(contact_run_t), intent(in) :: self
+
+      associate (mean => self%transient%mean)
+         interval = max(1, nint(mean%period/(samples*mean%time_step)))
+      end associate
+   end function interval
 end submodule ehl_contact_heat

@@ -125,16 +125,16 @@ contains
    !> A history without a row
    subroutine begin_history(self)
       class(contact_run_t), intent(inout) :: self
+      character(len=16), allocatable :: columns(:)
 
       if (self%plan%surfaces%rest()) then
          call self%history%init([character(len=16) :: "cycle", "share", "mu_ratio", "H_c", "H_min", "P_max", "load_error", &
                                  "residual"])
       else if (self%plan%surfaces%move()) then
-         call self%history%init([character(len=16) :: "step", "T", "mu_ratio", "H_c", "H_min", "P_max", "load_error", &
-                                 "cycles", "residual"])
-         if (self%plan%heat%counts) call self%history%init([character(len=16) :: "step", "T", "mu_ratio", "H_c", "H_min", &
-                                                            "P_max", "load_error", "cycles", "residual", "heat_ratio"])
-         if (self%plan%lubricant%boundary_film > 0.0_dp) call self%history%add(touching_names)
+         columns = [character(len=16) :: "step", "T", "mu_ratio", "H_c", "H_min", "P_max", "load_error", "cycles", "residual"]
+         if (self%plan%heat%counts) columns = [character(len=16) :: columns, "heat_ratio"]
+         if (self%plan%lubricant%boundary_film > 0.0_dp) columns = [character(len=16) :: columns, touching_names]
+         call self%history%init(columns)
       else
          call self%history%init([character(len=16) :: "level", "points", "cycle", "H_c", "H_min", "P_max", "F", &
                                  "load_error", "residual", "H_c_algebraic"])
@@ -167,7 +167,7 @@ contains
       self%grid = self%hierarchy%levels(n)%grid
       if (.not. self%roughness_is_due()) self%outcome = self%steady%outcome
       if (self%plan%heat%counts .and. any(self%steady%outcome == [outcome_converged, outcome_target_missed])) then
-        call add_heat(self, n, .not. self%plan%surfaces%rough(), self%smooth_heat)
+         call add_heat(self, n, .not. self%plan%surfaces%rough(), self%smooth_heat)
       end if
       if (self%plan%surfaces%rough()) return
       associate (result => self%steady%results(n))
@@ -225,7 +225,7 @@ contains
       self%seconds = self%seconds + clock%seconds()
       self%outcome = self%rest%outcome
       if (self%plan%heat%counts .and. self%outcome == outcome_converged) then
-        call add_heat(self, self%steady%n, .true., self%rough_heat)
+         call add_heat(self, self%steady%n, .true., self%rough_heat)
       end if
       associate (rest => self%rest, m => self%rest%m)
          call self%history%append([real(dp) :: rest%total_cycles, rest%share, rest%mu_ratio(), m%film_central, &
@@ -259,7 +259,7 @@ contains
          if (self%plan%surfaces%pass_once()) call transient%extremes%see(level, self%p_smooth, self%h_smooth, transient%time)
          self%outcome = transient_outcome(self%plan, transient)
          if (self%plan%heat%counts .and. self%outcome == outcome_converged) then
-           call add_heat(self, self%steady%n, .true., self%rough_heat)
+            call add_heat(self, self%steady%n, .true., self%rough_heat)
          end if
          call self%frames%keep(level, transient%time, transient%time_step, self%plan%frame_interval, status)
       end associate

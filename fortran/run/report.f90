@@ -78,6 +78,7 @@ contains
       call record%set("alpha_bar", plan%point%alpha_bar)
       call record%set("speed_parameter", plan%point%speed_parameter)
       call record%set("hertz_pressure_Pa", plan%scales%pressure)
+      if (plan%alpha_note /= "") call record%set("pressure_viscosity_note", plan%alpha_note)
       if (allocated(plan%lubricant_note)) call record%set("lubricant_note", plan%lubricant_note)
       if (plan%scales%has_size()) then
          call record%set("hertz_radius_m", plan%scales%length)
@@ -99,7 +100,7 @@ contains
    end subroutine report_scene
 
    !> The transient run: results null unless it came to a good end
-   subroutine report_transient(record, plan, transient, good, known, seconds, films, mean, change)
+   subroutine report_transient(record, plan, transient, good, known, seconds, films, pressures, mean, change)
       type(record_t), intent(inout) :: record
       type(plan_t), intent(in) :: plan
       type(transient_t), intent(in) :: transient
@@ -107,21 +108,23 @@ contains
       !> Whether friction is known where the bodies touch
       logical, intent(in) :: known
       real(dp), intent(in) :: seconds
-      !> Least film after each step
-      real(dp), intent(in) :: films(:)
+      !> Least film and greatest pressure after each step
+      real(dp), intent(in) :: films(:), pressures(:)
       !> Mean friction ratio, and its change at the end
       real(dp), intent(out) :: mean, change
-      real(dp) :: range(2), ratio, least
+      real(dp) :: range(2), ratio, least, greatest
 
       mean = ieee_value(mean, ieee_quiet_nan)
       range = mean
       change = mean
       ratio = mean
       least = mean
+      greatest = mean
       if (good) then
          mean = transient%mean%mean(0.0_dp)
          range = transient%mean%extremes()
          least = minval(films(transient%mean%first_of_mean():))
+         greatest = maxval(pressures(transient%mean%first_of_mean():))
          ratio = transient%mean%amplitude_ratio()
          if (transient%mean%has_change()) change = transient%mean%uncertainty()
          if (plan%surfaces%pass_once()) then
@@ -139,7 +142,7 @@ contains
       end if
       call record%set("mu_ratio_min", range(1))
       call record%set("mu_ratio_max", range(2))
-      if (.not. plan%surfaces%pass_once()) call report_rough_film(record, plan, least)
+      if (.not. plan%surfaces%pass_once()) call report_rough_extremes(record, plan, least, greatest)
       call record%set("amplitude_ratio", ratio)
       call report_amplitude(record, plan%surfaces)
       call record%set("scheme", trim(merge("narrow", "paper ", plan%scheme == wedge_narrow)))
@@ -180,15 +183,18 @@ contains
       if (surfaces%of(k)%group == "second_surface") named = "second_"//name
    end function named
 
-   !> Least film of the rough contact
-   subroutine report_rough_film(record, plan, film)
+   !> Least film and greatest pressure of the rough contact
+   subroutine report_rough_extremes(record, plan, film, pressure)
       type(record_t), intent(inout) :: record
       type(plan_t), intent(in) :: plan
-      real(dp), intent(in) :: film
+      real(dp), intent(in) :: film, pressure
 
       call record%set("H_min_rough", film)
-      if (plan%scales%has_size()) call record%set("h_min_rough_m", film*plan%scales%film)
-   end subroutine report_rough_film
+      call record%set("P_max_rough", pressure)
+      if (.not. plan%scales%has_size()) return
+      call record%set("h_min_rough_m", film*plan%scales%film)
+      call record%set("p_max_rough_Pa", pressure*plan%scales%pressure)
+   end subroutine report_rough_extremes
 
    !> The roughness, smooth film over it, and what of it the grid carries
    subroutine report_waves(record, plan, m)
@@ -234,8 +240,8 @@ contains
       algebraic = merge(2.0_dp*rest%algebraic*rest%mu_ratio(), nothing, good .and. known)
       if (known .and. .not. good) call record%set("last_mu_ratio", rest%mu_ratio())
       call record%set("H_c_rough", merge(rest%m%film_central, nothing, good))
-      call report_rough_film(record, plan, merge(rest%m%film_minimum, nothing, good))
-      call record%set("P_max_rough", merge(rest%m%pressure_maximum, nothing, good))
+      call report_rough_extremes(record, plan, merge(rest%m%film_minimum, nothing, good), &
+                                 merge(rest%m%pressure_maximum, nothing, good))
       do k = 1, plan%surfaces%count()
          call record%set(named(plan%surfaces, k, "x_start"), plan%surfaces%of(k)%surface%x_start)
       end do

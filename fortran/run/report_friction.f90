@@ -87,6 +87,11 @@ contains
             rises = nothing
             if (ieee_is_finite(mu)) rises = smooth_heat%greatest
             if (ieee_is_finite(mu) .and. plan%surfaces%rough()) rises = rough_heat%greatest
+            if (ieee_is_finite(rises(1))) then
+               if (rises(1) > max(0.0_dp, plan%heat%measured_rise)) then
+                  note = note//"; the film is hotter than the temperatures at which the viscosity was measured"
+               end if
+            end if
             call record%set("temperature_rise_max_K", rises(1))
             call record%set("temperature_rise_wall_1_max_K", rises(2))
             call record%set("temperature_rise_wall_2_max_K", rises(3))

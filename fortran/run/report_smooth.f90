@@ -83,7 +83,9 @@ contains
       call record%set("load_error", m%load_error)
       if (plan%scales%has_size()) then
          call record%set("h_c_m", m%film_central*plan%scales%film)
+         call record%set("h_c_error_m", (error(1) + domain(1))*plan%scales%film)
          call record%set("h_min_m", m%film_minimum*plan%scales%film)
+         call record%set("h_min_error_m", (error(2) + domain(2))*plan%scales%film)
          call record%set("p_max_Pa", m%pressure_maximum*plan%scales%pressure)
       end if
       call record%set("cycles", steady%results(n)%cycles)

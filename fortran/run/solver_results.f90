@@ -2,6 +2,7 @@
 !> Results of a run
 submodule (ehl_solver) ehl_solver_results
    use ehl_domain, only: ratio_cost, too_small
+   use ehl_judgement, only: judge
    use ehl_level_result, only: discretisation_error, spike_grows
    use ehl_outcome, only: outcome_names, outcome_target_missed
    use ehl_ratio_error, only: ratio_error_t
@@ -28,6 +29,8 @@ contains
    module procedure summary
       logical :: good
       real(dp) :: ratio, stop_error
+      character(len=:), allocatable :: judgement
+      integer :: worth
 
       call record%set("kind", "solution")
       call record%set("status", trim(outcome_names(self%stand())))
@@ -41,7 +44,7 @@ contains
       stop_error = ratio
       if (self%in_steps) then
          call report_transient(record, self%plan, self%transient, self%converged(), knows_friction(self), self%seconds, &
-                               self%history%column("H_min"), ratio, stop_error)
+                               self%history%column("H_min"), self%history%column("P_max"), ratio, stop_error)
          call report_start(self, record)
          if (self%plan%surfaces%pass_once()) call report_passage(record, self%plan%scales, self%transient%extremes, &
                                                                 self%converged())
@@ -53,6 +56,8 @@ contains
       call summarise_friction(self, record, good)
       if (self%in_steps .and. self%done()) call record%set("skips", skipped_work(self%plan, self%transient, self%converged()))
       call record%set("bytes", real(self%hierarchy%bytes(), dp) + self%plan%surfaces%bytes())
+      call judge(record, judgement, worth)
+      call record%set("judgement", judgement)
    end procedure summary
 
    !> What the time steps began with

@@ -10,7 +10,7 @@ module ehl_steady
    use ehl_iteration, only: iteration_t, reduction
    use ehl_kinds, only: dp
    use ehl_level_result, only: discretisation_error, level_result_t
-   use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_negative_film, outcome_running, outcome_target_missed
+   use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_running, outcome_target_missed
    use ehl_status, only: status_t
    implicit none (type, external)
    private

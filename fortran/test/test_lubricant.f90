@@ -106,7 +106,7 @@ contains
       call law%log_viscosity_at(p/1.0e9_dp, 0.0_dp*p, at)
       call is_close(maxval(abs(at - log(eta/0.1_dp))), 0.0_dp, 1.0e-12_dp, "a table at its pressures")
       call law%log_viscosity([(0.6_dp*k/200, k=1, 200)], values, slope)
-      call is_close(minval(values(2:) - values(:199)), 0.0_dp, 0.1_dp, "a table has no jumps")
+      call is_true(maxval(values(2:) - values(:199)) < 0.2_dp, "a table has no jumps")
       call is_true(minval(values(2:) - values(:199)) > 0.0_dp, "a table rises with pressure")
       call is_close(values(200) - values(199), slope(200)*0.003_dp, 1.0e-12_dp, "straight on behind the table")
       rise = 60.0_dp

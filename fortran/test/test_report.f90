@@ -3,6 +3,7 @@
 module test_report
    use check, only: has_text, is_close, is_equal, is_text, is_true
    use ehl_conclusion, only: conclusion
+   use ehl_judgement, only: holds, judge, no_answer, with_care
    use ehl_kinds, only: dp
    use ehl_lock, only: lock, lock_t, unlock
    use ehl_ratio_error, only: ratio_error_t
@@ -22,6 +23,7 @@ contains
       call values_read_back()
       call parts_and_sum()
       call last_lines()
+      call judgements()
       call lock_fails()
    end subroutine run_report
 
@@ -67,28 +69,103 @@ contains
 
       call record%set("status", "cycle limit")
       call record%set("H_c", ieee_value(1.0_dp, ieee_quiet_nan))
-      call is_text(conclusion(record), "H_c        none: the run ended with the status 'cycle limit'", "no solution")
+      call is_text(conclusion(record), "judgement  no answer: the status is 'cycle limit'", "no solution")
+      call record%set("H_c_error_note", "too coarse")
+      call is_text(conclusion(record), "judgement  no answer: the status is 'cycle limit': too coarse", "why there is none")
       call record%set("status", "converged")
       call record%set("H_c", 0.024369_dp)
       call record%set("H_c_error", 0.000266_dp)
       call record%set("H_min", 0.008315_dp)
       call record%set("H_min_error", ieee_value(1.0_dp, ieee_quiet_nan))
-      call is_text(conclusion(record), "H_c        0.02437 +- 0.00027"//lf//"H_min      0.008315, error not known", &
-                   "smooth contact without a size")
-      call record%set("film_scale_m", 9.5863e-6_dp)
+      call is_text(conclusion(record), "H_c        0.02437 +- 0.00027"//lf//"H_min      0.008315, error not known"//lf// &
+                   "judgement  full film: smooth surfaces; the case gives no size in metres; but the error of H_min is not "// &
+                   "known", "smooth contact without a size")
       call record%set("H_c_error", 0.0266_dp)
+      call record%set("h_c_m", 233.6e-9_dp)
+      call record%set("h_c_error_m", 255.0e-9_dp)
+      call record%set("P_max", 1.0049_dp)
+      call record%set("p_max_Pa", 1.0215e9_dp)
+      call record%set("p_max_rough_Pa", 1.0684e9_dp)
       call record%set("mu_ratio", 1.1849_dp)
       call record%set("mu_ratio_error", 0.0484_dp)
       call record%set("lambda_ratio", 1.59_dp)
       call record%set("lambda_ratio_central", 4.67_dp)
+      call record%set("mu", 0.04_dp)
+      call record%set("mu_smooth", 0.0338_dp)
+      call record%set("shear_law", "eyring")
       text = conclusion(record)
       call has_text(text, "H_c        0.024 +- 0.027, h_c 234 +- 255 nm"//lf, "central film in nm")
+      call has_text(text, lf//"p_max      1.0049 p_h, error not known, 1.0215 GPa; rough 1.0684 GPa"//lf, "pressures")
       call has_text(text, lf//"mu_r/mu_s  1.185 +- 0.048"//lf, "friction ratio")
       call has_text(text, "h_min/sigma 1.590, h_c/sigma 4.670", "film over roughness")
+      call has_text(text, lf//"mu         0.04000, smooth contact 0.03380; law 'eyring'"//lf, "friction with its law")
       call record%set("mu_ratio_error", ieee_value(1.0_dp, ieee_quiet_nan))
       call record%set("mu_ratio_error_note", "no coarser run")
       call has_text(conclusion(record), "mu_r/mu_s  1.18490, error not known: no coarser run", "unknown error")
    end subroutine last_lines
+
+   !> Each thing that a result may be short of has its word, and the worst comes first
+   subroutine judgements()
+      type(record_t) :: good, record
+      character(len=:), allocatable :: text
+      integer :: worth
+
+      call record%set("status", "converged")
+      call record%set("H_c", 0.02_dp)
+      call record%set("H_c_error", 1.0e-4_dp)
+      call record%set("h_min_m", 3.0e-8_dp)
+      ! as Python hands a summary over
+      call good%take_json(record%to_json())
+      call judge(good, text, worth)
+      call is_text(text, "full film: the least film is 30.0 nm, 3 times an rms roughness of 10.0 nm", "full film")
+      call is_equal(worth, holds, "worth of a full film")
+
+      record = good
+      call record%set("H_c_error", 0.002_dp)
+      call is_judged(record, "full film: the least film is 30.0 nm, 3 times an rms roughness of 10.0 nm; but H_c is known "// &
+                     "to 10 % only", with_care)
+      record = good
+      call record%set("flash_temperature_K", 40.0_dp)
+      call is_judged(record, "but the surfaces warm by 40.0 K", with_care)
+      ! the friction has the heat in it then
+      call record%set("temperature_rise_max_K", 60.0_dp)
+      call judge(record, text, worth)
+      call is_equal(worth, holds, "heat that counts")
+
+      record = good
+      call record%set("lambda_ratio", 0.8_dp)
+      call is_judged(record, "thin film: Lambda = 0.800 is below 1", with_care)
+      call record%set("h_min_rough_m", 3.4e-9_dp)
+      call is_judged(record, "thin film: the least film over the roughness is 3.40 nm, below 10 nm", with_care)
+      call record%set("p_max_Pa", 1.0e9_dp)
+      call record%set("p_max_rough_Pa", 4.5e9_dp)
+      call is_judged(record, "beyond the solids: the pressure reaches 4.50 GPa", with_care)
+
+      record = good
+      call record%set("mu_ratio", 1.2_dp)
+      call record%set("mu_ratio_error", 0.01_dp)
+      call record%set("mu_ratio_unresolved", -0.12_dp)
+      call is_judged(record, "unresolved waves: they hold 10 % of mu_r/mu_s by prediction", with_care)
+      call record%set("mu_ratio_unresolved", ieee_value(1.0_dp, ieee_quiet_nan))
+      call record%set("variance_unresolved", 0.3_dp)
+      call is_judged(record, "unresolved waves: they hold 30 % of the variance", with_care)
+
+      call record%set("status", "film breakdown")
+      call record%set("message", "5 nm below zero")
+      call is_judged(record, "film breakdown: 5 nm below zero", no_answer)
+
+   contains
+
+      subroutine is_judged(record, words, expected)
+         type(record_t), intent(in) :: record
+         character(len=*), intent(in) :: words
+         integer, intent(in) :: expected
+
+         call judge(record, text, worth)
+         call has_text(text, words, words)
+         call is_equal(worth, expected, "worth: "//words)
+      end subroutine is_judged
+   end subroutine judgements
 
    !> What the system says is told, and the lock is not held then
    subroutine lock_fails()

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from pyehl import api
 from pyehl.app.position import Position
 from pyehl.app.worker import Ticket
+from pyehl.case import Case
 from pyehl.errors import EhlError, InputError
 from pyehl.prediction.result import Prediction
 from pyehl.solver import Solver
@@ -37,8 +38,9 @@ Array = NDArray[np.float64]
 
 COARSE, FINE = 129, (257, 513)
 """Nodes a side while a knob moves, and when it rests."""
-REST = 0.2
-"""A knob that has not been turned for so long rests [s]."""
+REST = 0.12
+"""A knob that has not been turned for so long rests [s]: a hand that drags a slider turns it more
+often, and a finer film may still come within 0.4 s."""
 CURVES = {"mean velocity": "velocity", "slide-to-roll ratio": "slide_to_roll"}
 
 
@@ -47,6 +49,7 @@ class Film:
     """The smooth contact on a grid; arrays are empty where there is no solution."""
 
     points: int
+    contact: tuple[object, ...]  # what it is the film of, as `Position.contact`
     summary: Mapping[str, Any]
     point: OperatingPoint
     sheet: Mapping[str, Any]  # film formulas
@@ -82,18 +85,33 @@ class CurvePoint:
     status: str = ""
 
 
-def film(position: Position, points: int, wanted: Callable[[], bool]) -> Film | None:
-    """Solve the smooth contact; None if it is not wanted any more.
-
-    InputError if the case is not acceptable.
-    """
-    case = position.case(points, smooth=True)
-    settings = case.resolve()
+def _sheet(case: Case) -> Mapping[str, Any]:
+    """Give the film formulas of a case, or why there are none."""
     try:
-        sheet = api.film(case)
+        return api.film(case)
     except InputError as error:
         # a turned ellipse
-        sheet = {"formulas": [], "why": str(error)}
+        return {"formulas": [], "why": str(error)}
+
+
+def film(
+    position: Position,
+    points: int,
+    wanted: Callable[[], bool],
+    known: Mapping[int, Film] | None = None,
+) -> Film | None:
+    """Solve the smooth contact; None if it is not wanted any more.
+
+    `known` are films on some grids: one of the same contact is given at once, and the formulas do
+    not depend on the grid. InputError if the case is not acceptable.
+    """
+    case = position.case(points, smooth=True)
+    contact = position.contact
+    of_it = {n: found for n, found in (known or {}).items() if found.contact == contact}
+    if points in of_it:
+        return of_it[points]
+    settings = case.resolve()
+    sheet = next((found.sheet for found in of_it.values()), None) or _sheet(case)
     with Solver(case) as solver:
         while not solver.done:
             if not wanted():
@@ -104,7 +122,8 @@ def film(position: Position, points: int, wanted: Callable[[], bool]) -> Film | 
         arrays = (np.zeros(0), np.zeros(0), empty, empty)
         if solver.converged:
             arrays = (*solver.axes(), solver.field("P"), solver.field("H"))
-    return Film(points, summary, OperatingPoint.from_settings(settings), sheet, *arrays)
+    point = OperatingPoint.from_settings(settings)
+    return Film(points, contact, summary, point, sheet, *arrays)
 
 
 def rough(position: Position) -> Rough:
@@ -115,29 +134,34 @@ def rough(position: Position) -> Rough:
         return Rough(None, str(error))
 
 
-def follow(position: Position) -> Callable[[Ticket], None]:
-    """Give the job of a position: coarse at once, the rest when the knob rests."""
+def follow(position: Position, known: dict[int, Film]) -> Callable[[Ticket], None]:
+    """Give the job of a position: coarse at once, the rest when the knob rests.
+
+    `known` are the last films of the page by their nodes a side, which the job brings up to date.
+    """
 
     def job(ticket: Ticket) -> None:
-        found = film(position, COARSE, ticket.wanted)
+        found = film(position, COARSE, ticket.wanted, known)
         if found is None:
             return
+        known[COARSE] = found
         ticket.tell(found)
         if position.rough and ticket.newest():
             ticket.tell(rough(position))
         if not ticket.rest(REST):
             return
         for points in FINE:
-            found = film(position, points, ticket.newest)
+            found = film(position, points, ticket.newest, known)
             if found is None:
                 return
+            known[points] = found
             ticket.tell(found)
 
     return job
 
 
 def places(position: Position, over: str, count: int) -> list[float]:
-    """Values of a knob for a curve, around where it stands: a decade of speed, or 0 to 2."""
+    """Values of a knob for a curve: a quarter to four times the speed, or ratios of 0 to 1.8."""
     if over == "slide_to_roll":
         return [float(f"{value:.3g}") for value in np.linspace(0.0, 1.8, count)]
     middle = float(position.values[over])

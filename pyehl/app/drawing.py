@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from pyehl.app.answers import Film
 from pyehl.plots.contact import fringe_colours, fringe_spacings
+from pyehl.plots.outline import Outline
 from pyehl.plots.style import Scales
 from pyehl.prediction.result import Prediction
 
@@ -21,9 +22,11 @@ __all__ = ["Map", "centre_lines", "contour_lines", "film_map", "octaves", "outli
 Array = NDArray[np.float64]
 
 VIEW = 1.3
-# Pixels a side of the fringes
-PIXELS = 300
+# Pixels a side of the fringes, at least
+PIXELS = 240
 LEVELS = 20
+HIGHEST = 1.6
+"""Largest film of the colours and the lines, of the central one."""
 
 
 class Map(NamedTuple):
@@ -31,6 +34,7 @@ class Map(NamedTuple):
 
     colours: NDArray[np.uint32]
     film: Array
+    central: float  # film at the centre [nm]
     left: float
     bottom: float
     width: float
@@ -40,19 +44,25 @@ class Map(NamedTuple):
     caption: str
 
 
+def _edge(found: Film) -> Outline:
+    """Edge of the dry contact in Hertz radii."""
+    angle = float(found.summary.get("angle_deg") or 0.0)
+    return Outline(found.point.ellipse.ellipticity, angle)
+
+
 def film_map(found: Film) -> Map:
     """Film of a solution as two-colour fringes and as numbers; rows across the motion."""
-    a, b = 1.0, found.point.ellipse.ellipticity
-    inside_x, inside_y = np.abs(found.x) <= VIEW * a, np.abs(found.y) <= VIEW * b
+    along, across = _edge(found).reach
+    inside_x, inside_y = np.abs(found.x) <= VIEW * along, np.abs(found.y) <= VIEW * across
     film = found.film[np.ix_(inside_x, inside_y)] * found.point.film_scale * 1e9
     x = found.x[inside_x] * found.point.hertz_radius * 1e3
     y = found.y[inside_y] * found.point.hertz_radius * 1e3
     middle = int(np.argmin(np.abs(x))), int(np.argmin(np.abs(y)))
-    central = float(film[middle]) * 1e-3
+    central = float(film[middle])
     point = found.point
     scales = Scales(point.hertz_radius, point.hertz_pressure, point.film_scale)
-    red, green, caption = fringe_spacings(central, scales)
-    factor = max(1, round(PIXELS / max(film.shape)))
+    red, green, caption = fringe_spacings(1e-3 * central, scales)
+    factor = math.ceil(PIXELS / max(film.shape))
     fine = scipy.ndimage.zoom(film * 1e-3, factor, order=1, grid_mode=True, mode="nearest")
     colours = (255.0 * fringe_colours(fine, red, green)).round().astype(np.uint8)
     rgba = np.full((*colours.shape[:2], 4), 255, dtype=np.uint8)
@@ -62,6 +72,7 @@ def film_map(found: Film) -> Map:
     return Map(
         packed,
         np.ascontiguousarray(film.T),
+        central,
         float(x[0] - 0.5 * step_x),
         float(y[0] - 0.5 * step_y),
         float(x[-1] - x[0] + step_x),
@@ -72,20 +83,19 @@ def film_map(found: Film) -> Map:
     )
 
 
-def contour_lines(made: Map) -> tuple[list[Array], list[Array], list[float]]:
-    """Lines of equal film: x, y [mm] and the film [nm] of each."""
-    central = float(made.film[made.y.size // 2, made.x.size // 2])
-    low = float(made.film.min())
-    step = _round((1.6 * central - low) / LEVELS)
-    levels = step * np.arange(math.ceil(low / step), math.floor(1.6 * central / step) + 1)
-    generator = contourpy.contour_generator(made.x, made.y, made.film, name="serial")
-    xs, ys, films = [], [], []
-    for level in levels:
-        for line in map(np.asarray, generator.lines(float(level))):
-            xs.append(line[:, 0])
-            ys.append(line[:, 1])
-            films.append(float(level))
-    return xs, ys, films
+def contour_lines(made: Map) -> tuple[Array, Array]:
+    """Lines of equal film as one line x, y [mm], interrupted by NaN."""
+    low, high = float(made.film.min()), HIGHEST * made.central
+    step = _round((high - low) / LEVELS)
+    levels = step * np.arange(math.ceil(low / step), math.floor(high / step) + 1)
+    generator = contourpy.contour_generator(
+        made.x, made.y, made.film, name="serial", line_type="ChunkCombinedNan"
+    )
+    found = [generator.lines(float(level))[0][0] for level in levels]
+    lines = [line for line in found if line is not None]
+    gap = np.full((1, 2), np.nan)
+    whole = np.concatenate([part for line in lines for part in (line, gap)] or [gap])
+    return np.ascontiguousarray(whole[:, 0]), np.ascontiguousarray(whole[:, 1])
 
 
 def _round(value: float) -> float:
@@ -98,10 +108,11 @@ def centre_lines(found: Film) -> dict[str, dict[str, Array]]:
     """Pressure [GPa], film [nm] and Hertz pressure on the lines through the centre, over mm."""
     i, j = int(np.argmin(np.abs(found.x))), int(np.argmin(np.abs(found.y)))
     point = found.point
+    half_x, half_y = _edge(found).chords
     lines = {}
     for name, axis, half, pressure, film in (
-        ("x", found.x, 1.0, found.pressure[:, j], found.film[:, j]),
-        ("y", found.y, point.ellipse.ellipticity, found.pressure[i, :], found.film[i, :]),
+        ("x", found.x, half_x, found.pressure[:, j], found.film[:, j]),
+        ("y", found.y, half_y, found.pressure[i, :], found.film[i, :]),
     ):
         dry = np.sqrt(np.maximum(0.0, 1.0 - (axis / half) ** 2))
         lines[name] = {
@@ -117,7 +128,7 @@ def outline(found: Film) -> tuple[Array, Array]:
     """Edge of the dry contact [mm]."""
     angle = np.linspace(0.0, 2.0 * np.pi, 181)
     a, b = found.point.hertz_radius * 1e3, found.point.semi_axis_y * 1e3
-    turn = math.radians(float(found.summary.get("angle_deg") or 0.0))
+    turn = math.radians(_edge(found).angle)
     along, across = a * np.cos(angle), b * np.sin(angle)
     c, s = math.cos(turn), math.sin(turn)
     return c * along - s * across, s * along + c * across

@@ -22,12 +22,12 @@ from numpy.typing import NDArray
 
 from pyehl.app import drawing
 from pyehl.app.answers import CurvePoint, Film, Rough
+from pyehl.app.changes import Changes
 from pyehl.plots.style import BLUE, GREEN, GREY, VERMILLION
 
 __all__ = ["Pictures"]
 
 SIDE = 310
-TOOLS = "save,reset,wheel_zoom,pan"
 WHITE = "#ffffff"
 
 
@@ -53,17 +53,21 @@ class Pictures:
     """Figures by what they show, and their sources."""
 
     def __init__(self) -> None:
+        self.changes = Changes()
         empty: dict[str, list[float]] = {"x": [], "y": [], "dw": [], "dh": []}
         self.film = ColumnDataSource({"colours": [], "film": [], **empty})
-        self.contours = ColumnDataSource({"xs": [], "ys": [], "film": []})
+        self.contours = ColumnDataSource({"x": [], "y": []})
         self.edge = ColumnDataSource({"x": [], "y": []})
         columns: dict[str, list[float]] = {"place": [], "pressure": [], "hertz": [], "film": []}
         self.lines = {name: ColumnDataSource(columns) for name in "xy"}
-        self.tiles = ColumnDataSource({"before": [], "after": [], **empty})
+        self.tiles = ColumnDataSource({"before": [], "after": [], **empty}, name="tiles")
         self.octaves = ColumnDataSource({"left": [], "right": [], "rise": []})
         self.passage = ColumnDataSource({"shift": [], "ratio": []})
         names = ("place", "value", "low", "high", "status")
-        self.curve = {name: ColumnDataSource({n: [] for n in names}) for name in ("film", "ratio")}
+        self.curve = {
+            name: ColumnDataSource({n: [] for n in names}, name=f"curve of {name}")
+            for name in ("film", "ratio")
+        }
         self.levels = LinearColorMapper(palette=Viridis256, high_color=WHITE)
         self.heights = LinearColorMapper(palette=PuOr11)
         self.fringes, self.contour = self._film_maps()
@@ -72,19 +76,27 @@ class Pictures:
         self.bands, self.over = self._friction()
         self.curves = [self._curve("film", "h_c [nm]"), self._curve("ratio", "μ_r/μ_s")]
 
+    @property
+    def figures(self) -> dict[str, Any]:
+        """All figures by name."""
+        names = ("fringes", "contour", "along", "across", "before", "after", "bands", "over")
+        film, ratio = self.curves
+        return {**{n: getattr(self, n) for n in names}, "curve_film": film, "curve_ratio": ratio}
+
     def _film_maps(self) -> tuple[Any, Any]:
         """Fringes and contours of the film."""
         place = {"x": "x", "y": "y", "dw": "dw", "dh": "dh"}
-        fringes = _map("")
+        fringes = _map("film as fringes")
         fringes.xaxis[0].axis_label = "x [mm], motion →"
         fringes.image_rgba("colours", source=self.film, **place)
         contour = _figure(
             "film h [nm]", "x [mm]", "y [mm]", match_aspect=True, width=SIDE + 60,
             x_range=fringes.x_range, y_range=fringes.y_range,
         )  # fmt: skip
-        contour.image("film", source=self.film, color_mapper=self.levels, **place)
-        contour.multi_line("xs", "ys", source=self.contours, line_color="black", line_alpha=0.5)
-        contour.add_tools(HoverTool(tooltips=[("x, y [mm]", "$x, $y"), ("h [nm]", "@film")]))
+        image = contour.image("film", source=self.film, color_mapper=self.levels, **place)
+        contour.line("x", "y", source=self.contours, line_color="black", line_alpha=0.5)
+        words = [("x, y [mm]", "$x, $y"), ("h [nm]", "@film")]
+        contour.add_tools(HoverTool(tooltips=words, renderers=[image]))
         contour.add_layout(ColorBar(color_mapper=self.levels, width=10), "right")
         for picture in (fringes, contour):
             picture.line("x", "y", source=self.edge, color=VERMILLION, line_dash="dashed")
@@ -139,7 +151,7 @@ class Pictures:
 
     def _curve(self, name: str, label: str) -> Any:  # noqa: ANN401
         ranges = {"x_range": Range1d(0, 1), "y_range": Range1d(0, 1)}
-        made = _figure("", "", label, width=SIDE + 60, **ranges)
+        made = _figure("curve", "", label, width=SIDE + 60, **ranges)
         source = self.curve[name]
         made.line("place", "value", source=source, color=BLUE)
         made.scatter("place", "value", source=source, color=BLUE, size=6)
@@ -150,90 +162,114 @@ class Pictures:
     def show_film(self, found: Film) -> None:
         """Show a solution; nothing where there is none."""
         if not found.converged:
-            self.film.data = {name: [] for name in self.film.data}
-            self.contours.data = {name: [] for name in self.contours.data}
-            for source in self.lines.values():
-                source.data = {name: [] for name in source.data}
+            self._empty(self.film, self.contours, self.edge, *self.lines.values())
+            self.changes.send()
             return
+        change = self.changes.of
         made = drawing.film_map(found)
-        central = float(made.film[made.y.size // 2, made.x.size // 2])
-        self.levels.update(low=float(made.film.min()), high=1.6 * central)
-        self.film.data = {
-            "colours": [made.colours],
-            "film": [made.film.astype(np.float32)],
-            "x": [made.left],
-            "y": [made.bottom],
-            "dw": [made.width],
-            "dh": [made.height],
-        }
-        self.contours.data = dict(
-            zip(("xs", "ys", "film"), drawing.contour_lines(made), strict=True)
-        )
-        x, y = drawing.outline(found)
-        self.edge.data = {"x": x, "y": y}
+        lowest = float(made.film.min())
+        change(self.levels, low=lowest, high=drawing.HIGHEST * made.central)
+        film = {"colours": [made.colours], "film": [made.film.astype(np.float32)]}
+        box = {"x": [made.left], "y": [made.bottom], "dw": [made.width], "dh": [made.height]}
+        change(self.film, data={**film, **box})
+        for source, (x, y) in (
+            (self.contours, drawing.contour_lines(made)),
+            (self.edge, drawing.outline(found)),
+        ):
+            change(source, data={"x": x, "y": y})
         point = found.point
         about = f"M = {point.moes_m:.4g}, L = {point.moes_l:.4g}"
-        self.fringes.title.text = f"{about}; {made.caption}"
-        self.contour.title.text = f"{about}, p_h = {point.hertz_pressure * 1e-9:.3g} GPa; h [nm]"
-        _fit(self.fringes, made)
+        highest = point.hertz_pressure * 1e-9
+        change(self.fringes.title, text=f"{about}; {made.caption}")
+        change(self.contour.title, text=f"{about}, p_h = {highest:.3g} GPa; h [nm]")
+        self._fit(self.fringes, made)
         for name, line in drawing.centre_lines(found).items():
-            self.lines[name].data = line
+            change(self.lines[name], data=line)
             picture = self.along if name == "x" else self.across
             way = "along" if name == "x" else "across"
-            picture.title.text = f"{about}; {way} the motion"
-            picture.extra_y_ranges["film"].end = 5.0 * central
-            picture.x_range.update(start=float(line["place"][0]), end=float(line["place"][-1]))
-            highest = max(float(line["pressure"].max()), point.hertz_pressure * 1e-9)
-            picture.y_range.end = 1.08 * highest
+            change(picture.title, text=f"{about}; {way} the motion")
+            change(picture.extra_y_ranges["film"], end=5.0 * made.central)
+            place = line["place"]
+            change(picture.x_range, start=float(place[0]), end=float(place[-1]))
+            change(picture.y_range, end=1.08 * max(float(line["pressure"].max()), highest))
+        self.changes.send()
 
     def show_rough(self, found: Rough) -> None:
         """Show a prediction; nothing where there is none."""
         made = found.prediction
         if made is None:
-            for source in (self.tiles, self.octaves, self.passage):
-                source.data = {name: [] for name in source.data}
+            self._empty(self.tiles, self.octaves, self.passage)
+            self.changes.send()
             return
+        change = self.changes.of
         before, after, width, height, most = drawing.tiles(made)
-        self.heights.update(low=-most, high=most)
+        change(self.heights, low=-most, high=most)
+        tiles = {"before": [before.astype(np.float32)], "after": [after.astype(np.float32)]}
         place = {"x": [0.0], "y": [0.0], "dw": [width], "dh": [height]}
-        self.tiles.data = {
-            "before": [before.astype(np.float32)],
-            "after": [after.astype(np.float32)],
-            **place,
-        }
+        change(self.tiles, data={**tiles, **place})
         for picture in (self.before, self.after):
-            picture.x_range.update(start=0.0, end=width)
-            picture.y_range.update(start=0.0, end=height)
+            change(picture.x_range, start=0.0, end=width)
+            change(picture.y_range, start=0.0, end=height)
         point = made.operating
         about = f"M = {point.moes_m:.4g}, L = {point.moes_l:.4g}"
-        self.before.title.text = f"{about}; surface [nm]"
-        self.after.title.text = f"{about}; in the contact [nm]"
-        self.bands.title.text = f"{about}; what octaves add"
-        self.over.title.text = f"{about}; over the passage"
-        octaves = self.octaves.data = drawing.octaves(made)
+        for picture, what in (
+            (self.before, "surface [nm]"),
+            (self.after, "in the contact [nm]"),
+            (self.bands, "what octaves add"),
+            (self.over, "over the passage"),
+        ):
+            change(picture.title, text=f"{about}; {what}")
+        octaves = drawing.octaves(made)
+        change(self.octaves, data=octaves)
         if octaves["rise"]:
-            self.bands.x_range.update(start=min(octaves["left"]), end=max(octaves["right"]))
-            _around(self.bands, [0.0, *octaves["rise"]])
+            change(self.bands.x_range, start=min(octaves["left"]), end=max(octaves["right"]))
+            self._around(self.bands, [0.0, *octaves["rise"]])
         known = made.friction.status == "predicted"
-        self.passage.data = {
-            "shift": made.friction.shift * 1e3 if known else [],
-            "ratio": made.friction.passage if known else [],
-        }
+        self._empty(self.passage)
         if known:
-            self.over.x_range.end = width
-            _around(self.over, made.friction.passage)
+            shift, ratio = made.friction.shift * 1e3, made.friction.passage
+            change(self.passage, data={"shift": shift, "ratio": ratio})
+            change(self.over.x_range, end=width)
+            self._around(self.over, made.friction.passage)
+        self.changes.send()
 
     def show_curve(
         self, points: Sequence[CurvePoint], places: Sequence[float], over: str, about: str
     ) -> None:
         """Show a curve as far as it is, over all of its places."""
+        change = self.changes.of
         for picture, name in zip(self.curves, ("film", "ratio"), strict=True):
-            picture.xaxis[0].axis_label = over
-            picture.title.text = about
-            found = self.curve[name].data = _columns(points, name)
-            picture.x_range.update(start=0.0, end=1.05 * float(max(places)))
+            change(picture.xaxis[0], axis_label=over)
+            change(picture.title, text=about)
+            found = _columns(points, name)
+            change(self.curve[name], data=found)
+            change(picture.x_range, start=0.0, end=1.05 * float(max(places)))
             known = np.nan_to_num(np.concatenate([found["low"], found["high"], found["value"]]))
-            _around(picture, [0.0, *known])
+            self._around(picture, [0.0, *known])
+        self.changes.send()
+
+    def _empty(self, *sources: ColumnDataSource) -> None:
+        """Show nothing of these."""
+        for source in sources:
+            self.changes.of(source, data={name: [] for name in source.data})
+
+    def _fit(self, picture: Any, made: drawing.Map) -> None:  # noqa: ANN401
+        """Show the whole map."""
+        side = max(made.width, made.height)
+        x, y = made.left + 0.5 * made.width, made.bottom + 0.5 * made.height
+        self.changes.of(picture.x_range, start=x - 0.5 * side, end=x + 0.5 * side)
+        self.changes.of(picture.y_range, start=y - 0.5 * side, end=y + 0.5 * side)
+
+    def _around(
+        self,
+        picture: Any,  # noqa: ANN401
+        values: Sequence[float] | NDArray[np.float64],
+    ) -> None:
+        """Let the y axis reach over values, with a little room."""
+        low, high = float(min(values)), float(max(values))
+        room = 0.05 * (high - low) or 1.0
+        start = low - (room if low else 0.0)
+        self.changes.of(picture.y_range, start=start, end=high + room)
 
 
 def _columns(points: Sequence[CurvePoint], name: str) -> Mapping[str, Any]:
@@ -251,18 +287,3 @@ def _columns(points: Sequence[CurvePoint], name: str) -> Mapping[str, Any]:
         "high": value + error,
         "status": [p.status for p in points],
     }
-
-
-def _fit(picture: Any, made: drawing.Map) -> None:  # noqa: ANN401
-    """Show the whole map."""
-    side = max(made.width, made.height)
-    x, y = made.left + 0.5 * made.width, made.bottom + 0.5 * made.height
-    picture.x_range.update(start=x - 0.5 * side, end=x + 0.5 * side)
-    picture.y_range.update(start=y - 0.5 * side, end=y + 0.5 * side)
-
-
-def _around(picture: Any, values: Sequence[float] | NDArray[np.float64]) -> None:  # noqa: ANN401
-    """Let the y axis reach over values, with a little room."""
-    low, high = float(min(values)), float(max(values))
-    room = 0.05 * (high - low) or 1.0
-    picture.y_range.update(start=low - (room if low else 0.0), end=high + room)

@@ -56,11 +56,12 @@ class Knob:
         """Read what was typed; InputError if it is no number."""
         try:
             value = int(text) if self.whole else float(text)
-        except ValueError:
+            finite = math.isfinite(value)
+        except (ValueError, OverflowError):
             kind = "a whole number" if self.whole else "a number"
             unit = f" [{self.unit}]" if self.unit else ""
             raise InputError(f"{self.label} = '{text}': expected {kind}{unit}") from None
-        if not math.isfinite(value):
+        if not finite:
             raise InputError(f"{self.label} = '{text}': expected a finite number")
         return value
 

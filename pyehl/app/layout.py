@@ -15,9 +15,8 @@ from bokeh.models import (
     CustomJS,
     Div,
     FileInput,
+    RadioButtonGroup,
     Select,
-    TabPanel,
-    Tabs,
     TextAreaInput,
 )
 
@@ -27,7 +26,7 @@ from pyehl.app.knobs import GROUPS, Value, shown
 from pyehl.app.position import Position
 from pyehl.app.widgets import ERROR, WIDTH, KnobWidget
 
-__all__ = ["Layout"]
+__all__ = ["PICTURES", "TEMPLATE", "Layout"]
 
 SAVE = """
 const bytes = Uint8Array.from(atob(source.data.data[0]), c => c.charCodeAt(0));
@@ -48,6 +47,40 @@ COPY = "navigator.clipboard.writeText(area.value);"
 FORMATS = ("png", "svg", "pdf")
 WIDTHS = {"0": "as they are", "84": "84 mm (one column)", "174": "174 mm (two columns)"}
 MAPS = ".npy,.txt,.csv,.dat,.asc,.x3p,.sdf,.al3d,.opd,.plux,.sur,.gwy,.nc,.h5"
+
+
+# Each part and each picture is a root of its own: where a size changes, be it by a text, the
+# browser lays out the root anew and paints all pictures in it
+TEMPLATE = """
+{% block contents %}
+<div style="display: flex">
+<div>{{ embed(roots.knobs) }}</div>
+<div>
+{{ embed(roots.tabs) }}
+{% for picture in pictures %}
+<div class="picture" {{ "hidden" if loop.index0 }}>{{ embed(roots[picture.head]) if picture.head }}
+{% for row in picture.rows %}
+<div style="display: flex">
+{% for name in row %}<div>{{ embed(roots[name]) }}</div>{% endfor %}
+</div>
+{% endfor %}
+</div>
+{% endfor %}
+</div>
+<div>{% for part in ("state", "film", "surface", "files") %}
+<div>{{ embed(roots[part]) }}</div>
+{% endfor %}</div>
+</div>
+{% endblock %}
+"""
+PICTURES = (
+    {"title": "Film", "rows": (("fringes", "contour"), ("along", "across"))},
+    {"title": "Roughness", "rows": (("before", "after"), ("bands", "over"))},
+    {"title": "Curve", "head": "curves", "rows": (("curve_film", "curve_ratio"),)},
+)
+SHOW = """
+document.querySelectorAll('.picture').forEach((part, k) => part.hidden = k !== tabs.active)
+"""
 
 
 class Hears(Protocol):
@@ -105,9 +138,22 @@ class Layout:
         self.upload = FileInput(accept=MAPS, name="upload", title="height map")
         self.upload.on_change("value", self._file(hears, self.upload, hears.upload))
         self.map_box = column(self.upload, self.upload_error, visible=False)
-        self.root = row(self._left(start), self._middle(hears, pictures), self._right(hears))
+        self.tabs = RadioButtonGroup(labels=[part["title"] for part in PICTURES], active=0)
+        self.tabs.js_on_change("active", CustomJS(args={"tabs": self.tabs}, code=SHOW))
+        self.roots = {
+            "knobs": self._left(start),
+            "tabs": self.tabs,
+            "curves": self._curves(hears),
+            **pictures.figures,
+            "state": column(self.status),
+            "film": column(self.numbers),
+            "surface": column(self.rough),
+            "files": self._right(hears),
+        }
+        for name, root in self.roots.items():
+            root.name = name
         # so that the browser has what nothing draws
-        self.root.tags = [self.stamp, self.parcel]
+        self.roots["files"].tags = [self.stamp, self.parcel, pictures.changes.source]
 
     def _file(
         self,
@@ -141,18 +187,13 @@ class Layout:
         self.show_knobs(start.values)
         return column(*parts, width=WIDTH + 20)
 
-    def _middle(self, hears: Hears, p: Pictures) -> Any:  # noqa: ANN401
-        film = column(row(p.fringes, p.contour), row(p.along, p.across))
-        rough = column(row(p.before, p.after), row(p.bands, p.over))
+    def _curves(self, hears: Hears) -> Any:  # noqa: ANN401
         buttons = []
         for name in CURVES:
             button = Button(label=f"curve over {name}", name=f"curve_{CURVES[name]}")
             button.on_click(lambda name=name: hears.draw_curve(name))
             buttons.append(button)
-        curve = column(row(*buttons), row(*p.curves))
-        panels = (("Film", film), ("Roughness", rough), ("Curve", curve))
-        tabs = [TabPanel(child=child, title=title) for title, child in panels]
-        return Tabs(tabs=tabs, name="tabs")
+        return row(*buttons)
 
     def _right(self, hears: Hears) -> Any:  # noqa: ANN401
         copy, save = Button(label="Copy", name="copy"), Button(label="Save", name="save")
@@ -167,7 +208,7 @@ class Layout:
         figures = Button(label="Figures", name="fetch_figures")
         figures.on_click(lambda: hears.fetch("figures.zip"))
         return column(
-            self.status, self.numbers, self.rough, self.case, row(copy, save), opened,
+            self.case, row(copy, save), opened,
             self.open_error, self.python, copy_python,
             row(report, figures, self.figure_format, self.figure_width), self.errand,
         )  # fmt: skip
@@ -184,23 +225,23 @@ class Layout:
 
     def busy(self, points: int) -> None:
         """Say that the numbers are of an earlier position."""
-        self.status.text = f"computing on {points} × {points} nodes …"
-        self.status.styles = {"color": "#666666"}
-
-    def told(self, converged: bool) -> None:
-        """Show in colour whether there is a solution."""
-        self.status.styles = (
-            {"color": "#006e4e"} if converged else {"color": "#b00020", "font-weight": "bold"}
-        )
+        self._say(f"computing on {points} × {points} nodes …", "color:#666666")
 
     def failed(self, text: str) -> None:
         """Say why there is no answer."""
-        self.status.text = escape(text)
-        self.told(converged=False)
+        self._say(text, "color:#b00020;font-weight:bold")
 
-    def show_film(self, rows: Sequence[tuple[str, str]], status: str) -> None:
-        """Show the numbers of the smooth contact."""
-        self.numbers.text, self.status.text = _table(rows), escape(status)
+    def _say(self, text: str, style: str) -> None:
+        # with its colour in it: one change for the browser
+        self.status.text = f'<span style="{style}">{escape(text)}</span>'
+
+    def show_film(self, rows: Sequence[tuple[str, str]], status: str, *, converged: bool) -> None:
+        """Show the numbers of the smooth contact, and whether there is a solution."""
+        self.numbers.text = _table(rows)
+        if converged:
+            self._say(status, "color:#006e4e")
+        else:
+            self.failed(status)
 
     def show_rough(self, rows: Sequence[tuple[str, str]]) -> None:
         """Show the numbers of the rough contact; none for a smooth one."""

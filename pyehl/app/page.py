@@ -4,19 +4,22 @@
 from __future__ import annotations
 
 import base64
+import threading
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from html import escape
 from typing import Any
 
+from bokeh.core.templates import get_env
 from bokeh.document import Document
+from bokeh.events import DocumentReady
 
 from pyehl.app import answers, downloads, words
 from pyehl.app.answers import COARSE, CURVES, FINE, Film, Rough
 from pyehl.app.figures import Pictures
 from pyehl.app.knobs import KNOBS, Value
-from pyehl.app.layout import Layout
+from pyehl.app.layout import PICTURES, TEMPLATE, Layout
 from pyehl.app.position import Position, from_case
 from pyehl.app.uploads import Uploads
 from pyehl.app.worker import Ticket, Worker
@@ -28,6 +31,8 @@ __all__ = ["Page"]
 # Nodes a side of the case file, the report and the figures
 POINTS = FINE[-1]
 CURVE_POINTS = 9
+REPORT = "report.html"
+PARCELS = (REPORT, "figures.zip")
 NO_MAP = "there is no height map yet: expected an upload; the contact is smooth until then"
 
 
@@ -44,22 +49,44 @@ class Page:
         self.pictures = Pictures()
         self.layout = Layout(self, self.pictures, start)
         self._shown = 0
+        # whether pictures of a rough contact are shown
+        self._rough = False
+        self._films: dict[int, Film] = {}
         self.worker = Worker(partial(self._later, self._answered), "pyehl-page")
-        self.errands = Worker(partial(self._later, self._fetched), "pyehl-errands")
+        self.curves = Worker(partial(self._later, self._drawn), "pyehl-curve")
+        self.parcels = {
+            name: Worker(partial(self._later, partial(self._fetched, name)), "pyehl-parcel")
+            for name in PARCELS
+        }
+        self._making: list[str] = []
         document.title = "pyehl"
-        document.add_root(self.layout.root)
+        document.template = get_env().from_string("{% extends base %}" + TEMPLATE)
+        document.template_variables["pictures"] = PICTURES
+        for root in self.layout.roots.values():
+            document.add_root(root)
         document.on_session_destroyed(self._ended)
         self.layout.note.text = escape(note)
+        self._show_case()
+        # what is sent before the browser listens is lost
+        document.on_event(DocumentReady, self._ready)
+
+    def _ready(self, event: object) -> None:
         self._moved()
 
     def _ended(self, context: object) -> None:
-        self.close()
+        # other pages are served meanwhile
+        threading.Thread(target=self.close, daemon=True).start()
 
     def close(self) -> None:
-        """End the threads, free the solvers, remove the uploads."""
-        self.worker.close()
-        self.errands.close()
+        """End the threads, free the solvers, remove the uploads when nothing reads them."""
+        for worker in self.workers:
+            worker.close()
         self.uploads.close()
+
+    @property
+    def workers(self) -> tuple[Worker, ...]:
+        """All threads of the page."""
+        return self.worker, self.curves, *self.parcels.values()
 
     def _later(self, show: Any, generation: int, answer: Any) -> None:  # noqa: ANN401
         """Show what a worker says when the page has time; called in its thread."""
@@ -82,8 +109,8 @@ class Page:
         tried = wish.turned("surface", "smooth") if missing else wish
         try:
             tried.case(COARSE)
-            if tried.values["surface"] == "map":
-                self.uploads.check(tried.file, *self._map_size(tried))
+            if tried.values["surface"] == "map" and name in ("surface", "map_x", "map_y"):
+                self.uploads.check(tried.file, tried.map_said())
         except InputError as error:
             self.layout.knobs[name].say(self.uploads.nameless(str(error)))
             return
@@ -92,30 +119,35 @@ class Page:
         self._wish, self.position = wish, tried
         self._moved()
 
-    def _map_size(self, position: Position) -> tuple[float, float]:
-        x, y = (float(position.values[name]) * 1e-3 for name in ("map_x", "map_y"))
-        return x, y
-
     def _moved(self) -> None:
         """Compute for the position, and keep the case file in step with it."""
+        generation = self.worker.submit(answers.follow(self.position, self._films))
+        self._show_case()
+        if self._rough and not self.position.rough:
+            self._rough = False
+            self.layout.show_rough([])
+            self.pictures.show_rough(Rough(None))
+        self.layout.stamp.data = {**self.layout.stamp.data, "asked": [generation]}
+
+    def _show_case(self) -> None:
         self.layout.show_case(self.position.text(POINTS), words.python_lines(self.position, POINTS))
         self.layout.busy(COARSE)
-        if not self.position.rough:
-            self.layout.show_rough([])
-        generation = self.worker.submit(answers.follow(self.position))
-        self.layout.stamp.data = {**self.layout.stamp.data, "asked": [generation]}
 
     def _answered(self, generation: int, answer: Film | Rough | Exception) -> None:
         """Show an answer, unless a newer one is there."""
         if generation < self._shown or self.worker.closed:
             return
+        if isinstance(answer, Rough) and not self.position.rough:
+            # the surface has been turned to smooth since
+            return
         self._shown = generation
         self.document.hold("combine")
         if isinstance(answer, Film):
             self.pictures.show_film(answer)
-            self.layout.show_film(words.film_rows(answer), words.status_line(answer))
-            self.layout.told(answer.converged)
+            rows, status = words.film_rows(answer), words.status_line(answer)
+            self.layout.show_film(rows, status, converged=answer.converged)
         elif isinstance(answer, Rough):
+            self._rough = True
             self.pictures.show_rough(answer)
             rows = words.rough_rows(answer)
             self.layout.show_rough([(a, self.uploads.nameless(b)) for a, b in rows])
@@ -150,7 +182,7 @@ class Page:
     def upload(self, name: str, data: bytes) -> None:
         """Take a height map, or say what its reader says."""
         try:
-            path = self.uploads.add(name, data, *self._map_size(self._wish))
+            path = self.uploads.add(name, data, self._wish.map_said())
             wish = replace(self._wish.turned("surface", "map"), file=path)
             wish.case(COARSE)
         except InputError as error:
@@ -185,35 +217,48 @@ class Page:
             for points in answers.curve(here, knob, values, ticket.newest):
                 ticket.tell((points, values, label, about))
 
-        self.errands.submit(job)
+        self.curves.submit(job)
 
     def fetch(self, what: str) -> None:
-        """Make a file to save: 'report.html', or 'figures.zip'."""
+        """Make a file to save, one of `PARCELS`."""
         here, layout = self.position, self.layout
-        layout.fetched("making it …")
         suffix, width = layout.figure_format.value, float(layout.figure_width.value) * 1e-3
 
         def job(ticket: Ticket) -> None:
-            if what == "report.html":
-                data = downloads.report_page(here, FINE[0])
+            if what == REPORT:
+                data = downloads.report_page(here, POINTS)
             else:
-                data = downloads.figures(here, FINE[0], suffix, width)
-            ticket.tell((what, data))
+                data = downloads.figures(here, POINTS, suffix, width)
+            ticket.tell(data)
 
-        self.errands.submit(job)
+        self._making.append(what)
+        self._say_making()
+        self.parcels[what].submit(job)
 
-    def _fetched(self, generation: int, answer: Any) -> None:  # noqa: ANN401
-        """Show a curve so far, or hand a file to the browser."""
-        if self.errands.closed:
+    def _say_making(self, why: str = "") -> None:
+        names = ", ".join(dict.fromkeys(self._making))
+        self.layout.fetched(why or (f"making {names} …" if names else ""))
+
+    def _fetched(self, what: str, generation: int, answer: bytes | Exception) -> None:
+        """Hand a file to the browser, or say why there is none."""
+        if self.worker.closed:
             return
+        why = ""
         if isinstance(answer, Exception):
             text = str(answer) if isinstance(answer, EhlError | OSError) else repr(answer)
-            self.layout.fetched(self.uploads.nameless(text))
-        elif isinstance(answer[1], bytes):
-            name, data = answer
-            self.layout.fetched("")
-            self.layout.parcel.data = {"name": [name], "data": [base64.b64encode(data).decode()]}
+            why = self.uploads.nameless(text)
         else:
-            self.document.hold("combine")
+            parcel = {"name": [what], "data": [base64.b64encode(answer).decode()]}
+            self.layout.parcel.data = parcel
+        if generation == self.parcels[what].generation:
+            self._making = [name for name in self._making if name != what]
+        self._say_making(why)
+
+    def _drawn(self, generation: int, answer: Any) -> None:  # noqa: ANN401
+        """Show a curve so far, or say why there is none."""
+        if self.curves.closed:
+            return
+        if isinstance(answer, Exception):
+            self.layout.fetched(self.uploads.nameless(str(answer)))
+        else:
             self.pictures.show_curve(*answer)
-            self.document.unhold()

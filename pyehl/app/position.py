@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from pyehl import namelist
-from pyehl.app.knobs import KNOBS, Knob, Value
+from pyehl.app.knobs import GROUPS, KNOBS, Knob, Value
 from pyehl.case import Case
 from pyehl.errors import InputError
 from pyehl.surfaces import rough_groups
@@ -53,6 +54,7 @@ DEFAULTS: dict[str, Value] = {
     "map_y": 0.0,
 }
 KINDS = ("smooth", "fractal", "map")
+_OF_SURFACE = tuple(knob.name for knob in GROUPS["Surface"])
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,6 +181,18 @@ class Position:
         return text.replace(self.file, Path(self.file).name) if self.file else text
 
     @property
+    def contact(self) -> tuple[object, ...]:
+        """What the smooth contact depends on: positions with the same differ in the surface."""
+        knobs = [v for name, v in self.values.items() if name not in _OF_SURFACE]
+        return (*knobs, self.modulus, self.base, self.oil)
+
+    def map_said(self) -> dict[str, Value]:
+        """Give what the case says of its height map, as `Uploads.check` takes it."""
+        kept = namelist.values(self.base).get("surface", {})
+        found = {key: kept[key] for key in ("channel", "height_unit") if key in kept}
+        return found | {f"length_{x}": self._si(f"map_{x}") for x in "xy"}
+
+    @property
     def rough(self) -> bool:
         """Whether there is a rough surface."""
         return self.values["surface"] != "smooth"
@@ -239,6 +253,12 @@ def from_case(case: Case, files: Mapping[str, str] | None = None) -> tuple[Posit
         "map_y": _tidy(float(surface.get("length_y", 0.0)) * 1e3) if kind == "map" else 0.0,
     }
     values |= _oil(lubricant)
+    bodies = settings.get("bodies")
+    if bodies is not None:
+        scales = {name: 1e-9 if name.startswith("modulus") else 1.0 for name in STEEL}
+        values |= {name: _tidy(float(bodies[name]) * scales[name]) for name in STEEL}
+    elif not _of_steel(point.reduced_modulus):
+        note += f" E' = {point.reduced_modulus * 1e-9:.6g} GPa until a modulus is turned."
     file = str(surface.get("file", "")) if kind == "map" else ""
     if file and files is not None:
         name = Path(file).name
@@ -246,7 +266,13 @@ def from_case(case: Case, files: Mapping[str, str] | None = None) -> tuple[Posit
             raise InputError(f"surface.file = '{name}': expected an upload of this map first")
         file = files[name]
     kept = _kept(case.text)
-    return Position(values, kept, point.reduced_modulus, file, values["oil"]), note
+    return Position(values, kept, point.reduced_modulus, file, values["oil"]), note.strip()
+
+
+def _of_steel(modulus: float) -> bool:
+    """Whether E' [Pa] is that of two steel bodies, to the digits that people write."""
+    steel = STEEL["modulus_1"] * 1e9 / (1.0 - STEEL["poisson_1"] ** 2)
+    return math.isclose(modulus, steel, rel_tol=2e-3)
 
 
 def _oil(lubricant: Mapping[str, Any]) -> dict[str, Value]:

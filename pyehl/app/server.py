@@ -38,26 +38,27 @@ def make_server(
         if made is not None:
             made(new)
 
+    # what a tab is told of itself is not for the terminal
+    logging.getLogger("bokeh").setLevel(logging.ERROR)
+    logging.getLogger("tornado").setLevel(logging.ERROR)
     try:
+        # pages of its own origin alone: the port has to be known before it is asked for
         sockets, found = bind_sockets(ADDRESS, port)
+        for socket in sockets:
+            socket.close()
+        return Server(
+            {"/": Application(FunctionHandler(page))},
+            address=ADDRESS,
+            port=found,
+            allow_websocket_origin=[f"{ADDRESS}:{found}", f"localhost:{found}"],
+            check_unused_sessions_milliseconds=UNUSED,
+            unused_session_lifetime_milliseconds=UNUSED,
+            websocket_max_message_size=2 * LARGEST,
+        )
     except OSError as error:
         raise InputError(
             f"--port {port}: {error.strerror or error}\nexpected: a free port, or none"
         ) from error
-    for socket in sockets:
-        socket.close()
-    # what a tab is told of itself is not for the terminal
-    logging.getLogger("bokeh").setLevel(logging.ERROR)
-    logging.getLogger("tornado").setLevel(logging.ERROR)
-    return Server(
-        {"/": Application(FunctionHandler(page))},
-        address=ADDRESS,
-        port=found,
-        allow_websocket_origin=[f"{ADDRESS}:{found}", f"localhost:{found}"],
-        check_unused_sessions_milliseconds=UNUSED,
-        unused_session_lifetime_milliseconds=UNUSED,
-        websocket_max_message_size=2 * LARGEST,
-    )
 
 
 def serve(

@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import re
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from pyehl.errors import EhlError, InputError
 from pyehl.surfaces.reading import read_scan
@@ -17,6 +19,8 @@ __all__ = ["LARGEST", "Uploads"]
 
 LARGEST = 64 * 2**20
 """Bytes of the largest file that is taken."""
+# What is read for the first time, and what could be read
+PLACES = ("new", "maps")
 
 
 class Uploads:
@@ -24,38 +28,48 @@ class Uploads:
 
     def __init__(self) -> None:
         self._folder = tempfile.TemporaryDirectory(prefix="pyehl-app-")
+        for place in PLACES:
+            (Path(self._folder.name) / place).mkdir()
         self.files: dict[str, str] = {}
 
-    def add(self, name: str, data: bytes, length_x: float = 0.0, length_y: float = 0.0) -> str:
-        """Keep a height map if it can be read, lengths [m] or 0; returns where.
+    def add(self, name: str, data: bytes, said: Mapping[str, Any] | None = None) -> str:
+        """Keep a height map if it can be read; returns where. A map of the same name is replaced.
 
-        InputError with the words of the reader.
+        `said` is what a case says of it, as `check` takes it. InputError with the words of the
+        reader; what was there of this name is kept then.
         """
         base = re.sub(r"[^\w.\- ]", "_", Path(name.replace("\\", "/")).name).lstrip(".")
         if not base:
             raise InputError("the map has no name: expected a file")
         if len(data) > LARGEST:
             raise InputError(f"{base}: {len(data)} bytes; a map of up to {LARGEST} was expected")
-        path = Path(self._folder.name) / base
-        path.write_bytes(data)
+        fresh, path = (Path(self._folder.name) / place / base for place in PLACES)
+        fresh.write_bytes(data)
         try:
-            self.check(str(path), length_x, length_y)
-        except InputError:
-            path.unlink()
-            raise
+            self.check(str(fresh), said or {})
+            fresh.replace(path)
+        finally:
+            fresh.unlink(missing_ok=True)
         self.files[base] = str(path)
         return str(path)
 
-    def check(self, path: str, length_x: float = 0.0, length_y: float = 0.0) -> None:
-        """Read a map; InputError with the words of the reader."""
+    def check(self, path: str, said: Mapping[str, Any]) -> None:
+        """Read a map; InputError with the words of the reader.
+
+        `said` has what a case says of it: ``length_x``, ``length_y`` [m] or 0, ``channel``,
+        ``height_unit``, each of them or none.
+        """
+        known = {name: value for name, value in said.items() if value}
         try:
-            read_scan(path, length_x=length_x or None, length_y=length_y or None)
+            read_scan(path, **known)
         except (EhlError, OSError) as error:
             raise InputError(self.nameless(str(error))) from error
 
     def nameless(self, text: str) -> str:
         """Leave out where the files lie."""
-        return text.replace(f"{self._folder.name}/", "").replace(self._folder.name, "the page")
+        for place in PLACES:
+            text = text.replace(f"{self._folder.name}/{place}/", "")
+        return text.replace(self._folder.name, "the page")
 
     def close(self) -> None:
         """Remove all files."""

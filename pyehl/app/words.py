@@ -41,7 +41,11 @@ def film_rows(found: Film) -> list[tuple[str, str]]:
         rows.append(("contact radius a", f"{point.hertz_radius * 1e6:.4g} µm"))
     else:
         both = f"{point.hertz_radius * 1e6:.4g} × {point.semi_axis_y * 1e6:.4g} µm"
-        rows.append(("semi-axes, along × across", both))
+        turned = float(s.get("angle_deg") or 0.0)
+        if turned:
+            rows.append(("semi-axes", f"{both}, turned by {turned:g}° against the motion"))
+        else:
+            rows.append(("semi-axes, along × across", both))
     rows.append(("regime", regime(point.moes_m, point.moes_l, point.ellipse)))
     for small, big in (("h_c", "H_c"), ("h_min", "H_min")):
         rows.append((small, _film(s, small, big, point.film_scale, converged=found.converged)))
@@ -90,7 +94,8 @@ def rough_rows(found: Rough) -> list[tuple[str, str]]:
         rows.append(("film ratio Λ = h_min/σ", f"{s['lambda_ratio']:.4g}: {_lambda(s)}"))
     rows.append(("rms height σ", f"{s['rms_height_m'] * NM:.4g} nm"))
     rows.append(("rms in the contact", f"{s['rms_deformed_m'] * NM:.4g} nm"))
-    rows.append(("least rough film", f"{(s['h_min_rough_m'] or math.nan) * NM:.4g} nm"))
+    if p.friction.status == "predicted" and s["h_min_rough_m"] is not None:
+        rows.append(("least rough film", f"{s['h_min_rough_m'] * NM:.4g} nm"))
     if p.advice is not None:
         rows += [("what would carry", line) for line in p.advice.report()]
     return rows

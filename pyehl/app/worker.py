@@ -82,14 +82,14 @@ class Worker:
             )
             return not self.closed and self.generation == generation
 
-    def close(self, patience: float = 10.0) -> None:
-        """End the thread, after the cycle it is in."""
+    def close(self) -> None:
+        """End the thread, after what it cannot leave: the cycle of a solver, or a prediction."""
         with self._changed:
             self.closed = True
             self._job = None
             self._changed.notify_all()
         if threading.current_thread() is not self._thread:
-            self._thread.join(patience)
+            self._thread.join()
 
     @property
     def alive(self) -> bool:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""``pyehl app``: a contact to play with, in the browser."""
+"""``pyehl app``: an interactive contact, in the browser."""
 
 from __future__ import annotations
 

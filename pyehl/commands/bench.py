@@ -158,18 +158,12 @@ def _tell(text: str) -> None:
 
 # What is measured, and what does it. Those that write a folder write their JSON into it
 FILES: dict[str, tuple[str, Callable[..., Rows]]] = {
-    "deflection": (
-        "time and error of the elastic deflection",
-        _deflection,
-    ),
+    "deflection": ("time and error of the elastic deflection", _deflection),
     "smooth": ("time, error and memory of smooth contacts", _smooth),
     "step": ("time of a step of a transient run", _step),
     "sweep": ("cases per core-hour of studies", _sweep),
     "skips": ("what a scene does not need, and what that saves", _skips),
-    "workprec": (
-        "error against processor seconds of all settings",
-        _workprec,
-    ),
+    "workprec": ("error against processor seconds of all settings", _workprec),
 }
 FOLDERS: dict[str, tuple[str, Callable[..., Rows]]] = {
     "stress": ("where the solver converges: random cases", _stress),

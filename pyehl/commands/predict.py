@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from pyehl import library
 from pyehl.api import predict
 from pyehl.commands.arguments import add_case_arguments, add_force
 from pyehl.prediction.deformed import error_name
@@ -22,57 +23,38 @@ __all__ = ["add_arguments", "execute", "report"]
 def report(prediction: Prediction) -> str:
     """Return the lines that ``pyehl predict`` prints."""
     f, s, values = prediction.friction, prediction.surface, prediction.summary
-    known = math.isfinite(prediction.film_minimum)
-    least = f"h_min = {prediction.film_minimum * 1e6:.4g} um, " if known else ""
     lines = [*s.preparation.record.report()] if s.preparation else []
     lines.append(_surface("surface", s))
     if prediction.second:
         other = prediction.second.surface
         lines += other.preparation.record.report() if other.preparation else []
         lines.append(_surface("second", other))
-    lines += [
-        f"film        h_c = {prediction.film * 1e6:.4g} um ({prediction.film_source}), "
-        f"{least}least rough film {_told(values, 'h_min_rough_m', 1e6)} um",
-        f"model       {_model(prediction)}",
-    ]
+    lines.append(f"model      {_model(prediction)}")
     if f.status == "predicted":
         lines += _deformed(values)
-        lines += [
-            f"mu_r/mu_s   {f.mu_ratio:.3f} over the passage, {f.mu_ratio_min:.3f} ... "
-            f"{f.mu_ratio_max:.3f}   [{f.passage.size} positions, "
-            f"{prediction.seconds * 1e3:.0f} ms]",
-            f"            {_trust(prediction)}",
-            f"            {values['note']}",
-        ]
         mean, spread = prediction.tracks
-        lines.append(
-            f"            {mean:.3f} +- {spread:.3f} over {prediction.track_count} tracks across it"
-        )
+        lines += [
+            f"passage    mu_r/mu_s from {f.mu_ratio_min:.3f} to {f.mu_ratio_max:.3f}; "
+            f"{mean:.3f} +- {spread:.3f} over {prediction.track_count} tracks   "
+            f"[{f.passage.size} positions, {prediction.seconds * 1e3:.0f} ms]",
+            f"           {values['note']}",
+        ]
         if values["mu"] is not None:
-            lines.append(
-                f"mu          {values['mu']:.4f}, smooth mu_s {values['mu_smooth']:.4f}; "
-                f"{values['mu_note']}"
-            )
-            if values["temperature_rise_max_K"] is not None:
-                lines.append(
-                    f"heat        film {values['temperature_rise_max_K']:.2g} K warmer, isothermal "
-                    f"mu {values['mu_isothermal']:.4f}"
-                )
+            lines.append(f"           mu: {values['mu_note']}")
         strongest = sorted(prediction.bands, key=lambda band: -abs(band.rise))[:3]
         parts = ", ".join(
             f"{b.rise:+.4f} from {b.longest * 1e6:.0f} to {b.shortest * 1e6:.0f} um"
             for b in strongest
         )
-        lines.append(f"rise        {parts}")
-    lines.append(f"status      {f.status}: {f.message}")
+        lines.append(f"rise       {parts}")
     if prediction.advice:
         lines += prediction.advice.report()
     if f.cavitated_share > 0.0:
-        line = f"            p_s + delta p <= 0 on {f.cavitated_share:.2g} of the contact (rim)"
+        line = f"rim        p_s + delta p <= 0 on {f.cavitated_share:.2g} of the contact"
         if math.isfinite(f.cavitated_friction):
             line += f", at most {f.cavitated_friction:.1g} of the friction"
         lines.append(line)
-    return "\n".join(lines)
+    return "\n".join([*lines, str(library.conclude(values))])
 
 
 def _told(values: Mapping[str, Any], name: str, factor: float) -> str:
@@ -85,7 +67,7 @@ def _told(values: Mapping[str, Any], name: str, factor: float) -> str:
 
 def _surface(name: str, tile: Topography) -> str:
     return (
-        f"{name:12}{tile.origin}: rms {tile.rms_height * 1e6:.4g} um, "
+        f"{name:11}{tile.origin}: rms {tile.rms_height * 1e6:.4g} um, "
         f"{tile.shape[0]} x {tile.shape[1]} pixels, "
         f"{tile.length_x * 1e3:.4g} x {tile.length_y * 1e3:.4g} mm"
     )
@@ -94,7 +76,7 @@ def _surface(name: str, tile: Topography) -> str:
 def _deformed(values: Mapping[str, Any]) -> list[str]:
     """Say what becomes of the surface."""
     text = (
-        f"deformed    rms {_told(values, 'rms_deformed_m', 1e6)} um, pressure rms "
+        f"deformed   rms {_told(values, 'rms_deformed_m', 1e6)} um, pressure rms "
         f"{_told(values, 'p_rise_rms_Pa', 1e-6)} MPa, greatest rise "
         f"{_told(values, 'p_rise_max_Pa', 1e-6)} MPa"
     )
@@ -106,15 +88,7 @@ def _deformed(values: Mapping[str, Any]) -> list[str]:
             f"{_told(values, 'film_below_limit_share', 100.0)} % of the contact below "
             f"{values['film_limit_m'] * 1e6:.4g} um"
         )
-    return [text, *(f"            {', '.join(film)}" for _ in film[:1])]
-
-
-def _trust(prediction: Prediction) -> str:
-    error = prediction.model_error
-    text = f"model error {error:.3f}" if math.isfinite(error) else "model error unknown"
-    if prediction.outside_range:
-        text += ": outside the range of the response by " + ", ".join(prediction.outside_range)
-    return text
+    return [text, *(f"           {', '.join(film)}" for _ in film[:1])]
 
 
 def _model(prediction: Prediction) -> str:
@@ -125,7 +99,7 @@ def _model(prediction: Prediction) -> str:
         words.append(f"complex response at velocity ratio {prediction.velocity_ratio:g}{second}")
     else:
         words.append(f"real amplitude ratio, wavelengths by {options.wavelength_convention}")
-    words.append("smooth contact " + ("solved" if options.smooth == "solved" else "of Hertz"))
+    words.append(f"smooth contact {prediction.film_source}")
     if options.stiffness == "paper":
         words.append("stiffness of the paper")
     if options.load_balance:
@@ -171,5 +145,5 @@ def execute(args: argparse.Namespace) -> int:
         plots=args.plots,
     )
     print(report(prediction))
-    print(f"results     {args.output}")
+    print(f"results    {args.output}")
     return 0 if prediction.friction.status == "predicted" else 1

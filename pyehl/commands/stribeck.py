@@ -22,14 +22,13 @@ from pyehl.commands.watching import (
 )
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
 from pyehl.studies.curve import (
-    FULL_FILM,
-    OUTSIDE,
     UNSOLVED,
     full_film_ends,
     no_coefficient,
 )
 from pyehl.studies.curve_plan import KEYS, CurvePlan, plan_curve
 from pyehl.studies.curve_run import CSV, NETCDF, PICTURE, axes_of, perform
+from pyehl.studies.curve_text import absolute_friction, curves_of, deviation, last_lines, report
 from pyehl.studies.measured_friction import Measured, read_measured
 from pyehl.surfaces import rough_groups
 from pyehl.theory.load_share import AIHARA, LoadShare
@@ -122,31 +121,6 @@ def _measured(path: str, plan: CurvePlan) -> Measured:
     return measured
 
 
-def curves_of(plan: CurvePlan, rows: Sequence[Row]) -> list[tuple[str, Array, Sequence[Row]]]:
-    """Split a table into curves: name, values of the first key, rows."""
-    keys = plan.study.keys
-    found: dict[str, tuple[list[float], list[Row]]] = {}
-    for point, row in zip(plan.points, rows, strict=True):
-        name = ", ".join(f"{key} = {point.point.values[key]}" for key in keys[1:])
-        places, those = found.setdefault(name, ([], []))
-        places.append(float(point.point.values[keys[0]]))
-        those.append(row)
-    return [(name, np.array(places), those) for name, (places, those) in found.items()]
-
-
-def absolute_friction(plan: CurvePlan, rows: Sequence[Row]) -> bool:
-    """Whether all answers are coefficients of friction, where there is sliding.
-
-    A point whose smooth contact has no solution has a ratio, and is left out.
-    """
-    answers = [
-        row
-        for point, row in zip(plan.points, rows, strict=True)
-        if row["status"] in (FULL_FILM, OUTSIDE) and point.settings["contact"]["slide_to_roll"]
-    ]
-    return bool(answers) and all(row["mu"] is not None for row in answers)
-
-
 def draw(
     plan: CurvePlan, rows: Sequence[Row], measured: Measured | None, path: Path, dpi: int
 ) -> None:
@@ -203,59 +177,6 @@ def _conditions(plan: CurvePlan) -> str:
     return ", ".join(found)
 
 
-def report(plan: CurvePlan, rows: Sequence[Row]) -> str:
-    """Return the table that is printed."""
-    keys = plan.study.keys
-    columns = {
-        "h_c_m": "h_c [m]",
-        "lambda_ratio": "Lambda",
-        "theta_2": "theta_2",
-        "hersey": "Hersey",
-        "mu_ratio": "mu_r/mu_s",
-        "mu_ratio_model_error": "+- model",
-        "mu": "mu",
-        "mu_isothermal": "isothermal",
-        "temperature_rise_max_K": "rise [K]",
-        "mu_empirical": "empirical",
-        "mu_ratio_ehl": "simulated",
-    }
-    names = [name for name in columns if any(row.get(name) is not None for row in rows)]
-    head = [*(f"{key:>21}" for key in keys), *(f"{columns[name]:>10}" for name in names)]
-    lines = ["  ".join([*head, "status"])]
-    for point, row in zip(plan.points, rows, strict=True):
-        cells = [f"{point.point.values[key]:>21}" for key in keys]
-        cells += [f"{'-' if row.get(n) is None else format(row[n], '.4g'):>10}" for n in names]
-        lines.append("  ".join([*cells, str(row["status"])]))
-    for label, places, those in curves_of(plan, rows):
-        lines.append(f"{label + ': ' if label else ''}{full_film_ends(keys[0], places, those)[0]}")
-    if plan.load_share is not None:
-        lines.append(plan.load_share.words)
-    return "\n".join(lines)
-
-
-def deviation(plan: CurvePlan, rows: Sequence[Row], measured: Measured) -> list[str]:
-    """Say how far the curve is from measured friction."""
-    key = plan.study.keys[0]
-    places = np.array([float(p.point.values[key]) for p in plan.points])
-    lines = []
-    for name in (measured.ordinate, "mu_empirical"):
-        if name not in rows[0]:
-            continue
-        found = measured.deviation(name, key, places, rows)
-        known = np.isfinite(found)
-        if not known.any():
-            lines.append(f"measured   no point where there is {name}")
-            continue
-        worst = int(np.nanargmax(np.abs(found)))
-        lines.append(
-            f"measured   {name} is off by {np.mean(found[known]):+.1%} in the mean, "
-            f"{np.sqrt(np.mean(found[known] ** 2)):.1%} rms, {found[worst]:+.1%} at the most "
-            f"({measured.abscissa} = {measured.places[worst]:.4g}); {known.sum()} of "
-            f"{known.size} points"
-        )
-    return lines
-
-
 def execute(args: argparse.Namespace) -> int:
     """Run ``pyehl stribeck``."""
     plan = _plan(args)
@@ -286,6 +207,7 @@ def execute(args: argparse.Namespace) -> int:
         print(report(plan, rows))
         if measured is not None:
             print("\n".join(deviation(plan, rows, measured)))
+        print(last_lines(plan, rows))
         print(f"results    {', '.join(str(folder / name) for name in written)}")
     lost = [
         f"point {p.point.number + 1} of {len(rows)} ({p.point}): {row['status']}: {row['message']}"

@@ -11,7 +11,7 @@ import hashlib
 from collections.abc import Sequence
 from pathlib import Path
 
-from pyehl.case import Case, exchanged
+from pyehl.case import Case, exchanged, files_of
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.destination import check_files, made_by, mark, new_file
 from pyehl.errors import FileError, InputError
@@ -83,7 +83,7 @@ def execute(args: argparse.Namespace) -> int:
             f"expected: a name with {', '.join(SUFFIXES)}"
         )
     if args.output is not None:
-        _check(args.output, (args.case, str(settings["surface"].get("file", ""))), args.plots)
+        _check(args.output, (args.case, *files_of(settings)), args.plots)
     operating = OperatingPoint.from_settings(settings)
     lubricant = Lubricant.from_settings(settings, str(settings["psd"]["viscosity_law"]))
     try:

@@ -85,7 +85,9 @@ def movie(
         left, middle, right = figure.subplots(1, 3)
         pressure, film = (data[name].values[:, :, frame] for name in ("frame_P", "frame_H"))
         contact.interferogram(x, y, film, scales, fringes=fringes, outline=outline, ax=left)
-        contact.pressure_and_film(x, pressure[:, row], film[:, row], scales, ax=middle)
+        contact.pressure_and_film(
+            x, pressure[:, row], film[:, row], scales, half=outline.chords[0], ax=middle
+        )
         middle.set_ylim(0.0, most * (1.0 if scales is None else scales.pressure * 1e-9))
         middle.set_xlim(left.get_xlim())
         transient.roughness(

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["Band", "joining", "octaves"]
+__all__ = ["BAND_COLUMNS", "Band", "joining", "octaves", "records"]
 
 Array = NDArray[np.float64]
 
@@ -20,6 +20,16 @@ Array = NDArray[np.float64]
 ROUNDING = 1e-9
 # Share of the largest mean square that counts for none
 NOTHING = 1e-20
+
+# Attributes of a band, and what they are called in results
+BAND_COLUMNS = {
+    "longest": "longest_m",
+    "shortest": "shortest_m",
+    "rms_height": "rms_height_m",
+    "rms_deformed": "rms_deformed_m",
+    "rms_pressure": "rms_pressure_Pa",
+    "rise": "rise",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,3 +105,8 @@ def joining(
         )
         before = ratio
     return found
+
+
+def records(bands: Sequence[Band]) -> list[dict[str, float]]:
+    """Give bands as results have them: names with units and values."""
+    return [{name: getattr(band, key) for key, name in BAND_COLUMNS.items()} for band in bands]

@@ -16,6 +16,7 @@ __all__ = [
     "cutoff_error",
     "model_error",
     "outside_range",
+    "why_no_error",
 ]
 
 # Error of mu_r/mu_s against the full simulation: a part that small waves and tracks make at any
@@ -48,6 +49,27 @@ def model_error(mu_ratio: float, *, thins: bool = False, ellipticity: float = 1.
     if thins:
         constant, share = CONSTANT_THINNING, SHARE_THINNING
     return constant + share * abs(mu_ratio - 1.0) + NARROW * max(0.0, 1.0 / ellipticity - 1.0)
+
+
+def why_no_error(
+    mu_ratio: float, outside: Sequence[str], options: Options, *, friction_alone_thins: bool
+) -> str:
+    """Say why `model_error` is not known of a prediction; '' where it is.
+
+    `outside`: what lies outside of the range of the response; `friction_alone_thins`: a shear law
+    holds for the friction and not for the flow.
+    """
+    if not math.isfinite(mu_ratio):
+        return "there is no mu_ratio"
+    if outside:
+        return f"outside the range of the response by {', '.join(outside)}"
+    if not options.measured:
+        return "psd.reduction and psd.smooth are not those that it was measured with"
+    if friction_alone_thins:
+        return "with a shear law it was measured with lubricant.flow = 'consistent'"
+    if mu_ratio > KNOWN_RATIO:
+        return f"it was measured up to mu_r/mu_s = {KNOWN_RATIO:g}"
+    return ""
 
 
 def cutoff_error(bands: Sequence[Band]) -> float:

@@ -27,6 +27,8 @@ Array = NDArray[np.float64]
 
 BEYOND = "beyond linear response"
 """Status where the ratio is larger than the model can tell."""
+STATUSES = ("predicted", "film breakdown", BEYOND, "load lost", "overflow")
+"""All statuses of a prediction; every one but the first is one without a ratio."""
 TRACKS = 8
 """Tracks over which mean and spread are taken unless asked for otherwise."""
 

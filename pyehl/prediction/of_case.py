@@ -111,6 +111,10 @@ def predict(
         velocity_ratio=alone[0].velocity_ratio,
         film=film,
         film_minimum=contact.minimum_film * operating.film_scale,
+        film_errors=(
+            contact.central_film_error * operating.film_scale,
+            contact.minimum_film_error * operating.film_scale,
+        ),
         film_source=contact.source,
         surface=alone[0].topography,
         friction=friction,

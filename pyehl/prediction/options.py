@@ -72,6 +72,11 @@ class Options:
         """Whether both the reduction and the smooth contact are those of the paper."""
         return self.reduction == "amplitude" and self.smooth == "hertz"
 
+    @property
+    def measured(self) -> bool:
+        """Whether the errors of the model were measured of it read so."""
+        return self.reduction == "response" and self.smooth == "solved"
+
     @classmethod
     def from_settings(cls, settings: Mapping[str, Mapping[str, Any]]) -> Options:
         """From the group ``psd`` of a resolved case."""

@@ -11,11 +11,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pyehl import display, namelist, surfaces
-from pyehl.prediction.bands import Band
+from pyehl import display, library, namelist, surfaces
+from pyehl.prediction.bands import BAND_COLUMNS, Band, records
 from pyehl.prediction.breakdown import Advice, BelowZero
 from pyehl.prediction.deformed import deformed_surface
-from pyehl.prediction.errors import cutoff_error, model_error, outside_range
+from pyehl.prediction.errors import (
+    cutoff_error,
+    model_error,
+    outside_range,
+    why_no_error,
+)
 from pyehl.prediction.friction import TRACKS, RoughFriction
 from pyehl.prediction.options import Options
 from pyehl.prediction.pair_breakdown import PairAdvice, PairBelowZero
@@ -33,16 +38,6 @@ if TYPE_CHECKING:
 __all__ = ["Prediction"]
 
 Array = NDArray[np.float64]
-
-# Attributes of a band, and what they are called in results
-BAND_COLUMNS = {
-    "longest": "longest_m",
-    "shortest": "shortest_m",
-    "rms_height": "rms_height_m",
-    "rms_deformed": "rms_deformed_m",
-    "rms_pressure": "rms_pressure_Pa",
-    "rise": "rise",
-}
 
 NEWTONIAN_NOTE = (
     "Newtonian: a ratio at this slip, no absolute coefficient; shear thinning brings it close to "
@@ -95,6 +90,8 @@ class Prediction:
         The second rough surface; None: there is one.
     heat
         What the heat of sliding makes of friction; None: nothing.
+    film_errors
+        Errors of h_c and h_min, estimated [m]; NaN where they are not known.
 
     Examples
     --------
@@ -125,6 +122,7 @@ class Prediction:
     advice: Advice | PairAdvice | None = None
     second: SecondSurface | None = None
     heat: Heat | None = None
+    film_errors: tuple[float, float] = (math.nan, math.nan)
 
     def __repr__(self) -> str:
         """Give the ratio and the status in one line."""
@@ -163,15 +161,21 @@ class Prediction:
     def model_error(self) -> float:
         """Error of `mu_ratio` by the model, estimated [-]; NaN where it is not known."""
         kappa, in_flow = self.operating.ellipse.ellipticity, self.lubricant.shear.in_flow
-        if not self._known or (self.thins and not in_flow):
+        if self.why_no_error:
             return math.nan
         return model_error(self.mu_ratio, thins=in_flow, ellipticity=kappa)
 
     @property
+    def why_no_error(self) -> str:
+        """Why `model_error` is not known; '' where it is."""
+        alone = self.thins and not self.lubricant.shear.in_flow
+        outside, options = self.outside_range, self.options
+        return why_no_error(self.mu_ratio, outside, options, friction_alone_thins=alone)
+
+    @property
     def _known(self) -> bool:
         """Whether the model is one whose errors were measured, and the case in its range."""
-        known = self.options.reduction == "response" and self.options.smooth == "solved"
-        return known and not self.outside_range
+        return self.options.measured and not self.outside_range
 
     @property
     def case_text(self) -> str:
@@ -197,8 +201,8 @@ class Prediction:
             "passage": {"shift_m": f.shift, **second, "mu_ratio": f.passage},
             "spectrum": {"q_rad_per_m": q, "c_iso_m4": c_iso, "amplitude_ratio_along_x": ratio},
             "bands": {
-                name: np.array([record[name] for record in self._bands()])
-                for name in BAND_COLUMNS.values()
+                name: np.array([getattr(band, key) for band in self.bands])
+                for key, name in BAND_COLUMNS.items()
             },
         }
 
@@ -217,11 +221,6 @@ class Prediction:
         f, second = self.friction, self.second.passage.shift if self.second else None
         return passage(f.shift, f.passage, self.surface.length_x, second=second, ax=ax)
 
-    def _bands(self) -> list[dict[str, float]]:
-        return [
-            {name: getattr(band, key) for key, name in BAND_COLUMNS.items()} for band in self.bands
-        ]
-
     @property
     def summary(self) -> dict[str, Any]:
         """What ``summary.json`` holds; None for a number that does not exist."""
@@ -233,6 +232,7 @@ class Prediction:
             "message": f.message,
             "mu_ratio": f.mu_ratio,
             "mu_ratio_model_error": self.model_error,
+            "mu_ratio_error_note": self.why_no_error,
             "mu_ratio_cutoff_error": cutoff_error(self.bands),
             "outside_range": self.outside_range,
             "mu_ratio_min": f.mu_ratio_min,
@@ -253,13 +253,16 @@ class Prediction:
             "viscosity_law": self.lubricant.viscosity_law,
             "roelands_z": self.lubricant.roelands_z or None,
             "load_balance": self.options.load_balance,
+            "pressure_viscosity_note": library.alpha_origin(self.text),
             "shear_law": self.lubricant.shear.law,
             "slide_to_roll": o.slide_to_roll,
             **absolute_friction(o, self.lubricant, self.film, f.mu_smooth, f.mu_ratio, self.heat),
             "thermal_reduction": o.thermal_reduction,
             "h_c_m": self.film,
+            "h_c_error_m": self.film_errors[0],
             "h_c_source": self.film_source,
             "h_min_m": self.film_minimum,
+            "h_min_error_m": self.film_errors[1],
             "lambda_ratio": self.film_minimum / sigma if sigma > 0.0 else None,
             "lambda_ratio_central": self.film / sigma if sigma > 0.0 else None,
             **statistics(s, f.response),
@@ -275,14 +278,15 @@ class Prediction:
             "hertz_radius_m": o.hertz_radius,
             "hertz_pressure_Pa": o.hertz_pressure,
             "film_scale_m": o.film_scale,
-            "bands": self._bands(),
+            "bands": records(self.bands),
             "wall_seconds": self.seconds,
         }
         if o.radius_ratio != 1.0:
             values["radius_ratio"] = o.radius_ratio
             values["ellipticity"] = o.ellipse.ellipticity
             values["semi_axis_y_m"] = o.semi_axis_y
-        return {key: _finite(value) for key, value in values.items()}
+        values = {key: _finite(value) for key, value in values.items()}
+        return values | {"judgement": library.conclude(values).judgement}
 
 
 def _finite(value: object) -> object:

@@ -68,6 +68,7 @@ class SmoothContact:
     extrapolated: bool = False  # whether `central_film` is
     # Viscosity at low shear over that of a Newtonian lubricant with as thick a film [-]
     thinning: float = 1.0
+    minimum_film_error: float = math.nan  # estimated error of `minimum_film` [a^2/R]
 
     def at(self, x: Array, y: Array) -> tuple[Array, Array]:
         """P and H on the grid of places x (m,) and y (n,), both (m, n); outside P is zero."""
@@ -191,9 +192,20 @@ def _on_grid(text: str, points: int) -> tuple[SmoothContact | None, str]:
     for values in (x, y, pressure, film):
         values.flags.writeable = False
     source = f"solved on {points} x {points} nodes, {how}"
-    error = summary["H_c_error"]
+    errors = [math.nan if summary[k] is None else summary[k] for k in ("H_c_error", "H_min_error")]
     film = film * scale
-    contact = SmoothContact(x, y, pressure, film, central, error, source, least, limit is not None)
+    contact = SmoothContact(
+        x,
+        y,
+        pressure,
+        film,
+        central,
+        errors[0],
+        source,
+        least,
+        limit is not None,
+        minimum_film_error=errors[1],
+    )
     return contact, "converged"
 
 

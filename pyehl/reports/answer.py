@@ -6,8 +6,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+from pyehl import library
 from pyehl.display import with_error
-from pyehl.reports.limits import HOT
 
 __all__ = ["WELL_KNOWN", "Judgement", "answer", "judge"]
 
@@ -16,6 +16,20 @@ Summary = Mapping[str, Any]
 # A result whose error is a larger share of it is to be taken with care
 WELL_KNOWN = 0.05
 NM = 1e9
+KINDS = {"holds": "pass", "with care": "care", "no answer": "fail"}
+SIGNS = {"mu_r/mu_s": "μ_r/μ_s", "Lambda": "Λ", "+-": "±", "sigma": "σ", "mu ": "μ "}
+WORDS = {
+    "H_c": "central film",
+    "h_c": "central film",
+    "H_min": "minimum film",
+    "h_min": "minimum film",
+    "p_max": "largest pressure",
+    "p_h": "Hertz pressure",
+    "Lambda": "film ratio Λ",
+    "mu_r/mu_s": "μ_r/μ_s",
+    "mu": "coefficient of friction",
+    "heat": "rise of temperature",
+}
 
 
 class Judgement(NamedTuple):
@@ -28,121 +42,52 @@ class Judgement(NamedTuple):
 
 def answer(summary: Summary) -> dict[str, str]:
     """Give names and values of what was found; nothing where there is no answer."""
-    if not _has_answer(summary):
+    told = library.conclude(summary)
+    if told.worth == "no answer":
         return {}
-    if summary["kind"] == "prediction":
-        return _predicted(summary)
-    return _solved(summary)
+    found = {
+        WORDS[name]: f"{name} = {_signs(text)}" if name in ("H_c", "H_min") else _signs(text)
+        for name, text in told.lines.items()
+        if name in WORDS
+    }
+    if summary.get("mu_ratio_min") is not None:
+        least, most = summary["mu_ratio_min"], summary["mu_ratio_max"]
+        found["μ_r/μ_s"] += f"; between {least:.4g} and {most:.4g} over the passage"
+    return found | (_predicted(summary) if summary["kind"] == "prediction" else _solved(summary))
 
 
-def _has_answer(summary: Summary) -> bool:
-    return summary["status"] in ("converged", "predicted")
-
-
-def _solved(s: Summary) -> dict[str, str]:
-    scale = s.get("film_scale_m")
-    found = {}
-    for name, small, words in (("H_c", "h_c", "central film"), ("H_min", "h_min", "minimum film")):
-        text = f"{name} = {with_error(s[name], s.get(f'{name}_error'))}"
-        if s.get(f"{small}_m") is not None and scale is not None:
-            error = s.get(f"{name}_error")
-            error = None if error is None else error * scale * NM
-            text = f"{small} = {with_error(s[f'{small}_m'] * NM, error, 'nm')}; {text}"
-        limit = s.get(f"{name}_extrapolated")
-        if limit is not None:
-            text += f"; extrapolated to fine grids {with_error(limit)}"
-        found[words] = text
-    found["largest pressure"] = f"{with_error(s['P_max'], s.get('P_max_error'))} p_h"
-    if s.get("p_max_Pa") is not None:
-        found["largest pressure"] += f", {s['p_max_Pa'] * 1e-9:.4g} GPa"
-    if s.get("mu_ratio") is not None:
-        found["μ_r/μ_s"] = _ratio(s, "mu_ratio_error")
-    _rough_film(s, found)
-    _friction(s, found)
-    found["grid"] = f"{s['points']} nodes along X; errors from {s.get('error_estimate', 'none')}"
-    return found
-
-
-def _predicted(s: Summary) -> dict[str, str]:
-    found = {"μ_r/μ_s": _ratio(s, "mu_ratio_model_error")}
-    found["over the tracks"] = (
-        f"{with_error(s['mu_ratio_tracks'], s['mu_ratio_tracks_spread'])} "
-        f"(spread of {s['tracks']} tracks)"
-    )
-    found["central film, smooth"] = f"{s['h_c_m'] * NM:.4g} nm, {s['h_c_source']}"
-    if s.get("h_min_m") is not None:
-        found["minimum film, smooth"] = f"{s['h_min_m'] * NM:.4g} nm"
-    _rough_film(s, found)
-    _friction(s, found)
-    found["rms height"] = (
-        f"{s['rms_height_m'] * NM:.4g} nm, in the contact {s['rms_deformed_m'] * NM:.4g} nm"
-    )
-    return found
-
-
-def _ratio(s: Summary, error: str) -> str:
-    text = with_error(s["mu_ratio"], s.get(error))
-    if s.get("mu_ratio_min") is not None:
-        text += f", between {s['mu_ratio_min']:.4g} and {s['mu_ratio_max']:.4g} over the passage"
+def _signs(text: str) -> str:
+    for plain, sign in SIGNS.items():
+        text = text.replace(plain, sign)
     return text
 
 
-def _rough_film(s: Summary, found: dict[str, str]) -> None:
-    if s.get("h_min_rough_m") is not None:
-        found["least film, rough"] = f"{s['h_min_rough_m'] * NM:.4g} nm"
-    elif s.get("H_min_rough") is not None:
-        found["least film, rough"] = f"H = {s['H_min_rough']:.4g}"
-    if s.get("lambda_ratio") is not None:
-        found["film ratio Λ = h_min/σ"] = f"{s['lambda_ratio']:.4g}"
+def _solved(s: Summary) -> dict[str, str]:
+    limits = [
+        f"{name} = {with_error(s[f'{name}_extrapolated'])}"
+        for name in ("H_c", "H_min")
+        if s.get(f"{name}_extrapolated") is not None
+    ]
+    found = {"extrapolated to fine grids": ", ".join(limits)} if limits else {}
+    grid = f"{s['points']} nodes along X; errors from {s.get('error_estimate', 'none')}"
+    return found | {"grid": grid}
 
 
-def _friction(s: Summary, found: dict[str, str]) -> None:
-    if s.get("mu") is not None:
-        found["coefficient of friction"] = f"{s['mu']:.4g}; smooth {s['mu_smooth']:.4g}"
-    elif s.get("mu_smooth") is not None:
-        found["coefficient of friction"] = f"smooth {s['mu_smooth']:.4g}"
+def _predicted(s: Summary) -> dict[str, str]:
+    tracks = with_error(s["mu_ratio_tracks"], s["mu_ratio_tracks_spread"])
+    heights = f"{s['rms_height_m'] * NM:.4g} nm, in the contact {s['rms_deformed_m'] * NM:.4g} nm"
+    return {
+        "over the tracks": f"{tracks} (spread of {s['tracks']} tracks)",
+        "smooth contact": str(s["h_c_source"]),
+        "rms height": heights,
+    }
 
 
 def judge(summary: Summary) -> Judgement:
-    """Judge a result by its status, its errors and its range."""
-    status = summary["status"]
-    if not _has_answer(summary):
-        why = f": {summary['message']}" if summary.get("message") else ""
-        carries = (summary.get("film_breakdown") or {}) if status == "film breakdown" else {}
-        hint = " What would carry stands below." if carries else ""
-        return Judgement(
-            "No answer", f"The status is '{status}'{why}. No number is a result.{hint}", "fail"
-        )
-    known: list[str] = []
-    doubts: list[str] = []
-    names = {"H_c": "H_c_error", "H_min": "H_min_error", "mu_ratio": "mu_ratio_error"}
-    if summary["kind"] == "prediction":
-        names = {"mu_ratio": "mu_ratio_model_error"}
-    for name, error_name in names.items():
-        value, error = summary.get(name), summary.get(error_name)
-        if value is None:
-            continue
-        word = "μ_r/μ_s" if name == "mu_ratio" else name
-        if error is None:
-            doubts.append(f"the error of {word} is not known")
-            continue
-        share = error / abs(value)
-        (known if share <= WELL_KNOWN else doubts).append(
-            f"{word} is known to {100.0 * share:.2g} %"
-        )
-    outside = summary.get("outside_range")
-    if outside:
-        doubts.append(f"{', '.join(outside)} outside of the range of the response")
-    heat = summary.get("flash_temperature_K")
-    if heat is not None and heat > HOT:
-        doubts.append(f"the flash temperature is {heat:.3g} K")
-    first = f"The status is '{status}'; {', '.join(known)}" if known else f"The status is {status}"
-    if doubts:
-        advice = f" Above {100.0 * WELL_KNOWN:g} % a finer grid is worth its time."
-        graded = any("known to" in text for text in doubts)
-        return Judgement(
-            "Take with care",
-            f"{first}. But {'; '.join(doubts)}.{advice if graded else ''}",
-            "care",
-        )
-    return Judgement("Holds", f"{first}.", "pass")
+    """Judge a result as its last lines do."""
+    told = library.conclude(summary)
+    word, _, why = _signs(told.judgement).partition(": ")
+    hint = ""
+    if summary.get("film_breakdown"):
+        hint = " No number is a result. What would carry stands below."
+    return Judgement(word.capitalize(), f"{why[:1].upper()}{why[1:]}.{hint}", KINDS[told.worth])

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from pyehl.surfaces import rough_groups
+from pyehl.theory.oils import oil
 from pyehl.theory.operating import OperatingPoint
 
 __all__ = ["conditions", "numbers", "surface_words"]
@@ -33,6 +34,9 @@ def conditions(settings: Settings) -> dict[str, str]:
             found["turned by"] = f"{contact['angle']:g} deg against the motion"
     found["reduced modulus E'"] = f"{point.reduced_modulus * 1e-9:.6g} GPa, 2/E' = Σ(1−ν²)/E"
     found["viscosity η₀"] = f"{float(lubricant['viscosity']):.5g} Pa s at ambient pressure"
+    if lubricant.get("name"):
+        found["oil"] = f"{lubricant['name']}: {oil(str(lubricant['name'])).title}"
+        found["inlet temperature"] = f"{lubricant['temperature']:g} °C"
     if lubricant.get("kinematic_viscosity_40"):
         found["viscosity η₀"] += (
             f", from {lubricant['kinematic_viscosity_40']:g} and "
@@ -46,6 +50,8 @@ def conditions(settings: Settings) -> dict[str, str]:
         )
     law, density = lubricant["viscosity_law"], lubricant["density_law"]
     found["laws"] = f"viscosity {law}, density {density}, shear stress {lubricant['shear_law']}"
+    if lubricant["shear_law"] in ("eyring", "carreau"):
+        found["laws"] += f", flow {lubricant.get('flow', 'newtonian')}"
     for group in rough_groups(settings):
         found[group.replace("_", " ")] = surface_words(settings[group])
     return found
@@ -87,9 +93,11 @@ def numbers(settings: Settings) -> dict[str, str]:
     if point.radius_ratio == 1.0:
         found["contact radius a"] = f"{point.hertz_radius * 1e3:.5g} mm"
     else:
+        a, b = point.hertz_radius * 1e3, point.semi_axis_y * 1e3
         found["semi-axes of the contact"] = (
-            f"{point.hertz_radius * 1e3:.5g} mm along, {point.semi_axis_y * 1e3:.5g} mm across "
-            "the motion"
+            f"{a:.5g} mm and {b:.5g} mm"
+            if settings["contact"].get("angle")
+            else f"{a:.5g} mm along, {b:.5g} mm across the motion"
         )
     found["unit of films a²/R"] = f"{point.film_scale * 1e6:.5g} µm"
     return found

@@ -7,12 +7,13 @@ import json
 import os
 import platform
 from collections.abc import Mapping
+from html import escape
 from importlib import metadata
 from pathlib import Path
 from typing import Any
 
 from pyehl import library, namelist
-from pyehl.destination import check_files
+from pyehl.destination import check_files, file_errors
 from pyehl.errors import FileError, InputError
 from pyehl.given import path_of
 from pyehl.plots.folder import plot
@@ -24,12 +25,14 @@ from pyehl.reports.limits import limits, warnings
 from pyehl.reports.study import study_parts
 from pyehl.results import load, settings_of
 from pyehl.schema import QUANTITIES
-from pyehl.studies.journal import NAME
+from pyehl.studies.journal import NAME, read_header
 
 __all__ = ["report"]
 
 # A page is to stay below this many bytes: its pictures are drawn with fewer dots where need be
 LARGEST = 2_000_000
+# Keys that name a file
+FILES = ("file", "table")
 DOTS = (120, 100, 80, 60, 45)
 PICTURES = {
     "centre_lines": "Pressure and film through the centre, along and across the motion",
@@ -94,12 +97,18 @@ def report(
     source = Path(path_of(folder, "folder"))
     path = source / "report.html" if output is None else Path(path_of(output, "output"))
     printed = path.with_suffix(".pdf")
-    inside = [entry for entry in source.iterdir() if entry != path] if source.is_dir() else []
+    if pdf and path == printed:
+        raise InputError(f"-o {path}: the page and its PDF have one name\nexpected: FILE.html")
+    own = {os.path.realpath(place) for place in ((path, printed) if pdf else (path,))}
+    entries = source.iterdir() if source.is_dir() else ()
+    inside = [entry for entry in entries if os.path.realpath(entry) not in own]
     check_files([path, printed] if pdf else [path], "report", inside if output else ())
     if pdf:
         browser.browser()
     title, judgement, parts = _content(source)
     parts = [page.verdict(*_spoken(judgement)), *parts, *_versions()]
+    files = _files(source)
+    parts = [_nameless(text, files) for text in parts]
     page.write_page(path, title, parts, "report")
     if pdf:
         browser.write_pdf(path, printed)
@@ -161,19 +170,41 @@ def _single(folder: Path, summary: Mapping[str, Any]) -> tuple[str, Judgement, l
         pictures = _pictures(data, summary, dpi)
         if sum(map(len, [*parts, *pictures, *behind])) < LARGEST:
             break
-    maps = {str(group["file"]) for group in settings.values() if group.get("file")}
-    return title, told, [_nameless(text, maps) for text in [*parts, *pictures, *behind]]
+    return title, told, [*parts, *pictures, *behind]
 
 
 def _title(summary: Mapping[str, Any]) -> str:
     return "Rough contact" if "mu_ratio_min" in summary or "H_c_rough" in summary else "Contact"
 
 
-def _nameless(text: str, maps: set[str]) -> str:
-    """Leave out where maps lie on this machine."""
-    for name in maps:
-        text = text.replace(name, Path(name).name)
+def _files(folder: Path) -> set[str]:
+    """Give the files that a result names: height maps and tables of oils."""
+    header = read_header(folder) or {}
+    vary = header.get("vary", {})
+    found = {str(v) for key in vary if key.rpartition(".")[2] in FILES for v in vary[key]}
+    cases = [str(header.get("case", ""))]
+    if (folder / "case.nml").is_file():
+        cases.append(_text(folder / "case.nml"))
+    for case in cases:
+        for group in namelist.values(case).values():
+            found |= {str(group[key]) for key in FILES if group.get(key)}
+    return found
+
+
+def _nameless(text: str, files: set[str]) -> str:
+    """Leave out of HTML where files lie on this machine, however they are quoted in it."""
+    # the longest first: one may be the beginning of another
+    for name in sorted(files, key=len, reverse=True):
+        forms = (name, name.replace("'", "''"), repr(name)[1:-1])
+        for form in dict.fromkeys(forms):
+            text = text.replace(escape(form), escape(Path(name).name))
     return text
+
+
+def _text(path: Path) -> str:
+    """Read a text of a result folder."""
+    with file_errors(path, "cannot be read"):
+        return path.read_text(encoding="utf-8")
 
 
 def _pictures(data: Any, summary: Mapping[str, Any], dpi: int) -> list[str]:  # noqa: ANN401
@@ -214,7 +245,7 @@ def _all_numbers(summary: Mapping[str, Any]) -> str:
 
 def _response(folder: Path, summary: Mapping[str, Any]) -> tuple[str, Judgement, list[str]]:
     """Parts of the page of a measured response."""
-    case = (folder / "case.nml").read_text(encoding="utf-8")
+    case = _text(folder / "case.nml")
     settings = namelist.values(case)
     words = "Amplitude and lag of small waves over their length, beside the shipped response"
     within = bool(summary["within_fitted_range"])
@@ -232,7 +263,7 @@ def _response(folder: Path, summary: Mapping[str, Any]) -> tuple[str, Judgement,
     tiers = summary["tiers"]
     parts.append(page.table(list(tiers[0]), [[_value(v) for v in t.values()] for t in tiers]))
     parts.append(page.heading("Limits that apply"))
-    parts.append(page.bullets(limits(settings, {"kind": "solution"})[:2]))
+    parts.append(page.bullets(limits(settings, {"kind": "response"})))
     return "Measured response", told, [*parts, *_case_parts(case)]
 
 

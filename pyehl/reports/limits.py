@@ -9,12 +9,13 @@ from typing import Any
 from pyehl.surfaces import FEATURES, rough_groups
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["limits", "warnings"]
+__all__ = ["limits", "unheated", "warnings"]
 
 Settings = Mapping[str, Mapping[str, Any]]
 Summary = Mapping[str, Any]
 
-# Rise of the temperature [K] above which an oil is thinner than computed, as cases/README.md says
+# Rise of the temperature [K] above which an oil is thinner than computed: by a third at 0.04 1/K,
+# the usual fall of its viscosity
 HOT = 10.0
 # Beyond it the pressure of smooth contacts was tried on some grids only [Pa]
 HIGH_PRESSURE = 4e9
@@ -38,18 +39,23 @@ def limits(settings: Settings, summary: Summary) -> list[str]:
     found = [
         "The inlet is fully flooded and the film is full: there is no starvation and no mixed "
         "lubrication.",
-        "The flow is isothermal. The flash temperature is estimated where there is friction, and "
-        "not fed back."
+        "Film and pressure are isothermal."
         if point.thermal_reduction == 1.0
-        else "Shear heating of the inlet is a factor on the film (Gupta et al. 1992); the contact "
-        "is isothermal.",
+        else "Shear heating of the inlet is a factor on the film (Gupta et al. 1992); film and "
+        "pressure in the contact are isothermal.",
     ]
+    if summary.get("temperature_rise_max_K") is not None:
+        found.append("The friction has the temperature of film and walls.")
+    elif summary.get("flash_temperature_K") is not None:
+        found.append("The flash temperature is estimated, and not fed back into the friction.")
+    if summary.get("kind") == "response":
+        return found
     if law == "newtonian" and point.sliding_speed > 0.0:
         found.append(
             "The oil is Newtonian: a coefficient of friction would have no meaning at these "
             "pressures. Shear thinning brings μ_r/μ_s close to 1."
         )
-    elif law in ("eyring", "carreau") and (predicted or flow == "newtonian"):
+    elif law in ("eyring", "carreau") and flow == "newtonian":
         found.append("The shear law thins the friction alone: film and waves are Newtonian.")
     elif law == "limiting":
         found.append("The limiting stress bounds the friction alone, not the flow.")
@@ -77,6 +83,13 @@ def limits(settings: Settings, summary: Summary) -> list[str]:
     return found
 
 
+def unheated(summary: Summary) -> float | None:
+    """Give a high flash temperature [K] that the friction does not have; None if there is none."""
+    heat = summary.get("flash_temperature_K")
+    known = summary.get("temperature_rise_max_K") is not None
+    return None if heat is None or heat <= HOT or known else float(heat)
+
+
 def warnings(summary: Summary) -> list[str]:
     """Give what a summary says of what is not known or to be taken with care."""
     found = [
@@ -89,8 +102,8 @@ def warnings(summary: Summary) -> list[str]:
         found.append(
             f"Outside of the range in which the response was measured: {', '.join(outside)}."
         )
-    heat = summary.get("flash_temperature_K")
-    if heat is not None and heat > HOT:
+    heat = unheated(summary)
+    if heat is not None:
         found.append(
             f"The flash temperature is {heat:.3g} K: the oil in the contact is thinner than "
             "computed, and the friction less."

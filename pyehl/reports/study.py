@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -67,7 +68,9 @@ def study_parts(folder: Path) -> tuple[str, Judgement, list[str]]:
         raise InputError(f"{path}: cannot be read: {error}") from error
     keys = [str(key) for key in header["vary"]]
     title = "Stribeck curve" if run == "stribeck" else f"Sweep ({run})"
-    size = int(np.prod([len(values) for values in header["vary"].values()]))
+    # keys that move together count once
+    led = {key for group in header["zip"] for key in group[1:]}
+    size = math.prod(len(values) for key, values in header["vary"].items() if key not in led)
     settings = namelist.values(str(header["case"]))
     parts = [page.heading("What was asked")]
     units = {key.name: key.unit for key in library.keys()}
@@ -97,23 +100,28 @@ def study_parts(folder: Path) -> tuple[str, Judgement, list[str]]:
     parts.append(page.bullets(limits(settings, {"kind": kind})))
     parts.append(page.heading("The first case"))
     parts.append(page.preformatted(namelist.given(str(header["case"]))))
-    return title, _judge(rows, size, zipped=bool(header["zip"])), parts
+    return title, _judge(rows, size), parts
 
 
 def _with_unit(key: str, units: Mapping[str, str]) -> str:
     return f"{key} [{units[key]}]" if units.get(key, "-") != "-" else key
 
 
-def _judge(rows: pd.DataFrame, size: int, *, zipped: bool) -> Judgement:
+def _judge(rows: pd.DataFrame, size: int) -> Judgement:
     """Judge a study by what its rows say of themselves."""
     counts = rows["status"].fillna("none").value_counts()
     good = int(sum(counts.get(word, 0) for word in GOOD))
     others = ", ".join(f"{n} '{word}'" for word, n in counts.items() if word not in GOOD)
-    missing = 0 if zipped else size - len(rows)
+    missing = size - len(rows)
     left = f"; {missing} are not done" if missing > 0 else ""
     why = f"{good} of {len(rows)} cases have an answer{left}."
     if others:
         why += f" The others: {others}."
+    thin = False
+    if "judgement" in rows:
+        words = rows["judgement"].dropna().str.partition(":")[0].value_counts()
+        why += f" By their judgements: {', '.join(f'{n} {word}' for word, n in words.items())}."
+        thin = any(word != "full film" for word in words.index)
     if good == 0:
         return Judgement("No answer", why, "fail")
     shares = _errors(rows)
@@ -122,7 +130,7 @@ def _judge(rows: pd.DataFrame, size: int, *, zipped: bool) -> Judgement:
     doubtful = any(share > WELL_KNOWN for share in shares.values())
     if doubtful:
         why += f" Above {100.0 * WELL_KNOWN:g} % a finer grid is worth its time."
-    if others or left or doubtful:
+    if others or left or doubtful or thin:
         return Judgement("Take with care", why, "care")
     return Judgement("Holds", why, "pass")
 
@@ -176,8 +184,12 @@ def _pictures(
         return []
     figure = study_figure(panels, _with_unit(keys[0], units), title)
     names = ", ".join(label for label, _ in panels)
+    count = len(rows[list(keys[1:])].drop_duplicates()) if keys[1:] else 1
+    shown = len(panels[0][1])
     span = f"{rows[keys[0]].min():.4g} to {rows[keys[0]].max():.4g}"
     words = f"{names} over {keys[0]} from {span}"
+    if shown < count:
+        words += f" (the first {shown} of {count} lines)"
     return [page.picture(png(figure, STUDY_DPI), f"{words}; numbers in the table.", words)]
 
 

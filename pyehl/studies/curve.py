@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl import library
 from pyehl.prediction.deformed import deformed_surfaces
 from pyehl.prediction.errors import KNOWN_RATIO
 from pyehl.studies.curve_pattern import SMOOTH, Pattern, kept_pattern
@@ -29,6 +30,8 @@ __all__ = [
     "OUTSIDE",
     "UNITS",
     "UNSOLVED",
+    "WORDS",
+    "conclude",
     "curve_rows",
     "full_film_ends",
     "no_coefficient",
@@ -68,6 +71,8 @@ UNITS = {
     "mu": "1",
     "mu_isothermal": "1",
     "temperature_rise_max_K": "K",
+    "flash_temperature_K": "K",
+    "p_max_Pa": "Pa",
     "mu_spread": "1",
     "mu_ratio": "1",
     "mu_ratio_spread": "1",
@@ -78,7 +83,8 @@ UNITS = {
     "moes_l": "1",
     "surfaces": "1",
 }
-"""Columns that are numbers, and their units; behind them come ``status`` and ``message``."""
+"""Columns that are numbers, and their units; behind them come `WORDS`."""
+WORDS = ("status", "message", "judgement")
 EMPIRICAL = {"asperity_load_share_empirical": "1", "mu_empirical": "1"}
 """More of them where an empirical law of a thin film is asked for."""
 
@@ -112,7 +118,8 @@ def _at(
     found = [rows.get(number, nothing) for number in point.predictions]
     values: dict[str, Any] = dict.fromkeys(UNITS)
     values |= _film(smooth, operating)
-    values["temperature_rise_max_K"] = smooth.get("temperature_rise_max_K")
+    for name in ("temperature_rise_max_K", "flash_temperature_K", "p_max_Pa"):
+        values[name] = smooth.get(name)
     h_c, h_min = values["h_c_m"], values["h_min_m"]
     film = h_c or central_film(operating, Lubricant.from_settings(point.settings))
     values |= {
@@ -153,7 +160,18 @@ def _at(
         values["message"] = _joined(values, f"smooth contact: {why_none(smooth)}; {finer}")
         if values["status"] in (FULL_FILM, OUTSIDE):
             values["status"] = UNSOLVED
+    values["judgement"] = conclude(point, values).judgement
     return values
+
+
+def conclude(point: CurvePoint, row: Row) -> library.Conclusion:
+    """Judge a point of a curve by its columns, and give its last lines."""
+    status = "predicted" if row["status"] in (FULL_FILM, OUTSIDE) else row["status"]
+    message = str(row["message"]).removeprefix(f"{status}: ")
+    note = "" if row["mu_ratio_model_error"] is not None else message
+    law = point.settings["lubricant"]["shear_law"]
+    more = {"status": status, "message": message, "mu_ratio_error_note": note, "shear_law": law}
+    return library.conclude({**row, **more})
 
 
 def _film(smooth: Row, operating: OperatingPoint) -> dict[str, Any]:
@@ -197,7 +215,8 @@ def _friction(found: Sequence[Row], smooth: Row) -> dict[str, Any]:
         status = BREAKDOWN if broken else UNSOLVED
         share = f"{broken or len(lost)} of {len(found)} surfaces: " if len(found) > 1 else ""
         row = next(row for row in lost if not broken or row["status"] == BREAKDOWN)
-        return {"status": status, "message": f"{share}{why_none(row)}"}
+        message = f"{share}{why_none(row)}"
+        return {"mu_smooth": smooth.get("mu_smooth"), "status": status, "message": message}
     outside = sorted({row["outside_range"] for row in found if row.get("outside_range")})
     if any(row["mu_ratio"] > KNOWN_RATIO for row in found):
         outside.append(f"mu_ratio above {KNOWN_RATIO:g}")

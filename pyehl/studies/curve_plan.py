@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from pyehl import surfaces
-from pyehl.case import Case
+from pyehl.case import Case, files_of
 from pyehl.errors import InputError
 from pyehl.prediction.options import turned, unpredictable
 from pyehl.studies.estimate import TaskList
@@ -64,10 +64,9 @@ class CurvePlan:
     def identity(self) -> dict[str, Any]:
         """Give what makes this curve another one than others, as values of JSON."""
         full = [p.point.number for p in self.points if p.full is not None]
-        rough = [p.settings[g] for p in self.points for g in surfaces.rough_groups(p.settings)]
-        maps = dict.fromkeys(str(s["file"]) for s in rough if s["kind"] == "map")
+        files = {name: None for p in self.points for name in files_of(p.settings)}
         first = (*self.points[0].predictions, self.points[0].smooth)[0]
-        found = self.study.identity(self.tasks[first].text, maps)
+        found = self.study.identity(self.tasks[first].text, files)
         return found | {"run": "stribeck", "surfaces": self.surfaces, "ehl": full}
 
     def text(self, jobs: int, done: Sequence[int] = ()) -> str:
@@ -153,7 +152,7 @@ def plan_curve(
 
 def _check_share(settings: Settings) -> None:
     """Refuse what the empirical law of a thin film says nothing of."""
-    if settings["surface"]["kind"] == "smooth":
+    if not surfaces.rough_groups(settings):
         raise InputError(
             "--boundary-friction: surface.kind = 'smooth' has no Lambda\nexpected: a rough surface"
         )

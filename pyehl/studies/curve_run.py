@@ -17,7 +17,7 @@ from pyehl.errors import InputError
 from pyehl.given import Option, check_kind, options_of, path_of
 from pyehl.netcdf import write_netcdf
 from pyehl.studies import table
-from pyehl.studies.curve import EMPIRICAL, UNITS, curve_rows
+from pyehl.studies.curve import EMPIRICAL, UNITS, WORDS, curve_rows
 from pyehl.studies.curve_plan import KEYS, CurvePlan, plan_curve
 from pyehl.studies.gather import Outcome, Watcher, gather
 from pyehl.studies.journal import NAME
@@ -72,7 +72,7 @@ def perform(
     def write(done: Mapping[int, dict[str, Any]]) -> None:
         rows = dict(enumerate(curve_rows(plan, done)))
         points = (p.point for p in plan.points)
-        columns = (*units_of(plan), "status", "message")
+        columns = (*units_of(plan), *WORDS)
         table.write_csv(folder / CSV, plan.study, points, rows, columns)
 
     outcome = gather(
@@ -93,7 +93,7 @@ def perform(
 def _dataset(plan: CurvePlan, rows: Sequence[Mapping[str, Any]]) -> xr.Dataset:
     """Give a curve as a Dataset whose dimensions are what was varied."""
     units = units_of(plan)
-    found = {name: [row[name] for row in rows] for name in (*units, "status", "message")}
+    found = {name: [row[name] for row in rows] for name in (*units, *WORDS)}
     attributes = {"title": "Stribeck curve of pyehl"}
     if plan.load_share is not None:
         attributes["empirical"] = plan.load_share.words

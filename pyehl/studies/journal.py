@@ -75,14 +75,14 @@ def difference(old: Mapping[str, Any], new: Mapping[str, Any]) -> list[str]:
 def _keys(text: str) -> dict[str, str]:
     """Give values of a resolved case by ``group.key``, as text, and whether they are defaults.
 
-    Where its map lies is left out.
+    Where its files lie is left out.
     """
     found, group = {}, ""
     for line in text.splitlines():
         key, equals, value = line.partition(" = ")
         if line.startswith("&"):
             group = line[1:].strip()
-        elif equals and (group, key.strip()) != ("surface", "file"):
+        elif equals and key.strip() not in ("file", "table"):
             word, *_, last = value.split(" ! ")
             mark = f" ({last})" if last in ("default", "derived") else ""
             found[f"{group}.{key.strip()}"] = word.strip() + mark

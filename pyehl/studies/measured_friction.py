@@ -94,9 +94,11 @@ def read_measured(path: str | os.PathLike[str], key: str) -> Measured:
     abscissae = [word for word in head if word in known]
     ordinates = [word for word in head if word in ("mu", "mu_ratio")]
     if len(abscissae) != 1 or len(ordinates) != 1:
+        other = next((sign for sign in ";\t" if len(head) == 1 and sign in head[0]), "")
+        hint = f"; with commas between columns, not {other!r}" if other else ""
         raise InputError(
             f"{name}:1: error: the columns are {', '.join(head) or 'none'}\nexpected: one of "
-            f"{', '.join(known)}; one of mu, mu_ratio; and error, which may be missing"
+            f"{', '.join(known)}; one of mu, mu_ratio; and error, which may be missing{hint}"
         )
     abscissa, ordinate = abscissae[0], ordinates[0]
     wanted = [abscissa, ordinate, *(["error"] if "error" in head else [])]
@@ -104,15 +106,22 @@ def read_measured(path: str | os.PathLike[str], key: str) -> Measured:
     for number, line in enumerate(lines[1:], start=2):
         if not any(word.strip() for word in line):
             continue
-        given = dict(zip(head, line, strict=False))
+        if len(line) != len(head):
+            raise InputError(
+                f"{name}:{number}: error: {len(line)} values for {len(head)} columns\nexpected: "
+                "one value for each, with decimal points, not commas"
+            )
+        given = dict(zip(head, line, strict=True))
         for word in wanted:
             try:
                 value = float(given.get(word, "nothing"))
             except ValueError:
                 value = np.nan
-            if not np.isfinite(value) or (word == abscissa and value <= 0.0):
+            if not np.isfinite(value) or (word != "error" and value <= 0.0):
                 told = given.get(word, "nothing")
-                raise InputError(f"{name}:{number}: error: {word} = '{told}'\nexpected: a number")
+                raise InputError(
+                    f"{name}:{number}: error: {word} = '{told}'\nexpected: a number above 0"
+                )
         rows.append([float(given[word]) for word in wanted])
     if not rows:
         raise InputError(f"{name}: error: there are no rows")

@@ -63,7 +63,8 @@ def lubricants(
     from pyehl.plots.lubricant import draw_oil  # noqa: PLC0415
     from pyehl.plots.style import save  # noqa: PLC0415
 
-    paths = {name: made(folder) / f"{name}.png" for name in chosen}
+    place = made(folder)
+    paths = {name: place / f"{name}.png" for name in chosen}
     check_files(paths.values(), "lubricants")
     for name, those in chosen.items():
         figure = draw_oil(

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from pyehl import library, surfaces
-from pyehl.case import Case
+from pyehl.case import Case, files_of
 from pyehl.errors import InputError
 from pyehl.prediction.options import unpredictable
 from pyehl.solver import Solver
@@ -44,12 +44,12 @@ class Plan:
     # Its cases in the order of the table; of a large study that is not to run, some of them
     points: tuple[Point, ...]
     tasks: tuple[Task, ...]
-    maps: tuple[str, ...]  # files of their height maps
+    files: tuple[str, ...]  # height maps and tables that they read
     check_seconds: float  # time that the checks took [s]
 
     def identity(self) -> dict[str, Any]:
         """Give what makes this study another one than others, as values of JSON."""
-        return self.study.identity(self.tasks[0].text, self.maps)
+        return self.study.identity(self.tasks[0].text, self.files)
 
     def text(self, jobs: int, done: Sequence[int] = ()) -> str:
         """Tell the plan in a few lines, for `jobs` worker processes and the cases left."""
@@ -119,7 +119,7 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None, *, brief: boo
     digits = len(str(study.size))
     points, tasks = [], TaskList()
     checked: set[str] = set()
-    maps: dict[str, None] = {}
+    files: dict[str, None] = {}
     began = time.monotonic()
     for number in study.spread(MOST) if brief else range(study.size):
         if brief and time.monotonic() - began > PATIENCE:
@@ -129,8 +129,7 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None, *, brief: boo
         settings = case.resolve()
         with study.named(point):
             _check(study, case, settings, checked)
-        both = [settings[group] for group in surfaces.GROUPS if group in settings]
-        maps |= {str(surface["file"]): None for surface in both if surface["kind"] == "map"}
+        files |= dict.fromkeys(files_of(settings))
         folder = "" if keep is None else str(Path(keep) / f"{point.number + 1:0{digits}d}")
         points.append(point)
         tasks.add(number, case, study.run, folder=folder, tracks=study.tracks)
@@ -138,7 +137,7 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None, *, brief: boo
         study,
         tuple(points),
         tuple(tasks.tasks),
-        tuple(maps),
+        tuple(files),
         time.monotonic() - began,
     )
 

@@ -4,7 +4,7 @@
 The first line that is no comment (``#``) has the names of the columns. A name ``group.key`` is a
 key of a case file: a row is compared with the results of cases that have these values. Any other
 name is a result, as in ``summary.json``; ``NAME_rtol`` and ``NAME_atol`` beside it are its
-tolerance, rtol times the value plus atol, and ``note`` is for people. An empty cell is not
+tolerance, rtol times the value plus atol, and ``note`` is a remark. An empty cell is not
 compared.
 """
 

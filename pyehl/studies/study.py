@@ -118,17 +118,17 @@ class Study:
             name = f"case {point.number + 1} of {self.size} ({point})"
             raise InputError(f"{name}:\n{error}") from error
 
-    def identity(self, first: str, maps: Collection[str]) -> dict[str, Any]:
+    def identity(self, first: str, files: Collection[str]) -> dict[str, Any]:
         """Give what makes this study another one than others, as values of JSON.
 
-        `first` is the first case, resolved; `maps` are files of the height maps of all cases,
+        `first` is the first case, resolved; `files` are the height maps and tables of all cases,
         InputError if one cannot be read.
         """
         found: dict[str, Any] = {
             "pyehl version": metadata.version("pyehl"),
             "run": self.run,
             "case": first,
-            "height map": contents(maps),
+            "file": contents(files),
             "set": list(self.options),
             "vary": {a.key: list(a.values) for axes in self.dimensions for a in axes},
             "zip": [[a.key for a in axes] for axes in self.dimensions if len(axes) > 1],

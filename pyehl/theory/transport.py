@@ -217,7 +217,7 @@ def kept_of_inlet(
 ) -> Array:
     """Share of what an inlet adds to the transport equation that a thinning flow keeps (m,) [-].
 
-    The part that is fitted (:mod:`pyehl.theory.response`) arises where the leak lets go of the wave
+    The part that is fitted (:mod:`pyehl.theory.response`) arises where the wave leaks no more
     in a Newtonian lubricant with as thick a film, spread as what is left of a wave from there at
     INLET. A lubricant that thins leaks longer, so that the wave forgets it again: its modulus falls
     by the difference of the two leaks on the rest of the way. Parameters as of `upstream`.

@@ -91,7 +91,7 @@ class Tab:
         self.driver = driver
         driver.get(address)
         self.until(lambda: self.run("return Boolean(window.Bokeh && Bokeh.documents.length)"))
-        self.until(lambda: self.stamp() is not None)
+        self.rest(129)
 
     def run(self, script: str, *arguments: object) -> Any:
         return self.driver.execute_script(script, *arguments)
@@ -142,8 +142,8 @@ class Tab:
         """Wait for the answer of where the knobs are, on a grid or a finer one."""
 
         def there() -> bool:
-            asked, shown, nodes = self.stamp()
-            return asked == shown and nodes >= points
+            asked, shown, nodes = self.stamp() or (0, -1, 0)
+            return asked == shown > 0 and nodes >= points
 
         self.until(there)
 
@@ -156,12 +156,19 @@ class Tab:
         if wait:
             self.until(lambda: self.stamp()[0] > asked or self.get(f"error_{name}", "text"))
 
+    def curve(self) -> dict[str, list[float | None]]:
+        """Give the points of the film over a knob."""
+        return self.run(
+            "const data = Bokeh.documents[0].get_model_by_name('curve of film').data;"
+            "return Object.fromEntries(['place', 'value'].map(k => [k, [...data[k]]]))"
+        )
+
     def choose(self, name: str, word: str) -> None:
         """Choose a word."""
         self.element(name, f"option[value='{word}']").click()
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def served() -> Iterator[Served]:
     position, _ = from_case(Case())
     made = Served(position)
@@ -186,10 +193,26 @@ def chromium(downloads: Path | None = None) -> Iterator[webdriver.Chrome]:
             driver.quit()
 
 
-@pytest.fixture
-def tab(served: Served, tmp_path: Path) -> Iterator[Tab]:
+@pytest.fixture(scope="module")
+def downloads(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("downloads")
+
+
+@pytest.fixture(scope="module")
+def driver(downloads: Path) -> Iterator[webdriver.Chrome]:
     if not (CHROMIUM and DRIVER):
         pytest.skip("no browser: chromium and chromium-driver are not installed")
-    (tmp_path / "downloads").mkdir()
-    with chromium(tmp_path / "downloads") as driver:
-        yield Tab(driver, served.address)
+    with chromium(downloads) as made:
+        yield made
+
+
+@pytest.fixture
+def tab(driver: webdriver.Chrome, served: Served) -> Tab:
+    """Give a page that nobody has touched."""
+    return Tab(driver, served.address)
+
+
+@pytest.fixture
+def page(tab: Tab, served: Served) -> Page:
+    """Give the page of the tab, as the server has it."""
+    return served.pages[-1]

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.interpolate import RegularGridInterpolator
 
 import pyehl
 from pyehl import namelist
@@ -20,6 +21,7 @@ from pyehl.app.uploads import Uploads
 from pyehl.app.worker import Worker
 from pyehl.case import Case
 from pyehl.errors import InputError
+from pyehl.plots.outline import Outline
 from pyehl.theory.moes_film import nijenbanning_venner_moes, regime
 
 
@@ -43,10 +45,16 @@ def test_sliders_reach_their_ends(name):
     assert all(abs(knob.place(float(v)) - k) <= 3 for k, v in enumerate(values))
 
 
-@pytest.mark.parametrize("text", ["", "abc", "1,5", "nan", "inf"])
+@pytest.mark.parametrize("text", ["", "abc", "1,5", "nan", "inf", "1e400"])
 def test_what_is_no_number_is_refused(text):
     with pytest.raises(InputError, match="load w = "):
         KNOBS["load"].read(text)
+
+
+def test_a_seed_is_a_whole_number():
+    for text in ("1.5", "9" * 400):
+        with pytest.raises(InputError, match="expected a whole number"):
+            KNOBS["seed"].read(text)
 
 
 def test_start_is_the_default_case(start):
@@ -101,6 +109,66 @@ def test_bodies_become_radii_and_modulus():
     )
     assert ours.moes_m == pytest.approx(theirs.moes_m, rel=1e-10)
     assert ours.radius_ratio == pytest.approx(theirs.radius_ratio, rel=1e-10)
+
+
+def test_moduli_of_the_bodies_of_a_case_are_kept():
+    bodies = (
+        "radius_x1 = 0.01 radius_y1 = 0.01 modulus_1 = 208e9 poisson_1 = 0.28 modulus_2 = 207e9"
+    )
+    case = Case(f"&bodies {bodies} /")
+    position, note = from_case(case)
+    assert not note
+    found = [position.values[name] for name in ("modulus_1", "poisson_1", "modulus_2", "poisson_2")]
+    assert found == [208.0, 0.28, 207.0, 0.3]
+    # there and back: no jump
+    back = position.turned("modulus_1", 150.0).turned("modulus_1", 208.0)
+    expected = case.resolve()["contact"]["reduced_modulus"]
+    assert back.reduced_modulus() == pytest.approx(expected, rel=1e-10)
+    _, note = from_case(Case("&contact reduced_modulus = 1.4e11 /"))
+    assert "E' = 140 GPa until a modulus is turned" in note
+
+
+def test_a_turned_ellipse_is_drawn_as_it_lies():
+    text = "&contact radius_x = 0.01 radius_y = 0.03 angle = 30.0 load = 100.0 /"
+    found = answers.film(from_case(Case(text))[0], 65, always)
+    assert found.converged
+    made, edge = drawing.film_map(found), Outline(found.point.ellipse.ellipticity, 30.0)
+    radius = found.point.hertz_radius * 1e3
+    for half, axis in zip(edge.reach, (made.x, made.y), strict=True):
+        # the whole ellipse and some more, and no more than that
+        assert half * radius < axis[-1] <= drawing.VIEW * half * radius
+    for half, line in zip(edge.chords, drawing.centre_lines(found).values(), strict=True):
+        inside = np.abs(line["place"]) < half * radius
+        assert np.array_equal(line["hertz"] > 0.0, inside)
+    assert "turned by 30°" in dict(words.film_rows(found))["semi-axes"]
+
+
+def test_the_film_is_kept_while_the_surface_is_turned(start, monkeypatch):
+    position = start.turned("load", 100.0)
+    known = {65: answers.film(position, 65, always)}
+    formulas = answers.api.film
+    asked = []
+    monkeypatch.setattr(answers.api, "film", lambda case: asked.append(1) or formulas(case))
+    rough = position.turned("surface", "fractal").turned("seed", 7)
+    assert answers.film(rough, 65, always, known) is known[65]
+    # another grid of it has its formulas
+    finer = answers.film(rough, 129, always, known)
+    assert finer.points == 129
+    assert not asked
+    again = answers.film(rough.turned("load", 101.0), 65, always, known)
+    assert again.point.moes_m > known[65].point.moes_m
+    assert asked
+
+
+def test_contours_are_lines_of_equal_film(start):
+    made = drawing.film_map(answers.film(start.turned("load", 100.0), 65, always))
+    x, y = drawing.contour_lines(made)
+    assert np.array_equal(np.isnan(x), np.isnan(y))
+    inner = ~np.isnan(x)
+    film = RegularGridInterpolator((made.y, made.x), made.film)(np.stack([y[inner], x[inner]], 1))
+    levels = np.unique(film.round(6))
+    assert 5 <= levels.size <= 30
+    assert np.ptp(np.diff(levels)) < 1e-5
 
 
 def test_moes_numbers_become_si(root: Path):
@@ -187,7 +255,9 @@ def test_rough_contact_is_that_of_a_prediction(start):
 def test_film_that_ends_says_what_would_carry(start):
     position = start.turned("surface", "fractal").turned("rms", 400.0)
     rows = words.rough_rows(answers.rough(position))
-    assert ("what would carry") in [name for name, _ in rows]
+    names = [name for name, _ in rows]
+    assert "what would carry" in names
+    assert "least rough film" not in names
     assert not any(name == "μ_r/μ_s" for name, _ in rows)
 
 
@@ -275,15 +345,36 @@ def test_upload_is_read_and_refused_in_the_words_of_the_reader(tmp_path):
     with pytest.raises(pyehl.InputError) as theirs:
         pyehl.surfaces.read_scan(heights)
     assert str(refused.value) == str(theirs.value).replace(f"{tmp_path}/", "")
-    path = uploads.add("../../ground.npy", heights.read_bytes(), 1e-4, 1e-4)
+    size = {"length_x": 1e-4, "length_y": 1e-4}
+    path = uploads.add("../../ground.npy", heights.read_bytes(), size)
     assert Path(path).name == "ground.npy"
     assert uploads.nameless(f"in {path}") == "in ground.npy"
     with pytest.raises(InputError, match=r"bad\.npy"):
-        uploads.add("bad.npy", b"\x93NUMPY nonsense", 1e-4, 1e-4)
+        uploads.add("bad.npy", b"\x93NUMPY nonsense", size)
+    # a bad file leaves the good one of its name
+    with pytest.raises(InputError, match=r"^ground\.npy"):
+        uploads.add("ground.npy", b"\x93NUMPY nonsense", size)
+    assert Path(path).read_bytes() == heights.read_bytes()
     assert sorted(uploads.files) == ["ground.npy"]
-    assert sorted(p.name for p in Path(path).parent.iterdir()) == ["ground.npy"]
+    assert [p.name for p in Path(path).parents[1].rglob("*.npy")] == ["ground.npy"]
     uploads.close()
     assert not Path(path).exists()
+
+
+def test_what_a_case_says_of_its_map_is_heard(tmp_path):
+    """Text in nanometres is read as the case says, not as metres."""
+    uploads = Uploads()
+    text = (
+        "&surface kind = 'map' file = 'm.txt' length_x = 1e-4 length_y = 2e-4 height_unit = 'nm' /"
+    )
+    np.savetxt(tmp_path / "m.txt", np.random.default_rng(1).normal(size=(16, 16)))
+    data = (tmp_path / "m.txt").read_bytes()
+    said = {"length_x": 1e-4, "length_y": 1e-4, "height_unit": "nm"}
+    uploads.add("m.txt", data, said)
+    position, _ = from_case(Case(text.replace("m.txt", uploads.files["m.txt"])), uploads.files)
+    assert position.map_said() == {"length_x": 1e-4, "length_y": 2e-4, "height_unit": "nm"}
+    uploads.check(position.file, position.map_said())
+    uploads.close()
 
 
 def test_case_may_not_name_a_file_of_the_machine(tmp_path):
@@ -334,7 +425,7 @@ def test_regimes(moes_m, moes_l, name, power):
     assert regime(moes_m, moes_l) == name
     films = [nijenbanning_venner_moes(m, moes_l) * m ** (2 / 3) for m in (moes_m, 1.01 * moes_m)]
     slope = np.log(films[1] / films[0]) / np.log(1.01)
-    assert slope == pytest.approx(power, abs=0.03 if power > -1.0 else 0.4)
+    assert slope == pytest.approx(power, abs=0.03)
 
 
 def test_a_thousand_turns_leave_nothing(start):

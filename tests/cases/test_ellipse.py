@@ -161,6 +161,10 @@ def test_bodies_make_reduced_radii_and_modulus(ehl: str, tmp_path: Path):
     assert np.array_equal(np.load(first / "H.npy"), np.load(again / "H.npy"))
     changed = pyehl.Case.read(first / "case.nml", "bodies.radius_x2=0").resolve()["contact"]
     assert changed["radius_x"] == ball
+    # all values of a resolved case, as if each had been given
+    whole = pyehl.Case.read(first / "case.nml").resolve()
+    again = {f"{g}.{k}": v for g, keys in whole.items() for k, v in keys.items() if v != ""}
+    assert pyehl.Case.from_text("", again).resolve() == whole
 
 
 def test_turned_by_a_right_angle_radii_change_places(solve):
@@ -296,12 +300,14 @@ def test_too_coarse_a_grid_names_one_that_will_do(ehl: str, tmp_path: Path):
     """A narrow contact with a thin film: plan and result say how many nodes it takes."""
     narrow = {"contact.radius_ratio": 25.0, "contact.moes_m": 8.0, "contact.moes_l": 10.0}
     case = pyehl.Case.from_text("", narrow | {"grid.points": 33})
-    assert "warning    so few nodes have hardly a solution" in pyehl.check(case)
+    assert "warning    the grid is too coarse for a solution" in pyehl.check(case)
     (tmp_path / "case.nml").write_text(case.text)
     words = [ehl, tmp_path / "case.nml", "-o", tmp_path / "out"]
     done = subprocess.run(words, capture_output=True, text=True, check=False)
     assert done.returncode == 1
-    (points,) = re.findall(r"H_c .*\n +so few .*: grid.points = (\d+) or more$", done.stdout, re.M)
+    (points,) = re.findall(
+        r"H_c .*\n +the grid is too coarse .*: grid.points = (\d+) or more$", done.stdout, re.M
+    )
     words = [*words[:3], tmp_path / "fine", "--set", f"grid.points={points}"]
     done = subprocess.run(words, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout
@@ -337,6 +343,14 @@ def test_from_a_tenth_to_ten(solve, kappa: float):
         (
             ["bodies.radius_x1=0.01", "bodies.radius_y1=0.01", "bodies.radius_y2=-0.009"],
             "bodies.radius_y1 .* the gap does not open",
+        ),
+        (
+            ["bodies.radius_x1=5e-6", "bodies.radius_y1=0.01"],
+            "contact.radius_x = 5.000E-06 follows from the bodies",
+        ),
+        (
+            ["bodies.radius_x1=0.01", "bodies.radius_y1=0.01", "bodies.modulus_1=1e7"],
+            "contact.reduced_modulus = .* follows from the bodies",
         ),
         (
             ["contact.radius_ratio=0.2", "contact.angle=20", "grid.border=flooded"],

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 import pyehl
+from pyehl import library
 from pyehl.commands.film import report
 
 NUMBER = re.compile(r"\d+\.\d+(?:E[-+]\d+)?")
@@ -73,9 +74,7 @@ def test_gear_pair(root: Path, ehl: str, tmp_path: Path):
     assert f"| {films[0]:.1f} nm | {films[1]:.1f} nm |" in text
     for formula in pyehl.film(case)["formulas"]:
         assert f"| {formula['h_c_m'] * 1e9:.1f} nm |" in text
-    assert f"mu_r/mu_s  {record['mu_ratio']:.5f} +- {record['mu_ratio_error']:.5f}" in text
-    assert f"mu         {record['mu']:.5f}, smooth contact {record['mu_smooth']:.5f}" in text
-    assert f"rough {record['h_min_rough_m'] * 1e9:.2f} nm" in text
+    assert f"```text\n{library.conclude(record)}\n```" in text
     least = [round(record[name] * 1e9) for name in ("h_min_m", "h_min_rough_m")]
     assert "least film from {} to {} nm".format(*least) in text
     words = [ehl, case, "-o", tmp_path / "out"]

@@ -21,6 +21,7 @@ import pytest
 
 import pyehl
 from pyehl import Case, library
+from pyehl.prediction import friction
 from pyehl.studies import curve
 
 ROOT = Path(__file__).parents[2]
@@ -217,6 +218,9 @@ def test_every_module_is_in_a_map(root: Path):
         if path.name != "__init__.py"
     }
     assert not {m for m in modules if f"`{m}`" not in design}
+    tests = (root / "tests" / "README.md").read_text()
+    files = {p.relative_to(root / "tests").as_posix() for p in (root / "tests").glob("*/test_*.py")}
+    assert set(re.findall(r"`(\w+/test_\w+\.py)`", tests)) == files
 
 
 def test_every_public_name_is_in_the_reference(root: Path):
@@ -246,7 +250,9 @@ def test_every_status_has_a_line(root: Path):
     names = re.findall(r'"([^"]+)"', source[source.index("outcome_names(0:8)") :])
     runs = {name.strip() for name in names} - {"running"}
     points = {curve.FULL_FILM, curve.BREAKDOWN, curve.OUTSIDE, curve.UNSOLVED}
-    for head, expected in (("Runs", runs), ("Points of a curve", points)):
+    predictions = set(friction.STATUSES)
+    kinds = (("Runs", runs), ("Points of a curve", points), ("Predictions", predictions))
+    for head, expected in kinds:
         part = text.split(f"## {head}\n")[1].split("\n## ")[0]
         assert set(re.findall(r"^\| `([^`]+)` \|", part, re.MULTILINE)) == expected
 

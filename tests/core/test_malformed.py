@@ -138,7 +138,8 @@ FAULTS: list[tuple[str, str, list[str], list[str]]] = [
     ),
     (
         "too hot an oil",
-        "&lubricant temperature=250.0 kinematic_viscosity_40=§1.2 kinematic_viscosity_100=0.6 /",
+        "&lubricant temperature=250.0 kinematic_viscosity_40=§1.2 kinematic_viscosity_100=0.6 "
+        "pressure_viscosity=2.2e-8 /",
         [],
         ["lubricant.roelands_z"],
     ),
@@ -200,6 +201,12 @@ FAULTS: list[tuple[str, str, list[str], list[str]]] = [
     ("per gigapascal", "&lubricant pressure_viscosity = §22 /", [], ["pressure_viscosity", "1/Pa"]),
     ("nanometres", "&surface rms_height = §50 /", [], ["surface.rms_height", "unit m"]),
     ("impossible pressure", "&contact load = §9e4 radius = 5e-3/", [], ["Hertz", "contact.load"]),
+    (
+        "radius of a body in mm",
+        "&contact load = 37.0 mean_velocity = 3.0 / &bodies radius_x1 = §9.5 radius_y1 = 9.5 /",
+        [],
+        ["M is", "bodies.radius_x1 = 9.5"],
+    ),
     ("radius in mm", "&contact load = 10.0 radius = §9.525 /", [], ["M is", "contact.radius = 9.525"]),
     ("modulus far too low", "&contact load=5e4 reduced_modulus=§1e8/", [], ["contact.reduced_modulus"]),
     ("another value replaced", "&grid points=66/ &contact load=§-1 /", ["grid.points=65"], ["load = -1"]),

@@ -100,7 +100,7 @@ def test_a_page_for_every_result(folders, tmp_path, name, pictures):
     written = pyehl.report(folders / name, tmp_path / "page.html")
     page = read(written)
     assert len(page.pictures) == pictures
-    assert re.search(r"(Holds|Take with care)\.", page.text)
+    assert re.search(r"(Full film|Thin film|Holds|Take with care|Unresolved waves)\.", page.text)
     assert "Moes load M" in page.text
     assert "600 N" in page.text or name in ("sweep", "rough")
     assert not list(tmp_path.glob(".partial*"))
@@ -110,13 +110,14 @@ def test_numbers_are_those_of_the_result(folders, tmp_path):
     summary = json.loads((folders / "smooth/summary.json").read_text())
     page = read(pyehl.report(folders / "smooth", tmp_path / "page.html"))
     error = summary["H_c_error"] * summary["film_scale_m"] * 1e9
-    assert f"h_c = {with_error(summary['h_c_m'] * 1e9, error, 'nm')}" in page.text
+    assert f"h_c {with_error(summary['h_c_m'] * 1e9, error, 'nm')}" in page.text
     assert f"H_c = {with_error(summary['H_c'], summary['H_c_error'])}" in page.text
+    assert summary["judgement"].partition(": ")[2][1:] in page.text.replace("μ_r/μ_s", "mu_r/mu_s")
     assert summary["mu_note"] in page.text
     prediction = json.loads((folders / "prediction/summary.json").read_text())
     page = read(pyehl.report(folders / "prediction", tmp_path / "other.html"))
     ratio = with_error(prediction["mu_ratio"], prediction["mu_ratio_model_error"])
-    assert f"{ratio}, between {prediction['mu_ratio_min']:.4g}" in page.text
+    assert f"{ratio}; between {prediction['mu_ratio_min']:.4g}" in page.text
 
 
 def test_the_case_in_it_can_be_run(folders, tmp_path, root):
@@ -143,7 +144,8 @@ def test_broken_film_is_said(tmp_path, root):
     )
     assert found.summary["status"] == "film breakdown"
     page = read(pyehl.report(tmp_path / "run", tmp_path / "page.html"))
-    assert "No answer. The status is 'film breakdown'" in page.text
+    assert "Film breakdown. " in page.text
+    assert found.summary["message"][1:] in page.text
     assert "carrying_shortest_wavelength_m" in page.text
 
 
@@ -155,6 +157,50 @@ def test_a_failed_case_of_a_study_is_said(folders, tmp_path):
     (folder / "results.csv").write_text("\n".join(rows) + "\n")
     page = read(pyehl.report(folder, tmp_path / "page.html"))
     assert "Take with care. 2 of 3 cases have an answer. The others: 1 'cycle limit'" in page.text
+
+
+def test_heat_that_the_friction_has_is_no_warning(root):
+    settings = pyehl.Case.read(root / "cases/table1.nml").resolve()
+    hot = {"kind": "solution", "status": "converged", "flash_temperature_K": 14.3}
+    assert "not fed back" in " ".join(limits(settings, hot))
+    assert "14.3 K" in " ".join(warnings(hot))
+    heated = hot | {"temperature_rise_max_K": 17.0}
+    assert "The friction has the temperature of film and walls" in " ".join(
+        limits(settings, heated)
+    )
+    assert "not fed back" not in " ".join(limits(settings, heated))
+    assert warnings(heated) == []
+
+
+def test_a_zipped_study_that_is_not_done_is_said(tmp_path, root):
+    vary = {"contact.moes_m": [50.0, 100.0, 200.0], "contact.moes_l": [8.0, 9.0, 10.0]}
+    folder = tmp_path / "sweep"
+    pyehl.sweep(root / "cases/quick.nml", vary, SMALL, zip=True, output=folder, jobs=1)
+    assert "3 of 3 cases have an answer." in read(pyehl.report(folder)).text
+    rows = (folder / "results.csv").read_text().splitlines()
+    (folder / "results.csv").write_text("\n".join(rows[:-1]) + "\n")
+    assert "2 of 2 cases have an answer; 1 are not done" in read(pyehl.report(folder)).text
+
+
+def test_where_the_maps_of_a_study_lie_is_left_out(tmp_path, root):
+    """In the case, and as values of a key; with characters that HTML and namelists quote."""
+    place = tmp_path / "o'brien & co"
+    place.mkdir()
+    heights = 2e-8 * np.sin(2.0 * np.pi * np.arange(64) / 64.0)[:, np.newaxis] * np.ones(64)
+    files = [place / name for name in ("ground.npy", "honed.npy")]
+    for file in files:
+        np.save(file, heights)
+    size = {"surface.length_x": 4e-4, "surface.length_y": 4e-4, "surface.kind": "map"}
+    case = pyehl.Case.read(root / "cases/table1.nml", {**size, "surface.file": str(files[0])})
+    vary = {"surface.file": [str(file) for file in files]}
+    pyehl.sweep(case, vary, run="predict", output=tmp_path / "sweep", jobs=1)
+    text = pyehl.report(tmp_path / "sweep").read_text(encoding="utf-8")
+    assert "ground.npy" in text
+    assert "honed.npy" in text
+    pyehl.predict(case, output=tmp_path / "run", plots=False)
+    text += pyehl.report(tmp_path / "run").read_text(encoding="utf-8")
+    assert "brien" not in text
+    assert tmp_path.name not in text
 
 
 def test_where_maps_lie_is_left_out(tmp_path, root):
@@ -221,6 +267,13 @@ def test_pdf_printed(folders, tmp_path):
         data = (tmp_path / "page.pdf").read_bytes()
         assert data.startswith(b"%PDF")
         assert len(data) < LARGEST
+    # in the folder of the result, too
+    shutil.copytree(folders / "smooth", tmp_path / "smooth")
+    for _ in range(2):
+        pyehl.report(tmp_path / "smooth", tmp_path / "smooth/page.html", pdf=True)
+    assert (tmp_path / "smooth/page.pdf").is_file()
+    with pytest.raises(pyehl.InputError, match="one name"):
+        pyehl.report(tmp_path / "smooth", tmp_path / "page.pdf", pdf=True)
     (tmp_path / "page.pdf").write_bytes(b"%PDF mine")
     with pytest.raises(pyehl.InputError, match="did not write"):
         pyehl.report(folders / "smooth", tmp_path / "page.html", pdf=True)
@@ -237,18 +290,26 @@ GOOD = {
 
 
 @pytest.mark.parametrize(
-    ("changed", "word", "why"),
+    ("changed", "word", "why", "kind"),
     [
-        ({}, "Holds", "H_c is known to 2 %, H_min is known to 2 %"),
-        ({"H_c_error": 0.002}, "Take with care", "H_c is known to 10 %"),
-        ({"H_c_error": None}, "Take with care", "the error of H_c is not known"),
-        ({"flash_temperature_K": 40.0}, "Take with care", "40 K"),
-        ({"status": "diverged"}, "No answer", "'diverged'"),
+        ({}, "Full film", "Smooth surfaces", "pass"),
+        ({"H_c_error": 0.002}, "Full film", "H_c is known to 10 %", "care"),
+        ({"H_c_error": None}, "Full film", "the error of H_c is not known", "care"),
+        ({"flash_temperature_K": 40.0}, "Full film", "40.0 K", "care"),
+        # the friction has it already
+        (
+            {"flash_temperature_K": 40.0, "temperature_rise_max_K": 9.0},
+            "Full film",
+            "Smooth surfaces",
+            "pass",
+        ),
+        ({"h_min_m": 5e-9}, "Thin film", "The least film is 5.00 nm", "care"),
+        ({"status": "diverged"}, "No answer", "'diverged'", "fail"),
     ],
 )
-def test_judgement(changed, word, why):
+def test_judgement(changed, word, why, kind):
     found = judge(GOOD | changed)
-    assert found.word == word
+    assert (found.word, found.kind) == (word, kind)
     assert why in found.why
 
 
@@ -258,7 +319,13 @@ def test_limits_that_apply(root):
     assert "Newtonian" in told
     assert "one scan line" in told
     thinning = pyehl.Case.read(root / "cases/table1.nml", "lubricant.shear_law=eyring").resolve()
-    assert "film and waves are Newtonian" in " ".join(limits(thinning, {"kind": "prediction"}))
-    assert "film and waves are Newtonian" not in " ".join(limits(thinning, {"kind": "solution"}))
+    plain = {**thinning, "lubricant": {**thinning["lubricant"], "flow": "newtonian"}}
+    for kind in ("prediction", "solution"):
+        # flow = 'consistent', unless a case says otherwise
+        told = " ".join(limits(thinning, {"kind": kind}))
+        assert "film and waves are Newtonian" not in told
+        assert "film and waves are Newtonian" in " ".join(limits(plain, {"kind": kind}))
+    # a measured response has no friction of which something could be said
+    assert len(limits(thinning, {"kind": "response"})) == 2
     assert warnings({"status": "converged"}) == []
     assert "moes_m" in warnings({"status": "predicted", "outside_range": ["moes_m"]})[0]

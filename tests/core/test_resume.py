@@ -43,7 +43,7 @@ def results(folder: Path) -> dict[str, bytes]:
     if summary.get("variance_unresolved"):
         # Python also predicts what the grid does not resolve, and counts what it leaves out
         free |= {"mu_ratio_unresolved", "mu_ratio_error_left_out"}
-        free |= {"mu_ratio_error", "mu_ratio_error_note"}
+        free |= {"mu_ratio_error", "mu_ratio_error_note", "judgement"}
     files["summary.json"] = json.dumps(
         {name: value for name, value in summary.items() if name not in free}
     ).encode()
@@ -86,6 +86,26 @@ def unbroken(drivers, tmp_path_factory) -> dict[str, Path]:
         assert {path.name for path in folder.iterdir()} == {"case.nml", "out"}
         made[name] = folder
     return made
+
+
+@pytest.mark.parametrize("driver", ["ehl", "pyehl"])
+@pytest.mark.parametrize(
+    ("extra", "options", "status", "says"),
+    [
+        ("amplitude_over_film = 0.2", "time.steps=5", "not settled", "a larger time.max_periods"),
+        ("amplitude_over_film = 3.0", "solver.threads=1", "negative film", ""),
+    ],
+)
+def test_only_what_could_end_otherwise_is_offered(
+    drive, tmp_path: Path, driver: str, extra: str, options: str, status: str, says: str
+):
+    (tmp_path / "case.nml").write_text(WAVE.format(points=65, extra=f"wavelength = 1.0 {extra}"))
+    done = drive(driver, "case.nml", "-o", "out", "--set", options)
+    assert done.returncode == 1
+    assert f"the status is '{status}'" in done.stdout
+    *_, last = done.stdout.splitlines()
+    assert last.endswith("--resume out") == bool(says)
+    assert says in last
 
 
 @pytest.mark.parametrize("first", ["ehl", "pyehl"])

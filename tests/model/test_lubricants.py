@@ -101,6 +101,67 @@ def test_every_oil_has_sources_and_runs():
         assert data.attrs["status"] == "converged"
 
 
+SHEET = "&lubricant kinematic_viscosity_40 = 46 kinematic_viscosity_100 = 6.8 {} /"
+MINERAL_Z = 0.6
+
+
+def exponent(oil: Lubricant) -> float:
+    """Roelands exponent with the alpha of an oil at ambient pressure."""
+    return oil.pressure_viscosity * 1.96e8 / (math.log(oil.viscosity) + 9.67)
+
+
+def test_band_of_a_coefficient_that_was_not_given(root: Path):
+    """The exponents of the oils by name are what the note and the how-to say."""
+    cold, hot = (
+        {name: exponent(Lubricant.from_name(name, t)) for name in pyehl.lubricants()}
+        for t in (40.0, 100.0)
+    )
+    text = (root / "docs/howto/lubricants.md").read_text(encoding="utf-8")
+    assert (
+        f"z is {cold['fva3']:.2f} (mineral), {cold['n100']:.2f} (naphthenic) and "
+        f"{cold['pao100']:.2f} (polyalphaolefin) at 40 °C"
+    ) in text
+    assert all(hot[name] == pytest.approx(cold[name], rel=0.04) for name in cold)
+    note = str(
+        pyehl.solve(Case.from_text(SHEET.format("")), LIGHT).attrs["pressure_viscosity_note"]
+    )
+    assert f"z = {min(cold.values()):.2f} to {max(cold.values()):.2f}" in note
+    least, most = (100.0 * ((pick(cold.values()) / MINERAL_Z) ** 0.53 - 1.0) for pick in (min, max))
+    assert f"which is {least:.0f} to {most:+.0f} % of the film" in note
+
+
+@pytest.mark.parametrize("temperature", [40.0, 80.0])
+def test_coefficient_of_a_data_sheet_is_that_of_roelands(temperature: float):
+    case = Case.from_text(SHEET.format(f"temperature = {temperature}"))
+    lubricant = case.resolve()["lubricant"]
+    alpha = MINERAL_Z * (math.log(lubricant["viscosity"]) + 9.67) / 1.96e8
+    assert lubricant["pressure_viscosity"] == pytest.approx(alpha, rel=1e-12)
+    assert lubricant["roelands_z"] == pytest.approx(MINERAL_Z, rel=1e-12)
+    # written out and read again it follows still
+    again = Case.from_text(case.text, ["lubricant.roelands_z=0.7"]).resolve()
+    assert again["lubricant"]["pressure_viscosity"] == pytest.approx(alpha * 0.7 / 0.6, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (SHEET.format(""), "is an estimate"),
+        (SHEET.format("roelands_z = 0.65"), ""),
+        (SHEET.format("pressure_viscosity = 1.8e-8"), ""),
+        ("&lubricant viscosity = 0.05 /", "is the default"),
+        ("&lubricant viscosity = 0.05 pressure_viscosity = 1.8e-8 /", ""),
+        ("&lubricant name = 'fva3' /", ""),
+        ("", ""),
+    ],
+)
+def test_a_coefficient_that_was_not_given_is_named(text: str, words: str, tmp_path: Path):
+    (tmp_path / "case.nml").write_text(text)
+    data = pyehl.solve(tmp_path / "case.nml", LIGHT)
+    note = str(data.attrs.get("pressure_viscosity_note", ""))
+    assert (words in note) if words else not note
+    assert ("alpha was not given" in data.attrs["judgement"]) == bool(words)
+
+
 def test_slopes_at_the_inlet_follow_from_the_law(table: Path):
     """Alpha and beta are the slopes of ln eta, and without a rise there is no other viscosity."""
     for oil in (
@@ -170,9 +231,25 @@ def test_a_prediction_says_that_the_oil_was_not_measured_there():
 
 
 def test_a_written_case_of_an_oil_reads_back(table: Path):
-    for options in ({"lubricant.name": "pao100"}, {"lubricant.table": str(table)}, T9):
+    single = table.with_name("single.csv")
+    single.write_text("".join(x for x in TABLE.splitlines(True) if ",80," not in x))
+    single.write_text(single.read_text().replace(",40,", ",50,"))
+    for options in (
+        {"lubricant.name": "pao100"},
+        {"lubricant.table": str(table)},
+        T9,
+        {**T9, "lubricant.name": "fva3"},
+        {
+            "lubricant.table": str(table),
+            "lubricant.name": "fva3",
+            "lubricant.viscosity_law": "dicke",
+        },
+        {"lubricant.table": str(single), "lubricant.temperature_viscosity": 0.03},
+    ):
         case = Case.of(Case.from_text("", {"lubricant.temperature": 50.0, **options}))
         assert Case.from_text(case.text).text == case.text
+        if single.name in case.text:
+            continue
         # another temperature is another viscosity: what follows is not given
         warm = Case.from_text(case.text, {"lubricant.temperature": 70.0}).resolve()
         assert warm["lubricant"]["viscosity"] < 0.7 * case.resolve()["lubricant"]["viscosity"]
@@ -191,6 +268,41 @@ def test_keys_beside_a_name_rule():
         "roelands",
         pytest.approx(2.2359e-8, rel=1e-4),
     )
+    constants = {f"lubricant.vogel_{k}": v for k, v in (("viscosity", 1e-4), ("b", 900), ("c", 95))}
+    ruled = of_case({"lubricant.name": "n100", **constants})
+    assert ruled.viscosity == pytest.approx(1e-4 * math.exp(900 / 135), rel=1e-12)
+    with pytest.raises(InputError, match=r"viscosity contradicts lubricant\.name"):
+        of_case({"lubricant.name": "n100", "lubricant.viscosity": 0.1})
+
+
+def test_a_table_begins_at_ambient_pressure(table: Path):
+    table.write_text("".join(x for x in TABLE.splitlines(True) if not x.startswith("0,40")))
+    with pytest.raises(InputError, match=r"oil\.csv:2:1: error: the lowest pressure at 40"):
+        of_case({"lubricant.table": str(table)})
+
+
+def test_a_range_of_pressures_alone():
+    """Of the temperatures nothing is known, and nothing is said."""
+    note = pyehl.check(Case.from_text(""), T9, {"lubricant.range_pressure_max": 1e9})
+    assert "measured up to 1.000E+09 Pa" in note
+    assert "degC and up" not in note
+    assert "BEYOND in temperature" not in note
+
+
+@pytest.mark.parametrize(("speed", "srr"), [(2.0, 2.0), (5.0, 1.0), (40.0, 0.3)])
+def test_heat_counts_where_its_estimate_is_beyond_every_oil(speed: float, srr: float):
+    """The flash temperature by the isothermal stress is beyond 1500 degC, that of the film not."""
+    contact = {"load": 600.0, "mean_velocity": speed, "radius": 0.018, "slide_to_roll": srr}
+    done = pyehl.solve(
+        Case(
+            contact=contact,
+            lubricant={"name": "n100", "shear_law": "eyring", "flow": "newtonian"},
+            grid={"points": 65},
+        )
+    )
+    assert float(done.mu) < 0.5 * float(done.mu_isothermal)
+    assert 100.0 < float(done.temperature_rise_max_K) < 700.0
+    assert "hotter than the temperatures at which the viscosity" in done.attrs["mu_note"]
 
 
 def test_film_of_an_oil_is_near_that_of_roelands_with_its_alpha():

@@ -45,7 +45,7 @@ def test_a_study_whose_map_has_changed_is_refused(mapped: tuple[Path, list[str]]
     before = (folder / "out" / NAME).read_bytes()
     np.save(folder / "in" / "scan.npy", heights(1))
     refused = pyehl_("sweep", folder / "out", str(folder / "in" / "case.nml"), *words, expect=2)
-    assert "height map.scan.npy: there sha256 " in refused
+    assert "file.scan.npy: there sha256 " in refused
     assert "lubricant" not in refused
     assert (folder / "out" / NAME).read_bytes() == before
 
@@ -60,7 +60,7 @@ def test_a_study_goes_on_where_its_map_has_moved(mapped: tuple[Path, list[str]])
     np.save(folder / "other" / "scan.npy", heights(1))
     (folder / "other" / "case.nml").write_text((folder / "moved" / "case.nml").read_text())
     refused = pyehl_("sweep", folder / "out", str(folder / "other" / "case.nml"), *words, expect=2)
-    assert "height map.scan.npy: there sha256 " in refused
+    assert "file.scan.npy: there sha256 " in refused
 
 
 def test_a_study_of_another_version_is_refused(
@@ -91,7 +91,7 @@ def test_a_curve_whose_surface_has_changed_is_refused(mapped: tuple[Path, list[s
     before = (folder / "curve" / "stribeck.csv").read_bytes()
     np.save(folder / "in" / "scan.npy", heights(1))
     refused = pyehl_("stribeck", folder / "curve", *words, expect=2)
-    assert "height map.scan.npy: there sha256 " in refused
+    assert "file.scan.npy: there sha256 " in refused
     np.save(folder / "in" / "scan.npy", heights(0))
     text = (folder / "in" / "case.nml").read_text()
     (folder / "in" / "case.nml").write_text(text.replace("'map'", "'fractal'"))

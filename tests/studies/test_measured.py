@@ -48,7 +48,7 @@ def test_measured_data_over_other_abscissae(tmp_path: Path):
         ("u,hersey,mu\n1,1,2\n", "expected: one of u, hersey"),
         ("u,mu\n1,high\n", ":2: error: mu = 'high'"),
         ("u,mu\n1,0.1\n-1,0.1\n", ":3: error: u = '-1'"),
-        ("u,mu\n1\n", ":2: error: mu = 'nothing'"),
+        ("u,mu\n1\n", ":2: error: 1 values for 2 columns"),
         ("u,mu\n", "there are no rows"),
     ],
 )
@@ -66,6 +66,9 @@ def test_measured_data_that_are_refused(tmp_path: Path, text: str, says: str):
         ("eyring", f"{KEY},mu_ratio\n1,1.2\n", "it holds mu_ratio, the curve mu"),
         ("eyring", f"{KEY},mu\n0.1,0.05\n9,0.05\n", "lies on the curve, which goes from 0.5 to 2"),
         ("eyring", "speed,mu\n1,0.05\n", "expected: one of contact.mean_velocity"),
+        ("eyring", f"{KEY};mu\n1;0.05\n", "with commas between columns, not ';'"),
+        ("eyring", f"{KEY},mu\n1,0,0,05\n", "4 values for 2 columns"),
+        ("eyring", f"{KEY},mu\n1,0\n", "mu = '0'"),
         ("eyring", "", "m.csv: cannot read: No such file"),
     ],
 )

@@ -15,6 +15,7 @@ import pytest
 import pyehl
 from pyehl.cli import main
 from pyehl.errors import InputError
+from pyehl.studies.curve import WORDS
 from pyehl.theory.load_share import AIHARA, LoadShare
 
 # A ball on a disc with a mineral oil
@@ -41,7 +42,7 @@ def run(*words: str, expect: int = 0) -> str:
 def columns(folder: Path) -> dict[str, np.ndarray]:
     with (folder / "stribeck.csv").open(newline="") as stream:
         rows = list(csv.DictReader(stream))
-    names = [name for name in rows[0] if name not in ("status", "message")]
+    names = [name for name in rows[0] if name not in WORDS]
     return {name: np.array([float(row[name] or "nan") for row in rows]) for name in names}
 
 
@@ -139,7 +140,7 @@ def stored(root: Path) -> dict[str, dict[str, np.ndarray]]:
     for name in ("traction", "empirical"):
         with (root / "docs" / "evidence" / "traction" / f"{name}.csv").open(newline="") as stream:
             rows = list(csv.DictReader(stream))
-        names = [word for word in rows[0] if word not in ("status", "message")]
+        names = [word for word in rows[0] if word not in WORDS]
         found[name] = {word: np.array([float(r[word] or "nan") for r in rows]) for word in names}
     return found
 
@@ -171,6 +172,7 @@ def test_the_howto_says_what_the_tables_say(root: Path, stored):
 def test_the_table_is_what_a_run_gives(cases: Path, tmp_path: Path, stored):
     run(str(cases / "mtm.nml"), "--slide-to-roll", "0.125,0.5", "-o", str(tmp_path / "out"))
     found, t = columns(tmp_path / "out"), stored["traction"]
+    assert set(found) == set(t)
     for k, slip in enumerate(found[SLIP]):
         row = int(np.argmin(np.abs(t[SLIP] - slip)))
         for name in ("mu", "mu_isothermal", "temperature_rise_max_K", "h_c_m"):

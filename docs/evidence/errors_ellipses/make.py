@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Measure whether what runs on elliptical contacts state holds, and what their cells are worth.
 
     python docs/evidence/errors_ellipses/make.py errors     # errors.csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Print what the tables of this folder say."""
 
 from __future__ import annotations

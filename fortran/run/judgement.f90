@@ -1,0 +1,209 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What a result is worth to an engineer: one line from its summary, of a solution or a prediction
+module ehl_judgement
+   use ehl_kinds, only: dp
+   use ehl_record, only: record_t
+   use ehl_text, only: fixed, to_text
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   implicit none (type, external)
+   private
+   public :: judge, holds, with_care, no_answer
+
+   !> What a result is worth
+   integer, parameter :: holds = 0, with_care = 1, no_answer = 2
+
+   !> Pressure [Pa] from which bearing steel keeps a dent of 1e-4 of the diameter of the ball (ISO 76:2006); the solids
+   !> of the model stay elastic
+   real(dp), parameter :: yields = 4.2e9_dp
+   !> Film [m] of the size of the layers that additives leave on steel and of what a scan does not show
+   real(dp), parameter :: molecular = 10.0e-9_dp
+   !> Film over roughness below which surfaces count as touching, and from which they do not (Tallian 1967)
+   real(dp), parameter :: touching = 1.0_dp, apart = 3.0_dp
+   !> A result whose error is a larger share of it is not well known
+   real(dp), parameter :: well_known = 0.05_dp
+   !> Flash temperature [K] above which an oil is thinner than computed, where its heat is left out
+   real(dp), parameter :: hot = 10.0_dp
+
+contains
+
+   !> A word and the reason for it: 'no answer', 'film breakdown', 'beyond the solids', 'thin film', 'unresolved waves' or 'full
+   !> film', then what else there is to know
+   subroutine judge(summary, text, worth)
+      type(record_t), intent(in) :: summary
+      character(len=:), allocatable, intent(out) :: text
+      integer, intent(out) :: worth
+      character(len=:), allocatable :: status, doubts, rest
+
+      status = summary%text("status")
+      worth = no_answer
+      if (status == "film breakdown") then
+         text = status//": "//summary%text("message")
+      else if (status /= "converged" .and. status /= "predicted") then
+         text = "no answer: the status is '"//status//"'"
+         if (summary%text("message") /= "") text = text//": "//summary%text("message")
+         if (summary%text("H_c_error_note") /= "" .and. .not. ieee_is_finite(summary%number("H_c"))) text = text//": "// &
+            summary%text("H_c_error_note")
+      else
+         worth = with_care
+         doubts = of_pressure(summary)//of_film(summary)//of_waves(summary)
+         rest = of_errors(summary)//of_heat(summary)
+         if (doubts /= "") then
+            text = doubts(:len(doubts) - 2)
+         else
+            text = "full film: "//least_film(summary)
+            if (rest == "") worth = holds
+         end if
+         if (rest /= "") text = text//"; but "//rest(:len(rest) - 2)
+      end if
+   end subroutine judge
+
+   !> A pressure at which the solids yield; of all these functions: nothing, or a text that ends in '; '
+   function of_pressure(summary) result(text)
+      type(record_t), intent(in) :: summary
+      character(len=:), allocatable :: text
+      real(dp) :: pressure
+
+      text = ""
+      ! a comparison with NaN is false
+      pressure = summary%number("p_max_Pa")
+      if (larger(summary%number("p_max_rough_Pa"), 0.0_dp)) pressure = summary%number("p_max_rough_Pa")
+      if (larger(pressure, yields)) text = "beyond the solids: the pressure reaches "//short(pressure*1.0e-9_dp)// &
+         " GPa, bearing steel yields above "//short(yields*1.0e-9_dp, 2)//" GPa (ISO 76), and the solids of the model do not; "
+   end function of_pressure
+
+   !> A film that is thin beside molecules or beside the roughness
+   function of_film(summary) result(text)
+      type(record_t), intent(in) :: summary
+      character(len=:), allocatable :: text
+      real(dp) :: ratio
+
+      text = ""
+      if (larger(molecular, least(summary))) text = "thin film: "//least_film(summary)//", below "// &
+         short(molecular*1.0e9_dp, 2)//" nm, where additives and what a scan does not show count, and asperities may touch; "
+      ratio = summary%number("lambda_ratio")
+      if (text == "" .and. larger(touching, ratio)) text = "thin film: Lambda = "//short(ratio)//" is below "// &
+         short(touching, 1)//" for the undeformed roughness; "//least_film(summary)//"; "
+   end function of_film
+
+   !> Waves that the grid does not resolve
+   function of_waves(summary) result(text)
+      type(record_t), intent(in) :: summary
+      character(len=:), allocatable :: text
+      real(dp) :: part
+
+      text = ""
+      if (.not. summary%has("mu_ratio_unresolved")) return
+      part = summary%number("mu_ratio_unresolved")
+      if (ieee_is_finite(part)) then
+         part = abs(part)/summary%number("mu_ratio")
+         if (larger(part, well_known)) text = "unresolved waves: they hold "//percent(part)//" of mu_r/mu_s by prediction, "// &
+            "give grid.points more nodes; "
+      else
+         part = summary%number("variance_unresolved")
+         if (larger(part, well_known)) text = "unresolved waves: they hold "//percent(part)//" of the variance of the "// &
+            "surface, give grid.points more nodes; "
+      end if
+   end function of_waves
+
+   !> Errors that are large or not known, and a point outside of what a model was measured on
+   function of_errors(summary) result(text)
+      type(record_t), intent(in) :: summary
+      character(len=:), allocatable :: text
+      character(len=*), parameter :: names(3) = [character(len=8) :: "H_c", "H_min", "mu_ratio"]
+      character(len=:), allocatable :: name, error, word
+      real(dp) :: share
+      integer :: k
+
+      text = ""
+      do k = 1, size(names)
+         name = trim(names(k))
+         if (.not. ieee_is_finite(summary%number(name))) cycle
+         word = name
+         if (name == "mu_ratio") word = "mu_r/mu_s"
+         error = name//"_error"
+         if (summary%has(name//"_model_error")) error = name//"_model_error"
+         share = summary%number(error)/abs(summary%number(name))
+         if (.not. ieee_is_finite(share)) then
+            text = text//"the error of "//word//" is not known; "
+         else if (share > well_known) then
+            text = text//word//" is known to "//percent(share)//" only; "
+         end if
+      end do
+      if (summary%text("pressure_viscosity_note") /= "") text = text//"alpha was not given "// &
+         "(pressure_viscosity_note); "
+      if (summary%text("outside_range") /= "") text = text//summary%text("outside_range")//" outside of the range of the "// &
+         "response; "
+   end function of_errors
+
+   !> Heat that is left out
+   function of_heat(summary) result(text)
+      type(record_t), intent(in) :: summary
+      character(len=:), allocatable :: text
+      real(dp) :: rise
+
+      text = ""
+      rise = summary%number("flash_temperature_K")
+      if (.not. larger(rise, hot) .or. ieee_is_finite(summary%number("temperature_rise_max_K"))) return
+      text = "the surfaces warm by "//short(rise)//" K, and the oil of the model does not; "
+   end function of_heat
+
+   !> The least film in words
+   function least_film(summary) result(text)
+      type(record_t), intent(in) :: summary
+      character(len=:), allocatable :: text
+      real(dp) :: film, ratio
+
+      film = least(summary)
+      ratio = summary%number("lambda_ratio")
+      if (ieee_is_finite(film) .and. ieee_is_finite(summary%number("h_min_rough_m"))) then
+         text = "the least film over the roughness is "//short(film*1.0e9_dp)//" nm"
+      else if (ieee_is_finite(film)) then
+         text = "the least film is "//short(film*1.0e9_dp)//" nm"
+         if (.not. summary%has("lambda_ratio")) text = text//", "//short(apart, 1)//" times an rms roughness of "// &
+                                                        short(film/apart*1.0e9_dp)//" nm"
+      else
+         text = "smooth surfaces; the case gives no size in metres"
+         if (ieee_is_finite(ratio)) text = "Lambda = "//short(ratio)
+      end if
+   end function least_film
+
+   !> Least film [m]: over the roughness where it is known
+   real(dp) function least(summary)
+      type(record_t), intent(in) :: summary
+
+      least = summary%number("h_min_rough_m")
+      if (.not. ieee_is_finite(least)) least = summary%number("h_min_m")
+   end function least
+
+   !> a > b, and false where one of them is not known
+   pure logical function larger(a, b)
+      real(dp), intent(in) :: a, b
+
+      larger = .false.
+      if (ieee_is_finite(a) .and. ieee_is_finite(b)) larger = a > b
+   end function larger
+
+   !> A number to three digits, or so many
+   function short(x, digits) result(text)
+      real(dp), intent(in) :: x
+      integer, intent(in), optional :: digits
+      character(len=:), allocatable :: text
+      integer :: n, decimals
+
+      n = 3
+      if (present(digits)) n = digits
+      decimals = n
+      ! 9.996 is '10.0'
+      if (abs(x) > 0.0_dp) decimals = max(0, n - 1 - floor(log10(abs(x)*(1.0_dp + 0.5_dp*10.0_dp**(-n)))))
+      text = fixed(x, "f32."//to_text(decimals))
+      if (decimals == 0) text = text(:len(text) - 1)
+   end function short
+
+   !> A share in per cent
+   function percent(share) result(text)
+      real(dp), intent(in) :: share
+      character(len=:), allocatable :: text
+
+      text = short(100.0_dp*share, 2)//" %"
+   end function percent
+end module ehl_judgement
