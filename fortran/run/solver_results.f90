@@ -227,7 +227,7 @@ contains
             if (self%steady%results(n - 1)%solved) coarser = self%steady%results(n - 1)%m%touching%load_share
          end if
       end if
-      call report_touching(record, self%plan, numbers, coarser, why)
+      call report_touching(record, self%plan, self%grid, numbers, coarser, why)
    end subroutine summarise_touching
 
    !> Whether friction is known: everywhere in the film, or of the boundary film, too
