@@ -157,7 +157,7 @@ sp | temperature_rise_max_K | K | largest mean rise across the film; rough: at t
 sp | temperature_rise_wall_1_max_K | K | the same of the surface of body 1
 sp | temperature_rise_wall_2_max_K | K | the same of the surface of body 2
 s | boundary_film | a^2/R | film at ambient pressure at which bodies touch
-s | contact_load_share | - | share of the load where they touch, as mu_ratio a mean; with roughness, of the rough contact
+s | contact_load_share | - | share of the load where they touch: a mean, as mu_ratio
 s | contact_load_share_error | - | estimate of its error, by two grids
 s | contact_load_share_error_note | | why it is not known; else empty
 s | contact_area_share | - | area where they touch over that of the dry contact

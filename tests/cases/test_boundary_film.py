@@ -148,6 +148,8 @@ def test_contact_of_a_coarse_grid(solve):
     assert done["contact_load_share"] > 0.1
     assert done["contact_load_share_error"] is None
     assert "does not resolve the inlet" in done["contact_load_share_error_note"]
+    assert done["judgement"].startswith("mixed film: ")
+    assert "an error that is not known" in done["judgement"]
 
 
 def test_both_drivers_say_the_same(solve, tmp_path):
