@@ -167,7 +167,12 @@ contains
    !> Drop what one cycle leaves for the next beyond the fields of its finest level
    subroutine forget(self)
       class(hierarchy_t), intent(inout) :: self
+      integer :: k
+
       self%coarsest%factored = .false.
+      do k = 1, self%ready
+         call self%levels(k)%flow%kept%forget()
+      end do
    end subroutine forget
 
    !> Allocated bytes

@@ -2,8 +2,8 @@
 !> Flow factors (flow_factors.f90) of several nodes side by side, each with what it needs: none where they are 1 but for
 !> `negligible`, those of second order in the gradient where they are right to `tolerance`, else those through the film.
 !>
-!> The mean stress of the latter begins with that of the former, which is near; one Newton step corrects it, after which the
-!> factors take what is left to first order, an error of its square. Where that is not small enough flow_factors.f90 iterates.
+!> The mean stress of the latter begins with that of the former; Newton steps correct it, and the factors take what is left to
+!> first order, an error of its square. Where that is not small enough flow_factors.f90 iterates.
 module ehl_factor_rows
    use ehl_flow_factors, only: exact_factors, factors_t, half, least_gradient, upper, weight
    use ehl_kinds, only: dp
@@ -12,10 +12,8 @@ module ehl_factor_rows
    private
    public :: factor_rows_t, find_factors, second_order
 
-   !> Factors that differ less from 1 than this are 1
-   real(dp), parameter :: negligible = 1.0e-6_dp
-   !> Relative error of factors of second order
-   real(dp), parameter :: tolerance = 1.0e-4_dp
+   !> Factors that differ less from 1 than this are 1; relative error of factors of second order
+   real(dp), parameter :: negligible = 1.0e-6_dp, tolerance = 1.0e-4_dp
    !> Evaluations of the integrals before the iteration; relative error of B of which the square is nothing
    integer, parameter :: passes = 3
    real(dp), parameter :: enough = 1.0e-3_dp
@@ -24,7 +22,7 @@ module ehl_factor_rows
 
    !> As factors_t, by node
    type :: factor_rows_t
-      real(dp), dimension(most, 2) :: phi, by_sliding, by_gradient, tangent
+      real(dp), dimension(most, 2) :: phi, by_sliding, by_gradient, tangent, stress_by_gradient
       real(dp), dimension(most) :: stress, stress_by_sliding
       !> Relative error of factors of second order, and a mean stress near that through the film
       real(dp) :: error(most), near(most, 2)
@@ -48,14 +46,15 @@ contains
       real(dp) :: rise
       integer :: list(most), count, i
 
-      rise = law%curvature()
-      if (.not. any(rise*(3.0_dp*b**2 + 0.15_dp*(s(:size(b), 1)**2 + s(:size(b), 2)**2)) >= negligible)) then
+      rise = 0.15_dp*law%curvature()
+      if (.not. any(rise*(20.0_dp*b**2 + s(:size(b), 1)**2 + s(:size(b), 2)**2) >= negligible)) then
          rows%phi = 1.0_dp
          rows%tangent = 1.0_dp
          rows%by_sliding = 0.0_dp
          rows%by_gradient = 0.0_dp
          rows%stress(:size(b)) = b
          rows%stress_by_sliding = 1.0_dp
+         rows%stress_by_gradient = 0.0_dp
          return
       end if
       call second_order(law, b, s, rows)
@@ -101,6 +100,8 @@ contains
          yx = 2.0_dp*q*less_x*f(i, 1) + 0.15_dp*(f(i, 1) + 2.0_dp*f(i, 2)*q) - f(i, 1)**2*q/(3.0_dp*phi_y)
          yy = 2.0_dp*q*less_y*f(i, 1) + 0.15_dp*f(i, 1)
          rows%stress(i) = t(i)*(1.0_dp + (less_x*sx + less_y*sy))
+         rows%stress_by_gradient(i, 1) = 2.0_dp*t(i)*less_x*s(i, 1)
+         rows%stress_by_gradient(i, 2) = 2.0_dp*t(i)*less_y*s(i, 2)
          ! positive whatever S is
          rows%near(i, 1) = t(i)/(1.0_dp - (less_x*sx + less_y*sy))
          rows%near(i, 2) = -s(i, 2)*f(i, 1)/(6.0_dp*phi_y)*rows%near(i, 1)*s(i, 1)
@@ -126,12 +127,10 @@ contains
       integer :: nodes(most), pass, n, i, k
 
       n = size(list)
-      do i = 1, n
-         nodes(i) = list(i)
-         bb(i) = b(nodes(i))
-         ss(i, :) = sign(max(abs(s(nodes(i), :)), least_gradient), s(nodes(i), :))
-         mean(i, :) = rows%near(nodes(i), :)
-      end do
+      nodes(:n) = list
+      bb(:n) = b(list)
+      ss(:n, :) = sign(max(abs(s(list, :)), least_gradient), s(list, :))
+      mean(:n, :) = rows%near(list, :)
       do pass = 1, passes
          call integrate(law, bb(:n), ss, mean, film)
          call evaluate(bb(:n), ss, mean, film, new)
@@ -167,6 +166,7 @@ contains
       rows%tangent(to, :) = new%tangent(from, :)
       rows%stress(to) = new%stress(from)
       rows%stress_by_sliding(to) = new%stress_by_sliding(from)
+      rows%stress_by_gradient(to, :) = new%stress_by_gradient(from, :)
    end subroutine take
 
    !> Node i has these factors
@@ -181,6 +181,7 @@ contains
       rows%tangent(i, :) = factors%tangent
       rows%stress(i) = factors%stress
       rows%stress_by_sliding(i) = factors%stress_by_sliding
+      rows%stress_by_gradient(i, :) = factors%stress_by_gradient
    end subroutine put
 
    !> Integrals through the film
@@ -286,6 +287,8 @@ contains
          rows%near(i, 1) = mean(i, 1) + dx
          rows%near(i, 2) = mean(i, 2) + dy
          rows%stress_by_sliding(i) = bx
+         rows%stress_by_gradient(i, 1) = -xx
+         rows%stress_by_gradient(i, 2) = -xy
          rows%tangent(i, 1) = 12.0_dp*m1
          rows%tangent(i, 2) = 12.0_dp*m3
          rows%by_sliding(i, 1) = 12.0_dp*b(i)*(film%c(i, 1)*bx + film%c(i, 2)*by)/(rows%phi(i, 1)*s(i, 1))

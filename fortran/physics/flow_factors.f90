@@ -17,7 +17,7 @@
 !> phi_x = dB/dtau, phi_y = B/tau; B = 0, one direction, Eyring: 3 (s cosh s - sinh s)/s^3, s = S/2 (Conry 1981).
 !>
 !> Changes: with A, C, D = int (1, xi, xi^2) d(F tau)/dtau dxi (2 x 2) and M = D - C A^-1 C,
-!> dQ = C A^-1 (dB, 0) + M dS.
+!> dtau_m = A^-1 [(dB, 0) - C dS],   dQ = C A^-1 (dB, 0) + M dS.
 module ehl_flow_factors
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use ehl_kinds, only: dp
@@ -58,8 +58,8 @@ module ehl_flow_factors
       real(dp) :: by_sliding(2) = 0.0_dp, by_gradient(2) = 0.0_dp
       !> d(phi_x S_x)/dS_x, d(phi_y S_y)/dS_y
       real(dp) :: tangent(2) = 1.0_dp
-      !> Mean stress along X, and its change with B
-      real(dp) :: stress = 0.0_dp, stress_by_sliding = 1.0_dp
+      !> Mean stress along X, and its change with B, with S_x and with S_y
+      real(dp) :: stress = 0.0_dp, stress_by_sliding = 1.0_dp, stress_by_gradient(2) = 0.0_dp
    end type factors_t
 
 contains
@@ -207,6 +207,7 @@ contains
       ac(:, 2) = solve(a, c(2:3))
       m = d - [c(1)*ac(1, 1) + c(2)*ac(2, 1), c(1)*ac(1, 2) + c(2)*ac(2, 2), c(2)*ac(1, 2) + c(3)*ac(2, 2)]
       r%stress_by_sliding = by_b(1)
+      r%stress_by_gradient = -ac(1, :)
       r%tangent = 12.0_dp*m([1, 3])
       do i = 1, 2
          part = c(i)*by_b(1) + c(i + 1)*by_b(2)

@@ -3,7 +3,7 @@
 module ehl_shear
    use, intrinsic :: iso_c_binding, only: c_double
    use ehl_kinds, only: dp
-   use ehl_thinning, only: carreau, thinning_t
+   use ehl_thinning, only: carreau, eyring, thinning_t
    implicit none (type, external)
    private
    public :: shear_law_t, shear_stress
@@ -30,7 +30,9 @@ module ehl_shear
    contains
       procedure :: thins
       procedure :: thins_flow
+      procedure :: thinning
       procedure :: reduce
+      procedure :: thinned_film
    end type shear_law_t
 
    interface
@@ -58,8 +60,6 @@ contains
       real(dp) :: limit
       integer :: i
 
-      thinning = thinning_t(carreau, self%exponent)
-
       select case (self%law)
       case (shear_eyring)
          do i = 1, size(stress)
@@ -74,6 +74,7 @@ contains
          end do
       case (shear_carreau)
          if (self%in_flow) then
+            thinning = self%thinning()
             stress = self%stress*thinning%sliding_stress(newtonian/self%stress)
             return
          end if
@@ -97,6 +98,35 @@ contains
       class(shear_law_t), intent(in) :: self
       thins_flow = self%in_flow .and. (self%law == shear_eyring .or. (self%law == shear_carreau .and. self%exponent < 1.0_dp))
    end function thins_flow
+
+   !> About the central film of a lubricant that thins in the flow, from that of a Newtonian one, for solvers to begin with:
+   !> h goes with eta^(2/3), the viscosity is that in the inlet, where alpha p = 1, at the shear rate (u + |u1 - u2|)/h. It may
+   !> well be less than the film, but no solver should begin with much more.
+   pure real(dp) function thinned_film(self, newtonian, speed_parameter) result(film)
+      class(shear_law_t), intent(in) :: self
+      !> [a^2/R]; lambda_bar = 12 eta0 u/(a^2/R) over gradient_scale
+      real(dp), intent(in) :: newtonian, speed_parameter
+      !> The film changes by less than 0.7 of what it did before
+      integer, parameter :: steps = 30
+      real(dp), parameter :: inlet_viscosity = exp(1.0_dp)
+      type(thinning_t) :: thinning
+      real(dp) :: b
+      integer :: k
+
+      film = newtonian
+      if (.not. self%thins_flow()) return
+      thinning = self%thinning()
+      do k = 1, steps
+         b = inlet_viscosity*(speed_parameter*self%gradient_scale/12.0_dp + self%scale)/(self%stress*film)
+         film = newtonian*(thinning%sliding_stress(b)/b)**(2.0_dp/3.0_dp)
+      end do
+   end function thinned_film
+
+   !> The law of a lubricant that thins
+   pure type(thinning_t) function thinning(self)
+      class(shear_law_t), intent(in) :: self
+      thinning = thinning_t(merge(carreau, eyring, self%law == shear_carreau), self%exponent)
+   end function thinning
 
    !> From eta/(eta0 H) to the shear stress over `scale`, at pressures scaled by the Hertz pressure
    pure subroutine reduce(self, p, values)

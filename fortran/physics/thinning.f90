@@ -132,9 +132,9 @@ contains
       class(thinning_t), intent(in) :: self
       real(dp), contiguous, intent(in) :: b(:)
       real(dp), contiguous, intent(out) :: t(:), f(:, 0:)
-      !> Below it there is no sliding
-      real(dp), parameter :: none = 1.0e-100_dp
-      !> Steps of the iteration, the last of which leaves the cube of `enough` for all but extreme exponents
+      !> Below it there is no sliding; the square of the second does not overflow
+      real(dp), parameter :: none = 1.0e-100_dp, large = 1.0e100_dp
+      !> Steps of the iteration at the most, enough for all but extreme exponents
       integer, parameter :: usual_steps = 3
       real(dp), dimension(most) :: wanted, u, error
       real(dp) :: m, x, slope
@@ -142,9 +142,10 @@ contains
 
       m = 0.5_dp*(1.0_dp - self%exponent)/self%exponent
       do i = 1, size(b)
-         wanted(i) = log(max(b(i), none))
-         x = log(1.0_dp + exp(-2.0_dp*abs(wanted(i))))
-         u(i) = wanted(i) + 0.5_dp*(self%exponent - 1.0_dp)*(2.0_dp*max(wanted(i), 0.0_dp) + x)
+         x = max(b(i), none)
+         wanted(i) = log(x)
+         x = min(x, large)
+         u(i) = wanted(i) + 0.5_dp*(self%exponent - 1.0_dp)*log(1.0_dp + x**2)
       end do
       ! as sliding_stress
       do k = 1, usual_steps
@@ -155,6 +156,7 @@ contains
             slope = 1.0_dp + 2.0_dp*m*x
             u(i) = u(i) - error(i)*slope/(slope**2 - 2.0_dp*error(i)*m*x*(1.0_dp - x))
          end do
+         if (all(abs(error(:size(b))) < enough)) exit
       end do
       t = exp(u(:size(b)))
       do i = 1, size(b)

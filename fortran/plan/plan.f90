@@ -103,7 +103,7 @@ contains
       type(status_t), intent(inout) :: status
       !> Heights of the maps of both surfaces [m], X first, in place of files; of size 0: none
       real(dp), intent(in), optional :: heights(:, :), second_heights(:, :)
-      real(dp) :: rho(1), slope(1)
+      real(dp) :: rho(1), slope(1), film
 
       call pick_contact(input, plan)
       plan%flooded = input%grid%border == "flooded"
@@ -112,14 +112,15 @@ contains
       call law_note(input, plan%scales, plan%lubricant_note)
       plan%alpha_note = alpha_note(input)
       call plan%lubricant%density([1.0_dp], rho, slope)
-      plan%film_expected = plan%contact%film_formula(plan%point%moes_m, plan%point%moes_l)/rho(1)
-      plan%touches = plan%lubricant%boundary_film > contact_from*plan%film_expected
-      plan%film_expected = max(plan%film_expected, plan%lubricant%boundary_film)
-      plan%heat = plan_heat(input, plan%contact, plan%scales, plan%sliding, plan%lubricant, plan%film_expected)
+      film = plan%contact%film_formula(plan%point%moes_m, plan%point%moes_l)/rho(1)
+      plan%heat = plan_heat(input, plan%contact, plan%scales, plan%sliding, plan%lubricant, film)
       if (plan%lubricant%boundary_film > 0.0_dp) then
          plan%heat%counts = .false.
          plan%heat%note = "isothermal: the heat where bodies touch at the boundary film is not computed"
       end if
+      film = plan%lubricant%shear%thinned_film(film, plan%point%speed_parameter)
+      plan%touches = plan%lubricant%boundary_film > contact_from*film
+      plan%film_expected = max(film, plan%lubricant%boundary_film)
       plan%engine = trim(input%solver%deflection)
       plan%accuracy = input%solver%accuracy
       plan%max_cycles = input%solver%max_cycles

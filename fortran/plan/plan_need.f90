@@ -16,6 +16,8 @@ module ehl_plan_need
    real(dp), parameter :: smooth_bytes = 190.0_dp, rough_bytes = 150.0_dp, alcouffe_bytes = 120.0_dp
    !> Of the temperatures of film and walls
    real(dp), parameter :: heat_bytes = 24.0_dp
+   !> The same of a flow that thins
+   real(dp), parameter :: thinning_bytes = 235.0_dp
    !> Bytes per node along X and thread
    real(dp), parameter :: line_bytes = 2000.0_dp
    !> Share of the run on the next coarser grid in memory and, with half as many steps, in time
@@ -127,6 +129,7 @@ contains
       if (plan%surfaces%rough()) bytes = bytes + rough_bytes
       if (plan%surfaces%move()) bytes = bytes + alcouffe_bytes
       if (plan%heat%counts) bytes = bytes + heat_bytes
+      if (plan%lubricant%shear%thins_flow()) bytes = bytes + thinning_bytes
       bytes = bytes*nodes(plan) + line_bytes*plan%finest%nx*threads
       bytes = bytes + plan%surfaces%bytes_on(plan%finest)
       if (plan%coarse_run) bytes = bytes*(1.0_dp + coarser_bytes)

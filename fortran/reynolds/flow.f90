@@ -8,6 +8,7 @@
 module ehl_flow
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_grid, only: grid_t
+   use ehl_kept_factors, only: kept_factors_t
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
    use ehl_status, only: ehl_no_memory, status_t
@@ -31,6 +32,8 @@ module ehl_flow
       !> d ln(eps)/d ln(H), and the shear stress of the sliding (nx, ny) as stress_row has it; else not allocated
       logical :: bends = .false.
       real(dp), allocatable :: tangent(:, :, :), powers(:, :, :), stress(:, :)
+      !> Flow factors of the nodes, if there are any
+      type(kept_factors_t) :: kept
       type(grid_t) :: grid
    contains
       procedure :: setup
@@ -94,6 +97,7 @@ contains
                 stat=stat)
       if (stat == 0 .and. self%bends) allocate (self%tangent, self%powers, source=self%eps, stat=stat)
       if (stat == 0 .and. self%bends) allocate (self%stress(grid%nx, grid%ny), source=0.0_dp, stat=stat)
+      if (stat == 0 .and. self%bends) call self%kept%setup(grid%nx, grid%ny, stat)
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the conductances of a grid level")
    end subroutine setup
 
@@ -117,6 +121,6 @@ contains
       class(flow_t), intent(in) :: self
       bytes = 0
       if (allocated(self%eps)) bytes = 16*size(self%eps, kind=int64)
-      if (allocated(self%tangent)) bytes = 2*bytes + 8*size(self%stress, kind=int64)
+      if (allocated(self%tangent)) bytes = 2*bytes + 8*size(self%stress, kind=int64) + self%kept%bytes()
    end function bytes
 end module ehl_flow

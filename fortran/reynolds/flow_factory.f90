@@ -5,8 +5,6 @@ module ehl_flow_factory
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
    use ehl_newtonian_flow, only: newtonian_flow_t
-   use ehl_shear, only: shear_carreau
-   use ehl_thinning, only: carreau, eyring, thinning_t
    use ehl_thinning_flow, only: new_thinning_flow
    implicit none (type, external)
    private
@@ -23,9 +21,8 @@ contains
 
       associate (shear => lubricant%shear)
          if (shear%thins_flow()) then
-            allocate (flow, source=new_thinning_flow(thinning_t(merge(carreau, eyring, shear%law == shear_carreau), &
-                                                                shear%exponent), &
-                                                     shear%scale/shear%stress, shear%gradient_scale/shear%stress))
+            allocate (flow, source=new_thinning_flow(shear%thinning(), shear%scale/shear%stress, &
+                                                     shear%gradient_scale/shear%stress))
          else
             allocate (newtonian_flow_t :: flow)
          end if

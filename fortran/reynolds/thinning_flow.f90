@@ -8,10 +8,11 @@
 !>    B = (eta/eta0) b0/H,   b0 = eta0 |u1 - u2|/(a^2/R) over the stress of the law,
 !>    S = s0 H grad P,       s0 = p_h a/R over the stress of the law,
 !>
-!> grad P by central differences; each node with the factors that it needs (physics/factor_rows.f90).
+!> grad P by central differences; each node with the factors that it needs (physics/factor_rows.f90), or those that it had
+!> (physics/kept_factors.f90).
 module ehl_thinning_flow
    use ehl_flow, only: along, flow_t
-   use ehl_factor_rows, only: factor_rows_t, find_factors
+   use ehl_factor_rows, only: factor_rows_t
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
    use ehl_thinning, only: most, thinning_t
@@ -24,7 +25,6 @@ module ehl_thinning_flow
 
    type, extends(flow_t) :: thinning_flow_t
       private
-      type(thinning_t) :: law
       !> b0, s0
       real(dp) :: sliding = 0.0_dp, gradient = 0.0_dp
    contains
@@ -42,8 +42,10 @@ contains
       real(dp), intent(in) :: sliding, gradient
       type(thinning_flow_t) :: flow
 
-      flow%law = law
+      flow%kept%law = law
       flow%sliding = sliding
+      ! how the stress of a vanishing sliding changes is not known
+      flow%kept%follows = sliding > 0.0_dp
       flow%gradient = gradient
       flow%across = sideways
       flow%bends = .true.
@@ -61,7 +63,7 @@ contains
       type(factor_rows_t) :: factors
       real(dp), dimension(most) :: b, newtonian
       real(dp) :: log_eta(size(p, 1)), slope(size(p, 1)), s(most, 2)
-      integer :: first, n, i, k
+      integer :: stretch, first, n, i, k
 
       call lubricant%log_viscosity(p(:last, j), log_eta(:last), slope(:last))
       if (last < size(p, 1)) then
@@ -69,8 +71,9 @@ contains
          log_eta(last + 2:) = log_eta(last + 1)
          slope(last + 2:) = slope(last + 1)
       end if
-      do first = 1, size(p, 1), most
-         n = min(most, size(p, 1) - first + 1)
+      do stretch = 1, (size(p, 1) - 1)/self%kept%width + 1
+         first = (stretch - 1)*self%kept%width + 1
+         n = min(self%kept%width, size(p, 1) - first + 1)
          call self%gradients(p, h, j, first, n, s)
          do k = 1, n
             i = first + k - 1
@@ -79,7 +82,7 @@ contains
             self%stress(i, j) = newtonian(k)/h(i, j)
             newtonian(k) = rho(i)*h(i, j)**3/newtonian(k)*self%inverse_speed
          end do
-         call find_factors(self%law, b(:n), s, factors)
+         call self%kept%find(b(:n), s, stretch, j, factors)
          i = first + n - 1
          do k = along, sideways
             self%eps(first:i, j, k) = factors%phi(:n, k)*newtonian(:n)

@@ -38,7 +38,7 @@ contains
       worth = no_answer
       if (status == "film breakdown") then
          text = status//": "//summary%text("message")
-      else if (status /= "converged" .and. status /= "predicted") then
+      else if (all(status /= [character(len=13) :: "converged", "predicted", "target missed"])) then
          text = "no answer: the status is '"//status//"'"
          if (summary%text("message") /= "") text = text//": "//summary%text("message")
          if (summary%text("H_c_error_note") /= "" .and. .not. ieee_is_finite(summary%number("H_c"))) text = text//": "// &
@@ -47,6 +47,7 @@ contains
          worth = with_care
          doubts = of_pressure(summary)//of_contact(summary)//of_waves(summary)
          rest = of_errors(summary)//of_heat(summary)
+         if (status == "target missed") rest = "grid.target_error is missed; "//rest
          if (doubts /= "") then
             text = doubts(:len(doubts) - 2)
          else

@@ -5,6 +5,7 @@ module test_flow
    use check, only: is_close, is_true
    use ehl_factor_rows, only: factor_rows_t, find_factors, second_order
    use ehl_flow_factors, only: exact_factors, factors_t
+   use ehl_kept_factors, only: kept_factors_t
    use ehl_kinds, only: dp
    use ehl_thinning, only: carreau, eyring, most, thinning_t
    implicit none (type, external)
@@ -21,6 +22,7 @@ contains
       call limits()
       call of_second_order()
       call side_by_side()
+      call kept()
       call changes_against_differences()
    end subroutine run_flow
 
@@ -53,7 +55,7 @@ contains
       type(factors_t) :: r
 
       r = factors_t(rows%phi(i, :), rows%by_sliding(i, :), rows%by_gradient(i, :), rows%tangent(i, :), rows%stress(i), &
-                    rows%stress_by_sliding(i))
+                    rows%stress_by_sliding(i), rows%stress_by_gradient(i, :))
    end function of_node
 
    !> Nodes side by side, each with what it needs, have the factors of one node through the film
@@ -90,6 +92,59 @@ contains
          call is_close(worst(3), 0.0_dp, 3.0e-2_dp, "changes side by side")
       end do
    end subroutine side_by_side
+
+   !> Kept factors follow small changes to first order; larger ones, and what is forgotten, are found anew
+   subroutine kept()
+      type(thinning_t), parameter :: laws(4) = [thinning_t(eyring, 1.0_dp), thinning_t(carreau, 0.3_dp), &
+                                                thinning_t(carreau, 0.5_dp), thinning_t(carreau, 0.8_dp)]
+      integer, parameter :: nodes = 2*most + 1
+      type(kept_factors_t) :: store
+      type(factor_rows_t) :: rows, anew
+      type(factors_t) :: exact
+      real(dp) :: b(nodes), s(nodes, 2), phase, share, reach, worst(3)
+      integer :: i, k, l, stat
+
+      do l = 1, size(laws)
+         worst = 0.0_dp
+         store = kept_factors_t(laws(l))
+         call store%setup(nodes, 1, stat)
+         call is_true(stat == 0 .and. store%width == 43, "stretches of equal width")
+         share = merge(0.0_dp, 1.0_dp, laws(l)%law == eyring)
+         reach = 0.00999_dp/max(1.0_dp, store%law%curvature()/0.15_dp)
+         do k = 1, 40
+            do i = 1, store%width
+               phase = real(i + most*k, dp)
+               b(i) = 10.0_dp**(4.0_dp + 8.0_dp*sin(1.7_dp*phase))
+               s(i, :) = 10.0_dp**(1.5_dp*sin(2.3_dp*phase))*[cos(phase), sin(phase)]
+            end do
+            associate (n => store%width)
+               call store%find(b(:n), s, 2, 1, rows)
+               call find_factors(laws(l), b(:n), s, anew)
+               call is_close(maxval(abs(rows%phi(:n, :)/anew%phi(:n, :) - 1.0_dp)), 0.0_dp, 0.0_dp, "beyond reach: found anew")
+               do i = 1, n
+                  phase = real(i*k, dp)
+                  b(i) = b(i)*(1.0_dp + reach*sign(1.0_dp, sin(phase)))
+                  s(i, :) = s(i, :) + reach*sign(1.0_dp + share*sum(abs(s(i, :))), [sin(2.0_dp*phase), sin(3.0_dp*phase)])
+               end do
+               call store%find(b(:n), s, 2, 1, rows)
+               do i = 1, n
+                  exact = exact_factors(laws(l), b(i), s(i, :))
+                  worst(1) = max(worst(1), maxval(abs(rows%phi(i, :)/exact%phi - 1.0_dp)))
+                  worst(2) = max(worst(2), abs(rows%stress(i) - exact%stress)/max(exact%stress, 1.0e-2_dp))
+               end do
+               call find_factors(laws(l), b(:n), s, anew)
+               worst(3) = max(worst(3), maxval(abs(rows%phi(:n, :)/anew%phi(:n, :) - 1.0_dp)))
+               if (modulo(k, 2) == 0) cycle
+               call store%forget()
+               call store%find(b(:n), s, 2, 1, rows)
+               call is_close(maxval(abs(rows%phi(:n, :)/anew%phi(:n, :) - 1.0_dp)), 0.0_dp, 0.0_dp, "forgotten: found anew")
+            end associate
+         end do
+         call is_close(worst(1), 0.0_dp, 2.0e-4_dp, "factors that follow")
+         call is_close(worst(2), 0.0_dp, 2.0e-4_dp, "stress that follows")
+         call is_true(worst(3) > 1.0e-6_dp, "they are not found anew")
+      end do
+   end subroutine kept
 
    subroutine agree(law, b, s, wanted)
       type(thinning_t), intent(in) :: law

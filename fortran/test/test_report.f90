@@ -133,6 +133,10 @@ contains
       call is_equal(worth, holds, "heat that counts")
 
       record = good
+      call record%set("status", "target missed")
+      call is_judged(record, "full film: the least film is 30.0 nm, 3 times an rms roughness of 10.0 nm; but "// &
+                     "grid.target_error is missed", with_care)
+      record = good
       call record%set("lambda_ratio", 0.8_dp)
       call is_judged(record, "thin film: Lambda = 0.800 is below 1", with_care)
       call record%set("h_min_rough_m", 3.4e-9_dp)

@@ -250,6 +250,8 @@ contains
       type(hierarchy_t), intent(inout) :: hierarchy
       type(status_t), intent(inout) :: status
 
+      ! nothing but the fields kept here passes from step to step, so that a run can be resumed
+      call hierarchy%forget()
       associate (level => hierarchy%levels(self%n))
          if (self%policy%attempt == attempt_predicted) then
             call self%predictor%predict(self%p_before, level)
@@ -263,8 +265,6 @@ contains
          call update_residual(level, self%residual)
       end associate
       call self%policy%begin_attempt(self%residual)
-      ! nothing but the fields kept here passes from step to step, so that a run can be resumed
-      call hierarchy%forget()
       if (self%policy%options%coarsening == coarsening_alcouffe) call hierarchy%prepare_coarsening(status)
    end subroutine begin_attempt
 

@@ -127,22 +127,22 @@ class Advice:
     def report(self) -> list[str]:
         """Return the lines that ``pyehl predict`` prints."""
         lines = [
-            f"film ends   at x = {self.x * 1e3:.4g} mm, y = {self.y * 1e3:.4g} mm of the surface: "
+            f"film ends  at x = {self.x * 1e3:.4g} mm, y = {self.y * 1e3:.4g} mm of the surface: "
             f"{-self.below.deepest * 1e6:.3g} um below zero; {self.below.pixels} pixels, "
             f"{100 * self.below.share:.3g} % of the contact in the mean over the passage"
         ]
         if self.outliers is not None:
             lines.append(
-                f"would carry surface.outliers = {self.outliers:.4g}: "
-                f"{self.outlier_points} points are spikes and go"
+                f"full film  with surface.outliers = {self.outliers:.4g}: "
+                f"{self.outlier_points} points count as spikes and are removed"
             )
         if self.wavelength is not None:
             lines.append(
-                f"would carry surface.shortest_wavelength = {self.wavelength:.4g}: waves shorter "
-                f"than {self.wavelength * 1e6:.3g} um go"
+                f"full film  with surface.shortest_wavelength = {self.wavelength:.4g}: without "
+                f"waves shorter than {self.wavelength * 1e6:.3g} um"
             )
         if self.outliers is None and self.wavelength is None:
-            lines.append("would carry nothing that takes off spikes or short waves alone")
+            lines.append("full film  with no cut of spikes or short waves alone")
         return lines
 
 

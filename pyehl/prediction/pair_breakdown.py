@@ -127,7 +127,7 @@ class PairAdvice:
             for group, (x, y) in zip(GROUPS, self.places, strict=True)
         )
         lines = [
-            f"film ends   where {places}: {-self.below.deepest * 1e6:.3g} um below zero; "
+            f"film ends  where {places}: {-self.below.deepest * 1e6:.3g} um below zero; "
             f"{100 * self.below.share:.3g} % of the contact in the mean over the passage"
         ]
         for name, length in zip((*GROUPS, "both"), self.wavelengths, strict=True):
@@ -136,10 +136,11 @@ class PairAdvice:
                     "both shortest_wavelength" if name == "both" else f"{name}.shortest_wavelength"
                 )
                 lines.append(
-                    f"would carry {key} = {length:.4g}: waves shorter than {length * 1e6:.3g} um go"
+                    f"full film  with {key} = {length:.4g}: without waves shorter than "
+                    f"{length * 1e6:.3g} um"
                 )
         if not any(self.wavelengths):
-            lines.append("would carry nothing that takes off short waves alone")
+            lines.append("full film  with no cut of short waves alone")
         return lines
 
 

@@ -89,5 +89,5 @@ def judge(summary: Summary) -> Judgement:
     word, _, why = _signs(told.judgement).partition(": ")
     hint = ""
     if summary.get("film_breakdown"):
-        hint = " No number is a result. What would carry stands below."
+        hint = " No number is a result. What would leave a full film stands below."
     return Judgement(word.capitalize(), f"{why[:1].upper()}{why[1:]}.{hint}", KINDS[told.worth])

@@ -27,28 +27,19 @@ __all__ = ["STUDY_DPI", "study_parts"]
 STUDY_DPI = 110
 TABLES = {"stribeck": "stribeck.csv"}
 GOOD = ("converged", "predicted", "computed", "full film")
-# Columns shown where they are there, with their errors
-COLUMNS = {
-    "h_c_m": "h_c_error_m",
-    "h_min_m": "h_min_error_m",
-    "H_c": "H_c_error",
-    "H_min": "H_min_error",
-    "lambda_ratio": "",
-    "theta_2": "",
-    "mu_ratio": "",
-    "mu_ratio_error": "",
-    "mu_ratio_model_error": "",
-    "mu_ratio_ehl": "mu_ratio_ehl_error",
-    "mu": "",
+# Columns shown where they are there, each with the columns that may hold its error
+COLUMNS: dict[str, tuple[str, ...]] = {
+    "h_c_m": ("h_c_error_m",),
+    "h_min_m": ("h_min_error_m",),
+    "H_c": ("H_c_error",),
+    "H_min": ("H_min_error",),
+    "lambda_ratio": (),
+    "theta_2": (),
+    "mu_ratio": ("mu_ratio_error", "mu_ratio_model_error"),
+    "mu_ratio_ehl": ("mu_ratio_ehl_error",),
+    "mu": (),
 }
-DRAWN = {
-    "h_c_m": "h_c_error_m",
-    "H_c": "H_c_error",
-    "h_min_m": "h_min_error_m",
-    "H_min": "H_min_error",
-    "mu_ratio": "mu_ratio_error",
-}
-ERRORS = {"mu_ratio": ("mu_ratio_error", "mu_ratio_model_error")}
+DRAWN = ("h_c_m", "H_c", "h_min_m", "H_min", "mu_ratio")
 MOST_ROWS, MOST_LINES, MOST_PANELS = 200, 7, 3
 
 
@@ -138,8 +129,8 @@ def _judge(rows: pd.DataFrame, size: int) -> Judgement:
 def _errors(rows: pd.DataFrame) -> dict[str, float]:
     """Give the largest relative error of each result whose errors are in the table."""
     found = {}
-    for name, error in DRAWN.items():
-        for column in (*ERRORS.get(name, ()), error):
+    for name in DRAWN:
+        for column in COLUMNS[name]:
             if name in rows and column in rows and rows[column].notna().any():
                 found[name] = float((rows[column] / rows[name].abs()).max())
                 break
@@ -154,8 +145,8 @@ def _cell(value: Any) -> str:  # noqa: ANN401 (of a table)
 
 def _table(rows: pd.DataFrame, keys: Sequence[str]) -> str:
     names = [*keys]
-    for name, error in COLUMNS.items():
-        names += [n for n in (name, error) if n in rows and rows[n].notna().any()]
+    for name, errors in COLUMNS.items():
+        names += [n for n in (name, *errors) if n in rows and rows[n].notna().any()]
     names.append("status")
     shown = rows[names].head(MOST_ROWS)
     kinds = ["pass" if word in GOOD else "care" for word in shown["status"]]
@@ -195,8 +186,8 @@ def _pictures(
 
 def _lines(rows: pd.DataFrame, keys: Sequence[str], name: str) -> list[Line]:
     """Give a line for each value of the keys behind the first one; the first few."""
-    candidates = (*ERRORS.get(name, ()), DRAWN[name])
-    error = next((e for e in candidates if e in rows and rows[e].notna().any()), "")
+    known = (e for e in COLUMNS[name] if e in rows and rows[e].notna().any())
+    error = next(known, "")
     groups = rows.groupby(list(keys[1:]), sort=False) if keys[1:] else [("", rows)]
     lines = []
     for value, those in groups:

@@ -74,6 +74,27 @@ def test_strong_thinning(solve):
     assert sliding["H_c"] < rolling["H_c"] < thin["H_c"]
 
 
+@pytest.mark.parametrize("srr", [1.0, 1.4])
+def test_films_far_below_the_newtonian_one(solve, srr):
+    """n = 0.3: the film is a seventh of the Newtonian one, from which the solver cannot begin."""
+    done = solve(
+        None, 65, CARREAU | {"lubricant.carreau_exponent": 0.3, "contact.slide_to_roll": srr}
+    )
+    newtonian = solve(None, 65, CARREAU | {"lubricant.flow": "newtonian"})
+    assert done["status"] == "converged"
+    assert done["restarts"] == 0
+    assert done["H_c"] < newtonian["H_c"] / 6.0
+
+
+def test_kept_factors_leave_the_result_alone(solve):
+    """A run that keeps its factors from cycle to cycle, to two ends."""
+    keys = CARREAU | {"lubricant.carreau_exponent": 0.5, "contact.slide_to_roll": 0.5}
+    usual, strict = (solve(None, 65, keys | {"solver.accuracy": a}) for a in (0.1, 0.001))
+    assert strict["cycles"] > usual["cycles"]
+    assert usual["H_c"] == pytest.approx(strict["H_c"], rel=1e-4)
+    assert usual["H_min"] == pytest.approx(strict["H_min"], rel=2e-4)
+
+
 def test_laws_that_leave_the_flow_newtonian(solve):
     newtonian = solve(None, 65, CARREAU | {"lubricant.shear_law": "newtonian"})
     for keys in (
@@ -92,6 +113,29 @@ def test_time_steps_of_half_and_whole_domains(solve, keys):
     ]
     assert all(run.history["cycles"].max() < 8 for run in runs)
     assert np.allclose(runs[0].field("P"), runs[1].field("P"), rtol=0.0, atol=2e-4)
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"surface.velocity_ratio": 1.05},
+        {
+            "lubricant.shear_law": "eyring",
+            "lubricant.eyring_stress": 4e6,
+            "surface.velocity_ratio": 1.1,
+        },
+    ],
+)
+def test_steps_are_solved_well_below_the_grid_error(solve, keys):
+    """Though their tolerance follows from the friction of a Newtonian lubricant."""
+    wave = {"surface.kind": "harmonic", "surface.amplitude": 0.06, "surface.wavelength": 0.5}
+    keys = CARREAU | wave | {"time.estimate_error": False} | keys
+    usual = solve(None, 65, keys)
+    strict = solve(None, 65, keys | {"time.steps": usual["steps"], "solver.accuracy": 0.0025})
+    finer = solve(None, 129, keys)
+    assert strict["cycles_per_step"] > usual["cycles_per_step"]
+    algebraic = abs(usual["mu_ratio"] - strict["mu_ratio"])
+    assert algebraic < 0.1 * 4.0 / 3.0 * abs(finer["mu_ratio"] - usual["mu_ratio"])
 
 
 def test_short_waves_leak(solve):

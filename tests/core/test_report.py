@@ -172,6 +172,32 @@ def test_heat_that_the_friction_has_is_no_warning(root):
     assert warnings(heated) == []
 
 
+def test_a_page_for_a_measured_response(tmp_path, root):
+    folder = tmp_path / "response"
+    folder.mkdir()
+    (folder / "case.nml").write_text(pyehl.Case.read(root / "cases/table1.nml").text)
+    rng = np.random.default_rng(1)
+    Image.fromarray(rng.integers(0, 255, (64, 64, 3), dtype=np.uint8)).save(folder / "response.png")
+    summary = {
+        "kind": "response",
+        "status": "measured",
+        "waves": 12,
+        "within_fitted_range": False,
+        "shipped_difference_rms": 0.021,
+        "shipped_difference_max": 0.05,
+        "tiers": [{"points": 129, "waves": 5}, {"points": 257, "waves": 7}],
+    }
+    (folder / "summary.json").write_text(json.dumps(summary))
+    found = read(pyehl.report(folder))
+    assert len(found.pictures) == 1
+    assert "Take with care. 12 waves; they differ from the shipped response by 0.021" in found.text
+    assert "Film and pressure are isothermal" in found.text
+    assert "scan line" not in found.text
+    (folder / "case.nml").unlink()
+    with pytest.raises(pyehl.FileError, match=r"case\.nml.*cannot be read"):
+        pyehl.report(folder)
+
+
 def test_a_zipped_study_that_is_not_done_is_said(tmp_path, root):
     vary = {"contact.moes_m": [50.0, 100.0, 200.0], "contact.moes_l": [8.0, 9.0, 10.0]}
     folder = tmp_path / "sweep"

@@ -124,7 +124,7 @@ def test_film_breakdown_says_where_and_what_would_carry(scan):
     assert summary["film_breakdown"]["share_of_contact"] == summary["film_below_zero_share"]
     assert advice.outlier_points == 2
     text = "\n".join(advice.report())
-    assert "2 points are spikes and go" in text
+    assert "2 points count as spikes and are removed" in text
     # what is proposed carries
     scan["surface"]["outliers"] = advice.outliers
     good = predict(scan)

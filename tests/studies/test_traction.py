@@ -16,6 +16,8 @@ import pyehl
 from pyehl.cli import main
 from pyehl.errors import InputError
 from pyehl.studies.curve import WORDS
+from pyehl.studies.curve_plan import plan_curve
+from pyehl.studies.vary import Axis
 from pyehl.theory.load_share import AIHARA, LoadShare
 
 # A ball on a disc with a mineral oil
@@ -118,6 +120,14 @@ def test_empirical_left_end(tmp_path: Path):
     told = run(*words, "-o", str(tmp_path / "out"))
     assert "Lambda^" not in told
     assert not [name for name in columns(tmp_path / "out") if "empirical" in name]
+
+
+def test_roughness_of_the_second_surface_has_a_left_end():
+    """The law needs a rough surface, whichever it is."""
+    case = pyehl.Case.from_text(BALL + "&second_surface kind = 'fractal' rms_height = 3e-7 /\n")
+    assert case.resolve()["surface"]["kind"] == "smooth"
+    made = plan_curve(case, [Axis("contact.mean_velocity", (0.3, 0.6))], load_share=LoadShare(0.12))
+    assert len(made.points) == 2
 
 
 @pytest.mark.parametrize(

@@ -43,6 +43,7 @@ def wave(m: float, moes_l: float, length: float, amplitude: float, ratio: float 
     )
 
 
+BALL = "&contact load = 30.0 mean_velocity = 0.5 radius = 0.0127 reduced_modulus = 1.24e11 /\n"
 # Name: nodes a side, case
 CASES = {
     "(1000, 10), wave of Fig. 2": (257, wave(1000.0, 10.0, 0.5, 9.734e-3)),
@@ -60,6 +61,28 @@ CASES = {
         "&surface kind = 'fractal' shortest_wavelength = 5.2e-5 /\n",
     ),
     "fractal, seed 2": (129, "&surface kind = 'fractal' seed = 2 /\n"),
+    "Carreau 0.1 MPa, n = 0.8, wave 0.5 a": (
+        129,
+        f"{BALL}&lubricant viscosity = 0.5 pressure_viscosity = 1.8e-8 shear_law = 'carreau' "
+        "carreau_stress = 1e5 carreau_exponent = 0.8 /\n"
+        "&surface kind = 'harmonic' amplitude = 0.06 wavelength = 0.5 velocity_ratio = 1.05 /\n",
+    ),
+    "Eyring 4 MPa, wave 0.5 a": (
+        129,
+        f"{BALL}&lubricant viscosity = 0.5 pressure_viscosity = 1.8e-8 shear_law = 'eyring' "
+        "eyring_stress = 4e6 /\n"
+        "&surface kind = 'harmonic' amplitude = 0.06 wavelength = 0.5 velocity_ratio = 1.1 /\n",
+    ),
+    "Table 1, Eyring 5 MPa, fractal, waves below a/8 cut": (
+        129,
+        "&lubricant shear_law = 'eyring' eyring_stress = 5e6 /\n"
+        "&surface kind = 'fractal' shortest_wavelength = 5.2e-5 /\n",
+    ),
+    "Table 1, Carreau 5 MPa, n = 0.5, fractal, waves below a/8 cut": (
+        129,
+        "&lubricant shear_law = 'carreau' carreau_stress = 5e6 carreau_exponent = 0.5 /\n"
+        "&surface kind = 'fractal' shortest_wavelength = 5.2e-5 velocity_ratio = 1.1 /\n",
+    ),
 }
 
 

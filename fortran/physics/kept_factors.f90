@@ -1,0 +1,144 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Flow factors (factor_rows.f90) of the nodes of a grid, kept with their changes: near the sliding B and the gradient
+!> S that they were found at, factors and stress follow to first order, with an error below 1e-4 beside that of factor_rows.f90.
+!> Sweeps and cycles change most nodes by less. So factors depend on what was kept, until that is forgotten.
+module ehl_kept_factors
+   use, intrinsic :: iso_fortran_env, only: int64
+   use ehl_factor_rows, only: factor_rows_t, find_factors
+   use ehl_kinds, only: dp
+   use ehl_thinning, only: eyring, most, thinning_t
+   implicit none (type, external)
+   private
+   public :: kept_factors_t
+
+   !> Changes that are small: of B, relative to B and this much more; of S, for Carreau relative to 1 + |S|. They are smaller
+   !> the other way round where the curvature of F is above `straight`; held by test/test_flow.f90
+   real(dp), parameter :: small = 0.01_dp, slight = 0.1_dp, straight = 0.15_dp
+   !> A part of S much below this changes the factors by its square only: quotients by it would be those of rounding
+   real(dp), parameter :: faint = 0.05_dp
+   !> B of a node without factors, near no other
+   real(dp), parameter :: none = -1.0_dp
+   !> What is kept of a node: B, S, phi, their changes, the stress and its changes, as in factor_rows_t
+   integer, parameter :: f_b = 1, f_s = 2, f_phi = 4, f_by_sliding = 6, f_by_gradient = 8, f_tangent = 10, f_stress = 12, &
+                         f_stress_by_sliding = 13, f_stress_by_gradient = 14, fields = 15
+
+   type :: kept_factors_t
+      type(thinning_t) :: law
+      !> Whether factors follow small changes, and how large those may be
+      logical :: follows = .true.
+      real(dp), private :: reach = 0.0_dp
+      !> Nodes of a row that are found together, at most `most`
+      integer :: width = 0
+      !> By node of such a stretch, field, stretch and row
+      real(dp), allocatable, private :: values(:, :, :, :)
+   contains
+      procedure :: setup
+      procedure :: forget
+      procedure :: find
+      procedure :: bytes
+   end type kept_factors_t
+
+contains
+
+   !> Allocate what a grid needs
+   subroutine setup(self, nx, ny, stat)
+      class(kept_factors_t), intent(inout) :: self
+      integer, intent(in) :: nx, ny
+      !> 0: there was memory
+      integer, intent(out) :: stat
+      integer :: stretches
+
+      stretches = (nx - 1)/most + 1
+      self%width = (nx - 1)/stretches + 1
+      self%reach = merge(small/max(1.0_dp, self%law%curvature()/straight), 0.0_dp, self%follows)
+      allocate (self%values(self%width, fields, stretches, ny), source=none, stat=stat)
+      if (stat /= 0) self%width = 0
+   end subroutine setup
+
+   !> Find all factors anew when they are asked for next
+   subroutine forget(self)
+      class(kept_factors_t), intent(inout) :: self
+      if (allocated(self%values)) self%values(:, f_b, :, :) = none
+   end subroutine forget
+
+   !> Factors of a stretch of row j, of size(b) nodes
+   pure subroutine find(self, b, s, stretch, j, rows)
+      class(kept_factors_t), intent(inout) :: self
+      !> B >= 0, and S along X and along Y of as many nodes, or more, shape (nodes, 2)
+      real(dp), contiguous, intent(in) :: b(:), s(:, :)
+      integer, intent(in) :: stretch, j
+      type(factor_rows_t), intent(inout) :: rows
+      type(factor_rows_t) :: found
+      real(dp) :: beyond(most), ss(most, 2), share, bound
+      integer :: i, n, from, to, at
+
+      n = size(b)
+      share = merge(0.0_dp, self%reach, self%law%law == eyring)
+      associate (kept => self%values(:, :, stretch, j))
+         do i = 1, n
+            bound = self%reach + share*(abs(kept(i, f_s)) + abs(kept(i, f_s + 1)))
+            beyond(i) = max(abs(b(i) - kept(i, f_b)) - self%reach*(kept(i, f_b) + slight), abs(s(i, 1) - kept(i, f_s)) - bound, &
+                            abs(s(i, 2) - kept(i, f_s + 1)) - bound)
+         end do
+         from = n + 1
+         to = 0
+         do i = 1, n
+            if (beyond(i) <= 0.0_dp) cycle
+            from = min(from, i)
+            to = i
+         end do
+         if (from <= to) then
+            at = to - from + 1
+            ss(:at, :) = s(from:to, :)
+            call find_factors(self%law, b(from:to), ss, found)
+            kept(from:to, f_b) = b(from:to)
+            kept(from:to, f_s:f_s + 1) = ss(:at, :)
+            kept(from:to, f_phi:f_phi + 1) = found%phi(:at, :)
+            kept(from:to, f_by_sliding:f_by_sliding + 1) = found%by_sliding(:at, :)
+            kept(from:to, f_by_gradient:f_by_gradient + 1) = found%by_gradient(:at, :)
+            kept(from:to, f_tangent:f_tangent + 1) = found%tangent(:at, :)
+            kept(from:to, f_stress) = found%stress(:at)
+            kept(from:to, f_stress_by_sliding) = found%stress_by_sliding(:at)
+            kept(from:to, f_stress_by_gradient:f_stress_by_gradient + 1) = found%stress_by_gradient(:at, :)
+         end if
+         rows%by_sliding(:n, :) = kept(:n, f_by_sliding:f_by_sliding + 1)
+         rows%by_gradient(:n, :) = kept(:n, f_by_gradient:f_by_gradient + 1)
+         rows%tangent(:n, :) = kept(:n, f_tangent:f_tangent + 1)
+         rows%stress_by_sliding(:n) = kept(:n, f_stress_by_sliding)
+         call follow(b, s, kept, rows)
+      end associate
+   end subroutine find
+
+   !> Factors and stress to first order
+   pure subroutine follow(b, s, kept, rows)
+      real(dp), contiguous, intent(in) :: b(:), s(:, :)
+      real(dp), contiguous, intent(in) :: kept(:, :)
+      type(factor_rows_t), intent(inout) :: rows
+      !> Changes of ln(B), of S, and of ln|S_x| and ln|S_y|; d ln(phi)/d ln|S| of a direction, by its own part of S
+      real(dp) :: db, dx, dy, lx, ly, own
+      integer :: i
+
+      do i = 1, size(b)
+         db = b(i) - kept(i, f_b)
+         dx = s(i, 1) - kept(i, f_s)
+         dy = s(i, 2) - kept(i, f_s + 1)
+         rows%stress(i) = kept(i, f_stress) + kept(i, f_stress_by_sliding)*db + kept(i, f_stress_by_gradient)*dx &
+                          + kept(i, f_stress_by_gradient + 1)*dy
+         db = db/(kept(i, f_b) + tiny(1.0_dp))
+         lx = dx*kept(i, f_s)/(kept(i, f_s)**2 + faint**2)
+         ly = dy*kept(i, f_s + 1)/(kept(i, f_s + 1)**2 + faint**2)
+         own = kept(i, f_tangent)/kept(i, f_phi) - 1.0_dp
+         rows%phi(i, 1) = kept(i, f_phi)*(1.0_dp + kept(i, f_by_sliding)*db + own*lx + (kept(i, f_by_gradient) - own)*ly)
+         own = kept(i, f_tangent + 1)/kept(i, f_phi + 1) - 1.0_dp
+         rows%phi(i, 2) = kept(i, f_phi + 1)*(1.0_dp + kept(i, f_by_sliding + 1)*db + own*ly &
+                                              + (kept(i, f_by_gradient + 1) - own)*lx)
+      end do
+   end subroutine follow
+
+   !> Allocated bytes
+   pure integer(int64) function bytes(self)
+      class(kept_factors_t), intent(in) :: self
+      bytes = 0
+      if (allocated(self%values)) bytes = 8*size(self%values, kind=int64)
+   end function bytes
+end module ehl_kept_factors
