@@ -84,6 +84,8 @@ module ehl_case
       real(dp) :: limiting_coefficient = 0.06_dp
       real(dp) :: carreau_stress = 0.0_dp
       real(dp) :: carreau_exponent = 0.0_dp
+      real(dp) :: boundary_film = 0.0_dp
+      real(dp) :: boundary_friction = 0.0_dp
       real(dp) :: temperature = 40.0_dp
       real(dp) :: kinematic_viscosity_40 = 0.0_dp
       real(dp) :: kinematic_viscosity_100 = 0.0_dp

@@ -9,7 +9,7 @@ module ehl_case_lubricant
    use ehl_status, only: status_t
    implicit none (type, external)
    private
-   public :: complete_lubricant, check_shear_law
+   public :: check_boundary_film, check_shear_law, complete_lubricant
 
 contains
 
@@ -70,4 +70,31 @@ contains
          end if
       end associate
    end subroutine check_shear_law
+
+   !> A boundary film needs a contact in SI units; its friction needs it, and the heat of friction does not know it
+   subroutine check_boundary_film(schema, input, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(in) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+
+      associate (l => input%lubricant)
+         if (l%boundary_friction > 0.0_dp .and. .not. l%boundary_film > 0.0_dp) then
+            call refuse(schema, sources, "lubricant", "boundary_friction", "lubricant.boundary_friction = " &
+                        // short(l%boundary_friction) // " without lubricant.boundary_film: no bodies touch", &
+                        "a boundary_film in m, or boundary_friction = 0.0", status)
+         else if (l%boundary_film > 0.0_dp .and. .not. input%contact%si) then
+            call refuse(schema, sources, "lubricant", "boundary_film", "lubricant.boundary_film = " // short(l%boundary_film) &
+                        // " with a contact given by moes_m and moes_l, which has no size in m", &
+                        "0.0, or load, mean_velocity, radius and reduced_modulus", status)
+         else if (l%boundary_film > 0.0_dp .and. l%thermal_friction == "always") then
+            call contradict(schema, sources, "lubricant.boundary_film", "lubricant.thermal_friction", &
+                            "thermal_friction = 'auto' or 'never'", status, "the heat where bodies touch is not computed")
+         else if (l%boundary_film > 0.0_dp .and. input%solver%coarsening == "alcouffe") then
+            call contradict(schema, sources, "lubricant.boundary_film", "solver.coarsening", &
+                            "coarsening = 'auto' or 'classical'", status, &
+                            "transfers by the conductance do not converge where bodies touch")
+         end if
+      end associate
+   end subroutine check_boundary_film
 end module ehl_case_lubricant

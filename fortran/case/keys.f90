@@ -111,6 +111,10 @@ contains
                          "stress G of Carreau at which thinning begins; no default")
          call self%reals("carreau_exponent", l%carreau_exponent, "-", "0 or [0.05, 1]", &
                          "power-law exponent n of Carreau; no default")
+         call self%reals("boundary_film", l%boundary_film, "m", "0 or [1e-11, 1e-5]", &
+                         "film at ambient pressure that contact does not squeeze out; 0: none, and no contact")
+         call self%reals("boundary_friction", l%boundary_friction, "-", "0 or [1e-3, 2]", &
+                         "friction coefficient where the bodies touch at the boundary film; 0: not known")
          call self%reals("temperature", l%temperature, "degC", "[-60, 250]", &
                          "temperature of the inlet; needs what tells the viscosity by temperature")
          call self%reals("kinematic_viscosity_40", l%kinematic_viscosity_40, "mm^2/s", "0 or [1, 1e5]", &

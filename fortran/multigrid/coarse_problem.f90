@@ -59,11 +59,31 @@ contains
       end do
       !$omp end parallel do
       coarse%poiseuille%frozen = .false.
+      if (allocated(fine%boundary)) call freeze_states(fine, coarse)
       call update_coefficients(coarse)
       if (kind_of_coarsening == coarsening_alcouffe) call build_galerkin(fine, coarse, coarsening)
       call restrict_residual(fine, coarse, coarsening%transfer)
       call pass_load_on(fine, coarse)
    end subroutine restrict_problem
+
+   !> States of the coarse nodes while their level is solved: those touch that have pressure and around which more than half
+   !> touches
+   subroutine freeze_states(fine, coarse)
+      type(level_t), intent(in) :: fine
+      type(level_t), intent(inout) :: coarse
+      logical :: touches(coarse%grid%nx)
+      integer :: j
+
+      associate (boundary => coarse%boundary)
+         boundary%frozen = .true.
+         boundary%rate = fine%boundary%rate
+         do j = 1, coarse%grid%ny
+            call weight_row(coarse%grid, fine%boundary%touching, j, boundary%touching(:, j))
+            touches = boundary%touching(:, j) > 0.5_dp .and. coarse%p(:, j) > cavity_pressure
+            boundary%touching(:, j) = merge(1.0_dp, 0.0_dp, touches)
+         end do
+      end associate
+   end subroutine freeze_states
 
    !> Coarse row j by full weighting, on the border by injection
    pure subroutine weight_row(coarse, fine, j, values)
@@ -94,6 +114,7 @@ contains
       real(dp) :: operator_row(coarse%grid%nx), residual(coarse%grid%nx)
       integer :: i, j
 
+      if (allocated(coarse%boundary)) call restrict_touching(fine, coarse)
       ! row 1 of a folded grid consists of half cells
       if (coarse%poiseuille%frozen .and. fine%grid%mirror) fine%residual(:, 1) = 0.5_dp*fine%residual(:, 1)
       !$omp parallel do default(none) shared(fine, coarse, transfer) private(i, operator_row, residual) &
@@ -106,6 +127,7 @@ contains
          else
             call weight_row(coarse%grid, fine%residual, j, residual)
          end if
+         if (allocated(coarse%boundary)) residual = merge(coarse%residual(:, j), residual, coarse%boundary%touching(:, j) > 0.0_dp)
          do i = 2, coarse%grid%nx - 1
             coarse%rhs(i, j) = operator_row(i) + residual(i)
             if (coarse%p(i, j) > cavity_pressure) cycle
@@ -120,6 +142,22 @@ contains
       end do
       !$omp end parallel do
    end subroutine restrict_residual
+
+   !> Residuals of touching nodes to those of the coarse level, and to these alone: in the equation of a flowing node they would
+   !> be a source that the motion carries through the contact. Those of flowing nodes are left. The film of the flow, which is
+   !> found anew after the coarse problem, lends its place.
+   subroutine restrict_touching(fine, coarse)
+      type(level_t), intent(inout) :: fine, coarse
+      integer :: j
+
+      do j = 1, fine%grid%ny
+         fine%boundary%film(:, j) = fine%residual(:, j)*fine%boundary%touching(:, j)
+         fine%residual(:, j) = fine%residual(:, j) - fine%boundary%film(:, j)
+      end do
+      do j = coarse%grid%first_inner(), coarse%grid%ny - 1
+         call weight_row(coarse%grid, fine%boundary%film, j, coarse%residual(:, j))
+      end do
+   end subroutine restrict_touching
 
    !> Transfer from the fine operator, and the Poiseuille operator of the coarse level. It stays as it is
    !> while the coarse level is solved: made to follow P and H of that level, it diverges in the contact.
@@ -200,6 +238,7 @@ contains
          fine%h00 = coarse%h00
       end if
       coarse%poiseuille%frozen = .false.
+      if (allocated(coarse%boundary)) coarse%boundary%frozen = .false.
       nx = fine%grid%nx
       !$omp parallel do default(none) shared(fine, coarse, space, transfer, coarsening, nx) private(row) &
       !$omp num_threads(fine%threads) if(fine%parallel) schedule(static)

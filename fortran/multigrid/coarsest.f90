@@ -8,7 +8,7 @@ module ehl_coarsest
    use ehl_grid, only: grid_t
    use ehl_kernel, only: fill_kernel
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
+   use ehl_level, only: film_of_flow, level_t, touches_at
    use ehl_node_state, only: cavitate, cavity_pressure
    use ehl_poiseuille, only: most_neighbours
    use ehl_reynolds, only: reynolds_operator
@@ -130,7 +130,7 @@ contains
          call self%move(level, fresh, norm)
          if (fresh .and. norm < huge(1.0_dp)) then
             if (norm > slow*norm_before) self%factored = .false.
-         else if (.not. norm <= slow*norm_before .or. .not. minval(level%h) > 0.0_dp) then
+         else if (.not. norm <= slow*norm_before .or. .not. is_positive(level)) then
             ! the old factors no longer serve: take the step back and factor anew
             level%p = self%p_before
             level%h00 = self%h00_before
@@ -167,11 +167,18 @@ contains
          end do
          level%h00 = self%h00_before + damping*self%direction(self%n + 1)
          call refresh(level)
-         if (minval(level%h) > 0.0_dp) exit
+         if (is_positive(level)) exit
          damping = 0.5_dp*damping
       end do
       call self%find_residual(level, norm)
    end subroutine move
+
+   !> Whether the lubricant has a film to flow through; above a boundary film it always has
+   logical function is_positive(level)
+      type(level_t), intent(in) :: level
+      is_positive = allocated(level%boundary)
+      if (.not. is_positive) is_positive = minval(level%h) > 0.0_dp
+   end function is_positive
 
    !> Right-hand side of the Newton step, and its norm; cavitated nodes count only when they
    !> ask for pressure
@@ -186,9 +193,13 @@ contains
       do j = self%first, self%last
          weight = merge(2.0_dp, 1.0_dp, level%grid%mirror .and. j > 1)
          call reynolds_operator(level, j, row)
+         row = level%rhs(:, j) - row
+         if (allocated(level%boundary)) then
+            call level%boundary%residual_row(level%rhs(:, j), level%mass_content(:, j), j, row)
+         end if
          do i = 2, level%grid%nx - 1
             u = unknown(self, level%grid%nx, i, j)
-            self%residual(u) = level%rhs(i, j) - row(i)
+            self%residual(u) = row(i)
             if (level%p(i, j) < cavity_pressure .or. &
                 (level%p(i, j) <= cavity_pressure .and. self%residual(u) >= 0.0_dp)) then
                self%cavitated(u) = .true.
@@ -222,6 +233,11 @@ contains
                cycle
             end if
             at = i + (j - 1)*nx
+            if (touches_at(level, i, j)) then
+               call add_film(i, j, -level%boundary%rate*level%rho(i, j))
+               call add_pressure(i, j, -level%boundary%rate*level%h_drho_dp(i, j))
+               cycle
+            end if
             call level%poiseuille%couplings(level%flow, i, j, neighbours, nb, direction, coupling, rate, excess)
             own = 0.0_dp
             call add_pressure(i, j, -sum(coupling) - excess)
@@ -231,10 +247,10 @@ contains
                   ! a Galerkin operator does not change
                   if (level%poiseuille%frozen) cycle
                   part = rate(m)*(level%p(ii, jj) - level%p(i, j))
-                  own = own + flow%film_power(i, j, d)*flow%eps(i, j, d)/level%h(i, j)*part
+                  own = own + flow%film_power(i, j, d)*flow%eps(i, j, d)/film_of_flow(level, i, j)*part
                   call add_pressure(ii, jj, flow%eps(ii, jj, d)*flow%dlneps_dp(ii, jj, d)*part)
                   call add_pressure(i, j, flow%eps(i, j, d)*flow%dlneps_dp(i, j, d)*part)
-                  call add_film(ii, jj, flow%film_power(ii, jj, d)*flow%eps(ii, jj, d)/level%h(ii, jj)*part)
+                  call add_film(ii, jj, flow%film_power(ii, jj, d)*flow%eps(ii, jj, d)/film_of_flow(level, ii, jj)*part)
                end associate
             end do
             c = level%wedge%weights(i)

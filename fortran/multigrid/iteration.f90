@@ -79,7 +79,7 @@ contains
       end associate
       self%state = self%unsound()
       if (self%state /= outcome_running) return
-      if (self%meets()) then
+      if (self%meets() .and. self%m%holds) then
          self%state = outcome_converged
       else if (self%cycles >= self%max_cycles) then
          self%state = outcome_cycle_limit

@@ -21,7 +21,8 @@
 !> e, w: couplings to the east and to the west, o: less the sum of those to other rows, e', w', o': their change with the
 !> conductance (poiseuille.f90, line_terms_t); a: the mean of all four over that of e and w, 1 where the lubricant flows
 !> alike along and across; c: wedge.f90; K(l): deflection at a distance of l nodes by the change of one,
-!> nothing beyond |l| = 2. A cavitated node that is content (node_state.f90) has d(i) = 0.
+!> nothing beyond |l| = 2. A cavitated node that is content (node_state.f90) has d(i) = 0. A touching node (boundary_film.f90)
+!> is not coupled to its line: rate s(i, 0) d(i) = -r(i).
 !>
 !> The systems are assembled and eliminated in one pass along X for `line_width` lines side by side.
 module ehl_line_system
@@ -62,7 +63,8 @@ contains
       type(line_work_t), intent(inout) :: work
 
       call gather(level, dipole, rows, min(last + near_reach, level%grid%nx), work%fields)
-      call eliminate(level, shares, near, near_dipole - near, last, work%fields, work%upper, work%change)
+      if (allocated(level%boundary)) call gather_touching(level, rows, last, work)
+      call eliminate(level, shares, near, near_dipole - near, last, work%fields, work%touching, work%upper, work%change)
       call substitute(last, work%upper, work%change)
    end subroutine solve_lines
 
@@ -78,6 +80,7 @@ contains
       ! 2 where there is no such node
       i = min(i + 1, level%grid%nx - 1)
       i = level%wedge%last_asking(level%mass_content(:, j), level%rhs(:, j), i)
+      if (allocated(level%boundary)) i = max(i, level%boundary%last_asking(level%mass_content(:, j), j))
    end function last_awake
 
    !> Bring the lines side by side, a stretch at a time so that it stays in the cache
@@ -116,15 +119,35 @@ contains
       end do
    end subroutine gather
 
+   !> The same of touching nodes: which they are, and their residuals
+   subroutine gather_touching(level, rows, last, work)
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: rows(line_width), last
+      type(line_work_t), intent(inout) :: work
+      real(dp) :: residual(level%grid%nx)
+      integer :: j, l
+
+      if (.not. allocated(work%touching)) allocate (work%touching(line_width, level%grid%nx))
+      do l = 1, line_width
+         j = rows(l)
+         residual(2:last) = work%fields(l, f_residual, 2:last)
+         call level%boundary%residual_row(level%rhs(:, j), level%mass_content(:, j), j, residual)
+         work%fields(l, f_residual, 2:last) = residual(2:last)
+         work%touching(l, :last) = level%boundary%touching(:last, j)
+      end do
+   end subroutine gather_touching
+
    !> Row i of a line couples the changes at nodes i-4 ... i+2; it is eliminated with the rows before
    !> it as soon as it is made, so that only the upper two diagonals are kept. The coefficients: see above.
-   pure subroutine eliminate(level, shares, near, delta, furthest, g, upper, change)
+   pure subroutine eliminate(level, shares, near, delta, furthest, g, touching, upper, change)
       type(level_t), intent(in) :: level
       !> Shares of a distributive change; kernel near the source, and what a distributive change adds to it
       real(dp), intent(in) :: shares(2), near(-nr:nr), delta(-nr:nr)
       !> Last node
       integer, intent(in) :: furthest
       real(dp), intent(in) :: g(line_width, line_fields, -1:level%grid%nx + 2)
+      !> 1 where a node touches (line, node); not allocated: none does
+      real(dp), allocatable, intent(in) :: touching(:, :)
       !> upper(line, diagonal, node), change(line, node), nodes from -3
       real(dp), intent(inout) :: upper(line_width, 2, -3:level%grid%nx), change(line_width, -3:level%grid%nx + 1)
       !> Response of rho H at nodes i, i-1, i-2 to unit changes at their columns -2..2
@@ -163,6 +186,12 @@ contains
             changes = merge(0.0_dp, 1.0_dp, g(:, f_p, i) <= cavity_pressure)
             changes = merge(changes, 1.0_dp, g(:, f_residual, i) >= 0.0_dp)
             asked = changes*g(:, f_residual, i)
+            if (allocated(touching)) then
+               where (touching(:, i) > 0.0_dp .and. changes > 0.0_dp)
+                  asked = -g(:, f_residual, i)/(level%boundary%rate*s(:, 0, now))
+                  changes = 0.0_dp
+               end where
+            end if
             !$omp simd private(east, west, re, rw, pe, pw, t, d, active, em4, em3, em2, em1, e0, e1, e2)
             do l = 1, line_width
                re = g(l, f_east_rate, i)

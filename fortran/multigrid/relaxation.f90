@@ -11,7 +11,7 @@ module ehl_relaxation
    use ehl_flow, only: along
    use ehl_level, only: level_t
    use ehl_line_system, only: last_awake, solve_lines
-   use ehl_node_state, only: cavitate, change_flowing, flowing_around
+   use ehl_node_state, only: cavitate, cavity_pressure, change_flowing, flowing_around
    use ehl_workspace, only: line_width, workspace_t
    !$ use omp_lib, only: omp_get_thread_num
    implicit none (type, external)
@@ -94,8 +94,16 @@ contains
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
          below = level%grid%south(j)
-         call level%flow%greatest_around(j, below, greatest)
+         if (allocated(level%boundary)) then
+            call level%boundary%greatest_flowing(level%p, level%flow%eps(:, :, level%flow%across), j, below, greatest)
+         else
+            call level%flow%greatest_around(j, below, greatest)
+         end if
          call flowing_around(level%p(:, below), level%p(:, j), level%p(:, j + 1), space%dipole(:, j))
+         if (allocated(level%boundary)) then
+            ! the change of a touching node is a dipole beside a cavity, too
+            where (level%p(:, j) > cavity_pressure) space%dipole(:, j) = max(space%dipole(:, j), level%boundary%touching(:, j))
+         end if
          do i = 2, level%grid%nx - 1
             space%dipole(i, j) = merge(space%dipole(i, j), 0.0_dp, greatest(i) < limit)
          end do
@@ -121,6 +129,14 @@ contains
       do j = first, last
          below = level%grid%south(j)
          largest = max(level%flow%eps(:, below, across), level%flow%eps(:, j, across), level%flow%eps(:, j + 1, across))
+         if (allocated(level%boundary)) then
+            ! the layer holds a node as if nothing could flow there
+            associate (touching => level%boundary%touching)
+               largest = max(level%flow%eps(:, below, across)*(1.0_dp - touching(:, below)), &
+                             level%flow%eps(:, j, across)*(1.0_dp - touching(:, j)), &
+                             level%flow%eps(:, j + 1, across)*(1.0_dp - touching(:, j + 1)))
+            end associate
+         end if
          do i = 1 + around, nx - around
             share = largest(i)
             do k = 1, around

@@ -21,6 +21,8 @@ module ehl_workspace
    !> -1; upper diagonals (line, diagonal, node) and changes (line, node), nodes from -3
    type :: line_work_t
       real(dp), allocatable :: fields(:, :, :), upper(:, :, :), change(:, :)
+      !> Contact at a boundary film: 1 where a node touches (line, node); else not allocated
+      real(dp), allocatable :: touching(:, :)
    end type line_work_t
 
    !> Arrays of shape (nx, ny) unless said otherwise

@@ -22,6 +22,10 @@ module ehl_lubricant
       class(density_law_t), allocatable :: compression
       !> Shear stress
       type(shear_law_t) :: shear
+      !> Film that pressure does not squeeze out, at P = 0 [a^2/R]; 0: there is none
+      real(dp) :: boundary_film = 0.0_dp
+      !> Its shear stress at P = 1 over the Newtonian stress of eta = eta0 and H = 1; 0: not known, or there is no sliding
+      real(dp) :: boundary_stress = 0.0_dp
    contains
       procedure :: log_viscosity
       procedure :: log_viscosity_at

@@ -37,12 +37,17 @@ module ehl_plan
    !> Most time steps until the friction of a rough surface can be known, and where their number is asked for
    integer, parameter :: most_steps = 100000, most_steps_asked_for = 1000000000
 
+   !> Boundary film from which on a smooth contact may touch, over its central film by formula
+   real(dp), parameter :: contact_from = 0.5_dp
+
    !> What the smooth contact needs, and all else
    type, extends(steady_options_t) :: plan_t
       class(contact_t), allocatable :: contact
       type(scales_t) :: scales
       type(operating_t) :: point
       type(lubricant_t) :: lubricant
+      !> Whether the smooth contact may touch at the boundary film
+      logical :: touches = .false.
       !> Law with constants of an oil, and the range of these
       character(len=:), allocatable :: lubricant_note, alpha_note
       !> What absolute friction needs to know
@@ -109,7 +114,13 @@ contains
       call plan%lubricant%density([1.0_dp], rho, slope)
       film = plan%contact%film_formula(plan%point%moes_m, plan%point%moes_l)/rho(1)
       plan%heat = plan_heat(input, plan%contact, plan%scales, plan%sliding, plan%lubricant, film)
-      plan%film_expected = plan%lubricant%shear%thinned_film(film, plan%point%speed_parameter)
+      if (plan%lubricant%boundary_film > 0.0_dp) then
+         plan%heat%counts = .false.
+         plan%heat%note = "isothermal: the heat where bodies touch at the boundary film is not computed"
+      end if
+      film = plan%lubricant%shear%thinned_film(film, plan%point%speed_parameter)
+      plan%touches = plan%lubricant%boundary_film > contact_from*film
+      plan%film_expected = max(film, plan%lubricant%boundary_film)
       plan%engine = trim(input%solver%deflection)
       plan%accuracy = input%solver%accuracy
       plan%max_cycles = input%solver%max_cycles
@@ -214,7 +225,7 @@ contains
       end if
       plan%cycle = cycle_of(plan%cycle_letter)
       plan%second_cycle = plan%cycle
-      if (input%solver%cycle == "auto" .and. .not. plan%surfaces%rough()) then
+      if (input%solver%cycle == "auto" .and. .not. (plan%surfaces%rough() .or. plan%touches)) then
          ! The first leaves so little that is smooth that one visit to the coarser levels will do. Not before rough runs:
          ! the error of the smooth friction is one of the ratio.
          plan%second_cycle = cycle_of("V")
@@ -277,12 +288,12 @@ contains
       do level = 1, plan%levels
          if (level > 1) grid = grid%finer()
          if (plan%start == 0 .and. grid%nx >= start_fewest .and. &
-             has_solution(plan%contact, plan%point, grid)) plan%start = level
+             (plan%touches .or. has_solution(plan%contact, plan%point, grid))) plan%start = level
       end do
       if (plan%start == 0) plan%start = plan%levels
       plan%finest = grid
       associate (errors => relative_errors(plan%contact, plan%point, grid))
-         plan%may_restart = errors(1) <= resolved_error
+         plan%may_restart = errors(1) <= resolved_error .or. plan%touches
       end associate
    end subroutine pick_grids
 end module ehl_plan

@@ -26,6 +26,11 @@ contains
 
       call make_lubricant(input%lubricant, point%alpha_bar, scales%pressure, lubricant, status)
       lubricant%shear = shear_of(input, scales)
+      if (.not. input%contact%si) return
+      lubricant%boundary_film = input%lubricant%boundary_film/scales%film
+      if (lubricant%shear%scale > 0.0_dp) then
+         lubricant%boundary_stress = input%lubricant%boundary_friction*scales%pressure/lubricant%shear%scale
+      end if
    end subroutine plan_lubricant
 
    !> A law with constants of an oil in words, and whether they were measured at the temperature of the inlet and the Hertz

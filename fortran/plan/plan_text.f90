@@ -93,11 +93,25 @@ contains
             call add("friction   "//trim(s%law)//" shear stress, slide-to-roll ratio "//fixed(s%slide_to_roll, "f8.4")// &
                      speed//"; "//flow)
             call add("           coefficients are "//plan%heat%note)
+            if (plan%lubricant%boundary_film > 0.0_dp) call add("boundary   bodies touch at a film of "// &
+               fixed(plan%lubricant%boundary_film*plan%scales%film, "es10.3")//" m at ambient pressure; their friction "// &
+               "there is "//boundary_friction())
             if (s%loading > 0.0_dp) call add("heat       shear heating of the inlet (Gupta et al. 1992): film times "// &
                fixed(s%reduction, "f7.4")//" by an inlet viscosity of "//fixed(s%inlet_viscosity, "es10.3")// &
                " Pa s, which M and L belong to")
          end associate
       end subroutine tell_friction
+
+      !> Of the boundary film, in words
+      function boundary_friction() result(words)
+         character(len=:), allocatable :: words
+
+         words = "not known"
+         associate (l => plan%lubricant)
+            if (l%boundary_stress > 0.0_dp) words = fixed(l%boundary_stress*l%shear%scale/plan%scales%pressure, "f6.3")// &
+                                                    " of the pressure"
+         end associate
+      end function boundary_friction
 
       !> Steps in time, and their end
       subroutine tell_time()

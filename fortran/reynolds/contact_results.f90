@@ -5,12 +5,16 @@ module ehl_contact_results
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
+   use ehl_touching, only: measure_touching, touches, touching_t
    implicit none (type, external)
    private
    public :: contact_results_t, measure, central_value, load_tolerance
 
    !> Largest relative error of the force balance of a solution
    real(dp), parameter :: load_tolerance = 1.0e-6_dp
+
+   !> Share of the boundary film that may be missing at a node of a solution
+   real(dp), parameter :: film_tolerance = 1.0e-2_dp
 
    !> Results of one state. Dimensionless: films by a^2/R, pressure by p_h.
    type :: contact_results_t
@@ -26,6 +30,10 @@ module ehl_contact_results
       real(dp) :: load_error = 0.0_dp
       !> Whether every number is finite, and every film positive
       logical :: finite = .false., positive = .false.
+      !> Whether no film is thinner than the boundary film; an iterate may be
+      logical :: holds = .true.
+      !> Where the bodies touch. The friction there is that of the boundary film, or left out where that is not known.
+      type(touching_t) :: touching
    contains
       procedure :: films
    end type contact_results_t
@@ -41,13 +49,18 @@ contains
       logical :: thins
       integer :: j
 
-      thins = level%flow%bends .or. level%lubricant%shear%thins()
+      thins = level%flow%bends .or. level%lubricant%shear%thins() .or. allocated(level%boundary)
       !$omp parallel do default(none) shared(level, smallest, largest, friction, newtonian, thins) private(viscous, stress) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
          smallest(j) = minval(level%h(:, j))
          largest(j) = maxval(level%p(:, j))
-         call level%flow%stress_row(level%lubricant, level%p, level%h, level%rho(:, j), j, viscous, stress)
+         if (allocated(level%boundary)) then
+            call level%flow%stress_row(level%lubricant, level%p, level%boundary%film, level%rho(:, j), j, viscous, stress)
+         else
+            call level%flow%stress_row(level%lubricant, level%p, level%h, level%rho(:, j), j, viscous, stress)
+         end if
+         if (allocated(level%boundary)) call take_boundary(level, j, viscous, stress)
          newtonian(j) = sum(viscous)*level%grid%weight(j)
          friction(j) = newtonian(j)
          if (thins) friction(j) = sum(stress)*level%grid%weight(j)
@@ -64,7 +77,25 @@ contains
       m%finite = abs(m%load_error) < huge(1.0_dp) .and. abs(m%film_central) < huge(1.0_dp) &
                  .and. m%friction < huge(1.0_dp) .and. abs(m%film_minimum) < huge(1.0_dp)
       m%positive = all(smallest > 0.0_dp)
+      if (allocated(level%boundary)) then
+         m%touching = measure_touching(level)
+         m%positive = .true.
+         m%holds = minval(level%mass_content) >= (1.0_dp - film_tolerance)*level%boundary%thickness
+      end if
    end function measure
+
+   !> Shear stress of row j where the bodies touch: that of the boundary film, of the lubricant none
+   pure subroutine take_boundary(level, j, newtonian, stress)
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: j
+      !> As stress_row of ehl_flow has them
+      real(dp), contiguous, intent(inout) :: newtonian(:), stress(:)
+
+      where (touches(level, j))
+         newtonian = 0.0_dp
+         stress = level%lubricant%boundary_stress*level%p(:, j)
+      end where
+   end subroutine take_boundary
 
    !> Central film and smallest film
    pure function films(self)

@@ -11,6 +11,7 @@ module ehl_film
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_node_state, only: last_flowing
+   use ehl_reynolds, only: find_touching
    implicit none (type, external)
    private
    public :: refresh, update_coefficients
@@ -52,12 +53,19 @@ contains
          call level%lubricant%density(level%p(:last, j), level%rho(:last, j), level%h_drho_dp(:last, j))
          level%rho(last + 1:, j) = rest_rho(1)
          level%h_drho_dp(last + 1:, j) = rest_slope(1)
-         if (.not. level%poiseuille%frozen) then
+         if (allocated(level%boundary)) then
+            call level%boundary%find_film(level%h(:, j), level%rho(:, j), j)
+            if (.not. level%poiseuille%frozen) call level%flow%find_row(level%lubricant, level%p, level%boundary%film, &
+                                                                        level%rho(:, j), level%h_drho_dp(:, j), j, last)
+         else if (.not. level%poiseuille%frozen) then
             call level%flow%find_row(level%lubricant, level%p, level%h, level%rho(:, j), level%h_drho_dp(:, j), j, last)
          end if
          level%mass_content(:, j) = level%rho(:, j)*level%h(:, j)
          level%h_drho_dp(:, j) = level%h_drho_dp(:, j)*level%h(:, j)
       end do
       !$omp end parallel do
+      if (allocated(level%boundary)) then
+         if (.not. level%boundary%frozen) call find_touching(level)
+      end if
    end subroutine update_coefficients
 end module ehl_film

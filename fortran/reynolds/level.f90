@@ -2,6 +2,7 @@
 !> One grid of the hierarchy with everything that lives on it
 module ehl_level
    use, intrinsic :: iso_fortran_env, only: int64
+   use ehl_boundary_film, only: boundary_film_t
    use ehl_deflection, only: deflection_t
    use ehl_flow, only: flow_t
    use ehl_grid, only: grid_t
@@ -12,7 +13,7 @@ module ehl_level
    use ehl_wedge, only: wedge_t
    implicit none (type, external)
    private
-   public :: level_t
+   public :: film_of_flow, is_touching, level_t, touches_at
 
    !> Fields of one level, arrays of shape (nx, ny). Dimensionless: P by p_h, lengths by a,
    !> films by a^2/R. The equations are in reynolds.f90, film.f90 and force_balance.f90.
@@ -26,6 +27,8 @@ module ehl_level
       class(flow_t), allocatable :: flow
       type(poiseuille_t) :: poiseuille
       type(wedge_t) :: wedge
+      !> Contact at a boundary film; not allocated where there is none
+      type(boundary_film_t), allocatable :: boundary
       !> Rigid separation H00
       real(dp) :: h00 = 0.0_dp
       !> Value that the pressure sum must take (2 pi/3 on the finest grid)
@@ -67,8 +70,39 @@ contains
       call self%flow%setup(self%grid, status)
       call self%poiseuille%setup(self%grid)
       call self%wedge%set_steady(self%grid%hx)
+      if (self%lubricant%boundary_film > 0.0_dp) then
+         allocate (self%boundary)
+         call self%boundary%setup(self%grid, self%lubricant%boundary_film, status)
+      end if
       self%parallel = self%threads > 1
    end subroutine setup
+
+   !> Whether bodies touch at a boundary film
+   pure logical function is_touching(level)
+      type(level_t), intent(in) :: level
+      is_touching = allocated(level%boundary)
+      if (is_touching) is_touching = any(level%boundary%touching > 0.0_dp)
+   end function is_touching
+
+   !> Whether they touch at node (i, j)
+   pure logical function touches_at(level, i, j)
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: i, j
+      touches_at = allocated(level%boundary)
+      if (touches_at) touches_at = level%boundary%touching(i, j) > 0.0_dp
+   end function touches_at
+
+   !> Film that the lubricant flows through at node (i, j)
+   pure real(dp) function film_of_flow(level, i, j)
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: i, j
+
+      if (allocated(level%boundary)) then
+         film_of_flow = level%boundary%film(i, j)
+      else
+         film_of_flow = level%h(i, j)
+      end if
+   end function film_of_flow
 
    !> Allocated bytes, the engine's apart
    pure integer(int64) function bytes(self)
@@ -76,5 +110,6 @@ contains
 
       bytes = self%poiseuille%product%bytes()
       if (allocated(self%p)) bytes = bytes + self%flow%bytes() + 8*8*size(self%p, kind=int64)
+      if (allocated(self%boundary)) bytes = bytes + self%boundary%bytes()
    end function bytes
 end module ehl_level

@@ -33,16 +33,30 @@ module ehl_reynolds
    use ehl_node_state, only: silence_content
    implicit none (type, external)
    private
-   public :: film_residual, reynolds_operator, update_residual
+   public :: film_residual, find_touching, flow_operator, reynolds_operator, update_residual
 
 contains
 
-   !> Row j of the Reynolds operator (the left-hand side above), zero at the borders
+   !> Row j of the Reynolds operator (the left-hand side above; where nodes touch that of boundary_film.f90), zero at the
+   !> borders
    pure subroutine reynolds_operator(level, j, values)
       type(level_t), intent(in) :: level
       integer, intent(in) :: j
       !> Shape (nx)
-      real(dp), intent(out) :: values(:)
+      real(dp), contiguous, intent(out) :: values(:)
+
+      call flow_operator(level, j, values)
+      if (allocated(level%boundary) .and. .not. level%grid%is_border(j)) then
+         call level%boundary%take_row(level%mass_content(:, j), j, values)
+      end if
+   end subroutine reynolds_operator
+
+   !> The same as if no node touched
+   pure subroutine flow_operator(level, j, values)
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: j
+      !> Shape (nx)
+      real(dp), contiguous, intent(out) :: values(:)
       integer :: nx
 
       nx = level%grid%nx
@@ -54,7 +68,30 @@ contains
       end if
       call level%poiseuille%apply_row(level%p, level%flow, j, values)
       call level%wedge%subtract_row(level%mass_content(:, j), values)
-   end subroutine reynolds_operator
+   end subroutine flow_operator
+
+   !> Which nodes touch, for the present pressure, film and coefficients
+   subroutine find_touching(level)
+      type(level_t), intent(inout) :: level
+      real(dp), dimension(level%grid%nx) :: row, share
+      real(dp) :: stored, flow
+      integer :: i, j
+
+      level%boundary%rate = level%wedge%rate()
+      stored = level%boundary%rate*kernel_coefficient(level%kernel_factor, 0, 0, level%grid%hx, level%grid%hy)
+      flow = level%poiseuille%flow_rate()
+      !$omp parallel do default(none) shared(level, stored, flow) private(i, row, share) &
+      !$omp num_threads(level%threads) if(level%parallel) schedule(static)
+      do j = level%grid%first_inner(), level%grid%ny - 1
+         call flow_operator(level, j, row)
+         do i = 1, level%grid%nx
+            row(i) = level%rhs(i, j) - row(i)
+            share(i) = stored/(stored + flow*level%flow%eps(i, j, along))
+         end do
+         call level%boundary%find_row(level%mass_content(:, j), row, share, j)
+      end do
+      !$omp end parallel do
+   end subroutine find_touching
 
    !> residual = rhs - operator where P > 0; where P = 0 only the part that asks for pressure
    !> (residual < 0). Returns the rms over the grid.
@@ -73,6 +110,9 @@ contains
          do i = 2, level%grid%nx - 1
             level%residual(i, j) = level%rhs(i, j) - row(i)
          end do
+         if (allocated(level%boundary) .and. .not. level%grid%is_border(j)) then
+            call level%boundary%residual_row(level%rhs(:, j), level%mass_content(:, j), j, level%residual(:, j))
+         end if
          call silence_content(level%p(:, j), level%residual(:, j))
          if (level%grid%is_border(j)) level%residual(:, j) = 0.0_dp
          sums(j) = sum(level%residual(:, j)**2)*level%grid%weight(j)/(level%grid%hx*level%grid%hy)
@@ -95,6 +135,12 @@ contains
          !$omp parallel do default(none) shared(level, sums, wedge, poiseuille) &
          !$omp num_threads(level%threads) if(level%parallel) schedule(static)
          do j = 1, grid%ny
+            if (allocated(level%boundary)) then
+               sums(j) = sum((level%residual(:, j)*wedge/(wedge + poiseuille*(1.0_dp - level%boundary%touching(:, j)) &
+                                                          *level%flow%eps(:, j, along)))**2) &
+                         *level%grid%weight(j)/(level%grid%hx*level%grid%hy)
+               cycle
+            end if
             sums(j) = sum((level%residual(:, j)*wedge/(wedge + poiseuille*level%flow%eps(:, j, along)))**2) &
                       *level%grid%weight(j)/(level%grid%hx*level%grid%hy)
          end do

@@ -34,6 +34,7 @@ module ehl_wedge
       procedure :: line_row
       procedure :: last_asking
       procedure :: weights
+      procedure :: rate
       procedure :: line_weights
       procedure :: history_row
    end type wedge_t
@@ -127,6 +128,12 @@ contains
       real(dp) :: c(0:wedge_reach)
       c = merge(self%c_first, self%c, i == 2)
    end function weights
+
+   !> Factor of m at the node itself
+   pure real(dp) function rate(self)
+      class(wedge_t), intent(in) :: self
+      rate = self%c(0)
+   end function rate
 
    !> Those that line systems know of, in the first interior column and behind it
    pure subroutine line_weights(self, first, interior)

@@ -17,6 +17,7 @@ module ehl_contact_run
    use ehl_steady, only: steady_t
    use ehl_stopping_criterion, only: transient_outcome
    use ehl_table, only: table_t
+   use ehl_touching, only: touching_names
    use ehl_transient, only: transient_t
    implicit none (type, external)
    private
@@ -48,9 +49,9 @@ module ehl_contact_run
       type(heated_t) :: smooth_heat, rough_heat
       !> State on disk, and to go on from when the smooth contact is solved
       type(checkpoint_t) :: checkpoint
-      !> Of the same run on the next coarser grid: its friction ratio, if it converged, and how it ended; outcome_running: it
-      !> has not
-      real(dp) :: coarse_ratio = 0.0_dp
+      !> Of the same run on the next coarser grid: its friction ratio and load share, if it converged, and how it ended;
+      !> outcome_running: it has not
+      real(dp) :: coarse_ratio = 0.0_dp, coarse_load_share = 0.0_dp
       integer :: coarse_outcome = outcome_running
    contains
       procedure :: begin
@@ -132,6 +133,7 @@ contains
       else if (self%plan%surfaces%move()) then
          columns = [character(len=16) :: "step", "T", "mu_ratio", "H_c", "H_min", "P_max", "load_error", "cycles", "residual"]
          if (self%plan%heat%counts) columns = [character(len=16) :: columns, "heat_ratio"]
+         if (self%plan%lubricant%boundary_film > 0.0_dp) columns = [character(len=16) :: columns, touching_names]
          call self%history%init(columns)
       else
          call self%history%init([character(len=16) :: "level", "points", "cycle", "H_c", "H_min", "P_max", "F", &
@@ -252,6 +254,7 @@ contains
          row = [real(dp) :: transient%step, transient%time, m%friction/transient%friction_smooth, m%film_central, &
                 m%film_minimum, m%pressure_maximum, m%load_error, transient%cycles, transient%residual]
          if (self%plan%heat%counts) row = [row, step_heat(self)]
+         if (self%plan%lubricant%boundary_film > 0.0_dp) row = [row, m%touching%numbers()]
          call self%history%append(row)
          if (self%plan%surfaces%pass_once()) call transient%extremes%see(level, self%p_smooth, self%h_smooth, transient%time)
          self%outcome = transient_outcome(self%plan, transient)
@@ -290,6 +293,7 @@ contains
 
       if (.not. self%in_steps .or. self%transient%step == 0) return
       call self%checkpoint%write(prefix, text, self%transient, self%history, self%frames, &
-                                 [self%seconds, self%coarse_ratio, real(self%coarse_outcome, dp)], status)
+                                 [self%seconds, self%coarse_ratio, real(self%coarse_outcome, dp), &
+                                  self%coarse_load_share], status)
    end subroutine save
 end module ehl_contact_run

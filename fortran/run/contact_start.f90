@@ -71,7 +71,7 @@ contains
    subroutine take_state(self, status)
       class(contact_run_t), intent(inout) :: self
       type(status_t), intent(inout) :: status
-      real(dp) :: numbers(3)
+      real(dp) :: numbers(4)
       logical :: same
 
       call self%checkpoint%read(self%transient, self%history, self%frames, self%grid, numbers, status)
@@ -79,6 +79,7 @@ contains
       self%seconds = numbers(1)
       self%coarse_ratio = numbers(2)
       self%coarse_outcome = nint(numbers(3))
+      self%coarse_load_share = numbers(4)
       if (self%plan%predicted_start .and. .not. (self%transient%mean%transit > 0.0_dp .or. allocated(self%why_front))) then
          self%why_front = "the first steps from it failed"
       end if

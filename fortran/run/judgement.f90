@@ -26,8 +26,8 @@ module ehl_judgement
 
 contains
 
-   !> A word and the reason for it: 'no answer', 'film breakdown', 'beyond the solids', 'thin film', 'unresolved waves' or 'full
-   !> film', then what else there is to know
+   !> A word and the reason for it: 'no answer', 'film breakdown', 'beyond the solids', 'mixed film', 'thin film', 'unresolved
+   !> waves' or 'full film', then what else there is to know
    subroutine judge(summary, text, worth)
       type(record_t), intent(in) :: summary
       character(len=:), allocatable, intent(out) :: text
@@ -45,7 +45,7 @@ contains
             summary%text("H_c_error_note")
       else
          worth = with_care
-         doubts = of_pressure(summary)//of_film(summary)//of_waves(summary)
+         doubts = of_pressure(summary)//of_contact(summary)//of_waves(summary)
          rest = of_errors(summary)//of_heat(summary)
          if (status == "target missed") rest = "grid.target_error is missed; "//rest
          if (doubts /= "") then
@@ -71,6 +71,23 @@ contains
       if (larger(pressure, yields)) text = "beyond the solids: the pressure reaches "//short(pressure*1.0e-9_dp)// &
          " GPa, bearing steel yields above "//short(yields*1.0e-9_dp, 2)//" GPa (ISO 76), and the solids of the model do not; "
    end function of_pressure
+
+   !> Bodies that touch at a boundary film, or a film that is thin
+   function of_contact(summary) result(text)
+      type(record_t), intent(in) :: summary
+      character(len=:), allocatable :: text
+
+      if (.not. larger(summary%number("contact_load_share"), 0.0_dp)) then
+         text = of_film(summary)
+         return
+      end if
+      text = "mixed film: "//percent(summary%number("contact_load_share"))//" of the load is carried at the boundary film, "
+      if (ieee_is_finite(summary%number("contact_load_share_error"))) then
+         text = text//"give or take "//percent(summary%number("contact_load_share_error"))//" of the load; "
+      else
+         text = text//"with an error that is not known; "
+      end if
+   end function of_contact
 
    !> A film that is thin beside molecules or beside the roughness
    function of_film(summary) result(text)

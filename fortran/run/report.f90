@@ -100,11 +100,13 @@ contains
    end subroutine report_scene
 
    !> The transient run: results null unless it came to a good end
-   subroutine report_transient(record, plan, transient, good, seconds, films, pressures, mean, change)
+   subroutine report_transient(record, plan, transient, good, known, seconds, films, pressures, mean, change)
       type(record_t), intent(inout) :: record
       type(plan_t), intent(in) :: plan
       type(transient_t), intent(in) :: transient
       logical, intent(in) :: good
+      !> Whether friction is known where the bodies touch
+      logical, intent(in) :: known
       real(dp), intent(in) :: seconds
       !> Least film and greatest pressure after each step
       real(dp), intent(in) :: films(:), pressures(:)
@@ -130,7 +132,11 @@ contains
             change = 0.0_dp
             ratio = ieee_value(ratio, ieee_quiet_nan)
          end if
-      else
+         if (.not. known) then
+            mean = ieee_value(mean, ieee_quiet_nan)
+            range = mean
+         end if
+      else if (known) then
          if (transient%mean%has_mean()) call record%set("last_mu_ratio_mean", transient%mean%mean(0.0_dp))
          if (transient%mean%n > 0) call record%set("last_mu_ratio", transient%mean%values(transient%mean%n))
       end if
@@ -217,21 +223,22 @@ contains
       call record%set("variance_left_out", plan%surfaces%left_out)
    end subroutine report_waves
 
-   !> The contact with a rough surface at rest: results null unless they are good
-   subroutine report_rest(record, plan, rest, good, ratio, algebraic)
+   !> The contact with a rough surface at rest: results null unless there are any
+   subroutine report_rest(record, plan, rest, good, known, ratio, algebraic)
       type(record_t), intent(inout) :: record
       type(plan_t), intent(in) :: plan
       type(stationary_roughness_t), intent(in) :: rest
-      logical, intent(in) :: good
+      !> Whether they are, and whether friction is known where the bodies touch
+      logical, intent(in) :: good, known
       !> Friction ratio, and its algebraic error
       real(dp), intent(out) :: ratio, algebraic
       real(dp) :: nothing
       integer :: k
 
       nothing = ieee_value(nothing, ieee_quiet_nan)
-      ratio = merge(rest%mu_ratio(), nothing, good)
-      algebraic = merge(2.0_dp*rest%algebraic*rest%mu_ratio(), nothing, good)
-      if (.not. good) call record%set("last_mu_ratio", rest%mu_ratio())
+      ratio = merge(rest%mu_ratio(), nothing, good .and. known)
+      algebraic = merge(2.0_dp*rest%algebraic*rest%mu_ratio(), nothing, good .and. known)
+      if (known .and. .not. good) call record%set("last_mu_ratio", rest%mu_ratio())
       call record%set("H_c_rough", merge(rest%m%film_central, nothing, good))
       call report_rough_extremes(record, plan, merge(rest%m%film_minimum, nothing, good), &
                                  merge(rest%m%pressure_maximum, nothing, good))

@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Absolute friction of a run, where it means something, and the heat of it
 module ehl_report_friction
+   use ehl_boundary_film, only: hold
    use ehl_contact, only: contact_t
    use ehl_grid, only: grid_t
    use ehl_heat, only: flash_temperature
@@ -8,6 +9,7 @@ module ehl_report_friction
    use ehl_kinds, only: dp, pi
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
+   use ehl_report_touching, only: no_boundary_friction
    use ehl_text, only: fixed, to_text
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    implicit none (type, external)
@@ -18,10 +20,12 @@ contains
 
    !> Coefficients, shear rate and stress of the smooth contact, flash temperature; null where they are not known or
    !> mean nothing
-   subroutine report_friction(record, plan, grid, p, h, friction, ratio, smooth_heat, rough_heat, heat_ratio)
+   subroutine report_friction(record, plan, grid, p, h, known, friction, ratio, smooth_heat, rough_heat, heat_ratio)
       type(record_t), intent(inout) :: record
       type(plan_t), intent(in) :: plan
       type(grid_t), intent(in) :: grid
+      !> Whether friction is known where the bodies touch
+      logical, intent(in) :: known
       !> Pressure and film of the smooth contact, its friction integral, and the friction over it (1: smooth); nan:
       !> not known
       real(dp), intent(in) :: p(:, :), h(:, :), friction, ratio
@@ -42,6 +46,8 @@ contains
             note = "a ratio alone: moes_m and moes_l give no sliding speed in m/s"
          else if (.not. speed > 0.0_dp) then
             note = "a ratio alone, that of vanishing sliding: there is no sliding, and rolling friction is not computed"
+         else if (.not. known) then
+            note = no_boundary_friction
          else if (.not. ieee_is_finite(friction)) then
             note = "the smooth contact is not converged"
          else
@@ -135,11 +141,11 @@ contains
       mean_inverse = mean_inverse/area
    end function mean_inverse
 
-   !> Greatest shear stress [Pa]
+   !> Greatest shear stress of the lubricant [Pa]; where the bodies touch it has none
    pure real(dp) function greatest_stress(plan, p, h)
       type(plan_t), intent(in) :: plan
       real(dp), intent(in) :: p(:, :), h(:, :)
-      real(dp) :: log_eta(size(p, 1)), slope(size(p, 1)), stress(size(p, 1))
+      real(dp), dimension(size(p, 1)) :: log_eta, slope, stress, rho
       integer :: j
 
       greatest_stress = 0.0_dp
@@ -147,6 +153,10 @@ contains
          call plan%lubricant%log_viscosity(p(:, j), log_eta, slope)
          stress = exp(log_eta)/h(:, j)
          if (plan%lubricant%shear%thins()) call plan%lubricant%shear%reduce(p(:, j), stress)
+         if (plan%lubricant%boundary_film > 0.0_dp) then
+            call plan%lubricant%density(p(:, j), rho, slope)
+            where (rho*h(:, j) <= (1.0_dp + hold)*plan%lubricant%boundary_film) stress = 0.0_dp
+         end if
          greatest_stress = max(greatest_stress, plan%lubricant%shear%scale*maxval(stress))
       end do
    end function greatest_stress

@@ -45,6 +45,7 @@ contains
          m%pressure_maximum = nothing
          m%friction = nothing
       end if
+      if (.not. knows_friction(plan, m)) m%friction = nothing
       error = nothing
       limit = nothing
       coarser = .false.
@@ -123,6 +124,7 @@ contains
          known = .false.
          if (good) note = too_small
       end if
+      known(2) = known(2) .and. knows_friction(plan, steady%results(n)%m)
       associate (m => steady%results(n)%m)
          error = error + [m%pressure_maximum, m%friction]*plan%domain_cost(1) + [0.0_dp, friction_beyond]
       end associate
@@ -132,4 +134,11 @@ contains
       call record%set("F_error", error(2))
       if (.not. known(2)) call record%set("F_error_note", trim(note))
    end subroutine report_limits
+
+   !> Whether friction is known: of the boundary film, too, where the bodies touch
+   pure logical function knows_friction(plan, m)
+      type(plan_t), intent(in) :: plan
+      type(contact_results_t), intent(in) :: m
+      knows_friction = .not. m%touching%load_share > 0.0_dp .or. plan%lubricant%boundary_stress > 0.0_dp
+   end function knows_friction
 end module ehl_report_smooth

@@ -16,6 +16,7 @@ module ehl_solver
    use ehl_record, only: record_t
    use ehl_smooth_film, only: film_by_finer_grids, known_film
    use ehl_status, only: status_t
+   use ehl_touching_mean, only: load_share_of
    implicit none (type, external)
    private
    public :: solver_t, field_length
@@ -204,7 +205,10 @@ contains
          self%coarse_outcome = outcome_failed
          self%coarse_message = status%message
       end if
-      if (self%coarse_outcome == outcome_converged) self%coarse_ratio = self%coarse%mu_ratio()
+      if (self%coarse_outcome == outcome_converged) then
+         self%coarse_ratio = self%coarse%mu_ratio()
+         if (self%plan%lubricant%boundary_film > 0.0_dp) self%coarse_load_share = load_share_of(self%coarse)
+      end if
       self%coarse_work = coarse_step*self%coarse%transient%step
       self%coarse_seconds = self%coarse%seconds
       deallocate (self%coarse)

@@ -10,9 +10,11 @@ submodule (ehl_solver) ehl_solver_results
    use ehl_report_friction, only: report_friction
    use ehl_report_passage, only: report_passage
    use ehl_report_smooth, only: report_smooth
+   use ehl_report_touching, only: no_boundary_friction, report_touching
    use ehl_skipped_work, only: skipped_work
    use ehl_surface_text, only: window_words
    use ehl_text, only: newline
+   use ehl_touching_mean, only: touching_of
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    implicit none (type, external)
 
@@ -41,15 +43,16 @@ contains
       ratio = ieee_value(ratio, ieee_quiet_nan)
       stop_error = ratio
       if (self%in_steps) then
-         call report_transient(record, self%plan, self%transient, self%converged(), self%seconds, &
+         call report_transient(record, self%plan, self%transient, self%converged(), knows_friction(self), self%seconds, &
                                self%history%column("H_min"), self%history%column("P_max"), ratio, stop_error)
          call report_start(self, record)
          if (self%plan%surfaces%pass_once()) call report_passage(record, self%plan%scales, self%transient%extremes, &
                                                                 self%converged())
       end if
       if (self%in_steps .or. self%resting) call report_waves(record, self%plan, self%steady%results(self%level())%m)
-      if (self%resting) call report_rest(record, self%plan, self%rest, self%converged(), ratio, stop_error)
+      if (self%resting) call report_rest(record, self%plan, self%rest, self%converged(), knows_friction(self), ratio, stop_error)
       if (self%plan%surfaces%rough()) call report_ratio(self, record, ratio, stop_error)
+      call summarise_touching(self, record, good)
       call summarise_friction(self, record, good)
       if (self%in_steps .and. self%done()) call record%set("skips", skipped_work(self%plan, self%transient, self%converged()))
       call record%set("bytes", real(self%hierarchy%bytes(), dp) + self%plan%surfaces%bytes())
@@ -94,6 +97,7 @@ contains
       if (why == "" .and. .not. ieee_is_finite(grid)) why = "pressures change so much from grid to grid that no limit is in sight"
       if (.not. ieee_is_finite(ratio)) then
          why = "there is no mu_ratio"
+         if (.not. knows_friction(self)) why = no_boundary_friction
          waves = waves_t(.true., nothing, nothing, why)
       end if
       call record%set("mu_ratio", ratio)
@@ -198,6 +202,48 @@ contains
       end do
    end function one_line
 
+   !> Contact at a boundary film: that of the rough surfaces where there are any
+   subroutine summarise_touching(self, record, good)
+      type(solver_t), intent(in) :: self
+      type(record_t), intent(inout) :: record
+      !> Whether the smooth contact is converged
+      logical, intent(in) :: good
+      real(dp) :: numbers(3), coarser
+      character(len=:), allocatable :: why
+      integer :: n
+
+      if (.not. self%plan%lubricant%boundary_film > 0.0_dp) return
+      numbers = ieee_value(numbers, ieee_quiet_nan)
+      coarser = numbers(1)
+      why = "there is no solution on the next coarser grid"
+      if (self%plan%surfaces%rough()) then
+         if (self%converged()) numbers = touching_of(self)
+         if (self%coarse_outcome == outcome_converged) coarser = self%coarse_load_share
+         why = why_no_grid_error(self)
+      else if (good) then
+         numbers = touching_of(self)
+         n = self%level()
+         if (n > 1) then
+            if (self%steady%results(n - 1)%solved) coarser = self%steady%results(n - 1)%m%touching%load_share
+         end if
+      end if
+      call report_touching(record, self%plan, self%grid, numbers, coarser, why)
+   end subroutine summarise_touching
+
+   !> Whether friction is known: everywhere in the film, or of the boundary film, too
+   logical function knows_friction(self)
+      type(solver_t), intent(in) :: self
+      real(dp) :: numbers(3)
+
+      knows_friction = .not. self%plan%lubricant%boundary_film > 0.0_dp .or. self%plan%lubricant%boundary_stress > 0.0_dp
+      if (knows_friction) return
+      numbers = 0.0_dp
+      if (self%resting) numbers = self%rest%m%touching%numbers()
+      if (self%in_steps) numbers = self%transient%m%touching%numbers()
+      if (self%in_steps .and. self%converged()) numbers = touching_of(self)
+      knows_friction = .not. (numbers(1) > 0.0_dp .or. self%steady%results(self%level())%m%touching%load_share > 0.0_dp)
+   end function knows_friction
+
    !> Absolute friction of the smooth contact and of the rough one
    subroutine summarise_friction(self, record, good)
       type(solver_t), intent(in) :: self
@@ -205,22 +251,24 @@ contains
       !> Whether the smooth contact is converged
       logical, intent(in) :: good
       real(dp) :: nothing, friction, ratio, heat_ratio
+      logical :: known
 
       nothing = ieee_value(nothing, ieee_quiet_nan)
-      friction = merge(self%steady%results(self%level())%m%friction, nothing, good)
+      known = knows_friction(self)
+      friction = merge(self%steady%results(self%level())%m%friction, nothing, good .and. known)
       ratio = 1.0_dp
       if (self%plan%surfaces%rough()) ratio = nothing
       heat_ratio = nothing
-      if ((self%in_steps .or. self%resting) .and. self%converged()) then
+      if ((self%in_steps .or. self%resting) .and. self%converged() .and. known) then
          ratio = self%mu_ratio()
          if (self%plan%heat%counts) heat_ratio = self%heat_ratio()
       end if
       if (self%in_steps .or. self%resting) then
-         call report_friction(record, self%plan, self%grid, self%p_smooth, self%h_smooth, friction, ratio, &
+         call report_friction(record, self%plan, self%grid, self%p_smooth, self%h_smooth, known, friction, ratio, &
                               self%smooth_heat, self%rough_heat, heat_ratio)
       else
          associate (level => self%hierarchy%levels(self%level()))
-            call report_friction(record, self%plan, level%grid, level%p, level%h, friction, ratio, &
+            call report_friction(record, self%plan, level%grid, level%p, level%h, known, friction, ratio, &
                                  self%smooth_heat, self%rough_heat, heat_ratio)
          end associate
       end if

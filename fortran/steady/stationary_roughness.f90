@@ -4,11 +4,12 @@
 module ehl_stationary_roughness
    use ehl_contact, only: contact_t
    use ehl_contact_results, only: contact_results_t, load_tolerance, measure
+   use ehl_cycle, only: careful_cycle, cycle_options_t
    use ehl_film, only: refresh
    use ehl_hierarchy, only: hierarchy_t
    use ehl_iteration, only: iteration_t, reduction
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
+   use ehl_level, only: is_touching, level_t
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_outcome, only: outcome_converged, outcome_negative_film, outcome_running
    use ehl_status, only: ehl_no_memory, status_t
@@ -21,6 +22,8 @@ module ehl_stationary_roughness
    !> Relative algebraic error of a friction integral, as a share of the accuracy asked for; of a part of the roughness
    !> that is only on the way to the whole of it
    real(dp), parameter :: friction_tolerance = 1.0e-3_dp, part_tolerance = 3.0e-2_dp
+   !> Relative errors of the force balance that may be taken away by scaling the pressure, at a boundary film
+   real(dp), parameter :: small_load_error = 1.0e-5_dp
    !> Smallest part of the roughness that is tried
    real(dp), parameter :: least_part = 1.0_dp/64.0_dp
 
@@ -42,6 +45,10 @@ module ehl_stationary_roughness
       !> Friction integral of the smooth contact
       real(dp) :: friction_smooth = 1.0_dp
       real(dp), private :: tolerance = 1.0e-4_dp
+      !> Its cycles, unless they are to be careful
+      type(cycle_options_t), private :: cycle
+      !> Whether the error of a contact that touches at a boundary film is that of its load share, and not of the friction
+      logical, private :: by_load_share = .false.
       !> The roughness [a^2/R], pressure of the smooth contact and of the last share solved, (nx, ny)
       real(dp), allocatable :: rr(:, :), p_done(:, :)
       real(dp) :: h00_done = 0.0_dp
@@ -70,7 +77,7 @@ contains
       if (status%failed()) return
       self%contact = contact
       self%n = n
-      self%options = how%cycle
+      self%cycle = how%cycle
       self%max_cycles = how%max_cycles
       self%tolerance = friction_tolerance*how%accuracy
       if (allocated(self%rr)) deallocate (self%rr, self%p_done)
@@ -82,6 +89,7 @@ contains
       call surfaces%roughness(level%grid, 0.0_dp, self%rr, moving=.false.)
       self%m = measure(level)
       self%friction_smooth = self%m%friction
+      self%by_load_share = .not. level%lubricant%boundary_stress > 0.0_dp
    end subroutine start
 
    !> One cycle. All of it is
@@ -99,6 +107,8 @@ contains
       associate (level => hierarchy%levels(self%n))
          if (self%due) call grow(self, level)
          if (self%outcome /= outcome_running) return
+         self%options = self%cycle
+         if (is_touching(level)) self%options = careful_cycle(self%cycle)
          call self%improve(hierarchy)
          self%total_cycles = self%total_cycles + 1
          if (self%state == outcome_running) return
@@ -116,7 +126,7 @@ contains
       end associate
    end subroutine advance
 
-   !> Algebraic error by the change of the friction; the load is left to the cycles
+   !> Algebraic error by the change of the friction or of the load share; the load is left to the cycles but at a boundary film
    logical function may_balance(self, before)
       class(stationary_roughness_t), intent(inout) :: self
       type(contact_results_t), intent(in) :: before
@@ -125,9 +135,16 @@ contains
       may_balance = .false.
       if (self%unsound() /= outcome_running) return
       change = abs(self%m%friction - before%friction)/self%m%friction
+      ! without that of the boundary film it is the friction of next to nothing
+      if (self%by_load_share .and. self%m%touching%load_share > 0.0_dp) then
+         change = abs(self%m%touching%load_share - before%touching%load_share)
+      end if
       q = reduction([change], [self%change], self%cycles)
       self%algebraic = change*q/(1.0_dp - q)
       self%change = change
+      ! nodes that lift off and touch again from cycle to cycle leave such an error
+      may_balance = self%m%touching%load_share > 0.0_dp .and. self%residual <= residual_tolerance .and. &
+                    abs(self%m%load_error) <= small_load_error
    end function may_balance
 
    !> Whether the present share is solved; the first cycle cannot tell
@@ -152,6 +169,7 @@ contains
          level%h00 = self%h00_done
          call set_geometry(level, self%contact, self%share*self%rr)
          call refresh(level)
+         if (allocated(level%boundary)) exit
          if (minval(level%h) > 0.0_dp) exit
          self%share_step = 0.5_dp*self%share_step
          if (self%share_step < least_part) then

@@ -21,7 +21,7 @@ module ehl_checkpoint
    character(len=*), parameter :: state_files(2) = ["checkpoint.a", "checkpoint.b"], frame_file = "checkpoint.frame-", &
       coarser = "coarser-"
    !> What a state begins with: behind `family` stands the number of the layout
-   character(len=*), parameter :: family = "ehl checkpoint v", magic = family//"12"
+   character(len=*), parameter :: family = "ehl checkpoint v", magic = family//"13"
    !> What a file can be; otherwise the step of its state
    integer, parameter :: missing = -1, damaged = -2, other_version = -3
 
@@ -58,8 +58,8 @@ contains
       type(transient_t), intent(in) :: transient
       type(table_t), intent(in) :: history
       type(frames_t), intent(in) :: frames
-      !> Seconds spent on the steps, mean friction ratio of the coarser run, how that run ended
-      real(dp), intent(in) :: numbers(3)
+      !> Seconds spent on the steps, mean friction ratio of the coarser run, how that run ended, its load share
+      real(dp), intent(in) :: numbers(4)
       type(status_t), intent(inout) :: status
       character(len=:), allocatable :: path
       character(len=256) :: reason
@@ -164,7 +164,7 @@ contains
       type(frames_t), intent(inout) :: frames
       type(grid_t), intent(in) :: grid
       !> Seconds spent on the steps, mean friction ratio of the coarser run, how that run ended
-      real(dp), intent(out) :: numbers(3)
+      real(dp), intent(out) :: numbers(4)
       type(status_t), intent(inout) :: status
       type(head_t) :: head
       real(dp) :: row(history%n_columns()), values(3)

@@ -38,6 +38,9 @@ module ehl_step_policy
       !> Kind of coarsening; whether it changes for good when a cycle is slow, and the step in which it did (0: none)
       integer :: coarsening = coarsening_classical, changed_at = 0
       logical :: may_change = .false.
+      !> Whether bodies touch at a boundary film: the conductance of their nodes says nothing about their changes, and the
+      !> coarsening stays the classical one
+      logical :: touching = .false.
       !> The step under way: its largest residual (rms), whether it makes a cycle more to measure what that does, the
       !> attempt, the cycles made and how the next one is made
       real(dp) :: tolerance = 0.0_dp
@@ -129,7 +132,7 @@ contains
       if (self%coarsening == coarsening_alcouffe) then
          ! one sweep more for the rest of the attempt; with classical coarsening it can make cycles slower
          self%options%pre = self%cycle%pre + 1
-      else if (self%may_change) then
+      else if (self%may_change .and. .not. self%touching) then
          self%coarsening = coarsening_alcouffe
          self%changed_at = step
          next = step_begins_again

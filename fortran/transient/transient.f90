@@ -2,7 +2,7 @@
 !> The transient run of a rough surface through the contact, one time step at a time
 module ehl_transient
    use ehl_contact, only: contact_t
-   use ehl_cycle, only: coarsening_alcouffe
+   use ehl_cycle, only: coarsening_alcouffe, coarsening_classical
    use ehl_extremes, only: extremes_t
    use ehl_film, only: refresh
    use ehl_force_balance, only: balance_load
@@ -10,7 +10,7 @@ module ehl_transient
    use ehl_hierarchy, only: hierarchy_t
    use ehl_iteration, only: iteration_t
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
+   use ehl_level, only: is_touching, level_t
    use ehl_contact_results, only: central_value, load_tolerance, measure, contact_results_t
    use ehl_moving_surfaces, only: moving_surfaces_t
    use ehl_node_state, only: cavitate
@@ -196,8 +196,11 @@ contains
          if (.not. self%residual < huge(1.0_dp) .and. self%cycles > 0) exit
          before = self%residual
          self%options = self%policy%options
+         self%policy%touching = is_touching(hierarchy%levels(n))
+         if (self%policy%touching) self%options%coarsening = coarsening_classical
          call self%improve(hierarchy)
-         call self%policy%after_cycle(self%step + 1, self%meets(), before, self%residual, next)
+         call self%policy%after_cycle(self%step + 1, self%meets() .and. self%m%holds, before, &
+                                        self%residual, next)
          if (next == step_ends) exit
          if (self%cycles == 1) then
             first = self%m
@@ -257,6 +260,7 @@ contains
             level%p = self%p_before(:, :, 1)
             level%h00 = self%h00_before(1)
          end if
+         if (allocated(level%boundary)) level%boundary%touching = 0.0_dp
          call refresh(level)
          call update_residual(level, self%residual)
       end associate

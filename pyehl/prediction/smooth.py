@@ -104,6 +104,10 @@ OF_SHEAR = (
 )
 
 
+# The prediction is that of a full film
+OF_CONTACT = ("boundary_film", "boundary_friction")
+
+
 def smooth_case(settings: Mapping[str, Mapping[str, Any]]) -> str:
     """Text of the case whose solution is the smooth contact under a resolved case.
 
@@ -111,6 +115,8 @@ def smooth_case(settings: Mapping[str, Mapping[str, Any]]) -> str:
     inlet not heated by shear, so have those that differ in their slip or their shear law.
     """
     contact, lubricant = dict(settings["contact"]), dict(settings["lubricant"])
+    for key in OF_CONTACT:
+        lubricant.pop(key, None)
     thins = ShearLaw.from_settings(settings).in_flow
     if not thins:
         for key in OF_SHEAR:

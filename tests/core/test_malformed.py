@@ -70,6 +70,26 @@ FAULTS: list[tuple[str, str, list[str], list[str]]] = [
         ["that of the lubricant"],
     ),
     ("exponent out of range", "&lubricant carreau_exponent = §1.2 /", [], ["0 or [0.05, 1]"]),
+    ("negative boundary film", "&lubricant boundary_film = §-1e-9 /", [], ["0 or [1e-11, 1e-5]"]),
+    ("boundary friction alone", "&lubricant boundary_friction = §0.1 /", [], ["a boundary_film in m"]),
+    (
+        "boundary film without a size",
+        "&contact moes_m = 200.0 / &lubricant boundary_film = §1e-9 /",
+        [],
+        ["no size in m", "load, mean_velocity"],
+    ),
+    (
+        "boundary film and heat",
+        "&lubricant boundary_film = 1e-9 §thermal_friction = 'always' /",
+        [],
+        ["the heat where bodies touch", "'auto' or 'never'"],
+    ),
+    (
+        "boundary film and Alcouffe",
+        "&lubricant boundary_film = 1e-9 / &solver §coarsening = 'alcouffe' /",
+        [],
+        ["lubricant.boundary_film", "'auto' or 'classical'"],
+    ),
     ("no Eyring stress", "&lubricant eyring_stress = §0.0 /", [], ["[1e4, 1e9]"]),
     ("temperature alone", "&lubricant temperature = §80.0 /", [], ["kinematic_viscosity_40"]),
     (

@@ -374,7 +374,7 @@ def test_folder(tmp_path, monkeypatch, capsys):
     (tmp_path / "case.nml").write_text(text)
     assert cli.main(["predict", "case.nml", "--tracks", "2", "-o", "out"]) == 0
     told = capsys.readouterr().out
-    assert "second      fractal" in told
+    assert "second     fractal" in told
     assert "complex response at velocity ratio 1.1 and 0.9" in told
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     pictures = {"second_surface_spectrum.png", "second_roughness.png", "roughness.png"}

@@ -1,0 +1,176 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Contact at a boundary film: a layer of lubricant on the surfaces that pressure does not squeeze out. With N(P) the
+!> left-hand side of the Reynolds equation (reynolds.f90) and H_b the film of the layer at P = 0,
+!>
+!>    P >= 0,   N <= 0,   rho H >= H_b,   one of the three an equality at every node:
+!>
+!> cavitated (P = 0), flowing (N = 0) or touching (rho H = H_b). What N lacks at touching nodes is lubricant that the layer
+!> gives. The layer is an amount of lubricant: it yields to pressure as the lubricant does, and passes a zone of touching nodes
+!> without gaining or losing any. With H >= H_b instead it would be squeezed out of the first half of a contact and lift the
+!> second half by rho(P_max).
+!>
+!> A touching node has the equation
+!>
+!>    rate (H_b - rho H) = 0
+!>
+!> with the rate of the wedge term, so that its residual is one of the Reynolds equation where the conductance is nothing. Of
+!> two residuals, rhs - N and rate (rho H - H_b), that one holds which asks for more pressure, each with what answers it: the
+!> deflection alone, or the deflection and the Poiseuille term.
+module ehl_boundary_film
+   use, intrinsic :: iso_fortran_env, only: int64
+   use ehl_grid, only: grid_t
+   use ehl_kinds, only: dp
+   use ehl_node_state, only: cavity_pressure
+   use ehl_status, only: ehl_no_memory, status_t
+   implicit none (type, external)
+   private
+   public :: boundary_film_t, hold
+
+   !> A touching node lifts off where it would by more than this share of the layer: behind a zone of touching nodes the lubricant
+   !> has the film of the layer, too, and rounding would decide on their states
+   real(dp), parameter :: hold = 1.0e-2_dp
+
+   !> Arrays of shape (nx, ny)
+   type :: boundary_film_t
+      !> H_b [a^2/R]
+      real(dp) :: thickness = 0.0_dp
+      !> Factor of the equation of touching nodes
+      real(dp) :: rate = 0.0_dp
+      !> Whether the states of the nodes stay, on a coarse level
+      logical :: frozen = .false.
+      !> 1 where a node is touching, else 0
+      real(dp), allocatable :: touching(:, :)
+      !> Film that the lubricant flows through: that of an iterate may be below the layer
+      real(dp), allocatable :: film(:, :)
+   contains
+      procedure :: setup
+      procedure :: find_film
+      procedure :: find_row
+      procedure :: take_row
+      procedure :: residual_row
+      procedure :: greatest_flowing
+      procedure :: last_asking
+      procedure :: bytes
+   end type boundary_film_t
+
+contains
+
+   !> Allocate; thickness: H_b
+   subroutine setup(self, grid, thickness, status)
+      class(boundary_film_t), intent(inout) :: self
+      type(grid_t), intent(in) :: grid
+      real(dp), intent(in) :: thickness
+      type(status_t), intent(inout) :: status
+      integer :: stat
+
+      self%thickness = thickness
+      self%frozen = .false.
+      allocate (self%touching(grid%nx, grid%ny), self%film(grid%nx, grid%ny), source=0.0_dp, stat=stat)
+      if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the boundary film of a grid level")
+   end subroutine setup
+
+   !> Row j of the film that the lubricant flows through, by film and density
+   pure subroutine find_film(self, h, rho, j)
+      class(boundary_film_t), intent(inout) :: self
+      !> Shape (nx)
+      real(dp), contiguous, intent(in) :: h(:), rho(:)
+      integer, intent(in) :: j
+      integer :: i
+
+      do i = 1, size(h)
+         ! a NaN stays one
+         self%film(i, j) = merge(self%thickness/rho(i), h(i), h(i)*rho(i) < self%thickness)
+      end do
+   end subroutine find_film
+
+   !> States of the nodes of row j, by the residual of the Reynolds equation; the border does not touch
+   pure subroutine find_row(self, mass_content, residual, share, j)
+      class(boundary_film_t), intent(inout) :: self
+      !> rho H, rhs - N, and the share that the deflection has in what answers the latter; shape (nx)
+      real(dp), contiguous, intent(in) :: mass_content(:), residual(:), share(:)
+      integer, intent(in) :: j
+      real(dp) :: held
+      integer :: i
+
+      held = hold*self%rate*self%thickness
+      self%touching(1, j) = 0.0_dp
+      self%touching(size(residual), j) = 0.0_dp
+      do i = 2, size(residual) - 1
+         self%touching(i, j) = merge(1.0_dp, 0.0_dp, self%rate*(mass_content(i) - self%thickness) &
+                                                     < share(i)*residual(i) + held*self%touching(i, j))
+      end do
+   end subroutine find_row
+
+   !> Put the term of touching nodes into row j of the operator
+   pure subroutine take_row(self, mass_content, j, values)
+      class(boundary_film_t), intent(in) :: self
+      !> Shape (nx)
+      real(dp), contiguous, intent(in) :: mass_content(:)
+      integer, intent(in) :: j
+      real(dp), contiguous, intent(inout) :: values(:)
+      integer :: i
+
+      do i = 2, size(values) - 1
+         values(i) = merge(-self%rate*mass_content(i), values(i), self%touching(i, j) > 0.0_dp)
+      end do
+   end subroutine take_row
+
+   !> Put the residuals of touching nodes into row j
+   pure subroutine residual_row(self, rhs, mass_content, j, values)
+      class(boundary_film_t), intent(in) :: self
+      !> Right-hand side, that of touching nodes too where states are frozen; shape (nx)
+      real(dp), contiguous, intent(in) :: rhs(:), mass_content(:)
+      integer, intent(in) :: j
+      real(dp), contiguous, intent(inout) :: values(:)
+      real(dp) :: right
+      integer :: i
+
+      do i = 2, size(values) - 1
+         right = merge(rhs(i), -self%rate*self%thickness, self%frozen)
+         values(i) = merge(right + self%rate*mass_content(i), values(i), self%touching(i, j) > 0.0_dp)
+      end do
+   end subroutine residual_row
+
+   !> Of each node of row j and its four neighbours, in columns 2 to nx-1: the largest conductance of those that flow
+   pure subroutine greatest_flowing(self, p, eps, j, south, values)
+      class(boundary_film_t), intent(in) :: self
+      !> Pressure and conductance across, shape (nx, ny)
+      real(dp), contiguous, intent(in) :: p(:, :), eps(:, :)
+      integer, intent(in) :: j, south
+      !> Shape (nx)
+      real(dp), contiguous, intent(inout) :: values(:)
+      integer :: i
+
+      do i = 2, size(values) - 1
+         values(i) = max(of(i, j), of(i - 1, j), of(i + 1, j), of(i, j + 1), of(i, south))
+      end do
+
+   contains
+
+      !> Conductance of a node if it flows, else 0
+      pure real(dp) function of(k, l)
+         integer, intent(in) :: k, l
+         of = merge(eps(k, l)*(1.0_dp - self%touching(k, l)), 0.0_dp, p(k, l) > cavity_pressure)
+      end function of
+   end subroutine greatest_flowing
+
+   !> Last touching node of row j whose film is below the layer; 2 if there is none
+   pure integer function last_asking(self, mass_content, j) result(i)
+      class(boundary_film_t), intent(in) :: self
+      !> Shape (nx)
+      real(dp), contiguous, intent(in) :: mass_content(:)
+      integer, intent(in) :: j
+
+      do i = size(mass_content) - 1, 3, -1
+         if (self%touching(i, j) > 0.0_dp .and. mass_content(i) < self%thickness) return
+      end do
+      i = 2
+   end function last_asking
+
+   !> Allocated bytes
+   pure integer(int64) function bytes(self)
+      class(boundary_film_t), intent(in) :: self
+      bytes = 0
+      if (allocated(self%film)) bytes = 16*size(self%film, kind=int64)
+   end function bytes
+end module ehl_boundary_film

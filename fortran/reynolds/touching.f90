@@ -1,0 +1,71 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> What is read off a solution with contact at a boundary film (boundary_film.f90). Bodies touch where there is pressure and the
+!> film is that of the layer, to what decides on the state of a node: behind a touching node the lubricant may flow with the film
+!> that the layer leaves, which is contact as well.
+module ehl_touching
+   use ehl_boundary_film, only: hold
+   use ehl_kinds, only: dp
+   use ehl_level, only: level_t
+   use ehl_node_state, only: cavity_pressure
+   use ehl_reynolds, only: flow_operator
+   implicit none (type, external)
+   private
+   public :: touching_t, measure_touching, touches, touching_names
+
+   !> What `numbers` gives
+   character(len=*), parameter :: touching_names(3) = [character(len=12) :: "load_share", "contact_area", "layer_supply"]
+
+   !> Of one state; without a boundary film all of it is 0
+   type :: touching_t
+      !> iint P dX dY where the bodies touch, over that of the contact; their area there [a^2]
+      real(dp) :: load_share = 0.0_dp, area = 0.0_dp
+      !> What the layer gives at touching nodes, over what flows along with the surfaces through the line X = 0
+      real(dp) :: supply = 0.0_dp
+   contains
+      procedure :: numbers
+   end type touching_t
+
+contains
+
+   !> Read off the present state of a level whose film and coefficients are up to date
+   type(touching_t) function measure_touching(level) result(m)
+      type(level_t), intent(in) :: level
+      real(dp), dimension(level%grid%ny) :: load, area, given, flow, whole
+      real(dp) :: row(level%grid%nx)
+      integer :: j, middle
+
+      middle = 1 + nint((0.0_dp - level%grid%x0)/level%grid%hx)
+      given = 0.0_dp
+      do j = 1, level%grid%ny
+         associate (touching => touches(level, j), weight => level%grid%weight(j))
+            whole(j) = weight*sum(level%p(:, j))
+            load(j) = weight*sum(level%p(:, j), mask=touching)
+            area(j) = weight*count(touching)
+            flow(j) = merge(weight*level%mass_content(middle, j)/level%grid%hx, 0.0_dp, level%p(middle, j) > cavity_pressure)
+            if (level%grid%is_border(j)) cycle
+            call flow_operator(level, j, row)
+            row = level%rhs(:, j) - row
+            given(j) = weight*sum(row, mask=touching .and. level%boundary%touching(:, j) > 0.0_dp)
+         end associate
+      end do
+      m%load_share = sum(load)/sum(whole)
+      m%area = sum(area)
+      m%supply = sum(given)/sum(flow)
+   end function measure_touching
+
+   !> Where in row j the bodies touch
+   pure function touches(level, j)
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: j
+      logical :: touches(level%grid%nx)
+
+      touches = level%p(:, j) > cavity_pressure .and. level%mass_content(:, j) <= (1.0_dp + hold)*level%boundary%thickness
+   end function touches
+
+   !> Load share, area, supply
+   pure function numbers(self)
+      class(touching_t), intent(in) :: self
+      real(dp) :: numbers(3)
+      numbers = [self%load_share, self%area, self%supply]
+   end function numbers
+end module ehl_touching

@@ -1,0 +1,42 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> Contact at a boundary film over a run
+module ehl_touching_mean
+   use ehl_contact_run, only: contact_run_t
+   use ehl_kinds, only: dp
+   use ehl_touching, only: touching_names
+   implicit none (type, external)
+   private
+   public :: load_share_of, touching_of
+
+contains
+
+   !> Load share, area [a^2] and supply of the contact of a run that has converged (reynolds/touching.f90); in time steps their
+   !> means over the time of the mean friction ratio
+   function touching_of(run) result(numbers)
+      class(contact_run_t), intent(in) :: run
+      real(dp) :: numbers(3)
+      integer :: k, first
+
+      if (run%in_steps) then
+         first = run%transient%mean%first_of_mean()
+         do k = 1, 3
+            associate (values => run%history%column(touching_names(k)))
+               numbers(k) = sum(values(first:))/max(1, size(values) - first + 1)
+            end associate
+         end do
+      else if (run%resting) then
+         numbers = run%rest%m%touching%numbers()
+      else
+         numbers = run%steady%results(run%level())%m%touching%numbers()
+      end if
+   end function touching_of
+
+   !> The load share alone
+   real(dp) function load_share_of(run)
+      class(contact_run_t), intent(in) :: run
+      real(dp) :: numbers(3)
+
+      numbers = touching_of(run)
+      load_share_of = numbers(1)
+   end function load_share_of
+end module ehl_touching_mean

@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contact at a boundary film: full film, dry limit, mixed films."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from dry_contact import dry_pressure
+
+import pyehl
+
+DOMAIN = {"grid.x_inlet": -2.5, "grid.x_outlet": 1.5, "grid.y_extent": 2.0}
+STEEL = DOMAIN | {
+    "contact.load": 600.0,
+    "contact.radius": 0.018,
+    "contact.reduced_modulus": 2.26e11,
+}
+WAVE = {"surface.kind": "'harmonic'", "surface.wavelength": 0.5, "surface.amplitude": 0.02}
+# The waves are at rest: slide-to-roll ratio -2
+REST = WAVE | {"contact.slide_to_roll": -2.0, "time.estimate_error": False}
+MIXED = WAVE | {
+    "contact.mean_velocity": 0.1,
+    "contact.slide_to_roll": 1.0,
+    "lubricant.shear_law": "'eyring'",
+    "lubricant.boundary_film": 2e-8,
+}
+HERTZ_LOAD = 2.0 * np.pi / 3.0
+
+
+def grid(points: int) -> tuple[np.ndarray, np.ndarray, float]:
+    x, y = np.linspace(-2.5, 1.5, points), np.linspace(-2.0, 2.0, points)
+    return x[:, None], y[None], x[1] - x[0]
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        {},
+        WAVE | {"time.steps": 20},
+        REST | {"surface.amplitude": 5e-3},
+        {"lubricant.shear_law": "'eyring'"},
+    ],
+    ids=["smooth", "wave", "rest", "eyring"],
+)
+def test_full_film_changes_no_bit(solve, scene):
+    """With a boundary film below every film of the contact."""
+    full = STEEL | {"contact.load": 20.0} | scene
+    without = solve(None, 65, full, fields=True)
+    with_film = solve(None, 65, full | {"lubricant.boundary_film": 1e-9}, fields=True)
+    assert without["status"] == with_film["status"]
+    assert with_film["contact_load_share"] in (0.0, None)
+    for name in ("P", "H"):
+        assert (without.field(name) == with_film.field(name)).all()
+    timed = {"bytes", "wall_seconds", "seconds_per_step", "files", "version", "case"}
+    said = {"contact_load_share", "contact_load_share_error", "contact_load_share_error_note"}
+    said |= {"contact_area_share", "layer_supply", "mu_note", "boundary_film"}
+    left = {k: v for k, v in without.summary.items() if k not in timed | said}
+    assert left == {k: v for k, v in with_film.summary.items() if k not in timed | said}
+
+
+def test_smooth_dry_limit_is_hertz(solve):
+    """A layer of five times the film that the inlet would make."""
+    slow = {"contact.mean_velocity": 0.05, "lubricant.boundary_film": 1e-7}
+    done = solve(None, 257, STEEL | slow, fields=True)
+    assert done.converged
+    x, y, _ = grid(257)
+    hertz = np.sqrt(np.maximum(0.0, 1.0 - x**2 - y**2))
+    # a film of 1e-2 a^2/R changes the pressure at the edge: 0.15 % (rms)
+    assert np.sqrt(np.mean((done.field("P") - hertz)[hertz > 0.0] ** 2)) <= 4e-3
+    assert done["contact_load_share"] == pytest.approx(1.0, abs=5e-3)
+    assert done["contact_area_share"] == pytest.approx(1.0, abs=2e-2)
+    assert 0.0 < done["contact_load_share_error"] < 0.01
+    # friction is that of the boundary film, which nobody has told
+    assert (done["mu"], done["F"]) == (None, None)
+    assert "lubricant.boundary_friction" in done["mu_note"]
+
+
+def test_rough_dry_limit_full_contact(solve):
+    """Pressure and area of a dry solver where the waves are pressed flat."""
+    rest = REST | {"contact.mean_velocity": 0.02, "lubricant.boundary_film": 2e-8}
+    done = solve(None, 129, STEEL | rest, fields=True)
+    assert done.converged
+    dry, mesh = dry_of(done, 129)
+    pressure = done.field("P")
+    assert np.linalg.norm(pressure - dry) <= 0.01 * np.linalg.norm(dry)
+    area = (dry > 0.0).sum() * mesh**2 / np.pi
+    assert done["contact_area_share"] == pytest.approx(area, rel=0.03)
+
+
+def test_rough_dry_limit_partial_contact(solve):
+    """Pressure of a dry solver where the waves are not: lubricant in closed valleys carries on."""
+    rest = REST | {"contact.mean_velocity": 0.005, "lubricant.boundary_film": 1e-8}
+    done = solve(None, 129, STEEL | rest | {"surface.amplitude": 0.05}, fields=True)
+    assert done.converged
+    dry, mesh = dry_of(done, 129)
+    pressure = done.field("P")
+    assert np.linalg.norm(pressure - dry) <= 0.03 * np.linalg.norm(dry)
+    assert (dry > 0.0).sum() * mesh**2 < 0.95 * np.pi
+    assert 0.5 < done["contact_load_share"] < 1.0
+
+
+def dry_of(done, points: int) -> tuple[np.ndarray, float]:
+    x, y, mesh = grid(points)
+    return dry_pressure(x**2 / 2.0 + y**2 / 2.0 - done.field("RR"), mesh, HERTZ_LOAD), mesh
+
+
+def test_mixed_film(solve):
+    """Load share with its error by the coarser grid; friction between that of film and layer."""
+    known = MIXED | {
+        "contact.load": 100.0,
+        "lubricant.boundary_film": 4e-8,
+        "lubricant.boundary_friction": 0.1,
+        "surface.amplitude": 0.03,
+    }
+    fine, coarse = (solve(None, points, STEEL | known, fields=True) for points in (129, 65))
+    assert fine.converged
+    assert coarse.converged
+    share = fine["contact_load_share"]
+    assert 0.02 < share < 0.05
+    same = solve(None, 65, STEEL | known | {"surface.amplitude": fine["amplitude"]})
+    difference = abs(share - same["contact_load_share"])
+    assert fine["contact_load_share_error"] == pytest.approx(difference, rel=1e-2)
+    first = -round(fine["T_mean"] / fine["x_mesh"])
+    assert fine.history["load_share"][first:].mean() == pytest.approx(share, rel=0.05)
+    # the layer carries its share of the friction, and the film no less than nothing
+    assert 0.1 * share < fine["mu"] < 0.1
+    # no film is thinner than the layer, compressed as the lubricant is
+    pressure = fine.field("P") * fine["hertz_pressure_Pa"]
+    density = (5.9e8 + 1.34 * pressure) / (5.9e8 + pressure)
+    assert (density * fine.field("H")).min() >= 0.99 * fine["boundary_film"]
+    # pressure in the sense of the load balance
+    assert abs(fine["load_error"]) <= 1e-6
+    assert fine["contact_load_share_error_note"] == ""
+    unknown = solve(None, 129, STEEL | known | {"lubricant.boundary_friction": 0.0})
+    # the run ends with the ratio of another friction, so that the mean is over other steps
+    assert unknown["contact_load_share"] == pytest.approx(share, rel=0.05)
+    assert unknown["mu_ratio"] is None
+    assert unknown["mu"] is None
+    assert "lubricant.boundary_friction" in unknown["mu_ratio_error_note"]
+
+
+def test_contact_of_a_coarse_grid(solve):
+    """Where a grid does not resolve the inlet bodies touch on it, and no error is told."""
+    done = solve(None, 129, STEEL | MIXED)
+    assert done.converged
+    assert done["contact_load_share"] > 0.1
+    assert done["contact_load_share_error"] is None
+    assert "does not resolve the inlet" in done["contact_load_share_error_note"]
+    assert done["judgement"].startswith("mixed film: ")
+    assert "an error that is not known" in done["judgement"]
+
+
+def test_both_drivers_say_the_same(solve, tmp_path):
+    values = STEEL | MIXED | {"lubricant.boundary_friction": 0.1, "time.steps": 12}
+    done = solve(None, 65, values)
+    settings = {k: v.strip("'") if isinstance(v, str) else v for k, v in values.items()}
+    case = pyehl.Case().with_options(settings | {"grid.points": 65})
+    pyehl.solve(case, output=tmp_path / "out", check=False)
+    other = json.loads((tmp_path / "out" / "summary.json").read_text())
+    names = [name for name in done.summary if name.startswith(("contact_", "layer_", "H_", "mu"))]
+    assert len(names) > 10
+    assert {name: other[name] for name in names} == {name: done[name] for name in names}
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        {"contact.radius_x": 0.018, "contact.radius_y": 0.036},
+        {"second_surface.kind": "'harmonic'", "second_surface.amplitude": 0.01},
+    ],
+    ids=["ellipse", "two surfaces"],
+)
+def test_other_scenes(solve, scene):
+    settings = STEEL | MIXED | scene | {"time.max_periods": 3}
+    if "contact.radius_x" in scene:
+        settings = {
+            k: v for k, v in settings.items() if not k.startswith(("contact.radius", "grid"))
+        }
+        settings |= scene
+    done = solve(None, 65, settings)
+    assert done["status"] in ("converged", "not settled")
+    assert done.history["load_share"].max() > 0.05
+    assert (done.history["load_share"] <= 1.0 + 1e-12).all()
