@@ -306,7 +306,7 @@ def test_too_coarse_a_grid_names_one_that_will_do(ehl: str, tmp_path: Path):
     done = subprocess.run(words, capture_output=True, text=True, check=False)
     assert done.returncode == 1
     (points,) = re.findall(
-        r"H_c .*\n +the grid is too coarse .*: grid.points = (\d+) or more$", done.stdout, re.M
+        r"^judgement .*: the grid is too coarse .*: grid.points = (\d+) or more$", done.stdout, re.M
     )
     words = [*words[:3], tmp_path / "fine", "--set", f"grid.points={points}"]
     done = subprocess.run(words, capture_output=True, text=True, check=False)

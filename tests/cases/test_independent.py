@@ -62,6 +62,7 @@ def test_same_friction(
     assert done.history["mu_ratio"] == pytest.approx(ratios, rel=1e-4)
 
 
+@pytest.mark.long
 def test_same_friction_of_two_waves(solve):
     """One wave on each body, at 1.25 and at 0.75 times the mean velocity."""
     waves = options(1.0, amplitude=0.02) | {

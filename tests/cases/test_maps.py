@@ -183,6 +183,7 @@ def test_rms_height_is_that_before_the_cut(solve):
     assert 0.0 < done["variance_cut"] < 0.2
 
 
+@pytest.mark.long
 def test_long_text_lines(tmp_path: Path):
     """One row of more than a mebibyte, in any of the usual separators."""
     z = rough((4, 45000))

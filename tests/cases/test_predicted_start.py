@@ -68,6 +68,7 @@ def test_the_run_on_the_coarser_grid_starts_there_too():
     )
 
 
+@pytest.mark.long
 def test_every_surface_lies_where_the_prediction_has_it(tile: dict[str, Any]):
     """Elsewhere the film of the first step would be that of twice the roughness."""
     for settings in (
@@ -118,6 +119,7 @@ def test_where_there_is_no_prediction_a_front_enters(settings: dict[str, Any], w
     assert why in summary["start_note"]
 
 
+@pytest.mark.long
 def test_steps_that_fail_begin_again_behind_a_front(tile: dict[str, Any]):
     """On this grid the film of this tile becomes negative in the second step."""
     turned = tile | {"surface.rotate": 90.0}

@@ -193,6 +193,7 @@ def test_positions():
     assert points == {(b, a) for a, b in points}
 
 
+@pytest.mark.long
 def test_what_is_left_undecided(contact):
     found, _, _ = pair(contact, (rough(3), rough(4, length=3.7e-4)), (1.05, 0.95)).run(0)
     more = pair(contact, (rough(3), rough(4, length=3.7e-4)), (1.05, 0.95))
@@ -259,6 +260,7 @@ def breaking(load: float = 120.0) -> str:
     )
 
 
+@pytest.mark.long
 def test_what_would_carry():
     """The one that breaks the film must go, the other one alone does not help."""
     found = pyehl.predict(pyehl.Case.from_text(breaking()))
@@ -281,6 +283,7 @@ def test_what_would_carry():
     assert mended.model_error > 0.0
 
 
+@pytest.mark.long
 def test_beyond_the_linear_response_names_cut_offs(contact):
     tiles = rough(3, 2e-8), rough(4, 9.5e-8)
     found, over, bands = pair(contact, tiles, (1.1, 0.9)).run()

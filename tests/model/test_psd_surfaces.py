@@ -55,6 +55,7 @@ def test_twenty_surfaces(table_1, twenty):
     assert ratios.mean() == pytest.approx(estimate, abs=3 * 0.11 / math.sqrt(20))
 
 
+@pytest.mark.long
 def test_twenty_surfaces_as_the_paper_reads(twenty):
     """Barus and eq. 11 to the letter: 1.49 +- 0.40 in an independent implementation."""
     ratios = twenty(BARUS, stiffness="paper", wavelength_convention="wavevector")

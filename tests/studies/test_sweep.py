@@ -241,6 +241,7 @@ def test_a_message_for_each_case_without_a_result(cases: Path, tmp_path: Path):
     assert data.status.values.tolist() == ["cycle limit", "converged"]
 
 
+@pytest.mark.long
 def test_a_plan_of_a_million_cases(cases: Path, tmp_path: Path):
     """It checks some, among them both ends of what is varied, and says so."""
     words = [str(cases / "table1.nml"), "--run", "film", "--plan", "--vary"]
