@@ -100,7 +100,7 @@ def test_a_page_for_every_result(folders, tmp_path, name, pictures):
     written = pyehl.report(folders / name, tmp_path / "page.html")
     page = read(written)
     assert len(page.pictures) == pictures
-    assert re.search(r"(Full film|Thin film|Unresolved waves)\.", page.text)
+    assert re.search(r"(Full film|Thin film|Holds|Take with care|Unresolved waves)\.", page.text)
     assert "Moes load M" in page.text
     assert "600 N" in page.text or name in ("sweep", "rough")
     assert not list(tmp_path.glob(".partial*"))
