@@ -83,7 +83,7 @@ contains
       end if
       text = "mixed film: "//percent(summary%number("contact_load_share"))//" of the load is carried at the boundary film, "
       if (ieee_is_finite(summary%number("contact_load_share_error"))) then
-         text = text//"give or take "//percent(summary%number("contact_load_share_error"))//" of the load; "
+         text = text//"with an error of "//percent(summary%number("contact_load_share_error"))//" of the load; "
       else
          text = text//"with an error that is not known; "
       end if
