@@ -93,7 +93,7 @@ contains
             end if
             level%threads = threads_that_pay(level%grid, self%threads)
             call level%setup(status)
-            call self%spaces(k)%setup(level%grid, level%kernel_factor, level%threads, status)
+            call self%spaces(k)%setup(level%grid, level%kernel_factor, level%threads, allocated(level%boundary), status)
             if (status%failed()) return
             call new_deflection(self%engine, level%engine, status)
             if (status%failed()) return

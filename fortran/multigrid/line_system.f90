@@ -127,7 +127,6 @@ contains
       real(dp) :: residual(level%grid%nx)
       integer :: j, l
 
-      if (.not. allocated(work%touching)) allocate (work%touching(line_width, level%grid%nx))
       do l = 1, line_width
          j = rows(l)
          residual(2:last) = work%fields(l, f_residual, 2:last)

@@ -51,12 +51,13 @@ module ehl_workspace
 
 contains
 
-   !> For a grid, the factor k_b of its deflection and a number of threads
-   subroutine setup(self, grid, factor, threads, status)
+   !> For a grid, the factor k_b of its deflection and a number of threads, and whether bodies may touch at a boundary film
+   subroutine setup(self, grid, factor, threads, touches, status)
       class(workspace_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: factor
       integer, intent(in) :: threads
+      logical, intent(in) :: touches
       type(status_t), intent(inout) :: status
       integer :: d, stat
 
@@ -68,6 +69,7 @@ contains
             if (stat == 0) allocate (self%lines(d)%fields(line_width, line_fields, -1:nx + 2), &
                                      self%lines(d)%upper(line_width, 2, -3:nx), &
                                      self%lines(d)%change(line_width, -3:nx + 1), source=0.0_dp, stat=stat)
+            if (stat == 0 .and. touches) allocate (self%lines(d)%touching(line_width, nx), source=0.0_dp, stat=stat)
          end do
       end associate
       if (stat /= 0) then
@@ -126,6 +128,7 @@ contains
       if (allocated(self%lines)) then
          do k = 1, size(self%lines)
             numbers = numbers + size(self%lines(k)%fields) + size(self%lines(k)%upper) + size(self%lines(k)%change)
+            if (allocated(self%lines(k)%touching)) numbers = numbers + size(self%lines(k)%touching)
          end do
       end if
       bytes = 8*numbers

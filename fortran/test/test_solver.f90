@@ -194,7 +194,7 @@ contains
       level%kernel_factor = 2.0_dp/pi**2
       call new_flow(level%lubricant, 1.0e-3_dp, level%flow)
       call level%setup(status)
-      call space%setup(level%grid, level%kernel_factor, 1, status)
+      call space%setup(level%grid, level%kernel_factor, 1, .false., status)
       do j = 2, level%grid%ny - 1
          do i = 2, level%grid%nx - 1
             associate (r => level%grid%x(i)**2 + level%grid%y(j)**2)
@@ -234,7 +234,7 @@ contains
       level%kernel_factor = 2.0_dp/pi**2
       call new_flow(level%lubricant, 1.0e-3_dp, level%flow)
       call level%setup(status)
-      call space%setup(level%grid, level%kernel_factor, 1, status)
+      call space%setup(level%grid, level%kernel_factor, 1, .false., status)
       call space%prepare_steps(status)
       do k = wedge_steady, wedge_narrow
          if (k == wedge_narrow) call level%wedge%set_step(k, level%grid%hx, level%grid%hx)
