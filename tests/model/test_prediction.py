@@ -60,7 +60,7 @@ def test_a_wave_in_the_contact_is_its_transfer():
     q = 2.0 * np.pi * turns / side
     spectrum = Spectrum.of(np.tile(np.cos(q * x)[:, np.newaxis], n), side, side)
     t = np.full(spectrum.values.shape, 0.4 * np.exp(0.6j))
-    transfer = Transfer([t] * 3, [0.5 * t] * 3, 0.1 * t, bent=False)
+    transfer = Transfer([t] * 3, [0.5 * t] * 3, [0.1 * t] * 8, bent=False)
     waves = Waves.of(spectrum, transfer, 0.0, 1.2)
     k = float(stiffness(q))
     film, pressure = np.moveaxis(waves.driven[1], -1, 0)
