@@ -2,7 +2,7 @@
 """Rough surfaces in lubricants that thin: predicted, then simulated.
 
     python docs/evidence/thinning/rough.py predict      writes predicted.csv
-    python docs/evidence/thinning/rough.py commit       adds what is missing to committed.csv
+    python docs/evidence/thinning/rough.py commit       adds what was not simulated to committed.csv
     python docs/evidence/thinning/rough.py simulate     adds what is missing to simulated.csv
     python docs/evidence/thinning/rough.py compare [committed.csv]      prints both
 
@@ -248,7 +248,8 @@ def main(arguments: list[str]) -> None:
         write(HERE / "predicted.csv", {name: predicted(row) for name, row in PLAN.items()})
     elif what == "commit":
         found = read(HERE / "committed.csv")
-        new = {name: predicted(row) for name, row in PLAN.items() if name not in found}
+        known = found | read(HERE / "simulated.csv")
+        new = {name: predicted(row) for name, row in PLAN.items() if name not in known}
         write(HERE / "committed.csv", found | new)
     elif what == "simulate":
         found = read(HERE / "simulated.csv")
