@@ -198,11 +198,12 @@ class WavyContact(ShearedContact):
         self.count += 1
         carried = 1.5 * float(change[..., 1].sum(where=self.inside)) / self.points
         self.imbalance = max(self.imbalance, abs(carried))
-        left = self.ends * smooth - loss
-        self.thinnest = min(self.thinnest, float(left.min(where=self.inside, initial=math.inf)))
-        if self.thinnest <= 0.0:
+        ended = bool(np.any((loss >= self.ends * smooth) & self.inside))
+        if not ended:
+            film += self.regained * np.square(loss) / smooth
+        self.thinnest = min(self.thinnest, float(film.min(where=self.inside, initial=math.inf)))
+        if ended:
             return math.nan
-        film += self.regained * np.square(loss) / smooth
         self.cavitated += int(np.count_nonzero((pressure <= 0.0) & self.inside))
         # outside nothing is counted: any film and pressure will do
         film[~self.inside] = math.inf
