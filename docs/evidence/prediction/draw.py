@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draw the cases whose name begins with n and predict them: python docs/evidence/prediction/draw.py.
+"""Draw the cases n01 to n14 and predict them: python docs/evidence/prediction/draw.py.
 
 Writes committed.csv: operating points and surfaces drawn at random, with the prediction that was
 there before they were simulated. Waves below a/16 are cut, so that 513 x 513 nodes resolve all.
