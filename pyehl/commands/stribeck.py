@@ -113,9 +113,9 @@ def _measured(path: str, plan: CurvePlan) -> Measured:
     places = np.array([float(p.point.values[keys[0]]) for p in plan.points])
     if measured.abscissa == keys[0] and (beyond := measured.outside(keys[0], places, [])):
         raise InputError(
-            f"{path}: --measured: {beyond} of {len(measured.places)} values of {keys[0]} are beyond "
-            f"the curve, which goes from {places.min():g} to {places.max():g}\nexpected: a wider "
-            "curve, or a file without them"
+            f"{path}: --measured: {beyond} of {len(measured.places)} values of {keys[0]} are "
+            f"beyond the curve, which goes from {places.min():g} to {places.max():g}\nexpected: a "
+            "wider curve, or a file without them"
         )
     return measured
 
