@@ -33,13 +33,13 @@ contains
       call self%reals("yasutomi_c2", l%yasutomi_c2, "K", "0 or [1, 500]", "C2 of it")
       call self%reals("yasutomi_viscosity", l%yasutomi_viscosity, "Pa s", "[1e3, 1e15]", "viscosity of the glass")
       call self%reals("doolittle_viscosity", l%doolittle_viscosity, "Pa s", "0 or [1e-6, 1e3]", &
-                      "eta_R of the free-volume law, which needs tait_..., too: at doolittle_temperature and p = 0")
+                      "viscosity eta_R at doolittle_temperature and p = 0, of Doolittle's law; it needs tait_...")
       call self%reals("doolittle_temperature", l%doolittle_temperature, "degC", "[-100, 300]", "T_R of it")
       call self%reals("doolittle_b", l%doolittle_b, "-", "0 or [0.1, 50]", "B of it")
       call self%reals("doolittle_r0", l%doolittle_r0, "-", "0 or [0.1, 0.99]", &
                       "R0 of it: occupied volume at T_R over the whole one")
       call self%reals("doolittle_expansion", l%doolittle_expansion, "1/K", "[-0.01, 0.01]", &
-                      "epsilon of it, of the occupied volume")
+                      "thermal expansion epsilon of the occupied volume")
       call self%words("density_law", l%density_law, "dowson-higginson|incompressible|murnaghan|tait", "density under pressure")
       call self%reals("murnaghan_modulus", l%murnaghan_modulus, "Pa", "0 or [1e8, 1e12]", &
                       "K00 of the bulk modulus K0 = K00 exp(-beta_K T), T in K")
@@ -48,9 +48,9 @@ contains
       call self%reals("tait_modulus", l%tait_modulus, "Pa", "0 or [1e8, 1e12]", &
                       "K00 of the bulk modulus K0 = K00 exp(-beta_K T), T in K, of Tait's law")
       call self%reals("tait_rate", l%tait_rate, "-", "0 or [1, 50]", "K0', its rate with pressure")
-      call self%reals("tait_softening", l%tait_softening, "1/K", "[0, 0.1]", "beta_K of it")
+      call self%reals("tait_softening", l%tait_softening, "1/K", "[0, 0.1]", "fall beta_K of K0 with temperature")
       call self%reals("tait_expansion", l%tait_expansion, "1/K", "[0, 5e-3]", &
-                      "a_V of it: thermal expansion over the volume at tait_temperature, for thermal_expansion")
+                      "expansion a_V of the volume at tait_temperature; thermal_expansion is not used")
       call self%reals("tait_temperature", l%tait_temperature, "degC", "[-100, 300]", "T_R of it")
       call self%reals("range_temperature_min", l%range_temperature_min, "degC", "[-100, 500]", &
                       "the constants of the law were measured from there on; both 0: not known")
