@@ -6,10 +6,9 @@
 !> v is the volume that the molecules occupy over that at T_R, and V_R the whole volume at T_R and ambient pressure. Where no
 !> volume is free the oil is solid, and the viscosity infinite.
 module ehl_doolittle
-   use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
    use ehl_kinds, only: dp
    use ehl_tait, only: tait_t
-   use ehl_viscosity_law, only: viscosity_law_t
+   use ehl_viscosity_law, only: solid, viscosity_law_t
    implicit none (type, external)
    private
    public :: doolittle_t, new_doolittle
@@ -63,7 +62,7 @@ contains
       real(dp) :: free
 
       free = self%free_volume(p, rise)
-      above_reference = ieee_value(free, ieee_positive_inf)
+      above_reference = solid()
       if (free > 0.0_dp) then
          above_reference = self%strength*((1.0_dp + self%growth*(self%above + rise))/free - 1.0_dp/(1.0_dp - self%occupied))
       end if
