@@ -21,17 +21,19 @@ from pyehl.prediction.bands import Band, joining
 from pyehl.prediction.carrying import confirmed, within_range
 from pyehl.prediction.contact import HertzContact, Response
 from pyehl.prediction.deformed import film_levels
+from pyehl.prediction.edge import Edge
 from pyehl.prediction.errors import KNOWN_RATIO, model_error
 from pyehl.prediction.friction import BEYOND, LARGEST_RATIO, RoughFriction, outcome, passed
 from pyehl.prediction.options import Options
 from pyehl.prediction.passage import (
     friction_along,
     longer_waves,
+    meet_more,
     short_mean,
     tracks_of,
     working_grid,
 )
-from pyehl.prediction.rough_contact import Edge, RoughContact
+from pyehl.prediction.rough_contact import RoughContact
 from pyehl.prediction.smooth import SmoothContact, circle_of, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
@@ -172,6 +174,8 @@ class RoughPassage:
             limit = self.options.film_limit / self.operating.film_scale
             contact.watch(film_levels(limit, [(spectrum.power, np.abs(t))]))
             passage = friction_along(contact, grid.shape[0], self.options.positions, LARGEST_RATIO)
+            if not self.options.positions:
+                meet_more(contact, grid.shape[0], passage[0])
             found = self._result(contact, grid, (spectrum, transfer, edge), passage, brief)
             if found.status != "predicted":
                 return found, (math.nan, math.nan), []

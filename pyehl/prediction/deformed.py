@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 # Errors against the full simulation, measured in docs/evidence/thinning: relative, and of a film
 # beside that of the smooth contact by the rms height of the deformed roughness
 RMS_DEFORMED, RISE_RMS, RISE = 0.13, 0.05, 0.15
-FILM = 0.45
+FILM = 0.35
 
 
 def film_levels(limit: float, waves: Sequence[tuple[Array, Array]]) -> tuple[float, ...]:

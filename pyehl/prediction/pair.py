@@ -20,6 +20,7 @@ from pyehl.prediction.bands import Band, joining
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.contact import Response
 from pyehl.prediction.deformed import film_levels
+from pyehl.prediction.edge import Edge
 from pyehl.prediction.errors import model_error
 from pyehl.prediction.friction import (
     BEYOND,
@@ -34,7 +35,6 @@ from pyehl.prediction.moving_together import as_one
 from pyehl.prediction.pair_contact import PairContact, TileOnPoints
 from pyehl.prediction.pair_cut_off import known_by_cut_off
 from pyehl.prediction.passage import longer_waves, working_grid
-from pyehl.prediction.rough_contact import Edge
 from pyehl.prediction.smooth import circle_of, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer

@@ -13,8 +13,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from pyehl import library
-from pyehl.prediction.rough_contact import REACH, Edge, WavyContact, pairs, slipped
+from pyehl.prediction.edge import Edge
+from pyehl.prediction.rough_contact import REACH, WavyContact, add_waves, slipped
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
@@ -57,29 +57,19 @@ class TileOnPoints:
         way = slipped(self.places, lines, velocity_ratio, bent=transfer.bent)
         self.free_places = self.places + way
 
+    def _rows(self, places: Array) -> tuple[NDArray[np.int32], Single]:
+        """Row of the waves before places [a], and the share of the next one."""
+        at = places * self.scale
+        low = np.floor(at)
+        return low.astype(np.int32), (at - low).astype(np.float32)
+
     def add(self, contact: PairContact, shift: float, total: Single) -> None:
         """Add loss of film and gain of pressure (m, n, 2) where the tile has moved by a shift."""
-        waves, weights = self.waves, contact.weights
+        waves = self.waves
         columns = np.arange(contact.y.size, dtype=np.int32)
-        for tile, places, weight, part in (
-            (waves.driven, self.places, weights, np.ones_like(contact.off)),
-            (waves.free, self.free_places, weights, np.ones_like(contact.off)),
-            (waves.off_centre, self.free_places, np.ones_like(weights[:, :1]), contact.off),
-        ):
-            if tile is None:
-                continue
-            at = (places - shift) * self.scale
-            low = np.floor(at)
-            library.waves.free_waves(
-                pairs(tile),
-                low.astype(np.int32).T,
-                columns,
-                (at - low).astype(np.float32).T,
-                weight.T,
-                part,
-                0,
-                pairs(total),
-            )
+        driven, free = (self._rows(places - shift) for places in (self.places, self.free_places))
+        add_waves(waves.driven, driven, columns, contact.weights, 0, total)
+        contact.add_free(waves, free, columns, 0, total)
         contact.add_edge(total, self.edge.at(shift, self.track))
 
 
@@ -114,9 +104,11 @@ class PairContact(WavyContact):
 
         NaN where the film is not positive.
         """
+        self.moved[:] = 0.0
         total = np.zeros((*self.film.shape, 2), dtype=np.float32)
         for tile, shift in zip(self.tiles, shifts, strict=True):
             tile.add(self, shift, total)
         self.add_second(total)
-        self.touching += int(np.count_nonzero((total[..., 0] >= self.film) & self.inside))
+        ended = total[..., 0] >= self.ends * self.smooth_film()
+        self.touching += int(np.count_nonzero(ended & self.inside))
         return self.sheared(total)

@@ -19,6 +19,7 @@ __all__ = [
     "POSITION_TOLERANCE",
     "friction_along",
     "longer_waves",
+    "meet_more",
     "short_mean",
     "tracks_of",
     "working_grid",
@@ -31,6 +32,9 @@ Indices = NDArray[np.int_]
 FIRST_POSITIONS = 8
 POSITION_TOLERANCE = 2e-3
 """Error that half of the positions may make (relative) for no more to be added."""
+# Positions at which least film and greatest rise of the pressure are looked for: at twice as
+# many they differ by 1 % at most (docs/evidence/thinning)
+EXTREMES = 32
 # Pixels per semi-axis below which a coarse map is interpolated
 RADIUS_PIXELS = 48
 
@@ -130,6 +134,17 @@ def friction_along(
         n *= 2
         steps, ratios = np.arange(n) * spacing, merged
     return steps, ratios, math.nan
+
+
+def meet_more(contact: HasFriction, pixels: int, steps: Indices) -> None:
+    """Visit as many positions as the extremes need between those that the friction needed."""
+    spacing = pixels // steps.size
+    between = max(1, EXTREMES // steps.size)
+    while spacing % between:
+        between -= 1
+    for part in range(1, between):
+        for step in steps:
+            contact.friction(int(step) + part * (spacing // between))
 
 
 def _undecided(values: Array) -> float:

@@ -5,7 +5,7 @@ Pressure P_s + delta P and film H_s - rr_d with P_s and H_s of the smooth contac
 integral of the shear stress (Zhang et al. 2019, eqs 13, 14). The waves that the tile makes come
 from :mod:`pyehl.prediction.waves`, the pressure of second order is that of
 :mod:`pyehl.prediction.second_order`; a wave longer than half the contact radius also feels the edge
-of the contact (:mod:`pyehl.theory.disc`).
+of the contact, which it moves (:mod:`pyehl.prediction.edge`).
 """
 
 from __future__ import annotations
@@ -18,37 +18,33 @@ from numpy.typing import NDArray
 
 from pyehl import library
 from pyehl.prediction.contact import INNER, NEAR, ShearedContact
+from pyehl.prediction.edge import ANGLES, Edge
+from pyehl.prediction.second_order import INLET_FILM
 from pyehl.prediction.smooth import SmoothContact
-from pyehl.prediction.spectrum import Spectrum
-from pyehl.prediction.transfer import OFF_CENTRE, STATIONS
+from pyehl.prediction.transfer import AXIS, LINES, STATIONS
 from pyehl.prediction.waves import REFINEMENT, Waves
-from pyehl.theory.disc import LARGEST, RADIUS, disc_correction, monomials
-from pyehl.theory.ellipse import Ellipse
-from pyehl.theory.ellipse_edge import ellipse_edge
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
 __all__ = [
     "REACH",
-    "Edge",
     "RoughContact",
     "WavyContact",
-    "away_from_centre",
+    "add_waves",
+    "line_weights",
     "pairs",
     "slipped",
     "station_weights",
 ]
 
 Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 Single = NDArray[np.float32]
 
 REACH = 1.0
 """Friction is taken within this distance from the centre [semi-axes]."""
-# The polynomials of the edge of a circle are held constant beyond this radius
-EDGE_RADIUS = 0.85
-# The change of T off the centre line is linear in Y^2 up to here
-FARTHEST = 0.75
+OUTER = 0.7
+"""Distance from the centre beyond which the smooth film moves with the edge [semi-axes]; further
+inside it is level."""
 
 
 def station_weights(x: Array) -> Array:
@@ -56,9 +52,10 @@ def station_weights(x: Array) -> Array:
     return np.stack([np.interp(x, STATIONS, unit) for unit in np.eye(STATIONS.size)], axis=-1)
 
 
-def away_from_centre(y: Array) -> Array:
-    """Share of the change off the centre line in the free wave at places Y [semi-axis]."""
-    return np.minimum(np.abs(y), FARTHEST) ** 2 / OFF_CENTRE**2
+def line_weights(y: Array) -> Array:
+    """Weights (n, lines) of LINES but the centre line in the free wave at places Y [semi-axis]."""
+    lines = np.delete(np.eye(LINES.size), AXIS, 0)
+    return np.stack([np.interp(y, LINES, unit) for unit in lines], axis=-1)
 
 
 def slipped(x: Array, y: Array, velocity_ratio: float, *, bent: bool) -> Array:
@@ -68,57 +65,6 @@ def slipped(x: Array, y: Array, velocity_ratio: float, *, bent: bool) -> Array:
     """
     inlet = np.sqrt(np.maximum(0.0, 1.0 - y * y)) if bent else np.ones_like(y)
     return (velocity_ratio - 1.0) * (x + inlet)
-
-
-class Edge:
-    """What the edge of the contact does to the pressure of the long waves of a tile.
-
-    `coefficients` (n, m) of the polynomials [p_h] for the waves of the tile with wavenumbers
-    qx >= 0, qy (m,) [1/a]: of :func:`pyehl.theory.disc.monomials` (n = 28) in a circle, of
-    :mod:`pyehl.theory.ellipse_edge` in an ellipse.
-    """
-
-    def __init__(self, qx: Array, qy: Array, coefficients: Complex, shape: Ellipse) -> None:
-        self.qx, self.qy, self.coefficients, self.shape = qx, qy, coefficients, shape
-
-    @classmethod
-    def of(cls, spectrum: Spectrum, flattened: Complex, shape: Ellipse) -> Edge:
-        """Of a tile, each component flattened by a factor (shape of the spectrum)."""
-        nx, ny = spectrum.shape
-        q = spectrum.q
-        strong = np.abs(spectrum.values) > 1e-9 * np.abs(spectrum.values).max()
-        ellipse = None if shape.radius_ratio == 1.0 else ellipse_edge(shape)
-        i, j = np.nonzero((q > 0.0) & (q < (ellipse.largest if ellipse else LARGEST)) & strong)
-        qx, qy = spectrum.qx[i], spectrum.qy[j]
-        # a component stands for its conjugate at -q too, unless both are in the half spectrum
-        twice = np.where((i == 0) | ((nx % 2 == 0) & (i == nx // 2)), 1.0, 2.0)
-        amplitude = twice * spectrum.values[i, j] * flattened[i, j] / (nx * ny)
-        if not i.size:
-            return cls(qx, qy, np.zeros((0, 0), complex), shape)
-        found = ellipse.correction(qx, qy) if ellipse else disc_correction(qx, qy)
-        return cls(qx, qy, found * amplitude, shape)
-
-    def below(self, limit: float) -> Edge:
-        """Return the part of the waves with |q| below a limit [1/a]."""
-        keep = np.hypot(self.qx, self.qy) < limit
-        return Edge(self.qx[keep], self.qy[keep], self.coefficients[:, keep], self.shape)
-
-    def at(self, shift: float, track: float) -> Array:
-        """Coefficients (n,) for a tile moved along and across the motion [a]."""
-        phase = np.exp(-1j * (self.qx * shift + self.qy * track))
-        return np.asarray((self.coefficients @ phase).real)
-
-    def polynomials(self, x: Array, y: Array) -> Array:
-        """Polynomials (n, ...) at places by the semi-axes, held constant near the edge."""
-        ellipse = None if self.shape.radius_ratio == 1.0 else ellipse_edge(self.shape)
-        held = np.minimum(
-            1.0, (RADIUS if ellipse else EDGE_RADIUS) / np.maximum(np.hypot(x, y), 1e-12)
-        )
-        if not self.coefficients.size:
-            return np.zeros((self.coefficients.shape[0], *held.shape))
-        if ellipse:
-            return ellipse.functions(held * x, held * y)
-        return monomials(held * x, held * y, axis=0)
 
 
 class WavyContact(ShearedContact):
@@ -148,27 +94,87 @@ class WavyContact(ShearedContact):
         self.inside = (self.radius < REACH) & (self.pressure > 0.0)
         self.points = int(np.count_nonzero(self.inside))
         self.inner, self.near = (self.inside & (self.radius < r) for r in (INNER, NEAR))
-        self.missing = _missing(contact, self.film)
+        self.contact, self.moved = contact, np.zeros(ANGLES)
+        self.outer = np.nonzero(self.inside & (self.radius > OUTER))
         self.least = math.inf
         self.weights = station_weights(self.x).astype(np.float32)
-        self.off = away_from_centre(self.across).astype(np.float32)
+        self.off = line_weights(self.across).astype(np.float32)
+        self.expansion = self._expansion(contact)
         grid = np.meshgrid(self.x, self.across, indexing="ij")
         # (n, points): what is summed over them is read in order
         edge = max(edges, key=lambda edge: edge.coefficients.shape)
         shape = edge.coefficients.shape[0], self.film.size
         self.polynomials = edge.polynomials(*grid).reshape(shape).astype(np.float32)
+        # The film regains this much of its loss in second order, up to where that no longer falls
+        # with the loss: there the film ends
+        self.regained = INLET_FILM if second else 0.0
+        self.ends = 0.5 / INLET_FILM if second else 1.0
         # of the pressure of second order
         self.second = second and [np.interp(self.x, STATIONS, v)[:, np.newaxis] for v in second]
         self.smooth = float(self.stress(self.pressure, self.film)[self.inside].sum())
         self.thinnest = float(self.film[self.inside].min())
 
-    def add_edge(self, total: Single, edge: Array) -> None:
-        """Add what the edge of the contact does, by its coefficients (28,), to the pressure."""
-        if not edge.size:
+    def _expansion(self, contact: SmoothContact) -> Single:
+        """Free waves over those of the centre line (m, n): a mass fills more where P is lower."""
+        p_h = self.operating.hertz_pressure
+        axis, _ = contact.at(STATIONS, np.zeros(1))
+        made = self.weights @ self.lubricant.density_ratio(axis[:, 0] * p_h)
+        here = self.lubricant.density_ratio(np.maximum(self.pressure, 0.0) * p_h)
+        return (made[:, np.newaxis] / here).astype(np.float32)
+
+    def add_free(
+        self,
+        waves: Waves,
+        places: tuple[NDArray[np.int32], Single],
+        columns: NDArray[np.int32],
+        shift: int,
+        total: Single,
+    ) -> None:
+        """Add free waves to loss of film and gain of pressure (m, n, 2), moved by some rows.
+
+        `places` are the row before each point (m, 1 or n) and the share of the next one; columns
+        (n,).
+        """
+        if waves.free is None or waves.off_centre is None:
+            return
+        free = np.zeros_like(total)
+        add_waves(waves.free, places, columns, self.weights, shift, free)
+        everywhere = np.ones_like(self.weights[:, :1])
+        for tile, part in zip(waves.off_centre, self.off.T, strict=True):
+            # a line counts up to the next ones only
+            counts = np.flatnonzero(part)
+            if not counts.size:
+                continue
+            there = slice(counts[0], counts[-1] + 1)
+            beside = np.zeros((free.shape[0], counts.size, 2), dtype=np.float32)
+            rows, between = places
+            if rows.shape[1] > 1:
+                rows, between = rows[:, there].copy(), between[:, there].copy()
+            here, one = (rows, between), tile[np.newaxis]
+            add_waves(one, here, columns[there], everywhere, shift, beside, part[there].copy())
+            free[:, there] += beside
+        total += free * self.expansion[..., np.newaxis]
+
+    def add_edge(self, total: Single, edge: tuple[Array, Array]) -> None:
+        """Add what the edge does to the pressure (:meth:`Edge.at`), keep how far it is moved."""
+        coefficients, moved = edge
+        self.moved += moved
+        if not coefficients.size:
             return
         # threads of a product of matrices cost more than they bring
-        wide = np.einsum("k,kn->n", edge.astype(np.float32), self.polynomials)
+        wide = np.einsum("k,kn->n", coefficients.astype(np.float32), self.polynomials)
         total[..., 1] += wide.reshape(self.film.shape)
+
+    def smooth_film(self) -> Array:
+        """Film of the smooth contact with its edge where it was moved to (m, n) [a^2/R]."""
+        film = self.film.copy()
+        i, j = self.outer
+        x, y, radius = self.x[i], self.across[j], self.radius[i, j]
+        place = np.arctan2(y, x) * (0.5 * ANGLES / math.pi)
+        outwards = np.interp(place, np.arange(ANGLES), self.moved, period=ANGLES)
+        share = 1.0 - outwards / radius
+        film[i, j] = self.contact.film_at(x * share, self.y[j] * share)
+        return film
 
     def add_second(self, total: Single) -> None:
         """Add the pressure of second order to that of the waves."""
@@ -185,18 +191,23 @@ class WavyContact(ShearedContact):
 
         NaN where the film is not positive.
         """
-        film = self.film - change[..., 0]
+        smooth = self.smooth_film()
+        loss = change[..., 0]
+        film = smooth - loss
         pressure = self.pressure + change[..., 1]
         self.count += 1
         carried = 1.5 * float(change[..., 1].sum(where=self.inside)) / self.points
         self.imbalance = max(self.imbalance, abs(carried))
+        ended = bool(np.any((loss >= self.ends * smooth) & self.inside))
+        if not ended:
+            film += self.regained * np.square(loss) / smooth
         self.thinnest = min(self.thinnest, float(film.min(where=self.inside, initial=math.inf)))
-        if self.thinnest <= 0.0:
+        if ended:
             return math.nan
         self.cavitated += int(np.count_nonzero((pressure <= 0.0) & self.inside))
         # outside nothing is counted: any film and pressure will do
         film[~self.inside] = math.inf
-        whole = film + self.missing
+        whole = film + _missing(self.contact, smooth)
         self.least = min(self.least, float(whole.min()))
         self.meet(change[..., 1], whole, self.inner, self.near)
         film[~self.inside] = 1.0
@@ -265,25 +276,12 @@ class RoughContact(WavyContact):
         waves = self.waves
         columns = (self.columns - track) // waves.stride % waves.driven.shape[2]
         columns = columns.astype(np.int32)
+        self.moved[:] = 0.0
         total = np.zeros((*self.film.shape, 2), dtype=np.float32)
         library.waves.driven_waves(
             pairs(waves.driven), self.rows, columns, self.weights.T, shift, pairs(total)
         )
-        for tile, weights, part in (
-            (waves.free, self.weights, np.ones_like(self.off)),
-            (waves.off_centre, np.ones_like(self.weights[:, :1]), self.off),
-        ):
-            if tile is not None:
-                library.waves.free_waves(
-                    pairs(tile),
-                    self.free_rows.T,
-                    columns,
-                    self.between.T,
-                    weights.T,
-                    part,
-                    shift * REFINEMENT,
-                    pairs(total),
-                )
+        self.add_free(waves, (self.free_rows, self.between), columns, shift * REFINEMENT, total)
         self.add_edge(total, self.edge.at(shift * self.pixel[0], track * self.pixel[1]))
         self.add_second(total)
         return total
@@ -291,6 +289,28 @@ class RoughContact(WavyContact):
     def friction(self, shift: int, track: int = 0) -> float:
         """Friction over that of the smooth contact; NaN where the film is not positive."""
         return self.sheared(self.change(shift, track))
+
+
+def add_waves(
+    tiles: Single,
+    places: tuple[NDArray[np.int32], Single],
+    columns: NDArray[np.int32],
+    weights: Single,
+    shift: int,
+    total: Single,
+    parts: Single | None = None,
+) -> None:
+    """Add tiles (k, rows, columns, 2), moved by some rows, to film and pressure (m, n, 2).
+
+    `places` are the row before each point (m, 1 or n) and the share of the next one, `columns` (n,)
+    those of the tile; weights of the tiles (m, k), parts of each column that are added (n,).
+    """
+    rows, between = places
+    if parts is None:
+        parts = np.ones(columns.size, dtype=np.float32)
+    library.waves.free_waves(
+        pairs(tiles), rows.T, columns, between.T, weights.T, parts, shift, pairs(total)
+    )
 
 
 def pairs(values: NDArray[np.float32]) -> NDArray[np.complex64]:

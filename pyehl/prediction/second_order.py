@@ -15,7 +15,16 @@ point; s^2 is the variance of P1 and
                 (c <P1 t1>' - r/2 H <P1^2>') <P1^2> of the two.
 
 For Gaussian P1 the mean of P2 exp(b P1), and with it the friction, is then that of the convolution
-for every b. Of two rough surfaces P1 holds the waves of both, and the sum the pairs of one wave of
+for every b.
+
+What the inlet makes of second order was not derived but measured, in the fields of simulations
+(docs/evidence/second_order). The lubricant carries it at the mean velocity, as it does the free
+wave: a pressure INLET_PRESSURE P0^2, P0 the pressure of first order that the waves would have
+where they are if they had not slipped since the inlet. With slip P0 is less and less like P1: only
+its part along P1^2, (<P0 P1>/s^2)^2 INLET_PRESSURE, is added to gamma. And the film regains
+INLET_FILM t1^2/H of its loss t1: it is nearly H exp(-t1/H).
+
+Of two rough surfaces P1 holds the waves of both, and the sum the pairs of one wave of
 each, too: they meet in all positions, so that no product of two has a mean.
 
 Lengths along the surface are scaled by a, heights by a^2/R, pressures by p_h.
@@ -31,10 +40,16 @@ from numpy.typing import NDArray
 from pyehl.prediction.wave_table import WaveTable, coarsened
 from pyehl.theory.transport import Zone, stiffness
 
-__all__ = ["SecondOrder"]
+__all__ = ["INLET_FILM", "SecondOrder"]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+
+INLET_PRESSURE = 0.5
+"""Pressure of second order that the inlet makes, over the square of that of first order [1/p_h]."""
+INLET_FILM = 0.4
+"""Film of second order that the inlet makes, over the square of the loss of first order, both over
+the smooth film [-]."""
 
 # How often the table of the response is coarsened for the pairs of its waves
 COARSER = 2
@@ -44,7 +59,8 @@ class SecondOrder:
     """gamma and s^2 of any surfaces on some tiles, from the response of the contact to their waves.
 
     At ascending stations X (n,) [a] of the smooth contact `zone`, for each tile: T of the waves of
-    its table (n, m), and their pressure over roughness (n, m) [p_h R/a^2].
+    its table (n, m), their pressure over roughness (n, m) [p_h R/a^2], and that which they would
+    have if they had not slipped since the inlet.
     """
 
     def __init__(
@@ -54,6 +70,7 @@ class SecondOrder:
         tables: Sequence[WaveTable],
         ratios: Sequence[Complex],
         pressures: Sequence[Complex],
+        carried: Sequence[Complex],
     ) -> None:
         self._tables = tables
         kx, ky = np.concatenate([table.coarse(COARSER) for table in tables], axis=1)
@@ -68,12 +85,13 @@ class SecondOrder:
             np.interp(stations, zone.x, values)
             for values in (zone.film, zone.compressibility, zone.curvature)
         )
-        t, pressure = (
+        t, pressure, earlier = (
             np.concatenate([coarsened(part, COARSER) for part in parts], axis=1)
-            for parts in (ratios, pressures)
+            for parts in (ratios, pressures, carried)
         )
         self._squared = np.abs(pressure) ** 2
         mixed = (pressure * np.conj(t)).real
+        self._alike = (pressure * np.conj(earlier)).real
         self._source = c[:, np.newaxis] * mixed - (0.5 * r * film)[:, np.newaxis] * self._squared
         self._yielding = [
             sum(one / (1.0 + one * held) for one in pairs) / len(pairs) for held in film * c
@@ -91,5 +109,6 @@ class SecondOrder:
         variance = squared.sum(axis=1)
         pairs = zip(squared, self._yielding, source, strict=True)
         sums = np.array([a @ y @ b for a, y, b in pairs])
+        sums += INLET_PRESSURE * np.square((few * self._alike).sum(axis=1))
         # nothing in it, nothing of second order
         return sums / np.where(variance > 0.0, variance, 1.0) ** 2, variance

@@ -25,7 +25,7 @@ from pyehl.prediction.errors import model_error, outside_range
 from pyehl.prediction.options import Options
 from pyehl.prediction.rough_contact import (
     REACH,
-    away_from_centre,
+    line_weights,
     slipped,
     station_weights,
 )
@@ -157,7 +157,7 @@ class _Waves:
         self.pixel = spectrum.pixel
         self.slipped = self.x + slipped(self.x, self.y, ratio, bent=transfer.bent)
         self.weights = station_weights(self.x)
-        self.off = away_from_centre(self.y)
+        self.off = np.moveaxis(line_weights(self.y), -1, 0)
         self.second = second and [self.weights @ v for v in second]
         self._make_tiles(spectrum, transfer, passage.contact, ratio)
         radius = np.hypot(self.x, self.y)
@@ -178,8 +178,7 @@ class _Waves:
 
         self.driven = [spline(k * (1.0 - t)) for t in transfer.driven]
         self.free = [spline(-k_free * t) for t in transfer.free]
-        off = transfer.off_centre
-        self.free_off = None if off is None else spline(-k_free * off)
+        self.free_off = [spline(-k_free * t) for t in transfer.off_centre]
 
     def _at(self, spline: Array, x: Array) -> Array:
         """Values of a tile at places X on it and at the Y of the nodes."""
@@ -196,9 +195,9 @@ class _Waves:
             added += self.weights[..., i] * self._at(tile, self.x - front)
         for i, tile in enumerate(self.free):
             added += self.weights[..., i] * self._at(tile, self.slipped - front)
-        if self.free_off is not None:
-            added += self.off * self._at(self.free_off, self.slipped - front)
-        added += np.tensordot(self.edge.at(front, 0.0), self.polynomials, 1)
+        for weight, tile in zip(self.off, self.free_off, strict=False):
+            added += weight * self._at(tile, self.slipped - front)
+        added += np.tensordot(self.edge.at(front, 0.0)[0], self.polynomials, 1)
         if self.second:
             gain, variance = self.second
             added += gain * (np.square(added) - variance)

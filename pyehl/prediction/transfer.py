@@ -18,7 +18,7 @@ from pyehl.prediction.wave_table import WaveTable, coarsened
 from pyehl.theory.response import inlet_transfer
 from pyehl.theory.transport import Zone, transport, wave_pressure
 
-__all__ = ["MIDDLE", "OFF_CENTRE", "STATIONS", "Transfer"]
+__all__ = ["LINES", "MIDDLE", "STATIONS", "Transfer"]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -29,8 +29,11 @@ STATIONS = np.array([-0.5, 0.0, 0.5])
 MIDDLE = 1
 """The one of them at X = 0."""
 CENTRE = STATIONS[: MIDDLE + 1]
-OFF_CENTRE = 0.5
-"""The second distance from the centre line at which the free wave is made [semi-axis]."""
+LINES = np.array([-0.95, -0.8, -0.6, -0.3, 0.0, 0.3, 0.6, 0.8, 0.95])
+"""Lines along the motion on which the free wave is made [semi-axis], symmetric about the centre
+line; between them it is interpolated."""
+AXIS = LINES.size // 2
+"""The one of them on the centre line."""
 
 # Standard deviation of the friction over Y [semi-axis], and the phase that may be interpolated
 FRICTION_LINES = 0.24
@@ -74,42 +77,59 @@ class _Entering:
     ) -> None:
         self.bent = _bends(spectrum, velocity_ratio)
         self.table, self.ratio = WaveTable(spectrum), velocity_ratio
-        self._power = spectrum.power
+        self._power, self._negative = spectrum.power, spectrum.qy < 0.0
         kx, ky = self.table.kx, self.table.ky
         # the inlet of a strip off the centre line lies further along the motion
         self._slip = velocity_ratio - 1.0
-        behind = kx * self._slip * (np.sqrt(1.0 - OFF_CENTRE**2) - 1.0)
-        lines = np.array([[0.0], [OFF_CENTRE]])
-        self._inlet = inlet_transfer(zone, kx, ky, moes, velocity_ratio, lines)
-        self._inlet[1] *= 1.0 if self.bent else np.exp(1j * behind)
+        self._inlet = inlet_transfer(zone, kx, ky, moes, velocity_ratio, LINES)
+        if not self.bent:
+            behind = np.sqrt(1.0 - np.square(LINES)) - 1.0
+            self._inlet *= np.exp(1j * self._slip * np.outer(behind, kx))
 
     def variance(self, zone: Zone, mesh: float) -> float:
         """Mean square of their pressure at X = 0 where they leak as in a zone [p_h^2]."""
         few = self.table.coarse()
-        carried = coarsened(self._inlet[0], 1) * np.exp(1j * few[0] * self._slip)
+        carried = coarsened(self._inlet[AXIS], 1) * np.exp(1j * few[0] * self._slip)
         driven, free = transport(zone, *few, self.ratio, CENTRE, mesh)[MIDDLE]
         pressure = zone.stiffness * wave_pressure(*few, self.ratio, driven, free * carried)
         return float(self.table.gathered(self._power) @ np.square(np.abs(pressure)))
 
-    def at_stations(self, zone: Zone, mesh: float) -> tuple[list[Complex], Complex, Complex]:
-        """Where they leak as in a zone: what :class:`Transfer` holds, and T and pressure (n, m).
+    def at_stations(
+        self, zone: Zone, mesh: float
+    ) -> tuple[list[Complex], tuple[Complex, Complex, Complex]]:
+        """Where they leak as in a zone: what :class:`Transfer` and :class:`SecondOrder` hold.
 
         The first for the components of the tile: driven and free parts at the stations, then the
-        change off the centre line. The others for the table.
+        change on the lines beside the centre line. The others for the table (n, m): T, pressure,
+        and pressure without the slip since the inlet.
         """
-        kx, ky, inlet = self.table.kx, self.table.ky, self._inlet
+        kx, ky, inlet = self.table.kx, self.table.ky, self._inlet[AXIS]
         stations = transport(zone, kx, ky, self.ratio, STATIONS, mesh)
         turned = [np.exp(1j * kx * self._slip * (x + 1.0)) for x in STATIONS]
-        parts = [(d, f * inlet[0] * t) for (d, f), t in zip(stations, turned, strict=True)]
+        parts = [(d, f * inlet * t) for (d, f), t in zip(stations, turned, strict=True)]
         ratios = np.array([d + f for d, f in parts])
         k = zone.stiffness
         pressures = np.array([k * wave_pressure(kx, ky, self.ratio, d, f) for d, f in parts])
+        carried = np.array(
+            [
+                k * t * wave_pressure(kx, ky, self.ratio, np.zeros_like(d), f * inlet)
+                for (d, f), t in zip(stations, turned, strict=True)
+            ]
+        )
         found = self.table.spread(
             [driven for driven, _ in stations]
-            + [free * inlet[0] for _, free in stations]
-            + [stations[MIDDLE][1] * (inlet[1] - inlet[0])]
+            + [free * inlet for _, free in stations]
+            + [stations[MIDDLE][1] * (there - inlet) for there in np.delete(self._inlet, AXIS, 0)]
         )
-        return found, ratios, pressures
+        # the table has k_Y > 0; a wave with -k_Y is on a line what one with k_Y is on its mirror
+        # image
+        count = 2 * STATIONS.size
+        beside, mirrored = found[count:], found[: count - 1 : -1]
+        negative = self._negative
+        found[count:] = [
+            np.where(negative, other, one) for one, other in zip(beside, mirrored, strict=True)
+        ]
+        return found, (ratios, pressures, carried)
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,8 +140,8 @@ class Transfer:
     # Empty without free waves; per station on the centre line, without the phase that slip adds on
     # the way from X = -1
     free: list[Complex]
-    # What the distance OFF_CENTRE from the centre line adds to the free part at X = 0
-    off_centre: Complex | None
+    # What is added to the free part at X = 0 on each of LINES but the centre line
+    off_centre: list[Complex]
     # Whether the phase that slip loses by the curved inlet is left out of `off_centre`: the free
     # waves are then to be read line by line
     bent: bool
@@ -178,34 +198,34 @@ class Transfer:
             zone,
             STATIONS,
             [waves.table for waves in entering],
-            [ratios for _, ratios, _ in loaded],
-            [pressures for _, _, pressures in loaded],
+            *zip(*(of_table for _, of_table in loaded), strict=True),
         )
         count = STATIONS.size
         return [
             cls(
                 found[:count],
-                found[count:-1],
-                found[-1],
+                found[count : 2 * count],
+                found[2 * count :],
                 waves.bent,
                 second,
                 zone.stiffness,
                 zone.ellipticity,
             )
-            for waves, (found, _, _) in zip(entering, loaded, strict=True)
+            for waves, (found, _) in zip(entering, loaded, strict=True)
         ]
 
     @classmethod
     def carried(cls, ratio: Array, stiffening: float = 1.0) -> Transfer:
         """Return a real ratio that is the same everywhere and moves with the roughness."""
         driven = [ratio.astype(np.complex128)] * STATIONS.size
-        return cls(driven, [], None, bent=False, stiffening=stiffening)
+        return cls(driven, [], [], bent=False, stiffening=stiffening)
 
     def kept(self, index: tuple[Indices, Indices]) -> Transfer:
         """Return the part of the components at rows and columns of the spectrum."""
         cut = np.ix_(*index)
-        off = None if self.off_centre is None else self.off_centre[cut]
-        driven, free = ([t[cut] for t in part] for part in (self.driven, self.free))
+        driven, free, off = (
+            [t[cut] for t in part] for part in (self.driven, self.free, self.off_centre)
+        )
         return replace(self, driven=driven, free=free, off_centre=off)
 
     def at_centre(self, spectrum: Spectrum, velocity_ratio: float) -> Complex:

@@ -89,9 +89,6 @@ class WaveTable:
             spread = _between(values, self._rows[part], self._columns[part]).view(np.complex128)
             for k, out in enumerate(found):
                 out[first : first + step] = spread[:, k].reshape(-1, width)[:, self._mirror]
-        for out in found:
-            # a component that does not move has no phase but its own
-            out[0] = out[0].real
         return found
 
 

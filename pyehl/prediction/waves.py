@@ -4,7 +4,7 @@
 The tile is taken apart into plane waves; each becomes a driven wave, which moves with the
 roughness, and a free wave, made in the inlet and carried at the mean velocity
 (:mod:`pyehl.theory.response`). Both change slowly on their way, so that they are made at a few
-stations along the motion and interpolated; the free wave also at two distances from the centre
+stations along the motion and interpolated; the free wave also on a few lines beside the centre
 line. Units: lengths along the surface by a, heights by a^2/R, pressures by p_h.
 """
 
@@ -42,7 +42,7 @@ class Waves:
 
     driven: Single  # over station (n, nx, ny/stride, 2): film, pressure
     free: Single | None  # the same (n, REFINEMENT nx, ny/stride, 2); None without free waves
-    # What OFF_CENTRE adds to the free waves (1, REFINEMENT nx, ny/stride, 2)
+    # What is added to the free waves beside the centre line, over line, as `free`
     off_centre: Single | None
     stride: int  # every so many-th column of the tile is there
     bent: bool  # as in :class:`Transfer`
@@ -93,7 +93,7 @@ class Waves:
         return cls(
             tiles(driven, 1 if lines is None else REFINEMENT),
             free(transfer.free) if transfer.free else None,
-            None if transfer.off_centre is None else free([transfer.off_centre]),
+            free(transfer.off_centre) if transfer.off_centre else None,
             stride,
             transfer.bent,
         )

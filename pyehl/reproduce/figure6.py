@@ -32,8 +32,8 @@ TITLE = "Deformed roughness by simulation and by prediction"
 # Inside of the first radius the pressure is high, inside of the second nearly all friction arises
 RADIUS = 0.85
 FRICTION = 0.6
-# Distances from the centre line at which the inlet is taken [a]; between them interpolated
-LINES = np.linspace(0.0, 0.9, 5)
+# Lines Y on which the inlet is taken [a]; between them interpolated
+LINES = np.linspace(-0.9, 0.9, 9)
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +92,7 @@ def run(runs: Runs, level: Level) -> Deformed:
     )
     zone = zone_of(solve_contact(settings), point, oil)
     lines = _response(waves, zone, point, velocity, x)
-    place = np.minimum(np.abs(y), LINES[-1]) / (LINES[1] - LINES[0])
+    place = (np.clip(y, LINES[0], LINES[-1]) - LINES[0]) / (LINES[1] - LINES[0])
     low = np.minimum(place.astype(int), LINES.size - 2)
     share = place - low
     columns = np.arange(y.size)
@@ -120,7 +120,7 @@ class _Waves:
 
 
 def _response(waves: _Waves, zone: Zone, point: OperatingPoint, velocity: float, x: Array) -> Array:
-    """Fields (lines, nx, ny) with the responses of strips at the distances `LINES`."""
+    """Fields (lines, nx, ny) with the responses of strips at `LINES`."""
     half = waves.qx >= 0.0
     kx, ky = np.meshgrid(waves.qx[half], waves.qy, indexing="ij")
     shape = kx.shape
@@ -214,7 +214,7 @@ def _told(
         f"{theirs[0]:.3f}; rms over that of the simulation {ours[1]:.3f} and {theirs[1]:.3f}. "
         f"Inside r <= {RADIUS:g} a: {ours_wide[0]:.3f} and {theirs_wide[0]:.3f}; "
         f"{ours_wide[1]:.3f} and {theirs_wide[1]:.3f}. Towards the sides the inlet is oblique, "
-        "and the response knows that to first order.",
+        "and the response has the normal of each line.",
         f"The roughness that the predictions start from is that of the solver to "
         f"{100 * data.at_node:.2g} % of its rms (what the grid does not carry).",
     ]

@@ -24,7 +24,16 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-__all__ = ["DEGREE", "LARGEST", "RADIUS", "disc_correction", "monomials", "spherical_bessel"]
+__all__ = [
+    "DEGREE",
+    "LARGEST",
+    "RADIUS",
+    "RIM",
+    "disc_correction",
+    "disc_rim",
+    "monomials",
+    "spherical_bessel",
+]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -36,6 +45,9 @@ LARGEST = 14.0
 RADIUS = 0.8
 """Radius within which they are fitted; friction comes from there. Nearer to the edge the pressure
 of a disc with a fixed edge is singular and that of a contact is not."""
+
+RIM = 1e-5
+"""z at which the pressure next to the edge is taken."""
 
 
 def monomials(x: Array, y: Array, axis: int = -1) -> Array:
@@ -120,3 +132,13 @@ def disc_correction(qx: Array, qy: Array) -> Complex:
     x, y, radial, inverse = _fit()
     local = 0.25 * math.pi * np.hypot(qx, qy) * np.exp(1j * (np.outer(x, qx) + np.outer(y, qy)))
     return cast(Complex, inverse @ (_series(qx, qy, np.arctan2(y, x), radial) - local))
+
+
+def disc_rim(qx: Array, qy: Array, theta: Array) -> Complex:
+    """How far waves (m,) [1/a] move the edge of the disc outwards at angles (n,): (n, m) [a].
+
+    The pressure c/z of the fixed edge is what the Hertz pressure z gains where the edge lies
+    further out by c.
+    """
+    radial = _radial(np.full(theta.shape, RIM), math.ceil(LARGEST) + 12)
+    return RIM * _series(qx, qy, theta, radial)

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-from pyehl.theory.disc import DEGREE, LARGEST, RADIUS, spherical_bessel
+from pyehl.theory.disc import DEGREE, LARGEST, RADIUS, RIM, spherical_bessel
 from pyehl.theory.ellipse import Ellipse
 
 __all__ = ["EllipseEdge", "ellipse_edge"]
@@ -75,6 +75,15 @@ class EllipseEdge:
         phase = np.outer(self.x, qx) + np.outer(kappa * self.y, qy)
         found = pressure(self.shape, qx, qy, self.x, self.y) - local * np.exp(1j * phase)
         return np.asarray(self._inverse @ found)
+
+    def rim(self, qx: Array, qy: Array, theta: Array) -> Complex:
+        """How far waves move the edge outwards, :func:`pyehl.theory.disc.disc_rim`.
+
+        Of the distance from the centre by the semi-axes, at angles of x/a and y/b (n,): (n, m).
+        """
+        radius = math.sqrt(1.0 - RIM * RIM)
+        x, y = radius * np.cos(theta), radius * np.sin(theta)
+        return RIM * pressure(self.shape, qx, qy, x, y)
 
 
 @lru_cache(maxsize=4)

@@ -14,8 +14,13 @@ the rest is a fit to the full simulation of this package: G = (1 - w + w B) F, F
 a phase, and a weight w of 1 for short and 0 for long waves. The form has the limits G = B for short
 and 0 for long waves. z is a power law in the wavelength parameter nabla_2 = (wavelength over a)
 sqrt(M/L) to first order (Venner & Lubrecht 1999), and real for ridges along the motion, which do
-not move. At low M L the inlet leaks: z has terms in 1/(M L), and |F| changes with slip. Away from
-the centre line the inlet is oblique and z grows.
+not move. At low M L the inlet leaks: z has terms in 1/(M L), and |F| changes with slip.
+
+Away from the centre line the inlet is oblique. Along the normal of its edge it is an inlet like
+that on the centre line: the wavevector is turned by the angle of the normal, the part of the
+velocity along the normal makes the film, and the gap is that of the pressure next to the edge. To
+move along a straight edge changes nothing. Nothing of that is fitted (docs/evidence/response,
+docs/evidence/ellipse).
 
 Where the lubricant thins by shear, B knows it, and of F - 1 the share
 :func:`pyehl.theory.transport.kept_of_inlet` remains; M and L are those of a Newtonian lubricant
@@ -48,9 +53,6 @@ CURVATURE = -2.35
 """Power of the ellipticity in it."""
 NARROW = 4.0
 """Power with which the weight of oblique waves in it falls in narrow contacts."""
-
-OBLIQUE = (1.97, -1.2)
-"""What the ellipticity changes in the growth of z off the centre line: factor and power."""
 
 SHORT = 3.0
 """nabla_2 of the wave for which the transport equation counts half in the inlet; others do as well
@@ -110,15 +112,19 @@ def inlet_transfer(
     velocity_ratio: float,
     y: ArrayLike = 0.0,
 ) -> Complex:
-    """G = mu/rho at X = -0.8, turned back to X = -1 [-].
+    """G = mu/rho where the inlet ends, turned back to the edge of the contact [-].
 
-    Of the smooth contact on the centre line, for wavenumbers [1/a] of the same shape, qx >= 0 (at
-    qx = 0 the value is real), M and L of the circular contact with the same inlet, U, and the
-    distance from the centre line y [semi-axis], which is broadcast.
+    On the centre line the inlet ends at X = -0.8, and the edge is at X = -1; on a line at y
+    [semi-axis], -1 < y < 1, they are as far apart along the normal of the edge. Of the smooth
+    contact on the centre line, for wavenumbers [1/a] of the same shape, qx >= 0 (at qx = y = 0 the
+    value is real), M and L of the circular contact with the same inlet, and U. The lines are the
+    first dimensions of the result.
     """
     moes = thinned(moes, zone.thinning)
     base = inlet_base(zone, qx, qy, moes, velocity_ratio)
-    fit = inlet_fit(qx, qy, moes, velocity_ratio, y, zone.ellipticity)
+    lines = np.asarray(y, dtype=float)
+    fits = [inlet_fit(qx, qy, moes, velocity_ratio, line, zone.ellipticity) for line in lines.flat]
+    fit = np.reshape(fits, lines.shape + base.shape)
     if zone.factors:
         fit = 1.0 + kept_of_inlet(zone, qx, qy, velocity_ratio) * (fit - 1.0)
     return base * fit
@@ -155,21 +161,26 @@ def inlet_fit(
     qy: ArrayLike,
     moes: tuple[float, float],
     velocity_ratio: float,
-    y: ArrayLike = 0.0,
+    y: float = 0.0,
     ellipticity: float = 1.0,
 ) -> Complex:
     """F = G/(1 - w + w B): what is fitted of G [-].
 
     Parameters as of `inlet_transfer`.
     """
-    moes_m, moes_l = moes
+    cosine, sine, sharpness = _normal(y, ellipticity)
+    # the gap outside of the edge, and the film by the velocity along the normal
+    speed = cosine * math.sqrt(sharpness)
+    moes_m, moes_l = moes[0] * sharpness**1.5 * speed**-0.75, moes[1] * speed**0.25
+    moes = moes_m, moes_l
     fit = _fit()
-    kx, ky = np.asarray(qx, dtype=float), np.abs(np.asarray(qy, dtype=float))
+    kx, ky = np.asarray(qx, dtype=float), np.asarray(qy, dtype=float)
     q = np.maximum(np.hypot(kx, ky), 1e-12)
+    along = kx * cosine - ky * sine
     parameter = 0.5 * np.log(_nabla_2(q, moes))
     low, high = fit["parameter"]
     s = np.clip(parameter, low, high)
-    c = kx / q
+    c = np.abs(along) / q
     slip = velocity_ratio - 1.0
     # beyond the range, which is told, the leak is held as s is
     leak = min(1.0, fit["leak"] / (moes_m * moes_l))
@@ -177,25 +188,21 @@ def inlet_fit(
     log_z = _polynomial(fit["modulus"], variables) + 2.0 * fit["slope"] * (parameter - s)
     angle = c * _polynomial(fit["angle"], variables)
     origin, growth = (_polynomial(fit[name], variables) for name in ("origin", "growth"))
-    shift = slip * (kx * origin + 1j * c * growth)
-    oblique = fit["oblique"] * np.square(y)
-    if ellipticity != 1.0:
-        return np.asarray(np.exp(1j * shift) * _on_ellipse(log_z + 1j * angle, y, ellipticity))
-    return np.asarray(np.exp(1j * shift) / (1.0 + np.exp(log_z + oblique + 1j * angle)))
+    # a wave that goes against the normal is the conjugate of one that goes along it
+    turn = np.where(along < 0.0, -1.0, 1.0)
+    # the roughness gains on the lubricant by more per length along the normal
+    shift = slip * (turn * kx * origin / cosine + 1j * c * growth)
+    found = np.exp(1j * shift) / (1.0 + np.exp(log_z + 1j * angle))
+    return np.asarray(np.where(turn < 0.0, np.conj(found), found))
 
 
-def _on_ellipse(log_z: Complex, y: ArrayLike, ellipticity: float) -> Complex:
-    """1/(1 + z) at y [semi-axis] of an ellipse, ln z on its centre line.
+def _normal(y: float, ellipticity: float) -> tuple[float, float, float]:
+    """Give the normal of the edge of the contact at a line y [semi-axis]: cosine and sine.
 
-    Where z grows faster than on a circle the rest of it does not turn the wave.
+    And the factor by which P^2 falls faster along it than on the centre line.
     """
-    factor, power = OBLIQUE
-    round_growth = float(_fit()["oblique"])
-    growth = round_growth + factor * (ellipticity**power - 1.0)
-    turning = 1.0 + np.exp(log_z + min(growth, round_growth) * np.square(y))
-    whole = 1.0 + np.exp(log_z + growth * np.square(y))
-    loss = np.abs(turning) / np.abs(whole) if growth > round_growth else 1.0
-    return np.asarray(loss / turning)
+    sharpness = math.hypot(math.sqrt(1.0 - y * y), y / ellipticity)
+    return math.sqrt(1.0 - y * y) / sharpness, y / (ellipticity * sharpness), sharpness
 
 
 def _nabla_2(q: Array, moes: tuple[float, float]) -> Array:

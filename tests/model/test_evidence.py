@@ -12,6 +12,7 @@ import pytest
 
 from pyehl.prediction.errors import KNOWN_RATIO, model_error
 from pyehl.prediction.resolution import resolution
+from pyehl.prediction.second_order import INLET_FILM
 
 
 @pytest.fixture(scope="module")
@@ -69,18 +70,18 @@ def test_waves_that_a_coarse_grid_leaves_out_are_in_its_error(evidence):
 
 @pytest.mark.long
 def test_deviations(table):
-    """1 % without short waves and up to 1.3; with the grid error 2 % up to 1.5, 3 % to 2.5, 4 %.
+    """1 % without short waves and up to 1.3; with the grid error 2 % up to 1.5, 3 % to 2.5, 5 %.
 
-    And whatever the grid error is, 4.3 % up to 2.5 and 5.2 % above.
+    And whatever the grid error is, 3.2 % up to 2.5 and 8 % above.
     """
     assert len(table) >= 24
     for name, row in table.items():
         deviation = abs(row["prediction"] / row["mu_ratio"] - 1.0)
         if name.startswith(("c8", "c16")) and row["mu_ratio"] <= 1.3:
             assert deviation <= 0.01, name
-        share = 0.02 if row["mu_ratio"] <= 1.5 else 0.03 if row["mu_ratio"] <= 2.5 else 0.04
+        share = 0.02 if row["mu_ratio"] <= 1.5 else 0.03 if row["mu_ratio"] <= 2.5 else 0.05
         assert deviation <= share + row["mu_ratio_error"] / row["mu_ratio"], name
-        assert deviation <= (0.043 if row["mu_ratio"] <= 2.5 else 0.052), name
+        assert deviation <= (0.032 if row["mu_ratio"] <= 2.5 else 0.08), name
 
 
 def test_stated_error_covers_nine_of_ten(table):
@@ -139,3 +140,25 @@ def test_starts_from_the_prediction(root: Path, script):
         stop = row["error_stop"] + row["error_stop_front"]
         assert abs(row["mu_ratio"] - row["mu_ratio_front"]) <= stop
         assert 0.54 < row["steps"] / row["steps_front"] < 0.695
+
+
+def test_fields_are_those_of_the_simulation(root: Path):
+    """First order at the centre, at the sides, and what the inlet makes of second order."""
+    with (root / "docs" / "evidence" / "fields" / "table.csv").open() as stream:
+        rows = list(csv.DictReader(stream))
+    fine = [row for row in rows if row["points"] == "513"]
+    assert len({row["name"] for row in fine}) == 6
+    for row in rows:
+        if row["place"] == "r < 0.4":
+            assert float(row["p_correlation"]) > 0.992, row
+            assert float(row["film_correlation"]) > 0.987, row
+    centre = [row for row in fine if row["place"] == "r < 0.4"]
+    for row in centre:
+        assert float(row["p_slope"]) == pytest.approx(1.0, abs=0.005), row
+        assert float(row["film_slope"]) == pytest.approx(1.0, abs=0.013), row
+    measured = sum(float(row["film_square"]) for row in centre) / len(centre)
+    assert measured == pytest.approx(-INLET_FILM, abs=0.02)
+    for row in rows:
+        # stiff contacts that slip a little
+        if row["name"] in ("c8s12c", "f1", "c16s11", "c16l15") and row["place"] == "X = 0":
+            assert float(row["gamma"]) == pytest.approx(float(row["p_square"]), abs=0.05), row

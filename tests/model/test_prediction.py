@@ -11,7 +11,7 @@ import pytest
 import scipy.ndimage
 
 import pyehl
-from pyehl.prediction import of_case
+from pyehl.prediction import of_case, second_order
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.errors import KNOWN_RATIO
 from pyehl.prediction.options import Options
@@ -23,7 +23,7 @@ from pyehl.prediction.waves import Waves
 from pyehl.surfaces import Topography, filtered
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.transport import Zone, stiffness
+from pyehl.theory.transport import Zone, free_stiffness, stiffness
 
 POINT, OIL = OperatingPoint(), Lubricant()
 
@@ -60,7 +60,7 @@ def test_a_wave_in_the_contact_is_its_transfer():
     q = 2.0 * np.pi * turns / side
     spectrum = Spectrum.of(np.tile(np.cos(q * x)[:, np.newaxis], n), side, side)
     t = np.full(spectrum.values.shape, 0.4 * np.exp(0.6j))
-    transfer = Transfer([t] * 3, [0.5 * t] * 3, 0.1 * t, bent=False)
+    transfer = Transfer([t] * 3, [0.5 * t] * 3, [0.1 * t] * 8, bent=False)
     waves = Waves.of(spectrum, transfer, 0.0, 1.2)
     k = float(stiffness(q))
     film, pressure = np.moveaxis(waves.driven[1], -1, 0)
@@ -236,8 +236,9 @@ def test_leak_at_amplitude_for_gaussian_pressure():
     assert measured / linear == pytest.approx(leaking.conductance[0], rel=0.03)
 
 
-def test_second_order_keeps_the_mass_of_every_column(contact):
+def test_second_order_keeps_the_mass_of_every_column(contact, monkeypatch):
     """And the friction by it, taken point by point, is that of the convolution."""
+    monkeypatch.setattr(second_order, "INLET_PRESSURE", 0.0)
     rng = np.random.default_rng(4)
     n, length, ratio = 64, 1.0, 1.02
     zone = zone_of(contact, POINT, OIL)
@@ -268,6 +269,60 @@ def test_second_order_keeps_the_mass_of_every_column(contact):
         weighted.append([np.mean(p2 * weight) / weight.mean() for p2 in (pointwise, second)])
     pointwise, convolution = np.mean(weighted, axis=0)
     assert pointwise == pytest.approx(convolution, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "least", "most"), [(1.0, 0.9, 1.3), (1.01, 0.1, 0.9), (1.1, 0.0, 0.03)]
+)
+def test_second_order_of_the_inlet_fades_with_slip(contact, monkeypatch, ratio, least, most):
+    """It is carried, so that of its square what is along that of the pressure remains."""
+    length, n = 1.0, 64
+    zone = zone_of(contact, POINT, OIL)
+    heights = np.random.default_rng(5).standard_normal((n, n))
+    rough = scipy.ndimage.gaussian_filter(heights, 1.5, mode="wrap")
+    spectrum = Spectrum.of(3e-3 * rough, length, length)
+    transfer = Transfer.of(spectrum, zone, (1000.0, 10.0), ratio)
+    whole, _ = transfer.second.of(spectrum.power)
+    monkeypatch.setattr(second_order, "INLET_PRESSURE", 0.0)
+    without, _ = transfer.second.of(spectrum.power)
+    turn = np.exp(1j * spectrum.qx[:, np.newaxis] * (ratio - 1.0))
+    free = free_stiffness(spectrum.qx[:, np.newaxis], spectrum.qy, ratio) * transfer.free[1]
+    carried = spectrum.tile(turn * (stiffness(spectrum.q) - free))
+    pressure = spectrum.tile(transfer.pressure_at_centre(spectrum, ratio))
+    share = np.mean(carried * pressure) / pressure.var()
+    assert (whole - without)[1] == pytest.approx(0.5 * share**2, rel=0.05, abs=2e-3)
+    assert least <= share**2 <= most
+
+
+def test_film_of_second_order(contact, table_1):
+    """The film regains 0.4 of the square of its loss, and ends where that is no less."""
+    one = passage(contact, table_1(seed=21), 1.01)
+    _, spectrum, transfer, edge = one.parts()
+    points = one._contact(spectrum, transfer, edge)
+    thinnest = np.where(points.inside, points.film, np.inf)
+    change = np.zeros((*points.film.shape, 2), dtype=np.float32)
+    change[..., 0] = 0.3 * points.film
+    one_film = points.sheared(change)
+    lost = 1.0 - 0.3 + 0.4 * 0.3**2
+    assert one_film == pytest.approx(1.0 / lost, rel=1e-4)
+    missing = contact.minimum_film - contact.film.min()
+    assert points.least == pytest.approx(lost * thinnest.min() + missing, abs=0.3 * missing)
+    change[..., 0] = 1.2 * points.film
+    assert points.sheared(change) > 1.0
+    change[..., 0] = 1.3 * points.film
+    assert np.isnan(points.sheared(change))
+
+
+def test_free_waves_swell_where_the_pressure_is_lower(contact, table_1):
+    """They carry a mass: beside the centre line they are thicker by the ratio of the densities."""
+    one = passage(contact, table_1(seed=21), 1.0)
+    _, spectrum, transfer, edge = one.parts()
+    points = one._contact(spectrum, transfer, edge)
+    middle, off = points.x.size // 2, int(np.argmin(np.abs(points.y - 0.8)))
+    density = OIL.density_ratio(points.pressure[middle] * POINT.hertz_pressure)
+    swollen = points.expansion[middle, off]
+    assert swollen == pytest.approx(density[points.y.size // 2] / density[off], rel=1e-3)
+    assert 1.02 < swollen < 1.06
 
 
 def test_small_waves_leak_as_such():

@@ -180,7 +180,7 @@ def test_shipped_waves_are_those_of_the_table(root: Path, script):
 
 
 def test_off_the_centre_line(root: Path):
-    """The inlet lets less through beside the centre line of a narrow contact, as measured."""
+    """The inlet lets less through beside the centre line, as measured; nothing is fitted to it."""
     rows = rows_of(root / "docs" / "evidence" / "ellipse" / "off_centre.csv")
     for kappa in (0.4, 0.6, 2.0, 4.0):
         part = [r for r in rows if r["ellipticity"] == kappa and 8.0 < r["kx"] < 20.0]
@@ -197,7 +197,7 @@ def test_off_the_centre_line(root: Path):
                 for y in (0.0, row["y"])
             )
             fall = row["modulus"] / middle[row["kx"]]["modulus"]
-            assert abs(other / one) == pytest.approx(fall, abs=0.1)
+            assert abs(other / one) == pytest.approx(fall, abs=0.05 if kappa > 0.5 else 0.1)
             turn = math.radians(row["lag"] - middle[row["kx"]]["lag"])
             assert math.atan2((other / one).imag, (other / one).real) == pytest.approx(
                 turn, abs=0.12

@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Simulate cases of cases.csv that are not yet in simulated.csv, some minutes each on one core.
 
-python docs/evidence/ellipse/make.py [NAME ...]
+python docs/evidence/ellipse/make.py [--points N] [NAME ...]
+
+On `--points` nodes along X in place of those of the table they go to coarse.csv.
 """
 
 from __future__ import annotations
 
+import argparse
 import csv
-import sys
 
 from cases import HERE, case, read, surface
 from pyehl.solver import Solver
@@ -17,14 +19,18 @@ COLUMNS = ("name status mu_ratio mu_ratio_error_grid mu_ratio_error_stop H_c ste
 
 def main() -> None:
     """Simulate, one line of the table after the other."""
-    path = HERE / "simulated.csv"
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("names", nargs="*")
+    parser.add_argument("--points", type=int, default=0)
+    arguments = parser.parse_args()
+    path = HERE / ("coarse.csv" if arguments.points else "simulated.csv")
     if not path.exists():
         path.write_text(",".join(COLUMNS) + "\n", encoding="utf-8")
     for row in read("cases.csv"):
-        done = {line["name"] for line in read("simulated.csv")}
-        if row["name"] in done or (sys.argv[1:] and row["name"] not in sys.argv[1:]):
+        done = {line["name"] for line in read(path.name)}
+        if row["name"] in done or (arguments.names and row["name"] not in arguments.names):
             continue
-        with Solver.open(case(row), surface(row).heights) as solver:
+        with Solver.open(case(row, arguments.points), surface(row).heights) as solver:
             solver.run()
             summary = solver.summary() | {"name": row["name"]}
         values = [summary.get(name) for name in COLUMNS]

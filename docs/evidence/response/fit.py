@@ -33,8 +33,6 @@ Array = NDArray[np.float64]
 
 # s is held within these; beyond them z goes on as nabla_2 to the power SLOPE
 PARAMETER, SLOPE = (-0.7, 1.6), 1.35
-# z grows as exp(OBLIQUE Y^2) off the centre line
-OBLIQUE = 1.27
 # Coarse grids count where a wave has this many nodes, fine ones with fewer
 NODES = {257: 14.0, 513: 10.0, 1025: 8.0}
 # The longest wave along the motion that is fitted [a]: longer ones feel the edge of the contact
@@ -226,7 +224,6 @@ class Fit:
             "parameter": list(PARAMETER),
             "slope": SLOPE,
             "leak": LEAK,
-            "oblique": OBLIQUE,
             **{
                 name: listed(terms, values)
                 for (name, terms), values in zip(names.items(), self.parts(), strict=True)

@@ -2,6 +2,7 @@
 """Rough surfaces in lubricants that thin: predicted, then simulated.
 
     python docs/evidence/thinning/rough.py predict      writes predicted.csv
+    python docs/evidence/thinning/rough.py commit       adds what was not simulated to committed.csv
     python docs/evidence/thinning/rough.py simulate     adds what is missing to simulated.csv
     python docs/evidence/thinning/rough.py compare [committed.csv]      prints both
 
@@ -97,6 +98,19 @@ PLAN: dict[str, Row] = {
     ),
     "f7": Row(BALL, f"{THICK} {EYRING} 5e6", 1.01, 8e-8, 0.8, 47),
     "f8": Row(by_moes(900.0, 7.0), f"{EYRING} 5e6", 0.9, 2e-8, 0.7, 48),
+    # predicted with the response of today before they were simulated
+    "g1": Row(by_moes(1000.0, 11.0), f"{EYRING} 6e6", 1.03, 5e-8, 0.8, 61),
+    "g2": Row(by_moes(300.0, 9.0), f"{EYRING} 5e6", 0.96, 3.5e-8, 0.8, 62, 1.25),
+    "g3": Row(by_moes(600.0, 13.0), f"{CARREAU} 5e6 carreau_exponent = 0.5", 1.02, 6e-8, 0.8, 63),
+    "g4": Row(by_moes(220.0, 11.0), f"{EYRING} 1e7", 1.08, 5e-8, 0.9, 64),
+    "g5": Row(by_moes(1400.0, 8.0), f"{EYRING} 5e6", 1.01, 2e-8, 0.7, 65, 0.75),
+    "g6": Row(
+        by_moes(450.0, 7.0), f"{CARREAU} 8e6 carreau_exponent = 0.6", 0.92, 2e-8, 0.8, 66, 1.5
+    ),
+    "g7": Row(BALL, f"{THICK} {EYRING} 6e6", 1.05, 7e-8, 0.8, 67),
+    "g8": Row(by_moes(800.0, 9.0), f"{EYRING} 8e6", 1.0, 4e-8, 0.8, 68),
+    "g9": Row(TABLE1, f"{EYRING} 5e6", 0.9, 4.5e-8, 0.7, 69, 1.25),
+    "g10": Row(by_moes(1800.0, 14.0), f"{EYRING} 1e7", 1.04, 6e-8, 0.8, 70),
 }
 
 
@@ -232,6 +246,11 @@ def main(arguments: list[str]) -> None:
     what = arguments[0]
     if what == "predict":
         write(HERE / "predicted.csv", {name: predicted(row) for name, row in PLAN.items()})
+    elif what == "commit":
+        found = read(HERE / "committed.csv")
+        known = found | read(HERE / "simulated.csv")
+        new = {name: predicted(row) for name, row in PLAN.items() if name not in known}
+        write(HERE / "committed.csv", found | new)
     elif what == "simulate":
         found = read(HERE / "simulated.csv")
         for name, row in PLAN.items():

@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pressure and film of simulated rough surfaces beside the prediction, point by point: table.csv.
+
+    python docs/evidence/fields/fields.py NAME ... [--points N]     simulates and adds rows
+    python docs/evidence/fields/fields.py                           prints the table
+
+NAME is a row of docs/evidence/prediction/cases.csv or of docs/evidence/thinning/rough.py. Eight
+moments of the last period are compared. One minute each on 513 x 513 nodes and one core.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import sys
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import RectBivariateSpline
+
+HERE = Path(__file__).resolve().parent
+for folder in ("prediction", "thinning"):
+    sys.path.insert(0, str(HERE.parent / folder))
+
+import rough  # noqa: E402
+
+import cases  # noqa: E402
+import pyehl  # noqa: E402
+from pyehl import surfaces  # noqa: E402
+from pyehl.prediction import second_order  # noqa: E402
+from pyehl.prediction.by_response import RoughPassage  # noqa: E402
+from pyehl.prediction.options import Options  # noqa: E402
+from pyehl.prediction.rough_contact import WavyContact  # noqa: E402
+from pyehl.prediction.smooth import solve_contact  # noqa: E402
+from pyehl.solver import Solver  # noqa: E402
+from pyehl.surfaces import Topography, shifted  # noqa: E402
+from pyehl.theory.lubricant import Lubricant  # noqa: E402
+from pyehl.theory.operating import OperatingPoint  # noqa: E402
+
+Array = NDArray[np.float64]
+MOMENTS = 8
+# Rings of the contact [a], and strips along the motion [a] with |Y| below SIDE
+RINGS = {"r < 0.4": (0.0, 0.4), "0.4 to 0.7": (0.4, 0.7), "0.7 to 0.9": (0.7, 0.9)}
+STRIPS = {"X = -0.5": (-0.65, -0.35), "X = 0": (-0.15, 0.15), "X = 0.5": (0.35, 0.65)}
+SIDE = 0.5
+COLUMNS = (
+    "name points place p_correlation p_slope p_square gamma film_correlation film_slope film_square"
+).split()
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """Fields of a simulation (nx, ny) at a dimensionless time: P and H, rough and smooth."""
+
+    time: float
+    x: Array
+    y: Array
+    pressure: Array
+    film: Array
+    smooth_pressure: Array
+    smooth_film: Array
+
+
+def case_of(name: str, points: int) -> tuple[pyehl.Case, Topography]:
+    """Give case and tile of a name."""
+    if name in rough.PLAN:
+        case = rough.case_of(rough.PLAN[name]).with_options(f"grid.points={points}")
+        settings = case.resolve()
+        point = OperatingPoint.from_settings(settings)
+        return case, surfaces.from_settings(settings, point, None)
+    row = next(row for row in cases.rows() if row["name"] == name)
+    row["points"] = points
+    return cases.case(row), cases.surface(row)
+
+
+def simulate(name: str, points: int) -> list[Moment]:
+    """Fields of the last period."""
+    case, tile = case_of(name, points)
+    found: list[Moment] = []
+    heights = None if name in rough.PLAN else tile.heights
+    with Solver.open(case, heights) as run:
+        while not run.done:
+            run.advance()
+            summary = run.summary()
+            if not summary.get("steps"):
+                continue
+            x, y = run.axes()
+            fields = [run.field(k).copy() for k in ("P", "H", "P_smooth", "H_smooth")]
+            found.append(Moment(float(summary["T"]), x, y, *fields))
+            period = float(summary["T_period"])
+            found = [moment for moment in found if moment.time > found[-1].time - period]
+    ends = found[-1].time - period * np.arange(MOMENTS) / MOMENTS
+    return [min(found, key=lambda moment: abs(moment.time - end)) for end in ends]
+
+
+def on_points(values: Array, moment: Moment, contact: WavyContact) -> Array:
+    """Values on the nodes of a simulation at the points of a contact."""
+    spline = RectBivariateSpline(moment.x, moment.y, values)
+    return np.asarray(spline(contact.x, contact.y))
+
+
+def compare(name: str, points: int, moments: list[Moment]) -> list[dict[str, Any]]:
+    """Statistics of a case at its places: what is left of second order, and of first."""
+    case, tile = case_of(name, points)
+    settings = case.resolve()
+    point, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
+    ratio = float(settings["surface"]["velocity_ratio"])
+    smooth, mesh = solve_contact(settings), 4.0 / (points - 1.0)
+    passage = RoughPassage(tile, smooth, point, oil, Options(), ratio, mesh=mesh)
+    parts: dict[str, list[Array]] = {}
+    for moment in moments:
+        origin = float(settings["surface"]["x_start"]) + ratio * moment.time
+        moved = shifted(tile, origin * point.hertz_radius)
+        _, spectrum, transfer, edge = replace(passage, topography=moved).parts()
+        gain, _ = transfer.second.of(spectrum.power) if transfer.second else (np.zeros(3), 0.0)
+        contact = passage._contact(spectrum, transfer, edge)
+        contact.second = None
+        change = contact.change(0)
+
+        film = on_points(moment.smooth_film, moment, contact)
+        moved_film = contact.smooth_film() / contact.film
+        values = np.stack(
+            [
+                on_points(moment.pressure - moment.smooth_pressure, moment, contact),
+                change[..., 1],
+                moved_film - on_points(moment.film, moment, contact) / film,
+                change[..., 0] / film,
+            ]
+        )
+        inside = np.abs(contact.across) < SIDE
+        masks = {k: (contact.radius >= a) & (contact.radius < b) for k, (a, b) in RINGS.items()}
+        for k, (a, b) in STRIPS.items():
+            strip = (contact.x > a) & (contact.x < b)
+            masks[k] = np.logical_and.outer(strip, inside)
+        for k, mask in masks.items():
+            parts.setdefault(k, []).append(values[:, mask])
+    rows = []
+    for k, pieces in parts.items():
+        p, p1, loss, t1 = np.concatenate(pieces, axis=1)
+        one = np.ones_like(p1)
+        pressure = np.linalg.lstsq(np.stack([one, p1, p1**2], 1), p, rcond=None)[0]
+        film = np.linalg.lstsq(np.stack([t1, t1**2], 1), loss, rcond=None)[0]
+        station = list(STRIPS).index(k) if k in STRIPS else 1
+        values = (
+            np.corrcoef(p, p1)[0, 1],
+            pressure[1],
+            pressure[2],
+            gain[station],
+            np.corrcoef(loss, t1)[0, 1],
+            film[0],
+            film[1],
+        )
+        texts = [f"{v:.4f}" for v in values]
+        rows.append(dict(zip(COLUMNS, (name, points, k, *texts), strict=True)))
+    return rows
+
+
+def add(new: list[dict[str, Any]]) -> None:
+    """Add rows to the table, in place of those of the same case and grid."""
+    path = HERE / "table.csv"
+    old = []
+    if path.exists():
+        with path.open(newline="", encoding="utf-8") as stream:
+            old = list(csv.DictReader(stream))
+    made = {(row["name"], str(row["points"])) for row in new}
+    with path.open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, COLUMNS, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows([*(r for r in old if (r["name"], r["points"]) not in made), *new])
+
+
+def main() -> None:
+    """Simulate and compare, or print."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("names", nargs="*")
+    parser.add_argument("--points", type=int, default=513)
+    given = parser.parse_args()
+    for name in given.names:
+        add(compare(name, given.points, simulate(name, given.points)))
+    print((HERE / "table.csv").read_text(encoding="utf-8"))
+    print(f"INLET_PRESSURE {second_order.INLET_PRESSURE}, INLET_FILM {second_order.INLET_FILM}")
+
+
+if __name__ == "__main__":
+    main()

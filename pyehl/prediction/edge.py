@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the edge of the contact does to the long waves of a tile, and they to it.
+
+Waves longer than half the contact radius feel the edge (:mod:`pyehl.theory.disc`), and they move
+it: the contact is wider where they press and narrower where they give way.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pyehl.prediction.spectrum import Spectrum
+from pyehl.theory.disc import LARGEST, RADIUS, disc_correction, disc_rim, monomials
+from pyehl.theory.ellipse import Ellipse
+from pyehl.theory.ellipse_edge import ellipse_edge
+
+__all__ = ["ANGLES", "Edge"]
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+ANGLES = 96
+"""Places along the edge at which it is known how far it is moved."""
+# The polynomials of the edge of a circle are held constant beyond this radius
+EDGE_RADIUS = 0.85
+
+
+class Edge:
+    """What the edge of the contact does to the pressure of the long waves of a tile.
+
+    `coefficients` (n, m) of the polynomials [p_h] for the waves of the tile with wavenumbers
+    qx >= 0, qy (m,) [1/a]: of :func:`pyehl.theory.disc.monomials` (n = 28) in a circle, of
+    :mod:`pyehl.theory.ellipse_edge` in an ellipse. `rim` (ANGLES, m): how far they move the edge
+    outwards [semi-axes].
+    """
+
+    def __init__(
+        self, qx: Array, qy: Array, coefficients: Complex, rim: Complex, shape: Ellipse
+    ) -> None:
+        self.qx, self.qy, self.coefficients, self.rim = qx, qy, coefficients, rim
+        self.shape = shape
+
+    @classmethod
+    def of(cls, spectrum: Spectrum, flattened: Complex, shape: Ellipse) -> Edge:
+        """Of a tile, each component flattened by a factor (shape of the spectrum)."""
+        nx, ny = spectrum.shape
+        q = spectrum.q
+        strong = np.abs(spectrum.values) > 1e-9 * np.abs(spectrum.values).max()
+        ellipse = None if shape.radius_ratio == 1.0 else ellipse_edge(shape)
+        i, j = np.nonzero((q > 0.0) & (q < (ellipse.largest if ellipse else LARGEST)) & strong)
+        qx, qy = spectrum.qx[i], spectrum.qy[j]
+        # a component stands for its conjugate at -q too, unless both are in the half spectrum
+        twice = np.where((i == 0) | ((nx % 2 == 0) & (i == nx // 2)), 1.0, 2.0)
+        amplitude = twice * spectrum.values[i, j] * flattened[i, j] / (nx * ny)
+        if not i.size:
+            return cls(qx, qy, np.zeros((0, 0), complex), np.zeros((ANGLES, 0), complex), shape)
+        theta = np.linspace(0.0, 2.0 * math.pi, ANGLES, endpoint=False)
+        found = ellipse.correction(qx, qy) if ellipse else disc_correction(qx, qy)
+        rim = ellipse.rim(qx, qy, theta) if ellipse else disc_rim(qx, qy, theta)
+        return cls(qx, qy, found * amplitude, rim * amplitude, shape)
+
+    def below(self, limit: float) -> Edge:
+        """Return the part of the waves with |q| below a limit [1/a]."""
+        keep = np.hypot(self.qx, self.qy) < limit
+        parts = self.coefficients[:, keep], self.rim[:, keep]
+        return Edge(self.qx[keep], self.qy[keep], *parts, self.shape)
+
+    def at(self, shift: float, track: float) -> tuple[Array, Array]:
+        """Coefficients (n,) and how far the edge is moved outwards (ANGLES,).
+
+        For a tile moved along and across the motion [a].
+        """
+        phase = np.exp(-1j * (self.qx * shift + self.qy * track))
+        return (self.coefficients @ phase).real, (self.rim @ phase).real
+
+    def polynomials(self, x: Array, y: Array) -> Array:
+        """Polynomials (n, ...) at places by the semi-axes, held constant near the edge."""
+        ellipse = None if self.shape.radius_ratio == 1.0 else ellipse_edge(self.shape)
+        held = np.minimum(
+            1.0, (RADIUS if ellipse else EDGE_RADIUS) / np.maximum(np.hypot(x, y), 1e-12)
+        )
+        if not self.coefficients.size:
+            return np.zeros((self.coefficients.shape[0], *held.shape))
+        if ellipse:
+            return ellipse.functions(held * x, held * y)
+        return monomials(held * x, held * y, axis=0)
