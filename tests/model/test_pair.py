@@ -299,7 +299,7 @@ def test_advice_names_the_surfaces_that_it_cuts(contact):
     both = pair(contact, (rough(3, 9e-8), rough(4, 9e-8)), (1.0, 1.0))
     first, second = both.of
     named = replace(both, of=(first, replace(second, groups=("second_surface",))))
-    assert named.as_one().groups == ("surface", "second_surface")
+    assert named.as_one.groups == ("surface", "second_surface")
     alone_ = replace(named.of[1], topography=rough(4, 1.2e-7), velocity_ratio=1.1)
     found, _, _ = alone_.run(0)
     assert found.status == "beyond linear response", found
