@@ -200,6 +200,7 @@ def test_curve_is_drawn_on_demand(tab):
     assert np.all(np.diff(films[np.isfinite(films)]) > 0.0)
 
 
+@pytest.mark.long
 def test_two_tabs_do_not_disturb_each_other_and_end(tab, served, monkeypatch):
     first = tab.driver.current_window_handle
     tab.driver.switch_to.new_window("tab")

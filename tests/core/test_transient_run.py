@@ -144,6 +144,7 @@ def test_plot_of_a_transient_run(run_folder: Path, tmp_path: Path, capsys):
     assert {path.name for path in tmp_path.iterdir()} == written
 
 
+@pytest.mark.long
 def test_movie_has_all_frames(run_folder: Path, tmp_path: Path, monkeypatch):
     monkeypatch.setattr("pyehl.plots.movie.DPI", 40)
     assert cli.main(["plot", str(run_folder), "-o", str(tmp_path), "--movie"]) == 0
