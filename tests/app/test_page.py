@@ -224,6 +224,7 @@ def test_two_tabs_do_not_disturb_each_other_and_end(tab, served, monkeypatch):
     tab.rest(129)
 
 
+@pytest.mark.long
 def test_an_older_answer_never_comes_last(tab, page):
     """The slider is moved many times without a pause; what is seen belongs to its last place."""
     shown = []

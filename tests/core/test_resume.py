@@ -386,7 +386,7 @@ def newest(folder: Path) -> int:
     return max(times)
 
 
-@pytest.mark.parametrize("driver", ["ehl", "pyehl"])
+@pytest.mark.parametrize("driver", ["ehl", pytest.param("pyehl", marks=pytest.mark.long)])
 def test_killed_at_random_instants(drivers, unbroken, tmp_path: Path, driver: str):
     shutil.copy(unbroken["long"] / "case.nml", tmp_path)
     chance = random.Random(20190128)

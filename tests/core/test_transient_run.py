@@ -208,6 +208,7 @@ def test_eq_16_only_where_it_holds(run_folder: Path):
         assert transient.eq_16(inside, {"surface": surface | other}) is None
 
 
+@pytest.mark.long
 def test_bench_step(tmp_path: Path, capsys, monkeypatch):
     from pyehl.bench import step
 
