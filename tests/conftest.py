@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
+import importlib
 import importlib.util
 import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import ModuleType
 
@@ -38,6 +39,21 @@ def script() -> Callable[[str], ModuleType]:
         return module
 
     return load
+
+
+@pytest.fixture
+def evidence(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[str, str], ModuleType]]:
+    """Import a module of a folder of `docs/evidence`, none of which outlives the test."""
+
+    def load(folder: str, name: str) -> ModuleType:
+        monkeypatch.syspath_prepend(str(ROOT / "docs" / "evidence" / folder))
+        return importlib.import_module(name)
+
+    before = set(sys.modules)
+    yield load
+    for name in set(sys.modules) - before:
+        if str(ROOT / "docs" / "evidence") in (getattr(sys.modules[name], "__file__", "") or ""):
+            del sys.modules[name]
 
 
 @pytest.fixture(scope="session")

@@ -121,7 +121,7 @@ def fringe_spacings(central: float, scales: Scales | None) -> tuple[float, float
         red, green = (1e6 * light / (2.0 * REFRACTIVE_INDEX) for light in (RED, GREEN))
         return red, green, f"{RED * 1e9:.0f} and {GREEN * 1e9:.0f} nm, n = {REFRACTIVE_INDEX:g}"
     red, green = RED_SHARE * central, RED_SHARE * central * GREEN / RED
-    of = r"$\Delta H$" if scales is None else r"$\Delta h$ [$\mu$m]"
+    of = "ΔH" if scales is None else "Δh [µm]"
     return red, green, f"fringes {of} = {red:.2g} and {green:.2g}"
 
 

@@ -24,19 +24,19 @@ def headline(summary: Mapping[str, Any], scales: Scales | None = None) -> str:
 
     Of the scalars of a solution or a prediction, with scales in SI units, else in Hertz units.
     """
-    parts = [f"$M$ = {summary['moes_m']:.4g}", f"$L$ = {summary['moes_l']:.4g}"]
-    parts.append(f"$p_h$ = {summary['hertz_pressure_Pa'] * 1e-9:.3g} GPa")
-    for name, word in (("c", "c"), ("min", r"\min")):
+    parts = [f"M = {summary['moes_m']:.4g}", f"L = {summary['moes_l']:.4g}"]
+    parts.append(f"Hertz pressure {summary['hertz_pressure_Pa'] * 1e-9:.3g} GPa")
+    for name, word in (("c", "film"), ("min", "least")):
         si, big = summary.get(f"h_{name}_m"), summary.get(f"H_{name}")
         if si is None and scales is not None and big is not None:
             si = big * scales.film
         if si is not None and (scales is not None or big is None):
-            parts.append(rf"$h_{{{word}}}$ = {si * 1e6:.3g} $\mu$m")
+            parts.append(f"{word} {si * 1e6:.3g} µm")
         elif big is not None:
-            parts.append(f"$H_{{{word}}}$ = {big:.3g}")
+            parts.append(f"{word} H = {big:.3g}")
     if summary["status"] not in ("converged", "predicted"):
         parts.append(str(summary["status"]).upper())
-    return ",  ".join(parts) + r",  motion $\rightarrow$"
+    return ",  ".join(parts) + ",  motion →"
 
 
 def panels(

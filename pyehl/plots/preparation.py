@@ -75,8 +75,8 @@ def _map(ax: Axes, heights: Array, size: tuple[float, float], title: str) -> Non
     rms = float(np.nanstd(heights)) * unit
     peak = float(np.nanmax(np.abs(heights))) * unit
     ax.set_title(f"{title}\nrms {rms:.3g}, peak {peak:.3g} {name}", fontsize="small", loc="right")
-    ax.set_xlabel("$x$ [mm]")
-    ax.set_ylabel("$y$ [mm]")
+    ax.set_xlabel("x [mm]")
+    ax.set_ylabel("y [mm]")
 
 
 def _spectra(
@@ -90,8 +90,8 @@ def _spectra(
         shown = c_iso > c_iso.max() * 1e-14
         ax.loglog(q[shown], c_iso[shown], "-", lw=1.2, color=colour, label=label)
         ends += [float(q[0]), float(q[-1])]
-    ax.set_xlabel(r"$|q|$ [rad/m]")
-    ax.set_ylabel(r"$C^{iso}$ [m$^4$]")
+    ax.set_xlabel("|q| [rad/m]")
+    ax.set_ylabel("isotropic spectrum [m⁴]")
     ax.legend(loc="lower left", fontsize="small")
     if conditions is None:
         return

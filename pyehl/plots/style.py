@@ -2,7 +2,8 @@
 """What all pictures share: sizes, colours, units, letters.
 
 Maps are colour-blind safe; lengths are in mm, films in um, pressures in GPa when scales are given,
-else in Hertz units.
+else in Hertz units. Labels are plain text where it says the same: to set mathematics takes as long
+as the rest of a panel.
 """
 
 from __future__ import annotations
@@ -233,22 +234,22 @@ def letter(axes: Sequence[Axes]) -> None:
 def axis_unit(scales: Scales | None, name: str) -> tuple[float, str]:
     """Factor from Hertz radii to the unit of an axis, and its label."""
     if scales is None:
-        return 1.0, f"${name.upper()} = {name}/a$"
-    return scales.radius * 1e3, f"${name}$ [mm]"
+        return 1.0, f"{name.upper()} = {name}/a"
+    return scales.radius * 1e3, f"{name} [mm]"
 
 
 def pressure_unit(scales: Scales | None) -> tuple[float, str]:
     """Factor from Hertz pressures to the unit of an axis, and its label."""
     if scales is None:
         return 1.0, r"$P = p/p_h$"
-    return scales.pressure * 1e-9, r"$p$ [GPa]"
+    return scales.pressure * 1e-9, "p [GPa]"
 
 
 def film_unit(scales: Scales | None) -> tuple[float, str]:
     """Factor from films in a^2/R to the unit of an axis, and its label."""
     if scales is None:
-        return 1.0, r"$H = hR/a^2$"
-    return scales.film * 1e6, r"$h$ [$\mu$m]"
+        return 1.0, "H = hR/a²"
+    return scales.film * 1e6, "h [µm]"
 
 
 def hertz_ticks(ax: Axes, outline: Outline = CIRCLE) -> None:
@@ -282,7 +283,7 @@ def _short(value: float) -> str:
 
 def height_unit(largest: float) -> tuple[float, str]:
     """Factor from metres to the unit for heights up to `largest`, and its name."""
-    return (1e9, "nm") if largest < 5e-7 else (1e6, r"$\mu$m")
+    return (1e9, "nm") if largest < 5e-7 else (1e6, "µm")
 
 
 def edges(centres: NDArray[np.floating[Any]]) -> tuple[float, float]:

@@ -60,8 +60,8 @@ def heights(topography: Topography, *, ax: Axes | None = None) -> Axes:
         z.T * unit, origin="lower", extent=extent, cmap=DIVERGING, vmin=-top, vmax=top
     )
     colour_bar(image, ax, f"height [{name}]")
-    ax.set_xlabel("$x$ [mm]")
-    ax.set_ylabel("$y$ [mm]")
+    ax.set_xlabel("x [mm]")
+    ax.set_ylabel("y [mm]")
     return ax
 
 
@@ -81,9 +81,9 @@ def spectrum_map(topography: Topography, *, ax: Axes | None = None) -> Axes:
         np.maximum(c2d, FLOOR * most).T, origin="lower", extent=extent, cmap=SEQUENTIAL,
         norm=LogNorm(vmin=FLOOR * most, vmax=most),
     )  # fmt: skip
-    colour_bar(image, ax, r"$C^{2D}$ [m$^4$]")
-    ax.set_xlabel(r"$q_x$ [rad/$\mu$m]")
-    ax.set_ylabel(r"$q_y$ [rad/$\mu$m]")
+    colour_bar(image, ax, "spectrum [m⁴]")
+    ax.set_xlabel("q along x [rad/µm]")
+    ax.set_ylabel("q along y [rad/µm]")
     return ax
 
 
@@ -105,13 +105,13 @@ def spectrum_line(
     ax = axes_or_new(ax, 3.8, 3.0)
     q, c_iso = psd_isotropic(topography)
     shown = c_iso > FLOOR * float(psd_2d(topography)[2].max())
-    ax.loglog(q[shown], c_iso[shown], "o", ms=2.5, color=BLUE, label=r"$C^{iso}$")
-    ax.set_xlabel(r"$|q|$ [rad/m]")
-    ax.set_ylabel(r"$C^{iso}$ [m$^4$]", color=BLUE)
+    ax.loglog(q[shown], c_iso[shown], "o", ms=2.5, color=BLUE, label="isotropic spectrum")
+    ax.set_xlabel("|q| [rad/m]")
+    ax.set_ylabel("isotropic spectrum [m⁴]", color=BLUE)
     ax.tick_params(axis="y", colors=BLUE)
     label_decades(ax.xaxis, ax.yaxis)
     twin = ax.twinx()
-    for values, style, label in ((deformed, "-", "$|T|$"), (flattened, "--", "$|1 - T|$")):
+    for values, style, label in ((deformed, "-", "|T|"), (flattened, "--", "|1 − T|")):
         part = Topography(values, topography.size)
         share = np.sqrt(psd_isotropic(part)[1][shown] / c_iso[shown])
         twin.plot(q[shown], share, style, color=VERMILLION, lw=1.4, label=label)
@@ -165,8 +165,8 @@ def roughness(
     contact_heights(
         shown, extent, 1.0, top * unit, label, name=name, bar=bar, ax=ax, outline=outline
     )
-    ax.set_xlabel("$x/a$")
-    ax.set_ylabel("$y/a$")
+    ax.set_xlabel("x/a")
+    ax.set_ylabel("y/a")
     hertz_ticks(ax, outline)
     return ax
 
@@ -203,7 +203,7 @@ def passage(
     ax.axhline(1.0, color=GREY, lw=0.8, ls=":", label="smooth")
     ax.set_xlim(0.0, length * 1e3)
     ax.set_xlabel("displacement of the surface [mm]")
-    ax.set_ylabel(r"$\mu_r/\mu_s$")
+    ax.set_ylabel("relative friction")
     ax.ticklabel_format(axis="y", scilimits=SHORT)
     ax.legend(loc="best", fontsize="small")
     return ax
@@ -231,7 +231,7 @@ def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = No
     ax.set_xscale("log")
     label_decades(ax.xaxis)
     ax.set_xlabel("wavelength of the component [μm]")
-    ax.set_ylabel(r"contribution to $\mu_r/\mu_s - 1$")
+    ax.set_ylabel("contribution to relative friction")
     ax.ticklabel_format(axis="y", scilimits=SHORT)
     ax.legend(fontsize="small", frameon=False)
     return ax

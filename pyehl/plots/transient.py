@@ -113,7 +113,7 @@ def friction_history(
     ax.set_xlim(float(time[0]), end)
     low, high = min(1.0, float(ratio.min())), max(float(ratio.max()), formula or 1.0)
     ax.set_ylim(low - 0.05 * (high - low), high + 0.05 * (high - low))
-    ax.set_xlabel("$T = t\\,u/a$")
+    ax.set_xlabel("T = t u/a")
     ax.set_ylabel(r"$\mu_r/\mu_s$")
     if seconds > 0.0:
         scale = seconds * 1e3
@@ -125,7 +125,7 @@ def friction_history(
             return np.asarray(values, dtype=np.float64) / scale
 
         top = ax.secondary_xaxis("top", functions=(milliseconds, back))
-        top.set_xlabel("$t$ [ms]")
+        top.set_xlabel("t [ms]")
     ax.legend(loc="best", fontsize="small")
     return ax
 
@@ -154,7 +154,7 @@ def extremes_history(
     ax = axes_or_new(ax, 5.4, 3.4)
     factor, label = pressure_unit(scales)
     ax.plot(time, pressure * factor, color=BLUE, lw=1.4, label="largest pressure")
-    ax.set_xlabel("$T = t\\,u/a$")
+    ax.set_xlabel("T = t u/a")
     ax.set_ylabel(label, color=BLUE)
     ax.tick_params(axis="y", colors=BLUE)
     ax.set_xlim(float(time[0]), float(time[-1]))
@@ -223,7 +223,7 @@ def roughness(
     at, circle = _inside(x, y, outline)
     top = top or roughness_top(x, y, heights, outline=outline)
     if scales is None:
-        unit, label = 1e3, r"$10^{-3}\,a^2/R$"
+        unit, label = 1e3, "10⁻³ a²/R"
     else:
         unit, label = height_unit(top * scales.film)
         unit *= scales.film

@@ -13,6 +13,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,7 +54,7 @@ def common_passages(
     return found.numerator, found.denominator
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Meeting:
     """Two tiles on the move: their lengths [a], their velocity ratios, and where they begin [a]."""
 
@@ -61,7 +62,7 @@ class Meeting:
     velocity_ratios: tuple[float, float]
     fronts: tuple[float, float]
 
-    @property
+    @cached_property
     def passages(self) -> tuple[int, int] | None:
         """Passages of both in their common period; None: they meet in all positions."""
         return common_passages(self.lengths, self.velocity_ratios)

@@ -74,7 +74,7 @@ def predict(
     if smooth is None:
         contact = _smooth_contact(settings, operating, lubricant, options)
     else:
-        contact = read_contact(Path(smooth), operating)
+        contact = read_contact(Path(smooth), operating, settings)
         if lubricant.shear.in_flow:
             contact = replace(contact, thinning=solve_contact(settings).thinning)
     film = contact.central_film * operating.film_scale
@@ -174,7 +174,7 @@ def _of_pair(
     friction, over, bands = pair.run(tracks, brief=brief)
     second = cast("SecondPassage", friction.second)
     deformed = [friction.response.deformed, second.response.deformed]
-    share, together = second.touching, pair.as_one()
+    share, together = second.touching, pair.as_one
     if together is not None:
         share = below_zero(
             together.deformed(),

@@ -11,7 +11,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,17 +47,20 @@ Array = NDArray[np.float64]
 PairParts = list[tuple[Spectrum, Transfer, Edge]]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class RoughPair:
     """Two rough tiles in a contact; each with what it would be alone."""
 
     of: tuple[RoughPassage, RoughPassage]
     fronts: tuple[float, float]  # where the tiles begin at the same time, along the motion [a]
     filters: tuple[str, str] = ("sharp", "sharp")  # how their spectra are cut
-    order: tuple[int, int] = field(init=False)  # in which the two are summed, by their numbers
 
-    def __post_init__(self) -> None:
-        """Find the order: the faster one first, else by where it begins, size and heights."""
+    @cached_property
+    def order(self) -> tuple[int, int]:
+        """Order in which the two are summed, by their numbers.
+
+        The faster one first, else by where it begins, size and heights.
+        """
 
         def key(k: int) -> tuple[float, ...] | tuple[object, ...]:
             tile = self.of[k].topography
@@ -64,9 +68,9 @@ class RoughPair:
             return (-self.of[k].velocity_ratio, self.fronts[k], *tile.size, *tile.shape, heights)
 
         first = min((0, 1), key=key)
-        object.__setattr__(self, "order", (first, 1 - first))
+        return first, 1 - first
 
-    @property
+    @cached_property
     def meeting(self) -> Meeting:
         """The positions in which they meet, in their order."""
         a, (i, j) = self.of[0].operating.hertz_radius, self.order
@@ -138,11 +142,17 @@ class RoughPair:
         )
         return found
 
-    def responses(self) -> list[Response]:
-        """Pressure [Pa] and deformed roughness [m] of each at the centre, on its pixels."""
+    def responses(self, parts: PairParts | None = None) -> list[Response]:
+        """Pressure [Pa] and deformed roughness [m] of each at the centre, on its pixels.
+
+        By the `parts` that were worked with, if they have these pixels.
+        """
         found: list[Response] = []
         o = self.of[0].operating
-        parts = self.parts([one.topography for one in self.of])
+        tiles = [one.topography for one in self.of]
+        shapes = [tiles[k].shape for k in self.order]
+        if parts is None or [spectrum.shape for spectrum, _, _ in parts] != shapes:
+            parts = self.parts(tiles)
         for k in (0, 1):
             spectrum, transfer, _ = parts[self.order.index(k)]
             ratio = self.of[k].velocity_ratio
@@ -151,8 +161,9 @@ class RoughPair:
             found.append(Response(pressure * o.hertz_pressure, deformed * o.film_scale))
         return found
 
+    @cached_property
     def as_one(self) -> RoughPassage | None:
-        """Return both as one surface where they move together; None where they do not."""
+        """Both as one surface where they move together; None where they do not."""
         first, second = (self.of[k] for k in self.order)
         if first.velocity_ratio != second.velocity_ratio:
             return None
@@ -163,7 +174,7 @@ class RoughPair:
 
     def mean(self) -> float:
         """mu_r/mu_s over a few positions [-]; NaN where the film ends."""
-        one = self.as_one()
+        one = self.as_one
         if one is not None:
             return one.mean()
         with np.errstate(over="ignore", invalid="ignore"):
@@ -182,7 +193,7 @@ class RoughPair:
         :meth:`RoughPassage.run`. The response of the result is that of the first surface.
         """
         one, meeting = self.of[0], self.meeting
-        together = self.as_one()
+        together = self.as_one
         if together is not None:
             alone, spread, bands = together.run(tracks, brief=brief)
             responses = self.responses()
@@ -199,9 +210,9 @@ class RoughPair:
             if found.status != "predicted":
                 return found, (math.nan, math.nan), []
             ratios = [
-                meeting.short_mean(
-                    (self._contact(parts, tracks=pair) if any(pair) else contact).friction
-                )
+                meeting.short_mean(self._contact(parts, tracks=pair).friction)
+                if any(pair)
+                else found.mu_ratio
                 for pair in self._tracks(tracks)
             ]
             bands = self._bands(parts, found.mu_ratio, brief)
@@ -220,7 +231,7 @@ class RoughPair:
 
     def below(self, shortest: float) -> float:
         """mu_r/mu_s without waves shorter than a length [a] of either, over a few positions [-]."""
-        one = self.as_one()
+        one = self.as_one
         if one is not None:
             return one.below(shortest)
         limit = 2.0 * math.pi / shortest
@@ -274,7 +285,7 @@ class RoughPair:
                 lambda limits: self.below_limits(parts, limits),
                 lambda numbers, length: self.without_shorter(numbers, length).run(0, brief=True)[0],
             )
-        responses = self.responses()
+        responses = self.responses(parts)
         moved = [places[0] * o.hertz_radius, places[1] * o.hertz_radius]
         shifts = [moved[k] for k in self.order]
         touching = contact.touching / (contact.count * contact.points)

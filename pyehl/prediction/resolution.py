@@ -12,7 +12,7 @@ from pyehl import surfaces
 from pyehl.case import Case
 from pyehl.errors import EhlError, InputError
 from pyehl.prediction.by_response import RoughPassage
-from pyehl.prediction.options import Options, turned, unpredictable
+from pyehl.prediction.options import Options, unpredictable
 from pyehl.prediction.pair import RoughPair
 from pyehl.prediction.smooth import solve_contact
 from pyehl.prediction.spectrum import Spectrum
@@ -99,8 +99,6 @@ def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Res
     if why:
         raise InputError(why)
     operating = OperatingPoint.from_settings(settings)
-    if turned(settings):
-        raise InputError(turned(settings))
     lubricant = Lubricant.from_settings(settings)
     grid = settings["grid"]
     mesh = max(

@@ -96,9 +96,16 @@ def _linear(places: Array, axis: Array) -> tuple[NDArray[np.intp], Array]:
     return before, np.clip(at - before, 0.0, 1.0)
 
 
-# Keys that pressure and film of a smooth contact do not know; those of the first line they do where
-# the inlet is heated by shear
-OF_SLIP = ("slide_to_roll", "rough_surface", "thermal_conductivity", "thermal_diffusivity")
+# Keys that pressure and film of a smooth contact do not depend on. Those of slip and oil they do
+# where the inlet is heated by shear, those of slip and law where the flow thins
+OF_SLIP = ("slide_to_roll", "rough_surface")
+OF_SOLIDS = (
+    "thermal_conductivity",
+    "thermal_diffusivity",
+    "thermal_conductivity_2",
+    "thermal_diffusivity_2",
+)
+OF_OIL = ("temperature_viscosity", "thermal_conductivity")
 OF_SHEAR = (
     "shear_law",
     "flow",
@@ -108,8 +115,6 @@ OF_SHEAR = (
     "carreau_stress",
     "carreau_exponent",
 )
-
-
 # The prediction is that of a full film
 OF_CONTACT = ("boundary_film", "boundary_friction")
 
@@ -117,19 +122,17 @@ OF_CONTACT = ("boundary_film", "boundary_friction")
 def smooth_case(settings: Mapping[str, Mapping[str, Any]]) -> str:
     """Text of the case whose solution is the smooth contact under a resolved case.
 
-    Cases that differ in their surface alone have the same; where the flow is Newtonian and the
-    inlet not heated by shear, so have those that differ in their slip or their shear law.
+    Cases that differ in their surface or the heat of friction alone have the same; where the flow
+    is Newtonian and the inlet not heated by shear, so have those that differ in their slip or their
+    shear law.
     """
-    contact, lubricant = dict(settings["contact"]), dict(settings["lubricant"])
-    for key in OF_CONTACT:
-        lubricant.pop(key, None)
     thins = ShearLaw.from_settings(settings).in_flow
-    if not thins:
-        for key in OF_SHEAR:
-            lubricant.pop(key, None)
-    if not (thins or lubricant.get("thermal_reduction", False)):
-        for key in OF_SLIP:
-            contact.pop(key, None)
+    heated = bool(settings["lubricant"].get("thermal_reduction", False))
+    of_contact = OF_SOLIDS if thins or heated else OF_SOLIDS + OF_SLIP
+    of_lubricant = OF_CONTACT + (() if thins else OF_SHEAR) + (() if heated else OF_OIL)
+    contact = {k: v for k, v in settings["contact"].items() if k not in of_contact}
+    lubricant = {k: v for k, v in settings["lubricant"].items() if k not in of_lubricant}
+    lubricant["thermal_friction"] = "never"
     domain = {key: settings["grid"][key] for key in ("x_inlet", "x_outlet", "y_extent")}
     return namelist.text_of({"contact": contact, "lubricant": lubricant, "grid": domain})
 
@@ -161,7 +164,7 @@ def forget() -> None:
     _solved.cache_clear()
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=8)
 def _solved(text: str) -> SmoothContact:
     points, best = POINTS, None
     while points <= FINEST:
@@ -215,13 +218,17 @@ def _on_grid(text: str, points: int) -> tuple[SmoothContact | None, str]:
     return contact, "converged"
 
 
-def read_contact(folder: str | Path, operating: OperatingPoint) -> SmoothContact:
+def read_contact(
+    folder: str | Path, operating: OperatingPoint, settings: Mapping[str, Mapping[str, Any]]
+) -> SmoothContact:
     """Pressure and film from a result folder, of a smooth contact or under a transient run.
 
-    InputError if it is not the folder of a converged solution at the same M and L.
+    InputError if it is not the folder of a converged solution of the same contact: M and L, ratio
+    of the radii along and across the motion, and the law that the flow obeys.
     """
     folder = Path(folder)
     try:
+        of_folder = namelist.values((folder / "case.nml").read_text(encoding="utf-8"))
         summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
         rough = (folder / "P_smooth.npy").is_file()
         names = ("X", "Y", "P_smooth", "H_smooth") if rough else ("X", "Y", "P", "H")
@@ -238,10 +245,26 @@ def read_contact(folder: str | Path, operating: OperatingPoint) -> SmoothContact
     there, here = float(summary.get("radius_ratio") or 1.0), operating.radius_ratio
     if not math.isclose(there, here, rel_tol=1e-4):
         raise InputError(f"{folder}: radius_ratio is {there:.6g} there and {here:.6g} in the case")
+    angle = float(of_folder["contact"].get("angle", 0.0))
+    if here != 1.0 and angle != 0.0:
+        raise InputError(f"{folder}: contact.angle is {angle:g} there and 0 in the case")
+    flows = _flow(of_folder), _flow(settings)
+    if flows[0] != flows[1]:
+        raise InputError(f"{folder}: the flow is {flows[0]} there and {flows[1]} in the case")
     middle = np.argmin(np.abs(x)), np.argmin(np.abs(y))
     source = f"smooth contact in {folder}"
     central, least = float(film[middle]), float(film.min())
     return SmoothContact(x, y, pressure, film, central, math.nan, source, least)
+
+
+def _flow(settings: Mapping[str, Mapping[str, Any]]) -> str:
+    """Law of the flow in words, with all that it depends on."""
+    law = ShearLaw.from_settings(settings)
+    if not law.in_flow:
+        return "newtonian"
+    exponent = f" with exponent {law.carreau_exponent:g}" if law.law == "carreau" else ""
+    slip = abs(float(settings["contact"]["slide_to_roll"]))
+    return f"{law.law} at {law.scale:g} Pa{exponent}, slide_to_roll {slip:g},"
 
 
 def hertz_contact(central_film: float, source: str) -> SmoothContact:

@@ -200,6 +200,7 @@ def test_curve_is_drawn_on_demand(tab):
     assert np.all(np.diff(films[np.isfinite(films)]) > 0.0)
 
 
+@pytest.mark.long
 def test_two_tabs_do_not_disturb_each_other_and_end(tab, served, monkeypatch):
     first = tab.driver.current_window_handle
     tab.driver.switch_to.new_window("tab")
@@ -223,6 +224,7 @@ def test_two_tabs_do_not_disturb_each_other_and_end(tab, served, monkeypatch):
     tab.rest(129)
 
 
+@pytest.mark.long
 def test_an_older_answer_never_comes_last(tab, page):
     """The slider is moved many times without a pause; what is seen belongs to its last place."""
     shown = []

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import csv
-import importlib
 import re
 from pathlib import Path
 
@@ -151,12 +150,9 @@ def test_theory_has_the_numbers_of_the_records(root: Path):
             assert line[column].replace("−", "-") == f"{change:.2f}"
 
 
-def test_accuracy_has_the_shares_of_the_records(root: Path, capsys, monkeypatch):
+def test_accuracy_has_the_shares_of_the_records(root: Path, capsys, evidence):
     """What docs/accuracy.md says of random points is what make.py show prints."""
-    folder = root / "docs" / "evidence" / "errors"
-    monkeypatch.syspath_prepend(str(folder))
-    make = importlib.import_module("make")
-    make.show()
+    evidence("errors", "make").show()
     printed = capsys.readouterr().out
     text = (root / "docs" / "accuracy.md").read_text(encoding="utf-8")
     for name in ("H_c", "H_min", "P_max", "F"):

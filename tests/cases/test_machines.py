@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import importlib
 import json
 import math
 import re
@@ -223,12 +222,11 @@ def test_bad_input_has_place_and_remedy(text: str, place: str, message: str, rem
     assert remedy in said.partition("expected")[2], said
 
 
-def test_evidence_of_ellipses_is_what_its_page_says(root: Path, capsys, monkeypatch):
+def test_evidence_of_ellipses_is_what_its_page_says(root: Path, capsys, evidence):
     """The shares and the errors by cells, from the records; most errors hold."""
-    folder = root / "docs" / "evidence" / "errors_ellipses"
-    monkeypatch.syspath_prepend(str(folder))
-    text = (folder / "README.md").read_text(encoding="utf-8")
-    importlib.import_module("show").show()
+    page = root / "docs" / "evidence" / "errors_ellipses" / "README.md"
+    text = page.read_text(encoding="utf-8")
+    evidence("errors_ellipses", "show").show()
     printed = capsys.readouterr().out
     shares = [tuple(map(int, pair)) for pair in re.findall(r": (\d+) of (\d+)$", printed, re.M)]
     assert len(shares) == 8

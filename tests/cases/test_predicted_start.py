@@ -41,7 +41,7 @@ def tile(tmp_path: Path) -> dict[str, Any]:
         WAVE,
         WAVE | {"surface.velocity_ratio": 0.8, "surface.wavelength_y": 1.0},
         WAVE | {"time.scheme": "paper"},
-        {"surface.kind": "fractal"},
+        pytest.param({"surface.kind": "fractal"}, marks=pytest.mark.long),
     ],
     ids=["wave", "slow", "paper", "fractal"],
 )
@@ -86,6 +86,7 @@ def test_every_surface_lies_where_the_prediction_has_it(tile: dict[str, Any]):
         )
 
 
+@pytest.mark.long
 def test_heights_in_memory_start_there_too(tile: dict[str, Any]):
     heights = np.load(tile["surface.file"])
     size = (tile["surface.length_x"], tile["surface.length_y"])

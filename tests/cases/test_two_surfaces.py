@@ -170,6 +170,7 @@ def test_no_common_period(solve):
     assert "no common period" in (short.folder / "plan.txt").read_text()
 
 
+@pytest.mark.long
 def test_surfaces_that_hardly_meet(solve):
     """At SRR = 0.02 waves of one length are where they began after 99 periods, and not before."""
     keys = scene(WAVE, WAVE, slide_to_roll=0.02)

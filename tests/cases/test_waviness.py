@@ -127,7 +127,7 @@ def test_extrapolated_ratio_is_nearer_to_finer_grids(solve):
     ("point", "wavelength", "share"),
     [
         ((1000.0, 10.0), 0.5, 0.4),
-        ((500.0, 5.0), 1.0, 0.4),
+        pytest.param((500.0, 5.0), 1.0, 0.4, marks=pytest.mark.long),
         ((500.0, 15.0), 0.5, 0.5),
     ],
 )
@@ -246,7 +246,7 @@ def test_skipped_steps_do_not_matter(solve, scheme: str):
     assert short.history["mu_ratio"] == pytest.approx(long.history["mu_ratio"][tail:], rel=1e-6)
 
 
-@pytest.mark.parametrize("scheme", ["narrow", "paper"])
+@pytest.mark.parametrize("scheme", ["narrow", pytest.param("paper", marks=pytest.mark.long)])
 def test_half_domain(solve, scheme: str):
     row = small(scheme)
     half, whole = (

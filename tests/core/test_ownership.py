@@ -315,7 +315,10 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(n, marks=[pytest.mark.long] if n == "plot as pdf" else []) for n in FILES],
+)
 def test_single_files(
     call: Call, results: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
 ):

@@ -282,6 +282,7 @@ def test_no_states_when_none_are_wanted(drive, tmp_path: Path):
         assert {path.name for path in tmp_path.iterdir()} == {"case.nml", "out"}
 
 
+@pytest.mark.long
 def test_change_of_coarsening_is_resumed(drive, tmp_path: Path):
     # On so coarse a grid, far down in the residual, classical cycles are slow in the contact
     text = WAVE.format(points=65, extra="amplitude_over_film = 0.5 wavelength = 1.0")
@@ -340,8 +341,15 @@ def start(command: list[str], folder: Path) -> subprocess.Popen[str]:
     )
 
 
-@pytest.mark.parametrize("driver", ["ehl", "pyehl"])
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize(
+    ("driver", "number"),
+    [
+        ("ehl", signal.SIGTERM),
+        ("pyehl", signal.SIGINT),
+        pytest.param("ehl", signal.SIGINT, marks=pytest.mark.long),
+        pytest.param("pyehl", signal.SIGTERM, marks=pytest.mark.long),
+    ],
+)
 def test_signal_leaves_results_and_a_state(
     drive, drivers, tmp_path: Path, driver: str, number: int
 ):
@@ -378,7 +386,7 @@ def newest(folder: Path) -> int:
     return max(times)
 
 
-@pytest.mark.parametrize("driver", ["ehl", "pyehl"])
+@pytest.mark.parametrize("driver", ["ehl", pytest.param("pyehl", marks=pytest.mark.long)])
 def test_killed_at_random_instants(drivers, unbroken, tmp_path: Path, driver: str):
     shutil.copy(unbroken["long"] / "case.nml", tmp_path)
     chance = random.Random(20190128)

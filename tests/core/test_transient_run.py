@@ -144,6 +144,7 @@ def test_plot_of_a_transient_run(run_folder: Path, tmp_path: Path, capsys):
     assert {path.name for path in tmp_path.iterdir()} == written
 
 
+@pytest.mark.long
 def test_movie_has_all_frames(run_folder: Path, tmp_path: Path, monkeypatch):
     monkeypatch.setattr("pyehl.plots.movie.DPI", 40)
     assert cli.main(["plot", str(run_folder), "-o", str(tmp_path), "--movie"]) == 0
@@ -207,6 +208,7 @@ def test_eq_16_only_where_it_holds(run_folder: Path):
         assert transient.eq_16(inside, {"surface": surface | other}) is None
 
 
+@pytest.mark.long
 def test_bench_step(tmp_path: Path, capsys, monkeypatch):
     from pyehl.bench import step
 

@@ -167,9 +167,21 @@ def test_smooth_contact_from_a_result_folder(tmp_path):
     with pytest.raises(pyehl.InputError, match="not a result folder"):
         pyehl.predict("cases/table1.nml", smooth=tmp_path)
     point = OperatingPoint.from_moes(given.operating.moes_m, given.operating.moes_l)
-    assert read_contact(folder, point).central_film > 0.0
+    assert read_contact(folder, point, given.settings).central_film > 0.0
     with pytest.raises(pyehl.InputError, match=r"radius_ratio is 1 there and 0\.5"):
-        read_contact(folder, replace(point, radius_ratio=0.5))
+        read_contact(folder, replace(point, radius_ratio=0.5), given.settings)
+    thinning = {"lubricant.shear_law": "eyring", "contact.slide_to_roll": 0.2}
+    with pytest.raises(pyehl.InputError, match="the flow is newtonian there and eyring at 5e"):
+        pyehl.predict("cases/table1.nml", thinning, smooth=folder)
+
+
+def test_turned_ellipse_is_no_smooth_contact_of_another(tmp_path):
+    ellipse = {"contact.radius_ratio": 0.5, "contact.moes_m": 50.0, "contact.moes_l": 5.0}
+    case = pyehl.Case.from_text("", ellipse | {"grid.points": 65, "contact.angle": 30.0})
+    pyehl.solve(case, output=tmp_path / "turned")
+    case = pyehl.Case.from_text("", ellipse | {"surface.kind": "harmonic"})
+    with pytest.raises(pyehl.InputError, match=r"contact\.angle is 30 there and 0 in the case"):
+        pyehl.predict(case, smooth=tmp_path / "turned")
 
 
 def test_what_a_grid_does_not_resolve():

@@ -43,7 +43,7 @@ def corner(u, v):
     return u * np.arcsinh(v / np.abs(u)) + v * np.arcsinh(u / np.abs(v))
 
 
-@pytest.mark.parametrize("ratio", [WIDE, NARROW])
+@pytest.mark.parametrize("ratio", [WIDE, pytest.param(NARROW, marks=pytest.mark.long)])
 def test_pressure_of_waves_on_an_ellipse_against_elements(ratio):
     """Squares of constant pressure that deflect the ellipse by a wave but for a constant."""
     shape = ellipse(ratio)
@@ -247,7 +247,10 @@ def compare(root: Path):
             sys.modules.pop(name)
 
 
-@pytest.mark.parametrize("name", ["k040b", "k080", "k200b", "k400a"])
+@pytest.mark.parametrize(
+    "name",
+    ["k040b", "k080", *(pytest.param(n, marks=pytest.mark.long) for n in ("k200b", "k400a"))],
+)
 def test_table_is_what_is_predicted(compare, name):
     (row,) = (row for row in compare.read("cases.csv") if row["name"] == name)
     (line,) = (line for line in compare.read("table.csv") if line["name"] == name)

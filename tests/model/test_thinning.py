@@ -4,9 +4,7 @@
 from __future__ import annotations
 
 import csv
-import importlib
 import math
-import sys
 from dataclasses import replace
 
 import numpy as np
@@ -123,11 +121,9 @@ def test_measured_waves(root):
     assert max(off[1.0]) < 0.1
 
 
-def test_the_table_of_waves_is_that_of_this_package(root, monkeypatch):
+def test_the_table_of_waves_is_that_of_this_package(root, evidence):
     folder = root / "docs" / "evidence" / "thinning"
-    monkeypatch.syspath_prepend(str(folder))
-    monkeypatch.delitem(sys.modules, "waves", raising=False)
-    compare = importlib.import_module("compare")
+    compare = evidence("thinning", "compare")
     name = "table1-eyring-20"
     run, measured = compare.PLAN[name], compare.of_table()
     waves = compare.Waves(run, measured[name])

@@ -309,6 +309,7 @@ def test_ends_of_a_curve_say_why(cases: Path, tmp_path: Path):
     assert usual["status"] == FULL_FILM
 
 
+@pytest.mark.long
 def test_a_point_without_a_smooth_solution_is_not_solved(cases: Path, tmp_path: Path):
     """It has a predicted ratio, but no film on the grid; measured coefficients fit the others."""
     (tmp_path / "m.csv").write_text(f"{KEY},mu\n1.0,0.05\n")

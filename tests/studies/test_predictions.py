@@ -76,7 +76,13 @@ def test_shared_parts_are_made_once(cases: Path):
         execute(Task(0, base.with_options(option).text, "predict"))
         return smooth._solved.cache_info().misses == before
 
-    for option in ("surface.seed=7", "lubricant.shear_law=limiting", "contact.slide_to_roll=0.1"):
+    for option in (
+        "surface.seed=7",
+        "lubricant.shear_law=limiting",
+        "contact.slide_to_roll=0.1",
+        "contact.thermal_conductivity=20",
+        "lubricant.thermal_friction=never",
+    ):
         assert shared(option), option
     assert not shared("contact.load=601")
     heated = ["lubricant.thermal_reduction=.true.", "lubricant.temperature_viscosity=0.03"]
