@@ -2,6 +2,7 @@
 !> Everything a case file can say, one type per namelist group, with the defaults
 module ehl_case
    use ehl_kinds, only: dp
+   use ehl_viscosity_table, only: isotherm_t
    implicit none (type, external)
    private
    public :: case_t, lubricant_case_t, surface_case_t, is_feature, word_length, path_length
@@ -60,6 +61,8 @@ module ehl_case
       character(len=word_length) :: name = ""
       !> Measured viscosities; made absolute by the reader
       character(len=path_length) :: table = ""
+      !> What it holds, read once. Not a key; set by the reader.
+      type(isotherm_t), allocatable :: isotherms(:)
       real(dp) :: viscosity = 0.04_dp
       real(dp) :: pressure_viscosity = 2.2e-8_dp
       !> Whether it is an estimate from a data sheet, or the default beside a viscosity that was given. No keys; set by the
@@ -73,8 +76,12 @@ module ehl_case
       real(dp) :: dicke_a1 = 0.0_dp, dicke_a2 = 0.0_dp, dicke_b1 = 0.0_dp, dicke_b2 = 0.0_dp
       real(dp) :: yasutomi_tg0 = 0.0_dp, yasutomi_a1 = 0.0_dp, yasutomi_a2 = 0.0_dp, yasutomi_b1 = 0.0_dp, &
                   yasutomi_b2 = 0.0_dp, yasutomi_c1 = 0.0_dp, yasutomi_c2 = 0.0_dp, yasutomi_viscosity = 1.0e12_dp
+      real(dp) :: doolittle_viscosity = 0.0_dp, doolittle_temperature = 0.0_dp, doolittle_b = 0.0_dp, doolittle_r0 = 0.0_dp, &
+                  doolittle_expansion = 0.0_dp
       character(len=word_length) :: density_law = "dowson-higginson"
       real(dp) :: murnaghan_modulus = 0.0_dp, murnaghan_rate = 0.0_dp, murnaghan_softening = 0.0_dp
+      real(dp) :: tait_modulus = 0.0_dp, tait_rate = 0.0_dp, tait_softening = 0.0_dp, tait_expansion = 0.0_dp, &
+                  tait_temperature = 0.0_dp
       !> Where the constants of the laws were measured; all 0: not known
       real(dp) :: range_temperature_min = 0.0_dp, range_temperature_max = 0.0_dp, range_pressure_max = 0.0_dp
       character(len=word_length) :: shear_law = "newtonian"

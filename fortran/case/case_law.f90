@@ -1,9 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Laws of viscosity and density of a case that rest on constants of the oil, or on a table of measured values
 module ehl_case_law
-   use ehl_ambient_viscosity, only: ambient_viscosity_t
+   use ehl_ambient_viscosity, only: ambient_viscosity_t, new_ambient_viscosity
    use ehl_case, only: lubricant_case_t
    use ehl_dicke, only: new_dicke
+   use ehl_doolittle, only: new_doolittle
    use ehl_heat, only: freezing, sheet_density
    use ehl_kinds, only: dp
    use ehl_lubricant, only: density_constant, density_dowson_higginson, lubricant_t, new_lubricant, viscosity_barus, &
@@ -11,6 +12,7 @@ module ehl_case_law
    use ehl_murnaghan, only: new_murnaghan
    use ehl_oils, only: oil_named, oil_t
    use ehl_status, only: ehl_bad_input, status_t
+   use ehl_tait, only: new_tait, tait_t
    use ehl_text, only: newline, to_text
    use ehl_viscosity_file, only: read_isotherms
    use ehl_viscosity_law, only: viscosity_law_t
@@ -18,7 +20,7 @@ module ehl_case_law
    use ehl_yasutomi, only: new_yasutomi
    implicit none (type, external)
    private
-   public :: make_lubricant, make_viscosity, own_law, uses_law
+   public :: knows_temperature, make_lubricant, make_viscosity, own_law, uses_law
 
 contains
 
@@ -47,6 +49,12 @@ contains
       uses_law = own_law(l) == name .or. l%viscosity_law == name
    end function uses_law
 
+   !> Whether a law of viscosity or density tells how the oil changes with temperature
+   pure logical function knows_temperature(l)
+      type(lubricant_case_t), intent(in) :: l
+      knows_temperature = own_law(l) /= "" .or. l%density_law == "murnaghan" .or. l%density_law == "tait"
+   end function knows_temperature
+
    !> Viscosity and density of a case in Hertz units; the shear law is left Newtonian
    subroutine make_lubricant(l, alpha_bar, hertz_pressure, lubricant, status)
       type(lubricant_case_t), intent(in) :: l
@@ -68,11 +76,17 @@ contains
          call make_viscosity(l, trim(l%viscosity_law), hertz_pressure, law, status)
          call move_alloc(law, lubricant%viscosity)
       end if
-      if (l%density_law == "murnaghan") then
+      select case (l%density_law)
+      case ("murnaghan")
          deallocate (lubricant%compression)
          allocate (lubricant%compression, source=new_murnaghan(l%murnaghan_modulus, l%murnaghan_rate, l%murnaghan_softening, &
                                                                expansion, hertz_pressure, l%temperature + freezing))
-      end if
+      case ("tait")
+         deallocate (lubricant%compression)
+         allocate (lubricant%compression, source=tait_of(l, hertz_pressure))
+      case default
+         continue
+      end select
    end subroutine make_lubricant
 
    !> A law with constants of the oil, by name
@@ -94,22 +108,41 @@ contains
          allocate (law, source=new_yasutomi(l%yasutomi_tg0, l%yasutomi_a1, l%yasutomi_a2, l%yasutomi_b1, l%yasutomi_b2, &
                                             l%yasutomi_c1, l%yasutomi_c2, l%yasutomi_viscosity, hertz_pressure, &
                                             l%temperature))
+      case ("doolittle")
+         allocate (law, source=new_doolittle(l%doolittle_viscosity, l%doolittle_b, l%doolittle_r0, l%doolittle_expansion, &
+                                             l%doolittle_temperature + freezing, tait_of(l, hertz_pressure), &
+                                             l%temperature + freezing))
       case default
-         call read_isotherms(trim(l%table), isotherms, status)
-         if (status%failed()) return
+         if (allocated(l%isotherms)) then
+            isotherms = l%isotherms
+         else
+            call read_isotherms(trim(l%table), isotherms, status)
+            if (status%failed()) return
+         end if
          if (size(isotherms) == 1) call check_single(l, isotherms(1), status)
          table = new_viscosity_table(isotherms, hertz_pressure, l%temperature + freezing, l%temperature_viscosity)
          allocate (law, source=table)
       end select
    end subroutine make_viscosity
 
+   !> Equation of state by Tait
+   pure function tait_of(l, hertz_pressure) result(state)
+      type(lubricant_case_t), intent(in) :: l
+      !> [Pa]
+      real(dp), intent(in) :: hertz_pressure
+      type(tait_t) :: state
+
+      state = new_tait(l%tait_modulus, l%tait_rate, l%tait_softening, l%tait_expansion, l%tait_temperature + freezing, &
+                       hertz_pressure, l%temperature + freezing)
+   end function tait_of
+
    !> Viscosity at ambient pressure
    pure function ambient_of(l) result(ambient)
       type(lubricant_case_t), intent(in) :: l
       type(ambient_viscosity_t) :: ambient
 
-      ambient = ambient_viscosity_t([l%vogel_viscosity, l%vogel_b, l%vogel_c], &
-                                    [l%kinematic_viscosity_40, l%kinematic_viscosity_100], l%density_15, l%thermal_expansion)
+      ambient = new_ambient_viscosity([l%vogel_viscosity, l%vogel_b, l%vogel_c], &
+                                      [l%kinematic_viscosity_40, l%kinematic_viscosity_100], l%density_15, l%thermal_expansion)
    end function ambient_of
 
    !> A table of a single temperature holds at that one

@@ -3,11 +3,12 @@
 module ehl_case_oil
    use ehl_case, only: case_t
    use ehl_case_contact, only: find_contact
-   use ehl_case_law, only: make_viscosity, own_law, uses_law
+   use ehl_case_law, only: make_lubricant, make_viscosity, own_law, uses_law
    use ehl_case_path, only: find_file
    use ehl_contact, only: contact_t
    use ehl_heat, only: freezing
    use ehl_kinds, only: dp
+   use ehl_lubricant, only: lubricant_t
    use ehl_moes, only: operating_t
    use ehl_oils, only: oil_named, oil_t
    use ehl_refusal, only: contradict, refuse, short
@@ -16,8 +17,9 @@ module ehl_case_oil
    use ehl_source, only: source_t
    use ehl_status, only: status_t
    use ehl_text, only: to_text
+   use ehl_viscosity_file, only: read_isotherms
    use ehl_viscosity_law, only: viscosity_law_t
-   use ehl_viscosity_table, only: isotherm_t, viscosity_table_t
+   use ehl_viscosity_table, only: isotherm_t
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
    private
@@ -27,6 +29,9 @@ module ehl_case_oil
    real(dp), parameter :: rounding = 1.0e-6_dp
    !> Greatest pressure at which a law must tell a viscosity, over the Hertz pressure
    real(dp), parameter :: beyond_hertz = 1.5_dp
+   !> Laws without constants of an oil, which rise up to any pressure
+   character(len=*), parameter :: simple_viscosity(2) = [character(len=8) :: "roelands", "barus"], &
+                                  simple_density(2) = [character(len=16) :: "dowson-higginson", "incompressible"]
 
 contains
 
@@ -53,6 +58,10 @@ contains
       if (.not. schema%given("lubricant", "viscosity_law") .and. own_law(input%lubricant) /= "") then
          input%lubricant%viscosity_law = own_law(input%lubricant)
       end if
+      ! its constants hold with that volume
+      if (.not. schema%given("lubricant", "density_law") .and. own_law(input%lubricant) == "doolittle") then
+         input%lubricant%density_law = "tait"
+      end if
       if (input%lubricant%table == "") then
          if (input%lubricant%viscosity_law == "table") call refuse(schema, sources, "lubricant", "viscosity_law", &
             "lubricant.viscosity_law = 'table' without lubricant.table", "table = '...', a CSV of measured viscosities", status)
@@ -76,17 +85,19 @@ contains
       call check_constants(schema, input, sources, status)
       if (status%failed()) return
       associate (l => input%lubricant)
+         if (own_law(l) == "table" .and. .not. allocated(l%isotherms)) call read_isotherms(trim(l%table), l%isotherms, status)
+         if (status%failed()) return
          ! a pressure of 1 Pa
          call make_viscosity(l, own_law(l), 1.0_dp, law, status)
          if (status%failed()) return
+         if (.not. ieee_is_finite(law%ambient_viscosity)) then
+            call refuse(schema, sources, "lubricant", law_key(schema), "the law '"//own_law(l)//"' has no viscosity at "// &
+                        to_text(l%temperature)//" degC", "a temperature and constants at which the oil is liquid", status)
+            return
+         end if
          call law%log_viscosity([0.0_dp], level, alpha)
          call law%log_viscosity_at([0.0_dp, 0.0_dp], [-step, step], at)
-         select type (law)
-         type is (viscosity_table_t)
-            call take_range(law%isotherms)
-         class default
-            continue
-         end select
+         if (own_law(l) == "table") call take_range(l%isotherms)
          call follow("viscosity", l%viscosity, law%ambient_viscosity)
          call follow("pressure_viscosity", l%pressure_viscosity, alpha(1))
          ! an own value is another slope of the temperature in the laws of Roelands and Barus, and that of a table of a single
@@ -165,6 +176,12 @@ contains
             call need("yasutomi", l%yasutomi_a1*l%yasutomi_a2*l%yasutomi_c1*l%yasutomi_c2 > 0.0_dp, "all of its constants", &
                       "yasutomi_tg0, yasutomi_a1, yasutomi_a2, yasutomi_b1, yasutomi_b2, yasutomi_c1 and yasutomi_c2")
          end if
+         if (uses_law(l, "doolittle")) then
+            call need("doolittle", l%doolittle_viscosity*l%doolittle_b*l%doolittle_r0 > 0.0_dp, "all of its constants", &
+                      "doolittle_viscosity, doolittle_temperature, doolittle_b, doolittle_r0 and doolittle_expansion")
+            call need("doolittle", l%tait_modulus*l%tait_rate > 0.0_dp, "the volume under pressure", &
+                      "tait_modulus, tait_rate, tait_softening, tait_expansion and tait_temperature")
+         end if
       end associate
 
    contains
@@ -179,13 +196,13 @@ contains
       end subroutine need
    end subroutine check_constants
 
-   !> The law must tell a viscosity over all pressures of the contact, the density its constants
+   !> The laws must tell viscosity and density over all pressures of the contact
    subroutine check_law(schema, input, sources, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(in) :: input
       type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
-      class(viscosity_law_t), allocatable :: law
+      type(lubricant_t) :: lubricant
       class(contact_t), allocatable :: contact
       type(scales_t) :: scales
       type(operating_t) :: point
@@ -194,32 +211,65 @@ contains
       integer :: k
 
       associate (l => input%lubricant)
-         if (l%density_law == "murnaghan" .and. .not. l%murnaghan_modulus*l%murnaghan_rate > 0.0_dp) then
-            call refuse(schema, sources, "lubricant", "density_law", "lubricant.density_law = 'murnaghan' without its constants", &
-                        "murnaghan_modulus, murnaghan_rate and murnaghan_softening", status)
-         end if
+         call check_density(schema, input, sources, status)
          if (l%range_temperature_max < l%range_temperature_min) then
             call refuse(schema, sources, "lubricant", "range_temperature_max", "lubricant.range_temperature_max = "// &
                to_text(l%range_temperature_max)//" below range_temperature_min = "//to_text(l%range_temperature_min), &
                "a range of temperatures, or both 0", status)
          end if
-         if (status%failed() .or. l%viscosity_law == "roelands" .or. l%viscosity_law == "barus") return
+         if (status%failed()) return
+         if (any(l%viscosity_law == simple_viscosity) .and. any(l%density_law == simple_density)) return
          call find_contact(input, contact, scales, point)
          if (.not. scales%pressure > 0.0_dp) return
-         call make_viscosity(l, trim(l%viscosity_law), scales%pressure, law, status)
+         call make_lubricant(l, point%alpha_bar, scales%pressure, lubricant, status)
          if (status%failed()) return
          p = beyond_hertz*[(real(k, dp), k=0, n)]/n
-         call law%log_viscosity(p, values, slope)
+         call lubricant%density(p, values, slope)
+         if (.not. any(l%density_law == simple_density)) call check_rise("density_law", trim(l%density_law), "density")
+         call lubricant%log_viscosity(p, values, slope)
+         if (.not. any(l%viscosity_law == simple_viscosity)) then
+            call check_rise(law_key(schema), trim(l%viscosity_law), "viscosity")
+         end if
+      end associate
+
+   contains
+
+      !> The values of a law must rise with pressure
+      subroutine check_rise(key, law, what)
+         character(len=*), intent(in) :: key, law, what
+
          do k = 1, n
             if (ieee_is_finite(values(k))) then
                if (values(k) > values(k - 1)) cycle
             end if
-            call refuse(schema, sources, "lubricant", law_key(schema), "the law '"//trim(l%viscosity_law)// &
-               "' has no viscosity that rises with pressure at "//short(p(k)*scales%pressure)//" Pa and "// &
-               to_text(l%temperature)//" degC, and the Hertz pressure is "//short(scales%pressure)//" Pa", &
-               "a law that tells the viscosity up to 1.5 times the Hertz pressure, or a lower load", status)
+            call refuse(schema, sources, "lubricant", key, "the law '"//law//"' has no "//what//" that rises with pressure at "// &
+               short(p(k)*scales%pressure)//" Pa and "//to_text(input%lubricant%temperature)// &
+               " degC, and the Hertz pressure is "//short(scales%pressure)//" Pa", &
+               "a law that tells the "//what//" up to 1.5 times the Hertz pressure, or a lower load", status)
             return
          end do
-      end associate
+      end subroutine check_rise
    end subroutine check_law
+
+   !> The constants of the density, and a thermal expansion beside a law that has its own
+   subroutine check_density(schema, input, sources, status)
+      type(schema_t), intent(in) :: schema
+      type(case_t), intent(in) :: input
+      type(source_t), intent(in) :: sources(:)
+      type(status_t), intent(inout) :: status
+
+      associate (l => input%lubricant)
+         if (l%density_law == "murnaghan" .and. .not. l%murnaghan_modulus*l%murnaghan_rate > 0.0_dp) then
+            call refuse(schema, sources, "lubricant", "density_law", "lubricant.density_law = 'murnaghan' without its constants", &
+                        "murnaghan_modulus, murnaghan_rate and murnaghan_softening", status)
+         else if (l%density_law == "tait" .and. .not. l%tait_modulus*l%tait_rate > 0.0_dp) then
+            call refuse(schema, sources, "lubricant", "density_law", "lubricant.density_law = 'tait' without its constants", &
+                        "tait_modulus, tait_rate, tait_softening, tait_expansion and tait_temperature", status)
+         else if (l%density_law == "tait" .and. schema%given("lubricant", "thermal_expansion") .and. &
+                  .not. l%kinematic_viscosity_40 > 0.0_dp) then
+            call refuse(schema, sources, "lubricant", "thermal_expansion", "lubricant.thermal_expansion with "// &
+                        "lubricant.density_law = 'tait', which has its own", "tait_expansion alone", status)
+         end if
+      end associate
+   end subroutine check_density
 end module ehl_case_oil

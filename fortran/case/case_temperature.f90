@@ -3,7 +3,7 @@
 module ehl_case_temperature
    use ehl_case, only: case_t
    use ehl_case_contact, only: find_contact
-   use ehl_case_law, only: own_law
+   use ehl_case_law, only: knows_temperature, own_law
    use ehl_contact, only: contact_t
    use ehl_heat, only: dynamic_viscosity, temperature_viscosity, thermal_loading, thermal_reduction
    use ehl_kinds, only: dp
@@ -43,7 +43,7 @@ contains
          do k = 1, size(sheet_keys)
             if (.not. schema%given("lubricant", trim(sheet_keys(k)))) cycle
             ! temperature and expansion serve the laws of viscosity and density under temperature as well
-            if (own_law(input%lubricant) /= "") cycle
+            if (knows_temperature(input%lubricant)) cycle
             if (sheet_keys(k) /= "density_15" .and. input%lubricant%temperature_viscosity > 0.0_dp) cycle
             call refuse(schema, sources, "lubricant", trim(sheet_keys(k)), "lubricant." // trim(sheet_keys(k)) &
                         // " without the viscosities of the data sheet", "kinematic_viscosity_40 and " &

@@ -3,7 +3,7 @@
 module ehl_case_writer
    use ehl_case, only: case_t, is_feature, surface_case_t
    use ehl_case_key, only: key_t, mark_default, mark_derived
-   use ehl_case_law, only: own_law, uses_law
+   use ehl_case_law, only: knows_temperature, own_law, uses_law
    use ehl_kinds, only: dp
    use ehl_keys, only: bind_keys
    use ehl_schema, only: schema_t
@@ -116,12 +116,21 @@ contains
       case ("lubricant.yasutomi_tg0", "lubricant.yasutomi_a1", "lubricant.yasutomi_a2", "lubricant.yasutomi_b1", &
             "lubricant.yasutomi_b2", "lubricant.yasutomi_c1", "lubricant.yasutomi_c2", "lubricant.yasutomi_viscosity")
          holds_elsewhere = uses_law(input%lubricant, "yasutomi")
+      case ("lubricant.doolittle_viscosity", "lubricant.doolittle_temperature", "lubricant.doolittle_b", &
+            "lubricant.doolittle_r0", "lubricant.doolittle_expansion")
+         holds_elsewhere = uses_law(input%lubricant, "doolittle")
+      case ("lubricant.tait_modulus", "lubricant.tait_rate", "lubricant.tait_softening", "lubricant.tait_expansion", &
+            "lubricant.tait_temperature")
+         holds_elsewhere = uses_law(input%lubricant, "doolittle") .or. input%lubricant%density_law == "tait"
       case ("lubricant.murnaghan_modulus", "lubricant.murnaghan_rate", "lubricant.murnaghan_softening")
          holds_elsewhere = input%lubricant%density_law == "murnaghan"
       case ("lubricant.range_temperature_min", "lubricant.range_temperature_max", "lubricant.range_pressure_max")
          holds_elsewhere = own_law(input%lubricant) /= ""
-      case ("lubricant.temperature", "lubricant.thermal_expansion")
-         holds_elsewhere = own_law(input%lubricant) /= "" .or. input%lubricant%temperature_viscosity > 0.0_dp
+      case ("lubricant.temperature")
+         holds_elsewhere = knows_temperature(input%lubricant) .or. input%lubricant%temperature_viscosity > 0.0_dp
+      case ("lubricant.thermal_expansion")
+         holds_elsewhere = knows_temperature(input%lubricant) .or. input%lubricant%temperature_viscosity > 0.0_dp
+         if (input%lubricant%density_law == "tait") holds_elsewhere = input%lubricant%kinematic_viscosity_40 > 0.0_dp
       case ("lubricant.density_15")
          holds_elsewhere = input%lubricant%kinematic_viscosity_40 > 0.0_dp
       case ("lubricant.limiting_coefficient")

@@ -1,9 +1,10 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The one table of all keys: group, name, unit, allowed values, meaning, and where the value lives in a case; the
-!> defaults are those of the types in ehl_case
+!> defaults are those of the types in ehl_case. ehl_law_keys has the constants of oils.
 module ehl_keys
    use ehl_case, only: case_t, surface_case_t
    use ehl_case_key, only: kind_path, kind_text
+   use ehl_law_keys, only: add_law_keys
    use ehl_oils, only: oil_names
    use ehl_schema, only: schema_t
    implicit none (type, external)
@@ -65,39 +66,12 @@ contains
          call self%reals("viscosity", l%viscosity, "Pa s", "[1e-4, 10]", "viscosity at ambient pressure")
          call self%reals("pressure_viscosity", l%pressure_viscosity, "1/Pa", "[1e-10, 1e-7]", &
                          "pressure-viscosity coefficient")
-         call self%words("viscosity_law", l%viscosity_law, "roelands|barus|dicke|yasutomi|table", &
+         call self%words("viscosity_law", l%viscosity_law, "roelands|barus|dicke|yasutomi|doolittle|table", &
                          "viscosity under pressure; default that of name or table")
          call self%reals("roelands_z", l%roelands_z, "-", "[0.05, 2]", &
                          "Roelands exponent; default alpha p0/(ln eta0 + 9.67)")
          call self%reals("roelands_p0", l%roelands_p0, "Pa", "[1e7, 1e10]", "Roelands reference pressure")
-         call self%reals("vogel_viscosity", l%vogel_viscosity, "Pa s", "0 or [1e-9, 1]", &
-                         "K of eta = K exp(B/(theta + C)), for dicke")
-         call self%reals("vogel_b", l%vogel_b, "K", "[0, 1e4]", "B of it")
-         call self%reals("vogel_c", l%vogel_c, "degC", "[-100, 300]", "C of it")
-         call self%reals("dicke_a1", l%dicke_a1, "Pa", "[-1e10, 1e10]", &
-                         "a1 of ln(eta/eta0) = p/(a1 + a2 theta + (b1 + b2 theta) p), theta in degC")
-         call self%reals("dicke_a2", l%dicke_a2, "Pa/K", "[-1e8, 1e8]", "a2 of it")
-         call self%reals("dicke_b1", l%dicke_b1, "-", "[-1, 1]", "b1 of it")
-         call self%reals("dicke_b2", l%dicke_b2, "1/K", "[-0.01, 0.01]", "b2 of it")
-         call self%reals("yasutomi_tg0", l%yasutomi_tg0, "degC", "[-200, 100]", &
-                         "glass temperature at ambient pressure, of the improved Yasutomi correlation")
-         call self%reals("yasutomi_a1", l%yasutomi_a1, "K", "[0, 1e4]", "A1 of it")
-         call self%reals("yasutomi_a2", l%yasutomi_a2, "1/Pa", "[0, 1e-7]", "A2 of it")
-         call self%reals("yasutomi_b1", l%yasutomi_b1, "1/Pa", "[0, 1e-6]", "b1 of it")
-         call self%reals("yasutomi_b2", l%yasutomi_b2, "-", "[-2, 0]", "b2 of it")
-         call self%reals("yasutomi_c1", l%yasutomi_c1, "-", "0 or [1, 100]", "C1 of it")
-         call self%reals("yasutomi_c2", l%yasutomi_c2, "K", "0 or [1, 500]", "C2 of it")
-         call self%reals("yasutomi_viscosity", l%yasutomi_viscosity, "Pa s", "[1e3, 1e15]", "viscosity of the glass")
-         call self%words("density_law", l%density_law, "dowson-higginson|incompressible|murnaghan", "density under pressure")
-         call self%reals("murnaghan_modulus", l%murnaghan_modulus, "Pa", "0 or [1e8, 1e12]", &
-                         "K00 of the bulk modulus K0 = K00 exp(-beta_K T), T in K")
-         call self%reals("murnaghan_rate", l%murnaghan_rate, "-", "0 or [1, 50]", "K0', its rate with pressure")
-         call self%reals("murnaghan_softening", l%murnaghan_softening, "1/K", "[0, 0.1]", "beta_K of it")
-         call self%reals("range_temperature_min", l%range_temperature_min, "degC", "[-100, 500]", &
-                         "the constants of the law were measured from there on; both 0: not known")
-         call self%reals("range_temperature_max", l%range_temperature_max, "degC", "[-100, 500]", "and up to there")
-         call self%reals("range_pressure_max", l%range_pressure_max, "Pa", "0 or [1e5, 1e11]", &
-                         "and up to this pressure; 0: not known")
+         call add_law_keys(self, l)
          call self%words("shear_law", l%shear_law, "newtonian|eyring|limiting|carreau", &
                          "shear stress in the contact")
          call self%words("flow", l%flow, "consistent|newtonian", &
@@ -195,7 +169,7 @@ contains
          call self%words("wavelength_convention", p%wavelength_convention, "components|wavevector|pattern", &
                          "what the wavelength of a component is, for reduction = 'amplitude'")
          call self%words("stiffness", p%stiffness, "exact|paper", "stiffness of the half-space")
-         call self%words("viscosity_law", p%viscosity_law, "roelands|barus|dicke|yasutomi|table|", &
+         call self%words("viscosity_law", p%viscosity_law, "roelands|barus|dicke|yasutomi|doolittle|table|", &
                          "viscosity under pressure; default as in &lubricant")
          call self%logicals("load_balance", p%load_balance, "rebalance the pressure to carry the load")
          call self%integers("positions", p%positions, "[0, 4096]", &

@@ -2,10 +2,12 @@
 !> Viscosity by Dicke, the modulus equation (Peeken, Dicke & Welsch 1992):
 !>
 !>    eta = eta(theta) exp{p/[a1 + a2 theta + (b1 + b2 theta) p]},   theta in degC
+!>
+!> Where the bracket is not positive, which takes b1 + b2 theta < 0, the oil is solid, and the viscosity infinite.
 module ehl_dicke
    use ehl_ambient_viscosity, only: ambient_viscosity_t
    use ehl_kinds, only: dp
-   use ehl_viscosity_law, only: viscosity_law_t
+   use ehl_viscosity_law, only: solid, viscosity_law_t
    implicit none (type, external)
    private
    public :: dicke_t, new_dicke
@@ -53,6 +55,12 @@ contains
          values(i) = p(i)*inverse
          slope(i) = a*inverse*inverse
       end do
+      if (b >= 0.0_dp) return
+      do i = 1, size(p)
+         if (a + b*p(i) > 0.0_dp) cycle
+         values(i) = solid()
+         slope(i) = 0.0_dp
+      end do
    end subroutine log_viscosity
 
    !> ln(eta/eta0) at rises of temperature [K]
@@ -69,6 +77,7 @@ contains
          b = self%b(1) + self%b(2)*theta
          inverse = 1.0_dp/(a + b*p(i))
          values(i) = p(i)*inverse + (self%ambient%log_viscosity(theta) - self%level)
+         if (.not. a + b*p(i) > 0.0_dp) values(i) = solid()
       end do
    end subroutine log_viscosity_at
 end module ehl_dicke

@@ -5,7 +5,7 @@ module ehl_heat
    implicit none (type, external)
    private
    public :: kinematic_viscosity, dynamic_viscosity, temperature_viscosity, thermal_loading, thermal_reduction, &
-             flash_temperature, raised_speed, freezing, sheet_density
+             flash_temperature, raised_speed, freezing, sheet_density, walther_t, new_walther
 
    !> 0 degC in kelvin, and the temperatures of data sheets [degC]
    real(dp), parameter :: freezing = 273.15_dp, sheet(2) = [40.0_dp, 100.0_dp], sheet_density = 15.0_dp
@@ -13,33 +13,72 @@ module ehl_heat
    !> greatest rise where the semi-axis across the motion is 1/15 to 30 times that along it, 1 % for a circle
    real(dp), parameter :: narrow = 0.38_dp
 
+   !> Viscosity of a data sheet over temperature: what the line takes from the sheet, once for many temperatures
+   type :: walther_t
+      private
+      !> log T [ln K] and log log Z at the temperatures of the sheet
+      real(dp) :: log_t(2) = 0.0_dp, double_log(2) = 0.0_dp
+   contains
+      procedure :: viscosity => viscosity_of_line
+      procedure :: dynamic => dynamic_of_line
+   end type walther_t
+
 contains
 
-   !> Kinematic viscosity [mm^2/s] at a temperature [degC] from those at 40 and 100 degC: log log Z = A - B log T with
-   !> Z(nu) of ASTM D341 (Walther 1931: nu + 0.7), valid above 0.21 mm^2/s
-   pure real(dp) function kinematic_viscosity(temperature, points) result(viscosity)
-      real(dp), intent(in) :: temperature, points(2)
-      real(dp) :: log_t(2), double_log(2), z
+   !> The line through kinematic viscosities at 40 and 100 degC [mm^2/s]: log log Z = A - B log T with Z(nu) of ASTM D341
+   !> (Walther 1931: nu + 0.7), valid above 0.21 mm^2/s
+   pure function new_walther(points) result(line)
+      real(dp), intent(in) :: points(2)
+      type(walther_t) :: line
+      real(dp) :: z
       integer :: k
 
       do k = 1, 2
-         log_t(k) = log(sheet(k) + freezing)
+         line%log_t(k) = log(sheet(k) + freezing)
          z = points(k) + 0.7_dp + exp(-1.47_dp - 1.84_dp*points(k) - 0.51_dp*points(k)**2)
-         double_log(k) = log(log(z))
+         line%double_log(k) = log(log(z))
       end do
-      z = exp(exp(double_log(1) + (double_log(2) - double_log(1))*(log(temperature + freezing) - log_t(1)) &
-                  /(log_t(2) - log_t(1)))) - 0.7_dp
+   end function new_walther
+
+   !> Kinematic viscosity [mm^2/s] of a line at a temperature [degC]
+   pure real(dp) function viscosity_of_line(line, temperature) result(viscosity)
+      class(walther_t), intent(in) :: line
+      real(dp), intent(in) :: temperature
+      real(dp) :: z
+
+      associate (log_t => line%log_t, double_log => line%double_log)
+         z = exp(exp(double_log(1) + (double_log(2) - double_log(1))*(log(temperature + freezing) - log_t(1)) &
+                     /(log_t(2) - log_t(1)))) - 0.7_dp
+      end associate
       viscosity = z - exp(-0.7487_dp - 3.295_dp*z + 0.6119_dp*z**2 - 0.3193_dp*z**3)
+   end function viscosity_of_line
+
+   !> Kinematic viscosity [mm^2/s] at a temperature [degC] from those at 40 and 100 degC
+   pure real(dp) function kinematic_viscosity(temperature, points) result(viscosity)
+      real(dp), intent(in) :: temperature, points(2)
+      type(walther_t) :: line
+
+      line = new_walther(points)
+      viscosity = line%viscosity(temperature)
    end function kinematic_viscosity
 
-   !> Viscosity [Pa s] at a temperature [degC]; density at 15 degC [kg/m^3], its relative fall per kelvin. None where the line
-   !> of the density has come to zero, above 1000 degC: an estimate of the heat may ask there, a contact is never so hot.
+   !> Viscosity [Pa s] at a temperature [degC]; density at 15 degC [kg/m^3], its relative fall per kelvin
    pure real(dp) function dynamic_viscosity(temperature, points, density, expansion)
       real(dp), intent(in) :: temperature, points(2), density, expansion
+      type(walther_t) :: line
 
-      dynamic_viscosity = 1.0e-6_dp*kinematic_viscosity(temperature, points) &
-                          *density*max(0.0_dp, 1.0_dp - expansion*(temperature - sheet_density))
+      line = new_walther(points)
+      dynamic_viscosity = line%dynamic(temperature, density, expansion)
    end function dynamic_viscosity
+
+   !> The same of a line. None where that of the density has come to zero, above 1000 degC: an estimate of the heat may ask
+   !> there, a contact is never so hot.
+   pure real(dp) function dynamic_of_line(line, temperature, density, expansion) result(viscosity)
+      class(walther_t), intent(in) :: line
+      real(dp), intent(in) :: temperature, density, expansion
+
+      viscosity = 1.0e-6_dp*line%viscosity(temperature)*density*max(0.0_dp, 1.0_dp - expansion*(temperature - sheet_density))
+   end function dynamic_of_line
 
    !> Temperature-viscosity coefficient -(d eta/dT)/eta [1/K] of the same oil
    pure real(dp) function temperature_viscosity(temperature, points, density, expansion)

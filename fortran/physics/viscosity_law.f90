@@ -2,10 +2,11 @@
 !> What every law of viscosity under pressure and temperature can tell, row by row: the law is chosen once per row, and
 !> the loops of the laws vectorise
 module ehl_viscosity_law
+   use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: viscosity_law_t
+   public :: viscosity_law_t, solid
 
    !> Viscosity over eta0, that at ambient pressure and the temperature of the inlet
    type, abstract :: viscosity_law_t
@@ -36,4 +37,11 @@ module ehl_viscosity_law
          real(dp), intent(out) :: values(:)
       end subroutine log_viscosity_at
    end interface
+
+contains
+
+   !> ln(eta/eta0) beyond the pole of a law, where the oil is solid and does not flow
+   pure real(dp) function solid()
+      solid = ieee_value(0.0_dp, ieee_positive_inf)
+   end function solid
 end module ehl_viscosity_law

@@ -3,9 +3,11 @@
 !>
 !>    eta = eta_g exp{-ln(10) C1 (T - T_g) F/[C2 + (T - T_g) F]},
 !>    T_g = T_g0 + A1 ln(1 + A2 p),   F = (1 + b1 p)^b2
+!>
+!> Where C2 + (T - T_g) F is not positive the oil is solid, and the viscosity infinite.
 module ehl_yasutomi
    use ehl_kinds, only: dp
-   use ehl_viscosity_law, only: viscosity_law_t
+   use ehl_viscosity_law, only: solid, viscosity_law_t
    implicit none (type, external)
    private
    public :: yasutomi_t, new_yasutomi
@@ -48,7 +50,8 @@ contains
       real(dp) :: d
 
       d = (self%above + rise - self%a1*log(1.0_dp + self%a2*p))*exp(self%b2*log(1.0_dp + self%b1*p))
-      below_glass = -log(10.0_dp)*self%c1*d/(self%c2 + d)
+      below_glass = solid()
+      if (self%c2 + d > 0.0_dp) below_glass = -log(10.0_dp)*self%c1*d/(self%c2 + d)
    end function below_glass
 
    !> ln(eta/eta0) at the temperature of the inlet, and its slope
@@ -64,7 +67,8 @@ contains
          f = exp(self%b2*log(1.0_dp + self%b1*p(i)))
          d = (self%above - self%a1*log(1.0_dp + self%a2*p(i)))*f
          by_p = -self%a1*self%a2/(1.0_dp + self%a2*p(i))*f + d*self%b2*self%b1/(1.0_dp + self%b1*p(i))
-         slope(i) = -log(10.0_dp)*self%c1*self%c2*by_p/(self%c2 + d)**2
+         slope(i) = 0.0_dp
+         if (self%c2 + d > 0.0_dp) slope(i) = -log(10.0_dp)*self%c1*self%c2*by_p/(self%c2 + d)**2
       end do
    end subroutine log_viscosity
 

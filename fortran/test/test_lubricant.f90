@@ -2,10 +2,13 @@
 !> Laws of viscosity and density under pressure and temperature
 module test_lubricant
    use check, only: is_close, is_true
-   use ehl_ambient_viscosity, only: ambient_viscosity_t
+   use ehl_ambient_viscosity, only: ambient_viscosity_t, new_ambient_viscosity
+   use ehl_density_law, only: density_law_t
    use ehl_dicke, only: new_dicke
+   use ehl_doolittle, only: new_doolittle
    use ehl_kinds, only: dp
    use ehl_murnaghan, only: murnaghan_t, new_murnaghan
+   use ehl_tait, only: new_tait, tait_t
    use ehl_viscosity_law, only: viscosity_law_t
    use ehl_viscosity_table, only: isotherm_t, new_isotherm, new_viscosity_table, viscosity_table_t
    use ehl_yasutomi, only: new_yasutomi
@@ -21,6 +24,7 @@ contains
       call reference_oil()
       call glass()
       call bulk_modulus()
+      call free_volume()
       call measured_values()
    end subroutine run_lubricant
 
@@ -40,13 +44,27 @@ contains
       call is_close(maxval(abs(at - values)), 0.0_dp, 0.0_dp, name//": no rise, no other viscosity")
    end subroutine check_law
 
+   !> A pole between two pressures: finite before it, infinite behind, with a rise of temperature of zero as well
+   subroutine check_solid(law, before, behind, name)
+      class(viscosity_law_t), intent(in) :: law
+      real(dp), intent(in) :: before, behind
+      character(len=*), intent(in) :: name
+      real(dp), dimension(3) :: values, slope, at
+
+      call law%log_viscosity([before, behind, 3.0_dp*behind], values, slope)
+      call law%log_viscosity_at([before, behind, 3.0_dp*behind], [0.0_dp, 0.0_dp, 0.0_dp], at)
+      call is_true(values(1) > 20.0_dp .and. values(1) < huge(1.0_dp), name//" before its pole")
+      call is_true(all(values(2:) > huge(1.0_dp)) .and. all(at(2:) > huge(1.0_dp)), name//" behind its pole")
+      call is_true(all(abs(slope(2:)) <= 0.0_dp), name//" does not change there")
+   end subroutine check_solid
+
    !> FVA 3 by Table A1 of Wingertszahn et al. 2023, by hand at 40 and 60 degC and 1 GPa
    subroutine reference_oil()
       real(dp), parameter :: a(2) = [327.7918e5_dp, 2.9862e5_dp], b(2) = [4.419e-3_dp, 3.0115e-4_dp]
       type(ambient_viscosity_t) :: ambient
       real(dp) :: values(2)
 
-      ambient = ambient_viscosity_t(vogel=[0.062e-3_dp, 1021.7_dp, 101.5517_dp])
+      ambient = new_ambient_viscosity([0.062e-3_dp, 1021.7_dp, 101.5517_dp], [0.0_dp, 0.0_dp], 870.0_dp, 6.5e-4_dp)
       associate (law => new_dicke(ambient, a, b, 1.0e9_dp, 40.0_dp))
          call check_law(law, "dicke")
          call is_close(law%ambient_viscosity, 0.0845_dp, 1.0e-4_dp, "FVA 3 at 40 degC [Pa s]")
@@ -56,10 +74,15 @@ contains
          call is_close(values(2), 12.7706_dp, 1.0e-3_dp, "FVA 3 at 1 GPa and 60 degC")
       end associate
       ! a data sheet in place of Vogel's constants
-      ambient = ambient_viscosity_t(sheet=[94.1_dp, 14.0_dp], density=840.0_dp, expansion=6.5e-4_dp)
+      ambient = new_ambient_viscosity([0.0_dp, 0.0_dp, 0.0_dp], [94.1_dp, 14.0_dp], 840.0_dp, 6.5e-4_dp)
       associate (law => new_dicke(ambient, a, b, 1.0e9_dp, 40.0_dp))
          call check_law(law, "dicke with a data sheet")
          call is_close(law%ambient_viscosity, 94.1e-6_dp*840.0_dp*(1.0_dp - 25.0_dp*6.5e-4_dp), 1.0e-12_dp, "data sheet")
+      end associate
+      ! a pole at 447.2398e5/0.02 Pa
+      associate (law => new_dicke(ambient, a, [-0.02_dp, 0.0_dp], 1.0e9_dp, 40.0_dp))
+         call check_law(law, "dicke with a pole")
+         call check_solid(law, 2.23_dp, 2.24_dp, "dicke")
       end associate
    end subroutine reference_oil
 
@@ -72,6 +95,7 @@ contains
          call check_law(law, "yasutomi")
          call law%log_viscosity_at([1.0_dp], [-83.2_dp + 188.86_dp*log(1.719_dp) - 40.0_dp], values)
          call is_close(law%ambient_viscosity*exp(values(1)), 1.0e12_dp, 1.0e3_dp, "viscosity of the glass")
+         call check_solid(law, 2.0_dp, 4.0_dp, "yasutomi")
       end associate
    end subroutine glass
 
@@ -79,6 +103,7 @@ contains
    subroutine bulk_modulus()
       real(dp), parameter :: hertz = 1.0e9_dp, k0 = 9.234e9_dp*exp(-6.09e-3_dp*313.15_dp), step = 1.0e-6_dp
       type(murnaghan_t) :: law
+      type(tait_t) :: volume
       real(dp), dimension(3) :: rho, slope, at, modulus
 
       law = new_murnaghan(9.234e9_dp, 10.545_dp, 6.09e-3_dp, 7.0e-4_dp, hertz, 313.15_dp)
@@ -87,11 +112,62 @@ contains
       call is_close(rho(1), 1.0_dp, 0.0_dp, "Murnaghan at ambient pressure")
       call is_close(maxval(abs(modulus - k0 - 10.545_dp*[0.0_dp, 0.5_dp, 1.0_dp]*hertz)/k0), 0.0_dp, 1.0e-13_dp, &
                     "bulk modulus under pressure")
-      call law%density([0.5_dp - step, 0.5_dp, 0.5_dp + step], at, modulus)
-      call is_close((at(3) - at(1))/(2.0_dp*step)/slope(2), 1.0_dp, 1.0e-8_dp, "slope of Murnaghan's density")
-      call law%density_at([0.0_dp, 0.5_dp, 1.0_dp], [0.0_dp, 0.0_dp, 0.0_dp], at)
-      call is_close(maxval(abs(at - rho)), 0.0_dp, 0.0_dp, "no rise, no other density by Murnaghan")
+      call check_density(law, "Murnaghan")
+      ! by Tait it is [K0 + (1 + K0') p] times the volume, so that it rises by K0' at ambient pressure
+      volume = new_tait(9.234e9_dp, 10.545_dp, 6.09e-3_dp, 8.0e-4_dp, 298.15_dp, hertz, 313.15_dp)
+      call volume%density([0.0_dp, step, 1.0_dp], rho, slope)
+      modulus = rho/slope*hertz
+      call is_close(modulus(1)/k0, 1.0_dp, 1.0e-13_dp, "bulk modulus of Tait's liquid at ambient pressure")
+      call is_close((modulus(2) - modulus(1))/(step*hertz), 10.545_dp, 1.0e-3_dp, "its rate with pressure")
+      call is_close(rho(3), 1.0_dp/(1.0_dp - log(1.0_dp + 11.545_dp*hertz/k0)/11.545_dp), 1.0e-13_dp, "Tait at 1 GPa")
+      call volume%density_at([0.0_dp, 0.0_dp, 0.0_dp], [-15.0_dp, 0.0_dp, 60.0_dp], at)
+      call is_close(maxval(abs(1.0_dp/at - [1.0_dp, 1.012_dp, 1.06_dp]/1.012_dp)), 0.0_dp, 1.0e-14_dp, "volume by temperature")
+      call check_density(volume, "Tait")
    end subroutine bulk_modulus
+
+   !> What every density must obey: its slope, rho0 at ambient pressure, the same bits without a rise of temperature
+   subroutine check_density(law, name)
+      class(density_law_t), intent(in) :: law
+      character(len=*), intent(in) :: name
+      real(dp), parameter :: step = 1.0e-6_dp
+      real(dp), dimension(3) :: rho, slope, at, unused
+
+      call law%density([0.0_dp, 0.5_dp, 1.0_dp], rho, slope)
+      call is_close(rho(1), 1.0_dp, 0.0_dp, name//": rho0 at ambient pressure")
+      call law%density([0.5_dp - step, 0.5_dp, 0.5_dp + step], at, unused)
+      call is_close((at(3) - at(1))/(2.0_dp*step)/slope(2), 1.0_dp, 1.0e-8_dp, name//": slope of the density")
+      call law%density_at([0.0_dp, 0.5_dp, 1.0_dp], [0.0_dp, 0.0_dp, 0.0_dp], at)
+      call is_close(maxval(abs(at - rho)), 0.0_dp, 0.0_dp, name//": no rise, no other density")
+   end subroutine check_density
+
+   !> Doolittle: Vogel's law at ambient pressure where the occupied volume does not change, the pole where no volume is free
+   subroutine free_volume()
+      real(dp), parameter :: eta = 0.02_dp, b = 4.5_dp, r0 = 0.66_dp, expansion = 8.0e-4_dp, reference = 313.15_dp, &
+                             inlet = 333.15_dp, rise(3) = [-40.0_dp, 10.0_dp, 80.0_dp], zero(3) = 0.0_dp
+      real(dp) :: values(3), vogel(3), solid
+      type(tait_t) :: state
+
+      state = new_tait(9.0e9_dp, 11.0_dp, 6.0e-3_dp, expansion, reference, 1.0e9_dp, inlet)
+      associate (law => new_doolittle(eta, b, r0, 0.0_dp, reference, state, inlet))
+         call check_law(law, "doolittle")
+         vogel = b*r0/expansion/(inlet + rise - reference + (1.0_dp - r0)/expansion) - b*r0/(1.0_dp - r0)
+         call law%log_viscosity_at(zero, rise, values)
+         call is_close(maxval(abs(log(law%ambient_viscosity/eta) + values - vogel)), 0.0_dp, 1.0e-12_dp, "Doolittle as Vogel")
+      end associate
+      associate (law => new_doolittle(eta, b, r0, -7.5e-4_dp, reference, state, inlet))
+         call check_law(law, "doolittle with an occupied volume that changes")
+         ! V/V_R = 1.016 (1 - ln[1 + 12 p/K0]/12) is the occupied 0.66 (1 - 0.015) there
+         solid = 9.0_dp*exp(-6.0e-3_dp*inlet)/12.0_dp*(exp(12.0_dp*(1.0_dp - 0.6501_dp/1.016_dp)) - 1.0_dp)
+         call check_solid(law, solid*(1.0_dp - 1.0e-9_dp), solid*(1.0_dp + 1.0e-9_dp), "doolittle")
+      end associate
+      ! the volume by another reference is the same liquid
+      state = new_tait(9.0e9_dp, 11.0_dp, 6.0e-3_dp, expansion/(1.0_dp - 20.0_dp*expansion), reference - 20.0_dp, 1.0e9_dp, inlet)
+      associate (law => new_doolittle(eta, b, r0, 0.0_dp, reference, state, inlet))
+         call law%log_viscosity_at(zero, rise, values)
+         call is_close(maxval(abs(log(law%ambient_viscosity/eta) + values - vogel)), 0.0_dp, 1.0e-12_dp, &
+                       "Doolittle by another reference of the volume")
+      end associate
+   end subroutine free_volume
 
    !> A table of values: these at their places, rising between them, straight on behind them
    subroutine measured_values()

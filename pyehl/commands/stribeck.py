@@ -111,12 +111,11 @@ def _measured(path: str, plan: CurvePlan) -> Measured:
             f"({why or 'with lubricant.shear_law = newtonian it has mu_ratio'})"
         )
     places = np.array([float(p.point.values[keys[0]]) for p in plan.points])
-    if measured.abscissa == keys[0] and measured.outside(keys[0], places, []) == len(
-        measured.places
-    ):
+    if measured.abscissa == keys[0] and (beyond := measured.outside(keys[0], places, [])):
         raise InputError(
-            f"{path}: --measured: no value of {keys[0]} lies on the curve, which goes from "
-            f"{places.min():g} to {places.max():g}"
+            f"{path}: --measured: {beyond} of {len(measured.places)} values of {keys[0]} are "
+            f"beyond the curve, which goes from {places.min():g} to {places.max():g}\nexpected: a "
+            "wider curve, or a file without them"
         )
     return measured
 

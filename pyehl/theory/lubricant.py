@@ -62,13 +62,15 @@ class Lubricant:
     pressure_viscosity
         alpha [1/Pa].
     viscosity_law
-        ``"roelands"`` or ``"barus"``; from a case also ``"dicke"``, ``"yasutomi"`` or ``"table"``.
+        ``"roelands"`` or ``"barus"``; from a case also ``"dicke"``, ``"yasutomi"``,
+        ``"doolittle"`` or ``"table"``.
     roelands_z
         Exponent [-]; 0 for the value of :func:`default_roelands_z`.
     roelands_p0
         [Pa].
     density_law
-        ``"dowson-higginson"`` or ``"incompressible"``; from a case also ``"murnaghan"``.
+        ``"dowson-higginson"`` or ``"incompressible"``; from a case also ``"murnaghan"`` or
+        ``"tait"``.
     shear
         Shear stress in the contact, for friction.
     temperature
@@ -76,7 +78,8 @@ class Lubricant:
     temperature_viscosity
         beta = -(d eta/dT)/eta at ambient pressure and the temperature of the inlet [1/K].
     thermal_expansion
-        Relative fall of the density with temperature, of that at 15 degC [1/K].
+        Relative fall of the density with temperature, of that at 15 degC [1/K]; ``"tait"`` has its
+        own among the constants.
     range_temperature_min, range_temperature_max, range_pressure_max
         Where the constants of the law were measured [degC, Pa]; all 0: not known.
     constants

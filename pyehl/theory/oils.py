@@ -88,16 +88,10 @@ def oil(name: str) -> Oil:
 
 
 def _integral(lubricant: Lubricant, end: float) -> float:
-    """Integrate eta0/eta from ambient pressure to a higher one [Pa]; a glass counts as solid."""
+    """Integrate eta0/eta from ambient pressure to a higher one [Pa]."""
     # dense where the integrand is
     p = end * np.linspace(0.0, 1.0, NODES) ** 3
-    with np.errstate(over="ignore", invalid="ignore"):
-        thinner = np.exp(-lubricant.log_viscosity_ratio(p))
-    beyond = ~np.isfinite(thinner) | (np.diff(thinner, prepend=thinner[0]) > 0.0)
-    if beyond.any():
-        # past the pole of a law
-        thinner[int(np.argmax(beyond)) :] = 0.0
-    return float(np.trapezoid(thinner, p))
+    return float(np.trapezoid(np.exp(-lubricant.log_viscosity_ratio(p)), p))
 
 
 def reciprocal_isoviscous(lubricant: Lubricant) -> float:

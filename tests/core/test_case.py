@@ -34,7 +34,7 @@ def test_resolved_case_reads_back(path: Path):
     }  # fmt: skip
     names = {f"{group}.{key}" for group, keys in groups.items() for key in keys}
     unused = {key.name for key in library.keys()} - names
-    laws = ("vogel", "dicke", "yasutomi", "murnaghan", "range")
+    laws = ("vogel", "dicke", "yasutomi", "doolittle", "murnaghan", "tait", "range")
     others = ("bodies.", "second_surface.", *(f"lubricant.{law}_" for law in laws))
     assert {name for name in unused if not name.startswith(others)} <= excluded
     assert ("second_surface" in groups) == (path.name == "gear_pair.nml")

@@ -57,6 +57,42 @@ FAULTS: list[tuple[str, str, list[str], list[str]]] = [
     ("law without constants", "&lubricant viscosity_law = §'yasutomi' /", [], ["yasutomi_tg0"]),
     ("law without a table", "&lubricant viscosity_law = §'table' /", [], ["table = '...'"]),
     ("density without constants", "&lubricant density_law = §'murnaghan' /", [], ["murnaghan_rate"]),
+    ("density without its volume", "&lubricant density_law = §'tait' /", [], ["tait_modulus"]),
+    (
+        "free volume without constants",
+        "&lubricant viscosity_law = §'doolittle' tait_modulus = 9e9 tait_rate = 11.0 /",
+        [],
+        ["doolittle_r0"],
+    ),
+    (
+        "free volume without a volume",
+        "&lubricant viscosity_law = §'doolittle'\n"
+        "doolittle_viscosity = 0.02 doolittle_b = 4.5 doolittle_r0 = 0.66 /",
+        [],
+        ["without the volume under pressure", "tait_modulus"],
+    ),
+    (
+        "no free volume",
+        "&lubricant viscosity_law = §'doolittle' temperature = 0.0\n"
+        "doolittle_viscosity = 0.02 doolittle_b = 4.5 doolittle_r0 = 0.97\n"
+        "doolittle_temperature = 40.0 tait_temperature = 40.0\n"
+        "tait_modulus = 9e9 tait_rate = 11.0 tait_expansion = 1e-3 /",
+        [],
+        ["no viscosity at 0.0 degC", "the oil is liquid"],
+    ),
+    (
+        "two expansions",
+        "&lubricant density_law = 'tait' tait_modulus = 9e9 tait_rate = 11.0\n"
+        "thermal_expansion = §7e-4 /",
+        [],
+        ["has its own", "tait_expansion"],
+    ),
+    (
+        "a liquid without a volume",
+        "&lubricant density_law = §'tait' tait_modulus = 2e8 tait_rate = 1.0 /",
+        [],
+        ["no density that rises with pressure", "lower load"],
+    ),
     (
         "range upside down",
         "&lubricant range_temperature_min = 60.0 range_temperature_max = §20.0 /",

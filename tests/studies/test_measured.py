@@ -64,7 +64,8 @@ def test_measured_data_that_are_refused(tmp_path: Path, text: str, says: str):
     [
         ("newtonian", f"{KEY},mu\n1,0.05\n", "it holds mu, the curve mu_ratio (a ratio alone: the"),
         ("eyring", f"{KEY},mu_ratio\n1,1.2\n", "it holds mu_ratio, the curve mu"),
-        ("eyring", f"{KEY},mu\n0.1,0.05\n9,0.05\n", "lies on the curve, which goes from 0.5 to 2"),
+        ("eyring", f"{KEY},mu\n0.1,0.05\n9,0.05\n", "2 of 2 values of contact.mean_velocity are"),
+        ("eyring", f"{KEY},mu\n1,0.05\n9,0.05\n", "beyond the curve, which goes from 0.5 to 2"),
         ("eyring", "speed,mu\n1,0.05\n", "expected: one of contact.mean_velocity"),
         ("eyring", f"{KEY};mu\n1;0.05\n", "with commas between columns, not ';'"),
         ("eyring", f"{KEY},mu\n1,0,0,05\n", "4 values for 2 columns"),
@@ -87,7 +88,8 @@ def test_measured_data_are_refused_before_the_first_case(
 
 
 def test_measured_points_beyond_the_curve_are_counted(cases: Path, tmp_path: Path):
-    (tmp_path / "m.csv").write_text(f"{KEY},mu\n0.6,0.05\n1.0,0.05\n9.0,0.05\n")
+    """Where the curve reaches in a number that follows from the point is known at its end."""
+    (tmp_path / "m.csv").write_text("hersey,mu\n1e-8,0.05\n1.5e-6,0.05\n1e-3,0.05\n")
     words = ("--set", "lubricant.shear_law=eyring", "--set", "surface.kind=smooth", "--set")
     words += ("grid.points=129", "--speed", "0.8,1.6", "--measured", str(tmp_path / "m.csv"))
     complaint = run(str(cases / "table1.nml"), *words, "-o", str(tmp_path / "o"))

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Load shares of a boundary film: docs/theory/contact.md shows docs/evidence/contact."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+
+@pytest.fixture(scope="module")
+def evidence(script):
+    return script("docs/evidence/contact/make.py")
+
+
+def test_the_page_shows_the_tables(root: Path, evidence):
+    text = (root / "docs" / "theory" / "contact.md").read_text(encoding="utf-8")
+    for load, _, stress, *_ in (evidence.HEAVY, evidence.LIGHT, evidence.THIN):
+        assert "\n".join(evidence.lines(load, stress)) in text
+
+
+def test_stated_errors_cover_the_next_grid(evidence):
+    """Where a run states an error of its share, the next finer grid is within it."""
+    rows = {tuple(float(row[key]) for key in evidence.KEYS): row for row in evidence.read()}
+    checked = 0
+    for key, row in rows.items():
+        finer = rows.get((*key[:-1], 2.0 * key[-1] - 1.0))
+        if not row["contact_load_share_error"] or finer is None:
+            continue
+        if not finer["contact_load_share"]:
+            continue
+        change = float(finer["contact_load_share"]) - float(row["contact_load_share"])
+        assert abs(change) <= float(row["contact_load_share_error"]), key
+        checked += 1
+    assert checked >= 6
+
+
+def test_this_build_makes_the_stored_shares(evidence):
+    """On the coarsest grid, where the inlet is not resolved and everything touches."""
+    row = evidence.read()[0]
+    found = evidence.simulated(
+        {key: float(row[key]) for key in evidence.KEYS[:-1]} | {"points": 65}
+    )
+    for name in ("contact_load_share", "contact_area_share", "layer_supply", "mu"):
+        assert found[name] == pytest.approx(float(row[name]), rel=1e-6), name
