@@ -252,10 +252,13 @@ class SolverHandle:
         """
         self._call(predicted.take_prediction, left_out, unresolved, why.encode())
 
-    def start_fronts(self) -> list[float]:
-        """Positions of the front [a] at which `take_start` is to give a pressure; mostly none."""
+    def start_fronts(self) -> Array:
+        """Positions of the fronts [a] at which `take_start` is to give a pressure.
+
+        Shape (4, surfaces); of no surface where it is not asked for, as mostly.
+        """
         fronts, n = self._call(predicted.start_fronts)
-        return [float(x) for x in fronts[:n]]
+        return np.asarray(fronts[:, :n])
 
     def take_start(self, pressure: Array | None, why: str = "") -> None:
         """Take the pressure that roughness adds where it fills the contact, as a start.

@@ -28,11 +28,11 @@ contains
       call reply(status, stat, message)
    end subroutine take_prediction
 
-   !> Positions of the front [a] for which the pressure that the roughness adds is asked, to begin time steps with; n is 0
-   !> where nothing is asked
+   !> Positions of the fronts of n surfaces [a] for which the pressure that the roughness adds is asked, to begin time steps
+   !> with; n is 0 where nothing is asked
    subroutine start_fronts(handle, fronts, n, stat, message)
       integer(c_int), intent(in) :: handle
-      real(c_double), intent(out) :: fronts(4)
+      real(c_double), intent(out) :: fronts(4, 2)
       integer(c_int), intent(out) :: n, stat
       character(len=4096), intent(out) :: message
       type(run_t), pointer :: run
@@ -44,8 +44,8 @@ contains
       if (.not. status%failed()) then
          associate (plan => run%solver%plan)
             if (plan%predicted_start) then
-               n = size(fronts)
-               fronts = fronts_at_start(plan%surfaces, plan%finest)
+               n = plan%surfaces%count()
+               fronts(:, :n) = fronts_at_start(plan%surfaces, plan%finest)
             end if
          end associate
       end if

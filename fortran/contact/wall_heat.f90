@@ -7,9 +7,9 @@
 !>    rise(x) = 1/k sqrt(kappa/(pi u)) int q(x')/sqrt(x - x') dx',   x' < x                                            (1)
 !>
 !> (Carslaw & Jaeger 1959, section 10.7), exact where u a/(2 kappa) is large: the heat flows straight down. Where it is not
-!> u is raised by a constant times kappa/a, such that a wall at rest becomes as hot as it does under a Hertz contact; the
-!> squares of the inverse rises add up, as in Tian & Kennedy 1994, J. Tribol. 116, 167. The heat is constant over each cell
-!> of a row, and integrated exactly.
+!> u is raised by a constant times kappa/a, such that a wall at rest becomes as hot as it does under a Hertz contact (for a
+!> circle as in Tian & Kennedy 1994, J. Tribol. 116, 167; under a narrow contact by more, see raised_speed). The heat is
+!> constant over each cell of a row, and integrated exactly.
 !>
 !> Of the heat q = q_1 + q_2 that the film makes evenly across its thickness h wall 1 takes
 !>
@@ -18,10 +18,11 @@
 !> and the mean across the film of conductivity k_f is (T_1 + T_2)/2 + q h/(12 k_f).
 module ehl_wall_heat
    use ehl_contact, only: contact_t
+   use ehl_heat, only: raised_speed
    use ehl_kinds, only: dp, pi
    implicit none (type, external)
    private
-   public :: wall_heat_t, wall_strength, speed_of_rest, share_t
+   public :: wall_heat_t, wall_strength, speed_of_rest, heat_source, share_t
 
    !> Largest over s of int sqrt(1 - x^2)/sqrt(s - x) dx, x from -1 to s
    real(dp), parameter :: fast_integral = 2.18830_dp
@@ -47,25 +48,46 @@ module ehl_wall_heat
 
 contains
 
-   !> 1/k sqrt(kappa/(pi u)) of a wall [K m^(3/2)/W], `rest` that of speed_of_rest, length a [m]
-   pure real(dp) function wall_strength(speed, conductivity, diffusivity, rest, length)
-      real(dp), intent(in) :: speed, conductivity, diffusivity, rest, length
-      wall_strength = sqrt(diffusivity/(pi*(abs(speed) + rest*diffusivity/length)))/conductivity
+   !> 1/k sqrt(kappa/(pi u)) of a wall [K m^(3/2)/W], `rest` that of speed_of_rest, length a [m], potential that of heat_source
+   pure real(dp) function wall_strength(speed, conductivity, diffusivity, rest, length, potential)
+      real(dp), intent(in) :: speed, conductivity, diffusivity, rest, length, potential
+      wall_strength = sqrt(diffusivity/(pi*raised_speed(abs(speed), rest*diffusivity/length, potential)))/conductivity
    end function wall_strength
 
    !> Speed over kappa/a at which (1) makes the greatest rise of a wall at rest under a semi-ellipse of heat, whose rise is
    !> a q l/(2 pi k), l = iint P/r in the centre; about 2.47 for a circle
    pure real(dp) function speed_of_rest(contact)
       class(contact_t), intent(in) :: contact
-      real(dp) :: potential, pressure(1), x, half
+      real(dp) :: half, potential
+
+      call find_source(contact, half, potential)
+      speed_of_rest = half*(2.0_dp*pi*fast_integral/potential)**2/pi
+   end function speed_of_rest
+
+   !> What flash_temperature needs to know of a contact: half its length along the motion, through its centre [a], and
+   !> iint P/r in the centre over that of a circle of this radius
+   pure function heat_source(contact) result(source)
+      class(contact_t), intent(in) :: contact
+      real(dp) :: source(2)
+      real(dp) :: half, potential
+
+      source = 1.0_dp
+      if (contact%is_round()) return
+      call find_source(contact, half, potential)
+      source = [half, potential/(0.5_dp*pi**2*half)]
+   end function heat_source
+
+   !> Half the length of a contact along the motion, through its centre [a]; iint P/r in the centre [a]
+   pure subroutine find_source(contact, half, potential)
+      class(contact_t), intent(in) :: contact
+      real(dp), intent(out) :: half, potential
+      real(dp) :: pressure(1), x
 
       potential = -contact%dry_separation()/contact%kernel_factor()
-      ! half the length of the contact along the motion, through its centre
       x = 0.5_dp*min(1.0_dp, contact%ellipticity)
       call contact%pressure_row([x], 0.0_dp, pressure)
       half = x/sqrt(1.0_dp - pressure(1)**2)
-      speed_of_rest = half*(2.0_dp*pi*fast_integral/potential)**2/pi
-   end function speed_of_rest
+   end subroutine find_source
 
    !> Prepare a row of n nodes a step [m] apart, between walls of these strengths
    pure subroutine start(self, n, step, strengths)

@@ -5,10 +5,13 @@ module ehl_heat
    implicit none (type, external)
    private
    public :: kinematic_viscosity, dynamic_viscosity, temperature_viscosity, thermal_loading, thermal_reduction, &
-             flash_temperature, freezing, sheet_density, walther_t, new_walther
+             flash_temperature, raised_speed, freezing, sheet_density, walther_t, new_walther
 
    !> 0 degC in kelvin, and the temperatures of data sheets [degC]
    real(dp), parameter :: freezing = 273.15_dp, sheet(2) = [40.0_dp, 100.0_dp], sheet_density = 15.0_dp
+   !> Power of the potential of a narrow contact in raised_speed, by integrals over moving sources: within 6 % of their
+   !> greatest rise where the semi-axis across the motion is 1/15 to 30 times that along it, 1 % for a circle
+   real(dp), parameter :: narrow = 0.38_dp
 
    !> Viscosity of a data sheet over temperature: what the line takes from the sheet, once for many temperatures
    type :: walther_t
@@ -105,15 +108,31 @@ contains
    end function thermal_reduction
 
    !> Greatest temperature rise [K] of two surfaces that move at `speeds` [m/s] through the heat of a Hertz contact,
-   !> semi-elliptic over its circle: Tian & Kennedy 1994, J. Tribol. 116, 167, for one surface; the heat
-   !> is shared so that both become as hot (Blok 1937)
-   pure real(dp) function flash_temperature(flux, radius, speeds, conductivity, diffusivity)
-      !> Mean heat flux [W/m^2], Hertz radius [m], of the solids: conductivity [W/(m K)], diffusivity [m^2/s]
-      real(dp), intent(in) :: flux, radius, speeds(2), conductivity(2), diffusivity(2)
+   !> semi-elliptic over its ellipse: Tian & Kennedy 1994, J. Tribol. 116, 167, for one surface and a circle; the heat
+   !> is shared so that both become as hot (Blok 1937). On an ellipse a fast surface is as hot as on a circle of the same
+   !> length along the motion, and one at rest as the potential of the ellipse says.
+   pure real(dp) function flash_temperature(flux, half, potential, speeds, conductivity, diffusivity)
+      !> Mean heat flux [W/m^2]; half the length of the contact along the motion, through its centre [m]; iint P/r at the
+      !> centre over that of a circle of this radius [-], 1 for a circle; of the solids: conductivity [W/(m K)],
+      !> diffusivity [m^2/s]
+      real(dp), intent(in) :: flux, half, potential, speeds(2), conductivity(2), diffusivity(2)
       real(dp) :: peclet(2)
 
-      peclet = abs(speeds)*radius/(2.0_dp*diffusivity)
-      ! each surface by itself would have 2.32 flux radius/(k sqrt(pi (1.234 + Pe)))
-      flash_temperature = 2.32_dp*flux*radius/sum(conductivity*sqrt(pi*(1.234_dp + peclet)))
+      peclet = abs(speeds)*half/(2.0_dp*diffusivity)
+      ! each surface by itself would have 2.32 flux half/(k sqrt(pi (1.234 + Pe))), on a circle
+      flash_temperature = 2.32_dp*flux*half/sum(conductivity*sqrt(pi*raised_speed(peclet, 1.234_dp/potential**2, potential)))
    end function flash_temperature
+
+   !> Speed at which heat that flows straight down makes the greatest rise of a surface, from which it flows aside as well:
+   !> that of the surface and that which one at rest has, together. On a circle and a wide contact they add up; under a
+   !> narrow one heat flows across the motion long before it is too slow to flow ahead.
+   elemental real(dp) function raised_speed(speed, rest, potential)
+      !> Both speeds in any unit; iint P/r at the centre over that of a circle as long along the motion [-]
+      real(dp), intent(in) :: speed, rest, potential
+      real(dp) :: power
+
+      power = min(1.0_dp, potential**narrow)
+      raised_speed = rest + speed
+      if (power < 1.0_dp) raised_speed = (rest**power + speed**power)**(1.0_dp/power)
+   end function raised_speed
 end module ehl_heat

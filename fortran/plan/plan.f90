@@ -155,8 +155,8 @@ contains
 
       if (plan%surfaces%pass_once()) then
          plan%why_front = "a single feature passes once"
-      else if (plan%surfaces%count() > 1) then
-         plan%why_front = "the start from the prediction is for one rough surface"
+      else if (plan%surfaces%some_rest()) then
+         plan%why_front = "one of the surfaces is at rest"
       else if (plan%target_error > 0.0_dp) then
          plan%why_front = "the grid of grid.target_error is not known before"
       end if

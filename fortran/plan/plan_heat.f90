@@ -14,7 +14,7 @@ module ehl_plan_heat
    use ehl_scales, only: scales_t
    use ehl_status, only: status_t
    use ehl_text, only: fixed
-   use ehl_wall_heat, only: speed_of_rest, wall_strength
+   use ehl_wall_heat, only: heat_source, speed_of_rest, wall_strength
    implicit none (type, external)
    private
    public :: heat_plan_t, plan_heat, plan_given
@@ -46,7 +46,7 @@ contains
       !> Central film by formula [a^2/R]
       real(dp), intent(in) :: film
       type(heat_plan_t) :: plan
-      real(dp) :: stress, warm, rise, rest
+      real(dp) :: stress, warm, rise, rest, source(2)
 
       associate (l => input%lubricant, heat => plan%film)
          heat%speed = abs(sliding%slide_to_roll)*sliding%mean_velocity
@@ -66,14 +66,16 @@ contains
          heat%film = scales%film
          if (l%range_temperature_max > l%range_temperature_min) plan%measured_rise = l%range_temperature_max - l%temperature
          rest = speed_of_rest(contact)
+         source = heat_source(contact)
          heat%strengths = [wall(1), wall(2)]
          stress = stress_at(0.0_dp)
          if (.not. lubricant%shear%thins() .and. stress > sliding%newtonian_limit) then
             plan%note = "isothermal: the Newtonian stress is above lubricant.eyring_stress, its heat is not computed"
             return
          end if
-         rise = flash_temperature(stress*heat%speed, scales%length, sliding%speeds(), sliding%conductivity, &
-                                  sliding%diffusivity) + stress*heat%speed*film*scales%film/(12.0_dp*heat%conductivity)
+         rise = flash_temperature(stress*heat%speed, source(1)*scales%length, source(2), sliding%speeds(), &
+                                  sliding%conductivity, sliding%diffusivity) &
+                + stress*heat%speed*film*scales%film/(12.0_dp*heat%conductivity)
          warm = stress_at(rise)
          plan%counts = l%thermal_friction == "always" .or. .not. stress - warm < least_change*stress
          if (plan%counts) then
@@ -90,7 +92,7 @@ contains
          real(dp) :: speeds(2)
 
          speeds = sliding%speeds()
-         wall = wall_strength(speeds(k), sliding%conductivity(k), sliding%diffusivity(k), rest, scales%length)
+         wall = wall_strength(speeds(k), sliding%conductivity(k), sliding%diffusivity(k), rest, scales%length, source(2))
       end function wall
 
       !> Shear stress [Pa] under the Hertz pressure at a rise of temperature [K]

@@ -8,13 +8,16 @@ module ehl_resolution
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: relative_errors, has_solution, too_coarse
+   public :: relative_errors, has_solution, too_coarse, finer_across
 
    !> Most that half of the a-priori error of H_min may be where the equations have a solution (docs/robustness.md)
    real(dp), parameter :: most_unresolved = 0.6_dp
    !> What grids miss in contacts that are narrow, over what they miss in round ones, by H_c and by H_min: 1 + a (1/kappa^2 - 1)
    !> and b/kappa^2 (docs/evidence/errors_ellipses)
    real(dp), parameter :: narrow_central = 0.05_dp, narrow_minimum = 0.3_dp
+   !> Semi-axis across the motion over that along it from which on cells a quarter as long across can be too long, and a side
+   !> of an eighth of the length of the domain is far enough
+   real(dp), parameter :: most_narrow = 0.105_dp
 
 contains
 
@@ -60,4 +63,18 @@ contains
       if (grid%nx > finest%nx) text = "the grid is too coarse for a solution at this load: grid.points = "// &
                                       to_text(grid%nx)//" or more"
    end function too_coarse
+
+   !> What may help where a narrow contact has no solution on a grid that seems fine enough: cells half as long across, in a
+   !> domain a quarter as wide; empty where it is not narrow, or has such cells (docs/evidence/errors_ellipses)
+   pure function finer_across(contact, finest) result(text)
+      class(contact_t), intent(in) :: contact
+      type(grid_t), intent(in) :: finest
+      character(len=:), allocatable :: text
+
+      text = ""
+      if (contact%reach(2) > most_narrow*contact%reach(1) .or. 6.0_dp*finest%hy < finest%hx) return
+      text = "the ends of a narrow contact need shorter cells across the motion: grid.y_extent = "// &
+             to_text(0.125_dp*finest%hx*(finest%nx - 1))//", grid.points_y = "//to_text(2*finest%nx - 1)// &
+             " and solver.max_cycles = 100 may do"
+   end function finer_across
 end module ehl_resolution

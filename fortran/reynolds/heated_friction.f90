@@ -134,7 +134,7 @@ contains
       left = 1.0_dp
       do i = first, size(p)
          do k = 1, 2
-            before(k) = walls%history(k, into(:, k), first, min(i - 1, last), i)
+            before(k) = walls%history(k, into(:, k), first, i - 1, i)
          end do
          share = walls%share(before, heat%film*h(i), heat%conductivity)
          q = 0.0_dp
@@ -142,9 +142,10 @@ contains
             call heat_node(lubricant, p(i), h(i), factor(i), share%film, left, q, good)
             solved = solved .and. good
             stress(i) = q/flux
-            difference = share%difference(1) + share%difference(2)*q
-            into(i, :) = 0.5_dp*[q + difference, q - difference]
          end if
+         ! the hotter wall warms the other one through the film, also where nothing makes heat
+         difference = share%difference(1) + share%difference(2)*q
+         into(i, :) = 0.5_dp*[q + difference, q - difference]
          rise(i, 1) = share%film(1) + share%film(2)*q
          rise(i, 2:) = before + walls%own*into(i, :)
       end do

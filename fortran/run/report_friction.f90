@@ -11,6 +11,7 @@ module ehl_report_friction
    use ehl_record, only: record_t
    use ehl_report_touching, only: no_boundary_friction
    use ehl_text, only: fixed, to_text
+   use ehl_wall_heat, only: heat_source
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    implicit none (type, external)
    private
@@ -32,7 +33,7 @@ contains
       !> Heat of the smooth contact and of the rough one at the end; friction of the rough one with it over that without it
       type(heated_t), intent(in) :: smooth_heat, rough_heat
       real(dp), intent(in) :: heat_ratio
-      real(dp) :: nothing, mu_smooth, mu, rate, stress, rise, rises(3), speed, moment, isothermal(2)
+      real(dp) :: nothing, mu_smooth, mu, rate, stress, rise, rises(3), speed, moment, isothermal(2), source(2)
       character(len=:), allocatable :: note
 
       nothing = ieee_value(nothing, ieee_quiet_nan)
@@ -69,9 +70,10 @@ contains
             mu = mu*merge(heat_ratio, smooth_heat%ratio(), plan%surfaces%rough())
             if (ieee_is_finite(isothermal(2)) .and. .not. ieee_is_finite(mu_smooth)) note = "the temperature is not converged"
          end if
-         if (ieee_is_finite(mu) .and. plan%contact%is_round()) then
-            rise = flash_temperature(mu*s%load*speed/(pi*plan%scales%length**2), plan%scales%length, s%speeds(), &
-                                     s%conductivity, s%diffusivity)
+         if (ieee_is_finite(mu)) then
+            source = heat_source(plan%contact)
+            rise = flash_temperature(mu*s%load*speed/(pi*plan%scales%length**2*plan%contact%ellipticity), &
+                                     source(1)*plan%scales%length, source(2), s%speeds(), s%conductivity, s%diffusivity)
          end if
          moment = nothing
          if (ieee_is_finite(friction)) moment = rolling_moment(grid, p, h)

@@ -112,9 +112,6 @@ contains
 
       self%input = input
       call make_plan(input, to_make, self%plan, status, heights, second_heights)
-      if (input%time%start == "prediction" .and. self%plan%surfaces%count() > 1) then
-         self%why_front = "the start from the prediction is for one rough surface"
-      end if
       call check_need(self%plan, status)
       call self%begin(status)
    end subroutine start

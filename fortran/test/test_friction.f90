@@ -16,7 +16,7 @@ module test_friction
    use ehl_shear, only: shear_carreau, shear_eyring, shear_law_t, shear_limiting, shear_newtonian, shear_stress
    use ehl_status, only: status_t
    use ehl_text, only: to_text
-   use ehl_wall_heat, only: share_t, speed_of_rest, wall_heat_t
+   use ehl_wall_heat, only: heat_source, share_t, speed_of_rest, wall_heat_t, wall_strength
    implicit none (type, external)
    private
    public :: run_friction
@@ -32,6 +32,8 @@ contains
       call limits()
       call data_sheet()
       call flash()
+      call flash_of_rows()
+      call walls_behind()
       call strip()
       call speed_at_rest()
       call heat_in_proportion()
@@ -123,19 +125,80 @@ contains
    subroutine flash()
       real(dp), parameter :: flux = 1.0e8_dp, a = 2.0e-4_dp, k = 46.0_dp, kappa = 1.25e-5_dp, fast = 1.0e6_dp
       !> Largest over s of the integral of sqrt(1 - x^2)/sqrt(s - x) over x from -1 to s, by quadrature
-      real(dp), parameter :: integral = 2.18830_dp, both(2) = 1.0_dp
+      real(dp), parameter :: integral = 2.18830_dp, both(2) = 1.0_dp, rest(2) = 0.0_dp
 
-      call is_close(flash_temperature(flux, a, [0.0_dp, 0.0_dp], both*k, both*kappa)/(0.5_dp*flux*a/k), 1.5_dp*pi/4.0_dp, &
-                    2.0e-3_dp, "two surfaces at rest under the same heat")
-      call is_close(flash_temperature(flux, a, [fast, fast], both*k, both*kappa) &
-                    /(0.75_dp*flux/k*sqrt(kappa*a/(pi*fast))*integral), 1.0_dp, 2.0e-3_dp, "two fast surfaces")
-      call is_close(flash_temperature(flux, a, [fast, fast], [k, 4.0_dp*k], kappa*both), 0.4_dp*flash_temperature(flux, a, &
-                    [fast, fast], k*both, kappa*both), 1.0e-12_dp, "two materials")
+      call is_close(rise(rest, k*both)/(0.5_dp*flux*a/k), 1.5_dp*pi/4.0_dp, 2.0e-3_dp, "two surfaces at rest under the same heat")
+      call is_close(rise(fast*both, k*both)/(0.75_dp*flux/k*sqrt(kappa*a/(pi*fast))*integral), 1.0_dp, 2.0e-3_dp, &
+                    "two fast surfaces")
+      call is_close(rise(fast*both, [k, 4.0_dp*k]), 0.4_dp*rise(fast*both, k*both), 1.0e-12_dp, "two materials")
       ! shared so that both are as hot: 1/T is the sum of those of each surface under all the heat
-      call is_close(1.0_dp/flash_temperature(flux, a, [0.0_dp, fast], both*k, both*kappa), &
-                    0.5_dp/flash_temperature(flux, a, [0.0_dp, 0.0_dp], both*k, both*kappa) &
-                    + 0.5_dp/flash_temperature(flux, a, [fast, fast], both*k, both*kappa), 1.0e-10_dp, "the heat is shared")
+      call is_close(1.0_dp/rise([0.0_dp, fast], k*both), 0.5_dp/rise(rest, k*both) + 0.5_dp/rise(fast*both, k*both), 1.0e-10_dp, &
+                    "the heat is shared")
+
+   contains
+
+      real(dp) function rise(speeds, conductivity)
+         real(dp), intent(in) :: speeds(2), conductivity(2)
+         rise = flash_temperature(flux, a, 1.0_dp, speeds, conductivity, kappa*both)
+      end function rise
    end subroutine flash
+
+   !> A row through the centre of a Hertz ellipse of heat becomes as hot as the formula for the ellipse says, at any speed
+   subroutine flash_of_rows()
+      integer, parameter :: n = 2001
+      real(dp), parameter :: a = 2.0e-4_dp, k = 46.0_dp, kappa = 1.25e-5_dp, flux = 1.0e8_dp, none = 1.0e-30_dp
+      real(dp), parameter :: ratios(4) = [20.0_dp, 2.0_dp, 1.0_dp, 0.05_dp], turned(2) = [0.0_dp, 0.6_dp], &
+                             speeds(3) = [0.0_dp, 0.5_dp, 50.0_dp]
+      class(contact_t), allocatable :: contact
+      type(wall_heat_t) :: walls
+      real(dp) :: x(n), heat(n), source(2), strength, greatest, reach
+      integer :: i, m, t, u
+
+      do m = 1, size(ratios)
+         do t = 1, merge(1, 2, m == 3)
+            call new_contact(ratios(m), turned(t), contact)
+            source = heat_source(contact)
+            reach = 1.5_dp*source(1)
+            x = [(reach*(2.0_dp*(i - 1)/(n - 1) - 1.0_dp), i=1, n)]
+            call contact%pressure_row(x, 0.0_dp, heat)
+            heat = 1.5_dp*flux*heat
+            do u = 1, size(speeds)
+               strength = wall_strength(speeds(u), k, kappa, speed_of_rest(contact), a, source(2))
+               call walls%start(n, (x(2) - x(1))*a, [strength, strength])
+               greatest = 0.0_dp
+               do i = 2, n
+                  greatest = max(greatest, walls%history(1, heat, 1, i - 1, i) + walls%own(1)*heat(i))
+               end do
+               call is_close(flash_temperature(flux, source(1)*a, source(2), [speeds(u), 0.0_dp], [k, none], [kappa, kappa]) &
+                             /greatest, 1.0_dp, 1.5e-3_dp, "row and formula, R_x/R_y = "//to_text(ratios(m)))
+            end do
+         end do
+      end do
+   end subroutine flash_of_rows
+
+   !> Behind the heat two unlike walls tend to the same temperature, and the film between them has their mean
+   subroutine walls_behind()
+      integer, parameter :: n = 129
+      type(level_t) :: level
+      type(heated_t) :: found
+      real(dp) :: pressure(n, 3), films(n, 3), apart(n)
+      integer :: i
+
+      level%grid = new_grid(n, 3, -1.0_dp, 3.0_dp, 1.0_dp, .false.)
+      level%lubricant = new_lubricant(viscosity_barus, density_dowson_higginson, alpha_bar, hertz_pressure, 0.6_dp, 1.96e8_dp)
+      level%lubricant%shear = shear_law_t(shear_limiting, 0.0_dp, 0.05_dp, 1.0_dp, scale, hertz_pressure)
+      pressure = 0.0_dp
+      pressure(9:40, :) = p
+      films = h
+      call heat_film(film_heat_t(2.0_dp, 0.14_dp, [1.0e-6_dp, 4.0e-6_dp], 1.0e-3_dp, 1.0e-5_dp), level%grid, level%lubricant, &
+                     pressure, films, .true., 1, found)
+      apart = found%rise(:, 2, 3) - found%rise(:, 2, 2)
+      call is_true(apart(40) > 1.0_dp, "the wall that conducts less is hotter under the heat")
+      call is_true(all(apart(60:) < apart(59:n - 1)) .and. apart(n) > 0.0_dp, "the walls come nearer to each other")
+      do i = 45, n
+         call is_close(found%rise(i, 2, 1)/(0.5_dp*sum(found%rise(i, 2, 2:))), 1.0_dp, 1.0e-12_dp, "film behind the heat")
+      end do
+   end subroutine walls_behind
 
    !> Even heat on a strip: 2 A q sqrt(x - x_1) behind its front, and that of a strip that is missing behind its end
    subroutine strip()

@@ -37,12 +37,16 @@ contains
       start_time = step*(ceiling(max(0.0_dp, surfaces%time_filled(grid%x(grid%nx)))/step) + maxval(steps_ago)/2)
    end function start_time
 
-   !> Positions of the front of the first surface at the times that a pressure is needed at [a], (4)
+   !> Positions of the front of each surface at the times that a pressure is needed at [a], (4, surfaces)
    pure function start_fronts(surfaces, grid) result(fronts)
       class(moving_surfaces_t), intent(in) :: surfaces
       type(grid_t), intent(in) :: grid
-      real(dp) :: fronts(size(steps_ago))
-      fronts = surfaces%of(1)%surface%front_position(start_time(surfaces, grid) - steps_ago*grid%hx)
+      real(dp) :: fronts(size(steps_ago), surfaces%count())
+      integer :: k
+
+      do k = 1, surfaces%count()
+         fronts(:, k) = surfaces%of(k)%surface%front_position(start_time(surfaces, grid) - steps_ago*grid%hx)
+      end do
    end function start_fronts
 
    !> Take the pressure at these times

@@ -63,7 +63,7 @@ def solve_from_prediction(*options: str) -> dict[str, Any]:
     """Solve the same from the prediction on; what that costs is in it."""
     case = Case.from_text("", [*options, "solver.threads=1", "time.start=prediction"])
     with SolverHandle(case.text) as solver:
-        hand_over(solver, case.resolve(), None, whole=True)
+        hand_over(solver, case.resolve(), {}, whole=True)
         solver.run()
         return solver.summary()
 

@@ -11,7 +11,7 @@ from pyehl.case import Case
 from pyehl.errors import EhlError
 from pyehl.handle import SolverHandle
 from pyehl.prediction.resolution import Resolution, resolution
-from pyehl.surfaces import Topography, one_rough
+from pyehl.surfaces import Topography
 
 __all__ = ["Predictions"]
 
@@ -36,11 +36,10 @@ class Predictions:
 
     def begin(self, solver: SolverHandle) -> None:
         """Hand a solver the start that it asks for; mostly it asks for none."""
-        if solver.start_fronts():
+        if solver.start_fronts().size:
             from pyehl.prediction.start import hand_over  # noqa: PLC0415
 
-            tile = next(iter(self._tiles.values()), None)
-            hand_over(solver, one_rough(self._case.resolve()), tile, whole=self._whole)
+            hand_over(solver, self._case.resolve(), self._tiles, whole=self._whole)
 
     def _resolution_once(self) -> Resolution | str | None:
         """Predict what the grid does not resolve; text: why there is no prediction."""

@@ -20,9 +20,11 @@ from numpy.typing import NDArray
 from pyehl import surfaces
 from pyehl.errors import EhlError, InputError
 from pyehl.handle import SolverHandle
-from pyehl.prediction.by_response import Parts, RoughPassage
+from pyehl.prediction.by_response import RoughPassage
+from pyehl.prediction.edge import Edge
 from pyehl.prediction.errors import model_error, outside_range
-from pyehl.prediction.options import Options
+from pyehl.prediction.options import Options, turned
+from pyehl.prediction.pair import RoughPair
 from pyehl.prediction.rough_contact import (
     REACH,
     line_weights,
@@ -55,10 +57,10 @@ EDGE_WIDTH = 0.1
 
 def starting_pressure(
     settings: Mapping[str, Mapping[str, Any]],
-    tile: Topography | None,
+    tiles: Mapping[str, Topography],
     x: Array,
     y: Array,
-    fronts: Sequence[float],
+    fronts: Array,
 ) -> Array:
     """Pressure (nx, ny, n) [p_h] that the roughness of a resolved case adds, Fortran order.
 
@@ -66,54 +68,85 @@ def starting_pressure(
     ----------
     settings
         The resolved case.
-    tile
-        Its surface on its track, where it is not made as the case says.
+    tiles
+        Its surfaces by group on their tracks, where they are not made as the case says.
     x, y
         Nodes of the grid of the run (nx,), (ny,) [a].
     fronts
-        Positions along the motion at which the tile begins (n,) [a].
+        Positions along the motion at which the tiles begin (n, surfaces) [a].
 
     Raises
     ------
     InputError
-        If the surface is not usable, or the conditions are outside the range of the prediction.
+        If a surface is not usable, or the conditions are outside the range of the prediction.
     EhlError
         If the smooth contact has no solution.
     """
-    passage = replace(_passage(settings, tile), mesh=float(x[1] - x[0]))
-    beyond = outside_range(
-        passage.operating, passage.velocity_ratio, passage.options, passage.contact.thinning
-    )
-    if beyond:
-        raise InputError(f"{', '.join(beyond)} outside the range of the prediction")
-    parts = passage.parts()
+    passages = [replace(one, mesh=float(x[1] - x[0])) for one in _passages(settings, tiles)]
+    for one in passages:
+        beyond = outside_range(one.operating, one.velocity_ratio, one.options, one.contact.thinning)
+        if beyond:
+            raise InputError(f"{', '.join(beyond)} outside the range of the prediction")
+    if len(passages) > 1:
+        pair = RoughPair((passages[0], passages[1]), (fronts[0, 0], fronts[0, 1]))
+        together = pair.as_one
+        if together is None:
+            return _pressure_of_pair(pair, x, y, fronts)
+        # the tile of both lies as the first in their order does
+        passages, fronts = [replace(together, mesh=passages[0].mesh)], fronts[:, [pair.order[0]]]
+    parts = passages[0].parts()
+    ratio = passages[0].velocity_ratio
     # takes the waves that the grid does not carry off the spectrum
-    waves = _Waves(passage, parts, x, y)
-    if not math.isfinite(model_error(passage.mean(parts))):
+    waves = _Waves(parts[1:], ratio, passages[0], x, y)
+    return _pressure([waves], model_error(passages[0].mean(parts)), x, y, fronts)
+
+
+def _pressure_of_pair(pair: RoughPair, x: Array, y: Array, fronts: Array) -> Array:
+    """Give the pressure of two surfaces, fronts in the order of `pair.of`."""
+    error = model_error(pair.mean())
+    waves = [
+        _Waves(part, pair.of[k].velocity_ratio, pair.of[k], x, y)
+        for part, k in zip(pair.parts(), pair.order, strict=True)
+    ]
+    return _pressure(waves, error, x, y, fronts[:, list(pair.order)])
+
+
+def _pressure(waves: Sequence[_Waves], error: float, x: Array, y: Array, fronts: Array) -> Array:
+    if not math.isfinite(error):
         raise InputError("the pressures are beyond a linear response")
+    first = waves[0]
+    second = first.second and [
+        first.weights @ v for v in first.second.of(*(one.power for one in waves))
+    ]
     pressure = np.zeros((x.size, y.size, len(fronts)), order="F")
-    for k, front in enumerate(fronts):
-        pressure[(*waves.place, k)] = waves.pressure(front)
+    for k, places in enumerate(fronts):
+        added = np.zeros((first.x.size, first.y.size))
+        for one, front in zip(waves, places, strict=True):
+            one.add(added, float(front))
+        if second:
+            gain, variance = second
+            added += gain * (np.square(added) - variance)
+        pressure[(*first.place, k)] = first.fade * added
     return pressure
 
 
 def hand_over(
     solver: SolverHandle,
     settings: Mapping[str, Mapping[str, Any]],
-    tile: Topography | None,
+    tiles: Mapping[str, Topography],
     *,
     whole: bool,
 ) -> None:
     """Give a solver the pressure that it asks for, or say why there is none.
 
-    The solver then lets the roughness in behind a front. `whole`: `tile` is the surface, not a part
-    of it.
+    The solver then lets the roughness in behind a front. `whole`: none of `tiles`, by group, is
+    only a part of the surface.
     """
     try:
         if not whole:
             raise InputError("the map is too large to be predicted as a whole")
         x, y = solver.axes()
-        found = starting_pressure(settings, tile, x, y, solver.start_fronts())
+        found = starting_pressure(settings, tiles, x, y, solver.start_fronts())
     except (EhlError, ValueError, ArithmeticError, OSError, MemoryError) as error:
         why = (str(error) or type(error).__name__).replace("\n", " ")
         LOG.warning("time.start = 'prediction': the roughness enters behind a front: %s", why)
@@ -122,46 +155,60 @@ def hand_over(
         solver.take_start(found)
 
 
-def _passage(settings: Mapping[str, Mapping[str, Any]], tile: Topography | None) -> RoughPassage:
+def _passages(
+    settings: Mapping[str, Mapping[str, Any]], tiles: Mapping[str, Topography]
+) -> list[RoughPassage]:
+    """Each rough surface alone, in the order of their groups."""
+    if turned(settings):
+        raise InputError(turned(settings))
     operating = OperatingPoint.from_settings(settings)
-    if operating.radius_ratio != 1.0:
-        raise InputError("the start from the prediction is for circular contacts")
     lubricant = Lubricant.from_settings(settings)
     contact = solve_contact(settings)
-    if tile is None:
-        film = contact.central_film * operating.film_scale
-        tile = surfaces.from_settings(settings, operating, film)
-    else:
-        tile = surfaces.finished(tile, {**settings["surface"], "track": 0.0})
-    ratio = float(settings["surface"]["velocity_ratio"])
-    return RoughPassage(tile, contact, operating, lubricant, Options(), ratio)
+    film = contact.central_film * operating.film_scale
+    found = []
+    for group in surfaces.rough_groups(settings):
+        keys = settings[group]
+        if group in tiles:
+            tile = surfaces.finished(tiles[group], {**keys, "track": 0.0})
+        else:
+            tile = surfaces.from_settings({**settings, "surface": keys}, operating, film)
+        ratio = float(keys["velocity_ratio"])
+        found.append(RoughPassage(tile, contact, operating, lubricant, Options(), ratio))
+    return found
 
 
 class _Waves:
     """The waves of a tile on the nodes of a grid that lie in the contact."""
 
-    def __init__(self, passage: RoughPassage, parts: Parts, x: Array, y: Array) -> None:
-        rows, columns = (np.flatnonzero(np.abs(v) < REACH) for v in (x, y))
+    def __init__(
+        self,
+        parts: tuple[Spectrum, Transfer, Edge],
+        ratio: float,
+        passage: RoughPassage,
+        x: Array,
+        y: Array,
+    ) -> None:
+        across = y / passage.operating.ellipse.ellipticity
+        rows, columns = (np.flatnonzero(np.abs(v) < REACH) for v in (x, across))
         # the nodes are the product of these rows and columns of the grid
         self.place = slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)
         self.x, self.y = x[rows, np.newaxis], y[np.newaxis, columns]
-        ratio = passage.velocity_ratio
-        _, spectrum, transfer, edge = parts
+        across = across[np.newaxis, columns]
+        spectrum, transfer, edge = parts
         mesh = (x[1] - x[0]) * max(1.0, ratio), y[1] - y[0]
         limits = math.pi / mesh[0] * BELOW, math.pi / mesh[1] * BELOW
         spectrum.values[spectrum.qx >= limits[0]] = 0.0
         spectrum.values[:, np.abs(spectrum.qy) >= limits[1]] = 0.0
-        second = transfer.second.of(spectrum.power) if transfer.second else None
+        self.power, self.second = spectrum.power, transfer.second
         self.edge = edge.below(min(limits))
         spectrum, transfer = _on_fewer_pixels(spectrum, transfer, limits)
         self.pixel = spectrum.pixel
-        self.slipped = self.x + slipped(self.x, self.y, ratio, bent=transfer.bent)
+        self.slipped = self.x + slipped(self.x, across, ratio, bent=transfer.bent)
         self.weights = station_weights(self.x)
-        self.off = np.moveaxis(line_weights(self.y), -1, 0)
-        self.second = second and [self.weights @ v for v in second]
+        self.off = np.moveaxis(line_weights(across), -1, 0)
         self._make_tiles(spectrum, transfer, passage.contact, ratio)
-        radius = np.hypot(self.x, self.y)
-        self.polynomials = self.edge.polynomials(*np.broadcast_arrays(self.x, self.y))
+        radius = np.hypot(self.x, across)
+        self.polynomials = self.edge.polynomials(*np.broadcast_arrays(self.x, across))
         self.fade = np.clip((REACH - radius) / EDGE_WIDTH, 0.0, 1.0)
 
     def _make_tiles(
@@ -169,7 +216,10 @@ class _Waves:
     ) -> None:
         """Splines through the pressure of driven and free waves, by station."""
         qx, qy = spectrum.qx[:, np.newaxis], spectrum.qy[np.newaxis, :]
-        gain = edge_gain(qx, qy, contact.central_film)
+        stiffening = transfer.stiffening
+        gain = stiffening * edge_gain(
+            qx, qy, stiffening * contact.central_film, ellipticity=transfer.ellipticity
+        )
         k, k_free = gain * stiffness(spectrum.q), gain * free_stiffness(qx, qy, ratio)
 
         def spline(factor: Complex) -> Array:
@@ -188,9 +238,8 @@ class _Waves:
         )
         return np.asarray(found)
 
-    def pressure(self, front: float) -> Array:
-        """Pressure that is added at `place` where the tile begins at X = front."""
-        added = np.zeros((self.x.size, self.y.size))
+    def add(self, added: Array, front: float) -> None:
+        """Add the pressure of first order at `place` where the tile begins at X = front."""
         for i, tile in enumerate(self.driven):
             added += self.weights[..., i] * self._at(tile, self.x - front)
         for i, tile in enumerate(self.free):
@@ -198,10 +247,6 @@ class _Waves:
         for weight, tile in zip(self.off, self.free_off, strict=False):
             added += weight * self._at(tile, self.slipped - front)
         added += np.tensordot(self.edge.at(front, 0.0)[0], self.polynomials, 1)
-        if self.second:
-            gain, variance = self.second
-            added += gain * (np.square(added) - variance)
-        return np.asarray(self.fade * added)
 
 
 def _on_fewer_pixels(

@@ -35,6 +35,16 @@ class Ellipse:
         """Product kappa k_b over that of a circle [-]: a^3 = 3 w R_x/(2 E' load_share)."""
         return self.ellipticity * self.kernel_ratio
 
+    @property
+    def potential(self) -> float:
+        """Integral of P/r in the centre over that of a circle of radius a [-], P a semi-ellipse."""
+        if self.radius_ratio == 1.0:
+            return 1.0
+        from scipy.special import elliprf  # noqa: PLC0415 (as below)
+
+        found = elliprf(0.0, 1.0, self.ellipticity**2)
+        return 2.0 / math.pi * self.ellipticity * float(found)
+
 
 @lru_cache(maxsize=64)
 def ellipse(radius_ratio: float) -> Ellipse:

@@ -59,8 +59,7 @@ def absolute_friction(
             )
     mu = mu_ratio * smooth * heat.ratio
     rises = heat.rises if math.isfinite(mu) else Heat().rises
-    # the formula is for circles
-    if math.isfinite(mu) and operating.radius_ratio == 1.0:
+    if math.isfinite(mu):
         u, srr, a = operating.mean_velocity, operating.slide_to_roll, operating.hertz_radius
         rise = flash_temperature(
             mu * operating.load * speed / (math.pi * a * operating.semi_axis_y),
@@ -68,6 +67,7 @@ def absolute_friction(
             (u * (1.0 + 0.5 * srr), u * (1.0 - 0.5 * srr)),
             operating.thermal_conductivities,
             operating.thermal_diffusivities,
+            operating.ellipse.potential,
         )
     return {
         "mu": mu,

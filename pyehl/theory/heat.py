@@ -12,6 +12,9 @@ from dataclasses import dataclass
 
 __all__ = ["Heat", "flash_temperature", "thermal_loading", "thermal_reduction"]
 
+# Power of the potential of a narrow contact, as in ``fortran/physics/heat.f90``
+NARROW = 0.38
+
 
 @dataclass(frozen=True, slots=True)
 class Heat:
@@ -46,20 +49,26 @@ def thermal_reduction(loading: float, pressure: float, slide_to_roll: float) -> 
 
 def flash_temperature(
     flux: float,
-    radius: float,
+    half: float,
     speeds: tuple[float, float],
     conductivity: tuple[float, float],
     diffusivity: tuple[float, float],
+    potential: float = 1.0,
 ) -> float:
     """Greatest temperature rise [K] of two surfaces in a Hertz contact.
 
-    Heat in a semi-ellipse over the circle: Tian & Kennedy 1994, J. Tribol. 116, 167, for one
-    surface, 2.32 q a/(k sqrt(pi (1.234 + Pe))), Pe = u a/(2 kappa). The heat is shared so that
-    both become as hot (Blok 1937). Mean heat flux q over the circle [W/m^2], Hertz radius a [m],
-    speeds of the surfaces through the contact [m/s], k [W/(m K)] and kappa [m^2/s] of the solids.
+    Heat in a semi-ellipse over the contact: Tian & Kennedy 1994, J. Tribol. 116, 167, for one
+    surface and a circle, 2.32 q a/(k sqrt(pi (1.234 + Pe))), Pe = u a/(2 kappa). On an ellipse
+    1.234 is divided by the square of `potential`, so that a surface at rest is as hot as its
+    potential says; in a narrow one, where heat also flows across the motion, (1.234^m + Pe^m)^(1/m)
+    with m = potential^0.38 takes the place of the sum. The heat is shared so that both become as
+    hot (Blok 1937). Mean heat flux q over the contact [W/m^2], half its length a along the motion
+    [m], speeds of the surfaces through the contact [m/s], k [W/(m K)] and kappa [m^2/s] of the
+    solids; `potential` as :attr:`pyehl.theory.ellipse.Ellipse.potential` [-].
     """
-    roots = sum(
-        k * math.sqrt(math.pi * (1.234 + abs(u) * radius / (2.0 * kappa)))
-        for u, k, kappa in zip(speeds, conductivity, diffusivity, strict=True)
-    )
-    return 2.32 * flux * radius / roots
+    rest, power = 1.234 / potential**2, min(1.0, potential**NARROW)
+    roots = 0.0
+    for u, k, kappa in zip(speeds, conductivity, diffusivity, strict=True):
+        peclet = abs(u) * half / (2.0 * kappa)
+        roots += k * math.sqrt(math.pi * (rest**power + peclet**power) ** (1.0 / power))
+    return 2.32 * flux * half / roots

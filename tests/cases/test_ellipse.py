@@ -402,3 +402,33 @@ def test_what_is_for_circles_says_so():
     )
     with pytest.raises(pyehl.InputError, match="for circular contacts"):
         pyehl.predict(case)
+
+
+@pytest.mark.parametrize(("kappa", "round_m"), [(0.1, 400.0), (1.0 / 30.0, 50.0)])
+def test_cells_that_a_narrow_contact_needs(kappa: float, round_m: float):
+    """Where cells by default end without convergence the message names others that do."""
+    square = kappa**2
+    ratio = float(elliprd(0.0, 1.0, square) / elliprd(0.0, square, 1.0))
+    keys = {
+        "contact.moes_m": round_m * kappa * ellipse(ratio).kernel_ratio ** 0.25,
+        "contact.moes_l": 10.0,
+        "contact.radius_ratio": ratio,
+        "grid.points": 257,
+    }
+    with pyehl.Solver(pyehl.Case.from_text("", keys)) as solver:
+        assert not solver.run()
+        summary = solver.summary()
+    assert (summary["H_c"], summary["status"]) == (None, "negative film")
+    named = re.findall(r"(\w+\.\w+) = ([\d.]+)", summary["judgement"])
+    assert [key for key, _ in named] == ["grid.y_extent", "grid.points_y", "solver.max_cycles"]
+    found = []
+    for wider in (1, 2):
+        remedy = {key: float(value) if "." in value else int(value) for key, value in named}
+        remedy["grid.y_extent"] *= wider
+        remedy["grid.points_y"] = (remedy["grid.points_y"] - 1) * wider + 1
+        with pyehl.Solver(pyehl.Case.from_text("", keys | remedy)) as solver:
+            assert solver.run()
+            found.append(solver.summary())
+    # the sides of the domain are far enough
+    assert found[0]["H_c"] == pytest.approx(found[1]["H_c"], rel=3e-5)
+    assert found[0]["H_min"] == pytest.approx(found[1]["H_min"], rel=1e-4)

@@ -100,7 +100,8 @@ def test_elliptical_contact(solve):
     keys = {key: value for key, value in keys.items() if not key.startswith("grid.")}
     found = [solve(None, 65, keys | shape) for shape in (wide, long)]
     for done in found:
-        assert done["flash_temperature_K"] is None
+        walls = [done[f"temperature_rise_wall_{k}_max_K"] for k in (1, 2)]
+        assert done["flash_temperature_K"] == pytest.approx(np.mean(walls), rel=0.03)
         assert 0.4 < done["mu"] / done["mu_isothermal"] < 0.9
     # the same load and heat, but a longer way to take it up
     assert (
@@ -146,13 +147,17 @@ def test_rough_contact(solve, velocity):
         assert done["mu"] / done["mu_isothermal"] == pytest.approx(mean, rel=2e-3)
 
 
-def test_prediction_has_it_too():
+@pytest.mark.parametrize(
+    "radii", [(0.018, 0.018), (0.01, 0.04), (0.04, 0.01)], ids=["circle", "wide", "narrow"]
+)
+def test_prediction_has_it_too(radii: tuple[float, float]):
     """The prediction applies the heat of the smooth contact under it, on its own grid."""
     keys = {
         key: value
         for key, value in FAST.items()
-        if not key.startswith("grid.") or key == "grid.border"
+        if key != "contact.radius" and (not key.startswith("grid.") or key == "grid.border")
     }
+    keys |= {"contact.radius_x": radii[0], "contact.radius_y": radii[1]}
     case = pyehl.Case.from_text("", keys | {"surface.kind": "fractal", "surface.pixels": 64})
     found = pyehl.predict(case).summary
     solved = pyehl.solve(case.with_options("surface.kind=smooth", "grid.points=257")).attrs
@@ -162,4 +167,8 @@ def test_prediction_has_it_too():
     assert found["mu"] == pytest.approx(found["mu_ratio"] * found["mu_smooth"], rel=1e-12)
     assert found["temperature_rise_max_K"] == pytest.approx(
         solved["temperature_rise_max_K"], rel=0.02
+    )
+    # at its own friction, of the rough contact
+    assert found["flash_temperature_K"] == pytest.approx(
+        solved["flash_temperature_K"] * found["mu"] / solved["mu"], rel=1e-9
     )

@@ -19,6 +19,8 @@ from pyehl.cli import main
 POINT = {"contact.moes_m": 1000.0, "contact.moes_l": 10.0}
 WAVE = POINT | {"surface.kind": "harmonic", "surface.amplitude": 4e-3}
 ALONE = {"grid.points": 129, "time.estimate_error": False}
+SECOND = {"second_surface.kind": "harmonic", "second_surface.amplitude": 3e-3}
+WIDE = {"contact.radius_ratio": 0.35177}
 
 
 def run(settings: dict[str, Any], start: str = "prediction") -> xarray.Dataset:
@@ -42,8 +44,10 @@ def tile(tmp_path: Path) -> dict[str, Any]:
         WAVE | {"surface.velocity_ratio": 0.8, "surface.wavelength_y": 1.0},
         WAVE | {"time.scheme": "paper"},
         pytest.param({"surface.kind": "fractal"}, marks=pytest.mark.long),
+        WAVE | WIDE,
+        WAVE | SECOND | {"contact.slide_to_roll": 0.0, "second_surface.wavelength": 0.25},
     ],
-    ids=["wave", "slow", "paper", "fractal"],
+    ids=["wave", "slow", "paper", "fractal", "ellipse", "together"],
 )
 def test_same_mean_in_fewer_steps(settings: dict[str, Any]):
     front, other = run(settings, "front"), run(settings)
@@ -53,6 +57,21 @@ def test_same_mean_in_fewer_steps(settings: dict[str, Any]):
     assert float(other.mu_ratio) == pytest.approx(float(front.mu_ratio), abs=stop)
     # an error that says something
     assert stop < 0.01 * float(front.mu_ratio)
+
+
+@pytest.mark.long
+def test_a_pair_on_an_ellipse():
+    """Each surface has its own front and speed; the mean takes whole periods of both."""
+    pair = WAVE | WIDE | SECOND | {"contact.slide_to_roll": 0.25, "second_surface.wavelength": 1.0}
+    front, other = run(pair, "front"), run(pair)
+    assert other.attrs["start"] == "prediction"
+    assert float(other.steps) <= 0.85 * float(front.steps)
+    stop = float(front.mu_ratio_error_stop) + float(other.mu_ratio_error_stop)
+    assert float(other.mu_ratio) == pytest.approx(float(front.mu_ratio), abs=stop)
+    assert stop < 1e-3
+    # the film of the first steps is near that of the mean
+    first, rise = float(other.history_mu_ratio[0]), float(front.mu_ratio) - 1.0
+    assert first - 1.0 == pytest.approx(rise, rel=0.5)
 
 
 def test_the_run_on_the_coarser_grid_starts_there_too():
@@ -105,10 +124,15 @@ def test_heights_in_memory_start_there_too(tile: dict[str, Any]):
             POINT | {"surface.kind": "dent", "surface.amplitude": 1e-3},
             "a single feature passes once",
         ),
+        (
+            WAVE | SECOND | {"contact.slide_to_roll": 2.0},
+            "one of the surfaces is at rest",
+        ),
+        (WAVE | WIDE | {"contact.angle": 20.0}, "contact.angle = 20"),
         (WAVE | {"grid.target_error": 0.1}, "the grid of grid.target_error is not known before"),
         (WAVE | {"surface.amplitude": 0.1}, "the pressures are beyond a linear response"),
     ],
-    ids=["M", "dent", "target", "amplitude"],
+    ids=["M", "dent", "rest", "turned", "target", "amplitude"],
 )
 def test_where_there_is_no_prediction_a_front_enters(settings: dict[str, Any], why: str):
     case = pyehl.Case.from_text("", ALONE | settings | {"time.start": "prediction"})

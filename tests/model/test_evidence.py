@@ -133,13 +133,15 @@ def test_starts_from_the_prediction(root: Path, script):
     make = script("docs/evidence/start/make.py")
     rows = make.rows_of(folder / "scenes.csv")
     text = (folder / "README.md").read_text()
-    assert len(rows) == 15
+    assert len(rows) == 19
     for row in rows:
         assert make.line_of(row) in text
         assert row["start"] == "prediction"
         stop = row["error_stop"] + row["error_stop_front"]
         assert abs(row["mu_ratio"] - row["mu_ratio_front"]) <= stop
-        assert 0.54 < row["steps"] / row["steps_front"] < 0.695
+        # the mean of two speeds takes several periods, of which the start saves a part of one
+        most = 0.83 if "slide-to-roll" in row["scene"] else 0.695
+        assert 0.54 < row["steps"] / row["steps_front"] < most
 
 
 def test_fields_are_those_of_the_simulation(root: Path):

@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 from paper_model import predict_friction
+from scipy.special import elliprd
 
 from pyehl.case import Case
 from pyehl.commands.film import report as film_report
@@ -13,6 +14,7 @@ from pyehl.prediction.film_sheet import sheet
 from pyehl.prediction.of_case import predict
 from pyehl.solver import Solver
 from pyehl.surfaces import Topography
+from pyehl.theory.ellipse import ellipse
 from pyehl.theory.film import central_film
 from pyehl.theory.friction import absolute_friction
 from pyehl.theory.heat import (
@@ -119,6 +121,47 @@ def test_flash_temperature_limits():
     assert flash_temperature(q, a, (u, u), (k, k), (kappa, kappa)) == pytest.approx(
         expected, rel=2e-3
     )
+
+
+def greatest_rise(kappa: float, peclet: float) -> float:
+    """Greatest rise of a half-space that moves under a semi-ellipse of heat [mean q a/k].
+
+    By the integral over moving point sources in polar coordinates about points of Y = 0; semi-axes
+    1 and kappa, Pe = u a/(2 diffusivity).
+    """
+    t = (np.arange(1500) + 0.5) / 1500
+    angle, weight = math.pi * (1.0 - t**2), 2.0 * math.pi * t / 1500
+    c, s = np.cos(angle), np.sin(angle)
+    node, of_node = np.polynomial.legendre.leggauss(40)
+    node, of_node = 0.5 * math.pi * node, 0.5 * math.pi * of_node
+    found = []
+    for x in np.linspace(-0.1, 1.0, 45):
+        square, slope = c**2 + (s / kappa) ** 2, x * c
+        root = np.sqrt(np.maximum(0.0, slope**2 - square * (x**2 - 1.0)))
+        near, far = (np.maximum(0.0, (-slope + sign * root) / square) for sign in (-1.0, 1.0))
+        half = 0.5 * (far - near)[:, np.newaxis]
+        r = 0.5 * (far + near)[:, np.newaxis] + half * np.sin(node)
+        heat = 1.0 - (x + r * c[:, np.newaxis]) ** 2 - (r * s[:, np.newaxis] / kappa) ** 2
+        rise = np.sqrt(np.maximum(0.0, heat)) * np.exp(-peclet * r * (1.0 + c[:, np.newaxis]))
+        along = (half * rise * np.cos(node) * of_node).sum(axis=1)
+        found.append(1.5 / math.pi * float((along * weight).sum()))
+    return max(found)
+
+
+@pytest.mark.parametrize("peclet", [0.0, 2.0, 20.0])
+@pytest.mark.parametrize(("kappa", "near"), [(0.1, 0.06), (0.4, 0.03), (1.0, 0.012), (4.0, 0.06)])
+def test_flash_temperature_of_ellipses(kappa, near, peclet):
+    """The greatest rise of one surface of an ellipse, by sources that move; at rest exactly."""
+    square = kappa**2
+    ratio = elliprd(0.0, 1.0, square) / elliprd(0.0, square, 1.0) if kappa != 1.0 else 1.0
+    shape = ellipse(float(ratio))
+    assert shape.ellipticity == pytest.approx(kappa, rel=1e-12)
+    alone = flash_temperature(
+        1.0, 1.0, (2.0 * peclet, 0.0), (1.0, 1e-30), (1.0, 1.0), shape.potential
+    )
+    if peclet == 0.0:
+        near = 1e-3
+    assert alone == pytest.approx(greatest_rise(kappa, peclet), rel=near)
 
 
 def test_absolute_friction_of_the_solver():

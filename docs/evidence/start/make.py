@@ -46,6 +46,17 @@ def wave(amplitude: float, along: float, across: float, ratio: float) -> dict[st
     }
 
 
+WIDE = {"contact.radius_ratio": 0.35177}
+
+
+def pair(slide_to_roll: float, other: float) -> dict[str, Any]:
+    """Options of two waves, the second of another length [a]."""
+    keys = POINT | {"surface.kind": "harmonic", "surface.amplitude": 4e-3}
+    second = {"kind": "harmonic", "amplitude": 3e-3, "wavelength": other}
+    keys |= {f"second_surface.{key}": value for key, value in second.items()}
+    return keys | {"contact.slide_to_roll": slide_to_roll}
+
+
 def scenes(folder: Path) -> dict[str, dict[str, Any]]:
     """Options by name; a map is written into a folder."""
     heights = 2e-8 * np.random.default_rng(1).standard_normal((32, 32))
@@ -66,6 +77,11 @@ def scenes(folder: Path) -> dict[str, dict[str, Any]]:
         "fractal, seed 3, scheme of the paper": FRACTAL
         | {"surface.seed": 3, "time.scheme": "paper"},
         "map of 32 x 32 pixels": {"surface.kind": "map", "surface.file": folder / "map.npy"} | size,
+        "wave 0.5 a, kappa 2": wave(5e-3, 0.5, 0.5, 1.01) | WIDE,
+        "fractal, kappa 2, 600 N": FRACTAL
+        | {"contact.radius_x": 0.012, "contact.radius_y": 0.0341},
+        "waves 0.5 a and 0.25 a, together": pair(0.0, 0.25),
+        "waves 0.5 a and 1 a, slide-to-roll ratio 0.25, kappa 2": pair(0.25, 1.0) | WIDE,
     }
 
 
