@@ -50,10 +50,6 @@ MARGIN = 0.2
 
 UNRESOLVED = "waves are too short for the points of the prediction"
 UNSOLVED = "the contact of the prediction is not solved"
-NO_FRICTION = (
-    "the bodies touch, and the friction there is not known: lubricant.boundary_friction and "
-    "sliding are needed"
-)
 
 
 @dataclass(frozen=True, slots=True)

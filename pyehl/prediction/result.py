@@ -24,7 +24,9 @@ from pyehl.prediction.errors import (
 from pyehl.prediction.friction import TRACKS, RoughFriction
 from pyehl.prediction.options import Options
 from pyehl.prediction.pair_breakdown import PairAdvice, PairBelowZero
+from pyehl.prediction.partial import Partial
 from pyehl.prediction.sides import SecondSurface, arrays, statistics
+from pyehl.prediction.touching import NO_FRICTION, contact_numbers
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.friction import absolute_friction
 from pyehl.theory.heat import Heat
@@ -90,6 +92,8 @@ class Prediction:
         The second rough surface; None: there is one.
     heat
         What the heat of sliding makes of friction; None: nothing.
+    partial
+        Contact at a boundary film; None: the case has none.
     film_errors
         Errors of h_c and h_min, estimated [m]; NaN where they are not known.
 
@@ -123,6 +127,7 @@ class Prediction:
     second: SecondSurface | None = None
     heat: Heat | None = None
     film_errors: tuple[float, float] = (math.nan, math.nan)
+    partial: Partial | None = None
     thinning: float = 1.0  # viscosity over that of a Newtonian lubricant with as thick a film [-]
 
     def __repr__(self) -> str:
@@ -164,14 +169,32 @@ class Prediction:
         kappa, in_flow = self.operating.ellipse.ellipticity, self.lubricant.shear.in_flow
         if self.why_no_error:
             return math.nan
+        if self.touches:
+            return self.partial.friction_error
         return model_error(self.mu_ratio, thins=in_flow, ellipticity=kappa)
+
+    @property
+    def touches(self) -> bool:
+        """Whether bodies touch at a boundary film."""
+        return self.partial is not None and self.partial.load_share > 0.0
 
     @property
     def why_no_error(self) -> str:
         """Why `model_error` is not known; '' where it is."""
+        if self.touches and not math.isfinite(self.mu_ratio):
+            return NO_FRICTION
         alone = self.thins and not self.lubricant.shear.in_flow
         outside, options = self.outside_range, self.options
         return why_no_error(self.mu_ratio, outside, options, friction_alone_thins=alone)
+
+    @property
+    def _contact(self) -> dict[str, Any]:
+        """What the summary says of contact at a boundary film."""
+        layer = float(self.settings["lubricant"]["boundary_film"])
+        found = contact_numbers(self.partial, layer / self.operating.film_scale)
+        if self.touches and self.partial:
+            found["h_min_rough_error_m"] = self.partial.film_min_error if self._known else math.nan
+        return found
 
     @property
     def _known(self) -> bool:
@@ -269,6 +292,7 @@ class Prediction:
             **statistics(s, f.response),
             **(self.second.summary(s) if self.second else {}),
             **deformed_surface(f, self.film_minimum, self.options.film_limit, known=self._known),
+            **self._contact,
             "cavitated_share": f.cavitated_share,
             "cavitated_friction": f.cavitated_friction,
             "load_error": f.load_error,
