@@ -7,8 +7,8 @@ p_c of contact lifts it. It bends the surfaces as if the roughness r were r - p_
 the stiffness of the half-space, and the fluid flattens that as it does any roughness. So the film
 rises by T p_c/K and the pressure by T p_c, T by the response for waves that move with the lubricant
 as the films of touching nodes do. For waves as long as the contact T is near zero: what contact
-carries there the fluid no longer does, and the film remains that of the inlet. Where the smooth
-film itself is thinner than the layer, it is that of the layer.
+carries there the fluid no longer does, and the film remains that of the inlet. It is thicker only
+where contact would otherwise carry more than the load.
 
 Compared with the full simulation in docs/evidence/partial.
 """
@@ -198,9 +198,9 @@ class _Contact:
         rough, held = self.rough, None
         change = rough.change(shift).astype(float)
         linear = rough.pressure + change[..., 1]
-        smooth, floor = self._floor(rough.pressure), self._floor(linear)
+        floor = self._floor(linear)
         for level in levels:
-            film = np.maximum(self.film + level.thicker, smooth) - change[..., 0]
+            film = self.film + level.thicker - change[..., 0]
             gap = np.where(rough.inside, film - floor, np.inf)
             held = lifted(gap, self.lifting, self.layer, self.load, held)
             if held is None:
@@ -211,6 +211,8 @@ class _Contact:
             carried = float(pressure.sum(where=rough.inside))
             level.load.append(float(pressure.sum(where=touching)) / carried)
             level.area.append(np.count_nonzero(touching) / rough.points)
+            # pressures of the response below zero carry nothing: what is left carries the load
+            pressure *= self.load / carried
             level.stress.append(self._stress(pressure, film, touching))
             level.least = min(level.least, float(film.min(where=rough.inside, initial=math.inf)))
         return True
