@@ -71,11 +71,21 @@ class Partial:
     passage: Array  # (n,) friction there
     note: str  # why an error or all numbers are not there; ''
 
+    @property
+    def touches(self) -> bool:
+        """Whether bodies touch."""
+        return self.load_share > 0.0
+
+    @property
+    def lacks_friction(self) -> bool:
+        """Whether bodies touch and the friction there is not known."""
+        return self.touches and not math.isfinite(self.friction)
+
 
 def without(note: str) -> Partial:
     """Nothing, and why."""
-    nothing = np.zeros(0)
-    return Partial(*[math.nan] * 9, shift=nothing, passage=nothing, note=note)
+    n, nothing = math.nan, np.zeros(0)
+    return Partial(n, n, n, n, n, n, n, n, n, nothing, nothing, note)
 
 
 def partial_film(passage: RoughPassage, parts: Parts, layer: float, friction: float) -> Partial:
@@ -143,10 +153,10 @@ class _Contact:
     def __init__(
         self, passage: RoughPassage, parts: Parts, points: float, layer: float, friction: float
     ) -> None:
-        grid, *rest = parts
+        grid, spectrum, transfer, edge = parts
         self.passage, o = passage, passage.operating
-        self.stride = passage.stride_of(rest[0], points)
-        self.rough = passage.on_points(*rest, self.stride)
+        self.stride = passage.stride_of(spectrum, points)
+        self.rough = passage.on_points(spectrum, transfer, edge, self.stride)
         self.layer = layer / o.film_scale
         # of the stress of the layer over its pressure, as `ShearedContact.stress` has stresses
         unit = 1.0 if self.rough.thins else passage.lubricant.viscosity * o.sliding_speed

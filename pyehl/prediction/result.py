@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl import display, library, namelist, surfaces
+from pyehl.destination import finite
 from pyehl.prediction.bands import BAND_COLUMNS, Band, records
 from pyehl.prediction.breakdown import Advice, BelowZero
 from pyehl.prediction.deformed import deformed_surface
@@ -166,35 +167,21 @@ class Prediction:
     @property
     def model_error(self) -> float:
         """Error of `mu_ratio` by the model, estimated [-]; NaN where it is not known."""
-        kappa, in_flow = self.operating.ellipse.ellipticity, self.lubricant.shear.in_flow
         if self.why_no_error:
             return math.nan
-        if self.touches:
+        if self.partial and self.partial.touches:
             return self.partial.friction_error
-        return model_error(self.mu_ratio, thins=in_flow, ellipticity=kappa)
-
-    @property
-    def touches(self) -> bool:
-        """Whether bodies touch at a boundary film."""
-        return self.partial is not None and self.partial.load_share > 0.0
+        kappa, thins = self.operating.ellipse.ellipticity, self.lubricant.shear.in_flow
+        return model_error(self.mu_ratio, thins=thins, ellipticity=kappa)
 
     @property
     def why_no_error(self) -> str:
         """Why `model_error` is not known; '' where it is."""
-        if self.touches and not math.isfinite(self.mu_ratio):
+        if self.partial and self.partial.lacks_friction:
             return NO_FRICTION
         alone = self.thins and not self.lubricant.shear.in_flow
-        outside, options = self.outside_range, self.options
-        return why_no_error(self.mu_ratio, outside, options, friction_alone_thins=alone)
-
-    @property
-    def _contact(self) -> dict[str, Any]:
-        """What the summary says of contact at a boundary film."""
-        layer = float(self.settings["lubricant"]["boundary_film"])
-        found = contact_numbers(self.partial, layer / self.operating.film_scale)
-        if self.touches and self.partial:
-            found["h_min_rough_error_m"] = self.partial.film_min_error if self._known else math.nan
-        return found
+        where = self.outside_range, self.options
+        return why_no_error(self.mu_ratio, *where, friction_alone_thins=alone)
 
     @property
     def _known(self) -> bool:
@@ -249,6 +236,7 @@ class Prediction:
     def summary(self) -> dict[str, Any]:
         """What ``summary.json`` holds; None for a number that does not exist."""
         f, o, s = self.friction, self.operating, self.surface
+        layer = float(self.settings["lubricant"]["boundary_film"]) / o.film_scale
         sigma = math.hypot(s.rms_height, self.second.surface.rms_height if self.second else 0.0)
         values: dict[str, Any] = {
             "kind": "prediction",
@@ -292,7 +280,7 @@ class Prediction:
             **statistics(s, f.response),
             **(self.second.summary(s) if self.second else {}),
             **deformed_surface(f, self.film_minimum, self.options.film_limit, known=self._known),
-            **self._contact,
+            **contact_numbers(self.partial, layer, known=self._known),
             "cavitated_share": f.cavitated_share,
             "cavitated_friction": f.cavitated_friction,
             "load_error": f.load_error,
@@ -309,16 +297,5 @@ class Prediction:
             values["radius_ratio"] = o.radius_ratio
             values["ellipticity"] = o.ellipse.ellipticity
             values["semi_axis_y_m"] = o.semi_axis_y
-        values = {key: _finite(value) for key, value in values.items()}
+        values = {key: finite(value) for key, value in values.items()}
         return values | {"judgement": library.conclude(values).judgement}
-
-
-def _finite(value: object) -> object:
-    """Return the value with null for what JSON cannot say."""
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    if isinstance(value, list):
-        return [_finite(item) for item in value]
-    if isinstance(value, dict):
-        return {key: _finite(item) for key, item in value.items()}
-    return value

@@ -26,7 +26,7 @@ def touching(
 
     A prediction without contact, or whose contact is not known, stays as it is.
     """
-    if not partial.load_share > 0.0:
+    if not partial.touches:
         return friction, tracks
     fine = interpolated(partial.passage, 8)
     known = math.isfinite(partial.friction)
@@ -46,11 +46,16 @@ def touching(
     ), (math.nan, math.nan)
 
 
-def contact_numbers(partial: Partial | None, layer: float) -> dict[str, Any]:
-    """Give what a summary says of contact with a layer [a^2/R]; nothing without one."""
+def contact_numbers(partial: Partial | None, layer: float, *, known: bool) -> dict[str, Any]:
+    """Give what a summary says of contact with a layer [a^2/R]; nothing without one.
+
+    `known`: whether the case lies in the range that the response was measured in.
+    """
     if partial is None:
         return {}
+    film = {"h_min_rough_error_m": partial.film_min_error if known else math.nan}
     return {
+        **(film if partial.touches else {}),
         "boundary_film": layer,
         "contact_load_share": partial.load_share,
         "contact_load_share_error": partial.load_share_error,
