@@ -23,6 +23,7 @@ import scipy.fft
 from numpy.typing import NDArray
 
 from pyehl.prediction.by_response import Parts, RoughPassage
+from pyehl.prediction.deformed import FILM
 from pyehl.prediction.obstacle import Compliance, lifted
 from pyehl.prediction.smooth import circle_of, zone_of
 from pyehl.prediction.spectrum import Spectrum
@@ -45,8 +46,6 @@ BOX = 1.25
 # Points of the shortest waves, the share of the variance that shorter ones may have, and the
 # fewest and most points per shorter semi-axis
 POINTS_OF_WAVE, SHORTER, POINTS = 8, 1e-3, (60.0, 128.0)
-# Error of the film at which bodies touch, over the rms height of the deformed roughness
-MARGIN = 0.2
 
 UNRESOLVED = "waves are too short for the points of the prediction"
 UNSOLVED = "the contact of the prediction is not solved"
@@ -99,7 +98,7 @@ def partial_film(passage: RoughPassage, parts: Parts, layer: float, friction: fl
     power = spectrum.power * np.square(left)
     points = POINTS_OF_WAVE / _shortest(spectrum, power)
     contact = _Contact(passage, parts, min(max(points, POINTS[0]), POINTS[1]), layer, friction)
-    margin = MARGIN * math.sqrt(float(power.sum()))
+    margin = FILM * math.sqrt(float(power.sum()))
     levels = [_Level(film) for film in (0.0, margin, -margin)]
     steps = np.arange(POSITIONS) * (grid.shape[0] // POSITIONS)
     with np.errstate(over="ignore", invalid="ignore"):
@@ -165,6 +164,7 @@ class _Contact:
         # films that were scaled to the extrapolated central film lack something at the sides
         self.film = self.rough.film + self.rough.missing
         self.load = float(self.rough.pressure.sum(where=self.rough.inside))
+        self.whole_load = o.load / (o.hertz_pressure * self.rough.area)
         self._bend(self._around(grid))
 
     def _around(self, grid: Topography) -> Spectrum:
@@ -221,8 +221,6 @@ class _Contact:
             carried = float(pressure.sum(where=rough.inside))
             level.load.append(float(pressure.sum(where=touching)) / carried)
             level.area.append(np.count_nonzero(touching) / rough.points)
-            # pressures of the response below zero carry nothing: what is left carries the load
-            pressure *= self.load / carried
             level.stress.append(self._stress(pressure, film, touching))
             level.least = min(level.least, float(film.min(where=rough.inside, initial=math.inf)))
         return True
@@ -231,16 +229,24 @@ class _Contact:
         return self.rough.inside & (film <= (1.0 + HOLD) * floor) & (pressure > 0.0)
 
     def _stress(self, pressure: Array, film: Array, touching: NDArray[np.bool_]) -> float:
-        """Sum of the shear stress; NaN where that of the layer is not known."""
-        stress = np.where(touching, self.rubbing * pressure, self.rough.stress(pressure, film))
-        return float(stress.sum(where=self.rough.inside))
+        """Sum of the shear stress; NaN where that of the layer is not known.
+
+        The layer rubs by its share of the load, whatever the points of friction carry.
+        """
+        stress, inside = self.rough.stress(pressure, film), self.rough.inside
+        flowing = float(stress.sum(where=inside & ~touching))
+        if not touching.any():
+            return flowing
+        share = float(pressure.sum(where=touching) / pressure.sum(where=inside))
+        return flowing + self.rubbing * self.whole_load * share
 
     def smooth_friction(self) -> float:
         """Sum of the shear stress of the smooth contact."""
         pressure = self.rough.pressure
         floor = self._floor(pressure)
         film = np.maximum(self.film, floor)
-        return self._stress(pressure, film, self._touching(pressure, film, floor))
+        touching = self._touching(pressure, film, floor)
+        return self._stress(pressure, film, touching)
 
     def coefficient(self, stress: float) -> float:
         """Coefficient of friction of a sum of shear stress [-]."""
