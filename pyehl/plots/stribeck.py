@@ -22,6 +22,7 @@ from pyehl.plots.style import (
     letter,
     new_figure,
 )
+from pyehl.plots.stribeck_contact import draw_contact
 from pyehl.theory import stribeck
 
 __all__ = ["ABSCISSAE", "COLOURS", "Curve", "Points", "draw_stribeck"]
@@ -93,8 +94,14 @@ def draw_stribeck(
         for name, label in ABSCISSAE.items()
         if any(np.isfinite(curve.column(name)).any() for curve in curves)
     }
-    figure = new_figure(11.5 if len(shown) > 1 else 7.0, 4.4)
-    axes = figure.subplots(1, len(shown), sharey=True, squeeze=False)[0]
+    touching = [c for c in curves if "contact_load_share" in c.rows[0]]
+    figure = new_figure(11.5 if len(shown) > 1 else 7.0, 7.4 if touching else 4.4)
+    panels = figure.subplots(
+        3 if touching else 1, len(shown), sharex="col", sharey="row", squeeze=False
+    )
+    axes = panels[0]
+    if touching:
+        draw_contact(panels[1:], list(shown), list(zip(curves, COLOURS * 9, strict=False)))
     for ax, (name, label) in zip(axes, shown.items(), strict=True):
         for curve, colour in zip(curves, COLOURS * 9, strict=False):
             _draw_curve(ax, curve, name, colour)
@@ -105,7 +112,7 @@ def draw_stribeck(
             _draw_eq_16(ax)
         ax.set_xscale("log")
         label_log_ticks(ax)
-        ax.set_xlabel(label)
+        panels[-1, list(axes).index(ax)].set_xlabel(label)
         ax.grid(visible=True, which="major", color="0.92", lw=0.6)
         ax.set_axisbelow(True)
     axes[0].set_ylabel(r"$\mu$" if absolute else r"$\mu_r/\mu_s$")

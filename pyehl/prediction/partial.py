@@ -120,7 +120,8 @@ def partial_film(passage: RoughPassage, parts: Parts, layer: float, friction: fl
         *load,
         *area,
         least[0],
-        max(abs(film - least[0]) for film in least[1:]) if known else math.nan,
+        # bodies touch to HOLD
+        max(HOLD * least[0], *(abs(film - least[0]) for film in least[1:])) if known else math.nan,
         *ratio,
         contact.coefficient(smooth),
         np.asarray(steps * grid.pixel[0], dtype=float),

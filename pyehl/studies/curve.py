@@ -212,7 +212,8 @@ def _smooth_friction(smooth: Row) -> dict[str, Any]:
 def _friction(found: Sequence[Row], smooth: Row) -> dict[str, Any]:
     """Mean and spread over the surfaces; no mean where one of them has no ratio.
 
-    The coefficient of the smooth contact is that of its solution, which has the inlet too.
+    The coefficient of the smooth contact is that of its solution, which has the inlet too. Where
+    bodies touch that of the rough one is not made of it, but as predicted.
     """
     lost = [row for row in found if row["status"] != "predicted"]
     if lost:
@@ -228,7 +229,9 @@ def _friction(found: Sequence[Row], smooth: Row) -> dict[str, Any]:
     coefficient, isothermal = smooth.get("mu_smooth"), smooth.get("mu_smooth_isothermal")
     absolute: list[Row] = [
         {
-            name: None if None in (row.get("mu"), number) else row["mu_ratio"] * number
+            name: row[name]
+            if touches([row]) or None in (row.get("mu"), number)
+            else row["mu_ratio"] * number
             for name, number in (("mu", coefficient), ("mu_isothermal", isothermal))
         }
         for row in found
