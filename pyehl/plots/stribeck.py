@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from pyehl.plots.stribeck_contact import draw_contact
 from pyehl.plots.style import (
     BLUE,
     GREEN,
@@ -22,7 +23,6 @@ from pyehl.plots.style import (
     letter,
     new_figure,
 )
-from pyehl.plots.stribeck_contact import draw_contact
 from pyehl.theory import stribeck
 
 __all__ = ["ABSCISSAE", "COLOURS", "Curve", "Points", "draw_stribeck"]
@@ -76,7 +76,14 @@ class Curve:
 
     def friction(self, name: str = "mu_ratio") -> Array:
         """Give a column of ratios (n,), as coefficients where these are drawn."""
-        return self.column(name) * (self.column("mu_smooth") if self.absolute else 1.0)
+        if not self.absolute:
+            return self.column(name)
+        smooth = self.column("mu_smooth")
+        if name.startswith("mu_ratio_ehl"):
+            return self.column(name) * smooth
+        # where bodies touch a prediction has a smooth contact of its own
+        own = self.column("mu") / self.column("mu_ratio")
+        return self.column(name) * np.where(np.isfinite(own), own, smooth)
 
 
 def draw_stribeck(

@@ -8,6 +8,7 @@ import pytest
 
 import pyehl
 from pyehl.prediction.obstacle import Compliance, lifted
+from pyehl.studies.curve_contact import lift_off
 
 SCENE = """
 &contact load = 20.0 mean_velocity = {} radius = 0.0127 slide_to_roll = 0.1 /
@@ -83,3 +84,41 @@ def test_obstacle(most):
         assert rise.min() > 0.0
     else:
         assert np.abs(rise).max() < 1e-12
+
+
+def test_lift_off_with_its_error():
+    """Of a share that falls tenfold each time the speed doubles."""
+    speeds = np.array([0.8, 0.4, 0.2, 0.1])
+    rows = [
+        {
+            "contact_load_share": share,
+            "contact_load_share_error": error,
+            "lambda_ratio": 10.0 * speed,
+            "theta_2": None,
+        }
+        for speed, share, error in zip(
+            speeds, (0.0, 0.005, 0.05, 0.5), (0.0, 0.004, 0.03, 0.1), strict=True
+        )
+    ]
+    found = lift_off("contact.mean_velocity", speeds, rows)
+    assert found is not None
+    part = (0.05 - 0.01) / (0.05 - 0.005)
+    assert found.speed == pytest.approx(0.2 * 2.0**part)
+    lower = 0.2 * 2.0 ** ((0.02 - 0.01) / (0.02 - 0.001))
+    assert found.error == pytest.approx(found.speed - lower)
+    assert found.lambda_ratio == pytest.approx(10.0 * found.speed)
+    assert "Lambda" in found.words
+    assert "theta_2" not in found.words
+    assert lift_off("contact.load", speeds, rows) is None
+    assert lift_off("contact.mean_velocity", speeds[:2], rows[:2]) is None
+
+
+def test_curve_with_a_layer():
+    case = pyehl.Case.from_text(SCENE.format(0.3, 1e-7, 0.1) + "&grid points = 65 /\n")
+    curve = pyehl.stribeck(case, speed=[0.2, 0.6], jobs=1)
+    assert curve.status.values.tolist() == ["mixed film", "full film"]
+    assert curve.contact_load_share.values[0] > 0.05
+    assert curve.contact_load_share.values[1] == 0.0
+    speed, error = (curve.attrs[f"transition_speed_{n}m_s"] for n in ("", "error_"))
+    assert 0.2 < speed < 0.6
+    assert 0.0 < error < 0.4
