@@ -171,17 +171,17 @@ class Prediction:
             return math.nan
         if self.partial and self.partial.touches:
             return self.partial.friction_error
-        kappa, thins = self.operating.ellipse.ellipticity, self.lubricant.shear.in_flow
-        return model_error(self.mu_ratio, thins=thins, ellipticity=kappa)
+        kappa = self.operating.ellipse.ellipticity
+        return model_error(self.mu_ratio, thins=self.lubricant.shear.in_flow, ellipticity=kappa)
 
     @property
     def why_no_error(self) -> str:
         """Why `model_error` is not known; '' where it is."""
         if self.partial and self.partial.lacks_friction:
             return NO_FRICTION
+        of = self.mu_ratio, self.outside_range, self.options
         alone = self.thins and not self.lubricant.shear.in_flow
-        where = self.outside_range, self.options
-        return why_no_error(self.mu_ratio, *where, friction_alone_thins=alone)
+        return why_no_error(*of, friction_alone_thins=alone)
 
     @property
     def _known(self) -> bool:
@@ -294,8 +294,7 @@ class Prediction:
             "wall_seconds": self.seconds,
         }
         if o.radius_ratio != 1.0:
-            values["radius_ratio"] = o.radius_ratio
+            values |= {"radius_ratio": o.radius_ratio, "semi_axis_y_m": o.semi_axis_y}
             values["ellipticity"] = o.ellipse.ellipticity
-            values["semi_axis_y_m"] = o.semi_axis_y
-        values = {key: finite(value) for key, value in values.items()}
-        return values | {"judgement": library.conclude(values).judgement}
+        told = {key: finite(value) for key, value in values.items()}
+        return told | {"judgement": library.conclude(told).judgement}
