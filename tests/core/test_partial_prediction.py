@@ -116,7 +116,9 @@ def test_lift_off_with_its_error():
 def test_curve_with_a_layer():
     case = pyehl.Case.from_text(SCENE.format(0.3, 1e-7, 0.1) + "&grid points = 65 /\n")
     curve = pyehl.stribeck(case, speed=[0.2, 1.2], jobs=1)
-    assert curve.status.values.tolist() == ["mixed film", "full film"]
+    assert curve.status.values[0] == "mixed film"
+    # of the faster one M is below the range of the response
+    assert curve.status.values[1] == "outside the range"
     assert curve.contact_load_share.values[0] > 0.05
     assert curve.contact_load_share.values[1] == 0.0
     speed, error = (curve.attrs[f"transition_speed_{n}m_s"] for n in ("", "error_"))
