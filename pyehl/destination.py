@@ -10,6 +10,7 @@ says so in its metadata; never onto what the command reads. Links are kept, thei
 from __future__ import annotations
 
 import json
+import math
 import os
 import shutil
 import tempfile
@@ -26,6 +27,7 @@ __all__ = [
     "Destination",
     "check_files",
     "file_errors",
+    "finite",
     "made_by",
     "mark",
     "new_file",
@@ -181,3 +183,14 @@ def write_json(path: AnyPath, values: Mapping[str, object], *, allow_nan: bool =
     with new_file(path) as fresh:
         text = json.dumps(values, indent=2, allow_nan=allow_nan)
         fresh.write_text(text + "\n", encoding="utf-8")
+
+
+def finite(value: object) -> object:
+    """Return the value with null for what JSON cannot say."""
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    if isinstance(value, list):
+        return [finite(item) for item in value]
+    if isinstance(value, dict):
+        return {key: finite(item) for key, item in value.items()}
+    return value

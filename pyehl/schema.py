@@ -156,11 +156,12 @@ sp | mu_smooth_isothermal | - | mu_smooth without heat
 sp | temperature_rise_max_K | K | largest mean rise across the film; rough: at the end of a run
 sp | temperature_rise_wall_1_max_K | K | the same of the surface of body 1
 sp | temperature_rise_wall_2_max_K | K | the same of the surface of body 2
-s | boundary_film | a^2/R | film at ambient pressure at which bodies touch
-s | contact_load_share | - | share of the load where they touch: a mean, as mu_ratio
-s | contact_load_share_error | - | estimate of its error, by two grids
-s | contact_load_share_error_note | | why it is not known; else empty
-s | contact_area_share | - | area where they touch over that of the dry contact
+sp | boundary_film | a^2/R | film at ambient pressure at which bodies touch
+sp | contact_load_share | - | share of the load where they touch: a mean, as mu_ratio
+sp | contact_load_share_error | - | estimate of its error, by two grids; of a prediction by the film
+sp | contact_load_share_error_note | | why it is not known; else empty
+sp | contact_area_share | - | area where they touch over that of the dry contact
+p | contact_area_share_error | - | estimate of its error
 s | layer_supply | - | lubricant that the layer gives there, over the flow along with the surfaces
 sp | mu_note | | what mu holds and leaves out
 sp | flash_temperature_K | K | largest rise of the surfaces by a formula (Tian & Kennedy), at mu

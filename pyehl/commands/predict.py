@@ -33,9 +33,11 @@ def report(prediction: Prediction) -> str:
     if f.status == "predicted":
         lines += _deformed(values)
         mean, spread = prediction.tracks
+        over = f"; {mean:.3f} +- {spread:.3f} over {prediction.track_count} tracks"
+        ratio = f"mu_r/mu_s from {f.mu_ratio_min:.3f} to {f.mu_ratio_max:.3f}"
         lines += [
-            f"passage    mu_r/mu_s from {f.mu_ratio_min:.3f} to {f.mu_ratio_max:.3f}; "
-            f"{mean:.3f} +- {spread:.3f} over {prediction.track_count} tracks   "
+            f"passage    {ratio if math.isfinite(f.mu_ratio) else values['mu_ratio_error_note']}"
+            f"{over if math.isfinite(mean) else ''}   "
             f"[{f.passage.size} positions, {prediction.seconds * 1e3:.0f} ms]",
             f"           {values['note']}",
         ]

@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from pyehl.plots.stribeck_contact import draw_contact
 from pyehl.plots.style import (
     BLUE,
     GREEN,
@@ -75,7 +76,14 @@ class Curve:
 
     def friction(self, name: str = "mu_ratio") -> Array:
         """Give a column of ratios (n,), as coefficients where these are drawn."""
-        return self.column(name) * (self.column("mu_smooth") if self.absolute else 1.0)
+        if not self.absolute:
+            return self.column(name)
+        smooth = self.column("mu_smooth")
+        if name.startswith("mu_ratio_ehl"):
+            return self.column(name) * smooth
+        # where bodies touch a prediction has a smooth contact of its own
+        own = self.column("mu") / self.column("mu_ratio")
+        return self.column(name) * np.where(np.isfinite(own), own, smooth)
 
 
 def draw_stribeck(
@@ -93,8 +101,14 @@ def draw_stribeck(
         for name, label in ABSCISSAE.items()
         if any(np.isfinite(curve.column(name)).any() for curve in curves)
     }
-    figure = new_figure(11.5 if len(shown) > 1 else 7.0, 4.4)
-    axes = figure.subplots(1, len(shown), sharey=True, squeeze=False)[0]
+    touching = [c for c in curves if "contact_load_share" in c.rows[0]]
+    figure = new_figure(11.5 if len(shown) > 1 else 7.0, 7.4 if touching else 4.4)
+    panels = figure.subplots(
+        3 if touching else 1, len(shown), sharex="col", sharey="row", squeeze=False
+    )
+    axes = panels[0]
+    if touching:
+        draw_contact(panels[1:], list(shown), list(zip(curves, COLOURS * 9, strict=False)))
     for ax, (name, label) in zip(axes, shown.items(), strict=True):
         for curve, colour in zip(curves, COLOURS * 9, strict=False):
             _draw_curve(ax, curve, name, colour)
@@ -105,7 +119,7 @@ def draw_stribeck(
             _draw_eq_16(ax)
         ax.set_xscale("log")
         label_log_ticks(ax)
-        ax.set_xlabel(label)
+        panels[-1, list(axes).index(ax)].set_xlabel(label)
         ax.grid(visible=True, which="major", color="0.92", lw=0.6)
         ax.set_axisbelow(True)
     axes[0].set_ylabel(r"$\mu$" if absolute else r"$\mu_r/\mu_s$")

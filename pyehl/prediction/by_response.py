@@ -109,7 +109,17 @@ class RoughPassage:
                 lubricant=self.lubricant,
                 load_balance=self.options.load_balance,
             )
-        stride = self._stride(spectrum)
+        return self.on_points(spectrum, transfer, edge, self._stride(spectrum), power)
+
+    def on_points(
+        self,
+        spectrum: Spectrum,
+        transfer: Transfer,
+        edge: Edge,
+        stride: int,
+        power: Array | None = None,
+    ) -> RoughContact:
+        """Contact of a tile by its response, at every so many-th of its pixels; else as above."""
         return RoughContact(
             Waves.of(spectrum, transfer, self.contact.central_film, self.velocity_ratio, stride),
             edge,
@@ -126,9 +136,12 @@ class RoughPassage:
 
     def _stride(self, spectrum: Spectrum) -> int:
         """Every so many-th pixel across the motion is a point of the contact."""
+        return 1 if self.options.as_in_paper else self.stride_of(spectrum, POINTS)
+
+    def stride_of(self, spectrum: Spectrum, points: float) -> int:
+        """Stride of the pixels that leaves so many points per shorter semi-axis."""
         short = min(1.0, self.operating.ellipse.ellipticity)
-        wanted = int(short / (POINTS * max(spectrum.pixel)))
-        stride = 1 if self.options.as_in_paper else max(1, wanted)
+        stride = max(1, int(short / (points * max(spectrum.pixel))))
         while spectrum.shape[1] % stride:
             stride -= 1
         return stride

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from pyehl.prediction.friction import RoughFriction
 
-__all__ = ["deformed_surface", "deformed_surfaces", "error_name", "film_levels"]
+__all__ = ["FILM", "deformed_surface", "deformed_surfaces", "error_name", "film_levels"]
 
 Array = NDArray[np.float64]
 

@@ -29,9 +29,11 @@ from pyehl.prediction.pair_breakdown import (
     advise_pair,
     pair_below_zero,
 )
+from pyehl.prediction.partial import Partial, partial_film, without
 from pyehl.prediction.result import Prediction
 from pyehl.prediction.sides import SecondSurface
 from pyehl.prediction.smooth import SmoothContact, hertz_contact, read_contact, solve_contact
+from pyehl.prediction.touching import touching
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -41,6 +43,10 @@ __all__ = ["predict"]
 Array = NDArray[np.float64]
 
 MAX_TRACKS = 10_000
+
+# Why contact at a boundary film is not predicted
+OF_TWO = "contact at a boundary film is predicted of one rough surface"
+OTHER_MODEL = "psd.reduction and psd.smooth are not those that contact is predicted with"
 
 
 def predict(
@@ -104,6 +110,10 @@ def predict(
     if len(alone) > 1 and friction.second is not None:
         other = alone[1]
         second = SecondSurface(other.topography, other.velocity_ratio, friction.second)
+    partial = _partial(settings, alone)
+    if partial is not None:
+        friction, over = touching(friction, partial, over)
+        advice = None if friction.status == "predicted" else advice
     return Prediction(
         settings=settings,
         operating=operating,
@@ -129,7 +139,23 @@ def predict(
         second=second,
         heat=heat_of(settings, contact, lubricant),
         thinning=contact.thinning,
+        partial=partial,
     )
+
+
+def _partial(
+    settings: Mapping[str, Mapping[str, Any]], alone: Sequence[RoughPassage]
+) -> Partial | None:
+    """Find the contact of a case with a boundary film; None without one."""
+    lubricant, passage = settings["lubricant"], alone[0]
+    layer = float(lubricant["boundary_film"])
+    if not layer > 0.0:
+        return None
+    if len(alone) > 1:
+        return without(OF_TWO)
+    if not passage.options.measured:
+        return without(OTHER_MODEL)
+    return partial_film(passage, passage.parts(), layer, float(lubricant["boundary_friction"]))
 
 
 def _of_one(

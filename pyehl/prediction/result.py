@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl import display, library, namelist, surfaces
+from pyehl.destination import finite
 from pyehl.prediction.bands import BAND_COLUMNS, Band, records
 from pyehl.prediction.breakdown import Advice, BelowZero
 from pyehl.prediction.deformed import deformed_surface
@@ -24,7 +25,9 @@ from pyehl.prediction.errors import (
 from pyehl.prediction.friction import TRACKS, RoughFriction
 from pyehl.prediction.options import Options
 from pyehl.prediction.pair_breakdown import PairAdvice, PairBelowZero
+from pyehl.prediction.partial import Partial
 from pyehl.prediction.sides import SecondSurface, arrays, statistics
+from pyehl.prediction.touching import NO_FRICTION, contact_numbers
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.friction import absolute_friction
 from pyehl.theory.heat import Heat
@@ -90,6 +93,8 @@ class Prediction:
         The second rough surface; None: there is one.
     heat
         What the heat of sliding makes of friction; None: nothing.
+    partial
+        Contact at a boundary film; None: the case has none.
     film_errors
         Errors of h_c and h_min, estimated [m]; NaN where they are not known.
 
@@ -123,6 +128,7 @@ class Prediction:
     second: SecondSurface | None = None
     heat: Heat | None = None
     film_errors: tuple[float, float] = (math.nan, math.nan)
+    partial: Partial | None = None
     thinning: float = 1.0  # viscosity over that of a Newtonian lubricant with as thick a film [-]
 
     def __repr__(self) -> str:
@@ -161,17 +167,21 @@ class Prediction:
     @property
     def model_error(self) -> float:
         """Error of `mu_ratio` by the model, estimated [-]; NaN where it is not known."""
-        kappa, in_flow = self.operating.ellipse.ellipticity, self.lubricant.shear.in_flow
         if self.why_no_error:
             return math.nan
-        return model_error(self.mu_ratio, thins=in_flow, ellipticity=kappa)
+        if self.partial and self.partial.touches:
+            return self.partial.friction_error
+        kappa = self.operating.ellipse.ellipticity
+        return model_error(self.mu_ratio, thins=self.lubricant.shear.in_flow, ellipticity=kappa)
 
     @property
     def why_no_error(self) -> str:
         """Why `model_error` is not known; '' where it is."""
+        if self.partial and self.partial.lacks_friction:
+            return NO_FRICTION
+        of = self.mu_ratio, self.outside_range, self.options
         alone = self.thins and not self.lubricant.shear.in_flow
-        outside, options = self.outside_range, self.options
-        return why_no_error(self.mu_ratio, outside, options, friction_alone_thins=alone)
+        return why_no_error(*of, friction_alone_thins=alone)
 
     @property
     def _known(self) -> bool:
@@ -226,6 +236,7 @@ class Prediction:
     def summary(self) -> dict[str, Any]:
         """What ``summary.json`` holds; None for a number that does not exist."""
         f, o, s = self.friction, self.operating, self.surface
+        layer = float(self.settings["lubricant"]["boundary_film"]) / o.film_scale
         sigma = math.hypot(s.rms_height, self.second.surface.rms_height if self.second else 0.0)
         values: dict[str, Any] = {
             "kind": "prediction",
@@ -269,6 +280,7 @@ class Prediction:
             **statistics(s, f.response),
             **(self.second.summary(s) if self.second else {}),
             **deformed_surface(f, self.film_minimum, self.options.film_limit, known=self._known),
+            **contact_numbers(self.partial, layer, known=self._known),
             "cavitated_share": f.cavitated_share,
             "cavitated_friction": f.cavitated_friction,
             "load_error": f.load_error,
@@ -282,19 +294,7 @@ class Prediction:
             "wall_seconds": self.seconds,
         }
         if o.radius_ratio != 1.0:
-            values["radius_ratio"] = o.radius_ratio
+            values |= {"radius_ratio": o.radius_ratio, "semi_axis_y_m": o.semi_axis_y}
             values["ellipticity"] = o.ellipse.ellipticity
-            values["semi_axis_y_m"] = o.semi_axis_y
-        values = {key: _finite(value) for key, value in values.items()}
-        return values | {"judgement": library.conclude(values).judgement}
-
-
-def _finite(value: object) -> object:
-    """Return the value with null for what JSON cannot say."""
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    if isinstance(value, list):
-        return [_finite(item) for item in value]
-    if isinstance(value, dict):
-        return {key: _finite(item) for key, item in value.items()}
-    return value
+        told = {key: finite(value) for key, value in values.items()}
+        return told | {"judgement": library.conclude(told).judgement}

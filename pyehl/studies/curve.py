@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from pyehl import library
 from pyehl.prediction.deformed import deformed_surfaces
 from pyehl.prediction.errors import KNOWN_RATIO
+from pyehl.studies.curve_contact import contact_columns, touches
 from pyehl.studies.curve_pattern import SMOOTH, Pattern, kept_pattern
 from pyehl.studies.curve_plan import CurvePlan, CurvePoint, Settings
 from pyehl.studies.tasks import FAILED, why_none
@@ -27,6 +28,7 @@ __all__ = [
     "BREAKDOWN",
     "EMPIRICAL",
     "FULL_FILM",
+    "MIXED",
     "OUTSIDE",
     "UNITS",
     "UNSOLVED",
@@ -39,8 +41,9 @@ __all__ = [
 
 Row = Mapping[str, Any]
 
-FULL_FILM, BREAKDOWN, OUTSIDE, UNSOLVED = (
+FULL_FILM, MIXED, BREAKDOWN, OUTSIDE, UNSOLVED = (
     "full film",
+    "mixed film",
     "film breakdown",
     "outside the range",
     "not solved",
@@ -145,8 +148,10 @@ def _at(
     values |= _friction(found, smooth) if found else _smooth_friction(smooth)
     if law is not None:
         values |= _empirical(values, smooth.get("mu_smooth"), law)
+    full = nothing if point.full is None else rows.get(point.full, nothing)
+    if point.settings["lubricant"]["boundary_film"]:
+        values |= contact_columns(found, full)
     if point.full is not None:
-        full = rows.get(point.full, nothing)
         if full["status"] == "converged":
             values["mu_ratio_ehl"] = full["mu_ratio"]
             values["mu_ratio_ehl_error"] = full["mu_ratio_error"]
@@ -158,7 +163,7 @@ def _at(
         values["message"] = _joined(values, f"film of {n} x {n} nodes, not extrapolated: {finer}")
     if smooth["status"] != "converged":
         values["message"] = _joined(values, f"smooth contact: {why_none(smooth)}; {finer}")
-        if values["status"] in (FULL_FILM, OUTSIDE):
+        if values["status"] in (FULL_FILM, MIXED, OUTSIDE):
             values["status"] = UNSOLVED
     values["judgement"] = conclude(point, values).judgement
     return values
@@ -166,7 +171,7 @@ def _at(
 
 def conclude(point: CurvePoint, row: Row) -> library.Conclusion:
     """Judge a point of a curve by its columns, and give its last lines."""
-    status = "predicted" if row["status"] in (FULL_FILM, OUTSIDE) else row["status"]
+    status = "predicted" if row["status"] in (FULL_FILM, MIXED, OUTSIDE) else row["status"]
     message = str(row["message"]).removeprefix(f"{status}: ")
     note = "" if row["mu_ratio_model_error"] is not None else message
     law = point.settings["lubricant"]["shear_law"]
@@ -207,7 +212,8 @@ def _smooth_friction(smooth: Row) -> dict[str, Any]:
 def _friction(found: Sequence[Row], smooth: Row) -> dict[str, Any]:
     """Mean and spread over the surfaces; no mean where one of them has no ratio.
 
-    The coefficient of the smooth contact is that of its solution, which has the inlet too.
+    The coefficient of the smooth contact is that of its solution, which has the inlet too. Where
+    bodies touch that of the rough one is not made of it, but as predicted.
     """
     lost = [row for row in found if row["status"] != "predicted"]
     if lost:
@@ -218,12 +224,14 @@ def _friction(found: Sequence[Row], smooth: Row) -> dict[str, Any]:
         message = f"{share}{why_none(row)}"
         return {"mu_smooth": smooth.get("mu_smooth"), "status": status, "message": message}
     outside = sorted({row["outside_range"] for row in found if row.get("outside_range")})
-    if any(row["mu_ratio"] > KNOWN_RATIO for row in found):
+    if any((row["mu_ratio"] or 0.0) > KNOWN_RATIO for row in found):
         outside.append(f"mu_ratio above {KNOWN_RATIO:g}")
     coefficient, isothermal = smooth.get("mu_smooth"), smooth.get("mu_smooth_isothermal")
     absolute: list[Row] = [
         {
-            name: None if None in (row.get("mu"), number) else row["mu_ratio"] * number
+            name: row[name]
+            if touches([row]) or None in (row.get("mu"), number)
+            else row["mu_ratio"] * number
             for name, number in (("mu", coefficient), ("mu_isothermal", isothermal))
         }
         for row in found
@@ -235,7 +243,7 @@ def _friction(found: Sequence[Row], smooth: Row) -> dict[str, Any]:
         "mu_isothermal": _mean(absolute, "mu_isothermal")["mu_isothermal"],
         "mu_smooth": coefficient,
         "mu_ratio_model_error": _largest(found, "mu_ratio_model_error"),
-        "status": OUTSIDE if outside else FULL_FILM,
+        "status": MIXED if touches(found) else OUTSIDE if outside else FULL_FILM,
         "message": f"outside the range of the prediction: {'; '.join(outside)}" if outside else "",
     }
 
@@ -273,7 +281,7 @@ def full_film_ends(
 
     `places` are its values, ascending or descending, with the columns of the curve at these.
     """
-    broken = tuple(k for k, row in enumerate(rows) if row["status"] == BREAKDOWN)
+    broken = tuple(k for k, row in enumerate(rows) if row["status"] in (BREAKDOWN, MIXED))
     known = [k for k, row in enumerate(rows) if row["status"] in (FULL_FILM, OUTSIDE)]
     lost = len(rows) - len(known) - len(broken)
     rest = f" with an answer; {lost} have none" if lost else ""

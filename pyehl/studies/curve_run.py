@@ -9,6 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
 from pyehl.case import Case
@@ -18,6 +19,7 @@ from pyehl.given import Option, check_kind, options_of, path_of
 from pyehl.netcdf import write_netcdf
 from pyehl.studies import table
 from pyehl.studies.curve import EMPIRICAL, UNITS, WORDS, curve_rows
+from pyehl.studies.curve_contact import CONTACT, lift_off
 from pyehl.studies.curve_plan import KEYS, CurvePlan, plan_curve
 from pyehl.studies.gather import Outcome, Watcher, gather
 from pyehl.studies.journal import NAME
@@ -32,7 +34,9 @@ FILES = (CSV, NETCDF, PICTURE)
 
 def units_of(plan: CurvePlan) -> dict[str, str]:
     """Give the columns of a curve that are numbers, and their units."""
-    return UNITS | (EMPIRICAL if plan.load_share is not None else {})
+    layer = any(p.settings["lubricant"]["boundary_film"] for p in plan.points)
+    contact = CONTACT if layer else {}
+    return UNITS | contact | (EMPIRICAL if plan.load_share is not None else {})
 
 
 def axes_of(values: Mapping[str, Any]) -> list[Axis]:
@@ -94,7 +98,13 @@ def _dataset(plan: CurvePlan, rows: Sequence[Mapping[str, Any]]) -> xr.Dataset:
     """Give a curve as a Dataset whose dimensions are what was varied."""
     units = units_of(plan)
     found = {name: [row[name] for row in rows] for name in (*units, *WORDS)}
-    attributes = {"title": "Stribeck curve of pyehl"}
+    attributes: dict[str, Any] = {"title": "Stribeck curve of pyehl"}
+    if len(plan.study.keys) == 1:
+        key = plan.study.keys[0]
+        places = np.array([float(p.point.values[key]) for p in plan.points])
+        if ends := lift_off(key, places, rows):
+            attributes["transition_speed_m_s"] = ends.speed
+            attributes["transition_speed_error_m_s"] = ends.error
     if plan.load_share is not None:
         attributes["empirical"] = plan.load_share.words
     return table.over(plan.study, found, units, attributes, float)

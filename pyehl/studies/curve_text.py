@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pyehl.studies.curve import FULL_FILM, OUTSIDE, conclude, full_film_ends
+from pyehl.studies.curve import FULL_FILM, MIXED, OUTSIDE, conclude, full_film_ends
+from pyehl.studies.curve_contact import lift_off
 from pyehl.studies.curve_plan import CurvePlan
 from pyehl.studies.measured_friction import Measured
 
@@ -40,7 +41,8 @@ def absolute_friction(plan: CurvePlan, rows: Sequence[Row]) -> bool:
     answers = [
         row
         for point, row in zip(plan.points, rows, strict=True)
-        if row["status"] in (FULL_FILM, OUTSIDE) and point.settings["contact"]["slide_to_roll"]
+        if row["status"] in (FULL_FILM, MIXED, OUTSIDE)
+        and point.settings["contact"]["slide_to_roll"]
     ]
     return bool(answers) and all(row["mu"] is not None for row in answers)
 
@@ -60,6 +62,9 @@ def report(plan: CurvePlan, rows: Sequence[Row]) -> str:
         "mu": "mu",
         "mu_isothermal": "isothermal",
         "temperature_rise_max_K": "rise [K]",
+        "contact_load_share": "contact",
+        "contact_load_share_error": "+- contact",
+        "contact_area_share": "area",
         "mu_empirical": "empirical",
         "mu_ratio_ehl": "simulated",
     }
@@ -72,6 +77,8 @@ def report(plan: CurvePlan, rows: Sequence[Row]) -> str:
         lines.append("  ".join([*cells, str(row["status"])]))
     for label, places, those in curves_of(plan, rows):
         lines.append(f"{label + ': ' if label else ''}{full_film_ends(keys[0], places, those)[0]}")
+        if ends := lift_off(keys[0], places, those):
+            lines.append(ends.words)
     if plan.load_share is not None:
         lines.append(plan.load_share.words)
     return "\n".join(lines)

@@ -92,7 +92,9 @@ def test_predictions(tmp_path: Path):
         {*pyehl.predict(pyehl.Case.from_text(text)).summary, "files"}  # the folder lists them
         for text in (rough, ellipse + rough, rough + rough.replace("surface", "second_surface"))
     )
-    assert alone | oval | both == names("prediction")
+    layer = "&contact load = 20.0 /\n&lubricant boundary_film = 1e-9 /\n"
+    held = {*pyehl.predict(pyehl.Case.from_text(layer + rough)).summary}
+    assert alone | oval | both | held == names("prediction")
     of_two = {n for n in names("prediction") if n.startswith("second_")}
     assert both - alone == of_two | {"surface_rms_m", "surface_slope"}
 

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contact at a boundary film and the least film, below the friction of Stribeck curves."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Protocol
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+__all__ = ["draw_contact"]
+
+Array = NDArray[np.float64]
+
+
+class HasColumns(Protocol):
+    """A curve by its columns."""
+
+    def column(self, name: str) -> Array:
+        """Give a column (n,); NaN for what is not there."""
+        ...
+
+
+def draw_contact(
+    panels: NDArray[Any], abscissae: Sequence[str], curves: Sequence[tuple[HasColumns, str]]
+) -> None:
+    """Draw shares of load and area on the first row of panels (2, n), least film on the second."""
+    for (share, film), name in zip(panels.T, abscissae, strict=True):
+        for curve, colour in curves:
+            x = curve.column(name)
+            _band(share, x, curve, "contact_load_share", colour)
+            share.plot(x, curve.column("contact_area_share"), "--", lw=1, color=colour)
+            full = curve.column("contact_load_share_ehl")
+            if np.isfinite(full).any():
+                share.plot(x, full, "s", ms=5, mfc="white", color=colour)
+            _band(film, x, curve, "h_min_rough_m", colour, 1e9)
+        share.set_ylim(-0.03, 1.03)
+        film.set_ylim(bottom=0.0)
+        for ax in (share, film):
+            ax.grid(visible=True, which="major", color="0.92", lw=0.6)
+            ax.set_axisbelow(True)
+    panels[0, 0].set_ylabel("contact: load, area (dashed)")
+    panels[1, 0].set_ylabel("least film [nm]")
+
+
+def _band(
+    ax: Axes, x: Array, curve: HasColumns, name: str, colour: str, factor: float = 1.0
+) -> None:
+    """Draw a column with its error."""
+    y, error = factor * curve.column(name), factor * curve.column(_error(name))
+    ax.plot(x, y, "o-", ms=3, lw=1.2, color=colour)
+    known = np.isfinite(y) & np.isfinite(error)
+    if known.any():
+        low, high = y[known] - error[known], y[known] + error[known]
+        ax.fill_between(x[known], low, high, color=colour, alpha=0.35, lw=0)
+
+
+def _error(name: str) -> str:
+    return name.removesuffix("_m") + ("_error_m" if name.endswith("_m") else "_error")

@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Prediction of contact at a boundary film."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import pyehl
+from pyehl.prediction.obstacle import Compliance, lifted
+from pyehl.studies.curve_contact import lift_off
+
+SCENE = """
+&contact load = 20.0 mean_velocity = {} radius = 0.0127 slide_to_roll = 0.1 /
+&lubricant shear_law = 'eyring' boundary_film = {} boundary_friction = {} /
+&surface kind = 'fractal' rms_height = 3e-8 seed = 11 length_x = 1.2e-4 length_y = 1.2e-4
+ pixels = 64 shortest_wavelength = 3e-5 /
+"""
+
+
+def predicted(layer: float, friction: float = 0.1, velocity: float = 0.3):
+    text = SCENE.format(velocity, layer, friction if layer else 0.0)
+    return pyehl.predict(pyehl.Case.from_text(text)).summary
+
+
+def test_full_film_is_as_without_a_layer():
+    """With a layer thinner than every film."""
+    without, held = predicted(0.0), predicted(5e-9)
+    assert held["contact_load_share"] == held["contact_area_share"] == 0.0
+    more = {"boundary_film", *(name for name in held if name.startswith("contact_"))}
+    timed = {"wall_seconds", "pressure_viscosity_note", "mu_note"}
+    assert {k: v for k, v in held.items() if k not in more | timed} == {
+        k: v for k, v in without.items() if k not in timed
+    }
+
+
+def test_share_grows_with_the_layer_up_to_dry_contact():
+    found = [predicted(layer) for layer in (9e-8, 1.1e-7, 1.3e-7, 4e-7)]
+    shares = [summary["contact_load_share"] for summary in found]
+    assert 0.0 < shares[0] < 0.1
+    assert (np.diff(shares) > 0.05).all()
+    assert shares[-1] == pytest.approx(1.0, abs=0.02)
+    # friction is that of the layer there
+    assert found[-1]["mu"] == pytest.approx(0.1, rel=0.05)
+    assert all(s["contact_load_share_error"] >= 0.0 for s in found)
+    assert all(s["status"] == "predicted" for s in found)
+    assert "mixed film" in found[1]["judgement"]
+
+
+def test_friction_of_the_layer_is_not_known():
+    summary = predicted(1.2e-7, friction=0.0)
+    assert summary["contact_load_share"] > 0.0
+    assert (summary["mu"], summary["mu_ratio"]) == (None, None)
+    assert "lubricant.boundary_friction" in summary["mu_ratio_error_note"]
+
+
+def test_two_surfaces_have_none_and_say_why():
+    text = SCENE.format(0.3, 1.2e-7, 0.1)
+    second = text[text.index("&surface") :].replace("surface", "second_surface").replace("11", "12")
+    summary = pyehl.predict(pyehl.Case.from_text(text + second)).summary
+    assert summary["contact_load_share"] is None
+    assert "one rough surface" in summary["contact_load_share_error_note"]
+
+
+@pytest.mark.parametrize("most", [np.inf, 40.0])
+def test_obstacle(most):
+    """All conditions of the solution, with enough pressure to lift and with too little."""
+    rng = np.random.default_rng(3)
+    gap = rng.standard_normal((48, 48)) + 0.5
+    gap[:, :4] = np.inf
+    q = np.hypot(np.fft.rfftfreq(60)[:, None], np.fft.fftfreq(60)[None])
+    kernel = np.divide(1.0, q, out=np.zeros_like(q), where=q > 0.0)
+    compliance = Compliance(kernel, (60, 60))
+    found = lifted(gap, compliance, 0.1, most)
+    assert found is not None
+    assert (found.pressure >= 0.0).all()
+    assert (found.pressure[:, :4] == 0.0).all()
+    left = gap + found.lift
+    assert left.min() >= -2e-3
+    assert np.abs(left[found.pressure > 0.0]).max() <= 1e-2
+    rise = found.lift - compliance(found.pressure)
+    if np.isfinite(most):
+        assert found.pressure.sum() == pytest.approx(most)
+        assert rise.min() > 0.0
+    else:
+        assert np.abs(rise).max() < 1e-12
+
+
+def test_lift_off_with_its_error():
+    """Of a share that falls tenfold each time the speed doubles."""
+    speeds = np.array([0.8, 0.4, 0.2, 0.1])
+    rows = [
+        {
+            "contact_load_share": share,
+            "contact_load_share_error": error,
+            "lambda_ratio": 10.0 * speed,
+            "theta_2": None,
+        }
+        for speed, share, error in zip(
+            speeds, (0.0, 0.005, 0.05, 0.5), (0.0, 0.004, 0.03, 0.1), strict=True
+        )
+    ]
+    found = lift_off("contact.mean_velocity", speeds, rows)
+    assert found is not None
+    part = (0.05 - 0.01) / (0.05 - 0.005)
+    assert found.speed == pytest.approx(0.2 * 2.0**part)
+    lower = 0.2 * 2.0 ** ((0.02 - 0.01) / (0.02 - 0.001))
+    assert found.error == pytest.approx(found.speed - lower)
+    assert found.lambda_ratio == pytest.approx(10.0 * found.speed)
+    assert "Lambda" in found.words
+    assert "theta_2" not in found.words
+    assert lift_off("contact.load", speeds, rows) is None
+    assert lift_off("contact.mean_velocity", speeds[:2], rows[:2]) is None
+
+
+def test_curve_with_a_layer():
+    case = pyehl.Case.from_text(SCENE.format(0.3, 1e-7, 0.1) + "&grid points = 65 /\n")
+    curve = pyehl.stribeck(case, speed=[0.2, 1.2], jobs=1)
+    assert curve.status.values[0] == "mixed film"
+    # of the faster one M is below the range of the response
+    assert curve.status.values[1] == "outside the range"
+    assert curve.contact_load_share.values[0] > 0.05
+    assert curve.contact_load_share.values[1] == 0.0
+    speed, error = (curve.attrs[f"transition_speed_{n}m_s"] for n in ("", "error_"))
+    assert 0.2 < speed < 1.2
+    assert 0.0 < error < 1.0
