@@ -23,8 +23,8 @@ import scipy.fft
 from numpy.typing import NDArray
 
 from pyehl.prediction.by_response import Parts, RoughPassage
-from pyehl.prediction.deformed import FILM
 from pyehl.prediction.obstacle import Compliance, lifted
+from pyehl.prediction.rough_contact import missing
 from pyehl.prediction.smooth import circle_of, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
@@ -39,6 +39,9 @@ HOLD = 0.01
 """Bodies touch where the film exceeds the layer by less than this share, as in the solver."""
 POSITIONS = 16
 """Positions of the tile over its passage."""
+# Error of the film at which bodies touch, of the rms height of the deformed surface
+# (docs/evidence/partial)
+FILM = 0.45
 # Of waves that the fluid flattens nearly whole, as much is taken to be left
 LEAST_LEFT = 0.02
 # Length of the periodic box of pressures over that of the contact
@@ -162,8 +165,9 @@ class _Contact:
         unit = 1.0 if self.rough.thins else passage.lubricant.viscosity * o.sliding_speed
         known = friction > 0.0 and o.sliding_speed > 0.0
         self.rubbing = friction * o.hertz_pressure / unit if known else math.nan
-        # films that were scaled to the extrapolated central film lack something at the sides
-        self.film = self.rough.film + self.rough.missing
+        # Films that were scaled to the extrapolated central film lack something at the sides. The
+        # loss is of first order: that of second order ends above the layers that bodies touch at
+        self.film = self.rough.film + missing(passage.contact, self.rough.film)
         self.load = float(self.rough.pressure.sum(where=self.rough.inside))
         self.whole_load = o.load / (o.hertz_pressure * self.rough.area)
         self._bend(self._around(grid))

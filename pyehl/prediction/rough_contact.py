@@ -32,6 +32,7 @@ __all__ = [
     "WavyContact",
     "add_waves",
     "line_weights",
+    "missing",
     "pairs",
     "slipped",
     "station_weights",
@@ -207,7 +208,7 @@ class WavyContact(ShearedContact):
         self.cavitated += int(np.count_nonzero((pressure <= 0.0) & self.inside))
         # outside nothing is counted: any film and pressure will do
         film[~self.inside] = math.inf
-        whole = film + _missing(self.contact, smooth)
+        whole = film + missing(self.contact, smooth)
         self.least = min(self.least, float(whole.min()))
         self.meet(change[..., 1], whole, self.inner, self.near)
         film[~self.inside] = 1.0
@@ -216,7 +217,7 @@ class WavyContact(ShearedContact):
             return float(self.stress(pressure, film).sum(where=self.inside)) / self.smooth
 
 
-def _missing(contact: SmoothContact, film: Array) -> Array | float:
+def missing(contact: SmoothContact, film: Array) -> Array | float:
     """Give what films H_s [a^2/R] of a smooth contact lack beside those extrapolated.
 
     They are scaled to the extrapolated central film; the minimum film lacks more than that, on the
