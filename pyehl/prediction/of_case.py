@@ -148,14 +148,16 @@ def _partial(
 ) -> Partial | None:
     """Find the contact of a case with a boundary film; None without one."""
     lubricant, passage = settings["lubricant"], alone[0]
-    layer = float(lubricant["boundary_film"])
+    layer = float(lubricant.get("boundary_film", 0.0))
     if not layer > 0.0:
         return None
     if len(alone) > 1:
         return without(OF_TWO)
     if not passage.options.measured:
         return without(OTHER_MODEL)
-    return partial_film(passage, passage.parts(), layer, float(lubricant["boundary_friction"]))
+    return partial_film(
+        passage, passage.parts(), layer, float(lubricant.get("boundary_friction", 0.0))
+    )
 
 
 def _of_one(

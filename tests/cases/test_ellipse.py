@@ -205,19 +205,6 @@ def test_rolling_moment(solve):
     assert done["rolling_moment"] == pytest.approx(7.5 * kappa / m, rel=0.1)
 
 
-def test_rolling_moment_grows_with_the_domain(solve):
-    """By the logarithm of its length: the figures of docs/theory/border.md."""
-    shares = []
-    for length in (2.5, 5.0, 10.0):
-        place = {
-            "grid.x_inlet": -length,
-            "grid.x_outlet": 0.6 * length,
-            "grid.y_extent": 0.8 * length,
-        }
-        shares.append(solve((100.0, 10.0), 513, place)["rolling_moment"] / 0.075)
-    assert [f"{share:.2f}" for share in shares] == ["0.60", "0.78", "0.93"]
-
-
 def test_film_of_a_flooded_ellipse(solve):
     """Against the border of published values: the figures of docs/theory/border.md."""
     wide = {"contact.radius_ratio": 0.35177}

@@ -200,7 +200,11 @@ def test_start_without_the_waves_that_the_grid_does_not_carry():
     x, y = np.linspace(-2.5, 1.5, 65), np.linspace(0.0, 2.0, 33)
     low, high = (
         starting_pressure(
-            Case.read("cases/table1.nml", f"surface.rms_height={rms}").resolve(), None, x, y, [0.0]
+            Case.read("cases/table1.nml", f"surface.rms_height={rms}").resolve(),
+            {},
+            x,
+            y,
+            np.zeros((1, 1)),
         )
         for rms in (1e-8, 5e-8)
     )
@@ -211,7 +215,7 @@ def test_start_from_the_prediction():
     x = np.linspace(-2.5, 1.5, 129)
     y = np.linspace(0.0, 2.0, 65)
     thin, newtonian = (
-        starting_pressure(table_1(*options).resolve(), None, x, y, [0.0])
+        starting_pressure(table_1(*options).resolve(), {}, x, y, np.zeros((1, 1)))
         for options in ((), ("lubricant.flow='newtonian'",))
     )
     assert 0.0 < np.std(thin) < np.std(newtonian)
