@@ -105,9 +105,8 @@ OF_SOLIDS = (
     "thermal_conductivity_2",
     "thermal_diffusivity_2",
 )
-OF_OIL = ("temperature_viscosity", "thermal_conductivity")
-# Laws of the pressure alone
-SIMPLE = ("roelands", "barus")
+# (a temperature is refused without something that it changes)
+OF_OIL = ("thermal_conductivity",)
 OF_SHEAR = (
     "shear_law",
     "flow",
@@ -133,12 +132,7 @@ def smooth_case(settings: Mapping[str, Mapping[str, Any]]) -> str:
     of_contact = OF_SOLIDS if thins or heated else OF_SOLIDS + OF_SLIP
     of_lubricant = OF_CONTACT + (() if thins else OF_SHEAR) + (() if heated else OF_OIL)
     contact = {k: v for k, v in settings["contact"].items() if k not in of_contact}
-    oil = settings["lubricant"]
-    lubricant = {k: v for k, v in oil.items() if k not in of_lubricant}
-    by_data_sheet = float(oil.get("kinematic_viscosity_40", 0.0)) > 0.0
-    if not heated and oil.get("viscosity_law") in SIMPLE and not by_data_sheet:
-        # the viscosity is told at the inlet, where a temperature is that of the heat alone
-        lubricant.pop("temperature", None)
+    lubricant = {k: v for k, v in settings["lubricant"].items() if k not in of_lubricant}
     lubricant["thermal_friction"] = "never"
     domain = {key: settings["grid"][key] for key in ("x_inlet", "x_outlet", "y_extent")}
     return namelist.text_of({"contact": contact, "lubricant": lubricant, "grid": domain})

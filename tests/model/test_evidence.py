@@ -39,7 +39,7 @@ def table(evidence):
 
 
 # Surfaces with all their waves that were simulated on 1025 x 1025 nodes, too
-FINE = 4
+FINE = 5
 NAMES = ["c16s11", "c8s12", "t1s21", "t1s21u1", "m700l7", "c16m2000", "u080c16", "u120c16"]
 
 
