@@ -24,11 +24,12 @@ module ehl_boundary_film
    use ehl_status, only: ehl_no_memory, status_t
    implicit none (type, external)
    private
-   public :: boundary_film_t, hold
+   public :: boundary_film_t, least_hold
 
    !> A touching node lifts off where it would by more than this share of the layer: behind a zone of touching nodes the lubricant
-   !> has the film of the layer, too, and rounding would decide on their states
-   real(dp), parameter :: hold = 1.0e-2_dp
+   !> has the film of the layer, too, and rounding would decide on their states. What flows on to such a node and not on from it
+   !> is lost: with 1e-2 a load share grew with the number of nodes.
+   real(dp), parameter :: least_hold = 1.0e-4_dp
 
    !> Arrays of shape (nx, ny)
    type :: boundary_film_t
@@ -36,6 +37,8 @@ module ehl_boundary_film
       real(dp) :: thickness = 0.0_dp
       !> Factor of the equation of touching nodes
       real(dp) :: rate = 0.0_dp
+      !> Share of the layer that a touching node may be lifted by
+      real(dp) :: hold = least_hold
       !> Whether the states of the nodes stay, on a coarse level
       logical :: frozen = .false.
       !> 1 where a node is touching, else 0
@@ -92,7 +95,7 @@ contains
       real(dp) :: held
       integer :: i
 
-      held = hold*self%rate*self%thickness
+      held = self%hold*self%rate*self%thickness
       self%touching(1, j) = 0.0_dp
       self%touching(size(residual), j) = 0.0_dp
       do i = 2, size(residual) - 1

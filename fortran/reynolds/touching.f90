@@ -1,16 +1,18 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> What is read off a solution with contact at a boundary film (boundary_film.f90). Bodies touch where there is pressure and the
-!> film is that of the layer, to what decides on the state of a node: behind a touching node the lubricant may flow with the film
-!> that the layer leaves, which is contact as well.
+!> film is that of the layer, to 1 % of it: behind a touching node the lubricant may flow with the film that the layer leaves, which
+!> is contact as well.
 module ehl_touching
-   use ehl_boundary_film, only: hold
    use ehl_kinds, only: dp
    use ehl_level, only: level_t
    use ehl_node_state, only: cavity_pressure
    use ehl_reynolds, only: flow_operator
    implicit none (type, external)
    private
-   public :: touching_t, measure_touching, touches, touching_names
+   public :: touching_t, measure_touching, same_film, touches, touching_names
+
+   !> Bodies touch where the film is that of the layer to this share of it
+   real(dp), parameter :: same_film = 1.0e-2_dp
 
    !> What `numbers` gives
    character(len=*), parameter :: touching_names(3) = [character(len=12) :: "load_share", "contact_area", "layer_supply"]
@@ -59,7 +61,7 @@ contains
       integer, intent(in) :: j
       logical :: touches(level%grid%nx)
 
-      touches = level%p(:, j) > cavity_pressure .and. level%mass_content(:, j) <= (1.0_dp + hold)*level%boundary%thickness
+      touches = level%p(:, j) > cavity_pressure .and. level%mass_content(:, j) <= (1.0_dp + same_film)*level%boundary%thickness
    end function touches
 
    !> Load share, area, supply

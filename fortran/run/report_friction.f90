@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Absolute friction of a run, where it means something, and the heat of it
 module ehl_report_friction
-   use ehl_boundary_film, only: hold
    use ehl_contact, only: contact_t
    use ehl_grid, only: grid_t
    use ehl_heat, only: flash_temperature
@@ -11,6 +10,7 @@ module ehl_report_friction
    use ehl_record, only: record_t
    use ehl_report_touching, only: no_boundary_friction
    use ehl_text, only: fixed, to_text
+   use ehl_touching, only: same_film
    use ehl_wall_heat, only: heat_source
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    implicit none (type, external)
@@ -157,7 +157,7 @@ contains
          if (plan%lubricant%shear%thins()) call plan%lubricant%shear%reduce(p(:, j), stress)
          if (plan%lubricant%boundary_film > 0.0_dp) then
             call plan%lubricant%density(p(:, j), rho, slope)
-            where (rho*h(:, j) <= (1.0_dp + hold)*plan%lubricant%boundary_film) stress = 0.0_dp
+            where (rho*h(:, j) <= (1.0_dp + same_film)*plan%lubricant%boundary_film) stress = 0.0_dp
          end if
          greatest_stress = max(greatest_stress, plan%lubricant%shear%scale*maxval(stress))
       end do
