@@ -35,6 +35,22 @@ def test_how_often_stated_errors_cover_the_next_grid(root: Path, evidence):
     assert f"covers the next change in {covered} of {known} rows" in text
 
 
+def test_the_shares_converge_with_order_two(root: Path, evidence):
+    text = (root / "docs" / "theory" / "contact.md").read_text(encoding="utf-8")
+    rows = {tuple(float(row[key]) for key in evidence.KEYS): row for row in evidence.read()}
+    load, height, stress, *_ = evidence.LIGHT
+    ratios, changes = {}, {}
+    for layer in (4e-8, 8e-8):
+        a, b, c = (
+            float(rows[(load, height, stress, layer, float(points))]["contact_load_share"])
+            for points in (129, 257, 513)
+        )
+        ratios[layer], changes[layer] = (a - b) / (b - c), 100.0 * (b - c) / b
+    said = f"over {ratios[4e-8]:.1f} at 40 nm and over {ratios[8e-8]:.1f} at 80 nm"
+    assert said in text
+    assert f"by {changes[4e-8]:.0f} % of itself at 40 nm and by {changes[8e-8]:.0f} %" in text
+
+
 def test_this_build_makes_the_stored_shares(evidence):
     """On the coarsest grid, where the inlet is not resolved and everything touches."""
     row = evidence.read()[0]
