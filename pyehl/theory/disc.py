@@ -65,34 +65,43 @@ def monomials(x: Array, y: Array, axis: int = -1) -> Array:
 
 def _radial(z: Array, last: int) -> list[tuple[range, Array]]:
     """For each m up to `last` the l that go with it, and P_lm(z)/z for them with all factors."""
+    # the last place is the edge, where the weights take P_lm
+    values = _legendre(last, np.append(z, 0.0))
     found = []
     for m in range(last + 1):
         orders = range(m or 2, last + 1, 2)
-        values = [_weight(n, m) * _legendre(n, m, z) / z for n in orders]
-        if values:
-            found.append((orders, np.stack(values, axis=-1)))
+        if orders:
+            weighted = [_weight(n, m, values[n, m, -1]) * values[n, m, :-1] / z for n in orders]
+            found.append((orders, np.stack(weighted, axis=-1)))
     return found
 
 
 def _series(qx: Array, qy: Array, theta: Array, radial: list[tuple[range, Array]]) -> Complex:
-    """Sum the series at the angles (n,) that the radial parts (n, number of l) belong to."""
+    """Sum the series at angles (n,) with radial parts (n, number of l), or (1, ...) for all."""
     q, phi = np.hypot(qx, qy), np.arctan2(qy, qx)
     bessel = spherical_bessel(radial[0][0].stop, q)
     total = np.zeros((theta.size, q.size), dtype=complex)
     for m, (orders, values) in enumerate(radial):
         part = values @ np.stack([(-1) ** ((n - m) // 2) * (2 * n + 1) * bessel[n] for n in orders])
         # i^l = i^m (-1)^((l - m)/2); cos(m(theta - phi)) by the addition theorem
-        part *= np.cos(m * theta)[:, np.newaxis] * np.cos(m * phi) + (
+        turned = np.cos(m * theta)[:, np.newaxis] * np.cos(m * phi) + (
             np.sin(m * theta)[:, np.newaxis] * np.sin(m * phi)
         )
-        total += 1j**m * part
+        total += 1j**m * part * turned
     return total
 
 
-def _legendre(n: int, m: int, z: Array) -> Array:
-    """Associated Legendre function of the first kind with the phase (-1)^m."""
-    derivative = legendre.Legendre.basis(n).deriv(m)
-    return np.asarray((-1.0) ** m * (1.0 - z * z) ** (0.5 * m) * derivative(z))
+def _legendre(last: int, z: Array) -> Array:
+    """P_lm(z), l and m up to `last`, with the phase (-1)^m (DLMF 14.7.15, 14.10.3): (l, m, n)."""
+    values = np.zeros((last + 1, last + 1, z.size))
+    values[0, 0] = 1.0
+    for m in range(last + 1):
+        if m:
+            values[m, m] = (1 - 2 * m) * np.sqrt(1.0 - z * z) * values[m - 1, m - 1]
+        for n in range(m, last):
+            before = (n + m) * values[n - 1, m] if n > m else 0.0
+            values[n + 1, m] = ((2 * n + 1) * z * values[n, m] - before) / (n - m + 1)
+    return values
 
 
 def spherical_bessel(count: int, q: Array) -> Array:
@@ -103,12 +112,12 @@ def spherical_bessel(count: int, q: Array) -> Array:
     return np.asarray((waves @ legendre.legvander(place, count - 1) * turned).real.T)
 
 
-def _weight(n: int, m: int) -> float:
-    """Pressure per deflection of Y_nm, times its share in a plane wave."""
+def _weight(n: int, m: int, at_edge: float) -> float:
+    """Pressure per deflection of Y_nm, times its share in a plane wave; with P_nm(0)."""
     inverse = math.lgamma((n + m + 2) / 2) + math.lgamma((n - m + 2) / 2)
     inverse -= math.lgamma((n + m + 1) / 2) + math.lgamma((n - m + 1) / 2)
     share = math.exp(inverse + math.lgamma(n - m + 1) - math.lgamma(n + m + 1))
-    share *= float(_legendre(n, m, np.zeros(())))
+    share *= at_edge
     return share * (2.0 if m else 1.0) * math.pi / 2.0
 
 
@@ -121,6 +130,12 @@ def _fit() -> tuple[Array, Array, list[tuple[range, Array]], Array]:
     x, y = x[inside], y[inside]
     radial = _radial(np.sqrt(1.0 - x * x - y * y), math.ceil(LARGEST) + 12)
     return x, y, radial, np.asarray(np.linalg.pinv(monomials(x, y)), dtype=float)
+
+
+@lru_cache(maxsize=1)
+def _at_rim() -> list[tuple[range, Array]]:
+    """Radial parts next to the edge."""
+    return _radial(np.array([RIM]), math.ceil(LARGEST) + 12)
 
 
 def disc_correction(qx: Array, qy: Array) -> Complex:
@@ -140,5 +155,4 @@ def disc_rim(qx: Array, qy: Array, theta: Array) -> Complex:
     The pressure c/z of the fixed edge is what the Hertz pressure z gains where the edge lies
     further out by c.
     """
-    radial = _radial(np.full(theta.shape, RIM), math.ceil(LARGEST) + 12)
-    return RIM * _series(qx, qy, theta, radial)
+    return RIM * _series(qx, qy, theta, _at_rim())

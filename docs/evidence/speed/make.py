@@ -1,0 +1,223 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Make the tables of this folder from what benchmarks measured, or print those of the documents.
+
+pyehl bench step --points 129,257,513 --error -o step.json
+pyehl bench step --points 1025 --front 0 --steps 16 -o step_1025.json
+pyehl bench smooth -o smooth.json
+pyehl bench skips -o skips.json
+pyehl bench sweep -o sweep.json
+python docs/evidence/speed/make.py read FOLDER    writes the tables, from these files
+python docs/evidence/speed/make.py show           prints them as the documents have them
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+HERE = Path(__file__).resolve().parent
+
+Row = dict[str, Any]
+
+# Scenes as the documents call them
+SCENES = {"wave": "wave of Fig. 2", "fractal": "fractal surface of Table 1"}
+
+# Table, the files that it is made of, its columns and their formats
+TABLES: dict[str, tuple[tuple[str, ...], dict[str, str]]] = {
+    "steps": (
+        ("step", "step_1025"),
+        {
+            **{"points": "d", "case": "s", "domain": "s", "threads": "d", "cycles": ".2f"},
+            **{"units": ".1f", "speedup": ".2f", "error": ".1e"},
+        },
+    ),
+    "runs": (
+        ("step",),
+        {
+            **{"points": "d", "case": "s", "threads": "d", "status": "s", "steps": "d"},
+            **{"units": ".0f", "unit_seconds": ".2e", "mu_ratio": ".5f", "error": ".1e"},
+        },
+    ),
+    "smooth": (
+        ("smooth",),
+        {
+            **{"points": "d", "engine": "s", "threads": "d", "status": "s", "cycles": "d"},
+            **{"units": ".1f", "error": ".1e", "estimated_error": ".1e"},
+        },
+    ),
+    "skips": (
+        ("skips",),
+        {
+            **{"scene": "s", "skipped": "s", "saved": ".2f", "quantity": "s"},
+            **{"difference": ".0e", "allowed": ".0e"},
+        },
+    ),
+    "sweep": (
+        ("sweep",),
+        {
+            **{"scene": "s", "cases": "d", "processes": "d", "cases_per_core_hour": ".0f"},
+            **{"busy": ".2f", "efficiency": ".2f"},
+        },
+    ),
+}
+
+
+def read_measurements(folder: Path) -> None:
+    """Write the tables."""
+    for name, (files, columns) in TABLES.items():
+        found = [json.loads((folder / f"{file}.json").read_text()) for file in files]
+        rows = runs(found[0]) if name == "runs" else [row for one in found for row in one["rows"]]
+        with (HERE / f"{name}.csv").open("w", newline="", encoding="utf-8") as stream:
+            writer = csv.writer(stream, lineterminator="\n")
+            writer.writerow(columns)
+            for row in rows:
+                writer.writerow(
+                    "" if row[key] is None else format(row[key], form)
+                    for key, form in columns.items()
+                )
+
+
+def runs(measured: dict[str, Any]) -> list[Row]:
+    """Give whole runs the unit of the steps on their grid."""
+    unit = {row["points"]: row["unit_seconds"] for row in measured["rows"]}
+    return [
+        row | {"unit_seconds": unit[row["points"]], "units": row["seconds"] / unit[row["points"]]}
+        for row in measured["runs"]
+    ]
+
+
+def table(name: str) -> list[Row]:
+    """Read a table."""
+    with (HERE / f"{name}.csv").open(encoding="utf-8", newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def lines(head: str, rows: list[list[str]]) -> list[str]:
+    """Make a table of a document."""
+    return [
+        head,
+        "|---" * (head.count("|") - 1) + "|",
+        *("| " + " | ".join(r) + " |" for r in rows),
+    ]
+
+
+def two_digits(value: float) -> str:
+    """Write a number to two digits, without an exponent."""
+    return f"{float(f'{value:.2g}'):g}"
+
+
+def percent(error: str) -> str:
+    """Write an error in per cent, to two digits."""
+    return f"{100.0 * float(error):.2g} %" if error else ""
+
+
+def steps() -> list[str]:
+    """Make the table of time steps: each scene on one thread and on two."""
+    rows = table("steps")
+    found = []
+    for one, two in zip(rows[::2], rows[1::2], strict=True):
+        half = ", half of the domain" if one["domain"] == "half" else ""
+        grid = f"{one['points']} × {one['points']}"
+        units = one["units"], two["units"]
+        found.append(
+            [grid, SCENES[one["case"]] + half, one["cycles"], *units, percent(one["error"])]
+        )
+    return lines(
+        "| grid | scene | cycles a step | units, one thread | two threads | error of μ_r/μ_s |",
+        found,
+    )
+
+
+def whole() -> list[str]:
+    """Make the table of whole transient runs."""
+    found = [
+        [
+            f"{row['points']} × {row['points']}",
+            SCENES[row["case"]],
+            *(row["steps"], row["units"], f"{float(row['mu_ratio']):.3f}", percent(row["error"])),
+        ]
+        for row in table("runs")
+    ]
+    return lines("| grid | scene | steps | units, two threads | μ_r/μ_s | error |", found)
+
+
+def smooth() -> list[str]:
+    """Make the table of smooth contacts by multi-integration, and by FFT beside it."""
+    rows = {(r["points"], r["engine"], r["threads"]): r for r in table("smooth")}
+    found = []
+    for points in dict.fromkeys(key[0] for key in rows):
+        row = rows[points, "mlmi", "1"]
+        if row["status"] != "converged":
+            continue
+        units = [
+            rows[points, *how]["units"] for how in (("mlmi", "1"), ("mlmi", "2"), ("fft", "1"))
+        ]
+        found.append([f"{points} × {points}", row["cycles"], *units, percent(row["error"])])
+    return lines(
+        "| grid | cycles on the finest grid | units, one thread | two threads | FFT, one thread "
+        "| error of H_c |",
+        found,
+    )
+
+
+def power(text: str) -> str:
+    """Write a small number as the documents do."""
+    digit, _, exponent = text.partition("e")
+    if float(text) == 0.0:
+        return "0"
+    marks = str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return f"10{marks}" if digit == "1" else f"{digit}·10{marks}"
+
+
+def skips() -> list[str]:
+    """Make the table of what is skipped."""
+    found = []
+    for row in table("skips"):
+        what = row["skipped"].replace("time.start = 'prediction'", "`time.start = 'prediction'`")
+        quantity = (
+            row["quantity"].replace("mu_ratio", "μ_r/μ_s").replace("coarser H_c", "H_c there")
+        )
+        numbers = power(row["difference"]), power(row["allowed"])
+        found.append([row["scene"], what, f"{100 * float(row['saved']):.0f} %", quantity, *numbers])
+    return lines("| scene | not done | time saved | quantity | difference | allowed |", found)
+
+
+def sweep() -> list[str]:
+    """Make the table of studies: a case over a smooth contact on 257 x 257 nodes."""
+    rows = table("sweep")
+    rate = {(row["scene"], row["processes"]): float(row["cases_per_core_hour"]) for row in rows}
+    names = {
+        "film": "film formulas (`pyehl film`)",
+        "predict": "prediction, each with a smooth contact of its own",
+        "predict shared": "prediction, one smooth contact for all",
+        "smooth 257": "smooth contact, 257 × 257",
+        "transient 257": "transient run of a wave, 257 × 257",
+        "transient 513": "transient run of a wave, 513 × 513",
+    }
+    found = [
+        [
+            names[row["scene"]],
+            two_digits(rate["smooth 257", "1"] / rate[row["scene"], "1"]),
+            f"{2.0 * float(row['efficiency']):.1f}",
+        ]
+        for row in rows
+        if row["processes"] == "2"
+    ]
+    return lines("| what | units | throughput of two processes over one |", found)
+
+
+def main() -> None:
+    """Do what the first argument says."""
+    if sys.argv[1:2] == ["read"] and len(sys.argv) == 3:
+        read_measurements(Path(sys.argv[2]))
+    elif sys.argv[1:] == ["show"]:
+        print("\n\n".join("\n".join(made()) for made in (steps, whole, smooth, sweep, skips)))
+    else:
+        sys.exit(__doc__)
+
+
+if __name__ == "__main__":
+    main()
