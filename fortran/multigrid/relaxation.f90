@@ -157,7 +157,7 @@ contains
       integer, intent(in) :: j0, last, thread
       real(dp), intent(in) :: trust, part
       real(dp) :: scale, omega, omega_far
-      real(dp), dimension(level%grid%nx) :: t, change, after
+      real(dp), dimension(level%grid%nx) :: t, slope, change, after
       integer :: across
       logical :: time_step, limited
       integer :: rows(line_width), lines, furthest, i, j, l
@@ -184,7 +184,13 @@ contains
             if (time_step) space%rough(furthest + 1:, j) = 0.0_dp
             t(2:furthest) = level%flow%eps(2:furthest, j, along)*scale
             change(2:furthest) = part*work%change(l, 2:furthest)
-            if (limited) call limit_changes(level%flow%dlneps_dp(2:furthest, j, across), trust, change(2:furthest))
+            if (limited) then
+               slope(2:furthest) = level%flow%dlneps_dp(2:furthest, j, across)
+               ! the equation of a touching node has no conductance
+               if (time_step .and. allocated(level%boundary)) &
+                  slope(2:furthest) = slope(2:furthest)*(1.0_dp - level%boundary%touching(2:furthest, j))
+               call limit_changes(slope(2:furthest), trust, change(2:furthest))
+            end if
             do i = 2, furthest
                space%change(i, j) = omega_far*space%dipole(i, j)*change(i)
                after(i) = level%p(i, j) + (1.0_dp - space%dipole(i, j))*(omega + t(i))/(1.0_dp + t(i))*change(i)

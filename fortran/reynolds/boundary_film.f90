@@ -24,12 +24,14 @@ module ehl_boundary_film
    use ehl_status, only: ehl_no_memory, status_t
    implicit none (type, external)
    private
-   public :: boundary_film_t, least_hold
+   public :: boundary_film_t
 
-   !> A touching node lifts off where it would by more than this share of the layer: behind a zone of touching nodes the lubricant
+   !> A touching node lifts off where it would by more than a share of the layer: behind a zone of touching nodes the lubricant
    !> has the film of the layer, too, and rounding would decide on their states. What flows on to such a node and not on from it
-   !> is lost: with 1e-2 a load share grew with the number of nodes.
-   real(dp), parameter :: least_hold = 1.0e-4_dp
+   !> is lost, so the share is small. Of a steady problem that has not converged the residuals would decide; it is larger there.
+   real(dp), parameter :: least_hold = 1.0e-4_dp, greatest_hold = 1.0e-2_dp
+   !> The same over the residual (rms) of a steady problem
+   real(dp), parameter :: hold_of_residual = 3.0_dp
 
    !> Arrays of shape (nx, ny)
    type :: boundary_film_t
@@ -37,7 +39,7 @@ module ehl_boundary_film
       real(dp) :: thickness = 0.0_dp
       !> Factor of the equation of touching nodes
       real(dp) :: rate = 0.0_dp
-      !> Share of the layer that a touching node may be lifted by
+      !> Share of the layer that a touching node may be lifted by, by the present residual
       real(dp) :: hold = least_hold
       !> Whether the states of the nodes stay, on a coarse level
       logical :: frozen = .false.
@@ -51,6 +53,7 @@ module ehl_boundary_film
       procedure :: find_row
       procedure :: take_row
       procedure :: residual_row
+      procedure :: hold_by
       procedure :: greatest_flowing
       procedure :: last_asking
       procedure :: bytes
@@ -133,6 +136,15 @@ contains
          values(i) = merge(right + self%rate*mass_content(i), values(i), self%touching(i, j) > 0.0_dp)
       end do
    end subroutine residual_row
+
+   !> What a touching node may be lifted by: `residual` is that of a steady problem (rms), or 0
+   pure subroutine hold_by(self, residual)
+      class(boundary_film_t), intent(inout) :: self
+      real(dp), intent(in) :: residual
+
+      if (self%frozen) return
+      self%hold = min(greatest_hold, max(least_hold, hold_of_residual*residual/(self%rate*self%thickness)))
+   end subroutine hold_by
 
    !> Of each node of row j and its four neighbours, in columns 2 to nx-1: the largest conductance of those that flow
    pure subroutine greatest_flowing(self, p, eps, j, south, values)

@@ -119,6 +119,7 @@ contains
       end do
       !$omp end parallel do
       rms = sqrt(sum(sums)/(real(level%grid%nx, dp)*level%grid%full_ny()))
+      if (allocated(level%boundary)) call level%boundary%hold_by(merge(0.0_dp, rms, level%wedge%squeeze > 0.0_dp))
    end subroutine update_residual
 
    !> Residual (rms) as far as it concerns the film: each with the share that the deflection by the node's own pressure

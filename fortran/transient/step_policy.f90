@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> How the cycles of a time step are made: attempts one after another, and the kind of coarsening
 module ehl_step_policy
-   use ehl_boundary_film, only: least_hold
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
    use ehl_kinds, only: dp
    use ehl_relaxation, only: full_trust
@@ -17,9 +16,6 @@ module ehl_step_policy
    integer, parameter :: attempt_predicted = 1, attempt_last = 2, attempt_careful = 3, attempt_damped = 4
    !> Largest change of the logarithm of a node's conductance in a sweep, by attempt
    real(dp), parameter :: trust(4) = full_trust/[1.0_dp, 3.0_dp, 9.0_dp, 9.0_dp]
-   !> Share of a boundary film that a touching node may be lifted by, by attempt: nodes that change their states from cycle to
-   !> cycle make none converge
-   real(dp), parameter :: hold(4) = least_hold*[1.0_dp, 1.0_dp, 10.0_dp, 10.0_dp]
    !> Shares of the changes of a sweep and of a coarse grid that the damped attempt makes. Sweeps that throw a peak
    !> from node to node, and coarse grids that overshoot it, make cycles that return to where they were.
    real(dp), parameter :: damped_sweep = 0.3_dp, damped_correction = 0.5_dp
@@ -56,7 +52,6 @@ module ehl_step_policy
    contains
       procedure :: set
       procedure :: begin
-      procedure :: hold_share
       procedure :: begin_attempt
       procedure :: after_cycle
    end type step_policy_t
@@ -87,12 +82,6 @@ contains
       self%attempt = attempt_predicted
       self%cycles = 0
    end subroutine begin
-
-   !> Share of a boundary film that a touching node may be lifted by in the attempt under way
-   pure real(dp) function hold_share(self)
-      class(step_policy_t), intent(in) :: self
-      hold_share = hold(self%attempt)
-   end function hold_share
 
    !> An attempt whose first approximation has that residual (rms)
    pure subroutine begin_attempt(self, residual)

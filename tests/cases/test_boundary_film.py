@@ -141,6 +141,20 @@ def test_mixed_film(solve):
     assert "lubricant.boundary_friction" in unknown["mu_ratio_error_note"]
 
 
+def test_single_nodes_that_touch(solve):
+    """High waves, each of which touches at a few nodes."""
+    high = {
+        "contact.load": 200.0,
+        "contact.mean_velocity": 0.2,
+        "lubricant.boundary_film": 8e-8,
+        "surface.amplitude": 0.05,
+        "time.estimate_error": False,
+    }
+    done = solve(None, 129, STEEL | MIXED | high)
+    assert done.converged
+    assert 0.02 < done["contact_load_share"] < 0.08
+
+
 def test_contact_of_a_coarse_grid(solve):
     """Where a grid does not resolve the inlet bodies touch on it, and no error is told."""
     done = solve(None, 129, STEEL | MIXED)
