@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -39,16 +40,18 @@ def test_the_shares_converge_with_order_two(root: Path, evidence):
     text = (root / "docs" / "theory" / "contact.md").read_text(encoding="utf-8")
     rows = {tuple(float(row[key]) for key in evidence.KEYS): row for row in evidence.read()}
     load, height, stress, *_ = evidence.LIGHT
-    ratios, changes = {}, {}
+    ratios, changes = [], []
     for layer in (4e-8, 8e-8):
-        a, b, c = (
+        found = [
             float(rows[(load, height, stress, layer, float(points))]["contact_load_share"])
-            for points in (129, 257, 513)
-        )
-        ratios[layer], changes[layer] = (a - b) / (b - c), 100.0 * (b - c) / b
-    said = f"over {ratios[4e-8]:.1f} at 40 nm and over {ratios[8e-8]:.1f} at 80 nm"
-    assert said in text
-    assert f"by {changes[4e-8]:.0f} % of itself at 40 nm and by {changes[8e-8]:.0f} %" in text
+            for points in (129, 257, 513, 1025)
+        ]
+        steps = [one - two for one, two in pairwise(found)]
+        ratios += [f"{one / two:.1f}" for one, two in pairwise(steps)]
+        changes += [f"{100.0 * step / two:.0f}" for step, two in zip(steps, found[1:], strict=True)]
+    assert "over {} and {} at 40 nm and over {} and {} at 80 nm".format(*ratios) in text
+    of = "by {} % and {} % of itself at 40 nm and by {} % and {} % at 80 nm"
+    assert of.format(*changes[1:3], *changes[4:6]) in text
 
 
 def test_this_build_makes_the_stored_shares(evidence):
