@@ -187,8 +187,9 @@ contains
             if (limited) then
                slope(2:furthest) = level%flow%dlneps_dp(2:furthest, j, across)
                ! the equation of a touching node has no conductance
-               if (time_step .and. allocated(level%boundary)) &
+               if (time_step .and. allocated(level%boundary)) then
                   slope(2:furthest) = slope(2:furthest)*(1.0_dp - level%boundary%touching(2:furthest, j))
+               end if
                call limit_changes(slope(2:furthest), trust, change(2:furthest))
             end if
             do i = 2, furthest
