@@ -46,6 +46,8 @@ REACH = 1.0
 OUTER = 0.7
 """Distance from the centre beyond which the smooth film moves with the edge [semi-axes]; further
 inside it is level."""
+RINGS = np.array([0.0, 0.4, OUTER])
+"""Inner radii of the rings in which the pressure carries what the waves leave [semi-axes]."""
 
 
 def station_weights(x: Array) -> Array:
@@ -95,6 +97,7 @@ class WavyContact(ShearedContact):
         self.inside = (self.radius < REACH) & (self.pressure > 0.0)
         self.points = int(np.count_nonzero(self.inside))
         self.inner, self.near = (self.inside & (self.radius < r) for r in (INNER, NEAR))
+        self.rings = np.searchsorted(RINGS, self.radius[self.inside], side="right") - 1
         self.contact, self.moved = contact, np.zeros(ANGLES)
         self.outer = np.nonzero(self.inside & (self.radius > OUTER))
         self.least = math.inf
@@ -195,8 +198,8 @@ class WavyContact(ShearedContact):
         film = smooth * film_left(loss / smooth) if self.second else smooth - loss
         pressure = self.pressure + change[..., 1]
         self.count += 1
-        carried = 1.5 * float(change[..., 1].sum(where=self.inside)) / self.points
-        self.imbalance = max(self.imbalance, abs(carried))
+        imbalance = 1.5 * float(change[..., 1].sum(where=self.inside)) / self.points
+        self.imbalance = max(self.imbalance, abs(imbalance))
         borne = float((self.ends * smooth - loss).min(where=self.inside, initial=math.inf))
         if borne <= 0.0:
             self.thinnest = min(self.thinnest, borne)
@@ -209,7 +212,11 @@ class WavyContact(ShearedContact):
         self.least = min(self.least, float(whole.min()))
         self.meet(change[..., 1], whole, self.inner, self.near)
         film[~self.inside] = 1.0
+        carried = np.bincount(self.rings, pressure[self.inside], len(RINGS))
         np.maximum(pressure, 0.0, out=pressure)
+        pushes = np.bincount(self.rings, pressure[self.inside], len(RINGS))
+        # what cannot pull leaves less to carry for what is around
+        pressure[self.inside] *= (carried / pushes)[self.rings]
         with np.errstate(over="ignore"):
             return float(self.stress(pressure, film).sum(where=self.inside)) / self.smooth
 
