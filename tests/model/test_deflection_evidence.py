@@ -31,7 +31,7 @@ def test_this_build_makes_the_stored_errors(evidence):
 
 
 def test_errors_stay_small_beside_the_discretisation(evidence):
-    """What the page says: a fiftieth in the contact, a tenth well inside, and below what was asked."""
+    """A fiftieth in the contact, a tenth well inside, and a third of what was asked."""
     rows = evidence.read()
     for row in rows:
         assert row["error"] < 0.3 * row["accuracy"]

@@ -108,9 +108,7 @@ def test_films_by_two_laws_with_one_alpha(root: Path):
     names = ("viscosity", "pressure_viscosity", "density_law")
     same = {f"lubricant.{name}": known[name] for name in names}
     keys = {"surface.kind": "smooth", "grid.points": 257}
-    films = [
-        float(pyehl.solve(case, keys).H_c) for case in (own, Case.from_text("", {**same}))
-    ]
+    films = [float(pyehl.solve(case, keys).H_c) for case in (own, Case.from_text("", {**same}))]
     text = (root / "docs/theory/lubricants.md").read_text(encoding="utf-8")
     assert f"{100.0 * (films[0] / films[1] - 1.0):.1f} % thicker by its own law" in text
 
