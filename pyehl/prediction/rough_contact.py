@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from pyehl import library
 from pyehl.prediction.contact import INNER, NEAR, ShearedContact
 from pyehl.prediction.edge import ANGLES, Edge
-from pyehl.prediction.second_order import INLET_FILM
+from pyehl.prediction.second_order import FILM_ENDS, film_left
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.prediction.transfer import AXIS, LINES, STATIONS
 from pyehl.prediction.waves import REFINEMENT, Waves
@@ -106,10 +106,8 @@ class WavyContact(ShearedContact):
         edge = max(edges, key=lambda edge: edge.coefficients.shape)
         shape = edge.coefficients.shape[0], self.film.size
         self.polynomials = edge.polynomials(*grid).reshape(shape).astype(np.float32)
-        # The film regains this much of its loss in second order, up to where that no longer falls
-        # with the loss: there the film ends
-        self.regained = INLET_FILM if second else 0.0
-        self.ends = 0.5 / INLET_FILM if second else 1.0
+        # Loss of first order over the film at which the film ends
+        self.ends = FILM_ENDS if second else 1.0
         # of the pressure of second order
         self.second = second and [np.interp(self.x, STATIONS, v)[:, np.newaxis] for v in second]
         self.smooth = float(self.stress(self.pressure, self.film)[self.inside].sum())
@@ -194,17 +192,16 @@ class WavyContact(ShearedContact):
         """
         smooth = self.smooth_film()
         loss = change[..., 0]
-        film = smooth - loss
+        film = smooth * film_left(loss / smooth) if self.second else smooth - loss
         pressure = self.pressure + change[..., 1]
         self.count += 1
         carried = 1.5 * float(change[..., 1].sum(where=self.inside)) / self.points
         self.imbalance = max(self.imbalance, abs(carried))
-        ended = bool(np.any((loss >= self.ends * smooth) & self.inside))
-        if not ended:
-            film += self.regained * np.square(loss) / smooth
-        self.thinnest = min(self.thinnest, float(film.min(where=self.inside, initial=math.inf)))
-        if ended:
+        borne = float((self.ends * smooth - loss).min(where=self.inside, initial=math.inf))
+        if borne <= 0.0:
+            self.thinnest = min(self.thinnest, borne)
             return math.nan
+        self.thinnest = min(self.thinnest, float(film.min(where=self.inside, initial=math.inf)))
         self.cavitated += int(np.count_nonzero((pressure <= 0.0) & self.inside))
         # outside nothing is counted: any film and pressure will do
         film[~self.inside] = math.inf
