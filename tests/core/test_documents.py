@@ -201,6 +201,15 @@ def test_keys_in_documents_are_keys(root: Path, name: str):
 FILES = {"lubricant.nml", "case.nml", "surface.py", "case.py", "solver.py"}
 
 
+def test_how_tos_are_listed_in_the_order_of_the_readme(root: Path):
+    (row,) = re.findall(r"^\| Start \|.*", (root / "README.md").read_text(), re.M)
+    (tree,) = blocks(root / "docs" / "howto" / "index.md", "{toctree}")
+    listed = tree.split("\n\n")[1].split()
+    assert listed == re.findall(r"\(docs/howto/([\w-]+)\.md\)", row)
+    pages = {path.stem for path in (root / "docs" / "howto").glob("*.md")}
+    assert set(listed) == pages - {"index"}
+
+
 def test_every_module_is_in_a_map(root: Path):
     text = (root / "fortran" / "README.md").read_text()
     listed = re.findall(r"^\| `(\w+/\w+\.f90)` \|", text, re.M)
@@ -249,7 +258,7 @@ def test_every_status_has_a_line(root: Path):
     source = (root / "fortran/base/outcome.f90").read_text(encoding="utf-8")
     names = re.findall(r'"([^"]+)"', source[source.index("outcome_names(0:8)") :])
     runs = {name.strip() for name in names} - {"running"}
-    points = {curve.FULL_FILM, curve.BREAKDOWN, curve.OUTSIDE, curve.UNSOLVED}
+    points = set(curve.STATUSES)
     predictions = set(friction.STATUSES)
     kinds = (("Runs", runs), ("Points of a curve", points), ("Predictions", predictions))
     for head, expected in kinds:
