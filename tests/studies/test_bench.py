@@ -96,7 +96,7 @@ def test_stress_campaign(tmp_path: Path, capsys):
 def test_interrupted_stress_keeps_what_is_done(tmp_path: Path):
     """By SIGTERM: a sentence, status 130, and the rows that are finished stay in the journal."""
     folder = tmp_path / "s"
-    words = ["bench", "stress", "--cases", "200", "--points", "65", "--jobs", "1"]
+    words = ["bench", "stress", "--cases", "100", "--points", "65", "--jobs", "1"]
     process = subprocess.Popen(
         [sys.executable, "-P", "-m", "pyehl", *words, "-o", str(folder)],
         stderr=subprocess.PIPE,
