@@ -203,7 +203,7 @@ s | skips | | what was not done
 p | outside_range | | what lies outside of the range of the model
 p | note | | what mu_ratio is
 p | tracks | - | tracks of the tile that mu_ratio_tracks is over
-p | film_below_zero_share | - | share of the contact where the film would be below zero
+p | film_below_zero_share | - | share of the contact with higher roughness than the film bears
 p | film_breakdown | | where the film ends, and what would carry
 sp | surface_preparation | | what was done to a measured map
 sp | second_surface_preparation | | the same of the second surface

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+import pyehl
 from pyehl.prediction.errors import KNOWN_RATIO, model_error
 from pyehl.prediction.resolution import resolution
 from pyehl.prediction.second_order import INLET_FILM
@@ -127,8 +128,8 @@ def test_better_than_the_model_of_the_paper(table):
 
 @pytest.mark.long
 def test_page_of_the_theory_prints_the_table(root, table):
-    """The example of docs/theory/prediction.md, and the summary of all cases."""
-    text = (root / "docs" / "theory" / "prediction.md").read_text().replace("−", "-")
+    """The example of docs/theory/prediction-compared.md, and the summary of all cases."""
+    text = (root / "docs" / "theory" / "prediction-compared.md").read_text().replace("−", "-")
     for name in ("t1s21u1", "t1s21", "t1s21u105"):
         row = table[name]
         (line,) = re.findall(rf"^\| {row['velocity_ratio']:.2f} \|.*$", text, re.M)
@@ -150,6 +151,24 @@ def test_page_of_the_theory_prints_the_table(root, table):
         assert mean == pytest.approx(sum(ours) / len(part), abs=0.06)
         assert largest == pytest.approx(max(map(abs, ours)), abs=0.06)
         assert mean_paper == pytest.approx(sum(paper) / len(part), abs=0.06)
+
+
+def test_page_of_the_theory_prints_the_bands(root: Path):
+    """What each octave adds without slip and with 1 %, and what is below and above a/16."""
+    text = (root / "docs" / "theory" / "prediction-compared.md").read_text()
+    shown = re.findall(r"^\| \d+ to \d+ \| (\S+) \((\S+)\) \| (\S+) \((\S+)\) \|$", text, re.M)
+    table = [[float(word) for word in line] for line in shown]
+    for column, ratio in ((0, 1.0), (2, 1.01)):
+        keys = {"surface.seed": 21, "surface.velocity_ratio": ratio}
+        found = pyehl.predict(root / "cases/table1.nml", keys)
+        rises = [band.rise for band in found.bands]
+        assert [line[column] for line in table] == pytest.approx(rises, abs=6e-4)
+        totals = [1.0 + sum(rises[: k + 1]) for k in range(len(rises))]
+        assert [line[column + 1] for line in table] == pytest.approx(totals, abs=6e-4)
+    short = [band.longest < 1.01 * found.operating.hertz_radius / 16.0 for band in found.bands]
+    below = sum(rise for rise, is_short in zip(rises, short, strict=True) if is_short)
+    assert f"add {below:.2f};" in text
+    assert f"by −{below - sum(rises):.2f}" in text
 
 
 def test_starts_from_the_prediction(root: Path, script):
