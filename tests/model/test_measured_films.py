@@ -79,6 +79,17 @@ def test_what_the_page_says_of_them(rows: list[list[str]]):
     assert (inlet, min(inside), max(inside)) == (50.0, 3.0, 11.0)
 
 
+def test_grid_does_not_explain_the_difference(home: Path, rows: list[list[str]]):
+    with (home / "fine.csv").open(encoding="utf-8", newline="") as stream:
+        fine = list(csv.reader(stream))[1:]
+    stored = {(*r[1:3], r[4]): r[6] for r in rows if r[0] == MEASURED}
+    assert {tuple(r[:3]): r[3] for r in fine} == stored
+    change = {tuple(r[:3]): float(r[4]) - float(r[3]) for r in fine}
+    thick = {key: change.pop(key) for key in list(change) if key[0] != "0" and key[2] == "ahead"}
+    assert max(thick.values()) == 8.0
+    assert max(map(abs, change.values())) <= 3.0
+
+
 def test_newtonian_stress_at_this_slip(home: Path, made: dict[str, Any]):
     ds = pyehl.solve(made["CASE"], "contact.slide_to_roll=-1")
     stress = float(ds.shear_stress_max_Pa)
