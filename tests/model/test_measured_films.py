@@ -79,12 +79,23 @@ def test_what_the_page_says_of_them(rows: list[list[str]]):
     assert (inlet, min(inside), max(inside)) == (50.0, 3.0, 11.0)
 
 
-def test_grid_does_not_explain_the_difference(home: Path, rows: list[list[str]]):
-    with (home / "fine.csv").open(encoding="utf-8", newline="") as stream:
-        fine = list(csv.reader(stream))[1:]
+@pytest.mark.parametrize("name", ["fine", "depth"])
+def test_changes_of_grid_and_depth(home: Path, rows: list[list[str]], name: str):
+    with (home / f"{name}.csv").open(encoding="utf-8", newline="") as stream:
+        changed = list(csv.reader(stream))[1:]
     stored = {(*r[1:3], r[4]): r[6] for r in rows if r[0] == MEASURED}
-    assert {tuple(r[:3]): r[3] for r in fine} == stored
-    change = {tuple(r[:3]): float(r[4]) - float(r[3]) for r in fine}
+    assert {tuple(r[:3]): r[3] for r in changed} == stored
+    if name == "depth":
+        _, *least = (float(r[4]) for r in changed if (r[0], r[2]) == ("0", "least"))
+        assert (min(least), max(least)) == (169.0, 175.0)
+        theirs = {(*r[1:3], r[4]): float(r[5]) for r in rows if r[0] == MEASURED}
+        ahead = {
+            tuple(r[:3]): float(r[4]) - theirs[r[0], r[1], r[2]] for r in changed if r[2] == "ahead"
+        }
+        assert max(ahead.values()) == 62.0
+        assert sorted(v for key, v in ahead.items() if key[0] == "0") == [-11.0, -11.0, -9.0]
+        return
+    change = {tuple(r[:3]): float(r[4]) - float(r[3]) for r in changed}
     thick = {key: change.pop(key) for key in list(change) if key[0] != "0" and key[2] == "ahead"}
     assert max(thick.values()) == 8.0
     assert max(map(abs, change.values())) <= 3.0

@@ -3,8 +3,8 @@
 
 Runs four cases (some minutes of one processor), writes profiles.csv, table.csv, measured.png and
 simulated.png beside this file, and prints the tables of docs/validation.md. `python make.py show`
-makes table and pictures from the stored profiles; `python make.py fine` runs the measured cases on
-513 x 513 nodes, and writes fine.csv.
+makes table and pictures from the stored profiles; `python make.py NAME` runs the measured cases
+with a change of VARIANTS, and writes NAME.csv.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import csv
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,6 +47,11 @@ SATURATION = 340.0
 # In micrometres: half the flat part of the contact, half that with the constriction at the outlet,
 # the strips beside the dimple, their distance from its radius
 PLATEAU, CONTACT, STRIP, DISTANCE = 110.0, 145.0, 60.0, 8.0
+# Changes of the measured cases by slide-to-roll ratio: keywords of `films`
+VARIANTS: dict[str, dict[str, dict[str, Any]]] = {
+    "fine": {"0": {"points": 513}, "-0.5": {"points": 513}},
+    "depth": {"0": {"depth": 1.3e-6}, "-0.5": {"depth": 0.8e-6}},
+}
 COLUMNS = ("source", "ssr", "instant", "centre_um", "quantity", "theirs_nm", "pyehl_nm")
 
 
@@ -86,7 +92,11 @@ def dimple(radius: float, depth: float, length: float) -> pyehl.Topography:
 
 
 def films(
-    source: str, ssr: str, centres: Sequence[float], points: int = 257, *options: str
+    source: str,
+    ssr: str,
+    centres: Sequence[float],
+    points: int = 257,
+    depth: float = 0.0,
 ) -> list[tuple[Array, Array]]:
     """Films [nm] over x [um] on the centre line with the dimple at each centre; NaN: without it."""
     slip = 2.0 * float(ssr)
@@ -103,8 +113,7 @@ def films(
         "time.estimate_error=.false.",
         # fewer frames of a finer grid, for the memory
         f"output.frame_interval={FRAMES * (points - 1) / 256.0}",
-        *options,
-        surface=dimple(RADIUS[ssr], DEPTH[source, ssr], TILE * a),
+        surface=dimple(RADIUS[ssr], depth or DEPTH[source, ssr], TILE * a),
         # the friction of a single passage has no mean to settle
         check=False,
     )
@@ -188,18 +197,18 @@ def table(data: dict[Key, Array], found: dict[Key, Array]) -> list[tuple[str, ..
     ]
 
 
-def refine(data: dict[Key, Array], found: dict[Key, Array]) -> None:
-    """Run the deep dimples on 513 x 513 nodes, and write fine.csv."""
+def vary(name: str, data: dict[Key, Array], found: dict[Key, Array]) -> None:
+    """Run the measured cases with a change of VARIANTS, and write its table."""
     rows: list[tuple[object, ...]] = []
-    for ssr in RADIUS:
+    for ssr, more in VARIANTS[name].items():
         keys = [key for key in data if key[:2] == ("measured", ssr)]
         places = [centre(key, data[key]) for key in keys]
-        for key, fine in zip(keys, films("measured", ssr, places, 513), strict=True):
-            coarse = [(name, ours) for name, _, ours in compare(key, data[key], found[key])]
-            finer = [ours for _, _, ours in compare(key, data[key], np.array(fine))]
-            for (name, ours), better in zip(coarse, finer, strict=True):
-                rows.append((*key[1:], name, f"{ours:.0f}", f"{better:.0f}"))
-    write(HERE / "fine.csv", ("ssr", "instant", "quantity", "nm_257", "nm_513"), rows)
+        for key, film in zip(keys, films("measured", ssr, places, **more), strict=True):
+            before = [(what, ours) for what, _, ours in compare(key, data[key], found[key])]
+            after = [ours for _, _, ours in compare(key, data[key], np.array(film))]
+            for (what, ours), other in zip(before, after, strict=True):
+                rows.append((*key[1:], what, f"{ours:.0f}", f"{other:.0f}"))
+    write(HERE / f"{name}.csv", ("ssr", "instant", "quantity", "stored_nm", "changed_nm"), rows)
 
 
 def draw(source: str, data: dict[Key, Array], found: dict[Key, Array]) -> None:
@@ -243,8 +252,9 @@ def main(arguments: Sequence[str]) -> None:
     if not arguments:
         simulate(data)
     found = read_profiles(HERE / "profiles.csv")
-    if list(arguments) == ["fine"]:
-        refine(data, found)
+    for name in VARIANTS:
+        if list(arguments) == [name]:
+            vary(name, data, found)
     rows = table(data, found)
     write(HERE / "table.csv", COLUMNS, rows)
     for source in ("measured", "simulated"):
