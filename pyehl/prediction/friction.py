@@ -75,6 +75,7 @@ class RoughFriction:
     # and the greatest within :data:`~pyehl.prediction.contact.INNER` [Pa]
     rise_rms: float
     rise_max: float
+    pressure_max: float  # greatest pressure over the passage within INNER [Pa]
     # Mean share of the contact with less film than psd.film_limit [-], and what the error of the
     # film makes of it; NaN without a limit
     below_limit: float
@@ -97,7 +98,7 @@ def outcome(
     if contact.thinnest <= 0.0:
         depth = -contact.thinnest * contact.operating.film_scale
         return "film breakdown", (
-            f"deformed roughness reaches {depth:.3g} m through the film at a point of the "
+            f"deformed roughness reaches {depth * 1e9:.3g} nm through the film at a point of the "
             "contact: no full film, no ratio"
         )
     if load_balance and contact.imbalance >= 1.0:
@@ -146,6 +147,7 @@ def passed(
         film_min=contact.least_film() * film_unit,
         rise_rms=contact.rise_rms() * contact.operating.hertz_pressure,
         rise_max=contact.greatest_rise * contact.operating.hertz_pressure,
+        pressure_max=contact.greatest_pressure * contact.operating.hertz_pressure,
         below_limit=float(share),
         below_limit_error=0.5 * float(high - low),
         cavitated_share=contact.cavitated / max(1, contact.count * contact.points),
@@ -161,7 +163,7 @@ def broken(friction: RoughFriction, film: float) -> RoughFriction:
     return replace(
         friction,
         status="film breakdown",
-        message=f"deformed roughness reaches {-film:.3g} m through the film: no full film",
+        message=f"deformed roughness reaches {-film * 1e9:.3g} nm through the film: no full film",
         mu_ratio=math.nan,
         mu_ratio_min=math.nan,
         mu_ratio_max=math.nan,

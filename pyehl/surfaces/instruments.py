@@ -12,12 +12,15 @@ from numpy.typing import NDArray
 from pyehl.errors import EhlError, InputError
 from pyehl.surfaces.memory import check_pixels
 
-__all__ = ["read_instrument"]
+__all__ = ["UnknownFormatError", "read_instrument"]
 
 INSTALL = "pip install 'pyehl[surfaces]', or pip install SurfaceTopography"
 
-
 Sizes = tuple[float | None, float | None]
+
+
+class UnknownFormatError(InputError):
+    """A file is of no format that SurfaceTopography knows."""
 
 
 def read_instrument(
@@ -52,9 +55,10 @@ def read_instrument(
         raise
     except Exception as error:
         reason = str(error).strip().partition("\n")[0] or type(error).__name__
+        kind = InputError
         if type(error).__name__ == "CannotDetectFileFormat":
-            reason = "it is of no format that SurfaceTopography knows"
-        raise InputError(
+            kind, reason = UnknownFormatError, "it is of no format that SurfaceTopography knows"
+        raise kind(
             f"{path}: cannot be read as a height map: {reason}; save the heights in m as .npy "
             "or text, and give surface.length_x and surface.length_y"
         ) from None

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from pyehl.errors import EhlError, FileError, InputError
 from pyehl.library import check_memory
-from pyehl.surfaces.instruments import read_instrument
+from pyehl.surfaces.headed_table import UNITS, read_headed
+from pyehl.surfaces.instruments import UnknownFormatError, read_instrument
 from pyehl.surfaces.memory import check_pixels
 from pyehl.surfaces.point_list import grid_of, is_list
 from pyehl.surfaces.text_map import read_text
@@ -43,8 +44,6 @@ EXPORT = re.compile(
 # First characters of numbers, nan and inf among them
 NUMBER_BEGINS = "0123456789+-.nNiI,;"
 HEADER_LINES = 100
-UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
-"""Metres in the units of `surface.height_unit`."""
 LEAST_PIXELS = 4
 
 
@@ -140,7 +139,12 @@ def _read(
     if array:
         heights, own, periodic = _read_array(path, channel)
     else:
-        heights, own, periodic, name, note = read_instrument(path, channel)
+        try:
+            heights, own, periodic, name, note = read_instrument(path, channel)
+        except UnknownFormatError:
+            if path.suffix.lower() not in TEXT_SUFFIXES or channel:
+                raise
+            heights, own, periodic, name, note = read_headed(path)
     if height_unit != "m":
         if not array and not note:
             raise InputError(
@@ -148,7 +152,7 @@ def _read(
             )
         heights *= UNITS[height_unit]
         note = f"heights in {height_unit} by surface.height_unit"
-    if array and is_list(heights):
+    if is_list(heights):
         heights, own = grid_of(path, heights)
     _check_shape(path, heights.shape)
     x, y = length_x or own[0], length_y or own[1]
@@ -199,7 +203,8 @@ def _check_pixel(scan: Scan) -> None:
         if not PIXEL_BAND[0] <= pixel <= PIXEL_BAND[1]:
             raise InputError(
                 f"{scan.origin}: length_{axis} = {length:.4g} m gives a pixel of {pixel:.3g} m, "
-                f"outside {PIXEL_BAND[0]:g} ... {PIXEL_BAND[1]:g} m; is the length in m?"
+                f"outside {PIXEL_BAND[0]:g} ... {PIXEL_BAND[1]:g} m; is the length in m? "
+                "surface.height_unit is the unit of heights, and of a list of x, y and z"
             )
 
 
