@@ -116,7 +116,7 @@ s | P_max_rough | p_h | largest pressure of the rough contact: at rest, in T_mea
 s | P_max_rough_T | a/u | when
 s | P_max_rough_X | a | where
 s | P_max_rough_Y | a | where
-sp | p_max_rough_Pa | Pa | largest pressure of the rough contact, as P_max_rough; predicted: within 0.8 a
+sp | p_max_rough_Pa | Pa | largest pressure of the rough contact; predicted: within 0.8 a
 s | P_rise_max | p_h | largest rise of the pressure over the smooth contact at the same place
 s | P_rise_max_T | a/u | when
 s | P_rise_max_X | a | where

@@ -62,7 +62,10 @@ contains
       else
          text = text//to_text(enough_nodes)//" nodes or more: give "
       end if
-      text = text//"a smoother surface or lubricant.boundary_film"
+      text = text//"a smoother surface"
+      if (run%plan%scales%has_size() .and. .not. run%plan%lubricant%boundary_film > 0.0_dp) then
+         text = text//" or lubricant.boundary_film"
+      end if
       if (run%plan%surfaces%move() .and. .not. run%plan%surfaces%pass_once()) then
          text = text//"; pyehl predict says where the film ends"
       end if
@@ -76,7 +79,7 @@ contains
       if (run%in_steps) then
          text = "the time step to T = "//fixed(run%transient%time + run%transient%time_step, "f10.4")
       else if (run%resting) then
-         text = "the roughness at rest times "//fixed(run%rest%share, "f6.3")
+         text = "the roughness at rest times "//fixed(run%rest%share, "f5.3")
       else
          text = "the smooth contact"
       end if

@@ -72,7 +72,7 @@ class ShearedContact:
         inner: NDArray[np.bool_],
         near: NDArray[np.bool_],
     ) -> None:
-        """Note what a position has: pressure, its rise and the film at points within the contact."""
+        """Note what a position has: rise of pressure, pressure and film at points within."""
         squares = np.square(rise, dtype=np.float64)
         self.squared_rise += float(squares.mean(where=near)) if near.any() else math.nan
         greatest = float(rise.max(where=inner, initial=-math.inf))

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import re
-from itertools import islice
+from itertools import islice, pairwise
 from pathlib import Path
 
 import numpy as np
@@ -45,10 +45,14 @@ def read_headed(path: Path) -> tuple[NDArray[np.float64], Sizes, bool, str, str]
         first = [line.strip().rstrip(";,\t ") for line in islice(lines, HEADER_LINES)]
     counts = [count_numbers(line) for line in first]
     # two lines of as many numbers, three at the least: a header may have numbers, too
-    pairs = zip(counts, counts[1:], strict=False)
-    start = next((n for n, (one, other) in enumerate(pairs) if one == other > 2), None)
+    both = enumerate(pairwise(counts))
+    start = next((n for n, (one, other) in both if one == other > 2), None)
     if start is None:
-        at = next(n for n, (line, count) in enumerate(zip(first, counts, strict=True)) if line and not count)
+        at = next(
+            n
+            for n, (line, count) in enumerate(zip(first, counts, strict=True))
+            if line and not count
+        )
         raise InputError(
             f"{path}:{at + 1}: {first[at][:40]!r} is not numbers, and no table of heights follows\n"
             "expected: numbers, with surface.height_unit, surface.length_x and surface.length_y"

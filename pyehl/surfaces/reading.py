@@ -76,20 +76,23 @@ def is_array_file(path: str | Path) -> bool:
     OSError if the file cannot be opened.
     """
     path = Path(path)
-    suffix = path.suffix.lower()
-    if suffix == ".npy":
+    if path.suffix.lower() == ".npy":
         return True
-    if suffix not in TEXT_SUFFIXES:
-        return False
-    with path.open("rb") as stream:
-        head = stream.read(4096)
-    if b"\0" in head or any(byte < 9 for byte in head):
+    if not _is_text(path):
         return False
     with path.open(encoding="utf-8", errors="replace") as lines:
         first = [line for _, line in zip(range(HEADER_LINES), lines, strict=False)]
     data = next((text for line in first if (text := line.partition("#")[0].strip())), "")
     words = bool(data) and data[0] not in NUMBER_BEGINS
     return not words and not any(EXPORT.search(line) for line in first)
+
+
+def _is_text(path: Path) -> bool:
+    """Whether a file has the name of a text and no byte that a text has not."""
+    if path.suffix.lower() not in TEXT_SUFFIXES:
+        return False
+    with path.open("rb") as stream:
+        return all(byte >= 9 for byte in stream.read(4096))
 
 
 def read_scan(
@@ -104,8 +107,9 @@ def read_scan(
     ``.npy`` (never pickled) or text (``.txt``, ``.csv``, ``.dat``, ``.asc``: one x per line, y
     along the line, separated by blanks, commas or semicolons; or a list of the x, y and z of all
     points of a grid), heights in `height_unit` ('m', 'mm', 'um' or 'nm'), as are the places of a
-    list, NaN where they are missing; any other file must be one that SurfaceTopography reads. Where
-    such a file names neither size nor unit (MATLAB, HDF5), its heights are in that unit, too.
+    list, NaN where they are missing; any other file must be one that SurfaceTopography reads, or a
+    text with its table under lines of words (:mod:`pyehl.surfaces.headed_table`). Where such a file
+    names neither size nor unit (MATLAB, HDF5), its heights are in that unit, too.
     `channel` is the name of a channel of an instrument file, or its number, counted from 1; empty:
     the one that the file calls its first height channel.
 
@@ -142,7 +146,7 @@ def _read(
         try:
             heights, own, periodic, name, note = read_instrument(path, channel)
         except UnknownFormatError:
-            if path.suffix.lower() not in TEXT_SUFFIXES or channel:
+            if channel or not _is_text(path):
                 raise
             heights, own, periodic, name, note = read_headed(path)
     if height_unit != "m":

@@ -23,9 +23,7 @@ OWN_SIZE = re.compile(r"^#\s*(length_[xy])\s*=\s*(\S+)\s*m\s*$")
 OWN_PERIODIC = re.compile(r"^#\s*periodic\s*$")
 
 
-def read_text(
-    path: Path, first: int = 1
-) -> tuple[Array, tuple[float | None, float | None], bool]:
+def read_text(path: Path, first: int = 1) -> tuple[Array, tuple[float | None, float | None], bool]:
     """Heights from a line on, the size if the header has it, and whether it says 'periodic'."""
     size: dict[str, float | None] = {"length_x": None, "length_y": None}
     periodic = False

@@ -127,7 +127,10 @@ def test_band_of_a_coefficient_that_was_not_given(root: Path):
     least, most = (100.0 * ((pick(cold.values()) / MINERAL_Z) ** 0.53 - 1.0) for pick in (min, max))
     band = f"z = {min(cold.values()):.2f} to {max(cold.values()):.2f}"
     assert f"for {band} the film is {-least:.0f} % thinner to {most:.0f} % thicker" in note
-    assert f"alpha is an estimate ({least:.0f} to {most:+.0f} % of the film)" in data.attrs["judgement"]
+    assert (
+        f"alpha is an estimate ({least:.0f} to {most:+.0f} % of the film)"
+        in data.attrs["judgement"]
+    )
 
 
 @pytest.mark.parametrize("temperature", [40.0, 80.0])

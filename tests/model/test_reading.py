@@ -263,7 +263,11 @@ TABLE = "0,5;1,5;2,5;3,5;4,5\n1,0;2,0;3,0;4,0;5,0\n-1;0;1;2;3\n0;0;0;0;7,25\n"
     ("header", "size", "unit"),
     [
         ("Height map;;\nWidth (um);10\nHeight (um);8,5\nUnit;nm\n\n", (1e-5, 8.5e-6), 1e-9),
-        ("Profile 3\nX size: 0.01 mm\nY size: 8.5 µm\nZ units: mm\n128;128\n", (1e-5, 8.5e-6), 1e-3),
+        (
+            "Profile 3\nX size: 0.01 mm\nY size: 8.5 µm\nZ units: mm\n128;128\n",
+            (1e-5, 8.5e-6),
+            1e-3,
+        ),
         ("Height;0,5\nunit;um\n", (None, None), 1e-6),
         ("Width;10\nHeight (um);8,5\nmade by hand\n", (None, None), 1.0),
         ("Width (um);10\nWidth (um);12\nUnit;um\nUnit;nm\n", (None, None), 1.0),
@@ -298,6 +302,12 @@ def test_list_of_points_under_a_header(tmp_path):
     scan = read_scan(tmp_path / "list.csv")
     assert scan.heights == pytest.approx(1e-6 * (np.arange(5)[:, None] + 0.5) * np.ones(4))
     assert (scan.length_x, scan.length_y) == pytest.approx((1e-5, 8e-6))
+
+
+def test_bytes_are_no_table(tmp_path):
+    (tmp_path / "binary.dat").write_bytes(b"Height map\n\0\1\2\3\n1,5;2;3;4\n4;5;6;7,5\n")
+    with pytest.raises(ValueError, match=r"binary\.dat: cannot be read as a height map"):
+        read_scan(tmp_path / "binary.dat", *SIZE)
 
 
 @pytest.mark.parametrize("text", ["Height map\n1;2;3\nend\n", "Height map\nnothing\n\n"])
