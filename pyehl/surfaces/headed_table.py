@@ -8,10 +8,9 @@ from itertools import islice, pairwise
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
-from pyehl.surfaces.instruments import Sizes
+from pyehl.surfaces.instruments import Foreign, Sizes
 from pyehl.surfaces.text_map import count_numbers, read_text
 
 __all__ = ["UNITS", "read_headed"]
@@ -32,7 +31,7 @@ OF_HEIGHTS = re.compile(
 SIDES = (("width", "x size", "x length", "x range"), ("height", "y size", "y length", "y range"))
 
 
-def read_headed(path: Path) -> tuple[NDArray[np.float64], Sizes, bool, str, str]:
+def read_headed(path: Path) -> Foreign:
     """Heights (nx, ny) of a table whose lines run along x, as those of images do.
 
     The same as :func:`pyehl.surfaces.instruments.read_instrument`: heights in m where a header line

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from pyehl.errors import EhlError, FileError, InputError
 from pyehl.library import check_memory
 from pyehl.surfaces.headed_table import UNITS, read_headed
-from pyehl.surfaces.instruments import UnknownFormatError, read_instrument
+from pyehl.surfaces.instruments import Foreign, UnknownFormatError, read_instrument
 from pyehl.surfaces.memory import check_pixels
 from pyehl.surfaces.point_list import grid_of, is_list
 from pyehl.surfaces.text_map import read_text
@@ -143,12 +143,7 @@ def _read(
     if array:
         heights, own, periodic = _read_array(path, channel)
     else:
-        try:
-            heights, own, periodic, name, note = read_instrument(path, channel)
-        except UnknownFormatError:
-            if channel or not _is_text(path):
-                raise
-            heights, own, periodic, name, note = read_headed(path)
+        heights, own, periodic, name, note = _read_foreign(path, channel)
     if height_unit != "m":
         if not array and not note:
             raise InputError(
@@ -175,6 +170,26 @@ def _read(
     scan = Scan(heights, float(x), float(y), str(path), array, periodic, name, size_from, note)
     _check_pixel(scan)
     return scan
+
+
+def _read_foreign(path: Path, channel: str) -> Foreign:
+    """Read a file of an instrument, or a table under lines of words."""
+    found = None
+    may_be_table = not channel and _is_text(path)
+    try:
+        found = read_instrument(path, channel)
+    except UnknownFormatError:
+        if not may_be_table:
+            raise
+    # a text whose unit SurfaceTopography does not see may name it in words
+    if found is not None and not (found[-1] and may_be_table):
+        return found
+    try:
+        return read_headed(path)
+    except InputError:
+        if found is None:
+            raise
+        return found
 
 
 def _read_array(path: Path, channel: str) -> tuple[Array, tuple[float | None, float | None], bool]:

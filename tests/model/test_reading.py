@@ -295,6 +295,17 @@ def test_table_under_header_lines(tmp_path, header, size, unit):
             read_scan(path, *given, height_unit="nm")
 
 
+@pytest.mark.parametrize("separator", ["\t", ",", ";", " "])
+def test_table_with_decimal_points(tmp_path, separator):
+    """SurfaceTopography reads some of them, without the unit that the header names."""
+    header = "Height map\nWidth (um): 10\nHeight (um): 8\nUnit: nm\n\n"
+    lines = "\n".join(separator.join(f"{10 * j + i}.5" for i in range(5)) for j in range(4))
+    (tmp_path / "table.txt").write_text(f"{header}{lines}\n")
+    scan = read_scan(tmp_path / "table.txt")
+    assert scan.heights == pytest.approx(1e-9 * (np.add.outer(range(5), 10 * np.arange(4)) + 0.5))
+    assert (scan.length_x, scan.length_y) == pytest.approx((1e-5, 8e-6))
+
+
 def test_list_of_points_under_a_header(tmp_path):
     places = np.indices((5, 4)).reshape(2, -1).T
     rows = "\n".join(f"{2 * x};{2 * y};{x},5" for x, y in places)
