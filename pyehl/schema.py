@@ -4,8 +4,9 @@
 Names that end in a unit (``_m``, ``_Pa``, ...) are in that unit (`moes_m` is the Moes load M);
 capital letters are Hertz units. Kinds: ``solution`` (``ehl``, ``pyehl run``), ``prediction``
 (``pyehl predict``), ``film`` (``pyehl film --json``), ``response`` (``pyehl response``) and ``fit``
-(``pyehl fit-lubricant``). To add a quantity, add a line: tests compare this table with all that
-writes summaries.
+(``pyehl fit-lubricant``). To add a quantity, add a line here and in
+``docs/reference/results.md``: tests compare this table with that page and with all that writes
+summaries.
 """
 
 from __future__ import annotations
@@ -202,7 +203,7 @@ s | skips | | what was not done
 p | outside_range | | what lies outside of the range of the model
 p | note | | what mu_ratio is
 p | tracks | - | tracks of the tile that mu_ratio_tracks is over
-p | film_below_zero_share | - | share of the contact where the film would be below zero
+p | film_below_zero_share | - | share of the contact with higher roughness than the film bears
 p | film_breakdown | | where the film ends, and what would carry
 sp | surface_preparation | | what was done to a measured map
 sp | second_surface_preparation | | the same of the second surface

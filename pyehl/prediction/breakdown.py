@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Where the film of a rough surface ends, and what would carry.
 
-With a measured surface some pixel nearly always touches. That is said with its place, its depth
-and its share of the contact, and the film is never clipped. What would carry is found by bisection
-with the prediction itself, given as a function, so that nothing here depends on the model.
+With a measured surface some pixel nearly always touches. That is said with its place, its height
+and its share of the contact, and the film is never clipped. What the film bears and what would
+carry are given as functions, so that nothing here depends on the model.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from pyehl.surfaces.tile import Topography
 __all__ = [
     "Advice",
     "BelowZero",
-    "SmoothFilm",
+    "Borne",
     "advise",
     "below_zero",
 ]
@@ -33,8 +33,9 @@ Array = NDArray[np.float64]
 DeformedOf = Callable[[Topography], Array]
 """Deformed roughness of a tile on its pixels [m], (nx, ny)."""
 
-SmoothFilm = Callable[[Array, Array], Array]
-"""Smooth film [m] at x (m,) and y (n,) [m] from the centre of the contact, (m, n)."""
+Borne = Callable[[Array, Array], Array]
+"""Deformed roughness that the smooth film bears [m] at x (m,) and y (n,) [m] from the centre of the
+contact, (m, n): where it is higher the film ends."""
 
 STATIONS = 64
 """Places along a row at which the smooth film is taken."""
@@ -42,28 +43,29 @@ STATIONS = 64
 
 @dataclass(frozen=True, slots=True)
 class BelowZero:
-    """Where the film of a tile is below zero."""
+    """Where the film of a tile ends."""
 
-    # Mean share of the Hertz area with a film below zero, over a whole passage of the tile [-]
+    # Mean share of the Hertz area where it has ended, over a whole passage of the tile [-]
     share: float
-    deepest: float  # least film [m], not positive where the film ends
+    # Least of what the film bears less the deformed roughness [m], not positive where the film ends
+    deepest: float
     pixel: tuple[int, int]  # (i, j) of the tile where it is
-    pixels: int  # pixels of the tile with a film below zero that pass through the contact
+    pixels: int  # pixels of the tile that pass through the contact and end the film
 
 
 def below_zero(
     deformed: Array,
     pixel: tuple[float, float],
     semi_axes: tuple[float, float],
-    smooth_film: SmoothFilm,
+    borne: Borne,
 ) -> BelowZero:
-    """Find where the film over a tile is below zero, in the strip that passes through the contact.
+    """Find where the film over a tile ends, in the strip that passes through the contact.
 
     Every pixel of the tile within b of the track passes through the contact at some time, along
     its row, and meets the thinnest smooth film of that row. The share is the mean over the
     passage. The deformed roughness (nx, ny) [m], row 0 through the centre, is taken to be that at
     the centre on the whole way. Pixel size and the semi-axes a and b of the contact in m;
-    `smooth_film` is a function, see `SmoothFilm`.
+    `borne` says what the film bears.
     """
     ny = deformed.shape[1]
     a, b = semi_axes
@@ -72,7 +74,7 @@ def below_zero(
     y = np.asarray(row * pixel[1], dtype=np.float64)
     x: Array = a * ((2.0 * np.arange(STATIONS) + 1.0) / STATIONS - 1.0)
     inside = np.hypot(x[:, np.newaxis], y[np.newaxis, :] * (a / b)) < a
-    film = np.where(inside, smooth_film(x, y), np.inf)
+    film = np.where(inside, borne(x, y), np.inf)
     least = film.min(axis=0)
     top = deformed.max(axis=0)[row % ny]
     below = 0
@@ -98,7 +100,7 @@ def below_zero(
 class Advice:
     """Where the film of a surface ends, and what would carry."""
 
-    below: BelowZero  # where the film is below zero
+    below: BelowZero
     # Place of the deepest point on the surface [m]; of a prepared map from the corner of what was
     # left of it after cropping and turning
     x: float
@@ -128,7 +130,8 @@ class Advice:
         """Return the lines that ``pyehl predict`` prints."""
         lines = [
             f"film ends  at x = {self.x * 1e3:.4g} mm, y = {self.y * 1e3:.4g} mm of the surface: "
-            f"{-self.below.deepest * 1e6:.3g} um below zero; {self.below.pixels} pixels, "
+            f"{-self.below.deepest * 1e9:.3g} nm higher than the film bears; "
+            f"{self.below.pixels} pixels, "
             f"{100 * self.below.share:.3g} % of the contact in the mean over the passage"
         ]
         if self.outliers is not None:
@@ -150,7 +153,7 @@ def advise(
     tile: Topography,
     deformed_of: DeformedOf,
     semi_axes: tuple[float, float],
-    smooth_film: SmoothFilm,
+    borne: Borne,
     without_shorter: Callable[[Topography, float], Topography],
     without_spikes: Callable[[float], Topography] | None = None,
     known: Carries | None = None,
@@ -164,7 +167,7 @@ def advise(
     """
 
     def film(other: Topography) -> BelowZero:
-        return below_zero(deformed_of(other), other.pixel, semi_axes, smooth_film)
+        return below_zero(deformed_of(other), other.pixel, semi_axes, borne)
 
     def carries(other: Topography) -> bool:
         return film(other).deepest > 0.0 and (known is None or known(other))

@@ -70,7 +70,7 @@ class RoughFriction:
     # Friction coefficient of the smooth contact at the slide-to-roll ratio [-]; without meaning for
     # a Newtonian lubricant
     mu_smooth: float
-    film_min: float  # least film over the passage [m]
+    film_min: float  # least film over the passage [m]; NaN where it ends
     # Rise of the pressure over the passage, its rms within :data:`~pyehl.prediction.contact.NEAR`
     # and the greatest within :data:`~pyehl.prediction.contact.INNER` [Pa]
     rise_rms: float
@@ -96,11 +96,7 @@ def outcome(
     `load_balance`: what the roughness carries is taken off the smooth contact.
     """
     if contact.thinnest <= 0.0:
-        depth = -contact.thinnest * contact.operating.film_scale
-        return "film breakdown", (
-            f"deformed roughness reaches {depth * 1e9:.3g} nm through the film at a point of the "
-            "contact: no full film, no ratio"
-        )
+        return "film breakdown", too_high(-contact.thinnest * contact.operating.film_scale)
     if load_balance and contact.imbalance >= 1.0:
         return "load lost", "the roughness pressure exceeds the load"
     if not np.all(np.isfinite(ratios)):
@@ -131,6 +127,7 @@ def passed(
     low, share, high = contact.shares() if contact.levels else (math.nan,) * 3
     status, message = outcome
     mean = least = greatest = math.nan
+    least_film = math.nan if status == "film breakdown" else contact.least_film()
     if status == "predicted":
         fine = interpolated(ratios, 8) if periodic else ratios
         mean, least, greatest = (float(v) for v in (ratios.mean(), fine.min(), fine.max()))
@@ -144,7 +141,7 @@ def passed(
         shift=shift,
         passage=ratios,
         mu_smooth=contact.mu_smooth(),
-        film_min=contact.least_film() * film_unit,
+        film_min=least_film * film_unit,
         rise_rms=contact.rise_rms() * contact.operating.hertz_pressure,
         rise_max=contact.greatest_rise * contact.operating.hertz_pressure,
         pressure_max=contact.greatest_pressure * contact.operating.hertz_pressure,
@@ -158,16 +155,26 @@ def passed(
     )
 
 
-def broken(friction: RoughFriction, film: float) -> RoughFriction:
-    """Return a prediction whose film ends between its positions: least film [m], no ratio."""
+def too_high(height: float) -> str:
+    """Say that the deformed roughness is higher than the film bears, by a height [m]."""
+    return (
+        f"the deformed roughness is {height * 1e9:.3g} nm higher than the film bears: no full film"
+    )
+
+
+def broken(friction: RoughFriction, borne: float) -> RoughFriction:
+    """Return a prediction whose film ends between its positions: no film, no ratio.
+
+    `borne`: least of what the film bears less the deformed roughness [m].
+    """
     return replace(
         friction,
         status="film breakdown",
-        message=f"deformed roughness reaches {-film * 1e9:.3g} nm through the film: no full film",
+        message=too_high(-borne),
         mu_ratio=math.nan,
         mu_ratio_min=math.nan,
         mu_ratio_max=math.nan,
         position_error=math.nan,
-        film_min=film,
+        film_min=math.nan,
         cavitated_friction=math.nan,
     )

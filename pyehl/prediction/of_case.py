@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from pyehl import surfaces
 from pyehl.errors import InputError
 from pyehl.prediction.bands import Band
-from pyehl.prediction.breakdown import Advice, BelowZero, SmoothFilm, advise, below_zero
+from pyehl.prediction.breakdown import Advice, BelowZero, Borne, advise, below_zero
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.friction import TRACKS, RoughFriction, SecondPassage, broken
 from pyehl.prediction.heated import heat_of
@@ -31,6 +31,7 @@ from pyehl.prediction.pair_breakdown import (
 )
 from pyehl.prediction.partial import Partial, partial_film, without
 from pyehl.prediction.result import Prediction
+from pyehl.prediction.second_order import FILM_ENDS
 from pyehl.prediction.sides import SecondSurface
 from pyehl.prediction.smooth import SmoothContact, hertz_contact, read_contact, solve_contact
 from pyehl.prediction.touching import touching
@@ -96,14 +97,17 @@ def predict(
         conditions = contact, operating, lubricant, options, ratio
         alone.append(RoughPassage(tile, *conditions, groups=(group,), filter_kind=kind))
 
-    def smooth_film(x: Array, y: Array) -> Array:
-        """Smooth film [m] at places [m]."""
+    # deformed roughness over the smooth film at which the film ends
+    ends = FILM_ENDS if options.reduction == "response" else 1.0
+
+    def borne(x: Array, y: Array) -> Array:
+        """Deformed roughness at which the film ends [m] at places [m]."""
         a = operating.hertz_radius
-        return contact.at(x / a, y / a)[1] * operating.film_scale
+        return contact.at(x / a, y / a)[1] * operating.film_scale * ends
 
     keys = [settings[group] for group in groups]
     predicted = (_of_pair if len(alone) > 1 else _of_one)(
-        alone, keys, smooth_film, 0 if brief else tracks, brief=brief
+        alone, keys, borne, 0 if brief else tracks, brief=brief
     )
     friction, over, bands, below, advice = predicted
     second = None
@@ -164,7 +168,7 @@ def _partial(
 def _of_one(
     alone: Sequence[RoughPassage],
     keys: Sequence[Mapping[str, Any]],
-    smooth_film: SmoothFilm,
+    borne: Borne,
     tracks: int,
     *,
     brief: bool,
@@ -176,7 +180,7 @@ def _of_one(
         friction.response.deformed,
         passage.topography.pixel,
         passage.operating.semi_axes,
-        smooth_film,
+        borne,
     )
     if friction.status == "predicted" and below.deepest <= 0.0:
         # the positions of the passage have missed it
@@ -184,14 +188,14 @@ def _of_one(
         over, bands = (math.nan, math.nan), []
     advice = None
     if friction.status == "film breakdown" and not brief:
-        advice = _advice(passage, keys[0], smooth_film)
+        advice = _advice(passage, keys[0], borne)
     return friction, over, bands, below, advice
 
 
 def _of_pair(
     alone: Sequence[RoughPassage],
     keys: Sequence[Mapping[str, Any]],
-    smooth_film: SmoothFilm,
+    borne: Borne,
     tracks: int,
     *,
     brief: bool,
@@ -209,16 +213,16 @@ def _of_pair(
             together.deformed(),
             together.topography.pixel,
             together.operating.semi_axes,
-            smooth_film,
+            borne,
         ).share
-    below = replace(pair_below_zero(pair, deformed, smooth_film), share=share)
+    below = replace(pair_below_zero(pair, deformed, borne), share=share)
     if friction.status == "predicted" and below.deepest <= 0.0:
         # the positions of the passage have missed it
         friction = broken(friction, below.deepest)
         over, bands = (math.nan, math.nan), []
     advice = None
     if friction.status == "film breakdown" and not brief:
-        advice = advise_pair(pair, below, smooth_film)
+        advice = advise_pair(pair, below, borne)
     return friction, over, bands, below, advice
 
 
@@ -252,14 +256,14 @@ def _options(settings: Mapping[str, Mapping[str, Any]], tracks: int) -> Options:
     return options
 
 
-def _advice(passage: RoughPassage, group: Mapping[str, Any], smooth_film: SmoothFilm) -> Advice:
+def _advice(passage: RoughPassage, group: Mapping[str, Any], borne: Borne) -> Advice:
     """Where the film ends, and what of the group ``surface`` would carry."""
     surface, kind = passage.topography, str(group.get("filter", "sharp"))
     return advise(
         surface,
         lambda tile: replace(passage, topography=tile).deformed(),
         passage.operating.semi_axes,
-        smooth_film,
+        borne,
         lambda tile, shortest: surfaces.filtered(tile, shortest, kind=kind),
         lambda threshold: surfaces.without_spikes(surface, threshold, group),
         lambda tile: replace(passage, topography=tile).known(),

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pyehl.prediction.breakdown import STATIONS, SmoothFilm
+from pyehl.prediction.breakdown import STATIONS, Borne
 from pyehl.prediction.carrying import carrying_wavelength
 from pyehl.prediction.pair import RoughPair
 from pyehl.surfaces import GROUPS, Topography
@@ -27,15 +27,16 @@ Pixels = tuple[tuple[int, int], tuple[int, int]]
 
 @dataclass(frozen=True, slots=True)
 class PairBelowZero:
-    """Where the film between two tiles is least."""
+    """Where the film between two tiles is nearest to its end."""
 
-    # Mean share of the contact with a film below zero, over the positions of the prediction [-]
+    # Mean share of the contact where it has ended, over the positions of the prediction [-]
     share: float
-    deepest: float  # least film over all positions in which they meet [m]
+    # Least of what the film bears less the deformed roughness, wherever they meet [m]
+    deepest: float
     pixels: Pixels  # (i, j) of each tile where it is
 
 
-def pair_below_zero(pair: RoughPair, deformed: Sequence[Array], film: SmoothFilm) -> PairBelowZero:
+def pair_below_zero(pair: RoughPair, deformed: Sequence[Array], film: Borne) -> PairBelowZero:
     """Find the least film between two deformed tiles (nx, ny) [m], within b of their tracks.
 
     Over all positions in which they meet. As of a single surface, each is taken to be that at the
@@ -127,8 +128,8 @@ class PairAdvice:
             for group, (x, y) in zip(GROUPS, self.places, strict=True)
         )
         lines = [
-            f"film ends  where {places}: {-self.below.deepest * 1e6:.3g} um below zero; "
-            f"{100 * self.below.share:.3g} % of the contact in the mean over the passage"
+            f"film ends  where {places}: {-self.below.deepest * 1e9:.3g} nm higher than the film "
+            f"bears; {100 * self.below.share:.3g} % of the contact in the mean over the passage"
         ]
         for name, length in zip((*GROUPS, "both"), self.wavelengths, strict=True):
             if length is not None:
@@ -144,7 +145,7 @@ class PairAdvice:
         return lines
 
 
-def advise_pair(pair: RoughPair, below: PairBelowZero, film: SmoothFilm) -> PairAdvice:
+def advise_pair(pair: RoughPair, below: PairBelowZero, film: Borne) -> PairAdvice:
     """Say where the film of a pair, which is not full, ends, and find what would carry.
 
     What would carry has a prediction whose error is known, too.

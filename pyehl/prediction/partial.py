@@ -4,11 +4,17 @@
 The film of the response, at one position of the tile after another, must not be thinner than the
 layer (``lubricant.boundary_film``; under pressure it is compressed as the lubricant is). A pressure
 p_c of contact lifts it. It bends the surfaces as if the roughness r were r - p_c/K there, K being
-the stiffness of the half-space, and the fluid flattens that as it does any roughness. So the film
-rises by T p_c/K and the pressure by T p_c, T by the response for waves that move with the lubricant
-as the films of touching nodes do. For waves as long as the contact T is near zero: what contact
-carries there the fluid no longer does, and the film remains that of the inlet. It is thicker only
-where contact would otherwise carry more than the load.
+the stiffness of the half-space, and the fluid flattens that as it does any roughness. So the loss
+of film falls by T p_c/K and the pressure rises by T p_c, T by the response for waves that move with
+the lubricant as the films of touching nodes do. For waves as long as the contact T is near zero:
+what contact carries there the fluid no longer does, and the mean film remains that of the inlet.
+
+It is thicker where contact would otherwise carry more than the load, and by what the layer gives. A
+column of lubricant that a peak has passed has the film of the layer at least. So the layer gives
+each the most that it has lacked on the way through the contact, on which peaks that slip pass it
+one after the other, and all films are thicker by the mean s of that:
+
+    s = < max(0, h_b - h_least - s) >,   h_least the least film of the column on its way.
 
 Compared with the full simulation in docs/evidence/partial.
 """
@@ -24,7 +30,8 @@ from numpy.typing import NDArray
 
 from pyehl.prediction.by_response import Parts, RoughPassage
 from pyehl.prediction.obstacle import Compliance, lifted
-from pyehl.prediction.rough_contact import missing
+from pyehl.prediction.rough_contact import missing, slipped
+from pyehl.prediction.second_order import film_left, loss_at
 from pyehl.prediction.smooth import circle_of, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
@@ -44,6 +51,8 @@ POSITIONS = 16
 FILM = 0.45
 # Of waves that the fluid flattens nearly whole, as much is taken to be left
 LEAST_LEFT = 0.02
+# Error of the film that the layer gives, over the layer
+GIVEN_TO = 1e-4
 # Length of the periodic box of pressures over that of the contact
 BOX = 1.25
 # Points of the shortest waves, the share of the variance that shorter ones may have, and the
@@ -165,12 +174,38 @@ class _Contact:
         unit = 1.0 if self.rough.thins else passage.lubricant.viscosity * o.sliding_speed
         known = friction > 0.0 and o.sliding_speed > 0.0
         self.rubbing = friction * o.hertz_pressure / unit if known else math.nan
-        # Films that were scaled to the extrapolated central film lack something at the sides. The
-        # loss is of first order: that of second order ends above the layers that bodies touch at
+        # films that were scaled to the extrapolated central film lack something at the sides
         self.film = self.rough.film + missing(passage.contact, self.rough.film)
+        self.way = self._way()
         self.load = float(self.rough.pressure.sum(where=self.rough.inside))
         self.whole_load = o.load / (o.hertz_pressure * self.rough.area)
         self._bend(self._around(grid))
+
+    def _way(self) -> NDArray[np.int_]:
+        """Points by which peaks have slipped past a column since the inlet (m, n)."""
+        rough = self.rough
+        ratio = self.passage.velocity_ratio
+        way = slipped(rough.x[:, np.newaxis], rough.across, ratio, bent=True)
+        return np.rint(way / (self.stride * rough.pixel[0])).astype(int)
+
+    def _given(self, lack: Array) -> float:
+        """Film that the layer gives [a^2/R], by what each point lacks of the layer (m, n)."""
+        most = lack.copy()
+        direction = 1 if self.passage.velocity_ratio > 1.0 else -1
+        for step in range(1, int(np.abs(self.way).max()) + 1):
+            # peaks that are faster than the lubricant are ahead of where they met it
+            met = np.full_like(lack, -np.inf)
+            ahead, here = slice(step, None), slice(None, -step)
+            met[here if direction > 0 else ahead] = lack[ahead if direction > 0 else here]
+            passed = np.abs(self.way) >= step
+            most[passed] = np.maximum(most, met)[passed]
+        of_all = most[self.rough.inside]
+        low, high = 0.0, max(0.0, float(of_all.max()))
+        while high - low > GIVEN_TO * self.layer:
+            middle = 0.5 * (low + high)
+            enough = float(np.maximum(of_all - middle, 0.0).mean()) <= middle
+            low, high = (low, middle) if enough else (middle, high)
+        return high
 
     def _around(self, grid: Topography) -> Spectrum:
         """Roughness on a box around the contact."""
@@ -214,13 +249,15 @@ class _Contact:
         change = rough.change(shift).astype(float)
         linear = rough.pressure + change[..., 1]
         floor = self._floor(linear)
+        borne = self.film * loss_at(floor / self.film)
         for level in levels:
-            film = self.film + level.thicker - change[..., 0]
-            gap = np.where(rough.inside, film - floor, np.inf)
+            loss = change[..., 0] - level.thicker
+            loss -= self._given(floor - self.film * film_left(loss / self.film))
+            gap = np.where(rough.inside, borne - loss, np.inf)
             held = lifted(gap, self.lifting, self.layer, self.load, held)
             if held is None:
                 return False
-            film = np.maximum(film + held.lift, floor)
+            film = np.maximum(self.film * film_left((loss - held.lift) / self.film), floor)
             pressure = np.maximum(linear + self.raising(held.pressure), 0.0)
             touching = self._touching(pressure, film, floor)
             carried = float(pressure.sum(where=rough.inside))

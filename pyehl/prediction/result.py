@@ -88,7 +88,7 @@ class Prediction:
     track_count
         Number of these tracks.
     below
-        Where the film is below zero, and on which share of the contact.
+        Where the film ends, and on which share of the contact.
     advice
         With the status ``"film breakdown"``: where the film ends, and what would carry.
     second

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from pyehl import library
 from pyehl.prediction.contact import INNER, NEAR, ShearedContact
 from pyehl.prediction.edge import ANGLES, Edge
-from pyehl.prediction.second_order import INLET_FILM
+from pyehl.prediction.second_order import FILM_ENDS, film_left
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.prediction.transfer import AXIS, LINES, STATIONS
 from pyehl.prediction.waves import REFINEMENT, Waves
@@ -46,6 +46,8 @@ REACH = 1.0
 OUTER = 0.7
 """Distance from the centre beyond which the smooth film moves with the edge [semi-axes]; further
 inside it is level."""
+RINGS = np.array([0.0, 0.4, OUTER])
+"""Inner radii of the rings in which the pressure carries what the waves leave [semi-axes]."""
 
 
 def station_weights(x: Array) -> Array:
@@ -95,6 +97,7 @@ class WavyContact(ShearedContact):
         self.inside = (self.radius < REACH) & (self.pressure > 0.0)
         self.points = int(np.count_nonzero(self.inside))
         self.inner, self.near = (self.inside & (self.radius < r) for r in (INNER, NEAR))
+        self.rings = np.searchsorted(RINGS, self.radius[self.inside], side="right") - 1
         self.contact, self.moved = contact, np.zeros(ANGLES)
         self.outer = np.nonzero(self.inside & (self.radius > OUTER))
         self.least = math.inf
@@ -106,10 +109,8 @@ class WavyContact(ShearedContact):
         edge = max(edges, key=lambda edge: edge.coefficients.shape)
         shape = edge.coefficients.shape[0], self.film.size
         self.polynomials = edge.polynomials(*grid).reshape(shape).astype(np.float32)
-        # The film regains this much of its loss in second order, up to where that no longer falls
-        # with the loss: there the film ends
-        self.regained = INLET_FILM if second else 0.0
-        self.ends = 0.5 / INLET_FILM if second else 1.0
+        # Loss of first order over the film at which the film ends
+        self.ends = FILM_ENDS if second else 1.0
         # of the pressure of second order
         self.second = second and [np.interp(self.x, STATIONS, v)[:, np.newaxis] for v in second]
         self.smooth = float(self.stress(self.pressure, self.film)[self.inside].sum())
@@ -194,17 +195,16 @@ class WavyContact(ShearedContact):
         """
         smooth = self.smooth_film()
         loss = change[..., 0]
-        film = smooth - loss
+        film = smooth * film_left(loss / smooth) if self.second else smooth - loss
         pressure = self.pressure + change[..., 1]
         self.count += 1
-        carried = 1.5 * float(change[..., 1].sum(where=self.inside)) / self.points
-        self.imbalance = max(self.imbalance, abs(carried))
-        ended = bool(np.any((loss >= self.ends * smooth) & self.inside))
-        if not ended:
-            film += self.regained * np.square(loss) / smooth
-        self.thinnest = min(self.thinnest, float(film.min(where=self.inside, initial=math.inf)))
-        if ended:
+        imbalance = 1.5 * float(change[..., 1].sum(where=self.inside)) / self.points
+        self.imbalance = max(self.imbalance, abs(imbalance))
+        borne = float((self.ends * smooth - loss).min(where=self.inside, initial=math.inf))
+        if borne <= 0.0:
+            self.thinnest = min(self.thinnest, borne)
             return math.nan
+        self.thinnest = min(self.thinnest, float(film.min(where=self.inside, initial=math.inf)))
         self.cavitated += int(np.count_nonzero((pressure <= 0.0) & self.inside))
         # outside nothing is counted: any film and pressure will do
         film[~self.inside] = math.inf
@@ -212,7 +212,11 @@ class WavyContact(ShearedContact):
         self.least = min(self.least, float(whole.min()))
         self.meet(change[..., 1], pressure, whole, self.inner, self.near)
         film[~self.inside] = 1.0
+        carried = np.bincount(self.rings, pressure[self.inside], len(RINGS))
         np.maximum(pressure, 0.0, out=pressure)
+        pushes = np.bincount(self.rings, pressure[self.inside], len(RINGS))
+        # what cannot pull leaves less to carry for what is around
+        pressure[self.inside] *= (carried / pushes)[self.rings]
         with np.errstate(over="ignore"):
             return float(self.stress(pressure, film).sum(where=self.inside)) / self.smooth
 

@@ -22,7 +22,8 @@ What the inlet makes of second order was not derived but measured, in the fields
 wave: a pressure INLET_PRESSURE P0^2, P0 the pressure of first order that the waves would have
 where they are if they had not slipped since the inlet. With slip P0 is less and less like P1: only
 its part along P1^2, (<P0 P1>/s^2)^2 INLET_PRESSURE, is added to gamma. And the film regains
-INLET_FILM t1^2/H of its loss t1: it is nearly H exp(-t1/H).
+INLET_FILM t1^2/H of its loss t1. So it is nearly H exp(-t1/H), which it follows where the loss is
+most of the film, too (docs/evidence/thin_film): :func:`film_left`.
 
 Of two rough surfaces P1 holds the waves of both, and the sum the pairs of one wave of
 each, too: they meet in all positions, so that no product of two has a mean.
@@ -40,7 +41,7 @@ from numpy.typing import NDArray
 from pyehl.prediction.wave_table import WaveTable, coarsened
 from pyehl.theory.transport import Zone, stiffness
 
-__all__ = ["INLET_FILM", "SecondOrder"]
+__all__ = ["FILM_ENDS", "INLET_FILM", "SecondOrder", "film_left", "loss_at"]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -51,8 +52,36 @@ INLET_FILM = 0.4
 """Film of second order that the inlet makes, over the square of the loss of first order, both over
 the smooth film [-]."""
 
+FILM_ENDS = 1.6
+"""Loss of first order over the smooth film at which no full film is predicted [-]: films hold at
+1.2 and 1.4, and fine grids have none at 1.9 (docs/evidence/thin_film)."""
+
+# Loss over the film up to which the film of second order is taken; beyond it falls as an
+# exponential that goes on from there
+QUADRATIC = 0.6
+_LEFT = 1.0 - QUADRATIC + INLET_FILM * QUADRATIC**2
+_RATE = (1.0 - 2.0 * INLET_FILM * QUADRATIC) / _LEFT
+
 # How often the table of the response is coarsened for the pairs of its waves
 COARSER = 2
+
+
+def film_left(loss: Array) -> Array:
+    """Film over the smooth one that a loss of first order, over the smooth film, leaves [-]."""
+    beyond = np.maximum(loss - QUADRATIC, 0.0)
+    near = np.minimum(loss, QUADRATIC)
+    return np.asarray((1.0 - near + INLET_FILM * np.square(near)) * np.exp(-_RATE * beyond))
+
+
+def loss_at(film: Array) -> Array:
+    """Loss of first order that leaves a film, both over the smooth film: `film_left` inverted.
+
+    A film that is not positive asks for an infinite one.
+    """
+    with np.errstate(divide="ignore"):
+        beyond = -np.log(np.clip(film, 0.0, _LEFT) / _LEFT) / _RATE
+    root = np.sqrt(np.maximum(0.0, 1.0 - 4.0 * INLET_FILM * (1.0 - np.maximum(film, _LEFT))))
+    return np.asarray((1.0 - root) / (2.0 * INLET_FILM) + beyond)
 
 
 class SecondOrder:

@@ -113,7 +113,7 @@ def warnings(summary: Summary) -> list[str]:
         found.append(f"The grid leaves out {100.0 * left_out:.2g} % of the height's variance.")
     share = summary.get("film_below_zero_share") or 0.0
     if share > 0.0:
-        found.append(f"The film would be below zero on {100.0 * share:.2g} % of the contact.")
+        found.append(f"The film would have ended on {100.0 * share:.2g} % of the contact.")
     lost = summary.get("cavitated_share") or 0.0
     if lost > 0.0:
         found.append(f"The pressure would be negative on {100.0 * lost:.2g} % of the contact.")

@@ -181,7 +181,7 @@ def test_surfaces_that_hardly_meet(solve):
     assert "time.max_periods = 99" in short["mu_ratio_error_note"]
     whole = solve(POINT, POINTS, keys | {"time.max_periods": 99})
     assert whole["T_period"] == pytest.approx(100.0, rel=1e-12)
-    # a third of the rise depends on the positions that the mean leaves out: docs/theory/solver.md
+    # a third of the rise depends on positions that the mean leaves out: docs/theory/transient.md
     assert short["mu_ratio"] == pytest.approx(1.0124, abs=5e-5)
     assert whole["mu_ratio"] == pytest.approx(1.0181, abs=5e-5)
 

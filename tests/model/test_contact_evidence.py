@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Load shares of a boundary film: docs/theory/contact.md shows docs/evidence/contact."""
+"""Load shares of a boundary film: docs/evidence/contact says what its table has."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def evidence(script):
 
 
 def test_the_page_shows_the_tables(root: Path, evidence):
-    text = (root / "docs" / "theory" / "contact.md").read_text(encoding="utf-8")
+    text = (root / "docs/evidence/contact/README.md").read_text(encoding="utf-8")
     for load, _, stress, *_ in (evidence.HEAVY, evidence.LIGHT, evidence.THIN):
         assert "\n".join(evidence.lines(load, stress)) in text
 
@@ -32,12 +32,12 @@ def test_how_often_stated_errors_cover_the_next_grid(root: Path, evidence):
         change = float(finer["contact_load_share"]) - float(row["contact_load_share"])
         known += 1
         covered += abs(change) <= float(row["contact_load_share_error"])
-    text = (root / "docs" / "theory" / "contact.md").read_text(encoding="utf-8")
+    text = (root / "docs/evidence/contact/README.md").read_text(encoding="utf-8")
     assert f"covers the next change in {covered} of {known} rows" in text
 
 
 def test_the_shares_converge_with_order_two(root: Path, evidence):
-    text = (root / "docs" / "theory" / "contact.md").read_text(encoding="utf-8")
+    text = (root / "docs/evidence/contact/README.md").read_text(encoding="utf-8")
     rows = {tuple(float(row[key]) for key in evidence.KEYS): row for row in evidence.read()}
     load, height, stress, *_ = evidence.LIGHT
     ratios, changes = [], []

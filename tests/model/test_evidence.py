@@ -4,15 +4,22 @@
 from __future__ import annotations
 
 import csv
+import math
 import re
+import statistics
 import sys
 from pathlib import Path
 
 import pytest
 
+import pyehl
 from pyehl.prediction.errors import KNOWN_RATIO, model_error
 from pyehl.prediction.resolution import resolution
 from pyehl.prediction.second_order import INLET_FILM
+from pyehl.theory.film import central_film
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.response import edge_gain
 
 
 @pytest.fixture(scope="module")
@@ -121,8 +128,8 @@ def test_better_than_the_model_of_the_paper(table):
 
 @pytest.mark.long
 def test_page_of_the_theory_prints_the_table(root, table):
-    """The example of docs/theory/prediction.md, and the summary of all cases."""
-    text = (root / "docs" / "theory" / "prediction.md").read_text().replace("−", "-")
+    """The example of docs/theory/prediction-compared.md, and the summary of all cases."""
+    text = (root / "docs" / "theory" / "prediction-compared.md").read_text().replace("−", "-")
     for name in ("t1s21u1", "t1s21", "t1s21u105"):
         row = table[name]
         (line,) = re.findall(rf"^\| {row['velocity_ratio']:.2f} \|.*$", text, re.M)
@@ -144,6 +151,24 @@ def test_page_of_the_theory_prints_the_table(root, table):
         assert mean == pytest.approx(sum(ours) / len(part), abs=0.06)
         assert largest == pytest.approx(max(map(abs, ours)), abs=0.06)
         assert mean_paper == pytest.approx(sum(paper) / len(part), abs=0.06)
+
+
+def test_page_of_the_theory_prints_the_bands(root: Path):
+    """What each octave adds without slip and with 1 %, and what is below and above a/16."""
+    text = (root / "docs" / "theory" / "prediction-compared.md").read_text()
+    shown = re.findall(r"^\| \d+ to \d+ \| (\S+) \((\S+)\) \| (\S+) \((\S+)\) \|$", text, re.M)
+    table = [[float(word) for word in line] for line in shown]
+    for column, ratio in ((0, 1.0), (2, 1.01)):
+        keys = {"surface.seed": 21, "surface.velocity_ratio": ratio}
+        found = pyehl.predict(root / "cases/table1.nml", keys)
+        rises = [band.rise for band in found.bands]
+        assert [line[column] for line in table] == pytest.approx(rises, abs=6e-4)
+        totals = [1.0 + sum(rises[: k + 1]) for k in range(len(rises))]
+        assert [line[column + 1] for line in table] == pytest.approx(totals, abs=6e-4)
+    short = [band.longest < 1.01 * found.operating.hertz_radius / 16.0 for band in found.bands]
+    below = sum(rise for rise, is_short in zip(rises, short, strict=True) if is_short)
+    assert f"add {below:.2f};" in text
+    assert f"by −{below - sum(rises):.2f}" in text
 
 
 def test_starts_from_the_prediction(root: Path, script):
@@ -183,3 +208,33 @@ def test_fields_are_those_of_the_simulation(root: Path):
         # stiff contacts that slip a little
         if row["name"] in ("c8s12c", "f1", "c16s11", "c16l15") and row["place"] == "X = 0":
             assert float(row["gamma"]) == pytest.approx(float(row["p_square"]), abs=0.05), row
+
+
+def test_pressure_of_ridges(root: Path):
+    """docs/evidence/response says by how much it is above K (1 - T), and what the response has."""
+    folder = root / "docs" / "evidence" / "response"
+    heavy, light, lost, gains = [], [], [], []
+    with (folder / "ridges.csv").open(newline="", encoding="utf-8") as stream:
+        for row in csv.DictReader(stream):
+            m, ell, ky, ratio = (
+                float(row[n]) for n in ("moes_m", "moes_l", "ky", "pressure_ratio")
+            )
+            # the wavelengths in the table are rounded
+            if 2.0 * math.pi / ky > 0.501:
+                continue
+            if m >= 300.0:
+                point = OperatingPoint.from_moes(m, ell)
+                film = central_film(point, Lubricant()) / point.film_scale
+                gains.append(100.0 * (float(edge_gain(0.0, ky, film)) - 1.0))
+                heavy.append(100.0 * (ratio - 1.0))
+            elif float(row["T"]) < 0.9:
+                light.append(100.0 * (ratio - 1.0))
+            else:
+                lost.append(ratio)
+    text = (folder / "README.md").read_text(encoding="utf-8")
+    middle = statistics.median(heavy)
+    assert f"by {min(heavy):.1f} to {max(heavy):.1f} % (median {middle:.1f} %)" in text
+    assert f"`edge_gain` has {min(gains):.1f} to {max(gains):.1f} %" in text
+    assert f"by {min(light):.1f} to {max(light):.1f} % where T < 0.9" in text
+    assert f"the other {len(lost)} ridges" in text
+    assert f"goes from {min(lost):.1f} to {max(lost):.1f}." in text

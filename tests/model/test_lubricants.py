@@ -101,6 +101,18 @@ def test_every_oil_has_sources_and_runs():
         assert data.attrs["status"] == "converged"
 
 
+def test_films_by_two_laws_with_one_alpha(root: Path):
+    """FVA 3 by its own law and by Roelands', as the page of the theory says."""
+    own = Case.from_text("", {"lubricant.name": "fva3", "lubricant.temperature": 40.0})
+    known = own.resolve()["lubricant"]
+    names = ("viscosity", "pressure_viscosity", "density_law")
+    same = {f"lubricant.{name}": known[name] for name in names}
+    keys = {"surface.kind": "smooth", "grid.points": 257}
+    films = [float(pyehl.solve(case, keys).H_c) for case in (own, Case.from_text("", {**same}))]
+    text = (root / "docs/theory/lubricants.md").read_text(encoding="utf-8")
+    assert f"{100.0 * (films[0] / films[1] - 1.0):.1f} % thicker by its own law" in text
+
+
 SHEET = "&lubricant kinematic_viscosity_40 = 46 kinematic_viscosity_100 = 6.8 {} /"
 MINERAL_Z = 0.6
 
@@ -193,13 +205,16 @@ def test_an_oil_is_as_thick_as_itself_at_another_inlet():
     assert float(cold.density_ratio(0.0, 35.0)) == pytest.approx(rho[1] / rho[0], rel=1e-12)
 
 
-def test_alpha_star_and_alpha_film():
+def test_alpha_star_and_alpha_film(root: Path):
     """Barus: all the same; a law whose slope falls: smaller than at ambient pressure."""
     barus = Lubricant(viscosity_law="barus", pressure_viscosity=2e-8)
     assert reciprocal_isoviscous(barus) == pytest.approx(2e-8, rel=1e-4)
     assert film_forming(barus) == pytest.approx(2e-8, rel=1e-4)
     oil = Lubricant.from_name("fva3", 40.0)
     assert reciprocal_isoviscous(oil) < film_forming(oil) < oil.pressure_viscosity
+    three = (reciprocal_isoviscous(oil), film_forming(oil), oil.pressure_viscosity)
+    said = "{:.1f}, {:.1f} and {:.1f} /GPa for FVA 3".format(*(1e9 * alpha for alpha in three))
+    assert said in (root / "docs/theory/lubricants.md").read_text(encoding="utf-8")
     # van Leeuwen 2009, as Arana et al. print it (eq. 35): for Roelands, approximately
     roelands = Lubricant()
     alpha, z, p0 = roelands.pressure_viscosity, roelands.roelands_z, roelands.roelands_p0

@@ -2,7 +2,7 @@
 """Load shares of a boundary film on ever finer grids.
 
     python docs/evidence/contact/make.py run [POINTS ...]    adds what is missing to shares.csv
-    python docs/evidence/contact/make.py show                prints the tables of the theory page
+    python docs/evidence/contact/make.py show                prints the tables of README.md
 
 Seconds to minutes a run of one core up to 513 x 513 nodes, a quarter of an hour on 1025 x 1025.
 """

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Error of the multi-integration: docs/theory/deflection.md shows docs/evidence/deflection."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+
+@pytest.fixture(scope="module")
+def evidence(script) -> ModuleType:
+    return script("docs/evidence/deflection/make.py")
+
+
+def test_the_page_shows_the_tables(root: Path, evidence):
+    text = (root / "docs" / "theory" / "deflection.md").read_text(encoding="utf-8")
+    for table in evidence.tables():
+        assert "\n".join(table) in text
+
+
+def test_this_build_makes_the_stored_errors(evidence):
+    for (points, accuracy), stored in zip(evidence.runs(), evidence.read(), strict=True):
+        found = evidence.row(points, accuracy)
+        for name in evidence.NAMES[:4]:
+            assert found[name] == stored[name], (points, accuracy, name)
+        # rounding is a part of what 16 points leave
+        for name in ("accuracy", "error", "discretisation", "inside"):
+            assert found[name] == pytest.approx(stored[name], rel=1e-3, abs=1e-13), (points, name)
+
+
+def test_errors_stay_small_beside_the_discretisation(evidence):
+    """A fiftieth in the contact, a tenth well inside, and a third of what was asked."""
+    rows = evidence.read()
+    for row in rows:
+        assert row["error"] < 0.3 * row["accuracy"]
+    for row in rows[: len(evidence.POINTS)]:
+        assert row["error"] < 0.021 * row["discretisation"]
+        assert row["error"] < 0.1 * row["inside"]
