@@ -111,12 +111,18 @@ contains
 
    !> Reduction q of the error per cycle, by the changes of the last two: q/(1 - q) of the last change is left. The first cycle
    !> also makes up for the grid or the problem that the state comes from, so that its change says little of the next.
-   pure real(dp) function reduction(change, change_before, cycles) result(q)
+   pure real(dp) function reduction(change, change_before, cycles, fall) result(q)
       real(dp), intent(in) :: change(:), change_before(:)
       !> Cycles made
       integer, intent(in) :: cycles
+      !> Residual over that before the last cycle, if it is to bound q: a change can be tiny by chance, and the next one is
+      !> then many times as large
+      real(dp), intent(in), optional :: fall
 
       q = least_reduction
-      if (cycles > 1) q = max(least_reduction, min(maxval(change/max(change_before, tiny(1.0_dp))), most_reduction))
+      if (cycles <= 1) return
+      q = min(maxval(change/max(change_before, tiny(1.0_dp))), most_reduction)
+      if (present(fall)) q = min(q, fall)
+      q = max(least_reduction, q)
    end function reduction
 end module ehl_iteration

@@ -3,7 +3,7 @@
 !> S that they were found at, factors and stress follow to first order, with an error below 1e-4 beside that of factor_rows.f90.
 !> Sweeps and cycles change most nodes by less. So factors depend on what was kept, until that is forgotten.
 module ehl_kept_factors
-   use, intrinsic :: iso_fortran_env, only: int64
+   use, intrinsic :: iso_fortran_env, only: int64, real32
    use ehl_factor_rows, only: factor_rows_t, find_factors
    use ehl_kinds, only: dp
    use ehl_thinning, only: eyring, most, thinning_t
@@ -18,9 +18,11 @@ module ehl_kept_factors
    real(dp), parameter :: faint = 0.05_dp
    !> B of a node without factors, near no other
    real(dp), parameter :: none = -1.0_dp
-   !> What is kept of a node: B, S, phi, their changes, the stress and its changes, as in factor_rows_t
-   integer, parameter :: f_b = 1, f_s = 2, f_phi = 4, f_by_sliding = 6, f_by_gradient = 8, f_tangent = 10, f_stress = 12, &
-                         f_stress_by_sliding = 13, f_stress_by_gradient = 14, fields = 15
+   !> What is kept of a node: B, S, phi and the stress; and as numbers of single precision, since memory is what time goes
+   !> to, the changes of phi and of the stress. As in factor_rows_t
+   integer, parameter :: f_b = 1, f_s = 2, f_phi = 4, f_stress = 6, fields = 6
+   integer, parameter :: c_by_sliding = 1, c_by_gradient = 3, c_tangent = 5, c_stress_by_sliding = 7, &
+                         c_stress_by_gradient = 8, change_fields = 9
 
    type :: kept_factors_t
       type(thinning_t) :: law
@@ -31,10 +33,12 @@ module ehl_kept_factors
       integer :: width = 0
       !> By node of such a stretch, field, stretch and row
       real(dp), allocatable, private :: values(:, :, :, :)
+      real(real32), allocatable, private :: changes(:, :, :, :)
    contains
       procedure :: setup
       procedure :: forget
       procedure :: find
+      procedure :: film_power
       procedure :: bytes
    end type kept_factors_t
 
@@ -52,6 +56,7 @@ contains
       self%width = (nx - 1)/stretches + 1
       self%reach = merge(small/max(1.0_dp, self%law%curvature()/straight), 0.0_dp, self%follows)
       allocate (self%values(self%width, fields, stretches, ny), source=none, stat=stat)
+      if (stat == 0) allocate (self%changes(self%width, change_fields, stretches, ny), source=0.0_real32, stat=stat)
       if (stat /= 0) self%width = 0
    end subroutine setup
 
@@ -61,7 +66,7 @@ contains
       if (allocated(self%values)) self%values(:, f_b, :, :) = none
    end subroutine forget
 
-   !> Factors of a stretch of row j, of size(b) nodes
+   !> Factors of a stretch of row j, of size(b) nodes, and their changes but those with the gradient
    pure subroutine find(self, b, s, stretch, j, rows)
       class(kept_factors_t), intent(inout) :: self
       !> B >= 0, and S along X and along Y of as many nodes, or more, shape (nodes, 2)
@@ -70,7 +75,7 @@ contains
       type(factor_rows_t), intent(inout) :: rows
       type(factor_rows_t) :: found
       real(dp) :: beyond(most), ss(most, 2), share, bound
-      integer :: i, n, from, to, at
+      integer :: i, n, from, to
 
       n = size(b)
       share = merge(0.0_dp, self%reach, self%law%law == eyring)
@@ -88,57 +93,87 @@ contains
             to = i
          end do
          if (from <= to) then
-            at = to - from + 1
-            ss(:at, :) = s(from:to, :)
+            n = to - from + 1
+            ss(:n, :) = s(from:to, :)
             call find_factors(self%law, b(from:to), ss, found)
-            kept(from:to, f_b) = b(from:to)
-            kept(from:to, f_s:f_s + 1) = ss(:at, :)
-            kept(from:to, f_phi:f_phi + 1) = found%phi(:at, :)
-            kept(from:to, f_by_sliding:f_by_sliding + 1) = found%by_sliding(:at, :)
-            kept(from:to, f_by_gradient:f_by_gradient + 1) = found%by_gradient(:at, :)
-            kept(from:to, f_tangent:f_tangent + 1) = found%tangent(:at, :)
-            kept(from:to, f_stress) = found%stress(:at)
-            kept(from:to, f_stress_by_sliding) = found%stress_by_sliding(:at)
-            kept(from:to, f_stress_by_gradient:f_stress_by_gradient + 1) = found%stress_by_gradient(:at, :)
+            call keep(b(from:to), ss, found, kept(from:, :), self%changes(from:, :, stretch, j))
          end if
-         rows%by_sliding(:n, :) = kept(:n, f_by_sliding:f_by_sliding + 1)
-         rows%by_gradient(:n, :) = kept(:n, f_by_gradient:f_by_gradient + 1)
-         rows%tangent(:n, :) = kept(:n, f_tangent:f_tangent + 1)
-         rows%stress_by_sliding(:n) = kept(:n, f_stress_by_sliding)
-         call follow(b, s, kept, rows)
+         call follow(b, s, kept, self%changes(:, :, stretch, j), rows)
       end associate
    end subroutine find
 
+   !> Keep what was found
+   pure subroutine keep(b, s, found, kept, changes)
+      real(dp), intent(in) :: b(:), s(:, :)
+      type(factor_rows_t), intent(in) :: found
+      real(dp), intent(inout) :: kept(:, :)
+      real(real32), intent(inout) :: changes(:, :)
+      integer :: i, d
+
+      do d = 0, 1
+         do i = 1, size(b)
+            kept(i, f_s + d) = s(i, 1 + d)
+            kept(i, f_phi + d) = found%phi(i, 1 + d)
+            changes(i, c_by_sliding + d) = real(found%by_sliding(i, 1 + d), real32)
+            changes(i, c_by_gradient + d) = real(found%by_gradient(i, 1 + d), real32)
+            changes(i, c_tangent + d) = real(found%tangent(i, 1 + d), real32)
+            changes(i, c_stress_by_gradient + d) = real(found%stress_by_gradient(i, 1 + d), real32)
+         end do
+      end do
+      do i = 1, size(b)
+         kept(i, f_b) = b(i)
+         kept(i, f_stress) = found%stress(i)
+         changes(i, c_stress_by_sliding) = real(found%stress_by_sliding(i), real32)
+      end do
+   end subroutine keep
+
    !> Factors and stress to first order
-   pure subroutine follow(b, s, kept, rows)
+   pure subroutine follow(b, s, kept, changes, rows)
       real(dp), contiguous, intent(in) :: b(:), s(:, :)
       real(dp), contiguous, intent(in) :: kept(:, :)
+      real(real32), contiguous, intent(in) :: changes(:, :)
       type(factor_rows_t), intent(inout) :: rows
       !> Changes of ln(B), of S, and of ln|S_x| and ln|S_y|; d ln(phi)/d ln|S| of a direction, by its own part of S
       real(dp) :: db, dx, dy, lx, ly, own
       integer :: i
 
       do i = 1, size(b)
+         rows%by_sliding(i, 1) = changes(i, c_by_sliding)
+         rows%by_sliding(i, 2) = changes(i, c_by_sliding + 1)
+         rows%tangent(i, 1) = changes(i, c_tangent)
+         rows%tangent(i, 2) = changes(i, c_tangent + 1)
+         rows%stress_by_sliding(i) = changes(i, c_stress_by_sliding)
          db = b(i) - kept(i, f_b)
          dx = s(i, 1) - kept(i, f_s)
          dy = s(i, 2) - kept(i, f_s + 1)
-         rows%stress(i) = kept(i, f_stress) + kept(i, f_stress_by_sliding)*db + kept(i, f_stress_by_gradient)*dx &
-                          + kept(i, f_stress_by_gradient + 1)*dy
+         rows%stress(i) = kept(i, f_stress) + changes(i, c_stress_by_sliding)*db + changes(i, c_stress_by_gradient)*dx &
+                          + changes(i, c_stress_by_gradient + 1)*dy
          db = db/(kept(i, f_b) + tiny(1.0_dp))
          lx = dx*kept(i, f_s)/(kept(i, f_s)**2 + faint**2)
          ly = dy*kept(i, f_s + 1)/(kept(i, f_s + 1)**2 + faint**2)
-         own = kept(i, f_tangent)/kept(i, f_phi) - 1.0_dp
-         rows%phi(i, 1) = kept(i, f_phi)*(1.0_dp + kept(i, f_by_sliding)*db + own*lx + (kept(i, f_by_gradient) - own)*ly)
-         own = kept(i, f_tangent + 1)/kept(i, f_phi + 1) - 1.0_dp
-         rows%phi(i, 2) = kept(i, f_phi + 1)*(1.0_dp + kept(i, f_by_sliding + 1)*db + own*ly &
-                                              + (kept(i, f_by_gradient + 1) - own)*lx)
+         own = rows%tangent(i, 1)/kept(i, f_phi) - 1.0_dp
+         rows%phi(i, 1) = kept(i, f_phi)*(1.0_dp + rows%by_sliding(i, 1)*db + own*lx + (changes(i, c_by_gradient) - own)*ly)
+         own = rows%tangent(i, 2)/kept(i, f_phi + 1) - 1.0_dp
+         rows%phi(i, 2) = kept(i, f_phi + 1)*(1.0_dp + rows%by_sliding(i, 2)*db + own*ly + (changes(i, c_by_gradient + 1) - own)*lx)
       end do
    end subroutine follow
+
+   !> d ln(eps)/d ln(H) at node (i, j), as kept
+   pure real(dp) function film_power(self, i, j, direction)
+      class(kept_factors_t), intent(in) :: self
+      integer, intent(in) :: i, j, direction
+      integer :: stretch
+
+      stretch = (i - 1)/self%width + 1
+      associate (changes => self%changes(i - (stretch - 1)*self%width, :, stretch, j))
+         film_power = 3.0_dp - changes(c_by_sliding + direction - 1) + changes(c_by_gradient + direction - 1)
+      end associate
+   end function film_power
 
    !> Allocated bytes
    pure integer(int64) function bytes(self)
       class(kept_factors_t), intent(in) :: self
       bytes = 0
-      if (allocated(self%values)) bytes = 8*size(self%values, kind=int64)
+      if (allocated(self%changes)) bytes = 8*size(self%values, kind=int64) + 4*size(self%changes, kind=int64)
    end function bytes
 end module ehl_kept_factors

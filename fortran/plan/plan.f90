@@ -124,6 +124,7 @@ contains
       plan%engine = trim(input%solver%deflection)
       plan%accuracy = input%solver%accuracy
       plan%max_cycles = input%solver%max_cycles
+      plan%newtonian_circle = plan%contact%is_round() .and. .not. plan%lubricant%shear%thins_flow()
       plan%threads = input%solver%threads
       plan%target_error = input%grid%target_error
       plan%scheme = merge(wedge_narrow, wedge_separate, input%time%scheme == "narrow")

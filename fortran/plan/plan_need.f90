@@ -17,7 +17,7 @@ module ehl_plan_need
    !> Of the temperatures of film and walls
    real(dp), parameter :: heat_bytes = 24.0_dp
    !> The same of a flow that thins
-   real(dp), parameter :: thinning_bytes = 235.0_dp
+   real(dp), parameter :: thinning_bytes = 165.0_dp
    !> Bytes per node along X and thread
    real(dp), parameter :: line_bytes = 2000.0_dp
    !> Share of the run on the next coarser grid in memory and, with half as many steps, in time

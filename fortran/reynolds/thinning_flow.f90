@@ -83,13 +83,16 @@ contains
             newtonian(k) = rho(i)*h(i, j)**3/newtonian(k)*self%inverse_speed
          end do
          call self%kept%find(b(:n), s, stretch, j, factors)
-         i = first + n - 1
          do k = along, sideways
-            self%eps(first:i, j, k) = factors%phi(:n, k)*newtonian(:n)
-            self%tangent(first:i, j, k) = factors%tangent(:n, k)*newtonian(:n)
-            self%powers(first:i, j, k) = 3.0_dp - factors%by_sliding(:n, k) + factors%by_gradient(:n, k)
-            self%dlneps_dp(first:i, j, k) = drho_dp(first:i)/rho(first:i) - slope(first:i)*(1.0_dp - factors%by_sliding(:n, k))
+            do i = first, first + n - 1
+               associate (m => i - first + 1)
+                  self%eps(i, j, k) = factors%phi(m, k)*newtonian(m)
+                  self%tangent(i, j, k) = factors%tangent(m, k)*newtonian(m)
+                  self%dlneps_dp(i, j, k) = drho_dp(i)/rho(i) - slope(i)*(1.0_dp - factors%by_sliding(m, k))
+               end associate
+            end do
          end do
+         i = first + n - 1
          if (self%sliding > 0.0_dp) then
             self%stress(first:i, j) = factors%stress(:n)/self%sliding
          else
@@ -130,7 +133,7 @@ contains
    pure real(dp) function film_power(self, i, j, direction)
       class(thinning_flow_t), intent(in) :: self
       integer, intent(in) :: i, j, direction
-      film_power = self%powers(i, j, direction)
+      film_power = self%kept%film_power(i, j, direction)
    end function film_power
 
    !> Newtonian and real shear stress of row j, the latter as find_row left it

@@ -28,6 +28,7 @@ __all__ = [
     "FILLED",
     "RUN_COLUMNS",
     "STEPS",
+    "USUAL",
     "error_rows",
     "meaning",
     "step_rows",
@@ -43,22 +44,37 @@ TOLERANCE = 5e-4
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """A run to be measured: what it is called, its case, whole or half domain."""
+    """A run to be measured: what it is called, its case, whole or half domain.
+
+    A scene that is measured beside another one, a step of each in turn, has the name of that.
+    """
 
     name: str
     domain: str
     text: str
+    beside: str = ""
 
 
-WAVE = """&contact moes_m = 1000.0 moes_l = 10.0 /
-&surface kind = 'harmonic' amplitude = 9.734e-3 wavelength = 0.5 velocity_ratio = 1.01 /
-"""
-# The wave is that of Fig. 2 of Zhang et al. 2019, the fractal surface that of Table 1
+WAVE = "&surface kind = 'harmonic' amplitude = 9.734e-3 wavelength = 0.5 velocity_ratio = 1.01 /\n"
+FRACTAL = "&surface kind = 'fractal' /\n"
+SECOND = "&second_surface kind = 'fractal' seed = 2 /\n"
+LAW = "&lubricant shear_law = 'eyring' /\n"
+CIRCLE = "&contact moes_m = 1000.0 moes_l = 10.0 /\n"
+# kappa = 2, with the same equations as the circle
+ELLIPSE = "&contact moes_m = 2357.0 moes_l = 10.3 radius_ratio = 0.35177 /\n"
+# The wave is that of Fig. 2 of Zhang et al. 2019, the fractal surface that of Table 1. The contact
+# with a law is that of Table 1, of nearly the same Moes numbers.
 CASES = (
-    Scene("wave", "whole", WAVE + "&solver symmetry = 'full' /\n"),
-    Scene("wave", "half", WAVE),
-    Scene("fractal", "whole", "&surface kind = 'fractal' /\n"),
+    Scene("wave", "whole", CIRCLE + WAVE + "&solver symmetry = 'full' /\n"),
+    Scene("wave", "half", CIRCLE + WAVE),
+    Scene("fractal", "whole", FRACTAL),
+    Scene("wave-law", "half", WAVE + LAW, "wave"),
+    Scene("wave-ellipse", "half", ELLIPSE + WAVE, "wave"),
+    Scene("fractal-law", "whole", FRACTAL + LAW, "fractal"),
+    Scene("two-fractals", "whole", FRACTAL + SECOND, "fractal"),
 )
+# Those that are measured unless others are asked for
+USUAL = ("wave", "fractal")
 
 COLUMNS = (
     ("points", "d"),
@@ -67,6 +83,7 @@ COLUMNS = (
     ("threads", "d"),
     ("seconds", ".4f"),
     ("units", ".2f"),
+    ("ratio", ".2f"),
     ("speedup", ".2f"),
     ("cycles", ".2f"),
     ("error", ".1e"),
@@ -90,6 +107,7 @@ def meaning(scheme: str, front: float, steps: int) -> str:
     return (
         f"scheme '{scheme}'; seconds, cycles: of a step, mean of {steps} after the front of the "
         f"roughness has come to X = {front:g};\nunits: of one scipy.fft deflection at that grid; "
+        "ratio: of the seconds per node to those of the plain scene, steps in turn; "
         "speedup: of a step, median; error: of the mean of mu_r/mu_s against the finest grid "
         "(--error)"
     )
@@ -169,55 +187,71 @@ def _scene_rows(
 ) -> list[dict[str, Any]]:
     scheme, front, steps = how
     rows: list[dict[str, Any]] = []
+    plain = [s for s in CASES if (s.name, s.domain) == (scene.beside, scene.domain)]
+    with contextlib.ExitStack() as stack:
+        solvers = []
+        for one in (scene, *plain):
+            case = _case(
+                one, points, scheme, f"solver.threads={max(threads)}", "time.steps=10000000"
+            )
+            solvers += _filled(case, threads, front, stack)
+        before = [solver.summary() for solver in solvers]
+        times: list[list[float]] = [[] for _ in solvers]
+        # in turn, so that what else the machine does slows all of them alike
+        for _ in range(steps):
+            for solver, taken in zip(solvers, times, strict=True):
+                began = time.perf_counter()
+                solver.advance()
+                taken.append(time.perf_counter() - began)
+            began = time.perf_counter()
+            deflect()
+            units.append(time.perf_counter() - began)
+        after = [solver.summary() for solver in solvers]
+    per_node = [
+        statistics.fmean(taken) / end.get("points_y", points)
+        for taken, end in zip(times, after, strict=True)
+    ]
+    for k, workers in enumerate(threads):
+        if after[k]["steps"] - before[k]["steps"] != steps:
+            raise EhlError(f"{name}: a step did not converge: {after[k]['status']}")
+        cycles = after[k]["steps"] * after[k]["cycles_per_step"]
+        cycles -= before[k]["steps"] * before[k]["cycles_per_step"]
+        ratios = [one / now for one, now in zip(times[0], times[k], strict=True)]
+        rows.append(
+            {
+                "points": points,
+                "case": scene.name,
+                "domain": scene.domain,
+                "threads": workers,
+                "seconds": statistics.fmean(times[k]),
+                "seconds_of_steps": times[k],
+                "ratio": per_node[k] / per_node[len(threads) + k] if plain else None,
+                "speedup": statistics.median(ratios),
+                "cycles": cycles / steps,
+                "error": None,
+            }
+        )
+    return rows
+
+
+def _filled(
+    case: Case, threads: Sequence[int], front: float, stack: contextlib.ExitStack
+) -> list[Solver]:
+    """Make a solver for each number of threads, all from the state with the front at X = front."""
+    solvers = []
     with tempfile.TemporaryDirectory() as folder:
-        case = _case(scene, points, scheme, f"solver.threads={max(threads)}", "time.steps=10000000")
         place = f"{folder}/state"
         with Solver(case) as solver:
             solver.keep(place)
             _fill(solver, case, front)
             solver.save_state(at_once=True)
-        with contextlib.ExitStack() as stack:
-            solvers = []
-            for workers in threads:
-                options = case.with_options(f"solver.threads={workers}")
-                solver = stack.enter_context(Solver(options))
-                solver.resume(place)
-                while "steps" not in solver.summary() and not solver.done:
-                    solver.advance()
-                solvers.append(solver)
-            before = [solver.summary() for solver in solvers]
-            times: list[list[float]] = [[] for _ in solvers]
-            # in turn, so that what else the machine does slows all of them alike
-            for _ in range(steps):
-                for solver, taken in zip(solvers, times, strict=True):
-                    began = time.perf_counter()
-                    solver.advance()
-                    taken.append(time.perf_counter() - began)
-                began = time.perf_counter()
-                deflect()
-                units.append(time.perf_counter() - began)
-            after = [solver.summary() for solver in solvers]
-        for k, workers in enumerate(threads):
-            if after[k]["steps"] - before[k]["steps"] != steps:
-                raise EhlError(f"{name}: a step did not converge: {after[k]['status']}")
-            cycles = after[k]["steps"] * after[k]["cycles_per_step"]
-            cycles -= before[k]["steps"] * before[k]["cycles_per_step"]
-            seconds = statistics.fmean(times[k])
-            ratios = [one / now for one, now in zip(times[0], times[k], strict=True)]
-            rows.append(
-                {
-                    "points": points,
-                    "case": scene.name,
-                    "domain": scene.domain,
-                    "threads": workers,
-                    "seconds": seconds,
-                    "seconds_of_steps": times[k],
-                    "speedup": statistics.median(ratios),
-                    "cycles": cycles / steps,
-                    "error": None,
-                }
-            )
-    return rows
+        for workers in threads:
+            solver = stack.enter_context(Solver(case.with_options(f"solver.threads={workers}")))
+            solver.resume(place)
+            while "steps" not in solver.summary() and not solver.done:
+                solver.advance()
+            solvers.append(solver)
+    return solvers
 
 
 def error_rows(

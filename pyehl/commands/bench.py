@@ -45,7 +45,11 @@ def _deflection(args: argparse.Namespace, answer: Answer) -> Rows:
 
 
 def _smooth(args: argparse.Namespace, answer: Answer) -> Rows:
-    rows = smooth.smooth_rows(args.points, args.threads, args.engines, args.moes_m, args.moes_l)
+    if not args.cases or not set(args.cases) <= set(smooth.CASES):
+        raise InputError(f"pyehl bench smooth: cases must be of {', '.join(smooth.CASES)}")
+    rows = smooth.smooth_rows(
+        args.points, args.threads, args.engines, args.moes_m, args.moes_l, args.cases
+    )
     answer["exponents"] = smooth.exponents(rows)
     answer["moes_m"], answer["moes_l"] = args.moes_m, args.moes_l
     print(f"smooth contact, M = {args.moes_m}, L = {args.moes_l}")

@@ -7,7 +7,7 @@ import argparse
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from pyehl.bench import skips, step, stress_cases, sweep, workprec
+from pyehl.bench import skips, smooth, step, stress_cases, sweep, workprec
 
 __all__ = ["DECLARE"]
 
@@ -64,13 +64,15 @@ def _add_smooth(parser: argparse.ArgumentParser) -> None:
     _add_list(parser, "engines", ("mlmi", "fft"), "of the deflection")
     _add_number(parser, "moes-m", 1000.0)
     _add_number(parser, "moes-l", 10.0)
+    known = ", ".join(smooth.CASES)
+    _add_list(parser, "cases", smooth.CASES[:1], f"of {known}, each in turn with the first")
 
 
 def _add_step(parser: argparse.ArgumentParser) -> None:
     _add_points(parser, STEP_GRIDS)
     _add_threads(parser)
-    names = list(dict.fromkeys(scene.name for scene in step.CASES))
-    _add_list(parser, "cases", names, "wave: of Fig. 2, fractal: of Table 1", "both")
+    names = ", ".join(dict.fromkeys(scene.name for scene in step.CASES))
+    _add_list(parser, "cases", step.USUAL, f"of {names}; wave: of Fig. 2, fractal: of Table 1")
     parser.add_argument("--scheme", choices=("narrow", "paper"), default="narrow")
     _add_number(parser, "steps", step.STEPS, "timed steps")
     front = "X of the front of the roughness when the timed steps begin; that takes many steps on "

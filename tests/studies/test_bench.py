@@ -20,6 +20,8 @@ from pyehl.bench import (
     faults_inputs,
     precision,
     skips,
+    smooth,
+    step,
     stress,
     stress_cases,
     sweep,
@@ -72,6 +74,44 @@ def test_skips_of_smooth_contacts():
     rows = skips.skip_rows(["smooth"], 257, repeats=1)
     assert len(rows) >= 2
     assert all(row["same"] for row in rows)
+
+
+def test_smooth_cases_beside_the_circle(capsys):
+    """Rows of a law and of an ellipse with the same equations; seconds per node by those."""
+    rows = smooth.smooth_rows([129], [1], ["mlmi"], 1000.0, 10.0, smooth.CASES, repeats=1)
+    assert [row["case"] for row in rows] == ["circle", "law", "ellipse"]
+    assert [row["status"] for row in rows] == ["converged"] * 3
+    films = [row["H_c"] for row in rows]
+    # the law hardly thins what rolls; an ellipse has a film of its own
+    assert films[1] == pytest.approx(films[0], rel=5e-3)
+    assert films[2] > 1.05 * films[0]
+    assert rows[0]["ratio"] == 1.0
+    assert rows[1]["ratio"] == pytest.approx(rows[1]["seconds"] / rows[0]["seconds"], rel=1e-12)
+    assert rows[2]["ratio"] < rows[2]["seconds"] / rows[0]["seconds"]
+    assert main(["bench", "smooth", "--cases", "square"]) == 2
+    assert "circle, law, ellipse" in capsys.readouterr().err
+
+
+def test_steps_beside_the_plain_scene(monkeypatch):
+    wave = "&surface kind = 'harmonic' amplitude_over_film = 0.2 velocity_ratio = 1.01 /\n"
+    ball = "&contact moes_m = 50.0 moes_l = 5.0 /\n"
+    plain = step.Scene("wave", "half", ball + wave)
+    ellipse = ball.replace(" /", " radius_ratio = 0.5 /")
+    beside = step.Scene("wave-ellipse", "half", ellipse + wave, "wave")
+    monkeypatch.setattr(step, "CASES", (plain, beside))
+    rows = step.step_rows([33], [1], scenes=[plain, beside], front=-1.0, steps=3)
+    assert rows[0]["ratio"] is None
+    # more nodes, and seconds of each node by those of the circle
+    assert 0.05 < rows[1]["ratio"] < 20.0
+    assert len(rows[1]["seconds_of_steps"]) == 3
+
+
+def test_scenes_of_steps_are_cases():
+    places = {(scene.name, scene.domain) for scene in step.CASES}
+    for scene in step.CASES:
+        assert pyehl.Case.from_text(scene.text).resolve()["surface"]["kind"] != "smooth"
+        assert not scene.beside or (scene.beside, scene.domain) in places
+    assert set(step.USUAL) <= {name for name, _ in places}
 
 
 @pytest.mark.slow
