@@ -72,7 +72,7 @@ def report(values: Mapping[str, Any]) -> str:
     lines.append(
         f"Film thickness {'h_c [um]':>23}{'h_min [um]':>12}{'H_c':>11}{'H_min':>11}   range"
     )
-    notes = []
+    notes: list[str] = []
     for f in v["formulas"]:
         h_min = f"{f['h_min_m'] * 1e6:12.4f}" if f["h_min_m"] is not None else f"{'-':>12}"
         big = f"{f['H_min']:11.5f}" if f["H_min"] is not None else f"{'-':>11}"
