@@ -119,7 +119,7 @@ def test_smooth_surfaces_have_the_ratio_one(cases: Path, tmp_path: Path):
     assert "and a prediction" not in told
     run(case, *words, "--set", "surface.pixels=64", "-o", str(tmp_path / "r"))
     # which is no finding
-    assert "mu_r/mu_s  " not in told
+    assert "\nmu_r/mu_s  " not in told
     smooth, rough = table(tmp_path / "s"), table(tmp_path / "r")
     assert len(smooth) == len(rough) == 4
     for a, b in zip(smooth, rough, strict=True):
