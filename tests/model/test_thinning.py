@@ -178,6 +178,23 @@ def test_reference_values(root):
         assert found.across[0] == pytest.approx(across, rel=1e-5)
 
 
+@pytest.mark.parametrize("law", ["eyring", "carreau"])
+def test_what_sliding_and_gradient_do(law):
+    """As docs/theory/thinning.md says."""
+    sliding = np.geomspace(1e-2, 1e6, 60)
+    for x, y in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (10.0, 0.0), (20.0, 20.0)):
+        found = flow_factors(law, 0.5, sliding, (x, y))
+        assert np.all(np.diff(found.along) > 0.0)
+        assert np.all(found.across <= found.along * (1.0 + 1e-12))
+    rolling = flow_factors(law, 0.5, [0.0, 0.0], ([1.0, 2.0], [1.0, 2.0]))
+    np.testing.assert_allclose(rolling.along, rolling.across, rtol=1e-12)
+    assert 1.0 < rolling.along[0] < rolling.along[1]
+    if law == "eyring":
+        fast = flow_factors(law, 0.5, [1e3, 1e3], ([0.0, 1.0], 0.0))
+        assert fast.along[1] < fast.along[0]
+        assert fast.across[1] < fast.across[0]
+
+
 def test_share_below_a_film():
     def share(limit: float) -> tuple[float, float]:
         summary = pyehl.predict(table_1(f"psd.film_limit={limit}")).summary
