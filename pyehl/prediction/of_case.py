@@ -131,6 +131,7 @@ def predict(
             contact.minimum_film_error * operating.film_scale,
         ),
         film_source=contact.source,
+        pressure_maximum=float(contact.pressure.max()) * operating.hertz_pressure,
         surface=alone[0].topography,
         friction=friction,
         bands=bands,
