@@ -49,7 +49,7 @@ spf | film_scale_m | m | a^2/R
 spf | radius_ratio | - | R_x/R_y of an elliptical contact
 spfr | ellipticity | - | semi-axis of the dry contact across the motion over that along it
 spf | semi_axis_y_m | m | semi-axis of the dry contact across the motion
-s | angle_deg | deg | by which an elliptical contact is turned counter-clockwise against the motion
+sf | angle_deg | deg | by which an elliptical contact is turned counter-clockwise against the motion
 pf | si | | whether the case was given in SI units
 f | load_N | N | load w
 f | mean_velocity_m_per_s | m/s | mean velocity u

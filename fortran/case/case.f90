@@ -5,7 +5,7 @@ module ehl_case
    use ehl_viscosity_table, only: isotherm_t
    implicit none (type, external)
    private
-   public :: case_t, lubricant_case_t, surface_case_t, is_feature, word_length, path_length
+   public :: case_t, lubricant_case_t, surface_case_t, is_feature, has_no_height, word_length, path_length
 
    !> Longest option word
    integer, parameter :: word_length = 32
@@ -238,4 +238,20 @@ contains
       character(len=*), parameter :: kinds(4) = [character(len=6) :: "dent", "bump", "ridge", "groove"]
       is_feature = any(kinds == kind)
    end function is_feature
+
+   !> Whether the keys of a surface leave it smooth
+   pure logical function has_no_height(s) result(none)
+      type(surface_case_t), intent(in) :: s
+
+      select case (s%kind)
+      case ("smooth")
+         none = .true.
+      case ("map")
+         none = .false.
+      case ("fractal")
+         none = .not. s%rms_height > 0.0_dp
+      case default
+         none = .not. max(merge(s%amplitude, s%amplitude_over_film, s%amplitude_given), s%height_m) > 0.0_dp
+      end select
+   end function has_no_height
 end module ehl_case

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Keys of a single feature that do not go together
 module ehl_case_feature
-   use ehl_case, only: is_feature, surface_case_t
+   use ehl_case, only: has_no_height, is_feature, surface_case_t
    use ehl_kinds, only: dp
    use ehl_refusal, only: contradict, refuse, short
    use ehl_schema, only: schema_t
@@ -82,7 +82,7 @@ contains
    !> Whether one is a feature on the move and the other one roughness on the move
    pure logical function waits(s, other)
       type(surface_case_t), intent(in) :: s, other
-      waits = is_feature(s%kind) .and. .not. is_feature(other%kind) .and. other%kind /= "smooth" .and. &
+      waits = is_feature(s%kind) .and. .not. is_feature(other%kind) .and. .not. has_no_height(other) .and. &
               s%velocity_ratio > 0.0_dp .and. other%velocity_ratio > 0.0_dp
    end function waits
 

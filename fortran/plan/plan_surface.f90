@@ -2,7 +2,7 @@
 !> The rough surfaces that a case asks for
 module ehl_plan_surface
    use, intrinsic :: iso_fortran_env, only: int32
-   use ehl_case, only: case_t, is_feature, surface_case_t
+   use ehl_case, only: case_t, has_no_height, is_feature, surface_case_t
    use ehl_feature, only: feature_t, new_feature
    use ehl_fractal, only: fractal_t, make_fractal
    use ehl_grid, only: grid_t
@@ -25,7 +25,7 @@ module ehl_plan_surface
 
 contains
 
-   !> The surfaces of a case
+   !> The surfaces of a case; one of no height beside one that has some is smooth
    subroutine make_surfaces(input, scales, surfaces, status, heights, second_heights)
       type(case_t), intent(in) :: input
       type(scales_t), intent(in) :: scales
@@ -33,9 +33,15 @@ contains
       type(status_t), intent(inout) :: status
       !> Heights of the maps of both [m], X first, in place of files; of size 0: none
       real(dp), intent(in), optional :: heights(:, :), second_heights(:, :)
+      logical :: none(2)
 
-      call add_surface("surface", input%surface, input%contact%si, scales, surfaces, status, heights)
-      call add_surface("second_surface", input%second_surface, input%contact%si, scales, surfaces, status, second_heights)
+      none = [has_no_height(input%surface), has_no_height(input%second_surface)]
+      if (present(heights)) none(1) = none(1) .and. size(heights) == 0
+      if (present(second_heights)) none(2) = none(2) .and. size(second_heights) == 0
+      if (none(2) .or. .not. none(1)) call add_surface("surface", input%surface, input%contact%si, scales, surfaces, status, &
+                                                       heights)
+      if (none(1) .or. .not. none(2)) call add_surface("second_surface", input%second_surface, input%contact%si, scales, &
+                                                       surfaces, status, second_heights)
    end subroutine make_surfaces
 
    !> The surface of a group; none where it is smooth

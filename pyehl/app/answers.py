@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from pyehl import api
 from pyehl.app.position import Position
 from pyehl.app.worker import Ticket
-from pyehl.case import Case
 from pyehl.errors import EhlError, InputError
 from pyehl.prediction.result import Prediction
 from pyehl.solver import Solver
@@ -85,15 +84,6 @@ class CurvePoint:
     status: str = ""
 
 
-def _sheet(case: Case) -> Mapping[str, Any]:
-    """Give the film formulas of a case, or why there are none."""
-    try:
-        return api.film(case)
-    except InputError as error:
-        # a turned ellipse
-        return {"formulas": [], "why": str(error)}
-
-
 def film(
     position: Position,
     points: int,
@@ -111,7 +101,7 @@ def film(
     if points in of_it:
         return of_it[points]
     settings = case.resolve()
-    sheet = next((found.sheet for found in of_it.values()), None) or _sheet(case)
+    sheet = next((found.sheet for found in of_it.values()), None) or api.film(case)
     with Solver(case) as solver:
         while not solver.done:
             if not wanted():

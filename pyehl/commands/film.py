@@ -41,6 +41,8 @@ def report(values: Mapping[str, Any]) -> str:
             f"  semi-axis, across    b      {v['semi_axis_y_m'] * 1e3:12.5g} mm"
             f"    b/a = {v['ellipticity']:.5g}",
         ]
+        if v["angle_deg"]:
+            axes.append(f"  both turned by              {v['angle_deg']:12.5g} deg")
     lines = [
         f"Contact{origin}",
         f"  load                 w      {v['load_N']:12.5g} N",
@@ -64,9 +66,13 @@ def report(values: Mapping[str, Any]) -> str:
         *axes,
         f"  film unit            a^2/{along:4} {v['film_scale_m'] * 1e6:12.5g} um",
         "",
-        f"Film thickness {'h_c [um]':>23}{'h_min [um]':>12}{'H_c':>11}{'H_min':>11}   range",
     ]
-    notes = []
+    if not v["formulas"]:
+        return "\n".join([*lines, "Film thickness: the formulas need an axis along the motion"])
+    lines.append(
+        f"Film thickness {'h_c [um]':>23}{'h_min [um]':>12}{'H_c':>11}{'H_min':>11}   range"
+    )
+    notes: list[str] = []
     for f in v["formulas"]:
         h_min = f"{f['h_min_m'] * 1e6:12.4f}" if f["h_min_m"] is not None else f"{'-':>12}"
         big = f"{f['H_min']:11.5f}" if f["H_min"] is not None else f"{'-':>11}"
@@ -74,9 +80,9 @@ def report(values: Mapping[str, Any]) -> str:
         lines.append(
             f"  {f['name']:<26}{f['h_c_m'] * 1e6:10.4f}{h_min}{f['H_c']:11.5f}{big}   {inside}"
         )
-        notes.append(f"  {f['name']}: {f['note']}")
-        notes.extend(f"  {f['name']}: {text}" for text in f["outside"])
-    lines += ["", *notes]
+        notes.extend(f"  {f['name']}: {text}" for text in (f["note"], *f["outside"]) if text)
+    if notes:
+        lines += ["", *notes]
     if "rms_height_m" in v:
         lines += [
             "",

@@ -19,6 +19,8 @@ Array = NDArray[np.float64]
 RISES = (0.0, 20.0, 60.0)
 PRESSURES = (1e8, 5e8, 1e9)
 HIGHEST = 1.5e9
+# Stresses that an oil bears [Pa]: Newtonian lines end there
+STRESSES = (1e3, 2e8)
 COLOURS = (BLUE, GREEN, VERMILLION)
 
 
@@ -47,21 +49,23 @@ def draw_oil(
     left.set_ylabel(r"$\eta$ [Pa s]")
     left.legend(fontsize="small", title="dashed: beyond the range", title_fontsize="small")
     law = ShearLaw() if limit is None else ShearLaw("limiting", limiting_coefficient=limit)
-    rate = np.geomspace(1e2, 1e8, 200)
+    rate = np.geomspace(1.0, 1e8, 200)
     for pressure, colour in zip(PRESSURES, COLOURS, strict=True):
         newtonian = lubricant.viscosity * float(lubricant.viscosity_ratio(pressure)) * rate
-        right.loglog(rate, newtonian, ":", color=colour, lw=1)
+        borne = newtonian <= STRESSES[1]
+        right.loglog(rate[borne], newtonian[borne], ":", color=colour, lw=1)
         if limit is not None:
             tau = shear_stress(newtonian, pressure, law)
             right.loglog(rate, tau, color=colour, label=f"{1e-9 * pressure:g} GPa")
         else:
             right.plot([], [], ":", color=colour, label=f"{1e-9 * pressure:g} GPa")
-    right.set_ylim(1e3, 1e9)
+    right.set_xlim(rate[0], rate[-1])
+    right.set_ylim(*STRESSES)
     right.set_xlabel(r"$\dot\gamma$ [1/s]")
     right.set_ylabel(r"$\tau$ [Pa]")
     words = "Newtonian" if limit is None else f"dotted: Newtonian; limit {limit:g} p"
     title = f"{lubricant.temperature:g} °C; {words}"
-    right.legend(fontsize="small", title=title, title_fontsize="small", loc="upper left")
+    right.legend(fontsize="small", title=title, title_fontsize="small", loc="lower right")
     letter([left, right])
     figure.suptitle(name, fontsize="medium")
     return figure

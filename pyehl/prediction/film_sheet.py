@@ -8,7 +8,6 @@ from collections.abc import Mapping
 from typing import Any
 
 from pyehl import surfaces
-from pyehl.errors import InputError
 from pyehl.theory import film, stribeck
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -20,18 +19,14 @@ def sheet(settings: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
     """All that ``pyehl film`` says of a resolved case, as plain numbers in SI units.
 
     Inputs, Moes and Hertz numbers, one record per formula, and for a rough surface the Lambda
-    ratio and (harmonic only) theta_2 with eq. 16.
+    ratio and (harmonic only) theta_2 with eq. 16. There are no formulas for an ellipse that is
+    turned against the motion, and nothing of a film.
     """
     operating = OperatingPoint.from_settings(settings)
-    turned = float(settings["contact"].get("angle", 0.0))
-    if turned != 0.0 and operating.radius_ratio != 1.0:
-        raise InputError(
-            f"contact.angle = {turned:g}: film formulas are for a contact with an axis along the "
-            "motion\nexpected: contact.angle = 0"
-        )
+    angle = float(settings["contact"].get("angle", 0.0))
+    turned = angle != 0.0 and operating.radius_ratio != 1.0
     lubricant = Lubricant.from_settings(settings)
-    films = film.estimates(operating, lubricant)
-    h_c = films[0].h_c
+    films = [] if turned else film.estimates(operating, lubricant)
     result: dict[str, Any] = {
         "kind": "film",
         "load_N": operating.load,
@@ -71,9 +66,13 @@ def sheet(settings: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
         result["radius_ratio"] = operating.radius_ratio
         result["ellipticity"] = operating.ellipse.ellipticity
         result["semi_axis_y_m"] = operating.semi_axis_y
+        result["angle_deg"] = angle
     both = [settings[group] for group in surfaces.rough_groups(settings)]
     kinds = [str(surface["kind"]) for surface in both]
     result["surface"] = " and ".join(kinds) or "smooth"
+    if turned:
+        return result
+    h_c = films[0].h_c
     if both and not set(kinds) & set(surfaces.FEATURES):
         # composite, as of surfaces that have nothing in common
         sigma = math.hypot(

@@ -174,7 +174,9 @@ def conclude(point: CurvePoint, row: Row) -> library.Conclusion:
     note = "" if row["mu_ratio_model_error"] is not None else message
     law = point.settings["lubricant"]["shear_law"]
     more = {"status": status, "message": message, "mu_ratio_error_note": note, "shear_law": law}
-    return library.conclude({**row, **more})
+    # the ratio of smooth surfaces is no finding
+    known = row if row["surfaces"] else {k: v for k, v in row.items() if k != "mu_ratio"}
+    return library.conclude({**known, **more})
 
 
 def _film(smooth: Row, operating: OperatingPoint) -> dict[str, Any]:
@@ -284,10 +286,12 @@ def full_film_ends(
     known = [k for k, row in enumerate(rows) if row["status"] in (FULL_FILM, OUTSIDE)]
     lost = len(rows) - len(known) - len(broken)
     rest = f" with an answer; {lost} have none" if lost else ""
+    far = sum(row["status"] == OUTSIDE for row in rows)
+    beyond = f"; {far} of them outside the range of the prediction" if far else ""
     if not known and not broken:
         return "no point has an answer", broken
     if not broken:
-        return f"full film at all points{rest}", broken
+        return f"full film at all points{beyond}{rest}", broken
     if not known:
         return f"no full film at any point{rest}", broken
     pairs = [

@@ -95,7 +95,10 @@ def last_lines(plan: CurvePlan, rows: Sequence[Row]) -> str:
         return float(rows[k]["h_min_m"] if rough is None else rough)
 
     thinnest = min(known, key=least)
-    words = Counter(str(row["judgement"]).partition(":")[0] for row in rows)
+    words = Counter(
+        OUTSIDE if row["status"] == OUTSIDE else str(row["judgement"]).partition(":")[0]
+        for row in rows
+    )
     counts = ", ".join(f"{word} at {n}" for word, n in words.items())
     point = plan.points[thinnest]
     return (

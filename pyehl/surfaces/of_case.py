@@ -60,8 +60,19 @@ FRACTAL = (
 
 
 def rough_groups(settings: Mapping[str, Mapping[str, Any]]) -> list[str]:
-    """Name the groups of a resolved case that describe a rough surface."""
-    return [name for name in GROUPS if settings.get(name, {}).get("kind", "smooth") != "smooth"]
+    """Name the groups of a resolved case that describe a rough surface.
+
+    A wave or feature of no height beside another surface is none, as for the solver.
+    """
+    rough = [name for name in GROUPS if settings.get(name, {}).get("kind", "smooth") != "smooth"]
+    heights = ("amplitude", "amplitude_over_film", "height_m")
+    high = [
+        name
+        for name in rough
+        if settings[name]["kind"] in ("map", "fractal")
+        or any(settings[name].get(height) for height in heights)
+    ]
+    return high or rough
 
 
 def one_rough(settings: Mapping[str, Mapping[str, Any]]) -> Mapping[str, Mapping[str, Any]]:
@@ -81,7 +92,7 @@ def harmonic_amplitude(
     """Amplitude A_i [m] of the harmonic surface of a resolved case with a smooth film h_c [m]."""
     surface = settings["surface"]
     amplitude = surface.get("amplitude")
-    if amplitude:
+    if amplitude is not None:
         return float(amplitude) * operating.film_scale
     return float(surface["amplitude_over_film"]) * film
 

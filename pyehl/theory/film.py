@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.moes_film import inlet_viscosity_ratio, nijenbanning_venner_moes
@@ -47,7 +47,7 @@ class FilmEstimate:
     outside
         Conditions outside the range of the formula, in words; empty when inside.
     note
-        What is known of its accuracy.
+        What is known of its accuracy; empty for an ellipse, where little is.
     """
 
     name: str
@@ -157,5 +157,7 @@ def estimates(operating: OperatingPoint, lubricant: Lubricant) -> list[FilmEstim
             "range taken as that of Hamrock-Dowson; h_min as far off",
         ),
     ]
-    # the last one is known here for circles alone
-    return formulas if shape.radius_ratio == 1.0 else formulas[:-1]
+    # the last one, and how good they are, is known here for circles alone
+    if shape.radius_ratio == 1.0:
+        return formulas
+    return [replace(formula, note="") for formula in formulas[:-1]]

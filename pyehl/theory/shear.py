@@ -58,8 +58,10 @@ class ShearLaw:
                 raise InputError(f"{name} must be positive, not {number!r}")
         if not (math.isfinite(self.limiting_stress) and self.limiting_stress >= 0.0):
             raise InputError(f"limiting_stress must not be negative, not {self.limiting_stress!r}")
-        if self.carreau_exponent > 1.0:
-            raise InputError(f"carreau_exponent must be at most 1, not {self.carreau_exponent!r}")
+        if self.law == "carreau" and not 0.05 <= self.carreau_exponent <= 1.0:
+            raise InputError(
+                f"carreau_exponent must be in [0.05, 1], not {self.carreau_exponent!r}"
+            )
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Mapping[str, Any]]) -> ShearLaw:

@@ -76,6 +76,14 @@ def test_gear_pair(root: Path, ehl: str, tmp_path: Path):
     assert f"```text\n{library.conclude(record)}\n```" in text
     least = [round(record[name] * 1e9) for name in ("h_min_m", "h_min_rough_m")]
     assert "least film from {} to {} nm".format(*least) in text
+    assert 0.0 < abs(1.0 - record["mu_ratio"]) < 0.005
+    predicted = pyehl.predict(case).summary
+    least_film = round(predicted["h_min_rough_m"] * 1e9)
+    ratio = f"{predicted['mu_ratio']:.4f}"
+    assert f"a ratio of {ratio} and a least film of {least_film} nm" in text
+    assert predicted["mu_ratio_model_error"] is None
+    assert predicted["h_min_rough_error_m"] is None
+    assert predicted["outside_range"] == ["ellipticity"]
     words = [ehl, case, "-o", tmp_path / "out"]
     for group in ("surface", "second_surface"):
         words += ["--set", f"{group}.kind=smooth"]
@@ -103,7 +111,7 @@ def test_gear_pair(root: Path, ehl: str, tmp_path: Path):
 
 @pytest.mark.slow
 def test_gear_pair_made_anew(root: Path, ehl: str, tmp_path: Path):
-    """Three minutes: the record of the rough run."""
+    """Minutes: the record of the rough run."""
     page = root / "docs" / "howto" / "gear.md"
     record = json.loads(page.with_suffix(".json").read_text(encoding="utf-8"))
     words = [ehl, root / "cases" / "gear_pair.nml", "-o", tmp_path / "out"]

@@ -245,6 +245,10 @@ def test_prediction_of_either_body_and_of_both(heights, tmp_path: Path, monkeypa
     alone = Case.from_text(CONTACT + second)
     other = Case.from_text(CONTACT + first, ["contact.rough_surface=2"])
     assert pyehl.predict(alone).mu_ratio == pyehl.predict(other).mu_ratio
+    # a wave of no height is none
+    none = "&second_surface kind = 'harmonic' amplitude = 0 wavelength = 1 /\n"
+    beside = Case.from_text(CONTACT + first + none)
+    assert pyehl.predict(beside).mu_ratio == pyehl.predict(Case.from_text(CONTACT + first)).mu_ratio
     # a single feature beside roughness has no mean
     dent = CONTACT + first + "&second_surface kind = 'dent' amplitude = 1e-3 width = 1 /\n"
     (tmp_path / "dent.nml").write_text(dent)

@@ -6,6 +6,7 @@ import copy
 import pytest
 import reference
 
+from pyehl.case import Case
 from pyehl.commands import film as film_command
 from pyehl.prediction import film_sheet
 from pyehl.theory import film
@@ -76,6 +77,23 @@ def test_sheet_from_moes_numbers_and_smooth(settings):
     assert values["moes_m"] == pytest.approx(20.0)
     assert "lambda_ratio_central" not in values
     assert "made from M and L" in film_command.report(values)
+
+
+def test_ellipses():
+    """What is known of the formulas is of circles; a turned one has its dry contact alone."""
+    ellipse = {"contact.load": 50.0, "contact.radius_x": 0.01, "contact.radius_y": 0.03}
+    straight, turned = (
+        film_sheet.sheet(Case.from_text("", ellipse | {"contact.angle": angle}).resolve())
+        for angle in (0.0, 30.0)
+    )
+    page = film_command.report(straight)
+    assert "Hamrock-Dowson" in page
+    assert "too high" not in page
+    assert turned["formulas"] == []
+    assert turned["hertz_pressure_Pa"] == straight["hertz_pressure_Pa"]
+    page = film_command.report(turned)
+    assert "both turned by                        30 deg" in page
+    assert page.endswith("the formulas need an axis along the motion")
 
 
 def test_refuses():

@@ -53,6 +53,7 @@ def test_carreau_is_a_power_law_at_high_stress():
         ({"law": "limiting", "limiting_stress": -1.0}, "limiting_stress"),
         ({"law": "carreau", "carreau_stress": 1e6}, "carreau_exponent"),
         ({"law": "carreau", "carreau_stress": 1e6, "carreau_exponent": 1.5}, "carreau_exponent"),
+        ({"law": "carreau", "carreau_stress": 1e6, "carreau_exponent": 0.04}, r"\[0.05, 1\]"),
     ],
 )
 def test_refuses(changes, message):

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import csv
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -155,6 +156,43 @@ def test_a_law_in_the_friction_alone_states_no_error():
     found = pyehl.predict(table_1("lubricant.flow='newtonian'"))
     assert math.isnan(found.model_error)
     assert "those of a Newtonian flow" in found.note
+
+
+def test_reference_values(root):
+    """The table of docs/theory/thinning.md: factors of Python, and the rows that Fortran tests."""
+    text = (root / "docs" / "theory" / "thinning.md").read_text(encoding="utf-8")
+    source = (root / "fortran" / "test" / "test_flow.f90").read_text(encoding="utf-8")
+    calls = [re.sub("_dp", "", line) for line in re.findall(r"call agree\(.*by_.*\)", source)]
+    tested = [[float(v) for v in re.findall(r"-?\d[\d.e]*", line)] for line in calls]
+    rows = [
+        line for line in text.splitlines() if re.match(r"\| (Eyring|Carreau, n = 0.5) \|", line)
+    ]
+    assert len(rows) == len(tested) == 6
+    for line, values in zip(rows, tested, strict=True):
+        name, *cells = (cell.strip() for cell in line.strip("|").split("|"))
+        b, x, y, along, across, stress = map(float, ", ".join(cells).split(", "))
+        assert [b, x, y, along, across, stress] == values
+        law = "eyring" if name == "Eyring" else "carreau"
+        found = flow_factors(law, 0.5, [b], ([x], [y]))
+        assert found.along[0] == pytest.approx(along, rel=1e-5)
+        assert found.across[0] == pytest.approx(across, rel=1e-5)
+
+
+@pytest.mark.parametrize("law", ["eyring", "carreau"])
+def test_what_sliding_and_gradient_do(law):
+    """As docs/theory/thinning.md says."""
+    sliding = np.geomspace(1e-2, 1e6, 60)
+    for x, y in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (10.0, 0.0), (20.0, 20.0)):
+        found = flow_factors(law, 0.5, sliding, (x, y))
+        assert np.all(np.diff(found.along) > 0.0)
+        assert np.all(found.across <= found.along * (1.0 + 1e-12))
+    rolling = flow_factors(law, 0.5, [0.0, 0.0], ([1.0, 2.0], [1.0, 2.0]))
+    np.testing.assert_allclose(rolling.along, rolling.across, rtol=1e-12)
+    assert 1.0 < rolling.along[0] < rolling.along[1]
+    if law == "eyring":
+        fast = flow_factors(law, 0.5, [1e3, 1e3], ([0.0, 1.0], 0.0))
+        assert fast.along[1] < fast.along[0]
+        assert fast.across[1] < fast.across[0]
 
 
 def test_share_below_a_film():

@@ -118,6 +118,8 @@ def test_smooth_surfaces_have_the_ratio_one(cases: Path, tmp_path: Path):
     told, _ = run(case, *words, "--set", "surface.kind=smooth", "-o", str(tmp_path / "s"))
     assert "and a prediction" not in told
     run(case, *words, "--set", "surface.pixels=64", "-o", str(tmp_path / "r"))
+    # which is no finding
+    assert "\nmu_r/mu_s  " not in told
     smooth, rough = table(tmp_path / "s"), table(tmp_path / "r")
     assert len(smooth) == len(rough) == 4
     for a, b in zip(smooth, rough, strict=True):
@@ -250,7 +252,12 @@ def statuses(*words: str) -> list[dict[str, str]]:
 @pytest.mark.parametrize(
     ("rows", "says", "broken"),
     [
-        (statuses(FULL_FILM, OUTSIDE, FULL_FILM), "at all points", ()),
+        (statuses(FULL_FILM, FULL_FILM, FULL_FILM), "full film at all points", ()),
+        (
+            statuses(FULL_FILM, OUTSIDE, FULL_FILM),
+            "full film at all points; 1 of them outside the range of the prediction",
+            (),
+        ),
         (statuses(BREAKDOWN, BREAKDOWN, FULL_FILM), "between u = 2 and 3", (0, 1)),
         (statuses(BREAKDOWN, "not solved", FULL_FILM), "between u = 1 and 3", (0,)),
         (statuses(FULL_FILM, BREAKDOWN, BREAKDOWN), "between u = 1 and 2", (1, 2)),
@@ -301,7 +308,8 @@ def test_ends_of_a_curve_say_why(cases: Path, tmp_path: Path):
     assert found["status"] == FULL_FILM
     words = ("--set", "surface.pixels=256", "--set", "grid.points=257", "--set")
     words += ("surface.rms_height=7e-8", "-o", str(tmp_path / "2"))
-    run(str(cases / "table1.nml"), "--viscosity", "0.01,0.1", *words)
+    told, _ = run(str(cases / "table1.nml"), "--viscosity", "0.01,0.1", *words)
+    assert "curve      outside the range at 1, full film at 1 of 2 points" in told
     high, usual = table(tmp_path / "2")
     assert float(high["mu_ratio"]) > 5.0
     assert high["mu_ratio_model_error"] == ""

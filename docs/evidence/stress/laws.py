@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Make laws.csv of campaigns with a shear law, and print what came of them.
+"""Make laws.csv of campaigns with a shear law and without one, and print what came of them.
 
 pyehl bench stress --shear-law eyring --cases 60 --seed 1 --points 65,129 -o eyring
 pyehl bench stress --shear-law carreau --cases 60 --seed 1 --points 65,129 -o carreau
-python docs/evidence/stress/laws.py eyring/stress.json carreau/stress.json
+pyehl bench stress --cases 60 --seed 1 --points 65,129 -o newtonian
+python docs/evidence/stress/laws.py {eyring,carreau,newtonian}/stress.json
 """
 
 from __future__ import annotations
@@ -29,8 +30,8 @@ def main(files: list[str]) -> None:
             rows = json.loads(Path(file).read_text())["rows"]
             for row in rows:
                 values = row["values"]
-                row["law"] = values["lubricant.shear_law"]
-                row["stress"] = values[f"lubricant.{row['law']}_stress"]
+                row["law"] = values.get("lubricant.shear_law", "newtonian")
+                row["stress"] = values.get(f"lubricant.{row['law']}_stress")
                 row["exponent"] = values.get("lubricant.carreau_exponent")
                 row["points"] = values["grid.points"]
                 writer.writerow({n: _rounded(row.get(n)) for n in COLUMNS})
