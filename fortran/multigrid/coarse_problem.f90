@@ -67,7 +67,7 @@ contains
    end subroutine restrict_problem
 
    !> States of the coarse nodes while their level is solved: those touch that have pressure and around which more than half
-   !> touches
+   !> touches, and yield if more than half does
    subroutine freeze_states(fine, coarse)
       type(level_t), intent(in) :: fine
       type(level_t), intent(inout) :: coarse
@@ -81,6 +81,9 @@ contains
             call weight_row(coarse%grid, fine%boundary%touching, j, boundary%touching(:, j))
             touches = boundary%touching(:, j) > 0.5_dp .and. coarse%p(:, j) > cavity_pressure
             boundary%touching(:, j) = merge(1.0_dp, 0.0_dp, touches)
+            if (.not. boundary%limit > 0.0_dp) cycle
+            call weight_row(coarse%grid, fine%boundary%yielding, j, boundary%yielding(:, j))
+            boundary%yielding(:, j) = merge(1.0_dp, 0.0_dp, touches .and. boundary%yielding(:, j) > 0.99_dp)
          end do
       end associate
    end subroutine freeze_states
@@ -252,6 +255,7 @@ contains
             call interpolate_row(coarse%grid, space%p_start, j, row)
          end if
          row = fine%p(:, j) + row
+         if (allocated(fine%boundary)) call fine%boundary%bound(fine%p(:, j), 1, j, row)
          call change_flowing(row(2:nx - 1), fine%p(2:nx - 1, j))
       end do
       !$omp end parallel do

@@ -16,6 +16,10 @@
 !> with the rate of the wedge term, so that its residual is one of the Reynolds equation where the conductance is nothing. Of
 !> two residuals, rhs - N and rate (rho H - H_b), that one holds which asks for more pressure, each with what answers it: the
 !> deflection alone, or the deflection and the Poiseuille term.
+!>
+!> Solids with a hardness carry no more than the limit P_h: touching nodes have P <= P_h, and where P = P_h the film of the elastic
+!> bodies may be below the layer. Such a node yields. The solids give way by what is missing, D = H_b/rho - H >= 0, so that the
+!> film there is that of the layer, and its pressure stays until the elastic film is above the layer again.
 module ehl_boundary_film
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_grid, only: grid_t
@@ -37,6 +41,8 @@ module ehl_boundary_film
    type :: boundary_film_t
       !> H_b [a^2/R]
       real(dp) :: thickness = 0.0_dp
+      !> Greatest pressure of touching nodes [p_h]; 0: there is no limit
+      real(dp) :: limit = 0.0_dp
       !> Factor of the equation of touching nodes
       real(dp) :: rate = 0.0_dp
       !> Share of the layer that a touching node may be lifted by, by the present residual
@@ -45,12 +51,19 @@ module ehl_boundary_film
       logical :: frozen = .false.
       !> 1 where a node is touching, else 0
       real(dp), allocatable :: touching(:, :)
+      !> 1 where a touching node yields, else 0; of size 0 where there is no limit
+      real(dp), allocatable :: yielding(:, :)
       !> Film that the lubricant flows through: that of an iterate may be below the layer
       real(dp), allocatable :: film(:, :)
    contains
       procedure :: setup
       procedure :: find_film
       procedure :: find_row
+      procedure :: find_yielding
+      procedure :: keep_layer
+      procedure :: bound
+      procedure :: least_film
+      procedure :: forget
       procedure :: take_row
       procedure :: residual_row
       procedure :: hold_by
@@ -61,17 +74,20 @@ module ehl_boundary_film
 
 contains
 
-   !> Allocate; thickness: H_b
-   subroutine setup(self, grid, thickness, status)
+   !> Allocate; thickness: H_b, limit: greatest pressure of touching nodes, or 0
+   subroutine setup(self, grid, thickness, limit, status)
       class(boundary_film_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
-      real(dp), intent(in) :: thickness
+      real(dp), intent(in) :: thickness, limit
       type(status_t), intent(inout) :: status
-      integer :: stat
+      integer :: stat, yielding
 
       self%thickness = thickness
+      self%limit = limit
+      yielding = merge(1, 0, limit > 0.0_dp)
       self%frozen = .false.
-      allocate (self%touching(grid%nx, grid%ny), self%film(grid%nx, grid%ny), source=0.0_dp, stat=stat)
+      allocate (self%touching(grid%nx, grid%ny), self%film(grid%nx, grid%ny), &
+                self%yielding(yielding*grid%nx, yielding*grid%ny), source=0.0_dp, stat=stat)
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the boundary film of a grid level")
    end subroutine setup
 
@@ -107,6 +123,72 @@ contains
       end do
    end subroutine find_row
 
+   !> Which of the touching nodes of row j yield; their mass content is that of the layer
+   pure subroutine find_yielding(self, p, elastic, j, mass_content)
+      class(boundary_film_t), intent(inout) :: self
+      !> Pressure, and rho H of the elastic bodies, shape (nx)
+      real(dp), contiguous, intent(in) :: p(:), elastic(:)
+      integer, intent(in) :: j
+      real(dp), contiguous, intent(inout) :: mass_content(:)
+
+      if (.not. self%limit > 0.0_dp) return
+      ! what carries on the film of the layer flows by rounding alone
+      where (p > self%limit .and. elastic < (1.0_dp + greatest_hold)*self%thickness) self%touching(:, j) = 1.0_dp
+      self%yielding(:, j) = merge(self%touching(:, j), 0.0_dp, p >= self%limit .and. elastic < self%thickness)
+      mass_content = elastic
+      call self%keep_layer(j, mass_content)
+   end subroutine find_yielding
+
+   !> The mass content of nodes of row j that yield is that of the layer
+   pure subroutine keep_layer(self, j, mass_content)
+      class(boundary_film_t), intent(in) :: self
+      integer, intent(in) :: j
+      !> Shape (nx)
+      real(dp), contiguous, intent(inout) :: mass_content(:)
+
+      if (self%limit > 0.0_dp) mass_content = merge(self%thickness, mass_content, self%yielding(:, j) > 0.0_dp)
+   end subroutine keep_layer
+
+   !> Pressures to come of row j from column `first` on: those of touching nodes within the limit, and nodes that yield keep theirs.
+   !> The pressure of a coarse node is a mean, which the limit is not for.
+   pure subroutine bound(self, before, first, j, after)
+      class(boundary_film_t), intent(in) :: self
+      real(dp), intent(in) :: before(:)
+      integer, intent(in) :: first, j
+      real(dp), contiguous, intent(inout) :: after(:)
+      integer :: i
+
+      if (.not. self%limit > 0.0_dp) return
+      do i = 1, size(after)
+         after(i) = merge(before(i), after(i), self%yielding(first + i - 1, j) > 0.0_dp)
+         if (self%frozen) cycle
+         ! a NaN stays one
+         after(i) = merge(self%limit, after(i), self%touching(first + i - 1, j) > 0.0_dp .and. after(i) > self%limit)
+      end do
+   end subroutine bound
+
+   !> Least film of row j: where nodes yield, that of the layer
+   pure real(dp) function least_film(self, h, j)
+      class(boundary_film_t), intent(in) :: self
+      !> Of the elastic bodies, shape (nx)
+      real(dp), contiguous, intent(in) :: h(:)
+      integer, intent(in) :: j
+
+      if (self%limit > 0.0_dp) then
+         least_film = minval(merge(self%film(:, j), h, self%yielding(:, j) > 0.0_dp))
+      else
+         least_film = minval(h)
+      end if
+   end function least_film
+
+   !> No node touches
+   pure subroutine forget(self)
+      class(boundary_film_t), intent(inout) :: self
+
+      self%touching = 0.0_dp
+      self%yielding = 0.0_dp
+   end subroutine forget
+
    !> Put the term of touching nodes into row j of the operator
    pure subroutine take_row(self, mass_content, j, values)
       class(boundary_film_t), intent(in) :: self
@@ -121,7 +203,7 @@ contains
       end do
    end subroutine take_row
 
-   !> Put the residuals of touching nodes into row j
+   !> Put the residuals of touching nodes into row j; those that yield have none
    pure subroutine residual_row(self, rhs, mass_content, j, values)
       class(boundary_film_t), intent(in) :: self
       !> Right-hand side, that of touching nodes too where states are frozen; shape (nx)
@@ -135,6 +217,7 @@ contains
          right = merge(rhs(i), -self%rate*self%thickness, self%frozen)
          values(i) = merge(right + self%rate*mass_content(i), values(i), self%touching(i, j) > 0.0_dp)
       end do
+      if (self%limit > 0.0_dp) values = merge(0.0_dp, values, self%yielding(:, j) > 0.0_dp)
    end subroutine residual_row
 
    !> What a touching node may be lifted by: `residual` is that of a steady problem (rms), or 0
@@ -186,6 +269,6 @@ contains
    pure integer(int64) function bytes(self)
       class(boundary_film_t), intent(in) :: self
       bytes = 0
-      if (allocated(self%film)) bytes = 16*size(self%film, kind=int64)
+      if (allocated(self%film)) bytes = 16*size(self%film, kind=int64) + 8*size(self%yielding, kind=int64)
    end function bytes
 end module ehl_boundary_film

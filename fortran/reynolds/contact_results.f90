@@ -54,6 +54,7 @@ contains
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
          smallest(j) = minval(level%h(:, j))
+         if (allocated(level%boundary)) smallest(j) = level%boundary%least_film(level%h(:, j), j)
          largest(j) = maxval(level%p(:, j))
          if (allocated(level%boundary)) then
             call level%flow%stress_row(level%lubricant, level%p, level%boundary%film, level%rho(:, j), j, viscous, stress)

@@ -61,6 +61,7 @@ contains
             call level%flow%find_row(level%lubricant, level%p, level%h, level%rho(:, j), level%h_drho_dp(:, j), j, last)
          end if
          level%mass_content(:, j) = level%rho(:, j)*level%h(:, j)
+         if (allocated(level%boundary)) call level%boundary%keep_layer(j, level%mass_content(:, j))
          level%h_drho_dp(:, j) = level%h_drho_dp(:, j)*level%h(:, j)
       end do
       !$omp end parallel do

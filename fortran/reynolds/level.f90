@@ -13,7 +13,7 @@ module ehl_level
    use ehl_wedge, only: wedge_t
    implicit none (type, external)
    private
-   public :: film_of_flow, is_touching, level_t, touches_at
+   public :: film_of_flow, is_touching, level_t, touches_at, yields_at
 
    !> Fields of one level, arrays of shape (nx, ny). Dimensionless: P by p_h, lengths by a,
    !> films by a^2/R. The equations are in reynolds.f90, film.f90 and force_balance.f90.
@@ -72,7 +72,7 @@ contains
       call self%wedge%set_steady(self%grid%hx)
       if (self%lubricant%boundary_film > 0.0_dp) then
          allocate (self%boundary)
-         call self%boundary%setup(self%grid, self%lubricant%boundary_film, status)
+         call self%boundary%setup(self%grid, self%lubricant%boundary_film, self%lubricant%boundary_limit, status)
       end if
       self%parallel = self%threads > 1
    end subroutine setup
@@ -91,6 +91,15 @@ contains
       touches_at = allocated(level%boundary)
       if (touches_at) touches_at = level%boundary%touching(i, j) > 0.0_dp
    end function touches_at
+
+   !> Whether they yield at node (i, j)
+   pure logical function yields_at(level, i, j)
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: i, j
+      yields_at = allocated(level%boundary)
+      if (yields_at) yields_at = level%boundary%limit > 0.0_dp
+      if (yields_at) yields_at = level%boundary%yielding(i, j) > 0.0_dp
+   end function yields_at
 
    !> Film that the lubricant flows through at node (i, j)
    pure real(dp) function film_of_flow(level, i, j)

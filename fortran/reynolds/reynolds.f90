@@ -73,14 +73,14 @@ contains
    !> Which nodes touch, for the present pressure, film and coefficients
    subroutine find_touching(level)
       type(level_t), intent(inout) :: level
-      real(dp), dimension(level%grid%nx) :: row, share
+      real(dp), dimension(level%grid%nx) :: row, share, elastic
       real(dp) :: stored, flow
       integer :: i, j
 
       level%boundary%rate = level%wedge%rate()
       stored = level%boundary%rate*kernel_coefficient(level%kernel_factor, 0, 0, level%grid%hx, level%grid%hy)
       flow = level%poiseuille%flow_rate()
-      !$omp parallel do default(none) shared(level, stored, flow) private(i, row, share) &
+      !$omp parallel do default(none) shared(level, stored, flow) private(i, row, share, elastic) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = level%grid%first_inner(), level%grid%ny - 1
          call flow_operator(level, j, row)
@@ -88,7 +88,9 @@ contains
             row(i) = level%rhs(i, j) - row(i)
             share(i) = stored/(stored + flow*level%flow%eps(i, j, along))
          end do
-         call level%boundary%find_row(level%mass_content(:, j), row, share, j)
+         elastic = level%rho(:, j)*level%h(:, j)
+         call level%boundary%find_row(elastic, row, share, j)
+         call level%boundary%find_yielding(level%p(:, j), elastic, j, level%mass_content(:, j))
       end do
       !$omp end parallel do
    end subroutine find_touching

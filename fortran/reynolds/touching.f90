@@ -9,13 +9,16 @@ module ehl_touching
    use ehl_reynolds, only: flow_operator
    implicit none (type, external)
    private
-   public :: touching_t, measure_touching, same_film, touches, touching_names
+   public :: touching_t, measure_touching, same_film, touches, touching_names, names_without_limit, at_depth
 
    !> Bodies touch where the film is that of the layer to this share of it
    real(dp), parameter :: same_film = 1.0e-2_dp
 
-   !> What `numbers` gives
-   character(len=*), parameter :: touching_names(3) = [character(len=12) :: "load_share", "contact_area", "layer_supply"]
+   !> What `numbers` gives, and how many and which of them
+   character(len=*), parameter :: touching_names(7) = [character(len=16) :: "load_share", "contact_area", "layer_supply", &
+                                                       "hard_load_share", "hard_area", "plastic_depth", "flowing_above"]
+   !> How many of them there are without a hardness, and which is the depth
+   integer, parameter :: names_without_limit = 3, at_depth = 6
 
    !> Of one state; without a boundary film all of it is 0
    type :: touching_t
@@ -23,6 +26,9 @@ module ehl_touching
       real(dp) :: load_share = 0.0_dp, area = 0.0_dp
       !> What the layer gives at touching nodes, over what flows along with the surfaces through the line X = 0
       real(dp) :: supply = 0.0_dp
+      !> Share of the load where nodes touch at the hardness, their area [a^2], and the greatest depth [a^2/R] that the solids
+      !> give way by; share of the load where the lubricant flows at a pressure above the hardness
+      real(dp) :: hard_share = 0.0_dp, hard_area = 0.0_dp, depth = 0.0_dp, above_share = 0.0_dp
    contains
       procedure :: numbers
    end type touching_t
@@ -32,18 +38,30 @@ contains
    !> Read off the present state of a level whose film and coefficients are up to date
    type(touching_t) function measure_touching(level) result(m)
       type(level_t), intent(in) :: level
-      real(dp), dimension(level%grid%ny) :: load, area, given, flow, whole
+      real(dp), dimension(level%grid%ny) :: load, area, given, flow, whole, hard, above, depth
       real(dp) :: row(level%grid%nx)
+      logical :: at_limit(level%grid%nx)
       integer :: j, middle
 
       middle = 1 + nint((0.0_dp - level%grid%x0)/level%grid%hx)
       given = 0.0_dp
+      hard = 0.0_dp
+      above = 0.0_dp
+      depth = 0.0_dp
       do j = 1, level%grid%ny
          associate (touching => touches(level, j), weight => level%grid%weight(j))
             whole(j) = weight*sum(level%p(:, j))
             load(j) = weight*sum(level%p(:, j), mask=touching)
             area(j) = weight*count(touching)
             flow(j) = merge(weight*level%mass_content(middle, j)/level%grid%hx, 0.0_dp, level%p(middle, j) > cavity_pressure)
+            if (level%boundary%limit > 0.0_dp) then
+               at_limit = level%p(:, j) >= level%boundary%limit
+               above(j) = weight*sum(level%p(:, j), mask=at_limit .and. .not. level%boundary%touching(:, j) > 0.0_dp)
+               at_limit = at_limit .and. level%boundary%touching(:, j) > 0.0_dp
+               hard(j) = weight*sum(level%p(:, j), mask=at_limit)
+               m%hard_area = m%hard_area + weight*count(at_limit)
+               depth(j) = maxval((level%boundary%film(:, j) - level%h(:, j))*level%boundary%yielding(:, j))
+            end if
             if (level%grid%is_border(j)) cycle
             call flow_operator(level, j, row)
             row = level%rhs(:, j) - row
@@ -53,6 +71,9 @@ contains
       m%load_share = sum(load)/sum(whole)
       m%area = sum(area)
       m%supply = sum(given)/sum(flow)
+      m%hard_share = sum(hard)/sum(whole)
+      m%above_share = sum(above)/sum(whole)
+      m%depth = maxval(depth)
    end function measure_touching
 
    !> Where in row j the bodies touch
@@ -64,10 +85,10 @@ contains
       touches = level%p(:, j) > cavity_pressure .and. level%mass_content(:, j) <= (1.0_dp + same_film)*level%boundary%thickness
    end function touches
 
-   !> Load share, area, supply
+   !> As touching_names has them
    pure function numbers(self)
       class(touching_t), intent(in) :: self
-      real(dp) :: numbers(3)
-      numbers = [self%load_share, self%area, self%supply]
+      real(dp) :: numbers(size(touching_names))
+      numbers = [self%load_share, self%area, self%supply, self%hard_share, self%hard_area, self%depth, self%above_share]
    end function numbers
 end module ehl_touching

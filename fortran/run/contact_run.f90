@@ -17,7 +17,7 @@ module ehl_contact_run
    use ehl_steady, only: steady_t
    use ehl_stopping_criterion, only: transient_outcome
    use ehl_table, only: table_t
-   use ehl_touching, only: touching_names
+   use ehl_touching, only: names_without_limit, touching_names
    use ehl_transient, only: transient_t
    implicit none (type, external)
    private
@@ -133,13 +133,21 @@ contains
       else if (self%plan%surfaces%move()) then
          columns = [character(len=16) :: "step", "T", "mu_ratio", "H_c", "H_min", "P_max", "load_error", "cycles", "residual"]
          if (self%plan%heat%counts) columns = [character(len=16) :: columns, "heat_ratio"]
-         if (self%plan%lubricant%boundary_film > 0.0_dp) columns = [character(len=16) :: columns, touching_names]
+         if (self%plan%lubricant%boundary_film > 0.0_dp) then
+            columns = [character(len=16) :: columns, touching_names(:names_of(self%plan))]
+         end if
          call self%history%init(columns)
       else
          call self%history%init([character(len=16) :: "level", "points", "cycle", "H_c", "H_min", "P_max", "F", &
                                  "load_error", "residual", "H_c_algebraic"])
       end if
    end subroutine begin_history
+
+   !> Columns about contact: those of a hardness where there is one
+   pure integer function names_of(plan)
+      type(plan_t), intent(in) :: plan
+      names_of = merge(size(touching_names), names_without_limit, plan%lubricant%boundary_limit > 0.0_dp)
+   end function names_of
 
    !> One multigrid cycle, or one time step
    subroutine advance(self, status)
@@ -239,6 +247,7 @@ contains
       type(status_t), intent(inout) :: status
       type(clock_t) :: clock
       real(dp), allocatable :: row(:)
+      real(dp) :: numbers(size(touching_names))
 
       clock = start_clock()
       associate (transient => self%transient, m => self%transient%m, level => self%hierarchy%levels(self%steady%n))
@@ -254,7 +263,10 @@ contains
          row = [real(dp) :: transient%step, transient%time, m%friction/transient%friction_smooth, m%film_central, &
                 m%film_minimum, m%pressure_maximum, m%load_error, transient%cycles, transient%residual]
          if (self%plan%heat%counts) row = [row, step_heat(self)]
-         if (self%plan%lubricant%boundary_film > 0.0_dp) row = [row, m%touching%numbers()]
+         if (self%plan%lubricant%boundary_film > 0.0_dp) then
+            numbers = m%touching%numbers()
+            row = [row, numbers(:names_of(self%plan))]
+         end if
          call self%history%append(row)
          if (self%plan%surfaces%pass_once()) call transient%extremes%see(level, self%p_smooth, self%h_smooth, transient%time)
          self%outcome = transient_outcome(self%plan, transient)

@@ -87,6 +87,9 @@ contains
       else
          text = text//"with an error that is not known; "
       end if
+      if (larger(summary%number("contact_load_share_at_hardness"), 0.0_dp)) text = text// &
+         percent(summary%number("contact_load_share_at_hardness"))//" of the load is carried at the hardness of the solids, "// &
+         "which yield by up to "//short(summary%number("plastic_depth_max_m")*1.0e9_dp)//" nm as in a first pass; "
    end function of_contact
 
    !> A film that is thin beside molecules or beside the roughness

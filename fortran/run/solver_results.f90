@@ -14,6 +14,7 @@ submodule (ehl_solver) ehl_solver_results
    use ehl_skipped_work, only: skipped_work
    use ehl_surface_text, only: window_words
    use ehl_text, only: newline
+   use ehl_touching, only: touching_names
    use ehl_touching_mean, only: touching_of
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    implicit none (type, external)
@@ -208,7 +209,7 @@ contains
       type(record_t), intent(inout) :: record
       !> Whether the smooth contact is converged
       logical, intent(in) :: good
-      real(dp) :: numbers(3), coarser
+      real(dp) :: numbers(size(touching_names)), coarser
       character(len=:), allocatable :: why
       integer :: n
 
@@ -233,7 +234,7 @@ contains
    !> Whether friction is known: everywhere in the film, or of the boundary film, too
    logical function knows_friction(self)
       type(solver_t), intent(in) :: self
-      real(dp) :: numbers(3)
+      real(dp) :: numbers(size(touching_names))
 
       knows_friction = .not. self%plan%lubricant%boundary_film > 0.0_dp .or. self%plan%lubricant%boundary_stress > 0.0_dp
       if (knows_friction) return
