@@ -67,11 +67,12 @@ contains
    end subroutine restrict_problem
 
    !> States of the coarse nodes while their level is solved: those touch that have pressure and around which more than half
-   !> touches, and yield if more than half does
+   !> touches, and yield if all do
    subroutine freeze_states(fine, coarse)
       type(level_t), intent(in) :: fine
       type(level_t), intent(inout) :: coarse
       logical :: touches(coarse%grid%nx)
+      real(dp) :: row(coarse%grid%nx)
       integer :: j
 
       associate (boundary => coarse%boundary)
@@ -82,8 +83,9 @@ contains
             touches = boundary%touching(:, j) > 0.5_dp .and. coarse%p(:, j) > cavity_pressure
             boundary%touching(:, j) = merge(1.0_dp, 0.0_dp, touches)
             if (.not. boundary%limit > 0.0_dp) cycle
-            call weight_row(coarse%grid, fine%boundary%yielding, j, boundary%yielding(:, j))
-            boundary%yielding(:, j) = merge(1.0_dp, 0.0_dp, touches .and. boundary%yielding(:, j) > 0.99_dp)
+            call weight_row(coarse%grid, fine%boundary%kept, j, boundary%kept(:, j))
+            call weight_row(coarse%grid, merge(1.0_dp, 0.0_dp, fine%boundary%kept > 0.0_dp), j, row)
+            boundary%kept(:, j) = merge(boundary%kept(:, j), 0.0_dp, touches .and. row > 0.99_dp)
          end do
       end associate
    end subroutine freeze_states

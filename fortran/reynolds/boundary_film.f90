@@ -17,9 +17,9 @@
 !> two residuals, rhs - N and rate (rho H - H_b), that one holds which asks for more pressure, each with what answers it: the
 !> deflection alone, or the deflection and the Poiseuille term.
 !>
-!> Solids with a hardness carry no more than the limit P_h: touching nodes have P <= P_h, and where P = P_h the film of the elastic
-!> bodies may be below the layer. Such a node yields. The solids give way by what is missing, D = H_b/rho - H >= 0, so that the
-!> film there is that of the layer, and its pressure stays until the elastic film is above the layer again.
+!> Solids with a hardness carry no more than the limit P_h. A node yields where P = P_h and it asks for more pressure: the elastic
+!> film H is below the layer, or below what the lubricant needs. The solids give way by what is missing, D >= 0, so that
+!> rho (H + D) is that of the layer, or more where N = 0 then. Such a node keeps its pressure until D would be negative.
 module ehl_boundary_film
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_grid, only: grid_t
@@ -41,7 +41,7 @@ module ehl_boundary_film
    type :: boundary_film_t
       !> H_b [a^2/R]
       real(dp) :: thickness = 0.0_dp
-      !> Greatest pressure of touching nodes [p_h]; 0: there is no limit
+      !> Greatest pressure [p_h]; 0: there is no limit
       real(dp) :: limit = 0.0_dp
       !> Factor of the equation of touching nodes
       real(dp) :: rate = 0.0_dp
@@ -51,8 +51,8 @@ module ehl_boundary_film
       logical :: frozen = .false.
       !> 1 where a node is touching, else 0
       real(dp), allocatable :: touching(:, :)
-      !> 1 where a touching node yields, else 0; of size 0 where there is no limit
-      real(dp), allocatable :: yielding(:, :)
+      !> rho (H + D) where a node yields, else 0; of size 0 where there is no limit
+      real(dp), allocatable :: kept(:, :)
       !> Film that the lubricant flows through: that of an iterate may be below the layer
       real(dp), allocatable :: film(:, :)
    contains
@@ -60,7 +60,7 @@ module ehl_boundary_film
       procedure :: find_film
       procedure :: find_row
       procedure :: find_yielding
-      procedure :: keep_layer
+      procedure :: keep_mass
       procedure :: bound
       procedure :: least_film
       procedure :: forget
@@ -74,7 +74,7 @@ module ehl_boundary_film
 
 contains
 
-   !> Allocate; thickness: H_b, limit: greatest pressure of touching nodes, or 0
+   !> Allocate; thickness: H_b, limit: greatest pressure, or 0
    subroutine setup(self, grid, thickness, limit, status)
       class(boundary_film_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
@@ -87,7 +87,7 @@ contains
       yielding = merge(1, 0, limit > 0.0_dp)
       self%frozen = .false.
       allocate (self%touching(grid%nx, grid%ny), self%film(grid%nx, grid%ny), &
-                self%yielding(yielding*grid%nx, yielding*grid%ny), source=0.0_dp, stat=stat)
+                self%kept(yielding*grid%nx, yielding*grid%ny), source=0.0_dp, stat=stat)
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the boundary film of a grid level")
    end subroutine setup
 
@@ -103,6 +103,8 @@ contains
          ! a NaN stays one
          self%film(i, j) = merge(self%thickness/rho(i), h(i), h(i)*rho(i) < self%thickness)
       end do
+      ! by the last update
+      if (self%limit > 0.0_dp) self%film(:, j) = merge(self%kept(:, j)/rho, self%film(:, j), self%kept(:, j) > 0.0_dp)
    end subroutine find_film
 
    !> States of the nodes of row j, by the residual of the Reynolds equation; the border does not touch
@@ -121,36 +123,47 @@ contains
          self%touching(i, j) = merge(1.0_dp, 0.0_dp, self%rate*(mass_content(i) - self%thickness) &
                                                      < share(i)*residual(i) + held*self%touching(i, j))
       end do
+      ! not coupled to its line
+      if (self%limit > 0.0_dp) self%touching(:, j) = merge(1.0_dp, self%touching(:, j), self%kept(:, j) > 0.0_dp)
    end subroutine find_row
 
-   !> Which of the touching nodes of row j yield; their mass content is that of the layer
-   pure subroutine find_yielding(self, p, elastic, j, mass_content)
+   !> Nodes of row j that yield, with their mass content: that at which N = 0, but no less than that of the layer
+   pure subroutine find_yielding(self, p, weights, j, residual, mass_content)
       class(boundary_film_t), intent(inout) :: self
-      !> Pressure, and rho H of the elastic bodies, shape (nx)
-      real(dp), contiguous, intent(in) :: p(:), elastic(:)
+      !> Pressure, and the wedge term's factors of rho H at a node and at those upstream of it, shape (nx), (0:..., nx)
+      real(dp), contiguous, intent(in) :: p(:), weights(0:, :)
       integer, intent(in) :: j
-      real(dp), contiguous, intent(inout) :: mass_content(:)
+      !> rhs - N, and rho H, of the elastic bodies; shape (nx)
+      real(dp), contiguous, intent(inout) :: residual(:), mass_content(:)
+      real(dp) :: added(size(p))
+      integer :: i, k
 
-      if (.not. self%limit > 0.0_dp) return
-      ! what carries on the film of the layer flows by rounding alone
-      where (p > self%limit .and. elastic < (1.0_dp + greatest_hold)*self%thickness) self%touching(:, j) = 1.0_dp
-      self%yielding(:, j) = merge(self%touching(:, j), 0.0_dp, p >= self%limit .and. elastic < self%thickness)
-      mass_content = elastic
-      call self%keep_layer(j, mass_content)
+      added = 0.0_dp
+      do i = 2, size(p) - 1
+         do k = 1, min(ubound(weights, 1), i - 1)
+            residual(i) = residual(i) + weights(k, i)*added(i - k)
+         end do
+         self%kept(i, j) = max(self%thickness, mass_content(i) - residual(i)/weights(0, i))
+         if (.not. (p(i) >= self%limit .and. self%kept(i, j) > mass_content(i))) self%kept(i, j) = 0.0_dp
+         if (.not. self%kept(i, j) > 0.0_dp) cycle
+         added(i) = self%kept(i, j) - mass_content(i)
+         residual(i) = residual(i) + weights(0, i)*added(i)
+      end do
+      call self%keep_mass(j, mass_content)
    end subroutine find_yielding
 
-   !> The mass content of nodes of row j that yield is that of the layer
-   pure subroutine keep_layer(self, j, mass_content)
+   !> The mass content of nodes of row j that yield
+   pure subroutine keep_mass(self, j, mass_content)
       class(boundary_film_t), intent(in) :: self
       integer, intent(in) :: j
       !> Shape (nx)
       real(dp), contiguous, intent(inout) :: mass_content(:)
 
-      if (self%limit > 0.0_dp) mass_content = merge(self%thickness, mass_content, self%yielding(:, j) > 0.0_dp)
-   end subroutine keep_layer
+      mass_content = merge(self%kept(:, j), mass_content, self%kept(:, j) > 0.0_dp)
+   end subroutine keep_mass
 
-   !> Pressures to come of row j from column `first` on: those of touching nodes within the limit, and nodes that yield keep theirs.
-   !> The pressure of a coarse node is a mean, which the limit is not for.
+   !> Pressures to come of row j from column `first` on: within the limit, and nodes that yield keep theirs. The pressure of a
+   !> coarse node is a mean, which the limit is not for.
    pure subroutine bound(self, before, first, j, after)
       class(boundary_film_t), intent(in) :: self
       real(dp), intent(in) :: before(:)
@@ -160,10 +173,9 @@ contains
 
       if (.not. self%limit > 0.0_dp) return
       do i = 1, size(after)
-         after(i) = merge(before(i), after(i), self%yielding(first + i - 1, j) > 0.0_dp)
-         if (self%frozen) cycle
+         after(i) = merge(before(i), after(i), self%kept(first + i - 1, j) > 0.0_dp)
          ! a NaN stays one
-         after(i) = merge(self%limit, after(i), self%touching(first + i - 1, j) > 0.0_dp .and. after(i) > self%limit)
+         after(i) = merge(self%limit, after(i), after(i) > self%limit .and. .not. self%frozen)
       end do
    end subroutine bound
 
@@ -175,7 +187,7 @@ contains
       integer, intent(in) :: j
 
       if (self%limit > 0.0_dp) then
-         least_film = minval(merge(self%film(:, j), h, self%yielding(:, j) > 0.0_dp))
+         least_film = minval(merge(self%film(:, j), h, self%kept(:, j) > 0.0_dp))
       else
          least_film = minval(h)
       end if
@@ -186,7 +198,7 @@ contains
       class(boundary_film_t), intent(inout) :: self
 
       self%touching = 0.0_dp
-      self%yielding = 0.0_dp
+      self%kept = 0.0_dp
    end subroutine forget
 
    !> Put the term of touching nodes into row j of the operator
@@ -217,7 +229,7 @@ contains
          right = merge(rhs(i), -self%rate*self%thickness, self%frozen)
          values(i) = merge(right + self%rate*mass_content(i), values(i), self%touching(i, j) > 0.0_dp)
       end do
-      if (self%limit > 0.0_dp) values = merge(0.0_dp, values, self%yielding(:, j) > 0.0_dp)
+      if (self%limit > 0.0_dp) values = merge(0.0_dp, values, self%kept(:, j) > 0.0_dp)
    end subroutine residual_row
 
    !> What a touching node may be lifted by: `residual` is that of a steady problem (rms), or 0
@@ -269,6 +281,6 @@ contains
    pure integer(int64) function bytes(self)
       class(boundary_film_t), intent(in) :: self
       bytes = 0
-      if (allocated(self%film)) bytes = 16*size(self%film, kind=int64) + 8*size(self%yielding, kind=int64)
+      if (allocated(self%film)) bytes = 16*size(self%film, kind=int64) + 8*size(self%kept, kind=int64)
    end function bytes
 end module ehl_boundary_film

@@ -9,7 +9,7 @@
 module ehl_force_balance
    use ehl_film, only: refresh
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
+   use ehl_level, only: level_t, yields
    implicit none (type, external)
    private
    public :: balance_load, load_excess, missing_load, pass_load_on
@@ -69,9 +69,9 @@ contains
             fixed_load = fixed_load + sum(level%p(:, j))*level%grid%weight(j)
          else
             fixed_load = fixed_load + (level%p(1, j) + level%p(level%grid%nx, j))*level%grid%weight(j)
-            if (.not. allocated(level%boundary)) cycle
-            if (level%boundary%limit > 0.0_dp) fixed_load = fixed_load + sum(level%p(:, j)*level%boundary%yielding(:, j)) &
-                                                            *level%grid%weight(j)
+            if (yields(level)) then
+               fixed_load = fixed_load + sum(level%p(:, j), mask=level%boundary%kept(:, j) > 0.0_dp)*level%grid%weight(j)
+            end if
          end if
       end do
    end function fixed_load

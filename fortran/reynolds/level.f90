@@ -13,7 +13,7 @@ module ehl_level
    use ehl_wedge, only: wedge_t
    implicit none (type, external)
    private
-   public :: film_of_flow, is_touching, level_t, touches_at, yields_at
+   public :: film_of_flow, is_touching, level_t, touches_at, yields, yields_at
 
    !> Fields of one level, arrays of shape (nx, ny). Dimensionless: P by p_h, lengths by a,
    !> films by a^2/R. The equations are in reynolds.f90, film.f90 and force_balance.f90.
@@ -92,13 +92,19 @@ contains
       if (touches_at) touches_at = level%boundary%touching(i, j) > 0.0_dp
    end function touches_at
 
+   !> Whether the solids yield at some pressure
+   pure logical function yields(level)
+      type(level_t), intent(in) :: level
+      yields = allocated(level%boundary)
+      if (yields) yields = level%boundary%limit > 0.0_dp
+   end function yields
+
    !> Whether they yield at node (i, j)
    pure logical function yields_at(level, i, j)
       type(level_t), intent(in) :: level
       integer, intent(in) :: i, j
-      yields_at = allocated(level%boundary)
-      if (yields_at) yields_at = level%boundary%limit > 0.0_dp
-      if (yields_at) yields_at = level%boundary%yielding(i, j) > 0.0_dp
+      yields_at = yields(level)
+      if (yields_at) yields_at = level%boundary%kept(i, j) > 0.0_dp
    end function yields_at
 
    !> Film that the lubricant flows through at node (i, j)

@@ -55,12 +55,11 @@ contains
             area(j) = weight*count(touching)
             flow(j) = merge(weight*level%mass_content(middle, j)/level%grid%hx, 0.0_dp, level%p(middle, j) > cavity_pressure)
             if (level%boundary%limit > 0.0_dp) then
-               at_limit = level%p(:, j) >= level%boundary%limit
-               above(j) = weight*sum(level%p(:, j), mask=at_limit .and. .not. level%boundary%touching(:, j) > 0.0_dp)
-               at_limit = at_limit .and. level%boundary%touching(:, j) > 0.0_dp
+               at_limit = level%boundary%kept(:, j) > 0.0_dp
+               above(j) = weight*sum(level%p(:, j), mask=at_limit .and. .not. touching)
                hard(j) = weight*sum(level%p(:, j), mask=at_limit)
                m%hard_area = m%hard_area + weight*count(at_limit)
-               depth(j) = maxval((level%boundary%film(:, j) - level%h(:, j))*level%boundary%yielding(:, j))
+               depth(j) = maxval(merge(level%boundary%kept(:, j)/level%rho(:, j) - level%h(:, j), 0.0_dp, at_limit))
             end if
             if (level%grid%is_border(j)) cycle
             call flow_operator(level, j, row)
