@@ -7,7 +7,7 @@ module ehl_coarse_problem
    use ehl_galerkin, only: coarsening_t, galerkin_product
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
+   use ehl_level, only: level_t, yields
    use ehl_nine_point, only: nine_point_t
    use ehl_node_state, only: cavity_pressure, change_flowing, stay_cavitated
    use ehl_reynolds, only: reynolds_operator
@@ -67,25 +67,21 @@ contains
    end subroutine restrict_problem
 
    !> States of the coarse nodes while their level is solved: those touch that have pressure and around which more than half
-   !> touches, and yield if all do
+   !> touches. None yields: where half of a coarse grid did, nothing would be left to carry a missing load.
    subroutine freeze_states(fine, coarse)
       type(level_t), intent(in) :: fine
       type(level_t), intent(inout) :: coarse
       logical :: touches(coarse%grid%nx)
-      real(dp) :: row(coarse%grid%nx)
       integer :: j
 
       associate (boundary => coarse%boundary)
          boundary%frozen = .true.
+         boundary%kept = 0.0_dp
          boundary%rate = fine%boundary%rate
          do j = 1, coarse%grid%ny
             call weight_row(coarse%grid, fine%boundary%touching, j, boundary%touching(:, j))
             touches = boundary%touching(:, j) > 0.5_dp .and. coarse%p(:, j) > cavity_pressure
             boundary%touching(:, j) = merge(1.0_dp, 0.0_dp, touches)
-            if (.not. boundary%limit > 0.0_dp) cycle
-            call weight_row(coarse%grid, fine%boundary%kept, j, boundary%kept(:, j))
-            call weight_row(coarse%grid, merge(1.0_dp, 0.0_dp, fine%boundary%kept > 0.0_dp), j, row)
-            boundary%kept(:, j) = merge(boundary%kept(:, j), 0.0_dp, touches .and. row > 0.99_dp)
          end do
       end associate
    end subroutine freeze_states
@@ -257,7 +253,7 @@ contains
             call interpolate_row(coarse%grid, space%p_start, j, row)
          end if
          row = fine%p(:, j) + row
-         if (allocated(fine%boundary)) call fine%boundary%bound(fine%p(:, j), 1, j, row)
+         if (yields(fine)) call fine%boundary%bound(fine%p(:, j), 1, j, row)
          call change_flowing(row(2:nx - 1), fine%p(2:nx - 1, j))
       end do
       !$omp end parallel do

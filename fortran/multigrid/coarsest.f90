@@ -8,7 +8,7 @@ module ehl_coarsest
    use ehl_grid, only: grid_t
    use ehl_kernel, only: fill_kernel
    use ehl_kinds, only: dp
-   use ehl_level, only: film_of_flow, level_t, touches_at, yields_at
+   use ehl_level, only: film_of_flow, level_t, touches_at
    use ehl_node_state, only: cavitate, cavity_pressure
    use ehl_poiseuille, only: most_neighbours
    use ehl_reynolds, only: reynolds_operator
@@ -34,7 +34,7 @@ module ehl_coarsest
       !> Right-hand side and solution of a Newton step, and the state before it
       real(dp), allocatable :: residual(:), direction(:), p_before(:, :)
       real(dp) :: h00_before = 0.0_dp
-      !> Nodes held at zero pressure, or at that at which they yield, now and in the step being made
+      !> Nodes held at zero pressure, now and in the step being made
       logical, allocatable :: cavitated(:), held(:)
       !> Whether lu holds a factorisation
       logical :: factored = .false.
@@ -161,7 +161,7 @@ contains
                u = unknown(self, nx, i, j)
                level%p(i, j) = self%p_before(i, j) + damping*self%direction(u)
                ! exactly, lest rounding frees the node
-               if (self%held(u)) level%p(i, j) = merge(self%p_before(i, j), cavity_pressure, yields_at(level, i, j))
+               if (self%held(u)) level%p(i, j) = cavity_pressure
             end do
             call cavitate(level%p(2:nx - 1, j))
          end do
@@ -200,10 +200,7 @@ contains
          do i = 2, level%grid%nx - 1
             u = unknown(self, level%grid%nx, i, j)
             self%residual(u) = row(i)
-            if (yields_at(level, i, j)) then
-               self%cavitated(u) = .true.
-               self%residual(u) = 0.0_dp
-            else if (level%p(i, j) < cavity_pressure .or. &
+            if (level%p(i, j) < cavity_pressure .or. &
                 (level%p(i, j) <= cavity_pressure .and. self%residual(u) >= 0.0_dp)) then
                self%cavitated(u) = .true.
                self%residual(u) = -level%p(i, j)
@@ -261,7 +258,6 @@ contains
             call add_pressure(i, j, -c(0)*level%h_drho_dp(i, j))
             do m = 1, ubound(c, 1)
                if (i - m < 1) cycle
-               if (yields_at(level, i - m, j)) cycle
                call add_film(i - m, j, -c(m)*level%rho(i - m, j))
                call add_pressure(i - m, j, -c(m)*level%h_drho_dp(i - m, j))
             end do

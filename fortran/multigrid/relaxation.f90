@@ -9,7 +9,7 @@
 module ehl_relaxation
    use ehl_kinds, only: dp
    use ehl_flow, only: along
-   use ehl_level, only: level_t
+   use ehl_level, only: level_t, yields
    use ehl_line_system, only: last_awake, solve_lines
    use ehl_node_state, only: cavitate, cavity_pressure, change_flowing, flowing_around
    use ehl_workspace, only: line_width, workspace_t
@@ -197,7 +197,7 @@ contains
                after(i) = level%p(i, j) + (1.0_dp - space%dipole(i, j))*(omega + t(i))/(1.0_dp + t(i))*change(i)
             end do
             call cavitate(after(2:furthest))
-            if (allocated(level%boundary)) call level%boundary%bound(level%p(2:furthest, j), 2, j, after(2:furthest))
+            if (yields(level)) call level%boundary%bound(level%p(2:furthest, j), 2, j, after(2:furthest))
             if (time_step) then
                do i = 2, furthest
                   space%rough(i, j) = (after(i) - level%p(i, j))*space%share(i, j)
@@ -261,9 +261,7 @@ contains
          do i = from(j), to(j)
             smooth(i) = level%p(i, j) - space%share(i, j)*smooth(i)
          end do
-         if (allocated(level%boundary)) then
-            call level%boundary%bound(level%p(from(j):to(j), j), from(j), j, smooth(from(j):to(j)))
-         end if
+         if (yields(level)) call level%boundary%bound(level%p(from(j):to(j), j), from(j), j, smooth(from(j):to(j)))
          call change_flowing(smooth(from(j):to(j)), level%p(from(j):to(j), j))
       end do
       !$omp end parallel do
@@ -283,7 +281,7 @@ contains
       do j = first, last
          call apply_row(space%shares, space%change(:, level%grid%south(j)), space%change(:, j), &
                         space%change(:, j + 1), level%p(:, j), after)
-         if (allocated(level%boundary)) call level%boundary%bound(level%p(2:nx - 1, j), 2, j, after(2:nx - 1))
+         if (yields(level)) call level%boundary%bound(level%p(2:nx - 1, j), 2, j, after(2:nx - 1))
          call change_flowing(after(2:nx - 1), level%p(2:nx - 1, j))
       end do
       !$omp end parallel do

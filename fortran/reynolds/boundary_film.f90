@@ -60,7 +60,6 @@ module ehl_boundary_film
       procedure :: find_film
       procedure :: find_row
       procedure :: find_yielding
-      procedure :: keep_mass
       procedure :: bound
       procedure :: least_film
       procedure :: forget
@@ -144,23 +143,15 @@ contains
             residual(i) = residual(i) + weights(k, i)*added(i - k)
          end do
          self%kept(i, j) = max(self%thickness, mass_content(i) - residual(i)/weights(0, i))
-         if (.not. (p(i) >= self%limit .and. self%kept(i, j) > mass_content(i))) self%kept(i, j) = 0.0_dp
-         if (.not. self%kept(i, j) > 0.0_dp) cycle
-         added(i) = self%kept(i, j) - mass_content(i)
-         residual(i) = residual(i) + weights(0, i)*added(i)
+         if (p(i) >= self%limit .and. self%kept(i, j) > mass_content(i)) then
+            added(i) = self%kept(i, j) - mass_content(i)
+            residual(i) = residual(i) + weights(0, i)*added(i)
+            mass_content(i) = self%kept(i, j)
+         else
+            self%kept(i, j) = 0.0_dp
+         end if
       end do
-      call self%keep_mass(j, mass_content)
    end subroutine find_yielding
-
-   !> The mass content of nodes of row j that yield
-   pure subroutine keep_mass(self, j, mass_content)
-      class(boundary_film_t), intent(in) :: self
-      integer, intent(in) :: j
-      !> Shape (nx)
-      real(dp), contiguous, intent(inout) :: mass_content(:)
-
-      mass_content = merge(self%kept(:, j), mass_content, self%kept(:, j) > 0.0_dp)
-   end subroutine keep_mass
 
    !> Pressures to come of row j from column `first` on: within the limit, and nodes that yield keep theirs. The pressure of a
    !> coarse node is a mean, which the limit is not for.
@@ -171,11 +162,11 @@ contains
       real(dp), contiguous, intent(inout) :: after(:)
       integer :: i
 
-      if (.not. self%limit > 0.0_dp) return
+      if (self%frozen) return
       do i = 1, size(after)
          after(i) = merge(before(i), after(i), self%kept(first + i - 1, j) > 0.0_dp)
          ! a NaN stays one
-         after(i) = merge(self%limit, after(i), after(i) > self%limit .and. .not. self%frozen)
+         after(i) = merge(self%limit, after(i), after(i) > self%limit)
       end do
    end subroutine bound
 

@@ -9,7 +9,7 @@
 !> the film.
 module ehl_film
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t, yields
+   use ehl_level, only: level_t
    use ehl_node_state, only: last_flowing
    use ehl_reynolds, only: find_touching
    implicit none (type, external)
@@ -61,9 +61,6 @@ contains
             call level%flow%find_row(level%lubricant, level%p, level%h, level%rho(:, j), level%h_drho_dp(:, j), j, last)
          end if
          level%mass_content(:, j) = level%rho(:, j)*level%h(:, j)
-         if (yields(level)) then
-            if (level%boundary%frozen) call level%boundary%keep_mass(j, level%mass_content(:, j))
-         end if
          level%h_drho_dp(:, j) = level%h_drho_dp(:, j)*level%h(:, j)
       end do
       !$omp end parallel do

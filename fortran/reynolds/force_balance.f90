@@ -50,7 +50,7 @@ contains
          deflection(j) = sum(level%p(:, j)*(level%h(:, j) - level%h00 - level%geometry(:, j)))*level%grid%weight(j)
          if (level%grid%is_border(j)) cycle
          after(2:nx - 1) = factor*level%p(2:nx - 1, j)
-         if (allocated(level%boundary)) call level%boundary%bound(level%p(2:nx - 1, j), 2, j, after(2:nx - 1))
+         if (yields(level)) call level%boundary%bound(level%p(2:nx - 1, j), 2, j, after(2:nx - 1))
          level%p(2:nx - 1, j) = after(2:nx - 1)
       end do
       !$omp end parallel do

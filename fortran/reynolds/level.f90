@@ -13,7 +13,7 @@ module ehl_level
    use ehl_wedge, only: wedge_t
    implicit none (type, external)
    private
-   public :: film_of_flow, is_touching, level_t, touches_at, yields, yields_at
+   public :: film_of_flow, is_touching, level_t, touches_at, yields
 
    !> Fields of one level, arrays of shape (nx, ny). Dimensionless: P by p_h, lengths by a,
    !> films by a^2/R. The equations are in reynolds.f90, film.f90 and force_balance.f90.
@@ -98,14 +98,6 @@ contains
       yields = allocated(level%boundary)
       if (yields) yields = level%boundary%limit > 0.0_dp
    end function yields
-
-   !> Whether they yield at node (i, j)
-   pure logical function yields_at(level, i, j)
-      type(level_t), intent(in) :: level
-      integer, intent(in) :: i, j
-      yields_at = yields(level)
-      if (yields_at) yields_at = level%boundary%kept(i, j) > 0.0_dp
-   end function yields_at
 
    !> Film that the lubricant flows through at node (i, j)
    pure real(dp) function film_of_flow(level, i, j)
