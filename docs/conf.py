@@ -8,8 +8,6 @@ from pathlib import Path
 
 from sphinx.application import Sphinx
 
-from pyehl import schema
-
 sys.path.insert(0, str(Path(__file__).parent / "_ext"))
 
 project = "pyehl"
@@ -74,12 +72,6 @@ def lead_to_pages(app: Sphinx, name: str, source: list[str]) -> None:
         source[0] = re.sub(rf"\]\((?:\.\./)+{re.escape(outside)}", f"]({page}", source[0])
 
 
-def fill_in(app: Sphinx, name: str, source: list[str]) -> None:
-    """Put the table of quantities where its place is."""
-    source[0] = source[0].replace("<!-- table of quantities -->", schema.markdown())
-
-
 def setup(app: Sphinx) -> None:
     """Register what changes the sources."""
     app.connect("source-read", lead_to_pages)
-    app.connect("source-read", fill_in)

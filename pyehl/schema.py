@@ -4,8 +4,9 @@
 Names that end in a unit (``_m``, ``_Pa``, ...) are in that unit (`moes_m` is the Moes load M);
 capital letters are Hertz units. Kinds: ``solution`` (``ehl``, ``pyehl run``), ``prediction``
 (``pyehl predict``), ``film`` (``pyehl film --json``), ``response`` (``pyehl response``) and ``fit``
-(``pyehl fit-lubricant``). To add a quantity, add a line: tests compare this table with all that
-writes summaries.
+(``pyehl fit-lubricant``). To add a quantity, add a line here and in
+``docs/reference/results.md``: tests compare this table with that page and with all that writes
+summaries.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ Friction over film thickness
 ============================
 
 The lower the speed, the thinner the film against the roughness, and the more friction the roughness
-adds: the right branch of a Stribeck curve. The command ``pyehl stribeck`` draws such curves with
+adds: the full-film part of a Stribeck curve. The command ``pyehl stribeck`` draws such curves with
 error bands, full simulations and measured data, see :doc:`/howto/stribeck`.
 """
 
@@ -31,10 +31,10 @@ figure, ax = plt.subplots(figsize=(6.2, 3.8), layout="constrained")
 for law, table in tables.items():
     label = f"{law.title()} shear stress"
     ax.semilogx(table.lambda_ratio_central, table.mu_ratio, "o-", label=label)
-ax.set_xticks([3, 4, 6, 8, 10, 14], ["3", "4", "6", "8", "10", "14"])
+ax.set_xticks([2, 3, 4, 6, 8, 10, 14], ["2", "3", "4", "6", "8", "10", "14"])
 ax.minorticks_off()
 ax.axhline(1.0, color="grey", ls=":", lw=0.8)
-ax.set_xlabel(r"$\Lambda$ = central film / rms height")
+ax.set_xlabel(r"$h_c/\sigma$, central film over rms height")
 ax.set_ylabel(r"$\mu_r/\mu_s$, predicted")
 ax.set_title("Contact of Table 1, slide-to-roll ratio 0.02")
 ax.legend()

@@ -37,6 +37,9 @@ module ehl_cycle
       real(dp) :: trust = full_trust
       !> Shares of the changes of a sweep and of a coarse grid that are made
       real(dp) :: sweep_share = 1.0_dp, correction_share = 1.0_dp
+      !> Whether these are those of the finest level alone: where each level takes its share of what a coarser one finds,
+      !> next to nothing of the film's level and the load, which the coarsest finds, arrives on fine grids
+      logical :: finest_only = .false.
       !> Kind of transfers and coarse operators
       integer :: coarsening = coarsening_classical
    end type cycle_options_t
@@ -123,19 +126,24 @@ contains
       integer, intent(in) :: n
       type(coarsest_t), intent(inout) :: coarsest
       type(cycle_options_t), intent(in) :: options
-      type(cycle_options_t) :: v
+      type(cycle_options_t) :: coarser, v
       real(dp) :: rms
       integer :: k
 
+      coarser = options
+      if (options%finest_only) then
+         coarser%sweep_share = 1.0_dp
+         coarser%correction_share = 1.0_dp
+      end if
       call sweep(levels(n), spaces(n), options%pre, options%trust, options%sweep_share)
       call update_residual(levels(n), rms)
       call restrict_problem(levels(n), levels(n - 1), spaces(n - 1), coarsenings(n), options%coarsening)
       do k = 1, options%gamma
-         call fas_cycle(levels, spaces, coarsenings, n - 1, coarsest, options)
+         call fas_cycle(levels, spaces, coarsenings, n - 1, coarsest, coarser)
          if (n == 2) exit
       end do
       if (options%full .and. n > 2) then
-         v = options
+         v = coarser
          v%full = .false.
          call fas_cycle(levels, spaces, coarsenings, n - 1, coarsest, v)
       end if

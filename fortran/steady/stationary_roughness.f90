@@ -11,7 +11,7 @@ module ehl_stationary_roughness
    use ehl_kinds, only: dp
    use ehl_level, only: is_touching, level_t
    use ehl_moving_surfaces, only: moving_surfaces_t
-   use ehl_outcome, only: outcome_converged, outcome_negative_film, outcome_running
+   use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_negative_film, outcome_running
    use ehl_status, only: ehl_no_memory, status_t
    use ehl_steady, only: residual_tolerance, steady_options_t
    use ehl_time_levels, only: set_geometry
@@ -24,6 +24,12 @@ module ehl_stationary_roughness
    real(dp), parameter :: friction_tolerance = 1.0e-3_dp, part_tolerance = 3.0e-2_dp
    !> Relative errors of the force balance that may be taken away by scaling the pressure, at a boundary film
    real(dp), parameter :: small_load_error = 1.0e-5_dp
+   !> At a boundary film lubricant that is left between touching nodes goes on by some three nodes a cycle, through half of
+   !> the nodes along X at most: so many cycles for each of these, at least, are a share's
+   real(dp), parameter :: cycles_a_node = 0.5_dp
+   !> Error of the load after some cycles that no share of the roughness there comes back from
+   real(dp), parameter :: lost_load = 1.0_dp
+   integer, parameter :: lost_after = 10
    !> Smallest part of the roughness that is tried
    real(dp), parameter :: least_part = 1.0_dp/64.0_dp
 
@@ -79,6 +85,7 @@ contains
       self%n = n
       self%cycle = how%cycle
       self%max_cycles = how%max_cycles
+      if (allocated(level%boundary)) self%max_cycles = max(how%max_cycles, int(cycles_a_node*level%grid%nx))
       self%tolerance = friction_tolerance*how%accuracy
       if (allocated(self%rr)) deallocate (self%rr, self%p_done)
       allocate (self%rr(level%grid%nx, level%grid%ny), self%p_done(level%grid%nx, level%grid%ny), stat=stat)
@@ -111,6 +118,9 @@ contains
          if (is_touching(level)) self%options = careful_cycle(self%cycle)
          call self%improve(hierarchy)
          self%total_cycles = self%total_cycles + 1
+         if (self%state == outcome_running .and. allocated(level%boundary) .and. self%cycles > lost_after) then
+            if (abs(self%m%load_error) > lost_load) self%state = outcome_cycle_limit
+         end if
          if (self%state == outcome_running) return
          if (self%state /= outcome_converged) then
             call step_back(self, level)

@@ -100,6 +100,7 @@ contains
       if (self%attempt < attempt_damped) return
       self%options%sweep_share = damped_sweep
       self%options%correction_share = damped_correction
+      self%options%finest_only = self%touching
    end subroutine begin_attempt
 
    !> What comes after a cycle that has changed the residual from `before` to `residual`

@@ -71,7 +71,7 @@ def campaign(
 
     A row is the case, what its run said, `outcome`, `difference` and `allowed`. The folder gets
     the journals of the runs, so that a campaign that was stopped is resumed. Each grid has half as
-    many cases as the one before.
+    many cases as the one before. KeyboardInterrupt if it is stopped.
     """
     rows: list[Row] = []
     drawn = draw(cases, seed, grids, law)
@@ -99,16 +99,29 @@ def folders() -> list[str]:
 
 
 def _run(family: str, cases: Sequence[StressCase], folder: Path, jobs: int) -> list[Row]:
-    outcome = perform(plan(study_of(family, cases)), folder, jobs=jobs)
+    solved = _solved(family, cases, [], folder, jobs)
     rows = []
-    for number, case in enumerate(cases):
-        told = outcome.rows[number]
+    for case, told in zip(cases, solved, strict=True):
         row: Row = {"family": family, "moes_m": case.moes_m, "moes_l": case.moes_l}
         row |= {"values": dict(case.values)} | {name: told.get(name) for name in KEPT}
         row["outcome"] = _outcome(row)
         row |= {"difference": None, "allowed": None, "strict_status": None, "wrong": False}
         rows.append(row)
     return rows
+
+
+def _solved(
+    family: str,
+    cases: Sequence[StressCase],
+    more: Sequence[Mapping[str, Any]],
+    folder: Path,
+    jobs: int,
+) -> list[Row]:
+    """Rows of all cases; KeyboardInterrupt if the study was stopped, its folder has the rest."""
+    outcome = perform(plan(study_of(family, cases, more)), folder, jobs=jobs)
+    if outcome.interrupted:
+        raise KeyboardInterrupt
+    return [outcome.rows[number] for number in range(len(cases))]
 
 
 def _outcome(row: Mapping[str, Any]) -> str:
@@ -135,9 +148,8 @@ def _check(family: str, rows: Sequence[Row], folder: Path, jobs: int) -> None:
         if row["steps"] is not None:
             more["time.steps"] = row["steps"]
         strict.append(more)
-    outcome = perform(plan(study_of(family, cases, strict)), folder, jobs=jobs)
-    for number, row in enumerate(rows):
-        judge(row, outcome.rows[number])
+    for row, told in zip(rows, _solved(family, cases, strict, folder, jobs), strict=True):
+        judge(row, told)
 
 
 def judge(row: Row, strict: Mapping[str, Any]) -> None:

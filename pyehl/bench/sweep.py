@@ -120,6 +120,8 @@ def _run(scene: Scene, count: int, jobs: int) -> dict[str, Any]:
     watcher = _FirstRow()
     with tempfile.TemporaryDirectory(prefix="pyehl-") as folder:
         outcome = perform(todo, folder, jobs=jobs, watcher=watcher)
+    if outcome.interrupted:
+        raise KeyboardInterrupt
     wall = outcome.wall - watcher.started
     spent = wall * jobs
     return {

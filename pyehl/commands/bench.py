@@ -99,15 +99,19 @@ def _stress(args: argparse.Namespace, answer: Answer) -> Rows:
         raise InputError("pyehl bench stress: -o DIR is needed, and 1 or more cases")
     names = ("stress.json", "stress.png", *stress.folders())
     Destination(args.output, "bench stress", names, force=args.force).claim({})
-    rows = stress.campaign(
-        args.cases,
-        args.seed,
-        args.output,
-        jobs=args.jobs,
-        grids=args.points,
-        law=args.shear_law,
-        tell=_tell,
-    )
+    try:
+        rows = stress.campaign(
+            args.cases,
+            args.seed,
+            args.output,
+            jobs=args.jobs,
+            grids=args.points,
+            law=args.shear_law,
+            tell=_tell,
+        )
+    except KeyboardInterrupt:
+        _tell(f"interrupted; the same command resumes it in {args.output}")
+        raise
     answer |= {name: getattr(args, name) for name in ("cases", "seed", "points", "shear_law")}
     stress.write(rows, args.output, answer)
     figures.stress(rows, args.output / "stress.png")

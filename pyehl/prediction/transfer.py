@@ -56,10 +56,10 @@ def _at_amplitude(zone: Zone, variance: float) -> Zone:
     """Return a contact that leaks as waves of finite pressure do, for their friction.
 
     The leak is div(rho H^3/(eta lambda) grad P): it is slow where the waves raise the pressure and
-    the viscosity, and friction comes from there. For a Gaussian delta P of `variance` s^2 [p_h^2]
-    the leak lowers the mean of exp(b delta P), b = d ln eta/dP the thickening, at the rate of
-    small waves over that mean, exp(b^2 s^2/2). Where the lubricant thins in the flow, b is that of
-    eta/phi_x: it leaks and shears by what is left of the viscosity.
+    the viscosity, and most of the friction arises there. For a Gaussian delta P of `variance` s^2
+    [p_h^2] the leak lowers the mean of exp(b delta P), b = d ln eta/dP the thickening, at the rate
+    of small waves over that mean, exp(b^2 s^2/2). Where the lubricant thins in the flow, b is that
+    of eta/phi_x: it leaks and shears by what is left of the viscosity.
     """
     b = zone.thickening
     if zone.factors:

@@ -30,6 +30,7 @@ __all__ = [
     "FULL_FILM",
     "MIXED",
     "OUTSIDE",
+    "STATUSES",
     "UNITS",
     "UNSOLVED",
     "WORDS",
@@ -41,13 +42,9 @@ __all__ = [
 
 Row = Mapping[str, Any]
 
-FULL_FILM, MIXED, BREAKDOWN, OUTSIDE, UNSOLVED = (
-    "full film",
-    "mixed film",
-    "film breakdown",
-    "outside the range",
-    "not solved",
-)
+STATUSES = ("full film", "mixed film", "film breakdown", "outside the range", "not solved")
+"""What a point of a curve can be."""
+FULL_FILM, MIXED, BREAKDOWN, OUTSIDE, UNSOLVED = STATUSES
 UNITS = {
     "h_c_m": "m",
     "h_c_error_m": "m",

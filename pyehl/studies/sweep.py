@@ -94,8 +94,8 @@ def sweep(
     run
         'solve', 'predict' or 'film'.
     outputs
-        Names of results wanted; none: all numbers. Mean and spread over the tracks of a
-        prediction, which take twice the time, are made only where they are named.
+        Names of results wanted; none: all numbers and the judgement. Mean and spread over the
+        tracks of a prediction, which take twice the time, are made only where they are named.
     output
         Folder for the journal and the table, from which an interrupted study is resumed; None:
         nothing is kept on disk.

@@ -20,7 +20,7 @@ __all__ = ["columns", "dataset", "over", "write_csv"]
 Row = Mapping[str, Any]
 
 # Words that are always in the table; other words only where they are asked for
-WORDS = ("flags", "outside_range")
+WORDS = ("flags", "outside_range", "judgement")
 
 
 def columns(study: Study, rows: Mapping[int, Row]) -> list[str]:

@@ -43,8 +43,8 @@ DEGREE = 6
 LARGEST = 14.0
 """Largest wavenumber |q| that needs it [1/a]: shorter waves, below 0.45 a, feel no edge."""
 RADIUS = 0.8
-"""Radius within which they are fitted; friction comes from there. Nearer to the edge the pressure
-of a disc with a fixed edge is singular and that of a contact is not."""
+"""Radius within which they are fitted; most of the friction arises there. Nearer to the edge
+the pressure of a disc with a fixed edge is singular and that of a contact is not."""
 
 RIM = 1e-5
 """z at which the pressure next to the edge is taken."""

@@ -107,5 +107,8 @@ def test_film_sheets():
     assert written == names("film")
 
 
-def test_markdown_has_a_line_for_each():
-    assert len(schema.markdown().splitlines()) == 2 + len(schema.QUANTITIES)
+def test_reference_has_the_table(root: Path):
+    text = (root / "docs/reference/results.md").read_text(encoding="utf-8")
+    listed = text.partition("## All names\n\n")[2].rstrip("\n")
+    assert listed == schema.markdown(), "put what schema.markdown() gives below 'All names'"
+    assert len(listed.splitlines()) == 2 + len(schema.QUANTITIES)

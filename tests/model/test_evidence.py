@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import csv
+import math
 import re
+import statistics
 import sys
 from pathlib import Path
 
@@ -14,6 +16,10 @@ import pyehl
 from pyehl.prediction.errors import KNOWN_RATIO, model_error
 from pyehl.prediction.resolution import resolution
 from pyehl.prediction.second_order import INLET_FILM
+from pyehl.theory.film import central_film
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.response import edge_gain
 
 
 @pytest.fixture(scope="module")
@@ -202,3 +208,33 @@ def test_fields_are_those_of_the_simulation(root: Path):
         # stiff contacts that slip a little
         if row["name"] in ("c8s12c", "f1", "c16s11", "c16l15") and row["place"] == "X = 0":
             assert float(row["gamma"]) == pytest.approx(float(row["p_square"]), abs=0.05), row
+
+
+def test_pressure_of_ridges(root: Path):
+    """docs/evidence/response says by how much it is above K (1 - T), and what the response has."""
+    folder = root / "docs" / "evidence" / "response"
+    heavy, light, lost, gains = [], [], [], []
+    with (folder / "ridges.csv").open(newline="", encoding="utf-8") as stream:
+        for row in csv.DictReader(stream):
+            m, ell, ky, ratio = (
+                float(row[n]) for n in ("moes_m", "moes_l", "ky", "pressure_ratio")
+            )
+            # the wavelengths in the table are rounded
+            if 2.0 * math.pi / ky > 0.501:
+                continue
+            if m >= 300.0:
+                point = OperatingPoint.from_moes(m, ell)
+                film = central_film(point, Lubricant()) / point.film_scale
+                gains.append(100.0 * (float(edge_gain(0.0, ky, film)) - 1.0))
+                heavy.append(100.0 * (ratio - 1.0))
+            elif float(row["T"]) < 0.9:
+                light.append(100.0 * (ratio - 1.0))
+            else:
+                lost.append(ratio)
+    text = (folder / "README.md").read_text(encoding="utf-8")
+    middle = statistics.median(heavy)
+    assert f"by {min(heavy):.1f} to {max(heavy):.1f} % (median {middle:.1f} %)" in text
+    assert f"`edge_gain` has {min(gains):.1f} to {max(gains):.1f} %" in text
+    assert f"by {min(light):.1f} to {max(light):.1f} % where T < 0.9" in text
+    assert f"the other {len(lost)} ridges" in text
+    assert f"goes from {min(lost):.1f} to {max(lost):.1f}." in text

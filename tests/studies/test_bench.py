@@ -6,6 +6,9 @@ from __future__ import annotations
 import csv
 import json
 import math
+import subprocess
+import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -19,10 +22,13 @@ from pyehl.bench import (
     skips,
     stress,
     stress_cases,
+    sweep,
 )
 from pyehl.bench.faults import CASE, run, same
 from pyehl.bench.faults_states import damage
 from pyehl.cli import main
+from pyehl.studies.gather import Outcome
+from pyehl.studies.journal import NAME
 
 
 def test_skips_change_nothing(tmp_path: Path, capsys, monkeypatch):
@@ -85,6 +91,35 @@ def test_stress_campaign(tmp_path: Path, capsys):
     assert main(["bench", "stress", "--cases", "0", "-o", str(tmp_path / "t")]) == 2
     with pytest.raises(SystemExit, match="2"):
         main(["bench", "stress", "--cases", "many", "-o", str(tmp_path / "t")])
+
+
+def test_interrupted_stress_keeps_what_is_done(tmp_path: Path):
+    """By SIGTERM: a sentence, status 130, and the rows that are finished stay in the journal."""
+    folder = tmp_path / "s"
+    words = ["bench", "stress", "--cases", "100", "--points", "65", "--jobs", "1"]
+    process = subprocess.Popen(
+        [sys.executable, "-P", "-m", "pyehl", *words, "-o", str(folder)],
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    end = time.monotonic() + 60.0
+    while sum(path.read_bytes().count(b"\n") for path in folder.glob(f"*/{NAME}")) < 3:
+        assert process.poll() is None
+        assert time.monotonic() < end
+        time.sleep(0.01)
+    process.terminate()
+    _, complaint = process.communicate(timeout=60)
+    assert process.returncode == 130, complaint
+    assert f"interrupted; the same command resumes it in {folder}" in complaint
+    assert "Traceback" not in complaint
+    (journal,) = folder.glob(f"*/{NAME}")
+    assert journal.read_bytes().count(b"\n") >= 3
+    assert not (folder / "stress.json").exists()
+
+
+def test_interrupted_throughput_is_none(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(sweep, "perform", lambda *_, **__: Outcome({}, interrupted=True))
+    assert main(["bench", "sweep", "--scenes", "film", "--threads", "1"]) == 130
 
 
 def test_wrong_results_are_seen():

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What stands in a document: its fenced blocks, their commands, and the output they show."""
+
+from __future__ import annotations
+
+import math
+import re
+import shlex
+from pathlib import Path
+
+NUMBER = r"\d+(?:\.\d+)?(?:[eE][-+]?\d+)?"
+# Differ from machine to machine
+_FREE = re.compile(rf"(?<=residual )\s*{NUMBER}|\d+(?= ms\b)")
+
+
+def fences(path: Path) -> list[tuple[str, str]]:
+    """Languages and texts of the fenced blocks, in their order."""
+    return re.findall(r"^```(\S+)\n(.*?)^```$", path.read_text(), re.MULTILINE | re.DOTALL)
+
+
+def blocks(path: Path, language: str) -> list[str]:
+    """Fenced blocks of a language."""
+    return [text for found, text in fences(path) if found == language]
+
+
+def lines_of(block: str) -> list[str]:
+    """Lines of a shell block without their comments."""
+    return [" ".join(shlex.split(x, comments=True)) for x in block.splitlines() if x.strip()]
+
+
+def commands(path: Path) -> list[str]:
+    """Lines of all shell blocks without their comments."""
+    return [line for block in blocks(path, "sh") for line in lines_of(block)]
+
+
+def is_shown(shown: str, printed: str) -> bool:
+    """Whether a line of a document is a printed one.
+
+    Words and integers are the same, other numbers to 0.2 %; ``...`` stands for anything.
+    """
+    shown, printed = (_FREE.sub("#", line.rstrip()) for line in (shown, printed))
+    parts = [
+        f"({NUMBER})".join(map(re.escape, re.split(NUMBER, part))) for part in shown.split("...")
+    ]
+    found = re.fullmatch(".*".join(parts), printed)
+    if found is None:
+        return False
+    return all(
+        b == a if a.isdigit() and b.isdigit() else math.isclose(float(a), float(b), rel_tol=2e-3)
+        for a, b in zip(re.findall(NUMBER, shown), found.groups(), strict=True)
+    )
