@@ -3,8 +3,8 @@
 !> keys, and operating points that cannot be meant
 module ehl_case_check
    use ehl_case, only: case_t
-   use ehl_case_contact, only: check_contact_kind, check_extent, check_hardness, check_operating_point, &
-                               complete_domain, complete_kinematics
+   use ehl_case_contact, only: check_contact_kind, check_extent, check_operating_point, complete_domain, &
+                               complete_kinematics
    use ehl_case_lubricant, only: check_boundary_film, check_shear_law, complete_lubricant
    use ehl_case_oil, only: check_law, complete_law, complete_oil
    use ehl_case_radii, only: complete_radii
@@ -44,7 +44,6 @@ contains
       if (.not. status%failed()) call check_law(schema, input, sources, status)
       if (.not. status%failed()) call check_shear_law(schema, input, sources, status)
       if (.not. status%failed()) call check_boundary_film(schema, input, sources, status)
-      if (.not. status%failed()) call check_hardness(schema, input, sources, status)
       if (.not. status%failed()) call check_heat(schema, input, sources, status)
       if (.not. status%failed()) call check_points(schema, input, sources, status)
       if (.not. status%failed()) call complete_surfaces(schema, input)

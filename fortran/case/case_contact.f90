@@ -17,8 +17,8 @@ module ehl_case_contact
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: check_contact_kind, check_operating_point, check_extent, check_hardness, complete_domain, &
-             complete_kinematics, find_contact
+   public :: check_contact_kind, check_operating_point, check_extent, complete_domain, complete_kinematics, &
+             find_contact
 
    character(len=12), parameter :: moes_keys(3) = [character(len=12) :: "moes_m", "moes_l", "radius_ratio"]
    character(len=16), parameter :: si_keys(6) = &
@@ -92,30 +92,6 @@ contains
                      // key%full_name() // " = " // key%value_text(), expected, status)
       end associate
    end subroutine check_operating_point
-
-   !> A limit of pressure is for bodies that touch, and smooth ones must be able to carry the load below it
-   subroutine check_hardness(schema, input, sources, status)
-      type(schema_t), intent(in) :: schema
-      type(case_t), intent(in) :: input
-      type(source_t), intent(in) :: sources(:)
-      type(status_t), intent(inout) :: status
-      class(contact_t), allocatable :: contact
-      type(scales_t) :: scales
-      type(operating_t) :: point
-
-      associate (limit => input%contact%hardness)
-         if (.not. limit > 0.0_dp) return
-         call find_contact(input, contact, scales, point)
-         if (.not. input%lubricant%boundary_film > 0.0_dp) then
-            call refuse(schema, sources, "contact", "hardness", "contact.hardness = " // short(limit) &
-                        // " without lubricant.boundary_film: no bodies touch", "a boundary_film in m, or hardness = 0.0", status)
-         else if (.not. limit > scales%pressure) then
-            call refuse(schema, sources, "contact", "hardness", "contact.hardness = " // short(limit) &
-                        // " Pa, and the Hertz pressure is " // short(scales%pressure) // " Pa: smooth bodies would yield", &
-                        "more than the Hertz pressure, a lower load, or 0.0 for elastic solids", status)
-         end if
-      end associate
-   end subroutine check_hardness
 
    !> Shape, scales and operating point, without the heat of the inlet
    subroutine find_contact(input, contact, scales, point)

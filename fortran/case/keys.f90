@@ -33,7 +33,7 @@ contains
          call self%reals("reduced_modulus", c%reduced_modulus, "Pa", "[1e8, 2e12]", &
                          "E' with 2/E' = sum of (1 - nu^2)/E over the bodies")
          call self%reals("hardness", c%hardness, "Pa", "0 or [1e5, 1e12]", &
-                         "greatest pressure of the solids where they touch at the boundary film; 0: no limit")
+                         "greatest pressure of the solids, with boundary_film; 0: no limit")
          call self%reals("angle", c%angle, "deg", "[-90, 90]", &
                          "an elliptical contact is turned counter-clockwise against the motion")
          call self%reals("slide_to_roll", c%slide_to_roll, "-", "[-2, 2]", &

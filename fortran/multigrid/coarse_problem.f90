@@ -245,6 +245,8 @@ contains
       !$omp num_threads(fine%threads) if(fine%parallel) schedule(static)
       do j = 1, fine%grid%ny
          call interpolate_row(coarse%grid, space%h_start, j, row)
+         ! a film that comes of pressures which nodes do not take on says nothing about whether they yield
+         if (yields(fine)) row = merge(0.0_dp, row, fine%boundary%kept(:, j) > 0.0_dp)
          fine%h(:, j) = fine%h(:, j) + row
          if (j < fine%grid%first_inner() .or. j == fine%grid%ny) cycle
          if (coarsening == coarsening_alcouffe) then

@@ -61,7 +61,6 @@ module ehl_boundary_film
       procedure :: find_row
       procedure :: find_yielding
       procedure :: bound
-      procedure :: least_film
       procedure :: forget
       procedure :: take_row
       procedure :: residual_row
@@ -169,20 +168,6 @@ contains
          after(i) = merge(self%limit, after(i), after(i) > self%limit)
       end do
    end subroutine bound
-
-   !> Least film of row j: where nodes yield, that of the layer
-   pure real(dp) function least_film(self, h, j)
-      class(boundary_film_t), intent(in) :: self
-      !> Of the elastic bodies, shape (nx)
-      real(dp), contiguous, intent(in) :: h(:)
-      integer, intent(in) :: j
-
-      if (self%limit > 0.0_dp) then
-         least_film = minval(merge(self%film(:, j), h, self%kept(:, j) > 0.0_dp))
-      else
-         least_film = minval(h)
-      end if
-   end function least_film
 
    !> No node touches
    pure subroutine forget(self)

@@ -53,10 +53,10 @@ contains
       call record%set("contact_area_share", numbers(2)/(pi*plan%contact%ellipticity))
       call record%set("layer_supply", numbers(3))
       if (.not. plan%lubricant%boundary_limit > 0.0_dp) return
-      call record%set("contact_load_share_at_hardness", numbers(4))
-      call record%set("contact_area_share_at_hardness", numbers(5)/(pi*plan%contact%ellipticity))
+      call record%set("load_share_at_hardness", numbers(4))
+      call record%set("area_share_at_hardness", numbers(5)/(pi*plan%contact%ellipticity))
       call record%set("plastic_depth_max_m", numbers(6)*plan%scales%film)
-      call record%set("flowing_load_share_above_hardness", numbers(7))
+      call record%set("flowing_load_share_at_hardness", numbers(7))
    end subroutine report_touching
 
    !> Whether the film that the inlet makes is nothing beside the layer

@@ -3,6 +3,7 @@
 submodule (ehl_solver) ehl_solver_results
    use ehl_domain, only: ratio_cost, too_small
    use ehl_judgement, only: judge
+   use ehl_level, only: gap
    use ehl_level_result, only: discretisation_error, spike_grows
    use ehl_outcome, only: outcome_names, outcome_target_missed
    use ehl_ratio_error, only: ratio_error_t
@@ -269,7 +270,7 @@ contains
                               self%smooth_heat, self%rough_heat, heat_ratio)
       else
          associate (level => self%hierarchy%levels(self%level()))
-            call report_friction(record, self%plan, level%grid, level%p, level%h, known, friction, ratio, &
+            call report_friction(record, self%plan, level%grid, level%p, gap(level), known, friction, ratio, &
                                  self%smooth_heat, self%rough_heat, heat_ratio)
          end associate
       end if

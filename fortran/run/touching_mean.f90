@@ -3,7 +3,7 @@
 module ehl_touching_mean
    use ehl_contact_run, only: contact_run_t
    use ehl_kinds, only: dp
-   use ehl_touching, only: at_depth, names_without_limit, touching_names
+   use ehl_touching, only: at_depth, known_names, touching_names
    implicit none (type, external)
    private
    public :: load_share_of, touching_of
@@ -15,13 +15,12 @@ contains
    function touching_of(run) result(numbers)
       class(contact_run_t), intent(in) :: run
       real(dp) :: numbers(size(touching_names))
-      integer :: k, first, last
+      integer :: k, first
 
       if (run%in_steps) then
          first = run%transient%mean%first_of_mean()
          numbers = 0.0_dp
-         last = merge(size(touching_names), names_without_limit, run%plan%lubricant%boundary_limit > 0.0_dp)
-         do k = 1, last
+         do k = 1, known_names(run%plan%lubricant)
             associate (values => run%history%column(touching_names(k)))
                numbers(k) = sum(values(first:))/max(1, size(values) - first + 1)
                if (k == at_depth) numbers(k) = maxval(values(first:))
