@@ -134,7 +134,7 @@ def test_hardness_dry_limit(solve, amplitude, velocity, layer, limit, error):
     assert "yielding solids" in done["judgement"]
 
 
-@pytest.mark.parametrize("scene", [{}, REST, WAVE], ids=["smooth", "rest", "wave"])
+@pytest.mark.parametrize("scene", [{}, REST, MIXED], ids=["smooth", "rest", "wave"])
 def test_hardness_above_all_pressures_changes_no_bit(solve, scene):
     touching = STEEL | {"contact.mean_velocity": 0.05, "lubricant.boundary_film": 3e-8} | scene
     elastic = solve(None, 65, touching, fields=True)
