@@ -17,7 +17,7 @@
 !> two residuals, rhs - N and rate (rho H - H_b), that one holds which asks for more pressure, each with what answers it: the
 !> deflection alone, or the deflection and the Poiseuille term.
 !>
-!> Solids with a hardness carry no more than the limit P_h. A node yields where P = P_h and it asks for more pressure: the elastic
+!> Solids with a hardness carry no more than the limit P_Y. A node yields where P = P_Y and it asks for more pressure: the elastic
 !> film H is below the layer, or below what the lubricant needs. The solids give way by what is missing, D >= 0, so that
 !> rho (H + D) is that of the layer, or more where N = 0 then. Such a node keeps its pressure until D would be negative.
 module ehl_boundary_film
