@@ -34,7 +34,7 @@ spfrt | kind | | what the summary is of: 'solution', 'prediction', 'film', 'resp
 sprt | files | | names of the files of the result in its folder
 sp | status | | 'converged', 'predicted', or why there is no result
 s | converged | | whether the results are a solution
-p | message | | the status in a sentence
+sp | message | | the status in a sentence; of a run that has no result
 sp | judgement | | what the result is worth: a word, the reason, and what else to know
 s | version | | version of the library
 sp | wall_seconds | s | time of the run
@@ -100,7 +100,7 @@ sp | h_c_error_m | m | estimate of its error
 p | h_c_source | | where it is from
 sp | h_min_m | m | minimum film of the smooth contact
 sp | h_min_error_m | m | estimate of its error
-s | p_max_Pa | Pa | largest pressure
+sp | p_max_Pa | Pa | largest pressure of the smooth contact
 s | load_beyond | - | share of the load that the pressure beyond the border carries
 sp | load_error | - | relative error of the force balance
 s | cycles | - | cycles on the finest grid
@@ -117,7 +117,7 @@ s | P_max_rough | p_h | largest pressure of the rough contact: at rest, in T_mea
 s | P_max_rough_T | a/u | when
 s | P_max_rough_X | a | where
 s | P_max_rough_Y | a | where
-s | p_max_rough_Pa | Pa | largest pressure of the rough contact, as P_max_rough
+sp | p_max_rough_Pa | Pa | largest pressure of the rough contact; predicted: within 0.8 a
 s | P_rise_max | p_h | largest rise of the pressure over the smooth contact at the same place
 s | P_rise_max_T | a/u | when
 s | P_rise_max_X | a | where

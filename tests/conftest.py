@@ -15,6 +15,9 @@ from types import ModuleType
 
 import pytest
 
+# products of small matrices are slower on several threads; before NumPy is loaded
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 ROOT = Path(__file__).resolve().parent.parent
 
 

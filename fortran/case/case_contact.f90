@@ -89,7 +89,8 @@ contains
       culprit = most_unusual(schema)
       associate (key => schema%keys(culprit))
          call refuse(schema, sources, trim(key%group), trim(key%name), what // " with " &
-                     // key%full_name() // " = " // key%value_text(), expected, status)
+                     // key%full_name() // " = " // key%value_text(), &
+                     expected // key%in_millimetres(key%value_text()), status)
       end associate
    end subroutine check_operating_point
 

@@ -40,6 +40,7 @@ module ehl_case_key
       procedure :: full_name
       procedure :: value_text
       procedure :: type_text
+      procedure :: in_millimetres
       procedure :: allows
       procedure :: take
    end type key_t
@@ -101,6 +102,20 @@ contains
          text = "a text between quotes"
       end select
    end function type_text
+
+   !> '; 9.525 mm is 9.525e-3' for the number of a radius that will be in mm; else empty
+   pure function in_millimetres(self, number) result(text)
+      class(key_t), intent(in) :: self
+      character(len=*), intent(in) :: number
+      character(len=:), allocatable :: text
+      real(dp) :: value
+      integer :: stat
+
+      text = ""
+      if (index(self%name, "radius") /= 1 .or. self%unit /= "m" .or. scan(number, "eEdD") > 0) return
+      read (number, *, iostat=stat) value
+      if (stat == 0 .and. abs(value) >= 1.0_dp) text = "; " // number // " mm is " // number // "e-3"
+   end function in_millimetres
 
    !> Words of a list 'this|that'
    pure function choices(allowed) result(list)

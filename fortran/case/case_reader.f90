@@ -5,7 +5,7 @@ module ehl_case_reader
    use ehl_case_check, only: check_case, complete_case
    use ehl_case_value, only: set_value
    use ehl_group_reader, only: read_groups
-   use ehl_key_finder, only: find_key, hint, join
+   use ehl_key_finder, only: find_key, known_groups
    use ehl_scanner, only: scan_token, token_atom, token_string, token_t
    use ehl_keys, only: bind_keys
    use ehl_schema, only: schema_t
@@ -127,7 +127,7 @@ contains
             key = find_key(source, schema, group, name, status)
          else
             call status%fail(ehl_bad_input, point_at(source, 1, max(1, dot - 1), "unknown group '"//group//"'", &
-                                                     "one of "//join(names, ", ")//hint(group, names, "")))
+                                                     known_groups(group, names, "")))
          end if
       end associate
    end subroutine find_option

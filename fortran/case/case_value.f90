@@ -58,7 +58,9 @@ contains
          end if
       end select
       if (problem == "") return
-      if (key%kind == kind_word) then
+      if (problem == "out of range") expected = expected // key%in_millimetres(token%text)
+      ! units are too short to be near each other
+      if (key%kind == kind_word .and. any(len_trim(choices(key%allowed)) > 2)) then
          near = nearest_word(token%text, choices(key%allowed))
          if (near /= "") expected = expected // "; did you mean '" // near // "'?"
       end if

@@ -3,7 +3,7 @@
 module ehl_group_reader
    use ehl_case_key, only: mark_default, mark_derived, name_length
    use ehl_case_value, only: set_value
-   use ehl_key_finder, only: find_key, hint, join
+   use ehl_key_finder, only: find_key, join, known_groups
    use ehl_scanner, only: scan_token, token_atom, token_comma, token_end, token_equals, token_group, token_open_string, &
                           token_slash, token_string, token_t
    use ehl_schema, only: schema_t
@@ -83,7 +83,7 @@ contains
             what = "text outside of a group"
          else if (number == 0) then
             what = "unknown group &"//opening%text
-            expected = expected//hint(opening%text, names, "&")
+            expected = known_groups(opening%text, names, "&")
          else if (seen(number)) then
             what = "group &"//group//" is there twice"
             expected = "all keys of a group in one place"

@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Groups and keys by name, and what to say about a name that nobody knows
 module ehl_key_finder
+   use ehl_other_names, only: about_name
    use ehl_scanner, only: token_t
    use ehl_schema, only: schema_t
    use ehl_source, only: point_at, source_t
@@ -8,7 +9,7 @@ module ehl_key_finder
    use ehl_text, only: lower_case, nearest_word
    implicit none (type, external)
    private
-   public :: find_key, join, hint
+   public :: find_key, known_groups, join
 
 contains
 
@@ -35,10 +36,20 @@ contains
             where_else = "; '"//trim(schema%keys(k)%name)//"' belongs to &"//trim(schema%keys(k)%group)
             exit
          end do
-         expected = "one of the keys "//join(schema%names_of(group), ", ")//where_else
+         expected = about_name(group, name%text)
+         if (expected == "") expected = "one of the keys "//join(schema%names_of(group), ", ")//where_else
       end if
       call status%fail(ehl_bad_input, point_at(source, name%first, name%last, what, expected))
    end function find_key
+
+   !> What to expect in place of an unknown group: what there is to say about the name, or the groups with a prefix
+   pure function known_groups(name, names, prefix) result(text)
+      character(len=*), intent(in) :: name, names(:), prefix
+      character(len=:), allocatable :: text
+
+      text = about_name("", name)
+      if (text == "") text = "one of the groups "//prefix//join(names, ", "//prefix)//hint(name, names, prefix)
+   end function known_groups
 
    !> Names with something between them
    pure function join(names, between) result(text)

@@ -79,8 +79,8 @@ contains
       note = ""
       associate (l => input%lubricant)
          if (l%alpha_estimated) note = "alpha = "//fixed(l%pressure_viscosity, "es9.3")//" 1/Pa at "//to_text(l%temperature)// &
-            " degC is an estimate by the z of a mineral oil (Roelands): oils have z = "//known// &
-            ", which is -17 to +12 % of the film; give lubricant.pressure_viscosity"
+            " degC is an estimate by the z of a mineral oil (Roelands): for z = "//known// &
+            " the film is 17 % thinner to 12 % thicker; give lubricant.pressure_viscosity"
          if (l%alpha_default) note = "alpha = "//fixed(l%pressure_viscosity, "es9.3")// &
             " 1/Pa is the default, that of another oil; give lubricant.pressure_viscosity"
       end associate

@@ -73,7 +73,7 @@ contains
 
       !> The greatest pressures of the smooth and the rough contact
       function pressure()
-         character(len=:), allocatable :: pressure
+         character(len=:), allocatable :: pressure, rise
 
          pressure = ""
          if (known("P_max")) then
@@ -86,11 +86,16 @@ contains
             end if
          else if (known("p_max_Pa")) then
             pressure = "p_max      "//giga("p_max_Pa")
+            if (known("p_max_rough_Pa")) pressure = pressure//"; rough "//giga("p_max_rough_Pa")
          else if (known("h_c_m")) then
             pressure = "p_h        "//giga("hertz_pressure_Pa")
          end if
-         if (known("p_rise_max_Pa")) pressure = pressure//"; rough "//with_error(summary%number("p_rise_max_Pa")*gigapascals, &
-            summary%number("p_rise_max_error_Pa")*gigapascals, "f10.4", " GPa")//" above the smooth contact"
+         ! of a prediction
+         if (known("p_rise_max_Pa")) then
+            rise = with_error(summary%number("p_rise_max_Pa")*gigapascals, summary%number("p_rise_max_error_Pa")*gigapascals, &
+                              "f10.4", " GPa above the smooth contact")
+            pressure = pressure//merge(", up to ", "; rough ", known("p_max_rough_Pa"))//rise
+         end if
          if (pressure /= "") pressure = pressure//newline
       end function pressure
 
@@ -107,8 +112,8 @@ contains
 
          lambda = ""
          if (.not. known("lambda_ratio")) return
-         lambda = "Lambda     h_min/sigma "//fixed(summary%number("lambda_ratio"), "f9.3")//", h_c/sigma "// &
-                  fixed(summary%number("lambda_ratio_central"), "f9.3")//", smooth films over undeformed roughness"//newline
+         lambda = "Lambda     "//fixed(summary%number("lambda_ratio"), "f9.3")//" (h_c/sigma "// &
+                  fixed(summary%number("lambda_ratio_central"), "f9.3")//"), smooth films over undeformed roughness"//newline
       end function lambda
 
       !> Friction ratio, and why its error is not known

@@ -33,16 +33,17 @@ contains
       character(len=:), allocatable, intent(out) :: text
       integer, intent(out) :: worth
       character(len=:), allocatable :: status, doubts, rest
+      logical :: breaks
 
       status = summary%text("status")
       worth = no_answer
-      if (status == "film breakdown") then
-         text = status//": "//summary%text("message")
+      ! a run whose smooth contact is solved
+      breaks = status == "film breakdown" .or. (status == "negative film" .and. ieee_is_finite(summary%number("H_c")))
+      if (breaks) then
+         text = "film breakdown: "//summary%text("message")
       else if (all(status /= [character(len=13) :: "converged", "predicted", "target missed"])) then
          text = "no answer: the status is '"//status//"'"
          if (summary%text("message") /= "") text = text//": "//summary%text("message")
-         if (summary%text("H_c_error_note") /= "" .and. .not. ieee_is_finite(summary%number("H_c"))) text = text//": "// &
-            summary%text("H_c_error_note")
       else
          worth = with_care
          doubts = of_pressure(summary)//of_contact(summary)//of_yielding(summary)//of_waves(summary)
@@ -159,8 +160,11 @@ contains
             text = text//word//" is known to "//percent(share)//" only; "
          end if
       end do
-      if (summary%text("pressure_viscosity_note") /= "") text = text//"alpha was not given "// &
-         "(pressure_viscosity_note); "
+      if (index(summary%text("pressure_viscosity_note"), "estimate") > 0) then
+         text = text//"alpha is an estimate (-17 to +12 % of the film); "
+      else if (summary%text("pressure_viscosity_note") /= "") then
+         text = text//"alpha is that of another oil; "
+      end if
       if (summary%text("outside_range") /= "") text = text//summary%text("outside_range")//" outside of the range of the "// &
          "response; "
    end function of_errors
@@ -189,8 +193,8 @@ contains
          text = "the least film over the roughness is "//short(film*1.0e9_dp)//" nm"
       else if (ieee_is_finite(film)) then
          text = "the least film is "//short(film*1.0e9_dp)//" nm"
-         if (.not. summary%has("lambda_ratio")) text = text//", "//short(apart, 1)//" times an rms roughness of "// &
-                                                        short(film/apart*1.0e9_dp)//" nm"
+         if (.not. summary%has("lambda_ratio")) text = text//": Lambda = "//short(apart, 1)// &
+                                                        " with an rms roughness of "//short(film/apart*1.0e9_dp)//" nm"
       else
          text = "smooth surfaces; the case gives no size in metres"
          if (ieee_is_finite(ratio)) text = "Lambda = "//short(ratio)

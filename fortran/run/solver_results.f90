@@ -5,6 +5,7 @@ submodule (ehl_solver) ehl_solver_results
    use ehl_judgement, only: judge
    use ehl_level, only: gap
    use ehl_level_result, only: discretisation_error, spike_grows
+   use ehl_no_answer, only: why_no_answer
    use ehl_outcome, only: outcome_names, outcome_target_missed
    use ehl_ratio_error, only: ratio_error_t
    use ehl_report, only: report_transient, report_rest, report_scene, report_waves
@@ -31,11 +32,13 @@ contains
    module procedure summary
       logical :: good
       real(dp) :: ratio, stop_error
-      character(len=:), allocatable :: judgement
+      character(len=:), allocatable :: judgement, why
       integer :: worth
 
       call record%set("kind", "solution")
       call record%set("status", trim(outcome_names(self%stand())))
+      why = why_no_answer(self)
+      if (why /= "") call record%set("message", why)
       call record%set("converged", self%converged())
       ! the smooth results are good as soon as the transient run has begun
       good = self%in_steps .or. self%resting .or. self%steady%outcome == outcome_converged .or. &
@@ -157,9 +160,9 @@ contains
       if (.not. waves%known) then
          if (self%plan%surfaces%unresolved > rounding) waves%unresolved = ieee_value(waves%unresolved, ieee_quiet_nan)
          waves%left_out = waves%unresolved
-         waves%why = "waves that the grid leaves out are not in it: pyehl run predicts what they add"
+         waves%why = "what the waves left out add is not predicted (pyehl run does)"
          if (self%plan%surfaces%rest()) waves%why = &
-            "waves that the grid leaves out are not in it: what they add is predicted for surfaces on the move alone"
+            "what the waves left out add is not predicted (for surfaces on the move alone)"
       end if
       if (.not. (self%plan%surfaces%left_out > rounding .and. self%plan%surfaces%has_spectrum())) waves%left_out = 0.0_dp
    end function waves_of

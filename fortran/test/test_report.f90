@@ -70,7 +70,7 @@ contains
       call record%set("status", "cycle limit")
       call record%set("H_c", ieee_value(1.0_dp, ieee_quiet_nan))
       call is_text(conclusion(record), "judgement  no answer: the status is 'cycle limit'", "no solution")
-      call record%set("H_c_error_note", "too coarse")
+      call record%set("message", "too coarse")
       call is_text(conclusion(record), "judgement  no answer: the status is 'cycle limit': too coarse", "why there is none")
       call record%set("status", "converged")
       call record%set("H_c", 0.024369_dp)
@@ -97,11 +97,20 @@ contains
       call has_text(text, "H_c        0.024 +- 0.027, h_c 234 +- 255 nm"//lf, "central film in nm")
       call has_text(text, lf//"p_max      1.0049 p_h, error not known, 1.0215 GPa; rough 1.0684 GPa"//lf, "pressures")
       call has_text(text, lf//"mu_r/mu_s  1.185 +- 0.048"//lf, "friction ratio")
-      call has_text(text, "h_min/sigma 1.590, h_c/sigma 4.670", "film over roughness")
+      call has_text(text, "Lambda     1.590 (h_c/sigma 4.670), smooth films", "film over roughness")
       call has_text(text, lf//"mu         0.04000, smooth contact 0.03380; law 'eyring'"//lf, "friction with its law")
       call record%set("mu_ratio_error", ieee_value(1.0_dp, ieee_quiet_nan))
       call record%set("mu_ratio_error_note", "no coarser run")
       call has_text(conclusion(record), "mu_r/mu_s  1.18490, error not known: no coarser run", "unknown error")
+      ! as a prediction has them
+      call record%set("P_max", ieee_value(1.0_dp, ieee_quiet_nan))
+      call record%set("p_rise_max_Pa", 8.53e7_dp)
+      call has_text(conclusion(record), lf//"p_max      1.0215 GPa; rough 1.0684 GPa, up to 0.0853 GPa above the smooth "// &
+                    "contact, error not known"//lf, "pressures of a prediction")
+      call record%set("p_max_rough_Pa", ieee_value(1.0_dp, ieee_quiet_nan))
+      call record%set("p_rise_max_error_Pa", 1.2e7_dp)
+      call has_text(conclusion(record), lf//"p_max      1.0215 GPa; rough 0.085 +- 0.012 GPa above the smooth contact"//lf, &
+                    "its rise alone")
    end subroutine last_lines
 
    !> Each thing that a result may be short of has its word, and the worst comes first
@@ -117,13 +126,13 @@ contains
       ! as Python hands a summary over
       call good%take_json(record%to_json())
       call judge(good, text, worth)
-      call is_text(text, "full film: the least film is 30.0 nm, 3 times an rms roughness of 10.0 nm", "full film")
+      call is_text(text, "full film: the least film is 30.0 nm: Lambda = 3 with an rms roughness of 10.0 nm", "full film")
       call is_equal(worth, holds, "worth of a full film")
 
       record = good
       call record%set("H_c_error", 0.002_dp)
-      call is_judged(record, "full film: the least film is 30.0 nm, 3 times an rms roughness of 10.0 nm; but H_c is known "// &
-                     "to 10 % only", with_care)
+      call is_judged(record, "full film: the least film is 30.0 nm: Lambda = 3 with an rms roughness of 10.0 nm; but "// &
+                     "H_c is known to 10 % only", with_care)
       record = good
       call record%set("flash_temperature_K", 40.0_dp)
       call is_judged(record, "but the surfaces warm by 40.0 K", with_care)
@@ -134,7 +143,7 @@ contains
 
       record = good
       call record%set("status", "target missed")
-      call is_judged(record, "full film: the least film is 30.0 nm, 3 times an rms roughness of 10.0 nm; but "// &
+      call is_judged(record, "full film: the least film is 30.0 nm: Lambda = 3 with an rms roughness of 10.0 nm; but "// &
                      "grid.target_error is missed", with_care)
       record = good
       call record%set("lambda_ratio", 0.8_dp)
@@ -157,6 +166,17 @@ contains
       call record%set("status", "film breakdown")
       call record%set("message", "5 nm below zero")
       call is_judged(record, "film breakdown: 5 nm below zero", no_answer)
+      ! of a run: the roughness, on a smooth contact that is solved; else the smooth contact itself
+      call record%set("status", "negative film")
+      call is_judged(record, "film breakdown: 5 nm below zero", no_answer)
+      call record%set("H_c", ieee_value(1.0_dp, ieee_quiet_nan))
+      call is_judged(record, "no answer: the status is 'negative film': 5 nm below zero", no_answer)
+
+      record = good
+      call record%set("pressure_viscosity_note", "alpha = 1 is an estimate")
+      call is_judged(record, "but alpha is an estimate (-17 to +12 % of the film)", with_care)
+      call record%set("pressure_viscosity_note", "alpha = 1 is the default")
+      call is_judged(record, "but alpha is that of another oil", with_care)
 
    contains
 

@@ -119,7 +119,7 @@ contains
       if (self%cycles >= damped_cycles*self%max_cycles) return
       self%past = [residual, self%past(:ubound(self%past, 1) - 1)]
       if (stuck(self)) then
-         self%attempt = merge(attempt_damped, self%attempt + 1, self%cycles >= self%max_cycles)
+         self%attempt = merge(attempt_damped, self%attempt + 1, self%touching .or. self%cycles >= self%max_cycles)
          next = step_begins_again
          return
       end if

@@ -54,6 +54,7 @@ class ShearedContact:
         self.count = 0  # positions
         self.imbalance = 0.0  # greatest share of the load that delta p carries or takes off [-]
         self.greatest_rise = -math.inf  # of the pressure over the smooth contact within INNER
+        self.greatest_pressure = -math.inf  # within INNER
         self.squared_rise = 0.0  # sum over the positions of its mean square within NEAR
         # Films of which the share of points below is counted, and the points that were below
         self.levels: tuple[float, ...] = ()
@@ -64,13 +65,20 @@ class ShearedContact:
         self.levels, self.below = levels, np.zeros(len(levels), dtype=np.int64)
 
     def meet(
-        self, rise: Array | Single, film: Array, inner: NDArray[np.bool_], near: NDArray[np.bool_]
+        self,
+        rise: Array | Single,
+        pressure: Array,
+        film: Array,
+        inner: NDArray[np.bool_],
+        near: NDArray[np.bool_],
     ) -> None:
-        """Note what a position has: rise of the pressure and film at points within the contact."""
+        """Note what a position has: rise of pressure, pressure and film at points within."""
         squares = np.square(rise, dtype=np.float64)
         self.squared_rise += float(squares.mean(where=near)) if near.any() else math.nan
         greatest = float(rise.max(where=inner, initial=-math.inf))
         self.greatest_rise = max(self.greatest_rise, greatest)
+        greatest = float(pressure.max(where=inner, initial=-math.inf))
+        self.greatest_pressure = max(self.greatest_pressure, greatest)
         for i, level in enumerate(self.levels):
             self.below[i] += np.count_nonzero(film < level)
 
@@ -151,7 +159,6 @@ class HertzContact(ShearedContact):
         film = self.film - deformed
         if min(self.thinnest, float(film.min())) <= 0.0:
             return math.nan
-        self.meet(delta, film, self.inner, self.near)
         # times the area of the circle, not of its pixels: the load is 2 pi/3
         carried = 1.5 * float(delta.mean())
         self.imbalance = max(self.imbalance, abs(carried))
@@ -162,6 +169,7 @@ class HertzContact(ShearedContact):
             scale = (1.0 - carried) ** (1.0 / 3.0)
             pressure = scale * np.sqrt(np.maximum(0.0, 1.0 - self.radius_squared / scale**2))
         pressure = pressure + delta
+        self.meet(delta, pressure, film, self.inner, self.near)
         tension = pressure <= 0.0
         self.cavitated += int(np.count_nonzero(tension))
         pressure[tension] = 0.0

@@ -75,6 +75,7 @@ class RoughFriction:
     # and the greatest within :data:`~pyehl.prediction.contact.INNER` [Pa]
     rise_rms: float
     rise_max: float
+    pressure_max: float  # greatest pressure over the passage within INNER [Pa]
     # Mean share of the contact with less film than psd.film_limit [-], and what the error of the
     # film makes of it; NaN without a limit
     below_limit: float
@@ -143,6 +144,7 @@ def passed(
         film_min=least_film * film_unit,
         rise_rms=contact.rise_rms() * contact.operating.hertz_pressure,
         rise_max=contact.greatest_rise * contact.operating.hertz_pressure,
+        pressure_max=contact.greatest_pressure * contact.operating.hertz_pressure,
         below_limit=float(share),
         below_limit_error=0.5 * float(high - low),
         cavitated_share=contact.cavitated / max(1, contact.count * contact.points),

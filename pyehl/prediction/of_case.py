@@ -133,6 +133,7 @@ def predict(
             contact.minimum_film_error * operating.film_scale,
         ),
         film_source=contact.source,
+        pressure_maximum=float(contact.pressure.max()) * operating.hertz_pressure,
         surface=alone[0].topography,
         friction=friction,
         bands=bands,
@@ -165,7 +166,8 @@ def _partial(
         passage, passage.parts(), layer, float(lubricant.get("boundary_friction", 0.0))
     )
     if settings["contact"].get("hardness", 0.0) > 0.0:
-        found = replace(found, load_share_error=math.nan, area_share_error=math.nan, note=ELASTIC)
+        note = found.note or ELASTIC
+        found = replace(found, load_share_error=math.nan, area_share_error=math.nan, note=note)
     return found
 
 

@@ -48,7 +48,7 @@ class Predictions:
                 self._resolution = resolution(self._case, self._tiles)
             except (EhlError, ValueError, ArithmeticError, OSError, MemoryError) as error:
                 why = str(error) or type(error).__name__
-                self._resolution = f"no mu_r/mu_s: {why.replace(chr(10), ' ')}"
+                self._resolution = why.replace(chr(10), " ")
             self._resolved = True
         return self._resolution
 
@@ -56,7 +56,7 @@ class Predictions:
         """Lines of the plan: what the grid does not resolve."""
         found = self._resolution_once()
         if isinstance(found, str):
-            return [f"predicted   {found}"]
+            return [f"predicted   no mu_r/mu_s: {found}"]
         return found.report() if found else []
 
     def tell(self, solver: SolverHandle, summary: Mapping[str, Any]) -> None:
@@ -67,6 +67,9 @@ class Predictions:
         if isinstance(found, Resolution):
             solver.take_prediction(found.left_out, found.unresolved, "")
         elif found is not None:
-            why = f"waves that the grid leaves out are not in it: {found}"
-            solver.take_prediction(math.nan, math.nan, why)
+            # a status without its message, which the plan has
+            why = found.partition(": ")[0]
+            solver.take_prediction(
+                math.nan, math.nan, f"what the waves left out add is not predicted ({why})"
+            )
         self._told = True

@@ -71,6 +71,8 @@ class Prediction:
         Smooth minimum film h_min [m]; NaN where it is not known.
     film_source
         Where h_c is from, in words.
+    pressure_maximum
+        Greatest pressure of the smooth contact [Pa].
     surface
         The undeformed roughness.
     friction
@@ -116,6 +118,7 @@ class Prediction:
     film: float
     film_minimum: float
     film_source: str
+    pressure_maximum: float
     surface: surfaces.Topography
     friction: RoughFriction
     bands: Sequence[Band]
@@ -238,6 +241,7 @@ class Prediction:
         f, o, s = self.friction, self.operating, self.surface
         layer = float(self.settings["lubricant"].get("boundary_film", 0.0)) / o.film_scale
         sigma = math.hypot(s.rms_height, self.second.surface.rms_height if self.second else 0.0)
+        rough = max(f.pressure_max, self.pressure_maximum) if f.status == "predicted" else None
         values: dict[str, Any] = {
             "kind": "prediction",
             "status": f.status,
@@ -275,6 +279,8 @@ class Prediction:
             "h_c_source": self.film_source,
             "h_min_m": self.film_minimum,
             "h_min_error_m": self.film_errors[1],
+            "p_max_Pa": self.pressure_maximum,
+            "p_max_rough_Pa": rough,
             "lambda_ratio": self.film_minimum / sigma if sigma > 0.0 else None,
             "lambda_ratio_central": self.film / sigma if sigma > 0.0 else None,
             **statistics(s, f.response),

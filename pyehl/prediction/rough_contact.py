@@ -210,7 +210,7 @@ class WavyContact(ShearedContact):
         film[~self.inside] = math.inf
         whole = film + missing(self.contact, smooth)
         self.least = min(self.least, float(whole.min()))
-        self.meet(change[..., 1], whole, self.inner, self.near)
+        self.meet(change[..., 1], pressure, whole, self.inner, self.near)
         film[~self.inside] = 1.0
         carried = np.bincount(self.rings, pressure[self.inside], len(RINGS))
         np.maximum(pressure, 0.0, out=pressure)

@@ -99,7 +99,8 @@ class Spectrum:
     def share_below(self, length: float) -> float:
         """Share of the variance in waves shorter than a length [a], 0 where it is rounding."""
         power = self.power
-        share = float(power[self.q > 2.0 * np.pi / length].sum() / power.sum())
+        # a flat surface has none
+        share = float(power[self.q > 2.0 * np.pi / length].sum() / (power.sum() or 1.0))
         return share if share > 1e-24 else 0.0
 
     @property

@@ -73,6 +73,7 @@ UNITS = {
     "temperature_rise_max_K": "K",
     "flash_temperature_K": "K",
     "p_max_Pa": "Pa",
+    "p_max_rough_Pa": "Pa",
     "mu_spread": "1",
     "mu_ratio": "1",
     "mu_ratio_spread": "1",
@@ -154,12 +155,12 @@ def _at(
             values["mu_ratio_ehl_error"] = full["mu_ratio_error"]
         else:
             values["message"] = _joined(values, f"full simulation: {full['status']}")
-    n = int(point.settings["grid"]["points"])
-    finer = f"grid.points = {2 * n - 1} may do better"
     if smooth["status"] == "converged" and smooth["H_c_extrapolated"] is None:
-        values["message"] = _joined(values, f"film of {n} x {n} nodes, not extrapolated: {finer}")
+        n = int(point.settings["grid"]["points"])
+        told = f"film of {n} x {n} nodes, not extrapolated: grid.points = {2 * n - 1} may do better"
+        values["message"] = _joined(values, told)
     if smooth["status"] != "converged":
-        values["message"] = _joined(values, f"smooth contact: {why_none(smooth)}; {finer}")
+        values["message"] = _joined(values, f"smooth contact: {why_none(smooth)}")
         if values["status"] in (FULL_FILM, MIXED, OUTSIDE):
             values["status"] = UNSOLVED
     values["judgement"] = conclude(point, values).judgement
@@ -239,6 +240,7 @@ def _friction(found: Sequence[Row], smooth: Row) -> dict[str, Any]:
         **deformed_surfaces(found),
         "mu_isothermal": _mean(absolute, "mu_isothermal")["mu_isothermal"],
         "mu_smooth": coefficient,
+        "p_max_rough_Pa": _largest(found, "p_max_rough_Pa"),
         "mu_ratio_model_error": _largest(found, "mu_ratio_model_error"),
         "status": MIXED if touches(found) else OUTSIDE if outside else FULL_FILM,
         "message": f"outside the range of the prediction: {'; '.join(outside)}" if outside else "",

@@ -12,17 +12,20 @@ from numpy.typing import NDArray
 from pyehl.errors import EhlError, InputError
 from pyehl.surfaces.memory import check_pixels
 
-__all__ = ["read_instrument"]
+__all__ = ["Foreign", "Sizes", "UnknownFormatError", "read_instrument"]
 
 INSTALL = "pip install 'pyehl[surfaces]', or pip install SurfaceTopography"
 
-
 Sizes = tuple[float | None, float | None]
+# Heights, size, whether it is periodic, name of the channel, note
+Foreign = tuple[NDArray[np.float64], Sizes, bool, str, str]
 
 
-def read_instrument(
-    path: Path, channel: str = ""
-) -> tuple[NDArray[np.float64], Sizes, bool, str, str]:
+class UnknownFormatError(InputError):
+    """A file is of no format that SurfaceTopography knows."""
+
+
+def read_instrument(path: Path, channel: str = "") -> Foreign:
     """Heights (nx, ny) [m] of one channel of an instrument file, NaN where missing.
 
     The channel is a name, or a number from 1; empty: the file's first height channel. Also the size
@@ -52,9 +55,10 @@ def read_instrument(
         raise
     except Exception as error:
         reason = str(error).strip().partition("\n")[0] or type(error).__name__
+        kind = InputError
         if type(error).__name__ == "CannotDetectFileFormat":
-            reason = "it is of no format that SurfaceTopography knows"
-        raise InputError(
+            kind, reason = UnknownFormatError, "it is of no format that SurfaceTopography knows"
+        raise kind(
             f"{path}: cannot be read as a height map: {reason}; save the heights in m as .npy "
             "or text, and give surface.length_x and surface.length_y"
         ) from None

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from pyehl.errors import EhlError, FileError, InputError
 from pyehl.library import check_memory
-from pyehl.surfaces.instruments import read_instrument
+from pyehl.surfaces.headed_table import UNITS, read_headed
+from pyehl.surfaces.instruments import Foreign, UnknownFormatError, read_instrument
 from pyehl.surfaces.memory import check_pixels
 from pyehl.surfaces.point_list import grid_of, is_list
 from pyehl.surfaces.text_map import read_text
@@ -43,8 +44,6 @@ EXPORT = re.compile(
 # First characters of numbers, nan and inf among them
 NUMBER_BEGINS = "0123456789+-.nNiI,;"
 HEADER_LINES = 100
-UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
-"""Metres in the units of `surface.height_unit`."""
 LEAST_PIXELS = 4
 
 
@@ -77,20 +76,23 @@ def is_array_file(path: str | Path) -> bool:
     OSError if the file cannot be opened.
     """
     path = Path(path)
-    suffix = path.suffix.lower()
-    if suffix == ".npy":
+    if path.suffix.lower() == ".npy":
         return True
-    if suffix not in TEXT_SUFFIXES:
-        return False
-    with path.open("rb") as stream:
-        head = stream.read(4096)
-    if b"\0" in head or any(byte < 9 for byte in head):
+    if not _is_text(path):
         return False
     with path.open(encoding="utf-8", errors="replace") as lines:
         first = [line for _, line in zip(range(HEADER_LINES), lines, strict=False)]
     data = next((text for line in first if (text := line.partition("#")[0].strip())), "")
     words = bool(data) and data[0] not in NUMBER_BEGINS
     return not words and not any(EXPORT.search(line) for line in first)
+
+
+def _is_text(path: Path) -> bool:
+    """Whether a file has the name of a text and no byte that a text has not."""
+    if path.suffix.lower() not in TEXT_SUFFIXES:
+        return False
+    with path.open("rb") as stream:
+        return all(byte >= 9 for byte in stream.read(4096))
 
 
 def read_scan(
@@ -105,8 +107,9 @@ def read_scan(
     ``.npy`` (never pickled) or text (``.txt``, ``.csv``, ``.dat``, ``.asc``: one x per line, y
     along the line, separated by blanks, commas or semicolons; or a list of the x, y and z of all
     points of a grid), heights in `height_unit` ('m', 'mm', 'um' or 'nm'), as are the places of a
-    list, NaN where they are missing; any other file must be one that SurfaceTopography reads. Where
-    such a file names neither size nor unit (MATLAB, HDF5), its heights are in that unit, too.
+    list, NaN where they are missing; any other file must be one that SurfaceTopography reads, or a
+    text with its table under lines of words (:mod:`pyehl.surfaces.headed_table`). Where such a file
+    names neither size nor unit (MATLAB, HDF5), its heights are in that unit, too.
     `channel` is the name of a channel of an instrument file, or its number, counted from 1; empty:
     the one that the file calls its first height channel.
 
@@ -140,7 +143,7 @@ def _read(
     if array:
         heights, own, periodic = _read_array(path, channel)
     else:
-        heights, own, periodic, name, note = read_instrument(path, channel)
+        heights, own, periodic, name, note = _read_foreign(path, channel)
     if height_unit != "m":
         if not array and not note:
             raise InputError(
@@ -148,7 +151,7 @@ def _read(
             )
         heights *= UNITS[height_unit]
         note = f"heights in {height_unit} by surface.height_unit"
-    if array and is_list(heights):
+    if is_list(heights):
         heights, own = grid_of(path, heights)
     _check_shape(path, heights.shape)
     x, y = length_x or own[0], length_y or own[1]
@@ -167,6 +170,26 @@ def _read(
     scan = Scan(heights, float(x), float(y), str(path), array, periodic, name, size_from, note)
     _check_pixel(scan)
     return scan
+
+
+def _read_foreign(path: Path, channel: str) -> Foreign:
+    """Read a file of an instrument, or a table under lines of words."""
+    found = None
+    may_be_table = not channel and _is_text(path)
+    try:
+        found = read_instrument(path, channel)
+    except UnknownFormatError:
+        if not may_be_table:
+            raise
+    # a text whose unit SurfaceTopography does not see may name it in words
+    if found is not None and not (found[-1] and may_be_table):
+        return found
+    try:
+        return read_headed(path)
+    except InputError:
+        if found is None:
+            raise
+        return found
 
 
 def _read_array(path: Path, channel: str) -> tuple[Array, tuple[float | None, float | None], bool]:
@@ -199,7 +222,8 @@ def _check_pixel(scan: Scan) -> None:
         if not PIXEL_BAND[0] <= pixel <= PIXEL_BAND[1]:
             raise InputError(
                 f"{scan.origin}: length_{axis} = {length:.4g} m gives a pixel of {pixel:.3g} m, "
-                f"outside {PIXEL_BAND[0]:g} ... {PIXEL_BAND[1]:g} m; is the length in m?"
+                f"outside {PIXEL_BAND[0]:g} ... {PIXEL_BAND[1]:g} m; is the length in m? "
+                "surface.height_unit is the unit of heights, and of a list of x, y and z"
             )
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pyehl.errors import InputError
 from pyehl.surfaces.memory import check_pixels
 
-__all__ = ["read_text"]
+__all__ = ["count_numbers", "read_text"]
 
 Array = NDArray[np.float64]
 
@@ -23,8 +23,8 @@ OWN_SIZE = re.compile(r"^#\s*(length_[xy])\s*=\s*(\S+)\s*m\s*$")
 OWN_PERIODIC = re.compile(r"^#\s*periodic\s*$")
 
 
-def read_text(path: Path) -> tuple[Array, tuple[float | None, float | None], bool]:
-    """Heights, the size if the header has it, and whether it says 'periodic'."""
+def read_text(path: Path, first: int = 1) -> tuple[Array, tuple[float | None, float | None], bool]:
+    """Heights from a line on, the size if the header has it, and whether it says 'periodic'."""
     size: dict[str, float | None] = {"length_x": None, "length_y": None}
     periodic = False
     rows: list[Array] = []
@@ -33,7 +33,7 @@ def read_text(path: Path) -> tuple[Array, tuple[float | None, float | None], boo
             if match := OWN_SIZE.match(line):
                 size[match[1]] = float(match[2])
             periodic = periodic or bool(OWN_PERIODIC.match(line))
-            row = _row(path, number, line)
+            row = _row(path, number, line) if number >= first else None
             if row is None:
                 continue
             if rows and row.size != rows[0].size:
@@ -77,6 +77,15 @@ def _row(path: Path, number: int, line: str) -> Array | None:
         raise InputError(
             f"{path}:{number}:{_column(line, bad)}: {words[bad]!r} is no number; expected: heights"
         ) from None
+
+
+def count_numbers(line: str) -> int:
+    """Count the numbers of a line of heights; 0 for a line of anything else."""
+    try:
+        row = _row(Path(), 0, line)
+    except InputError:
+        return 0
+    return 0 if row is None else row.size
 
 
 def _is_number(word: str) -> bool:

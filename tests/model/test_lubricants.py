@@ -134,12 +134,15 @@ def test_band_of_a_coefficient_that_was_not_given(root: Path):
         f"{cold['pao100']:.2f} (polyalphaolefin) at 40 °C"
     ) in text
     assert all(hot[name] == pytest.approx(cold[name], rel=0.04) for name in cold)
-    note = str(
-        pyehl.solve(Case.from_text(SHEET.format("")), LIGHT).attrs["pressure_viscosity_note"]
-    )
-    assert f"z = {min(cold.values()):.2f} to {max(cold.values()):.2f}" in note
+    data = pyehl.solve(Case.from_text(SHEET.format("")), LIGHT)
+    note = str(data.attrs["pressure_viscosity_note"])
     least, most = (100.0 * ((pick(cold.values()) / MINERAL_Z) ** 0.53 - 1.0) for pick in (min, max))
-    assert f"which is {least:.0f} to {most:+.0f} % of the film" in note
+    band = f"z = {min(cold.values()):.2f} to {max(cold.values()):.2f}"
+    assert f"for {band} the film is {-least:.0f} % thinner to {most:.0f} % thicker" in note
+    assert (
+        f"alpha is an estimate ({least:.0f} to {most:+.0f} % of the film)"
+        in data.attrs["judgement"]
+    )
 
 
 @pytest.mark.parametrize("temperature", [40.0, 80.0])
@@ -155,23 +158,26 @@ def test_coefficient_of_a_data_sheet_is_that_of_roelands(temperature: float):
 
 
 @pytest.mark.parametrize(
-    ("text", "words"),
+    ("text", "words", "judged"),
     [
-        (SHEET.format(""), "is an estimate"),
-        (SHEET.format("roelands_z = 0.65"), ""),
-        (SHEET.format("pressure_viscosity = 1.8e-8"), ""),
-        ("&lubricant viscosity = 0.05 /", "is the default"),
-        ("&lubricant viscosity = 0.05 pressure_viscosity = 1.8e-8 /", ""),
-        ("&lubricant name = 'fva3' /", ""),
-        ("", ""),
+        (SHEET.format(""), "is an estimate", "alpha is an estimate"),
+        (SHEET.format("roelands_z = 0.65"), "", ""),
+        (SHEET.format("pressure_viscosity = 1.8e-8"), "", ""),
+        ("&lubricant viscosity = 0.05 /", "is the default", "alpha is that of another oil"),
+        ("&lubricant viscosity = 0.05 pressure_viscosity = 1.8e-8 /", "", ""),
+        ("&lubricant name = 'fva3' /", "", ""),
+        ("", "", ""),
     ],
 )
-def test_a_coefficient_that_was_not_given_is_named(text: str, words: str, tmp_path: Path):
+def test_a_coefficient_that_was_not_given_is_named(
+    text: str, words: str, judged: str, tmp_path: Path
+):
     (tmp_path / "case.nml").write_text(text)
     data = pyehl.solve(tmp_path / "case.nml", LIGHT)
     note = str(data.attrs.get("pressure_viscosity_note", ""))
     assert (words in note) if words else not note
-    assert ("alpha was not given" in data.attrs["judgement"]) == bool(words)
+    judgement = data.attrs["judgement"]
+    assert (judged in judgement) if words else ("alpha" not in judgement)
 
 
 def test_slopes_at_the_inlet_follow_from_the_law(table: Path):

@@ -137,6 +137,11 @@ def test_transfer_is_interpolated_from_its_table(contact):
         assert np.abs(a - b)[spectrum.q > 0].max() < 2e-3
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_flat_surface_has_no_share_of_short_waves():
+    assert Spectrum.of(np.zeros((8, 8)), 1.0, 1.0).share_below(0.5) == 0.0
+
+
 def test_outside_the_range_is_said(settings):
     settings["psd"] |= {"reduction": "response", "smooth": "solved"}
     settings["surface"]["velocity_ratio"] = 1.5

@@ -249,6 +249,85 @@ def test_lengths_in_other_units_are_noticed(tmp_path):
     np.save(tmp_path / "map.npy", slope_map())
     with pytest.raises(ValueError, match="is the length in m"):
         read_scan(tmp_path / "map.npy", 0.829, 0.829)
+    places = np.indices((5, 4)).reshape(2, -1).T
+    np.savetxt(tmp_path / "list.txt", np.column_stack([2.0 * places, places[:, 0]]))
+    with pytest.raises(ValueError, match=r"in m\? surface\.height_unit is the unit .* of a list"):
+        read_scan(tmp_path / "list.txt")
+    assert read_scan(tmp_path / "list.txt", height_unit="um").length_x == pytest.approx(1e-5)
+
+
+TABLE = "0,5;1,5;2,5;3,5;4,5\n1,0;2,0;3,0;4,0;5,0\n-1;0;1;2;3\n0;0;0;0;7,25\n"
+
+
+@pytest.mark.parametrize(
+    ("header", "size", "unit"),
+    [
+        ("Height map;;\nWidth (um);10\nHeight (um);8,5\nUnit;nm\n\n", (1e-5, 8.5e-6), 1e-9),
+        (
+            "Profile 3\nX size: 0.01 mm\nY size: 8.5 µm\nZ units: mm\n128;128\n",
+            (1e-5, 8.5e-6),
+            1e-3,
+        ),
+        ("Height;0,5\nunit;um\n", (None, None), 1e-6),
+        ("Width;10\nHeight (um);8,5\nmade by hand\n", (None, None), 1.0),
+        ("Width (um);10\nWidth (um);12\nUnit;um\nUnit;nm\n", (None, None), 1.0),
+    ],
+)
+def test_table_under_header_lines(tmp_path, header, size, unit):
+    """A spreadsheet's: lines along x, decimal commas; what the header says of size and unit."""
+    path = tmp_path / "table.csv"
+    path.write_text(header + TABLE, encoding="utf-8")
+    given = (2e-5, 3e-5) if size == (None, None) else (None, None)
+    scan = read_scan(path, *given)
+    assert scan.heights.shape == (5, 4)
+    assert scan.heights[:, 0] == pytest.approx(unit * np.array([0.5, 1.5, 2.5, 3.5, 4.5]))
+    assert scan.heights[4, 3] == pytest.approx(unit * 7.25)
+    assert (scan.length_x, scan.length_y) == pytest.approx(given if size == (None, None) else size)
+    assert not scan.is_array
+    assert ("names no unit" in scan.note) == (unit == 1.0)
+    if size == (None, None):
+        with pytest.raises(ValueError, match=r"surface\.length_x and surface\.length_y"):
+            read_scan(path)
+    if unit == 1.0:
+        assert read_scan(path, *given, height_unit="nm").heights[0, 0] == pytest.approx(5e-10)
+    else:
+        with pytest.raises(ValueError, match="names its unit itself"):
+            read_scan(path, *given, height_unit="nm")
+
+
+@pytest.mark.parametrize("separator", ["\t", ",", ";", " "])
+def test_table_with_decimal_points(tmp_path, separator):
+    """SurfaceTopography reads some of them, without the unit that the header names."""
+    header = "Height map\nWidth (um): 10\nHeight (um): 8\nUnit: nm\n\n"
+    lines = "\n".join(separator.join(f"{10 * j + i}.5" for i in range(5)) for j in range(4))
+    (tmp_path / "table.txt").write_text(f"{header}{lines}\n")
+    scan = read_scan(tmp_path / "table.txt")
+    assert scan.heights == pytest.approx(1e-9 * (np.add.outer(range(5), 10 * np.arange(4)) + 0.5))
+    assert (scan.length_x, scan.length_y) == pytest.approx((1e-5, 8e-6))
+
+
+def test_list_of_points_under_a_header(tmp_path):
+    places = np.indices((5, 4)).reshape(2, -1).T
+    rows = "\n".join(f"{2 * x};{2 * y};{x},5" for x, y in places)
+    (tmp_path / "list.csv").write_text(f"x;y;z\nUnit;um\n{rows}\n")
+    scan = read_scan(tmp_path / "list.csv")
+    assert scan.heights == pytest.approx(1e-6 * (np.arange(5)[:, None] + 0.5) * np.ones(4))
+    assert (scan.length_x, scan.length_y) == pytest.approx((1e-5, 8e-6))
+
+
+def test_bytes_are_no_table(tmp_path):
+    (tmp_path / "binary.dat").write_bytes(b"Height map\n\0\1\2\3\n1,5;2;3;4\n4;5;6;7,5\n")
+    with pytest.raises(ValueError, match=r"binary\.dat: cannot be read as a height map"):
+        read_scan(tmp_path / "binary.dat", *SIZE)
+
+
+@pytest.mark.parametrize("text", ["Height map\n1;2;3\nend\n", "Height map\nnothing\n\n"])
+def test_words_without_a_table(tmp_path, text):
+    """The first line that is not numbers is named, and what to do."""
+    (tmp_path / "words.csv").write_text(text)
+    message = r"words\.csv:1: 'Height map' is not numbers(.|\n)*height_unit, surface\.length_x"
+    with pytest.raises(ValueError, match=message):
+        read_scan(tmp_path / "words.csv")
 
 
 @pytest.mark.parametrize(

@@ -17,44 +17,84 @@ from typing import Any
 import pyehl
 
 HERE = Path(__file__).parent
-# Steel, a mineral oil of 0.04 Pa s, waves of half a Hertz radius that slide
+# Steel, a mineral oil of 0.04 Pa s at 0.1 m/s
 CASE = """
 &contact
-   radius = 0.018 reduced_modulus = 2.26e11 mean_velocity = 0.1 slide_to_roll = 1.0
-/
-&surface
-   kind = 'harmonic' wavelength = 0.5
+   radius = 0.018 reduced_modulus = 2.26e11 mean_velocity = 0.1
 /
 &grid
    x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0
 /
 &lubricant
-   shear_law = 'eyring' boundary_friction = 0.1
+   boundary_friction = 0.1
 /
 """
-# Load [N], amplitude [a^2/R], Eyring stress [Pa], layers [m], nodes a side
-HEAVY = (600.0, 0.02, 5e6, (1e-8, 2e-8, 4e-8, 8e-8), (65, 129, 257, 513))
-LIGHT = (100.0, 0.03, 5e6, (1e-8, 2e-8, 4e-8, 8e-8), (65, 129, 257, 513, 1025))
-THIN = (100.0, 0.03, 1e6, (1e-8, 2e-8, 4e-8), (65, 129, 257, 513))
-KEYS = ("load", "amplitude", "eyring_stress", "boundary_film", "points")
+Row = dict[str, Any]
+# Waves of half a Hertz radius that slide, so high [a^2/R], at a load [N]
+WAVES = {"surface.kind": "harmonic", "surface.wavelength": 0.5, "contact.slide_to_roll": 1.0}
+
+
+def _waves(load: float, height: float, **law: float | str) -> Row:
+    changes: Row = {
+        "contact.load": load,
+        "surface.amplitude": height,
+        "lubricant.shear_law": "eyring",
+    }
+    return WAVES | changes | {f"lubricant.{key}": value for key, value in law.items()}
+
+
+# Changes of the case, layers [m] and nodes a side; the finest grids take the layers from 40 nm on
+THICK = 3e-8
+CONTACTS: dict[str, tuple[Row, tuple[float, ...], tuple[int, ...]]] = {
+    "heavy": (
+        _waves(600.0, 0.02, eyring_stress=5e6),
+        (1e-8, 2e-8, 4e-8, 8e-8),
+        (65, 129, 257, 513),
+    ),
+    "light": (
+        _waves(100.0, 0.03, eyring_stress=5e6),
+        (1e-8, 2e-8, 4e-8, 8e-8),
+        (65, 129, 257, 513, 1025),
+    ),
+    "thin": (_waves(100.0, 0.03, eyring_stress=1e6), (1e-8, 2e-8, 4e-8), (65, 129, 257, 513)),
+    "carreau": (
+        _waves(100.0, 0.03, shear_law="carreau", carreau_stress=5e6, carreau_exponent=0.6),
+        (4e-8, 8e-8),
+        (129, 257, 513),
+    ),
+    # a fractal tile as long as the Hertz radius, whose shortest wave has 16 nodes of 257 x 257
+    "fractal": (
+        {
+            "contact.load": 100.0,
+            "contact.slide_to_roll": 0.2,
+            "lubricant.shear_law": "eyring",
+            "lubricant.eyring_stress": 5e6,
+            "surface.kind": "fractal",
+            "surface.rms_height": 4e-8,
+            "surface.seed": 3,
+            "surface.length_x": 2.286e-4,
+            "surface.length_y": 2.286e-4,
+            "surface.pixels": 128,
+            "surface.shortest_wavelength": 2.286e-4 / 4.0,
+        },
+        (4e-8, 8e-8),
+        (129, 257, 513),
+    ),
+}
+KEYS = ("contact", "boundary_film", "points")
 NAMES = (
     "status contact_load_share contact_load_share_error contact_area_share layer_supply mu"
 ).split()
 
-Row = dict[str, Any]
-
 
 def runs() -> list[Row]:
-    """List the keys of all runs; the finest grids take the thickest layer of the light contact."""
-    rows = [
-        dict(zip(KEYS, (load, height, stress, layer, points), strict=True))
-        for load, height, stress, layers, grids in (HEAVY, LIGHT, THIN)
+    """List the keys of all runs."""
+    return [
+        {"contact": name, "boundary_film": layer, "points": points}
+        for name, (_, layers, grids) in CONTACTS.items()
         for layer in layers
         for points in grids
-    ]
-    light = LIGHT[0]
-    return [
-        r for r in rows if r["load"] != light or r["points"] <= 257 or r["boundary_film"] > 3e-8
+        if name != "light" or points <= 257 or layer > THICK
     ]
 
 
@@ -67,12 +107,14 @@ def read() -> list[Row]:
         return list(csv.DictReader(stream))
 
 
+def key_of(row: Row) -> tuple[str, float, int]:
+    """Give what tells a run from others."""
+    return row["contact"], float(row["boundary_film"]), int(row["points"])
+
+
 def simulated(run: Row) -> Row:
     """Simulate one run."""
-    changes = {
-        "contact.load": run["load"],
-        "surface.amplitude": run["amplitude"],
-        "lubricant.eyring_stress": run["eyring_stress"],
+    changes = CONTACTS[run["contact"]][0] | {
         "lubricant.boundary_film": run["boundary_film"],
         "grid.points": run["points"],
     }
@@ -85,10 +127,9 @@ def simulated(run: Row) -> Row:
 def add(grids: list[int]) -> None:
     """Simulate what is missing, on some grids or on all."""
     rows = read()
-    known = {tuple(float(row[key]) for key in KEYS) for row in rows}
+    known = {key_of(row) for row in rows}
     for run in sorted(runs(), key=lambda r: r["points"]):
-        done = tuple(float(run[key]) for key in KEYS) in known
-        if done or (grids and run["points"] not in grids):
+        if key_of(run) in known or (grids and run["points"] not in grids):
             continue
         rows.append(simulated(run))
         print(*rows[-1].values(), flush=True)
@@ -109,15 +150,13 @@ def cell(row: Row | None) -> str:
     return text + (f" ± {float(error):.1g}" if error and float(error) else "")
 
 
-def lines(load: float, stress: float) -> list[str]:
+def lines(name: str) -> list[str]:
     """Make the table of one contact."""
-    rows = {tuple(float(row[key]) for key in KEYS): row for row in read()}
-    mine = [run for run in runs() if (run["load"], run["eyring_stress"]) == (load, stress)]
-    grids = sorted({run["points"] for run in mine})
+    rows = {key_of(row): row for row in read()}
+    _, layers, grids = CONTACTS[name]
     text = ["| layer | " + " | ".join(map(str, grids)) + " |", "|---" * (len(grids) + 1) + "|"]
-    for layer in sorted({run["boundary_film"] for run in mine}):
-        height = mine[0]["amplitude"]
-        cells = [cell(rows.get((load, height, stress, layer, float(points)))) for points in grids]
+    for layer in layers:
+        cells = [cell(rows.get((name, layer, points))) for points in grids]
         text.append(f"| {1e9 * layer:.0f} nm | " + " | ".join(cells) + " |")
     return text
 
@@ -127,8 +166,8 @@ def main() -> None:
     if sys.argv[1:2] == ["run"]:
         add([int(points) for points in sys.argv[2:]])
     elif sys.argv[1:] == ["show"]:
-        for load, _, stress, *_ in (HEAVY, LIGHT, THIN):
-            print(f"{load:.0f} N, {stress / 1e6:.0f} MPa", *lines(load, stress), "", sep="\n")
+        for name in CONTACTS:
+            print(name, *lines(name), "", sep="\n")
     else:
         sys.exit(__doc__)
 

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The record of ``pyehl reproduce zhang2019``: python make.py FOLDER.
+
+Runs the tier ``--quick`` and, of ``--full``, Fig. 6 and Table 2 up to 513 nodes a side (half an
+hour of one processor), writes table.csv, findings.csv and pictures beside this file, and prints the
+tables of docs/validation.md and README.md. Started again with the folder it goes on; without one it
+prints what is stored.
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+import shutil
+import sys
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from pyehl.reproduce.driver import PIECES, reproduce
+from pyehl.reproduce.level import FULL, QUICK, Level
+from pyehl.reproduce.piece import Result
+
+HERE = Path(__file__).resolve().parent
+# Not 1025 nodes a side: they take longer than all the rest
+RUNS: tuple[tuple[Level, Sequence[str]], ...] = (
+    (QUICK, tuple(PIECES)),
+    (replace(FULL, meshes=(257, 513)), ("figure 6", "table 2")),
+)
+PICTURES = ("figure 2", "figure 4", "figure 7")
+COLUMNS = "tier piece quantity grid paper pyehl deviation tolerance verdict reason source".split()
+
+HEAD = (
+    "| piece | quantity | nodes a side | theirs | from | pyehl | deviation | allowed | verdict |",
+    "|---|---|---|---|---|---|---|---|---|",
+)
+
+
+def grid_of(name: str, piece: str, level: Level) -> str:
+    """Nodes per side that a number is from, '' where no grid is in it."""
+    if found := re.search(r"(\d+) x \1 nodes", name):
+        return found[1]
+    if piece == "figure 2":
+        return str(level.wave_grids[-1])
+    if piece == "table 2":
+        return str(level.meshes[-1])
+    if piece in ("figure 3", "figure 4"):
+        return str(level.collapse_grid)
+    return str(level.surface_grid) if piece in ("figure 6", "figure 7") else ""
+
+
+def rows_of(level: Level, result: Result) -> Iterator[tuple[str, ...]]:
+    """Rows of table.csv of a piece."""
+    for check in result.checks:
+        rounding = abs(check.deviation) < 1e-9 * abs(check.expected)
+        yield (
+            level.name,
+            result.name,
+            check.name,
+            grid_of(check.name, result.name, level),
+            f"{check.expected:.6g}",
+            f"{check.found:.6g}",
+            "0" if rounding else f"{check.deviation:+.3g}",
+            "" if check.tolerance is None else f"{check.tolerance:.2g}",
+            "not reproduced" if check.explained else check.verdict,
+            check.finding if check.explained else check.why,
+            check.source,
+        )
+
+
+def write(name: str, head: Iterable[str], rows: Iterable[Iterable[str]]) -> None:
+    """Write a table beside this file."""
+    with (HERE / name).open("w", encoding="utf-8", newline="") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(head)
+        writer.writerows(rows)
+
+
+def read(name: str) -> list[dict[str, str]]:
+    """Rows of a table beside this file."""
+    with (HERE / name).open(encoding="utf-8", newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def make(folder: Path) -> None:
+    """Run, and write the record."""
+    rows: list[tuple[str, ...]] = []
+    findings: list[tuple[str, ...]] = []
+    for level, names in RUNS:
+        for result in reproduce(names, level, folder / level.name, jobs=1):
+            # meshes of both tiers are there once
+            known = {row[1:] for row in rows}
+            rows += (row for row in rows_of(level, result) if row[1:] not in known)
+            findings += [(level.name, result.name, f.title, f.text) for f in result.findings]
+            if level is QUICK and result.name in PICTURES:
+                shutil.copyfile(result.file(".png"), HERE / result.file(".png").name)
+    rows.sort(key=lambda row: list(PIECES).index(row[1]))
+    write("table.csv", COLUMNS, rows)
+    write("findings.csv", ("tier", "piece", "title", "text"), findings)
+
+
+def line(row: Mapping[str, str]) -> str:
+    """Give the row of docs/validation.md."""
+    names = "piece quantity grid paper source pyehl deviation tolerance verdict".split()
+    cells = [row[name] for name in names]
+    cells[1] = re.sub(r",? ?\d+ x \d+ nodes(?=,|$),? ?", ", ", cells[1]).strip(", ")
+    return "| " + " | ".join(cells) + " |"
+
+
+def finding(row: Mapping[str, str]) -> str:
+    """Give the item of README.md."""
+    return f"- **{row['title']}** ({row['piece']}, `--{row['tier']}`). {row['text']}"
+
+
+def main(arguments: Sequence[str]) -> None:
+    """Run where a folder is given; print what is stored."""
+    if arguments:
+        make(Path(arguments[0]).resolve())
+    text = [*HEAD, *(line(row) for row in read("table.csv") if row["piece"] != "table 1")]
+    text += ["", *map(finding, read("findings.csv"))]
+    sys.stdout.write("\n".join(text) + "\n")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

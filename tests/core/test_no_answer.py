@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A run without an answer says why, where it ended and what to do, in one line."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from pyehl import Case, Solver
+
+WAVE = (
+    "&contact moes_m = 100.0 moes_l = 5.0 /\n"
+    "&grid points = 65 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+    "&surface kind = 'harmonic' amplitude_over_film = 0.2 wavelength = 0.5 /\n"
+)
+"""A wave of 8 nodes; at 1.01 times the mean velocity a step passes it in fewer."""
+IN_METRES = "&contact load = 20.0 /\n&grid points = 65 /\n&surface kind = 'bump' {} /\n"
+
+
+def end(text: str, *options: str, stop: int | None = None) -> dict[str, Any]:
+    """Summary of a run that ends without an answer, or is stopped after so many advances."""
+    with Solver(Case.from_text(text, options)) as solver:
+        if stop is None:
+            assert not solver.run()
+        else:
+            for _ in range(stop):
+                solver.advance()
+            assert not solver.summary().get("message")
+            solver.interrupt()
+        summary = solver.summary()
+        assert solver.conclusion().endswith(f"judgement  {summary['judgement']}")
+    assert "\n" not in summary["judgement"]
+    return summary
+
+
+def test_film_breakdown_of_a_run():
+    found = end(WAVE, "surface.amplitude_over_film=0.8")
+    assert found["status"] == "negative film"
+    # T of the step that failed
+    place = f"the time step to T = {found['T'] + found['x_mesh']:.4f} on 65 x 65 nodes"
+    assert found["judgement"].startswith(
+        f"film breakdown: no solution with a positive film for {place}, least film before H_min = "
+    )
+    assert found["judgement"].endswith(
+        "; the shortest waves have 7 nodes, and as high as the film they need 32: give a finer "
+        "grid (grid.points = 129), a smoother surface; pyehl predict says where the film ends"
+    )
+
+
+def test_film_breakdown_of_a_feature_in_metres():
+    """Nothing is predicted of a feature; where a film has metres a boundary film can be given."""
+    told = end(IN_METRES.format("height_m = 6e-7 width = 0.5"))["judgement"]
+    assert told.startswith("film breakdown: no solution with a positive film for the time step to ")
+    assert ", least film before " in told
+    assert " nm; " in told
+    assert told.endswith("a smoother surface or lubricant.boundary_film")
+
+
+@pytest.mark.parametrize(
+    ("options", "stop", "status", "words"),
+    [
+        (
+            ["contact.moes_m=3000"],
+            None,
+            "negative film",
+            "the smooth contact on 65 x 65 nodes has no positive film; the grid is too coarse for "
+            "a solution at this load: grid.points = 129 or more",
+        ),
+        (
+            ["solver.max_cycles=3", "solver.accuracy=1e-6"],
+            None,
+            "cycle limit",
+            "the residual of the smooth contact on 65 x 65 nodes is 8.3E-04 after cycle 3; give a "
+            "finer grid (grid.points = 129), or a larger solver.max_cycles where the residual "
+            "still falls",
+        ),
+        (
+            ["surface.amplitude_over_film=8", "surface.velocity_ratio=0"],
+            None,
+            "diverged",
+            "the roughness at rest times 0.156 on 65 x 65 nodes has a value that is not a number; "
+            "give a finer grid (grid.points = 129) or solver.cycle = 'W'",
+        ),
+        (
+            ["time.steps=50"],
+            None,
+            "not settled",
+            "the mean of mu_r/mu_s has not settled at T = 4.0625; give a larger time.steps with "
+            "--resume",
+        ),
+        (
+            ["time.max_periods=2", "time.tolerance=1e-8"],
+            None,
+            "not settled",
+            "time.tolerance allows 1.0E-08 of it; give a larger time.max_periods with --resume",
+        ),
+        ([], 2, "interrupted", "stopped from outside in the smooth contact on 33 x 33 nodes"),
+        (
+            [],
+            30,
+            "interrupted",
+            "stopped from outside in the time step to T = 1.0000 on 65 x 65 nodes; --resume goes "
+            "on from there",
+        ),
+    ],
+)
+def test_other_ends(options: list[str], stop: int | None, status: str, words: str):
+    found = end(WAVE, *options, stop=stop)
+    assert found["status"] == status
+    assert found["judgement"] == f"no answer: the status is '{status}': {found['message']}"
+    assert found["message"].endswith(words)
+
+
+def test_an_answer_has_no_message():
+    with Solver(Case.from_text(WAVE, ["surface.kind=smooth"])) as solver:
+        assert solver.run()
+        assert "message" not in solver.summary()
