@@ -32,6 +32,8 @@ module ehl_case
       !> radius_x/radius_y, set by the reader where the case was given in SI
       real(dp) :: radius_ratio = 1.0_dp
       real(dp) :: reduced_modulus = 2.26e11_dp
+      !> Greatest pressure that the solids carry
+      real(dp) :: hardness = 0.0_dp
       !> Of the plane of radius_x against that of the motion, counter-clockwise
       real(dp) :: angle = 0.0_dp
       real(dp) :: slide_to_roll = 0.02_dp

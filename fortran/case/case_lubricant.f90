@@ -2,8 +2,12 @@
 !> The lubricant of a case: defaults that depend on other keys, and laws that need them
 module ehl_case_lubricant
    use ehl_case, only: case_t
+   use ehl_case_contact, only: find_contact
+   use ehl_contact, only: contact_t
    use ehl_kinds, only: dp
+   use ehl_moes, only: operating_t
    use ehl_refusal, only: contradict, refuse, short
+   use ehl_scales, only: scales_t
    use ehl_schema, only: schema_t
    use ehl_source, only: source_t
    use ehl_status, only: status_t
@@ -71,22 +75,34 @@ contains
       end associate
    end subroutine check_shear_law
 
-   !> A boundary film needs a contact in SI units; its friction needs it, and the heat of friction does not know it
+   !> A boundary film needs a contact in SI units; its friction and a hardness need it, and the heat of friction does not know it.
+   !> Smooth bodies must be able to carry the load below the hardness.
    subroutine check_boundary_film(schema, input, sources, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(in) :: input
       type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
+      class(contact_t), allocatable :: contact
+      type(scales_t) :: scales
+      type(operating_t) :: point
 
-      associate (l => input%lubricant)
+      call find_contact(input, contact, scales, point)
+      associate (l => input%lubricant, hardness => input%contact%hardness)
          if (l%boundary_friction > 0.0_dp .and. .not. l%boundary_film > 0.0_dp) then
             call refuse(schema, sources, "lubricant", "boundary_friction", "lubricant.boundary_friction = " &
                         // short(l%boundary_friction) // " without lubricant.boundary_film: no bodies touch", &
                         "a boundary_film in m, or boundary_friction = 0.0", status)
+         else if (hardness > 0.0_dp .and. .not. l%boundary_film > 0.0_dp) then
+            call refuse(schema, sources, "contact", "hardness", "contact.hardness = " // short(hardness) &
+                        // " without lubricant.boundary_film: no bodies touch", "a boundary_film in m, or hardness = 0.0", status)
          else if (l%boundary_film > 0.0_dp .and. .not. input%contact%si) then
             call refuse(schema, sources, "lubricant", "boundary_film", "lubricant.boundary_film = " // short(l%boundary_film) &
                         // " with a contact given by moes_m and moes_l, which has no size in m", &
                         "0.0, or load, mean_velocity, radius and reduced_modulus", status)
+         else if (hardness > 0.0_dp .and. .not. hardness > scales%pressure) then
+            call refuse(schema, sources, "contact", "hardness", "contact.hardness = " // short(hardness) &
+                        // " Pa, and the Hertz pressure is " // short(scales%pressure) // " Pa: smooth bodies would yield", &
+                        "more than the Hertz pressure, a lower load, or 0.0 for elastic solids", status)
          else if (l%boundary_film > 0.0_dp .and. l%thermal_friction == "always") then
             call contradict(schema, sources, "lubricant.boundary_film", "lubricant.thermal_friction", &
                             "thermal_friction = 'auto' or 'never'", status, "the heat where bodies touch is not computed")

@@ -98,6 +98,8 @@ contains
          holds_elsewhere = .not. input%contact%si
       case ("contact.load", "contact.mean_velocity", "contact.reduced_modulus")
          holds_elsewhere = input%contact%si
+      case ("contact.hardness")
+         holds_elsewhere = input%contact%hardness > 0.0_dp
       case ("contact.thermal_conductivity_2")
          holds_elsewhere = input%contact%thermal_conductivity_2 > 0.0_dp
       case ("contact.thermal_diffusivity_2")

@@ -32,6 +32,8 @@ contains
          call self%reals("radius_y", c%radius_y, "m", "0 or [1e-5, 1000]", "reduced radius across the motion; both or none")
          call self%reals("reduced_modulus", c%reduced_modulus, "Pa", "[1e8, 2e12]", &
                          "E' with 2/E' = sum of (1 - nu^2)/E over the bodies")
+         call self%reals("hardness", c%hardness, "Pa", "0 or [1e5, 1e12]", &
+                         "greatest pressure of the solids, with boundary_film; 0: no limit")
          call self%reals("angle", c%angle, "deg", "[-90, 90]", &
                          "an elliptical contact is turned counter-clockwise against the motion")
          call self%reals("slide_to_roll", c%slide_to_roll, "-", "[-2, 2]", &

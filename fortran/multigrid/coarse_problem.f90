@@ -7,7 +7,7 @@ module ehl_coarse_problem
    use ehl_galerkin, only: coarsening_t, galerkin_product
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
+   use ehl_level, only: level_t, yields
    use ehl_nine_point, only: nine_point_t
    use ehl_node_state, only: cavity_pressure, change_flowing, stay_cavitated
    use ehl_reynolds, only: reynolds_operator
@@ -67,7 +67,7 @@ contains
    end subroutine restrict_problem
 
    !> States of the coarse nodes while their level is solved: those touch that have pressure and around which more than half
-   !> touches
+   !> touches. None yields: where half of a coarse grid did, nothing would be left to carry a missing load.
    subroutine freeze_states(fine, coarse)
       type(level_t), intent(in) :: fine
       type(level_t), intent(inout) :: coarse
@@ -76,6 +76,7 @@ contains
 
       associate (boundary => coarse%boundary)
          boundary%frozen = .true.
+         boundary%kept = 0.0_dp
          boundary%rate = fine%boundary%rate
          do j = 1, coarse%grid%ny
             call weight_row(coarse%grid, fine%boundary%touching, j, boundary%touching(:, j))
@@ -244,6 +245,8 @@ contains
       !$omp num_threads(fine%threads) if(fine%parallel) schedule(static)
       do j = 1, fine%grid%ny
          call interpolate_row(coarse%grid, space%h_start, j, row)
+         ! a film that comes of pressures which nodes do not take on says nothing about whether they yield
+         if (yields(fine)) row = merge(0.0_dp, row, fine%boundary%kept(:, j) > 0.0_dp)
          fine%h(:, j) = fine%h(:, j) + row
          if (j < fine%grid%first_inner() .or. j == fine%grid%ny) cycle
          if (coarsening == coarsening_alcouffe) then
@@ -252,6 +255,7 @@ contains
             call interpolate_row(coarse%grid, space%p_start, j, row)
          end if
          row = fine%p(:, j) + row
+         if (yields(fine)) call fine%boundary%bound(fine%p(:, j), 1, j, row)
          call change_flowing(row(2:nx - 1), fine%p(2:nx - 1, j))
       end do
       !$omp end parallel do

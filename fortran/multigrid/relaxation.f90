@@ -9,7 +9,7 @@
 module ehl_relaxation
    use ehl_kinds, only: dp
    use ehl_flow, only: along
-   use ehl_level, only: level_t
+   use ehl_level, only: level_t, yields
    use ehl_line_system, only: last_awake, solve_lines
    use ehl_node_state, only: cavitate, cavity_pressure, change_flowing, flowing_around
    use ehl_workspace, only: line_width, workspace_t
@@ -197,6 +197,7 @@ contains
                after(i) = level%p(i, j) + (1.0_dp - space%dipole(i, j))*(omega + t(i))/(1.0_dp + t(i))*change(i)
             end do
             call cavitate(after(2:furthest))
+            if (yields(level)) call level%boundary%bound(level%p(2:furthest, j), 2, j, after(2:furthest))
             if (time_step) then
                do i = 2, furthest
                   space%rough(i, j) = (after(i) - level%p(i, j))*space%share(i, j)
@@ -260,6 +261,7 @@ contains
          do i = from(j), to(j)
             smooth(i) = level%p(i, j) - space%share(i, j)*smooth(i)
          end do
+         if (yields(level)) call level%boundary%bound(level%p(from(j):to(j), j), from(j), j, smooth(from(j):to(j)))
          call change_flowing(smooth(from(j):to(j)), level%p(from(j):to(j), j))
       end do
       !$omp end parallel do
@@ -271,30 +273,29 @@ contains
       type(workspace_t), intent(in) :: space
       integer, intent(in) :: first, last
       real(dp) :: after(level%grid%nx)
-      integer :: j
+      integer :: j, nx
 
-      !$omp parallel do default(none) shared(level, space, first, last) private(after) &
+      nx = level%grid%nx
+      !$omp parallel do default(none) shared(level, space, first, last, nx) private(after) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = first, last
          call apply_row(space%shares, space%change(:, level%grid%south(j)), space%change(:, j), &
                         space%change(:, j + 1), level%p(:, j), after)
+         if (yields(level)) call level%boundary%bound(level%p(2:nx - 1, j), 2, j, after(2:nx - 1))
+         call change_flowing(after(2:nx - 1), level%p(2:nx - 1, j))
       end do
       !$omp end parallel do
    end subroutine apply_dipoles
 
-   !> The same of a row, from the changes of it and its neighbours
+   !> The pressure of a row with them, from the changes of it and its neighbours
    pure subroutine apply_row(shares, south, change, north, p, after)
       real(dp), intent(in) :: shares(2)
-      real(dp), contiguous, intent(in) :: south(:), change(:), north(:)
-      real(dp), contiguous, intent(inout) :: p(:)
-      !> Work space
+      real(dp), contiguous, intent(in) :: south(:), change(:), north(:), p(:)
       real(dp), contiguous, intent(inout) :: after(:)
-      integer :: i, nx
+      integer :: i
 
-      nx = size(p)
-      do i = 2, nx - 1
+      do i = 2, size(p) - 1
          after(i) = p(i) + change(i) - (shares(1)*(change(i - 1) + change(i + 1)) + shares(2)*south(i) + shares(2)*north(i))
       end do
-      call change_flowing(after(2:nx - 1), p(2:nx - 1))
    end subroutine apply_row
 end module ehl_relaxation

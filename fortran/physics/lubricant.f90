@@ -26,6 +26,8 @@ module ehl_lubricant
       real(dp) :: boundary_film = 0.0_dp
       !> Its shear stress at P = 1 over the Newtonian stress of eta = eta0 and H = 1; 0: not known, or there is no sliding
       real(dp) :: boundary_stress = 0.0_dp
+      !> Greatest pressure of the solids that it is on, their hardness; 0: there is no limit
+      real(dp) :: boundary_limit = 0.0_dp
    contains
       procedure :: log_viscosity
       procedure :: log_viscosity_at

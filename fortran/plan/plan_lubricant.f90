@@ -28,6 +28,7 @@ contains
       lubricant%shear = shear_of(input, scales)
       if (.not. input%contact%si) return
       lubricant%boundary_film = input%lubricant%boundary_film/scales%film
+      lubricant%boundary_limit = input%contact%hardness/scales%pressure
       if (lubricant%shear%scale > 0.0_dp) then
          lubricant%boundary_stress = input%lubricant%boundary_friction*scales%pressure/lubricant%shear%scale
       end if

@@ -96,6 +96,9 @@ contains
             if (plan%lubricant%boundary_film > 0.0_dp) call add("boundary   bodies touch at a film of "// &
                fixed(plan%lubricant%boundary_film*plan%scales%film, "es10.3")//" m at ambient pressure; their friction "// &
                "there is "//boundary_friction())
+            if (plan%lubricant%boundary_limit > 0.0_dp) call add("hardness   the solids yield at "// &
+               fixed(plan%lubricant%boundary_limit*plan%scales%pressure, "es10.3")//" Pa, "// &
+               fixed(plan%lubricant%boundary_limit, "f6.3")//" p_h")
             if (s%loading > 0.0_dp) call add("heat       shear heating of the inlet (Gupta et al. 1992): film times "// &
                fixed(s%reduction, "f7.4")//" by an inlet viscosity of "//fixed(s%inlet_viscosity, "es10.3")// &
                " Pa s, which M and L belong to")

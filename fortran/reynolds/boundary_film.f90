@@ -16,6 +16,10 @@
 !> with the rate of the wedge term, so that its residual is one of the Reynolds equation where the conductance is nothing. Of
 !> two residuals, rhs - N and rate (rho H - H_b), that one holds which asks for more pressure, each with what answers it: the
 !> deflection alone, or the deflection and the Poiseuille term.
+!>
+!> Solids with a hardness carry no more than the limit P_Y. A node yields where P = P_Y and it asks for more pressure: the elastic
+!> film H is below the layer, or below what the lubricant needs. The solids give way by what is missing, D >= 0, so that
+!> rho (H + D) is that of the layer, or more where N = 0 then. Such a node keeps its pressure until D would be negative.
 module ehl_boundary_film
    use, intrinsic :: iso_fortran_env, only: int64
    use ehl_grid, only: grid_t
@@ -37,6 +41,8 @@ module ehl_boundary_film
    type :: boundary_film_t
       !> H_b [a^2/R]
       real(dp) :: thickness = 0.0_dp
+      !> Greatest pressure [p_h]; 0: there is no limit
+      real(dp) :: limit = 0.0_dp
       !> Factor of the equation of touching nodes
       real(dp) :: rate = 0.0_dp
       !> Share of the layer that a touching node may be lifted by, by the present residual
@@ -45,12 +51,17 @@ module ehl_boundary_film
       logical :: frozen = .false.
       !> 1 where a node is touching, else 0
       real(dp), allocatable :: touching(:, :)
+      !> rho (H + D) where a node yields, else 0; of size 0 where there is no limit
+      real(dp), allocatable :: kept(:, :)
       !> Film that the lubricant flows through: that of an iterate may be below the layer
       real(dp), allocatable :: film(:, :)
    contains
       procedure :: setup
       procedure :: find_film
       procedure :: find_row
+      procedure :: find_yielding
+      procedure :: bound
+      procedure :: forget
       procedure :: take_row
       procedure :: residual_row
       procedure :: hold_by
@@ -61,17 +72,20 @@ module ehl_boundary_film
 
 contains
 
-   !> Allocate; thickness: H_b
-   subroutine setup(self, grid, thickness, status)
+   !> Allocate; thickness: H_b, limit: greatest pressure, or 0
+   subroutine setup(self, grid, thickness, limit, status)
       class(boundary_film_t), intent(inout) :: self
       type(grid_t), intent(in) :: grid
-      real(dp), intent(in) :: thickness
+      real(dp), intent(in) :: thickness, limit
       type(status_t), intent(inout) :: status
-      integer :: stat
+      integer :: stat, yielding
 
       self%thickness = thickness
+      self%limit = limit
+      yielding = merge(1, 0, limit > 0.0_dp)
       self%frozen = .false.
-      allocate (self%touching(grid%nx, grid%ny), self%film(grid%nx, grid%ny), source=0.0_dp, stat=stat)
+      allocate (self%touching(grid%nx, grid%ny), self%film(grid%nx, grid%ny), &
+                self%kept(yielding*grid%nx, yielding*grid%ny), source=0.0_dp, stat=stat)
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the boundary film of a grid level")
    end subroutine setup
 
@@ -87,6 +101,8 @@ contains
          ! a NaN stays one
          self%film(i, j) = merge(self%thickness/rho(i), h(i), h(i)*rho(i) < self%thickness)
       end do
+      ! by the last update
+      if (self%limit > 0.0_dp) self%film(:, j) = merge(self%kept(:, j)/rho, self%film(:, j), self%kept(:, j) > 0.0_dp)
    end subroutine find_film
 
    !> States of the nodes of row j, by the residual of the Reynolds equation; the border does not touch
@@ -105,7 +121,61 @@ contains
          self%touching(i, j) = merge(1.0_dp, 0.0_dp, self%rate*(mass_content(i) - self%thickness) &
                                                      < share(i)*residual(i) + held*self%touching(i, j))
       end do
+      ! not coupled to its line
+      if (self%limit > 0.0_dp) self%touching(:, j) = merge(1.0_dp, self%touching(:, j), self%kept(:, j) > 0.0_dp)
    end subroutine find_row
+
+   !> Nodes of row j that yield, with their mass content: that at which N = 0, but no less than that of the layer
+   pure subroutine find_yielding(self, p, weights, j, residual, mass_content)
+      class(boundary_film_t), intent(inout) :: self
+      !> Pressure, and the wedge term's factors of rho H at a node and at those upstream of it, shape (nx), (0:..., nx)
+      real(dp), contiguous, intent(in) :: p(:), weights(0:, :)
+      integer, intent(in) :: j
+      !> rhs - N, and rho H, of the elastic bodies; shape (nx)
+      real(dp), contiguous, intent(inout) :: residual(:), mass_content(:)
+      real(dp) :: added(size(p))
+      integer :: i, k
+
+      added = 0.0_dp
+      do i = 2, size(p) - 1
+         do k = 1, min(ubound(weights, 1), i - 1)
+            residual(i) = residual(i) + weights(k, i)*added(i - k)
+         end do
+         self%kept(i, j) = max(self%thickness, mass_content(i) - residual(i)/weights(0, i))
+         if (p(i) >= self%limit .and. self%kept(i, j) > mass_content(i)) then
+            added(i) = self%kept(i, j) - mass_content(i)
+            residual(i) = residual(i) + weights(0, i)*added(i)
+            mass_content(i) = self%kept(i, j)
+         else
+            self%kept(i, j) = 0.0_dp
+         end if
+      end do
+   end subroutine find_yielding
+
+   !> Pressures to come of row j from column `first` on: within the limit, and nodes that yield keep theirs. The pressure of a
+   !> coarse node is a mean, which the limit is not for.
+   pure subroutine bound(self, before, first, j, after)
+      class(boundary_film_t), intent(in) :: self
+      real(dp), intent(in) :: before(:)
+      integer, intent(in) :: first, j
+      real(dp), contiguous, intent(inout) :: after(:)
+      integer :: i
+
+      if (self%frozen) return
+      do i = 1, size(after)
+         after(i) = merge(before(i), after(i), self%kept(first + i - 1, j) > 0.0_dp)
+         ! a NaN stays one
+         after(i) = merge(self%limit, after(i), after(i) > self%limit)
+      end do
+   end subroutine bound
+
+   !> No node touches
+   pure subroutine forget(self)
+      class(boundary_film_t), intent(inout) :: self
+
+      self%touching = 0.0_dp
+      self%kept = 0.0_dp
+   end subroutine forget
 
    !> Put the term of touching nodes into row j of the operator
    pure subroutine take_row(self, mass_content, j, values)
@@ -121,7 +191,7 @@ contains
       end do
    end subroutine take_row
 
-   !> Put the residuals of touching nodes into row j
+   !> Put the residuals of touching nodes into row j; those that yield have none
    pure subroutine residual_row(self, rhs, mass_content, j, values)
       class(boundary_film_t), intent(in) :: self
       !> Right-hand side, that of touching nodes too where states are frozen; shape (nx)
@@ -135,6 +205,7 @@ contains
          right = merge(rhs(i), -self%rate*self%thickness, self%frozen)
          values(i) = merge(right + self%rate*mass_content(i), values(i), self%touching(i, j) > 0.0_dp)
       end do
+      if (self%limit > 0.0_dp) values = merge(0.0_dp, values, self%kept(:, j) > 0.0_dp)
    end subroutine residual_row
 
    !> What a touching node may be lifted by: `residual` is that of a steady problem (rms), or 0
@@ -186,6 +257,6 @@ contains
    pure integer(int64) function bytes(self)
       class(boundary_film_t), intent(in) :: self
       bytes = 0
-      if (allocated(self%film)) bytes = 16*size(self%film, kind=int64)
+      if (allocated(self%film)) bytes = 16*size(self%film, kind=int64) + 8*size(self%kept, kind=int64)
    end function bytes
 end module ehl_boundary_film

@@ -4,7 +4,7 @@ module ehl_contact_results
    use ehl_force_balance, only: load_excess
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
+   use ehl_level, only: gap, gap_row, level_t, yields
    use ehl_touching, only: measure_touching, touches, touching_t
    implicit none (type, external)
    private
@@ -54,6 +54,7 @@ contains
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
          smallest(j) = minval(level%h(:, j))
+         if (yields(level)) smallest(j) = minval(gap_row(level, j))
          largest(j) = maxval(level%p(:, j))
          if (allocated(level%boundary)) then
             call level%flow%stress_row(level%lubricant, level%p, level%boundary%film, level%rho(:, j), j, viscous, stress)
@@ -72,7 +73,7 @@ contains
       m%friction_newtonian = sum(newtonian)
       m%load = level%load
       m%load_error = load_excess(level)
-      m%film_central = central_value(level%grid, level%h)
+      m%film_central = central_value(level%grid, gap(level))
       ! a NaN fails every comparison
       m%finite = abs(m%load_error) < huge(1.0_dp) .and. abs(m%film_central) < huge(1.0_dp) &
                  .and. m%friction < huge(1.0_dp) .and. abs(m%film_minimum) < huge(1.0_dp)

@@ -9,7 +9,7 @@
 module ehl_force_balance
    use ehl_film, only: refresh
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
+   use ehl_level, only: level_t, yields
    implicit none (type, external)
    private
    public :: balance_load, load_excess, missing_load, pass_load_on
@@ -35,40 +35,46 @@ contains
       coarse%load = missing_load(fine) + pressure_sum(coarse)
    end subroutine pass_load_on
 
-   !> Take a small relative error of the force balance away by scaling the pressure within the border; H00 keeps the mean
-   !> film under it. Film and coefficients are up to date before and after.
+   !> Take a small relative error of the force balance away by scaling the pressure within the border, but where nodes yield; H00
+   !> keeps the mean film under it. Film and coefficients are up to date before and after.
    subroutine balance_load(level)
       type(level_t), intent(inout) :: level
-      real(dp) :: factor, deflection(level%grid%ny)
+      real(dp) :: factor, deflection(level%grid%ny), after(level%grid%nx)
       integer :: j, nx
 
       nx = level%grid%nx
-      factor = 1.0_dp/(1.0_dp + load_excess(level)/(1.0_dp - border_load(level)/level%load))
-      !$omp parallel do default(none) shared(level, factor, deflection, nx) &
+      factor = 1.0_dp/(1.0_dp + load_excess(level)/(1.0_dp - fixed_load(level)/level%load))
+      !$omp parallel do default(none) shared(level, factor, deflection, nx) private(after) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = 1, level%grid%ny
          deflection(j) = sum(level%p(:, j)*(level%h(:, j) - level%h00 - level%geometry(:, j)))*level%grid%weight(j)
-         if (.not. level%grid%is_border(j)) level%p(2:nx - 1, j) = factor*level%p(2:nx - 1, j)
+         if (level%grid%is_border(j)) cycle
+         after(2:nx - 1) = factor*level%p(2:nx - 1, j)
+         if (yields(level)) call level%boundary%bound(level%p(2:nx - 1, j), 2, j, after(2:nx - 1))
+         level%p(2:nx - 1, j) = after(2:nx - 1)
       end do
       !$omp end parallel do
       level%h00 = level%h00 + (factor - factor**2)*sum(deflection)/level%load
       call refresh(level)
    end subroutine balance_load
 
-   !> What of the load the pressure at the border carries
-   pure real(dp) function border_load(level)
+   !> What of the load the pressure at the border and where nodes yield carries
+   pure real(dp) function fixed_load(level)
       type(level_t), intent(in) :: level
       integer :: j
 
-      border_load = 0.0_dp
+      fixed_load = 0.0_dp
       do j = 1, level%grid%ny
          if (level%grid%is_border(j)) then
-            border_load = border_load + sum(level%p(:, j))*level%grid%weight(j)
+            fixed_load = fixed_load + sum(level%p(:, j))*level%grid%weight(j)
          else
-            border_load = border_load + (level%p(1, j) + level%p(level%grid%nx, j))*level%grid%weight(j)
+            fixed_load = fixed_load + (level%p(1, j) + level%p(level%grid%nx, j))*level%grid%weight(j)
+            if (yields(level)) then
+               fixed_load = fixed_load + sum(level%p(:, j), mask=level%boundary%kept(:, j) > 0.0_dp)*level%grid%weight(j)
+            end if
          end if
       end do
-   end function border_load
+   end function fixed_load
 
    !> hx hy sum P over the whole contact
    real(dp) function pressure_sum(level)

@@ -13,7 +13,7 @@ module ehl_level
    use ehl_wedge, only: wedge_t
    implicit none (type, external)
    private
-   public :: film_of_flow, is_touching, level_t, touches_at
+   public :: film_of_flow, gap, gap_row, is_touching, level_t, touches_at, yields
 
    !> Fields of one level, arrays of shape (nx, ny). Dimensionless: P by p_h, lengths by a,
    !> films by a^2/R. The equations are in reynolds.f90, film.f90 and force_balance.f90.
@@ -72,7 +72,7 @@ contains
       call self%wedge%set_steady(self%grid%hx)
       if (self%lubricant%boundary_film > 0.0_dp) then
          allocate (self%boundary)
-         call self%boundary%setup(self%grid, self%lubricant%boundary_film, status)
+         call self%boundary%setup(self%grid, self%lubricant%boundary_film, self%lubricant%boundary_limit, status)
       end if
       self%parallel = self%threads > 1
    end subroutine setup
@@ -91,6 +91,34 @@ contains
       touches_at = allocated(level%boundary)
       if (touches_at) touches_at = level%boundary%touching(i, j) > 0.0_dp
    end function touches_at
+
+   !> Whether the solids yield at some pressure
+   pure logical function yields(level)
+      type(level_t), intent(in) :: level
+      yields = allocated(level%boundary)
+      if (yields) yields = level%boundary%limit > 0.0_dp
+   end function yields
+
+   !> Film with the depth by which the solids give way where they yield
+   pure function gap(level)
+      type(level_t), intent(in) :: level
+      real(dp) :: gap(level%grid%nx, level%grid%ny)
+      integer :: j
+
+      do j = 1, level%grid%ny
+         gap(:, j) = gap_row(level, j)
+      end do
+   end function gap
+
+   !> Row j of it
+   pure function gap_row(level, j)
+      type(level_t), intent(in) :: level
+      integer, intent(in) :: j
+      real(dp) :: gap_row(level%grid%nx)
+
+      gap_row = level%h(:, j)
+      if (yields(level)) gap_row = merge(level%boundary%kept(:, j)/level%rho(:, j), gap_row, level%boundary%kept(:, j) > 0.0_dp)
+   end function gap_row
 
    !> Film that the lubricant flows through at node (i, j)
    pure real(dp) function film_of_flow(level, i, j)

@@ -29,8 +29,9 @@ module ehl_reynolds
    use ehl_flow, only: along
    use ehl_kernel, only: kernel_coefficient
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
+   use ehl_level, only: level_t, yields
    use ehl_node_state, only: silence_content
+   use ehl_wedge, only: wedge_reach
    implicit none (type, external)
    private
    public :: film_residual, find_touching, flow_operator, reynolds_operator, update_residual
@@ -73,14 +74,18 @@ contains
    !> Which nodes touch, for the present pressure, film and coefficients
    subroutine find_touching(level)
       type(level_t), intent(inout) :: level
-      real(dp), dimension(level%grid%nx) :: row, share
+      real(dp), dimension(level%grid%nx) :: row, share, elastic
+      real(dp) :: weights(0:wedge_reach, level%grid%nx)
       real(dp) :: stored, flow
       integer :: i, j
 
       level%boundary%rate = level%wedge%rate()
       stored = level%boundary%rate*kernel_coefficient(level%kernel_factor, 0, 0, level%grid%hx, level%grid%hy)
       flow = level%poiseuille%flow_rate()
-      !$omp parallel do default(none) shared(level, stored, flow) private(i, row, share) &
+      do i = 1, level%grid%nx
+         weights(:, i) = level%wedge%weights(i)
+      end do
+      !$omp parallel do default(none) shared(level, stored, flow, weights) private(i, row, share, elastic) &
       !$omp num_threads(level%threads) if(level%parallel) schedule(static)
       do j = level%grid%first_inner(), level%grid%ny - 1
          call flow_operator(level, j, row)
@@ -88,7 +93,9 @@ contains
             row(i) = level%rhs(i, j) - row(i)
             share(i) = stored/(stored + flow*level%flow%eps(i, j, along))
          end do
-         call level%boundary%find_row(level%mass_content(:, j), row, share, j)
+         elastic = level%rho(:, j)*level%h(:, j)
+         if (yields(level)) call level%boundary%find_yielding(level%p(:, j), weights, j, row, level%mass_content(:, j))
+         call level%boundary%find_row(elastic, row, share, j)
       end do
       !$omp end parallel do
    end subroutine find_touching

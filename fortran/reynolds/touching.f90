@@ -4,18 +4,22 @@
 !> is contact as well.
 module ehl_touching
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
+   use ehl_level, only: gap_row, level_t, yields
+   use ehl_lubricant, only: lubricant_t
    use ehl_node_state, only: cavity_pressure
    use ehl_reynolds, only: flow_operator
    implicit none (type, external)
    private
-   public :: touching_t, measure_touching, same_film, touches, touching_names
+   public :: touching_t, measure_touching, same_film, touches, touching_names, known_names, at_depth
 
    !> Bodies touch where the film is that of the layer to this share of it
    real(dp), parameter :: same_film = 1.0e-2_dp
 
    !> What `numbers` gives
-   character(len=*), parameter :: touching_names(3) = [character(len=12) :: "load_share", "contact_area", "layer_supply"]
+   character(len=*), parameter :: touching_names(7) = [character(len=16) :: "load_share", "contact_area", "layer_supply", &
+                                                       "hard_load_share", "hard_area", "plastic_depth", "hard_flowing"]
+   !> Which of them is the depth
+   integer, parameter :: at_depth = 6
 
    !> Of one state; without a boundary film all of it is 0
    type :: touching_t
@@ -23,6 +27,9 @@ module ehl_touching
       real(dp) :: load_share = 0.0_dp, area = 0.0_dp
       !> What the layer gives at touching nodes, over what flows along with the surfaces through the line X = 0
       real(dp) :: supply = 0.0_dp
+      !> Share of the load where the solids yield, their area there [a^2], the greatest depth that they give way by [a^2/R], and
+      !> the part of that share where the film is above the layer
+      real(dp) :: hard_share = 0.0_dp, hard_area = 0.0_dp, depth = 0.0_dp, flowing_share = 0.0_dp
    contains
       procedure :: numbers
    end type touching_t
@@ -32,18 +39,29 @@ contains
    !> Read off the present state of a level whose film and coefficients are up to date
    type(touching_t) function measure_touching(level) result(m)
       type(level_t), intent(in) :: level
-      real(dp), dimension(level%grid%ny) :: load, area, given, flow, whole
+      real(dp), dimension(level%grid%ny) :: load, area, given, flow, whole, hard, flowing, depth
       real(dp) :: row(level%grid%nx)
+      logical :: yield(level%grid%nx)
       integer :: j, middle
 
       middle = 1 + nint((0.0_dp - level%grid%x0)/level%grid%hx)
       given = 0.0_dp
+      hard = 0.0_dp
+      flowing = 0.0_dp
+      depth = 0.0_dp
       do j = 1, level%grid%ny
          associate (touching => touches(level, j), weight => level%grid%weight(j))
             whole(j) = weight*sum(level%p(:, j))
             load(j) = weight*sum(level%p(:, j), mask=touching)
             area(j) = weight*count(touching)
             flow(j) = merge(weight*level%mass_content(middle, j)/level%grid%hx, 0.0_dp, level%p(middle, j) > cavity_pressure)
+            if (yields(level)) then
+               yield = level%boundary%kept(:, j) > 0.0_dp
+               flowing(j) = weight*sum(level%p(:, j), mask=yield .and. .not. touching)
+               hard(j) = weight*sum(level%p(:, j), mask=yield)
+               m%hard_area = m%hard_area + weight*count(yield)
+               depth(j) = maxval(gap_row(level, j) - level%h(:, j))
+            end if
             if (level%grid%is_border(j)) cycle
             call flow_operator(level, j, row)
             row = level%rhs(:, j) - row
@@ -53,6 +71,9 @@ contains
       m%load_share = sum(load)/sum(whole)
       m%area = sum(area)
       m%supply = sum(given)/sum(flow)
+      m%hard_share = sum(hard)/sum(whole)
+      m%flowing_share = sum(flowing)/sum(whole)
+      m%depth = maxval(depth)
    end function measure_touching
 
    !> Where in row j the bodies touch
@@ -64,10 +85,16 @@ contains
       touches = level%p(:, j) > cavity_pressure .and. level%mass_content(:, j) <= (1.0_dp + same_film)*level%boundary%thickness
    end function touches
 
-   !> Load share, area, supply
+   !> How many of the names there are: the last four are about a hardness
+   pure integer function known_names(lubricant)
+      type(lubricant_t), intent(in) :: lubricant
+      known_names = merge(size(touching_names), 3, lubricant%boundary_limit > 0.0_dp)
+   end function known_names
+
+   !> As touching_names has them
    pure function numbers(self)
       class(touching_t), intent(in) :: self
-      real(dp) :: numbers(3)
-      numbers = [self%load_share, self%area, self%supply]
+      real(dp) :: numbers(size(touching_names))
+      numbers = [self%load_share, self%area, self%supply, self%hard_share, self%hard_area, self%depth, self%flowing_share]
    end function numbers
 end module ehl_touching

@@ -9,6 +9,7 @@ module ehl_contact_run
    use ehl_hierarchy, only: hierarchy_t
    use ehl_kinds, only: dp
    use ehl_outcome, only: outcome_converged, outcome_running, outcome_target_missed
+   use ehl_level, only: gap
    use ehl_plan, only: plan_t
    use ehl_plan_surface, only: check_carried
    use ehl_predicted_start, only: predicted_start_t
@@ -17,7 +18,7 @@ module ehl_contact_run
    use ehl_steady, only: steady_t
    use ehl_stopping_criterion, only: transient_outcome
    use ehl_table, only: table_t
-   use ehl_touching, only: touching_names
+   use ehl_touching, only: known_names, touching_names
    use ehl_transient, only: transient_t
    implicit none (type, external)
    private
@@ -133,7 +134,9 @@ contains
       else if (self%plan%surfaces%move()) then
          columns = [character(len=16) :: "step", "T", "mu_ratio", "H_c", "H_min", "P_max", "load_error", "cycles", "residual"]
          if (self%plan%heat%counts) columns = [character(len=16) :: columns, "heat_ratio"]
-         if (self%plan%lubricant%boundary_film > 0.0_dp) columns = [character(len=16) :: columns, touching_names]
+         if (self%plan%lubricant%boundary_film > 0.0_dp) then
+            columns = [character(len=16) :: columns, touching_names(:known_names(self%plan%lubricant))]
+         end if
          call self%history%init(columns)
       else
          call self%history%init([character(len=16) :: "level", "points", "cycle", "H_c", "H_min", "P_max", "F", &
@@ -195,7 +198,7 @@ contains
       if (status%failed()) return
       associate (plan => self%plan, n => self%steady%n)
          self%p_smooth = self%hierarchy%levels(n)%p
-         self%h_smooth = self%hierarchy%levels(n)%h
+         self%h_smooth = gap(self%hierarchy%levels(n))
          self%h00_smooth = self%hierarchy%levels(n)%h00
          if (plan%surfaces%rest() .or. plan%surfaces%some_rest()) then
             call self%rest%start(self%hierarchy%levels(n), n, plan%contact, plan%surfaces, plan%steady_options_t, status)
@@ -239,6 +242,7 @@ contains
       type(status_t), intent(inout) :: status
       type(clock_t) :: clock
       real(dp), allocatable :: row(:)
+      real(dp) :: numbers(size(touching_names))
 
       clock = start_clock()
       associate (transient => self%transient, m => self%transient%m, level => self%hierarchy%levels(self%steady%n))
@@ -254,7 +258,10 @@ contains
          row = [real(dp) :: transient%step, transient%time, m%friction/transient%friction_smooth, m%film_central, &
                 m%film_minimum, m%pressure_maximum, m%load_error, transient%cycles, transient%residual]
          if (self%plan%heat%counts) row = [row, step_heat(self)]
-         if (self%plan%lubricant%boundary_film > 0.0_dp) row = [row, m%touching%numbers()]
+         if (self%plan%lubricant%boundary_film > 0.0_dp) then
+            numbers = m%touching%numbers()
+            row = [row, numbers(:known_names(self%plan%lubricant))]
+         end if
          call self%history%append(row)
          if (self%plan%surfaces%pass_once()) call transient%extremes%see(level, self%p_smooth, self%h_smooth, transient%time)
          self%outcome = transient_outcome(self%plan, transient)

@@ -26,8 +26,8 @@ module ehl_judgement
 
 contains
 
-   !> A word and the reason for it: 'no answer', 'film breakdown', 'beyond the solids', 'mixed film', 'thin film', 'unresolved
-   !> waves' or 'full film', then what else there is to know
+   !> A word and the reason for it: 'no answer', 'film breakdown', 'beyond the solids', 'mixed film', 'yielding solids',
+   !> 'thin film', 'unresolved waves' or 'full film', then what else there is to know
    subroutine judge(summary, text, worth)
       type(record_t), intent(in) :: summary
       character(len=:), allocatable, intent(out) :: text
@@ -46,7 +46,7 @@ contains
          if (summary%text("message") /= "") text = text//": "//summary%text("message")
       else
          worth = with_care
-         doubts = of_pressure(summary)//of_contact(summary)//of_waves(summary)
+         doubts = of_pressure(summary)//of_contact(summary)//of_yielding(summary)//of_waves(summary)
          rest = of_errors(summary)//of_heat(summary)
          if (status == "target missed") rest = "grid.target_error is missed; "//rest
          if (doubts /= "") then
@@ -66,6 +66,7 @@ contains
       real(dp) :: pressure
 
       text = ""
+      if (summary%has("load_share_at_hardness")) return
       ! a comparison with NaN is false
       pressure = summary%number("p_max_Pa")
       if (larger(summary%number("p_max_rough_Pa"), 0.0_dp)) pressure = summary%number("p_max_rough_Pa")
@@ -89,6 +90,17 @@ contains
          text = text//"with an error that is not known; "
       end if
    end function of_contact
+
+   !> Solids that yield at their hardness
+   function of_yielding(summary) result(text)
+      type(record_t), intent(in) :: summary
+      character(len=:), allocatable :: text
+
+      text = ""
+      if (larger(summary%number("load_share_at_hardness"), 0.0_dp)) text = "yielding solids: "// &
+         percent(summary%number("load_share_at_hardness"))//" of the load is carried at their hardness, and they give way by "// &
+         "up to "//short(summary%number("plastic_depth_max_m")*1.0e9_dp)//" nm, as in a first pass; "
+   end function of_yielding
 
    !> A film that is thin beside molecules or beside the roughness
    function of_film(summary) result(text)

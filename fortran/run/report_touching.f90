@@ -6,6 +6,7 @@ module ehl_report_touching
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
    use ehl_resolution, only: has_solution
+   use ehl_touching, only: touching_names
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    implicit none (type, external)
    private
@@ -25,8 +26,8 @@ contains
       type(plan_t), intent(in) :: plan
       !> Of the results
       type(grid_t), intent(in) :: grid
-      !> Load share, area [a^2] and supply (touching.f90); NaN: there is no solution
-      real(dp), intent(in) :: numbers(3)
+      !> As touching.f90 has them; NaN: there is no solution
+      real(dp), intent(in) :: numbers(size(touching_names))
       !> Load share on the next coarser grid; NaN where it is not known, and then why
       real(dp), intent(in) :: coarser
       character(len=*), intent(in) :: why
@@ -51,6 +52,11 @@ contains
       call record%set("contact_load_share_error_note", note)
       call record%set("contact_area_share", numbers(2)/(pi*plan%contact%ellipticity))
       call record%set("layer_supply", numbers(3))
+      if (.not. plan%lubricant%boundary_limit > 0.0_dp) return
+      call record%set("load_share_at_hardness", numbers(4))
+      call record%set("area_share_at_hardness", numbers(5)/(pi*plan%contact%ellipticity))
+      call record%set("plastic_depth_max_m", numbers(6)*plan%scales%film)
+      call record%set("flowing_load_share_at_hardness", numbers(7))
    end subroutine report_touching
 
    !> Whether the film that the inlet makes is nothing beside the layer

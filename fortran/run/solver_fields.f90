@@ -1,6 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Fields of a run
 submodule (ehl_solver) ehl_solver_fields
+   use ehl_level, only: gap
    use ehl_status, only: ehl_bad_input, ehl_no_memory
    implicit none (type, external)
 
@@ -42,7 +43,7 @@ contains
          case ("P")
             call level%grid%unfold(level%p, own)
          case ("H")
-            call level%grid%unfold(level%h, own)
+            call level%grid%unfold(gap(level), own)
          case ("P_smooth")
             call level%grid%unfold(self%p_smooth, own)
          case ("H_smooth")
@@ -54,7 +55,7 @@ contains
                call level%grid%unfold(self%transient%rr, own)
             end if
          case ("A_d")
-            call level%grid%unfold(self%h_smooth - level%h, own)
+            call level%grid%unfold(self%h_smooth - gap(level), own)
          case default
             k = findloc(temperatures, name, dim=1)
             if (allocated(self%rough_heat%rise)) then

@@ -3,6 +3,7 @@
 submodule (ehl_solver) ehl_solver_results
    use ehl_domain, only: ratio_cost, too_small
    use ehl_judgement, only: judge
+   use ehl_level, only: gap
    use ehl_level_result, only: discretisation_error, spike_grows
    use ehl_no_answer, only: why_no_answer
    use ehl_outcome, only: outcome_names, outcome_target_missed
@@ -15,6 +16,7 @@ submodule (ehl_solver) ehl_solver_results
    use ehl_skipped_work, only: skipped_work
    use ehl_surface_text, only: window_words
    use ehl_text, only: newline
+   use ehl_touching, only: touching_names
    use ehl_touching_mean, only: touching_of
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    implicit none (type, external)
@@ -211,7 +213,7 @@ contains
       type(record_t), intent(inout) :: record
       !> Whether the smooth contact is converged
       logical, intent(in) :: good
-      real(dp) :: numbers(3), coarser
+      real(dp) :: numbers(size(touching_names)), coarser
       character(len=:), allocatable :: why
       integer :: n
 
@@ -236,7 +238,7 @@ contains
    !> Whether friction is known: everywhere in the film, or of the boundary film, too
    logical function knows_friction(self)
       type(solver_t), intent(in) :: self
-      real(dp) :: numbers(3)
+      real(dp) :: numbers(size(touching_names))
 
       knows_friction = .not. self%plan%lubricant%boundary_film > 0.0_dp .or. self%plan%lubricant%boundary_stress > 0.0_dp
       if (knows_friction) return
@@ -271,7 +273,7 @@ contains
                               self%smooth_heat, self%rough_heat, heat_ratio)
       else
          associate (level => self%hierarchy%levels(self%level()))
-            call report_friction(record, self%plan, level%grid, level%p, level%h, known, friction, ratio, &
+            call report_friction(record, self%plan, level%grid, level%p, gap(level), known, friction, ratio, &
                                  self%smooth_heat, self%rough_heat, heat_ratio)
          end associate
       end if

@@ -3,25 +3,27 @@
 module ehl_touching_mean
    use ehl_contact_run, only: contact_run_t
    use ehl_kinds, only: dp
-   use ehl_touching, only: touching_names
+   use ehl_touching, only: at_depth, known_names, touching_names
    implicit none (type, external)
    private
    public :: load_share_of, touching_of
 
 contains
 
-   !> Load share, area [a^2] and supply of the contact of a run that has converged (reynolds/touching.f90); in time steps their
-   !> means over the time of the mean friction ratio
+   !> What reynolds/touching.f90 reads off the contact of a run that has converged; in time steps means over the time of the mean
+   !> friction ratio, and the greatest depth
    function touching_of(run) result(numbers)
       class(contact_run_t), intent(in) :: run
-      real(dp) :: numbers(3)
+      real(dp) :: numbers(size(touching_names))
       integer :: k, first
 
       if (run%in_steps) then
          first = run%transient%mean%first_of_mean()
-         do k = 1, 3
+         numbers = 0.0_dp
+         do k = 1, known_names(run%plan%lubricant)
             associate (values => run%history%column(touching_names(k)))
                numbers(k) = sum(values(first:))/max(1, size(values) - first + 1)
+               if (k == at_depth) numbers(k) = maxval(values(first:))
             end associate
          end do
       else if (run%resting) then
@@ -34,7 +36,7 @@ contains
    !> The load share alone
    real(dp) function load_share_of(run)
       class(contact_run_t), intent(in) :: run
-      real(dp) :: numbers(3)
+      real(dp) :: numbers(size(touching_names))
 
       numbers = touching_of(run)
       load_share_of = numbers(1)

@@ -2,7 +2,7 @@
 !> Extremes of pressure and film while something passes the contact, with where and when
 module ehl_extremes
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
+   use ehl_level, only: gap, level_t
    implicit none (type, external)
    private
    public :: extremes_t, extreme_pressure, extreme_film, extreme_rise, extreme_ratio
@@ -30,9 +30,9 @@ contains
       real(dp), intent(in) :: time
 
       call self%note(level, extreme_pressure, 1.0_dp, level%p, time)
-      call self%note(level, extreme_film, -1.0_dp, level%h, time)
+      call self%note(level, extreme_film, -1.0_dp, gap(level), time)
       call self%note(level, extreme_rise, 1.0_dp, level%p - p_smooth, time)
-      call self%note(level, extreme_ratio, -1.0_dp, level%h/h_smooth, time)
+      call self%note(level, extreme_ratio, -1.0_dp, gap(level)/h_smooth, time)
    end subroutine see
 
    !> Keep the largest value (sign 1) or the least (-1), with its place, when it is beyond the one kept

@@ -3,7 +3,7 @@
 module ehl_frames
    use ehl_grid, only: grid_t
    use ehl_kinds, only: dp
-   use ehl_level, only: level_t
+   use ehl_level, only: gap, level_t
    use ehl_npy, only: matrix_t
    use ehl_status, only: ehl_no_memory, status_t
    implicit none (type, external)
@@ -49,7 +49,7 @@ contains
       if (status%failed()) return
       self%times(self%n) = time
       call level%grid%unfold(level%p, self%p(self%n)%values)
-      call level%grid%unfold(level%h, self%h(self%n)%values)
+      call level%grid%unfold(gap(level), self%h(self%n)%values)
    end subroutine keep
 
    !> Room for one more frame

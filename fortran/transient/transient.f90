@@ -260,7 +260,7 @@ contains
             level%p = self%p_before(:, :, 1)
             level%h00 = self%h00_before(1)
          end if
-         if (allocated(level%boundary)) level%boundary%touching = 0.0_dp
+         if (allocated(level%boundary)) call level%boundary%forget()
          call refresh(level)
          call update_residual(level, self%residual)
       end associate

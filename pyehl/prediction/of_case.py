@@ -47,6 +47,8 @@ MAX_TRACKS = 10_000
 
 # Why contact at a boundary film is not predicted
 OF_TWO = "contact at a boundary film is predicted of one rough surface"
+# Why its errors are not known
+ELASTIC = "the prediction is of elastic solids: contact.hardness is left out"
 OTHER_MODEL = "psd.reduction and psd.smooth are not those that contact is predicted with"
 
 
@@ -160,9 +162,13 @@ def _partial(
         return without(OF_TWO)
     if not passage.options.measured:
         return without(OTHER_MODEL)
-    return partial_film(
+    found = partial_film(
         passage, passage.parts(), layer, float(lubricant.get("boundary_friction", 0.0))
     )
+    if settings["contact"].get("hardness", 0.0) > 0.0:
+        note = found.note or ELASTIC
+        found = replace(found, load_share_error=math.nan, area_share_error=math.nan, note=note)
+    return found
 
 
 def _of_one(

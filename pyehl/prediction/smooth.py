@@ -118,6 +118,7 @@ OF_SHEAR = (
 )
 # The prediction is that of a full film
 OF_CONTACT = ("boundary_film", "boundary_friction")
+OF_TOUCHING = ("hardness",)
 
 
 def smooth_case(settings: Mapping[str, Mapping[str, Any]]) -> str:
@@ -129,7 +130,7 @@ def smooth_case(settings: Mapping[str, Mapping[str, Any]]) -> str:
     """
     thins = ShearLaw.from_settings(settings).in_flow
     heated = bool(settings["lubricant"].get("thermal_reduction", False))
-    of_contact = OF_SOLIDS if thins or heated else OF_SOLIDS + OF_SLIP
+    of_contact = OF_TOUCHING + OF_SOLIDS + (() if thins or heated else OF_SLIP)
     of_lubricant = OF_CONTACT + (() if thins else OF_SHEAR) + (() if heated else OF_OIL)
     contact = {k: v for k, v in settings["contact"].items() if k not in of_contact}
     lubricant = {k: v for k, v in settings["lubricant"].items() if k not in of_lubricant}

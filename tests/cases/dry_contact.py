@@ -2,7 +2,8 @@
 """Dry contact of rough elastic bodies, to check what the solver makes of slow motion.
 
 Conjugate gradients with the pressures as unknowns (Polonsky & Keer 1999), the deflection by FFT on
-a doubled grid. Nothing is shared with the solver but the half-space.
+a doubled grid; a hardness bounds the pressures, and a gap that is missing under one of them is
+plastic depth. Nothing is shared with the solver but the half-space.
 """
 
 from __future__ import annotations
@@ -19,8 +20,11 @@ Array = NDArray[np.float64]
 ENOUGH, MOST_STEPS = 1e-9, 2000
 
 
-def dry_pressure(gap: Array, mesh: float, load: float) -> Array:
-    """Pressure [p_h] under a load [a^2 p_h] of bodies with a gap [a^2/R] on square cells [a]."""
+def dry_pressure(gap: Array, mesh: float, load: float, limit: float = np.inf) -> Array:
+    """Pressure [p_h] under a load [a^2 p_h] of bodies with a gap [a^2/R] on square cells [a].
+
+    `limit`: hardness [p_h] of bodies that are elastic and perfectly plastic.
+    """
     shape = [2 * n for n in gap.shape]
     kernel = scipy.fft.rfft2(_kernel(shape, mesh))
 
@@ -29,24 +33,30 @@ def dry_pressure(gap: Array, mesh: float, load: float) -> Array:
         return np.asarray(scipy.fft.irfft2(spectrum, shape)[: gap.shape[0], : gap.shape[1]])
 
     pressure = np.full(gap.shape, load / (mesh**2 * gap.size))
+    if np.isfinite(limit):
+        pressure = np.minimum(dry_pressure(gap, mesh, load), limit)
     step, last, restart = np.zeros_like(gap), 1.0, True
     for _ in range(MOST_STEPS):
         error = gap + deflection(pressure)
-        touching = pressure > 0.0
-        error -= error[touching].mean()
-        square = (error[touching] ** 2).sum()
-        if np.sqrt(square / touching.sum()) < ENOUGH * gap.max():
+        # neither apart nor at the limit
+        free = (pressure > 0.0) & (pressure < limit)
+        error -= error[free].mean()
+        wrong = free | ((pressure <= 0.0) & (error < 0.0)) | ((pressure >= limit) & (error > 0.0))
+        square = (error[free] ** 2).sum()
+        if np.sqrt((error[wrong] ** 2).sum() / free.sum()) < ENOUGH * gap.max():
             return pressure
-        step = np.where(touching, error + (0.0 if restart else square / last) * step, 0.0)
+        step = np.where(free, error + (0.0 if restart else square / last) * step, 0.0)
         last = square
         change = deflection(step)
-        change -= change[touching].mean()
-        length = (error * step)[touching].sum() / (change * step)[touching].sum()
-        pressure = np.maximum(pressure - length * step, 0.0)
-        comes = (pressure <= 0.0) & (error < 0.0)
+        change -= change[free].mean()
+        length = (error * step)[free].sum() / (change * step)[free].sum()
+        pressure = np.clip(pressure - length * step, 0.0, limit)
+        comes = ((pressure <= 0.0) & (error < 0.0)) | ((pressure >= limit) & (error > 0.0))
         pressure[comes] -= length * error[comes]
         restart = bool(comes.any())
-        pressure *= load / (mesh**2 * pressure.sum())
+        pressure = np.clip(pressure, 0.0, limit)
+        free = (pressure > 0.0) & (pressure < limit)
+        pressure[free] *= (load / mesh**2 - pressure[~free].sum()) / pressure[free].sum()
     msg = "the dry contact is not solved"
     raise AssertionError(msg)
 

@@ -27,6 +27,8 @@ MIXED = WAVE | {
     "lubricant.boundary_film": 2e-8,
 }
 HERTZ_LOAD = 2.0 * np.pi / 3.0
+# Hertz pressure of STEEL [Pa]
+HERTZ = (1.5 * 600.0 * (2.26e11 / 0.018) ** 2) ** (1.0 / 3.0) / np.pi
 
 
 def grid(points: int) -> tuple[np.ndarray, np.ndarray, float]:
@@ -101,9 +103,64 @@ def test_rough_dry_limit_partial_contact(solve):
     assert 0.5 < done["contact_load_share"] < 1.0
 
 
-def dry_of(done, points: int) -> tuple[np.ndarray, float]:
+def dry_of(done, points: int, limit: float = np.inf) -> tuple[np.ndarray, float]:
     x, y, mesh = grid(points)
-    return dry_pressure(x**2 / 2.0 + y**2 / 2.0 - done.field("RR"), mesh, HERTZ_LOAD), mesh
+    return dry_pressure(x**2 / 2.0 + y**2 / 2.0 - done.field("RR"), mesh, HERTZ_LOAD, limit), mesh
+
+
+@pytest.mark.parametrize(
+    ("amplitude", "velocity", "layer", "limit", "error"),
+    [(0.02, 0.02, 2e-8, 1.15, 0.004), (0.05, 0.005, 1e-8, 1.35, 0.02)],
+    ids=["pressed flat", "with valleys"],
+)
+def test_hardness_dry_limit(solve, amplitude, velocity, layer, limit, error):
+    """Pressure, and what of the load is at the limit, of a dry solver with a limit of pressure."""
+    rest = {"contact.mean_velocity": velocity, "lubricant.boundary_film": layer}
+    rest |= {"surface.amplitude": amplitude, "contact.hardness": limit * HERTZ}
+    done = solve(None, 129, STEEL | REST | rest, fields=True)
+    assert done.converged
+    dry, _ = dry_of(done, 129, limit)
+    elastic, _ = dry_of(done, 129)
+    pressure = done.field("P")
+    assert pressure.max() == pytest.approx(limit, rel=1e-9)
+    assert np.linalg.norm(pressure - dry) <= error * np.linalg.norm(dry)
+    assert np.linalg.norm(pressure - elastic) > 2.0 * np.linalg.norm(pressure - dry)
+    share = dry[dry >= limit].sum() / dry.sum()
+    assert share > 0.04
+    assert done["load_share_at_hardness"] == pytest.approx(share, rel=0.01)
+    assert done["plastic_depth_max_m"] > 5e-8
+    # where the solids give way, the film is no less than the layer
+    assert done.field("H").min() > 0.7 * done["boundary_film"]
+    assert "yielding solids" in done["judgement"]
+
+
+@pytest.mark.parametrize("scene", [{}, REST, MIXED], ids=["smooth", "rest", "wave"])
+def test_hardness_above_all_pressures_changes_no_bit(solve, scene):
+    touching = STEEL | {"contact.mean_velocity": 0.05, "lubricant.boundary_film": 3e-8} | scene
+    elastic = solve(None, 65, touching, fields=True)
+    hard = solve(None, 65, touching | {"contact.hardness": 1e12}, fields=True)
+    assert elastic["contact_load_share"] > 0.0
+    for name in ("P", "H"):
+        assert (elastic.field(name) == hard.field(name)).all()
+    timed = {"bytes", "wall_seconds", "seconds_per_step", "files", "version", "case"}
+    more = {"load_share_at_hardness", "area_share_at_hardness", "plastic_depth_max_m"}
+    more.add("flowing_load_share_at_hardness")
+    left = {k: v for k, v in hard.summary.items() if k not in timed | more}
+    assert left == {k: v for k, v in elastic.summary.items() if k not in timed}
+    assert [hard[name] for name in more] == [0.0] * 4
+
+
+def test_hardness_in_time_steps(solve):
+    """No pressure above the limit in any step, and more contact than of elastic solids."""
+    moving = STEEL | MIXED | {"time.max_periods": 3}
+    elastic = solve(None, 65, moving)
+    hard = solve(None, 65, moving | {"contact.hardness": 1.1 * HERTZ})
+    assert elastic.history["P_max"].max() > 1.2
+    assert hard.history["P_max"].max() <= 1.1 * (1.0 + 1e-6)
+    assert hard.history["hard_load_share"].max() > 0.05
+    assert hard.history["hard_flowing"].max() > 0.01
+    assert np.abs(hard.history["load_error"]).max() <= 1e-6
+    assert hard.history["plastic_depth"].max() * hard["film_scale_m"] > 5e-8
 
 
 def test_mixed_film(solve):

@@ -30,7 +30,7 @@ def test_resolved_case_reads_back(path: Path):
         "contact.radius_ratio", "surface.amplitude", "surface.amplitude_over_film",
         "surface.width", "lubricant.temperature", "lubricant.density_15",
         "lubricant.thermal_expansion", "lubricant.name", "lubricant.table",
-        "contact.thermal_conductivity_2", "contact.thermal_diffusivity_2",
+        "contact.thermal_conductivity_2", "contact.thermal_diffusivity_2", "contact.hardness",
     }  # fmt: skip
     names = {f"{group}.{key}" for group, keys in groups.items() for key in keys}
     unused = {key.name for key in library.keys()} - names

@@ -115,6 +115,19 @@ FAULTS: list[tuple[str, str, list[str], list[str]]] = [
         ["no size in m", "load, mean_velocity"],
     ),
     (
+        "hardness without a boundary film",
+        "&contact hardness = §3e9 /",
+        [],
+        ["no bodies touch", "a boundary_film in m"],
+    ),
+    (
+        "hardness below the Hertz pressure",
+        "&contact hardness = §1.5e9 / &lubricant boundary_film = 1e-9 /",
+        [],
+        ["contact.hardness = 1.500E+09 Pa", "the Hertz pressure is 1.660E+09 Pa"],
+    ),
+    ("negative hardness", "&contact hardness = §-1.0 /", [], ["0 or [1e5, 1e12]"]),
+    (
         "boundary film and heat",
         "&lubricant boundary_film = 1e-9 §thermal_friction = 'always' /",
         [],

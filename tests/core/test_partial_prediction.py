@@ -54,6 +54,16 @@ def test_friction_of_the_layer_is_not_known():
     assert "lubricant.boundary_friction" in summary["mu_ratio_error_note"]
 
 
+def test_hardness_is_left_out():
+    text = SCENE.format(0.3, 1.2e-7, 0.1)
+    hard = text.replace("&contact ", "&contact hardness = 3e9 ", 1)
+    assert hard != text
+    elastic, left = (pyehl.predict(pyehl.Case.from_text(t)).summary for t in (text, hard))
+    assert left["contact_load_share"] == elastic["contact_load_share"] > 0.0
+    assert left["contact_load_share_error"] is left["contact_area_share_error"] is None
+    assert "contact.hardness is left out" in left["contact_load_share_error_note"]
+
+
 def test_two_surfaces_have_none_and_say_why():
     text = SCENE.format(0.3, 1.2e-7, 0.1)
     second = text[text.index("&surface") :].replace("surface", "second_surface").replace("11", "12")

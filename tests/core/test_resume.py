@@ -292,6 +292,23 @@ def test_no_states_when_none_are_wanted(drive, tmp_path: Path):
         assert {path.name for path in tmp_path.iterdir()} == {"case.nml", "out"}
 
 
+def test_yielding_solids_are_resumed(drive, tmp_path: Path):
+    """What yields in a step follows from what is kept of those before it."""
+    (tmp_path / "case.nml").write_text(
+        "&contact mean_velocity = 0.1 slide_to_roll = 1.0 hardness = 1.83e9 /\n"
+        "&lubricant shear_law = 'eyring' boundary_film = 2e-8 /\n"
+        "&grid points = 65 x_inlet = -2.5 x_outlet = 1.5 y_extent = 2.0 /\n"
+        "&surface kind = 'harmonic' wavelength = 0.5 amplitude = 0.02 /\n"
+        "&time estimate_error = .false. /\n"
+    )
+    assert drive("ehl", "case.nml", "-o", "whole").returncode == 0
+    stop_after_steps(drive, tmp_path, "ehl", 20)
+    assert drive("pyehl", "--resume", "out", "--set", "time.steps=0").returncode == 0
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert summary["load_share_at_hardness"] > 0.05
+    same(tmp_path / "whole", tmp_path / "out")
+
+
 @pytest.mark.long
 def test_change_of_coarsening_is_resumed(drive, tmp_path: Path):
     # On so coarse a grid, far down in the residual, classical cycles are slow in the contact

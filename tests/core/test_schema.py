@@ -55,7 +55,9 @@ SOLUTIONS = {
     "heated": SI + HEATED,
     "heat of friction": SI + HEATED.replace("thermal_reduction = .true.", "shear_law = 'eyring'"),
     "oil by name": SI + "&lubricant name = 'fva3' /\n",
-    "contact at a boundary film": f"{SI}&lubricant boundary_film = 1e-7 /\n",
+    "contact at a boundary film": (
+        f"{SI.replace('20.0', '20.0 hardness = 3e9')}&lubricant boundary_film = 1e-7 /\n"
+    ),
     "ellipse": "&contact load = 20.0 radius_x = 0.01 radius_y = 0.02 /\n&grid points = 33 /\n",
     "wave": SI + WAVE.format(""),
     "mean that has not settled": f"{MOES}{WAVE.format('')}&time max_periods = 1 /\n",
