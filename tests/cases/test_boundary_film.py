@@ -103,6 +103,24 @@ def test_rough_dry_limit_partial_contact(solve):
     assert 0.5 < done["contact_load_share"] < 1.0
 
 
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("load", "velocity", "layer", "height"),
+    [(600.0, 0.005, 4e-8, 0.05), (600.0, 0.05, 4e-8, 0.05), (100.0, 0.05, 4e-8, 0.03)],
+)
+def test_islands_at_rest_converge_on_fine_grids(solve, load, velocity, layer, height):
+    """Lubricant between nodes that touch takes more cycles to leave than there are by default."""
+    island = {
+        "contact.load": load,
+        "contact.mean_velocity": velocity,
+        "surface.amplitude": height,
+        "lubricant.boundary_film": layer,
+    }
+    done = solve(None, 257, STEEL | REST | island)
+    assert done.converged
+    assert 0.2 < done["contact_load_share"] < 0.8
+
+
 def dry_of(done, points: int, limit: float = np.inf) -> tuple[np.ndarray, float]:
     x, y, mesh = grid(points)
     return dry_pressure(x**2 / 2.0 + y**2 / 2.0 - done.field("RR"), mesh, HERTZ_LOAD, limit), mesh
