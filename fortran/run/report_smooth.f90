@@ -77,8 +77,9 @@ contains
       if (good .and. .not. plan%domain_cost(2) < 1.0_dp) call record%set("H_min_error_note", too_small)
       why = too_coarse(plan%contact, plan%point, plan%finest)
       if (why == "") why = finer_across(plan%contact, plan%finest)
-      if (why == "" .and. any(steady%outcome == [outcome_cycle_limit, outcome_diverged, outcome_negative_film])) &
+      if (why == "" .and. any(steady%outcome == [outcome_cycle_limit, outcome_diverged, outcome_negative_film])) then
          why = "a finer grid may do: grid.points = "//to_text(2*plan%finest%nx - 1)
+      end if
       if (.not. good .and. why /= "") call record%set("H_c_error_note", why)
       call record%set("error_estimate", trim(merge("two grids", "a priori ", coarser)))
       call report_limits(record, plan, steady, n, good)
