@@ -37,6 +37,9 @@ module ehl_plan
    !> Most time steps until the friction of a rough surface can be known, and where their number is asked for
    integer, parameter :: most_steps = 100000, most_steps_asked_for = 1000000000
 
+   !> Extent of the dry contact across the motion over that along it from which on it does so on any grid: cycles go to and
+   !> fro between two states there
+   real(dp), parameter :: wide = 2.0_dp
    !> Boundary film from which on a smooth contact may touch, over its central film by formula
    real(dp), parameter :: contact_from = 0.5_dp
 
@@ -294,7 +297,8 @@ contains
       if (plan%start == 0) plan%start = plan%levels
       plan%finest = grid
       associate (errors => relative_errors(plan%contact, plan%point, grid))
-         plan%may_restart = errors(1) <= resolved_error .or. plan%touches
+         plan%may_restart = errors(1) <= resolved_error .or. plan%touches .or. &
+                            plan%contact%reach(2) > wide*plan%contact%reach(1)
       end associate
    end subroutine pick_grids
 end module ehl_plan

@@ -24,6 +24,9 @@ module ehl_plan_need
    real(dp), parameter :: coarser_bytes = 0.25_dp, coarser_seconds = 0.125_dp
    !> Seconds per stored node of a smooth contact and of a time step or cycle, on one thread of a processor of 2020
    real(dp), parameter :: smooth_seconds = 8.0e-7_dp, step_seconds = 3.0e-7_dp
+   !> Seconds per cube of the unknowns of the coarsest grid, which is solved directly, ten times or so in a smooth contact; they
+   !> are what a long grid takes (0.5 s of 1.1 at kappa = 10 on 257 nodes)
+   real(dp), parameter :: direct_seconds = 1.0e-9_dp
    !> Cycles of a rough contact at rest
    real(dp), parameter :: rest_cycles = 20.0_dp
 
@@ -144,6 +147,6 @@ contains
       cycles = steps(plan)
       if (plan%surfaces%rest()) cycles = rest_cycles
       if (plan%coarse_run) cycles = cycles*(1.0_dp + coarser_seconds)
-      seconds = nodes(plan)*(smooth_seconds + cycles*step_seconds)
+      seconds = nodes(plan)*(smooth_seconds + cycles*step_seconds) + direct_seconds*(real(plan%coarsest%nx, dp)*plan%coarsest%ny)**3
    end function seconds
 end module ehl_plan_need

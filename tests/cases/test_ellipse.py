@@ -18,6 +18,8 @@ from pyehl.theory.ellipse import ellipse
 from pyehl.theory.film import nijenbanning_venner_moes
 
 PLACE = {"grid.border": "zero", "grid.x_inlet": -2.5, "grid.x_outlet": 1.5}
+# D of kappa = 10
+RATIO_OF_TEN = 0.02737
 ROUND = {"contact.load": 50.0, "contact.mean_velocity": 1.0, "grid.points": 65}
 WAVE = {
     "surface.kind": "harmonic",
@@ -323,6 +325,27 @@ def test_too_coarse_a_grid_names_one_that_will_do(ehl: str, tmp_path: Path):
     assert done.returncode == 0, done.stdout
     assert "warning" not in done.stdout
     assert json.loads((tmp_path / "fine" / "summary.json").read_text())["restarts"] == 0
+
+
+@pytest.mark.parametrize("moes_l", [5.0, 10.0, 15.0])
+def test_wide_thin_films_begin_again_with_care(solve, moes_l: float):
+    """The first attempt diverges, or goes to and fro; H_c is that of a formula and a finer grid."""
+    shape = ellipse(RATIO_OF_TEN)
+    scale = shape.ellipticity * shape.kernel_ratio**0.25
+    point = 1000.0 * scale, moes_l / shape.kernel_ratio**0.75
+    done = solve(point, 129, {"contact.radius_ratio": RATIO_OF_TEN})
+    assert done.converged
+    assert done["restarts"] == 1
+    assert done["cycles"] < 20
+    finer = solve(point, 257, {"contact.radius_ratio": RATIO_OF_TEN})
+    assert finer.converged
+    assert finer["H_c"] - done["H_c"] == pytest.approx(done["H_c_error_grid"], rel=0.5)
+
+
+def test_a_failed_contact_names_a_finer_grid(solve):
+    done = solve((200.0, 10.0), 65, {"solver.max_cycles": 2})
+    assert done["status"] == "cycle limit"
+    assert done["judgement"].endswith(": a finer grid may do: grid.points = 129")
 
 
 @pytest.mark.parametrize("kappa", [0.1, 0.2, 0.5, 2.0, 5.0, 10.0])
