@@ -248,6 +248,12 @@ ERRORS = {
 }
 
 
+def simulated(run: dict[str, float], name: str) -> float:
+    """A simulated quantity; the film with what that of the smooth contact lacks on the grid."""
+    lacking = run["h_min_extrapolated_m"] - run["h_min_m"] if name == "h_min_rough_m" else 0.0
+    return run[name] + lacking
+
+
 # Largest deviations and how many the stated errors cover: of those in view when the error of the
 # film was chosen, and of those predicted before they were simulated
 @pytest.mark.parametrize(
@@ -268,10 +274,7 @@ def test_simulated_surfaces(root, table, names, count, most, covered):
     for (name, error), largest, good in zip(ERRORS.items(), most, covered, strict=True):
         off, within = [], 0
         for row in rows:
-            p, run = said[row][name], found[row]
-            s = run[name]
-            if name == "h_min_rough_m":
-                s += run["h_min_extrapolated_m"] - run["h_min_m"]
+            p, s = said[row][name], simulated(found[row], name)
             off.append(abs(p / s - 1.0))
             within += abs(p - s) <= said[row][error]
         assert max(off) < largest, name
@@ -282,12 +285,10 @@ def test_all_surfaces_of_the_page(root):
     """How many of the 36 are within the aims, and the least films."""
     folder = root / "docs" / "evidence" / "thinning"
     said, found = numbers(folder / "predicted.csv"), numbers(folder / "simulated.csv")
-    ratio = np.array([said[k]["mu_ratio"] / run["mu_ratio"] - 1.0 for k, run in found.items()])
-    film = []
-    for name, run in found.items():
-        lacking = run["h_min_extrapolated_m"] - run["h_min_m"]
-        film.append(said[name]["h_min_rough_m"] / (run["h_min_rough_m"] + lacking) - 1.0)
-    film = np.array(film)
+    ratio, film = (
+        np.array([said[row][name] / simulated(run, name) - 1.0 for row, run in found.items()])
+        for name in ("mu_ratio", "h_min_rough_m")
+    )
     rms = [100.0 * np.sqrt(np.mean(off**2)) for off in (ratio, film)]
     text = (folder / "README.md").read_text(encoding="utf-8")
     assert (

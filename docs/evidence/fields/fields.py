@@ -114,7 +114,7 @@ def passage_of(case: pyehl.Case, tile: Topography) -> RoughPassage:
 def at(
     moment: Moment, passage: RoughPassage, start: float
 ) -> tuple[WavyContact, Array, Transfer, Spectrum]:
-    """Points of a contact at a moment, change of film and pressure to first order, and its response.
+    """Points of a contact at a moment, its film and pressure to first order, and its response.
 
     `start`: where the tile is at the time 0 [a].
     """

@@ -113,7 +113,7 @@ def loss(seed: int, speed: float, flow: str) -> float:
 
 
 def film() -> list[Row]:
-    """Simulated film over the smooth one by the predicted loss of first order, in bins of that."""
+    """Give the simulated film over the smooth one in bins of the predicted loss of first order."""
     sys.path.insert(0, str(HERE.parent / "fields"))
     fields = importlib.import_module("fields")
     case = case_of(1, 6.0, "consistent")
