@@ -30,10 +30,12 @@ Readings of the paper
 What happens where the model ends
 ---------------------------------
 * p_s + delta p <= 0: the lubricant cavitates, as P >= 0 demands in the full problem: pressure zero
-  and viscosity eta0. The points are counted (`cavitated_share`) and the share of friction at
-  stake is bounded (`cavitated_friction`); near the rim p_s vanishes, so a few are normal.
-* h_s - rr_d <= 0: the surfaces touch. There is no full film and the model has nothing to say:
-  status ``"film breakdown"``, no ratio.
+  and viscosity eta0, and by the response less pressure around, so that the load stays. The points
+  are counted (`cavitated_share`) and the share of friction at stake is bounded
+  (`cavitated_friction`); near the rim p_s vanishes, so a few are normal.
+* A loss of film rr_d of more than 1.6 h_s by the response, of more than h_s in the model of the
+  paper: there is no full film and the model has nothing to say: status ``"film breakdown"``, no
+  ratio.
 * mu_r/mu_s above 10: status ``"beyond linear response"``, no ratio; the message names a cut-off of
   the spectrum that brings it into the range in which the model was compared.
 * A viscosity that overflows, or roughness that carries the whole load: status ``"overflow"``,

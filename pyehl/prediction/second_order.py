@@ -18,7 +18,7 @@ For Gaussian P1 the mean of P2 exp(b P1), and with it the friction, is then that
 for every b.
 
 What the inlet makes of second order was not derived but measured, in the fields of simulations
-(docs/evidence/second_order). The lubricant carries it at the mean velocity, as it does the free
+(docs/evidence/fields). The lubricant carries it at the mean velocity, as it does the free
 wave: a pressure INLET_PRESSURE P0^2, P0 the pressure of first order that the waves would have
 where they are if they had not slipped since the inlet. With slip P0 is less and less like P1: only
 its part along P1^2, (<P0 P1>/s^2)^2 INLET_PRESSURE, is added to gamma. And the film regains
@@ -54,7 +54,7 @@ the smooth film [-]."""
 
 FILM_ENDS = 1.6
 """Loss of first order over the smooth film at which no full film is predicted [-]: films hold at
-1.2 and 1.4, and fine grids have none at 1.9 (docs/evidence/thin_film)."""
+1.2 and 1.35, and fine grids have none at 1.8 (docs/evidence/thin_film)."""
 
 # Loss over the film up to which the film of second order is taken; beyond it falls as an
 # exponential that goes on from there

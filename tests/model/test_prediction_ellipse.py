@@ -287,6 +287,25 @@ def test_readme_says_what_the_table_says(compare):
         assert row["covered_before"] == (off <= stated[row["name"]])
 
 
+def test_pages_show_the_finer_grid(root: Path, compare):
+    """1025 nodes along X: the deviations there, which the stated error covers."""
+    for page in (compare.HERE / "README.md", root / "docs" / "theory" / "prediction-ellipses.md"):
+        assert "\n".join(compare.fine_lines()) in page.read_text(encoding="utf-8")
+    table = {row["name"]: row for row in compare.read("table.csv")}
+    fine = {row["name"]: row for row in compare.read("fine.csv")}
+    assert len(fine) == 3
+    for name, run in fine.items():
+        coarse = table[name]
+        assert run["mu_ratio_error_grid"] == pytest.approx(
+            abs(run["mu_ratio"] - coarse["mu_ratio"]), abs=1e-5
+        )
+        assert abs(coarse["prediction"] - run["mu_ratio"]) <= coarse["model_error"]
+    run, said = fine["k050b"], table["k050b"]["prediction"]
+    limit = run["mu_ratio"] + run["mu_ratio_error_grid"] / 3.0
+    text = (compare.HERE / "README.md").read_text(encoding="utf-8")
+    assert f"approaches {limit:.3f} with order 2, {100.0 * (said / limit - 1.0):.1f} %" in text
+
+
 def test_static_ridges(root: Path):
     """Their pressure as measured, on circles and on ellipses; one as long as the width is worst."""
     for row in rows_of(root / "docs" / "evidence" / "ellipse" / "ridges.csv"):

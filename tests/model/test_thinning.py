@@ -286,13 +286,20 @@ ERRORS = {
 }
 
 
+def simulated(run: dict[str, float], name: str) -> float:
+    """A simulated quantity; the film with what that of the smooth contact lacks on the grid."""
+    lacking = run["h_min_extrapolated_m"] - run["h_min_m"] if name == "h_min_rough_m" else 0.0
+    return run[name] + lacking
+
+
 # Largest deviations and how many the stated errors cover: of those in view when the error of the
 # film was chosen, and of those predicted before they were simulated
 @pytest.mark.parametrize(
     ("table", "names", "count", "most", "covered"),
     [
-        ("predicted", "e", 18, (0.005, 0.03, 0.2, 0.093, 0.15), (18, 18, 17, 17, 18)),
-        ("predicted", "f", 8, (0.0025, 0.014, 0.045, 0.055, 0.14), (8, 8, 8, 8, 7)),
+        ("predicted", "e", 18, (0.006, 0.03, 0.2, 0.093, 0.15), (18, 18, 17, 17, 18)),
+        ("predicted", "f", 8, (0.004, 0.014, 0.045, 0.055, 0.14), (8, 8, 8, 8, 7)),
+        ("predicted", "g", 10, (0.009, 0.018, 0.075, 0.051, 0.22), (10, 10, 10, 10, 9)),
         ("committed", "g", 10, (0.009, 0.018, 0.075, 0.051, 0.22), (10, 10, 10, 10, 9)),
     ],
 )
@@ -305,23 +312,43 @@ def test_simulated_surfaces(root, table, names, count, most, covered):
     for (name, error), largest, good in zip(ERRORS.items(), most, covered, strict=True):
         off, within = [], 0
         for row in rows:
-            p, run = said[row][name], found[row]
-            s = run[name]
-            if name == "h_min_rough_m":
-                s += run["h_min_extrapolated_m"] - run["h_min_m"]
+            p, s = said[row][name], simulated(found[row], name)
             off.append(abs(p / s - 1.0))
             within += abs(p - s) <= said[row][error]
         assert max(off) < largest, name
         assert within == good, name
 
 
+def test_all_surfaces_of_the_page(root):
+    """How many of the 36 are within the aims, and the least films."""
+    folder = root / "docs" / "evidence" / "thinning"
+    said, found = numbers(folder / "predicted.csv"), numbers(folder / "simulated.csv")
+    ratio, film = (
+        np.array([said[row][name] / simulated(run, name) - 1.0 for row, run in found.items()])
+        for name in ("mu_ratio", "h_min_rough_m")
+    )
+    rms = [100.0 * np.sqrt(np.mean(off**2)) for off in (ratio, film)]
+    text = (folder / "README.md").read_text(encoding="utf-8")
+    assert (
+        f"Over all {ratio.size} surfaces {np.count_nonzero(abs(ratio) <= 0.005)} ratios are within "
+        f"0.5 %, {rms[0]:.2f} % rms, and {np.count_nonzero(abs(film) <= 0.05)} least films within "
+        f"5 %, {rms[1]:.1f} % rms and {100.0 * abs(film).max():.1f} % at most."
+    ) in text
+
+
 def test_committed_friction(root):
-    """That which was there before the simulations is that of today, g of the same response."""
+    """What was there before the simulations: g of the same response, which is today's but for load.
+
+    Of g films and pressures are those of today.
+    """
     folder = root / "docs" / "evidence" / "thinning"
     said, committed = numbers(folder / "predicted.csv"), numbers(folder / "committed.csv")
     for row, before in committed.items():
-        rel = 1e-5 if row.startswith("g") else 4e-3
+        of_g = row.startswith("g")
+        rel = 2.9e-3 if of_g else 9e-3
         assert said[row]["mu_ratio"] == pytest.approx(before["mu_ratio"], rel=rel)
+        for name in ("p_rise_rms_Pa", "p_rise_max_Pa", "h_min_rough_m") if of_g else ():
+            assert said[row][name] == pytest.approx(before[name], rel=1e-5)
 
 
 @pytest.mark.parametrize("name", ["e1", "e8"])

@@ -24,7 +24,7 @@ SMALL = ("surface.pixels=64",)
 # A ratio, no film, pressures beyond a linear response, the model of the paper, a single wave
 CASES = {
     "fractal": SMALL,
-    "breakdown": (*SMALL, "surface.rms_height=4e-7"),
+    "breakdown": (*SMALL, "surface.rms_height=6e-7"),
     "beyond": ("surface.pixels=128", "surface.rms_height=8e-8", "surface.hurst=0.3"),
     "paper": (*SMALL, "psd.reduction=amplitude", "psd.smooth=hertz"),
     "wave": ("surface.kind=harmonic", "lubricant.shear_law=eyring"),

@@ -3,7 +3,8 @@
 
 python docs/evidence/ellipse/make.py [--points N] [NAME ...]
 
-On `--points` nodes along X in place of those of the table they go to coarse.csv.
+On `--points` nodes along X in place of those of the table they go to coarse.csv, or fine.csv where
+these are more.
 """
 
 from __future__ import annotations
@@ -23,10 +24,11 @@ def main() -> None:
     parser.add_argument("names", nargs="*")
     parser.add_argument("--points", type=int, default=0)
     arguments = parser.parse_args()
-    path = HERE / ("coarse.csv" if arguments.points else "simulated.csv")
-    if not path.exists():
-        path.write_text(",".join(COLUMNS) + "\n", encoding="utf-8")
     for row in read("cases.csv"):
+        other = "fine.csv" if arguments.points > row["points"] else "coarse.csv"
+        path = HERE / (other if arguments.points else "simulated.csv")
+        if not path.exists():
+            path.write_text(",".join(COLUMNS) + "\n", encoding="utf-8")
         done = {line["name"] for line in read(path.name)}
         if row["name"] in done or (arguments.names and row["name"] not in arguments.names):
             continue

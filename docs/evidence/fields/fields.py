@@ -35,6 +35,8 @@ from pyehl.prediction.by_response import RoughPassage  # noqa: E402
 from pyehl.prediction.options import Options  # noqa: E402
 from pyehl.prediction.rough_contact import WavyContact  # noqa: E402
 from pyehl.prediction.smooth import solve_contact  # noqa: E402
+from pyehl.prediction.spectrum import Spectrum  # noqa: E402
+from pyehl.prediction.transfer import Transfer  # noqa: E402
 from pyehl.solver import Solver  # noqa: E402
 from pyehl.surfaces import Topography, shifted  # noqa: E402
 from pyehl.theory.lubricant import Lubricant  # noqa: E402
@@ -76,11 +78,9 @@ def case_of(name: str, points: int) -> tuple[pyehl.Case, Topography]:
     return cases.case(row), cases.surface(row)
 
 
-def simulate(name: str, points: int) -> list[Moment]:
-    """Fields of the last period."""
-    case, tile = case_of(name, points)
+def simulate(case: pyehl.Case, heights: Array | None = None) -> list[Moment]:
+    """Fields of the last period of a case, with heights in place of its surface."""
     found: list[Moment] = []
-    heights = None if name in rough.PLAN else tile.heights
     with Solver.open(case, heights) as run:
         while not run.done:
             run.advance()
@@ -102,24 +102,38 @@ def on_points(values: Array, moment: Moment, contact: WavyContact) -> Array:
     return np.asarray(spline(contact.x, contact.y))
 
 
-def compare(name: str, points: int, moments: list[Moment]) -> list[dict[str, Any]]:
-    """Statistics of a case at its places: what is left of second order, and of first."""
-    case, tile = case_of(name, points)
+def passage_of(case: pyehl.Case, tile: Topography) -> RoughPassage:
+    """Passage of a tile whose waves leak as on the grid of a case."""
     settings = case.resolve()
     point, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
     ratio = float(settings["surface"]["velocity_ratio"])
-    smooth, mesh = solve_contact(settings), 4.0 / (points - 1.0)
-    passage = RoughPassage(tile, smooth, point, oil, Options(), ratio, mesh=mesh)
+    mesh = 4.0 / (settings["grid"]["points"] - 1.0)
+    return RoughPassage(tile, solve_contact(settings), point, oil, Options(), ratio, mesh=mesh)
+
+
+def at(
+    moment: Moment, passage: RoughPassage, start: float
+) -> tuple[WavyContact, Array, Transfer, Spectrum]:
+    """Points of a contact at a moment, its film and pressure to first order, and its response.
+
+    `start`: where the tile is at the time 0 [a].
+    """
+    way = (start + passage.velocity_ratio * moment.time) * passage.operating.hertz_radius
+    moved = replace(passage, topography=shifted(passage.topography, way))
+    _, spectrum, transfer, edge = moved.parts()
+    contact = passage._contact(spectrum, transfer, edge)
+    contact.second = None
+    return contact, contact.change(0), transfer, spectrum
+
+
+def compare(name: str, points: int, moments: list[Moment]) -> list[dict[str, Any]]:
+    """Statistics of a case at its places: what is left of second order, and of first."""
+    case, tile = case_of(name, points)
+    passage, start = passage_of(case, tile), float(case.resolve()["surface"]["x_start"])
     parts: dict[str, list[Array]] = {}
     for moment in moments:
-        origin = float(settings["surface"]["x_start"]) + ratio * moment.time
-        moved = shifted(tile, origin * point.hertz_radius)
-        _, spectrum, transfer, edge = replace(passage, topography=moved).parts()
+        contact, change, transfer, spectrum = at(moment, passage, start)
         gain, _ = transfer.second.of(spectrum.power) if transfer.second else (np.zeros(3), 0.0)
-        contact = passage._contact(spectrum, transfer, edge)
-        contact.second = None
-        change = contact.change(0)
-
         film = on_points(moment.smooth_film, moment, contact)
         moved_film = contact.smooth_film() / contact.film
         values = np.stack(
@@ -179,7 +193,9 @@ def main() -> None:
     parser.add_argument("--points", type=int, default=513)
     given = parser.parse_args()
     for name in given.names:
-        add(compare(name, given.points, simulate(name, given.points)))
+        case, tile = case_of(name, given.points)
+        moments = simulate(case, None if name in rough.PLAN else tile.heights)
+        add(compare(name, given.points, moments))
     print((HERE / "table.csv").read_text(encoding="utf-8"))
     print(f"INLET_PRESSURE {second_order.INLET_PRESSURE}, INLET_FILM {second_order.INLET_FILM}")
 
