@@ -59,17 +59,19 @@ def compared() -> list[dict[str, Any]]:
 
 
 def report(table: list[dict[str, Any]]) -> None:
-    """Print deviations and coverage: of those that the error was chosen on, and of the others."""
-    for which, odd in (("odd numbers", 1), ("even numbers", 0)):
-        part = [row for row in table if int(row["name"][1:]) % 2 == odd]
-        off = [row["contact_load_share_predicted"] - row["contact_load_share"] for row in part]
-        area = [row["contact_area_share_predicted"] - row["contact_area_share"] for row in part]
-        friction = [row["mu_predicted"] / row["mu"] - 1.0 for row in part]
+    """Print deviations and coverage: of those that were in view, and of those predicted blind."""
+    for which, letter in (("in view", "c"), ("blind", "d")):
+        part = [row for row in table if row["name"].startswith(letter)]
+        off, area = (
+            np.array([row[f"{name}_now"] - row[name] for row in part])
+            for name in ("contact_load_share", "contact_area_share")
+        )
+        friction = np.array([row["mu_now"] / row["mu"] - 1.0 for row in part])
         print(
-            f"{which}: {len(part)} contacts; load share off by {np.mean(off):+.3f} in the mean, "
-            f"{np.sqrt(np.mean(np.square(off))):.3f} rms, {np.abs(off).max():.3f} at the most; "
-            f"area {np.sqrt(np.mean(np.square(area))):.3f} rms; mu "
-            f"{100 * np.sqrt(np.mean(np.square(friction))):.0f} % rms; "
+            f"{which}: {len(part)} contacts; load share off by {off.mean():+.3f} in the mean, "
+            f"{np.sqrt(np.mean(off**2)):.3f} rms, {np.abs(off).max():.3f} at the most; "
+            f"area {np.sqrt(np.mean(area**2)):.3f} rms; mu "
+            f"{100 * np.sqrt(np.mean(friction**2)):.0f} % rms; "
             f"{sum(row['covered'] for row in part)} covered"
         )
 
