@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Make table.csv and stress.png of a campaign, with what the second solver says of its cases.
 
-pyehl bench stress --cases 300 --seed 1 -o stress
+pyehl bench stress --cases 100 --seed 1 -o stress
 PYTHONPATH=tests/cases python docs/evidence/stress/make.py stress/stress.json
 python docs/evidence/stress/make.py show       prints the table of docs/robustness.md
 
-The second solver solves 20 converged smooth contacts and waves on 65 x 65 nodes, and tries 80
-failed ones.
+The second solver solves up to 20 converged smooth contacts and waves on 65 x 65 nodes, and tries
+up to 80 failed ones.
 """
 
 from __future__ import annotations
