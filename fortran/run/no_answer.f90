@@ -50,7 +50,7 @@ contains
       integer :: nodes
 
       if (.not. is_rough(run)) then
-         text = place(run)//" has no positive film; "//finer(run)
+         text = place(run)//" has no positive film: "//finer(run)
          return
       end if
       text = "no solution with a positive film for "//place(run)

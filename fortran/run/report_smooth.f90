@@ -5,12 +5,10 @@ module ehl_report_smooth
    use ehl_domain, only: too_small
    use ehl_kinds, only: dp, pi
    use ehl_level_result, only: discretisation_error, extrapolated, limit_error
-   use ehl_outcome, only: outcome_cycle_limit, outcome_diverged, outcome_negative_film
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
    use ehl_resolution, only: finer_across, relative_errors, too_coarse
    use ehl_steady, only: steady_t
-   use ehl_text, only: to_text
    use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    implicit none (type, external)
    private
@@ -77,9 +75,6 @@ contains
       if (good .and. .not. plan%domain_cost(2) < 1.0_dp) call record%set("H_min_error_note", too_small)
       why = too_coarse(plan%contact, plan%point, plan%finest)
       if (why == "") why = finer_across(plan%contact, plan%finest)
-      if (why == "" .and. any(steady%outcome == [outcome_cycle_limit, outcome_diverged, outcome_negative_film])) then
-         why = "a finer grid may do: grid.points = "//to_text(2*plan%finest%nx - 1)
-      end if
       if (.not. good .and. why /= "") call record%set("H_c_error_note", why)
       call record%set("error_estimate", trim(merge("two grids", "a priori ", coarser)))
       call report_limits(record, plan, steady, n, good)

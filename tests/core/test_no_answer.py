@@ -64,7 +64,7 @@ def test_film_breakdown_of_a_feature_in_metres():
             ["contact.moes_m=3000"],
             None,
             "negative film",
-            "the smooth contact on 65 x 65 nodes has no positive film; the grid is too coarse for "
+            "the smooth contact on 65 x 65 nodes has no positive film: the grid is too coarse for "
             "a solution at this load: grid.points = 129 or more",
         ),
         (

@@ -232,8 +232,9 @@ def test_a_message_for_each_case_without_a_result(cases: Path, tmp_path: Path):
     told, complaint = sweep(tmp_path / "out", str(cases / "quick.nml"), *words, expect=1)
     assert "1 converged, 2 cycle limit" in told
     first, last = complaint.splitlines()
-    assert first == "case 1 of 3 (solver.max_cycles=1): cycle limit"
-    assert last == "case 3 of 3 (solver.max_cycles=2): cycle limit"
+    assert first.startswith("case 1 of 3 (solver.max_cycles=1): cycle limit: the residual of ")
+    assert last.startswith("case 3 of 3 (solver.max_cycles=2): cycle limit: the residual of ")
+    assert "give a finer grid (grid.points = 129)" in first
     # nothing is left to do, and the status is the same
     assert sweep(tmp_path / "out", str(cases / "quick.nml"), *words, expect=1)[1] == complaint
     data = pyehl.sweep(
