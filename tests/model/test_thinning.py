@@ -340,7 +340,7 @@ def test_committed_friction(root):
     """What was there before the simulations: g of the same response, which is today's but for load.
 
     Of g films and pressures are those of today, but for the algebraic error of the smooth contact,
-    which ends as soon as it has the accuracy asked for: some 1e-4 of the film.
+    which ends as soon as it has the accuracy asked for: up to 1.3e-3 of the least film (g6).
     """
     folder = root / "docs" / "evidence" / "thinning"
     said, committed = numbers(folder / "predicted.csv"), numbers(folder / "committed.csv")
@@ -349,7 +349,7 @@ def test_committed_friction(root):
         rel = 2.9e-3 if of_g else 9e-3
         assert said[row]["mu_ratio"] == pytest.approx(before["mu_ratio"], rel=rel)
         for name in ("p_rise_rms_Pa", "p_rise_max_Pa", "h_min_rough_m") if of_g else ():
-            assert said[row][name] == pytest.approx(before[name], rel=5e-4)
+            assert said[row][name] == pytest.approx(before[name], rel=1.5e-3)
 
 
 @pytest.mark.parametrize("name", ["e1", "e8"])
