@@ -64,6 +64,15 @@ def test_the_shares_converge_with_order_two(text: str, shares):
             assert row in text, row
 
 
+def test_the_finest_grids(text: str, shares):
+    coarse, middle, fine = (shares["light", 4e-8, points] for points in (257, 513, 1025))
+    said = (
+        f"changes by {100.0 * (middle - fine) / middle:.0f} % of itself, the change before over "
+        f"{(coarse - middle) / (middle - fine):.1f}"
+    )
+    assert said in text
+
+
 def test_this_build_makes_the_stored_shares(evidence):
     """On the coarsest grid, where the inlet is not resolved and everything touches."""
     row = evidence.read()[0]
