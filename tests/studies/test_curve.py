@@ -172,7 +172,7 @@ def test_temperature_and_load(cases: Path, tmp_path: Path):
     )
     why = (
         "smooth contact: negative film: the smooth contact on 257 x 257 nodes has no positive "
-        "film; give a finer grid (grid.points = 513)"
+        "film: give a finer grid (grid.points = 513)"
     )
     assert complaint == f"point 3 of 3 (contact.load=5000): not solved: {why}\n"
     light, heavy, lost = table(tmp_path / "l")
