@@ -100,6 +100,7 @@ def _linear(places: Array, axis: Array) -> tuple[NDArray[np.intp], Array]:
 # where the inlet is heated by shear, those of slip and law where the flow thins
 OF_SLIP = ("slide_to_roll", "rough_surface")
 OF_SOLIDS = (
+    "hardness",
     "thermal_conductivity",
     "thermal_diffusivity",
     "thermal_conductivity_2",
@@ -118,7 +119,6 @@ OF_SHEAR = (
 )
 # The prediction is that of a full film
 OF_CONTACT = ("boundary_film", "boundary_friction")
-OF_TOUCHING = ("hardness",)
 
 
 def smooth_case(settings: Mapping[str, Mapping[str, Any]]) -> str:
@@ -130,7 +130,7 @@ def smooth_case(settings: Mapping[str, Mapping[str, Any]]) -> str:
     """
     thins = ShearLaw.from_settings(settings).in_flow
     heated = bool(settings["lubricant"].get("thermal_reduction", False))
-    of_contact = OF_TOUCHING + OF_SOLIDS + (() if thins or heated else OF_SLIP)
+    of_contact = OF_SOLIDS + (() if thins or heated else OF_SLIP)
     of_lubricant = OF_CONTACT + (() if thins else OF_SHEAR) + (() if heated else OF_OIL)
     contact = {k: v for k, v in settings["contact"].items() if k not in of_contact}
     lubricant = {k: v for k, v in settings["lubricant"].items() if k not in of_lubricant}
