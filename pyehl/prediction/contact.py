@@ -53,6 +53,7 @@ class ShearedContact:
         self.cavitated = 0  # points where the pressure is not positive
         self.count = 0  # positions
         self.imbalance = 0.0  # greatest share of the load that delta p carries or takes off [-]
+        self.lost = False  # whether the roughness takes more pressure than there is
         self.greatest_rise = -math.inf  # of the pressure over the smooth contact within INNER
         self.greatest_pressure = -math.inf  # within INNER
         self.squared_rise = 0.0  # sum over the positions of its mean square within NEAR

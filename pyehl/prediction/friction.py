@@ -97,7 +97,7 @@ def outcome(
     """
     if contact.thinnest <= 0.0:
         return "film breakdown", too_high(-contact.thinnest * contact.operating.film_scale)
-    if load_balance and contact.imbalance >= 1.0:
+    if contact.lost or (load_balance and contact.imbalance >= 1.0):
         return "load lost", "the roughness pressure exceeds the load"
     if not np.all(np.isfinite(ratios)):
         return "overflow", "the viscosity at p_s + delta p is not a number"

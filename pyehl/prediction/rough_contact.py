@@ -191,7 +191,7 @@ class WavyContact(ShearedContact):
     def sheared(self, change: Single) -> float:
         """Friction over that of the smooth contact, film and pressure changed by (m, n, 2).
 
-        NaN where the film is not positive.
+        NaN where the film is not positive, or a ring of the contact would have to pull.
         """
         smooth = self.smooth_film()
         loss = change[..., 0]
@@ -215,8 +215,12 @@ class WavyContact(ShearedContact):
         carried = np.bincount(self.rings, pressure[self.inside], len(RINGS))
         np.maximum(pressure, 0.0, out=pressure)
         pushes = np.bincount(self.rings, pressure[self.inside], len(RINGS))
+        if (carried < 0.0).any():
+            self.lost = True
+            return math.nan
         # what cannot pull leaves less to carry for what is around
-        pressure[self.inside] *= (carried / pushes)[self.rings]
+        share = np.divide(carried, pushes, out=np.ones_like(carried), where=pushes > 0.0)
+        pressure[self.inside] *= share[self.rings]
         with np.errstate(over="ignore"):
             return float(self.stress(pressure, film).sum(where=self.inside)) / self.smooth
 

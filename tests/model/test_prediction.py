@@ -14,6 +14,7 @@ import pyehl
 from pyehl.prediction import of_case, second_order
 from pyehl.prediction.by_response import RoughPassage
 from pyehl.prediction.errors import KNOWN_RATIO
+from pyehl.prediction.friction import outcome
 from pyehl.prediction.options import Options
 from pyehl.prediction.resolution import resolution
 from pyehl.prediction.second_order import film_left, loss_at
@@ -344,6 +345,17 @@ def test_film_that_a_loss_leaves():
     assert np.abs(np.diff(left, 2)).max() < 1.1 * 0.8 * 0.01**2
     assert loss_at(left) == pytest.approx(loss, abs=1e-12)
     assert loss_at(np.array([0.0, -1.0])) == pytest.approx([np.inf, np.inf])
+
+
+def test_a_ring_that_would_have_to_pull_has_no_load(contact, table_1):
+    one = passage(contact, table_1(seed=21), 1.01)
+    _, spectrum, transfer, edge = one.parts()
+    points = one._contact(spectrum, transfer, edge)
+    change = np.zeros((*points.film.shape, 2), dtype=np.float32)
+    # more than the smooth pressure where that is least
+    change[..., 1] = np.where(points.radius > 0.7, -1.0, 0.0)
+    assert np.isnan(points.sheared(change))
+    assert outcome(points, np.array([np.nan]))[0] == "load lost"
 
 
 def test_what_cannot_pull_carries_nothing(contact, table_1, monkeypatch):
