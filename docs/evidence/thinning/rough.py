@@ -111,6 +111,31 @@ PLAN: dict[str, Row] = {
     "g8": Row(by_moes(800.0, 9.0), f"{EYRING} 8e6", 1.0, 4e-8, 0.8, 68),
     "g9": Row(TABLE1, f"{EYRING} 5e6", 0.9, 4.5e-8, 0.7, 69, 1.25),
     "g10": Row(by_moes(1800.0, 14.0), f"{EYRING} 1e7", 1.04, 6e-8, 0.8, 70),
+    # drawn at random, predicted before they were simulated
+    "h1": Row(
+        by_moes(847.0, 13.6),
+        f"{CARREAU} 1.1e+07 carreau_exponent = 0.72",
+        1.03,
+        1.83e-07,
+        0.9,
+        81,
+        1.0,
+    ),
+    "h2": Row(by_moes(684.0, 6.6), f"{EYRING} 9.9e+06", 0.96, 2.61e-08, 0.7, 82, 1.25),
+    "h3": Row(by_moes(245.0, 7.6), f"{EYRING} 7.5e+06", 1.02, 2.61e-08, 0.8, 83, 1.5),
+    "h4": Row(
+        by_moes(420.0, 9.6),
+        f"{CARREAU} 6.1e+06 carreau_exponent = 0.57",
+        1.05,
+        7.58e-08,
+        0.8,
+        84,
+        1.0,
+    ),
+    "h5": Row(by_moes(279.0, 9.6), f"{EYRING} 6.0e+06", 0.89, 4.96e-08, 0.7, 85, 1.5),
+    "h6": Row(by_moes(877.0, 9.6), f"{EYRING} 5.7e+06", 1.01, 5.69e-08, 0.8, 86, 1.25),
+    "h7": Row(by_moes(607.0, 7.8), f"{EYRING} 9.0e+06", 1.03, 3.67e-08, 0.9, 87, 1.0),
+    "h8": Row(by_moes(1350.0, 7.8), f"{EYRING} 1.1e+07", 0.99, 3.94e-08, 0.9, 88, 1.25),
 }
 
 
