@@ -267,11 +267,15 @@ def test_every_subcommand_is_in_the_reference(root: Path):
     assert listed == modules - {"arguments", "bench_arguments", "watching"}
 
 
-def test_number_of_an_oil_in_the_readme(root: Path):
-    """Friction of Table 1 with an Eyring stress, as the readme has it."""
+def test_friction_of_both_oils_in_the_readme(root: Path):
+    """Friction of Table 1 with an Eyring stress, and the ratio of a Newtonian oil."""
     text = (root / "README.md").read_text(encoding="utf-8")
-    summary = pyehl.predict(root / "cases/table1.nml", {"lubricant.shear_law": "eyring"}).summary
-    assert f"the coefficient of friction is {summary['mu']:.4f}" in text
+    case = root / "cases/table1.nml"
+    newtonian = pyehl.predict(case).summary
+    ratio, error = newtonian["mu_ratio"], newtonian["mu_ratio_model_error"]
+    assert f"is {ratio:.3f} ± {error:.3f} times that of smooth surfaces" in text
+    summary = pyehl.predict(case, {"lubricant.shear_law": "eyring"}).summary
+    assert f"coefficient of friction is {summary['mu']:.4f}" in text
     assert f"the roughness adds {100.0 * (summary['mu_ratio'] - 1.0):.1f} % to it" in text
 
 
