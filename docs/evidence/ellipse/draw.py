@@ -11,9 +11,9 @@ import csv
 from typing import Any
 
 import numpy as np
+from compare import prediction
 
 from cases import HERE, radius_ratio
-from compare import prediction
 from pyehl.theory.ellipse import ellipse
 
 SEED, CASES = 20263, 10
