@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
-from pyehl.theory.response import edge_gain
+from pyehl.theory.response import edge_gain_parts
 from pyehl.theory.transport import free_stiffness, stiffness
 
 __all__ = ["REFINEMENT", "Waves"]
@@ -46,6 +46,8 @@ class Waves:
     off_centre: Single | None
     stride: int  # every so many-th column of the tile is there
     bent: bool  # as in :class:`Transfer`
+    # Pressure alone that fades beside the centre line (`edge_gain_fading`); None where none does
+    beyond: Waves | None = None
 
     @classmethod
     def of(
@@ -63,37 +65,45 @@ class Waves:
         """
         qx, qy = spectrum.qx[:, np.newaxis], spectrum.qy[np.newaxis, :]
         stiffening = transfer.stiffening
-        gain = stiffening * edge_gain(
-            qx, qy, stiffening * central_film, ellipticity=transfer.ellipticity
-        )
-        k = (stiffness(spectrum.q) * gain).astype(np.float32)
-        k_free = (free_stiffness(qx, qy, velocity_ratio) * gain).astype(np.float32)
+        film = stiffening * central_film
+        gain, more = edge_gain_parts(qx, qy, film, transfer.ellipticity)
+        k, k_free = stiffness(spectrum.q), free_stiffness(qx, qy, velocity_ratio)
         narrow = spectrum.single()
         across = None if lines is None else narrow.on_lines(lines)
         # a linear interpolation between the points dims a wave by this on average
         step = spectrum.qx * (np.pi / REFINEMENT / spectrum.qx[-1])
         bright = (1.0 / (1.0 - np.square(step) / 12.0)).astype(np.float32)[:, np.newaxis]
 
-        def tiles(waves: list[tuple[Narrow, Narrow]], refinement: int) -> Single:
-            columns = spectrum.shape[1] // stride if lines is None else lines.size
-            shape = spectrum.shape[0] * refinement, columns, 2
-            found = np.empty((len(waves), *shape), dtype=np.float32)
-            for place, pair in zip(found, waves, strict=True):
-                for i, factor in enumerate(pair):
-                    place[..., i] = narrow.tile(factor, refinement, stride, across)
-            return found
+        def made(gain: Array, beyond: Waves | None, *, films: bool = True) -> Waves:
+            """Waves with so many times the pressure of the half-space; `films`: and with films."""
+            scale = stiffening * gain
+            of_driven, of_free = ((part * scale).astype(np.float32) for part in (k, k_free))
 
-        def free(waves: list[Complex]) -> Single:
-            lit = (t.astype(np.complex64) * bright for t in waves)
-            return tiles([(t, -k_free * t) for t in lit], REFINEMENT)
+            def tiles(waves: list[tuple[Narrow, Narrow]], refinement: int) -> Single:
+                columns = spectrum.shape[1] // stride if lines is None else lines.size
+                shape = spectrum.shape[0] * refinement, columns, 2
+                found = np.zeros((len(waves), *shape), dtype=np.float32)
+                for place, pair in zip(found, waves, strict=True):
+                    for i in (0, 1) if films else (1,):
+                        place[..., i] = narrow.tile(pair[i], refinement, stride, across)
+                return found
 
-        driven = [(t, k * (1 - t)) for t in (t.astype(np.complex64) for t in transfer.driven)]
-        if lines is not None:
-            driven = [(t * bright, pressure * bright) for t, pressure in driven]
-        return cls(
-            tiles(driven, 1 if lines is None else REFINEMENT),
-            free(transfer.free) if transfer.free else None,
-            free(transfer.off_centre) if transfer.off_centre else None,
-            stride,
-            transfer.bent,
-        )
+            def free(waves: list[Complex]) -> Single:
+                lit = (t.astype(np.complex64) * bright for t in waves)
+                return tiles([(t, -of_free * t) for t in lit], REFINEMENT)
+
+            driven = [
+                (t, of_driven * (1 - t)) for t in (t.astype(np.complex64) for t in transfer.driven)
+            ]
+            if lines is not None:
+                driven = [(t * bright, pressure * bright) for t, pressure in driven]
+            return cls(
+                tiles(driven, 1 if lines is None else REFINEMENT),
+                free(transfer.free) if transfer.free else None,
+                free(transfer.off_centre) if transfer.off_centre else None,
+                stride,
+                transfer.bent,
+                beyond,
+            )
+
+        return made(gain, None if more is None else made(more, None, films=False))

@@ -41,7 +41,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from pyehl.theory.transport import Zone, kept_of_inlet, upstream
 
-__all__ = ["edge_gain", "fitted_range", "inlet_base", "inlet_fit", "inlet_transfer", "thinned"]
+__all__ = [
+    "edge_gain",
+    "edge_gain_fading",
+    "edge_gain_parts",
+    "fitted_range",
+    "inlet_base",
+    "inlet_fit",
+    "inlet_transfer",
+    "thinned",
+]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -90,6 +99,31 @@ def edge_gain(
     fade = 1.0 + (q / fading) ** 2.5
     weight *= min(1.0, ellipticity) ** NARROW
     return np.asarray(1.0 + film * across * (1.0 + weight * (1.0 - across)) / fade)
+
+
+def edge_gain_parts(
+    qx: ArrayLike, qy: ArrayLike, central_film: float, ellipticity: float
+) -> tuple[Array, Array | None]:
+    """`edge_gain` as the part that is the same on all lines along the motion, and the other [-].
+
+    The other, in narrow contacts alone, is multiplied by :func:`edge_gain_fading`. In wide ones
+    it is None: the gain hardly differs from 1 there.
+    """
+    gain = edge_gain(qx, qy, central_film, ellipticity=ellipticity)
+    return (np.ones_like(gain), gain - 1.0) if ellipticity < 1.0 else (gain, None)
+
+
+def edge_gain_fading(y: ArrayLike, ellipticity: float) -> Array:
+    """`edge_gain` less 1 on lines y [semi-axis] over that on the centre line [-].
+
+    It goes with the curvature of the edge, as ellipticity^`CURVATURE` on the centre line, where the
+    radius is ellipticity^2 a. On another line the radius is s^3 times as long, s the `sharpness` of
+    the edge there. Nothing of it is fitted; ridges measured beside the centre line have it
+    (docs/evidence/ellipse).
+    """
+    lines = np.asarray(y, dtype=float)
+    sharpness = np.hypot(np.sqrt(np.maximum(0.0, 1.0 - lines**2)), lines / ellipticity)
+    return np.asarray(sharpness ** (1.5 * CURVATURE))
 
 
 @lru_cache(maxsize=1)

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Make sides.csv anew: pressure of ridges along the motion beside the centre line, one minute.
+
+    python docs/evidence/ellipse/sides.py
+
+At each crest and valley of a small ridge on X = 0: T, and the pressure over that of the half-space
+for this T, which is the gain of the edge. Steady solutions on 257 nodes along X.
+"""
+
+from __future__ import annotations
+
+import csv
+import sys
+
+import numpy as np
+
+from cases import HERE, case_of_circle
+from pyehl.measured_response.superposition import transient_case
+from pyehl.solver import Solver
+from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.transport import stiffness
+
+sys.path.insert(0, str(HERE.parent / "response"))
+from ridges import ACCURACY, AMPLITUDE, PIXELS  # noqa: E402
+
+POINTS = 257
+# Ellipticity, M and L of the circle with the same dry inlet, wavelengths [a]
+CONTACTS = (
+    (0.4, 800.0, 9.0, (0.4, 0.2)),
+    (0.5, 300.0, 12.0, (0.5, 0.25)),
+    (0.6, 600.0, 7.0, (0.6, 0.3)),
+    (1.0, 500.0, 10.0, (0.5, 0.25)),
+    (2.0, 500.0, 10.0, (1.0, 0.5)),
+)
+# Lines that are told [semi-axis]: at the border little pressure is left to measure
+REACH = 0.8
+COLUMNS = "ellipticity moes_m moes_l wavelength y T gain".split()
+
+
+def main() -> None:
+    """Solve all ridges."""
+    place = np.arange(PIXELS) / PIXELS
+    # even to the last bit
+    line = AMPLITUDE * np.cos(2.0 * np.pi * np.minimum(place, 1.0 - place))
+    solver = {"accuracy": ACCURACY}
+    lines = [COLUMNS]
+    for *contact, wavelengths in CONTACTS:
+        settings = case_of_circle(*contact, 1.0).resolve()
+        point = OperatingPoint.from_settings(settings)
+
+        def fields(tile: float, heights: np.ndarray | None) -> list[np.ndarray]:
+            """Y, H and P on X = 0."""
+            case = transient_case(
+                settings, points=POINTS, tile=tile, velocity_ratio=0.0, solver=solver
+            )
+            if heights is None:
+                case = case.with_options("surface.kind=smooth", "time.steps=0")
+            with Solver.open(case, heights) as run:
+                if not run.run():
+                    raise SystemExit(f"no solution: {run.summary()['status']}")
+                x, y = run.axes()
+                middle = int(np.argmin(np.abs(x)))
+                return [y, run.field("H")[middle], run.field("P")[middle]]
+
+        y, film, pressure = fields(1.0, None)
+        for wavelength in wavelengths:
+            heights = np.tile(wavelength * point.film_scale * line, (8, 1))
+            _, h, p = fields(wavelength, heights)
+            height = AMPLITUDE * wavelength
+            k = float(stiffness(2.0 * np.pi / wavelength)) / point.ellipse.kernel_ratio
+            sign, at = 1.0, 0.0
+            while at <= REACH * contact[0]:
+                j = int(np.argmin(np.abs(y - at)))
+                t = sign * (film[j] - h[j]) / height
+                gain = sign * (p[j] - pressure[j]) / height / k / (1.0 - t)
+                values = (*contact, wavelength, at / contact[0], t, gain)
+                lines.append([f"{v:.4g}" for v in values])
+                print(*lines[-1], flush=True)
+                sign, at = -sign, at + 0.5 * wavelength
+    with (HERE / "sides.csv").open("w", newline="", encoding="utf-8") as stream:
+        csv.writer(stream, lineterminator="\n").writerows(lines)
+
+
+if __name__ == "__main__":
+    main()
