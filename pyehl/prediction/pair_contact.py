@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl.prediction.edge import Edge
-from pyehl.prediction.rough_contact import REACH, WavyContact, add_waves, slipped
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.prediction.waves import REFINEMENT, Waves
+from pyehl.prediction.wavy_contact import REACH, WavyContact, add_waves, slipped
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 

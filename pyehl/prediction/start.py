@@ -25,15 +25,15 @@ from pyehl.prediction.edge import Edge
 from pyehl.prediction.errors import model_error, outside_range
 from pyehl.prediction.options import Options, turned
 from pyehl.prediction.pair import RoughPair
-from pyehl.prediction.rough_contact import (
+from pyehl.prediction.smooth import SmoothContact, solve_contact
+from pyehl.prediction.spectrum import Spectrum
+from pyehl.prediction.transfer import Transfer
+from pyehl.prediction.wavy_contact import (
     REACH,
     line_weights,
     slipped,
     station_weights,
 )
-from pyehl.prediction.smooth import SmoothContact, solve_contact
-from pyehl.prediction.spectrum import Spectrum
-from pyehl.prediction.transfer import Transfer
 from pyehl.surfaces import Topography
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint

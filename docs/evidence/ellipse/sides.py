@@ -11,8 +11,11 @@ from __future__ import annotations
 
 import csv
 import sys
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cases import HERE, case_of_circle
 from pyehl.measured_response.superposition import transient_case
@@ -21,8 +24,9 @@ from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.transport import stiffness
 
 sys.path.insert(0, str(HERE.parent / "response"))
-from ridges import ACCURACY, AMPLITUDE, PIXELS  # noqa: E402
+from ridges import ACCURACY, AMPLITUDE, PIXELS
 
+Array = NDArray[np.float64]
 POINTS = 257
 # Ellipticity, M and L of the circle with the same dry inlet, wavelengths [a]
 CONTACTS = (
@@ -37,35 +41,37 @@ REACH = 0.8
 COLUMNS = "ellipticity moes_m moes_l wavelength y T gain".split()
 
 
+def fields(
+    settings: Mapping[str, Mapping[str, Any]], tile: float, heights: Array | None
+) -> list[Array]:
+    """Y, H and P on X = 0 of a contact with heights on a tile [a]; None: smooth."""
+    case = transient_case(
+        settings, points=POINTS, tile=tile, velocity_ratio=0.0, solver={"accuracy": ACCURACY}
+    )
+    if heights is None:
+        case = case.with_options("surface.kind=smooth", "time.steps=0")
+    with Solver.open(case, heights) as run:
+        if not run.run():
+            raise SystemExit(f"no solution: {run.summary()['status']}")
+        x, y = run.axes()
+        middle = int(np.argmin(np.abs(x)))
+        return [y, run.field("H")[middle], run.field("P")[middle]]
+
+
 def main() -> None:
     """Solve all ridges."""
     place = np.arange(PIXELS) / PIXELS
     # even to the last bit
     line = AMPLITUDE * np.cos(2.0 * np.pi * np.minimum(place, 1.0 - place))
-    solver = {"accuracy": ACCURACY}
     lines = [COLUMNS]
     for *contact, wavelengths in CONTACTS:
         settings = case_of_circle(*contact, 1.0).resolve()
         point = OperatingPoint.from_settings(settings)
 
-        def fields(tile: float, heights: np.ndarray | None) -> list[np.ndarray]:
-            """Y, H and P on X = 0."""
-            case = transient_case(
-                settings, points=POINTS, tile=tile, velocity_ratio=0.0, solver=solver
-            )
-            if heights is None:
-                case = case.with_options("surface.kind=smooth", "time.steps=0")
-            with Solver.open(case, heights) as run:
-                if not run.run():
-                    raise SystemExit(f"no solution: {run.summary()['status']}")
-                x, y = run.axes()
-                middle = int(np.argmin(np.abs(x)))
-                return [y, run.field("H")[middle], run.field("P")[middle]]
-
-        y, film, pressure = fields(1.0, None)
+        y, film, pressure = fields(settings, 1.0, None)
         for wavelength in wavelengths:
             heights = np.tile(wavelength * point.film_scale * line, (8, 1))
-            _, h, p = fields(wavelength, heights)
+            _, h, p = fields(settings, wavelength, heights)
             height = AMPLITUDE * wavelength
             k = float(stiffness(2.0 * np.pi / wavelength)) / point.ellipse.kernel_ratio
             sign, at = 1.0, 0.0
