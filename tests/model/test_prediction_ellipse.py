@@ -24,7 +24,7 @@ from pyehl.theory.ellipse_edge import EllipseEdge, pressure
 from pyehl.theory.film import circle_with_same_inlet
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.response import inlet_fit
+from pyehl.theory.response import edge_gain, edge_gain_fading, edge_gain_parts, inlet_fit
 
 # R_x/R_y of the ellipticities 2 and 0.4
 WIDE, NARROW = 0.351771642284186, 3.998264475680259
@@ -304,6 +304,38 @@ def test_pages_show_the_finer_grid(root: Path, compare):
     limit = run["mu_ratio"] + run["mu_ratio_error_grid"] / 3.0
     text = (compare.HERE / "README.md").read_text(encoding="utf-8")
     assert f"approaches {limit:.3f} with order 2, {100.0 * (said / limit - 1.0):.1f} %" in text
+
+
+def test_ridges_beside_the_centre_line(root: Path):
+    """What they take beyond the half-space fades with the curvature of the edge."""
+    folder = root / "docs" / "evidence" / "ellipse"
+    rows, text = rows_of(folder / "sides.csv"), (folder / "README.md").read_text(encoding="utf-8")
+    off, level = [], []
+    for key in {(row["ellipticity"], row["wavelength"]) for row in rows}:
+        part = [row for row in rows if (row["ellipticity"], row["wavelength"]) == key]
+        middle, *others = (row["gain"] for row in part)
+        told = [f"{middle:.3f}"]
+        for row, gain in zip(part[1:], others, strict=True):
+            said = 1.0 + (middle - 1.0) * float(edge_gain_fading(row["y"], key[0]))
+            if row["y"] in (0.25, 0.5):
+                told += [f"{gain:.3f}", f"{said:.3f}"]
+            if row["y"] < 0.6 and key[0] < 1.0:
+                off.append(said - gain)
+                level.append(middle - gain)
+        if len(told) == 3:
+            told[1:1] = ["", ""]
+        assert f"| {key[0]:g} | {key[1]:g} | " + " | ".join(told).replace("|  |", "|  |") in text
+    assert np.max(np.abs(off)) < 0.045
+    assert np.linalg.norm(off) < 0.3 * np.linalg.norm(level)
+
+
+def test_gain_of_the_edge_in_two_parts():
+    """On the centre line they are the whole; a circle has it on all lines."""
+    whole = edge_gain(3.0, [0.0, 5.0, 20.0], 0.03, ellipticity=0.5)
+    level, fading = edge_gain_parts(3.0, [0.0, 5.0, 20.0], 0.03, 0.5)
+    assert level + fading == pytest.approx(whole, rel=1e-12)
+    assert edge_gain_fading(0.0, 0.5) == 1.0
+    assert edge_gain_fading([0.3, 0.9], 1.0) == pytest.approx(1.0)
 
 
 def test_static_ridges(root: Path):
