@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import csv
 import re
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -98,6 +99,7 @@ def test_stated_errors_of_rough_contacts(root: Path, script):
 def test_estimate_of_the_domain(root: Path, script, monkeypatch):
     """What `fit.py` says of the contacts that the estimate was fitted to."""
     monkeypatch.syspath_prepend(str(root / "docs" / "evidence" / "errors"))
+    monkeypatch.delitem(sys.modules, "make", raising=False)
     fit, text = script("docs/evidence/errors/fit.py"), page(root, "errors")
     flooded, zero = (fit.shares_covered(border, "H_c") for border in ("flooded", "zero"))
     assert (
@@ -178,3 +180,48 @@ def test_fields_on_the_page(root: Path):
     ]
     assert f"−{-np.mean(inner):.2f} t₁²/H on 513 × 513 nodes" in text
     assert f"(−{-max(inner):.2f} to −{-min(inner):.2f} at r < 0.4 a for six surfaces" in text
+
+
+def test_residuals_of_the_response_on_the_page(root: Path):
+    """Largest residuals of T, of waves that are fitted and of those that are not."""
+    text, rows = page(root, "response"), rows_of(root, "response/residuals.csv")
+    moving = [row for row in rows if row["moes_m"]]
+    centre, every = (max(float(r[n]) for r in moving) for n in ("largest_at_centre", "largest"))
+    assert f"- **{centre:.4f}** at most at X = 0" in text
+    assert f"- **{every:.4f}** at most over the three X. The largest ones are at (100, 3)" in text
+    waves = rows_of(root, "response/waves.csv")
+    points = {(r["moes_m"], r["moes_l"]) for r in waves}
+    with_ratios = {(r["moes_m"], r["moes_l"], r["velocity_ratio"]) for r in waves}
+    assert f"{len(waves) // 3} measured waves at" in text
+    assert f"{len(points)} operating points, {len(with_ratios)} with the velocity ratios" in text
+
+
+def test_waves_beside_the_centre_line_on_the_page(root: Path, script, monkeypatch):
+    """T at Y = 0.5 and 0.625 beside what is measured there."""
+    folder = root / "docs" / "evidence" / "response"
+    monkeypatch.syspath_prepend(str(folder))
+    monkeypatch.delitem(sys.modules, "make", raising=False)
+    off = script("docs/evidence/response/off_centre.py")
+    table = np.loadtxt(folder / "off_centre.csv", delimiter=",", skiprows=1)
+    left = off.left(table)
+    (half, more) = (
+        [
+            f"{np.sqrt(np.mean(left[(table[:, 0] == m) & (table[:, 3] == y)] ** 2)):.3f}"
+            for m in (1000.0, 500.0, 200.0)
+        ]
+        for y in (0.5, 0.625)
+    )
+    said = f"{half[0]} at (1000, 10), {half[1]} at (500, 5) and {half[2]} at (200, 10) (rms)"
+    text = page(root, "response")
+    assert said in text
+    assert f"at Y = 0.625 to {more[0]}, {more[1]} and {more[2]}." in text
+
+
+def test_waves_that_are_not_fitted_on_the_page(root: Path, script, capsys):
+    """How well the last six runs are met, with slip and without."""
+    script("docs/evidence/response/unfitted.py").main()
+    lines = [line.split() for line in capsys.readouterr().out.splitlines()[1:]]
+    text = page(root, "response")
+    worst = max(float(line[-1]) for line in lines)
+    slow = max(float(line[-1]) for line in lines if abs(float(line[2]) - 1.0) < 0.02)
+    assert f"They are met within {worst:.2g}, at U = 1 and 1.01 within {slow:.3f}." in text
