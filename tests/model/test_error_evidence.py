@@ -6,13 +6,31 @@ from __future__ import annotations
 import csv
 import re
 import sys
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numpy as np
 import pytest
 
 Row = dict[str, Any]
+
+
+@pytest.fixture
+def beside(root: Path, script, monkeypatch) -> Iterator[Callable[[str, str], ModuleType]]:
+    """Import a script of an evidence folder that imports others of the folder, by their names."""
+    before = set(sys.modules)
+
+    def load(folder: str, name: str) -> ModuleType:
+        monkeypatch.syspath_prepend(str(root / "docs" / "evidence" / folder))
+        return script(f"docs/evidence/{folder}/{name}.py")
+
+    for name in ("fit", "make", "ridges"):
+        monkeypatch.delitem(sys.modules, name, raising=False)
+    yield load
+    for name in {"fit", "make", "ridges", "tables"} - before:
+        sys.modules.pop(name, None)
 
 
 def page(root: Path, name: str) -> str:
@@ -96,11 +114,9 @@ def test_stated_errors_of_rough_contacts(root: Path, script):
     assert all(case[0] < 50.0 or case[1] > 16.0 for case in without)
 
 
-def test_estimate_of_the_domain(root: Path, script, monkeypatch):
+def test_estimate_of_the_domain(root: Path, beside):
     """What `fit.py` says of the contacts that the estimate was fitted to."""
-    monkeypatch.syspath_prepend(str(root / "docs" / "evidence" / "errors"))
-    monkeypatch.delitem(sys.modules, "make", raising=False)
-    fit, text = script("docs/evidence/errors/fit.py"), page(root, "errors")
+    fit, text = beside("errors", "fit"), page(root, "errors")
     flooded, zero = (fit.shares_covered(border, "H_c") for border in ("flooded", "zero"))
     assert (
         f"covers {100.0 * np.mean(flooded <= 1.0):.1f} % of {flooded.size} changes of H_c" in text
@@ -196,12 +212,10 @@ def test_residuals_of_the_response_on_the_page(root: Path):
     assert f"{len(points)} operating points, {len(with_ratios)} with the velocity ratios" in text
 
 
-def test_waves_beside_the_centre_line_on_the_page(root: Path, script, monkeypatch):
+def test_waves_beside_the_centre_line_on_the_page(root: Path, beside):
     """T at Y = 0.5 and 0.625 beside what is measured there."""
     folder = root / "docs" / "evidence" / "response"
-    monkeypatch.syspath_prepend(str(folder))
-    monkeypatch.delitem(sys.modules, "make", raising=False)
-    off = script("docs/evidence/response/off_centre.py")
+    off = beside("response", "off_centre")
     table = np.loadtxt(folder / "off_centre.csv", delimiter=",", skiprows=1)
     left = off.left(table)
     (half, more) = (
