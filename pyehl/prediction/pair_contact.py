@@ -67,12 +67,8 @@ class TileOnPoints:
         """Add loss of film and gain of pressure (m, n, 2) where the tile has moved by a shift."""
         columns = np.arange(contact.y.size, dtype=np.int32)
         driven, free = (self._rows(places - shift) for places in (self.places, self.free_places))
-
-        def add(waves: Waves, total: Single) -> None:
-            add_waves(waves.driven, driven, columns, contact.weights, 0, total)
-            contact.add_free(waves, free, columns, 0, total)
-
-        contact.add_all(self.waves, add, total)
+        add_waves(self.waves.driven, driven, columns, contact.weights, 0, total)
+        contact.add_free(self.waves, free, columns, 0, total)
         contact.add_edge(total, self.edge.at(shift, self.track))
 
 

@@ -72,15 +72,10 @@ class RoughContact(WavyContact):
         columns = columns.astype(np.int32)
         self.moved[:] = 0.0
         total = np.zeros((*self.film.shape, 2), dtype=np.float32)
-
-        def add(waves: Waves, total: Single) -> None:
-            library.waves.driven_waves(
-                pairs(waves.driven), self.rows, columns, self.weights.T, shift, pairs(total)
-            )
-            places = self.free_rows, self.between
-            self.add_free(waves, places, columns, shift * REFINEMENT, total)
-
-        self.add_all(waves, add, total)
+        library.waves.driven_waves(
+            pairs(waves.driven), self.rows, columns, self.weights.T, shift, pairs(total)
+        )
+        self.add_free(waves, (self.free_rows, self.between), columns, shift * REFINEMENT, total)
         self.add_edge(total, self.edge.at(shift * self.pixel[0], track * self.pixel[1]))
         self.add_second(total)
         return total

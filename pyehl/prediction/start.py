@@ -37,7 +37,6 @@ from pyehl.prediction.wavy_contact import (
 from pyehl.surfaces import Topography
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.response import edge_gain_fading, edge_gain_parts
 from pyehl.theory.transport import free_stiffness, stiffness
 
 __all__ = ["hand_over", "starting_pressure"]
@@ -206,9 +205,6 @@ class _Waves:
         self.slipped = self.x + slipped(self.x, across, ratio, bent=transfer.bent)
         self.weights = station_weights(self.x)
         self.off = np.moveaxis(line_weights(across), -1, 0)
-        # of all lines, and of what fades beside the centre line
-        fading = edge_gain_fading(across, transfer.ellipticity)
-        self.shares = np.ones_like(fading), fading
         self._make_tiles(spectrum, transfer, passage.contact, ratio)
         radius = np.hypot(self.x, across)
         self.polynomials = self.edge.polynomials(*np.broadcast_arrays(self.x, across))
@@ -219,25 +215,21 @@ class _Waves:
     ) -> None:
         """Splines through the pressure of driven and free waves, by station."""
         qx, qy = spectrum.qx[:, np.newaxis], spectrum.qy[np.newaxis, :]
-        stiffening = transfer.stiffening
-        k = stiffening * stiffness(spectrum.q)
-        k_free = stiffening * free_stiffness(qx, qy, ratio)
+        gain = transfer.gain(qx, qy, contact.central_film)
+        k, k_free = gain * stiffness(spectrum.q), gain * free_stiffness(qx, qy, ratio)
 
         def spline(factor: Complex) -> Array:
             tile = spectrum.tile(factor, REFINEMENT)
             return np.asarray(scipy.ndimage.spline_filter(tile, order=3, mode="grid-wrap"))
 
-        film = stiffening * contact.central_film
-        gains = edge_gain_parts(qx, qy, film, transfer.ellipticity)
-        self.tiles = [
-            (
-                [spline(gain * k * (1.0 - t)) for t in transfer.driven],
-                [spline(-gain * k_free * t) for t in transfer.free],
-                [spline(-gain * k_free * t) for t in transfer.off_centre],
-            )
-            for gain in gains
-            if gain is not None
-        ]
+        driven = [k * (1.0 - t) for t in transfer.driven]
+        free, off = ([-k_free * t for t in part] for part in (transfer.free, transfer.off_centre))
+        if transfer.pressed:
+            pressures = transfer.free_pressures(qx, qy, ratio)
+            free, off = ([-gain * p for p in part] for part in pressures)
+        self.driven, self.free, self.free_off = (
+            [spline(one) for one in part] for part in (driven, free, off)
+        )
 
     def _at(self, spline: Array, x: Array) -> Array:
         """Values of a tile at places X on it and at the Y of the nodes."""
@@ -249,13 +241,12 @@ class _Waves:
 
     def add(self, added: Array, front: float) -> None:
         """Add the pressure of first order at `place` where the tile begins at X = front."""
-        for share, (driven, free, off) in zip(self.shares, self.tiles, strict=False):
-            for i, tile in enumerate(driven):
-                added += share * self.weights[..., i] * self._at(tile, self.x - front)
-            for i, tile in enumerate(free):
-                added += share * self.weights[..., i] * self._at(tile, self.slipped - front)
-            for weight, tile in zip(self.off, off, strict=False):
-                added += share * weight * self._at(tile, self.slipped - front)
+        for i, tile in enumerate(self.driven):
+            added += self.weights[..., i] * self._at(tile, self.x - front)
+        for i, tile in enumerate(self.free):
+            added += self.weights[..., i] * self._at(tile, self.slipped - front)
+        for weight, tile in zip(self.off, self.free_off, strict=False):
+            added += weight * self._at(tile, self.slipped - front)
         added += np.tensordot(self.edge.at(front, 0.0)[0], self.polynomials, 1)
 
 

@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
-from pyehl.theory.response import edge_gain_parts
 from pyehl.theory.transport import free_stiffness, stiffness
 
 __all__ = ["REFINEMENT", "Waves"]
@@ -46,8 +45,6 @@ class Waves:
     off_centre: Single | None
     stride: int  # every so many-th column of the tile is there
     bent: bool  # as in :class:`Transfer`
-    # Pressure alone that fades beside the centre line (`edge_gain_fading`); None where none does
-    beyond: Waves | None = None
 
     @classmethod
     def of(
@@ -64,46 +61,45 @@ class Waves:
         On the columns of the tile, or on lines Y (n,) [a].
         """
         qx, qy = spectrum.qx[:, np.newaxis], spectrum.qy[np.newaxis, :]
-        stiffening = transfer.stiffening
-        film = stiffening * central_film
-        gain, more = edge_gain_parts(qx, qy, film, transfer.ellipticity)
-        k, k_free = stiffness(spectrum.q), free_stiffness(qx, qy, velocity_ratio)
+        gain = transfer.gain(qx, qy, central_film)
+        k = (stiffness(spectrum.q) * gain).astype(np.float32)
+        k_free = (free_stiffness(qx, qy, velocity_ratio) * gain).astype(np.float32)
         narrow = spectrum.single()
         across = None if lines is None else narrow.on_lines(lines)
         # a linear interpolation between the points dims a wave by this on average
         step = spectrum.qx * (np.pi / REFINEMENT / spectrum.qx[-1])
         bright = (1.0 / (1.0 - np.square(step) / 12.0)).astype(np.float32)[:, np.newaxis]
 
-        def made(gain: Array, beyond: Waves | None, *, films: bool = True) -> Waves:
-            """Waves with so many times the pressure of the half-space; `films`: and with films."""
-            scale = stiffening * gain
-            of_driven, of_free = ((part * scale).astype(np.float32) for part in (k, k_free))
+        def tiles(waves: list[tuple[Narrow, Narrow]], refinement: int) -> Single:
+            columns = spectrum.shape[1] // stride if lines is None else lines.size
+            shape = spectrum.shape[0] * refinement, columns, 2
+            found = np.empty((len(waves), *shape), dtype=np.float32)
+            for place, pair in zip(found, waves, strict=True):
+                for i, factor in enumerate(pair):
+                    place[..., i] = narrow.tile(factor, refinement, stride, across)
+            return found
 
-            def tiles(waves: list[tuple[Narrow, Narrow]], refinement: int) -> Single:
-                columns = spectrum.shape[1] // stride if lines is None else lines.size
-                shape = spectrum.shape[0] * refinement, columns, 2
-                found = np.zeros((len(waves), *shape), dtype=np.float32)
-                for place, pair in zip(found, waves, strict=True):
-                    for i in (0, 1) if films else (1,):
-                        place[..., i] = narrow.tile(pair[i], refinement, stride, across)
-                return found
+        def lit(waves: list[Complex]) -> list[Narrow]:
+            return [t.astype(np.complex64) * bright for t in waves]
 
-            def free(waves: list[Complex]) -> Single:
-                lit = (t.astype(np.complex64) * bright for t in waves)
-                return tiles([(t, -of_free * t) for t in lit], REFINEMENT)
+        def free(waves: list[Complex], pressures: list[Complex]) -> Single:
+            if not pressures:
+                return tiles([(t, -k_free * t) for t in lit(waves)], REFINEMENT)
+            given = [-one for one in lit([gain * p for p in pressures])]
+            return tiles(list(zip(lit(waves), given, strict=True)), REFINEMENT)
 
-            driven = [
-                (t, of_driven * (1 - t)) for t in (t.astype(np.complex64) for t in transfer.driven)
-            ]
-            if lines is not None:
-                driven = [(t * bright, pressure * bright) for t, pressure in driven]
-            return cls(
-                tiles(driven, 1 if lines is None else REFINEMENT),
-                free(transfer.free) if transfer.free else None,
-                free(transfer.off_centre) if transfer.off_centre else None,
-                stride,
-                transfer.bent,
-                beyond,
-            )
+        on_stations: list[Complex] = []
+        on_lines: list[Complex] = []
+        if transfer.pressed:
+            on_stations, on_lines = transfer.free_pressures(qx, qy, velocity_ratio)
 
-        return made(gain, None if more is None else made(more, None, films=False))
+        driven = [(t, k * (1 - t)) for t in (t.astype(np.complex64) for t in transfer.driven)]
+        if lines is not None:
+            driven = [(t * bright, pressure * bright) for t, pressure in driven]
+        return cls(
+            tiles(driven, 1 if lines is None else REFINEMENT),
+            free(transfer.free, on_stations) if transfer.free else None,
+            free(transfer.off_centre, on_lines) if transfer.off_centre else None,
+            stride,
+            transfer.bent,
+        )

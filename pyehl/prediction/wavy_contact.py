@@ -11,7 +11,7 @@ of the contact, which it moves (:mod:`pyehl.prediction.edge`).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +25,6 @@ from pyehl.prediction.transfer import AXIS, LINES, STATIONS
 from pyehl.prediction.waves import Waves
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.response import edge_gain_fading
 
 __all__ = [
     "REACH",
@@ -93,7 +92,6 @@ class WavyContact(ShearedContact):
         self.x, self.y, self.area = x, y, area
         self.pressure, self.film = contact.at(self.x, self.y)
         self.across = self.y / operating.ellipse.ellipticity
-        self.fading = edge_gain_fading(self.across, operating.ellipse.ellipticity)
         self.radius = np.hypot(self.x[:, np.newaxis], self.across[np.newaxis, :])
         self.inside = (self.radius < REACH) & (self.pressure > 0.0)
         self.points = int(np.count_nonzero(self.inside))
@@ -124,14 +122,6 @@ class WavyContact(ShearedContact):
         made = self.weights @ self.lubricant.density_ratio(axis[:, 0] * p_h)
         here = self.lubricant.density_ratio(np.maximum(self.pressure, 0.0) * p_h)
         return (made[:, np.newaxis] / here).astype(np.float32)
-
-    def add_all(self, waves: Waves, add: Callable[[Waves, Single], None], total: Single) -> None:
-        """Add waves to loss of film and gain of pressure (m, n, 2) by `add`."""
-        add(waves, total)
-        if waves.beyond:
-            more = np.zeros_like(total)
-            add(waves.beyond, more)
-            total[..., 1] += more[..., 1] * self.fading.astype(np.float32)
 
     def add_free(
         self,
