@@ -52,7 +52,7 @@ def at_centre(
 
 
 def _edge(shape: Ellipse, kx: Array, ky: Array) -> Complex:
-    """What the edge does to the pressure of a wave at the centre."""
+    """Give what the edge does to the pressure of a wave at the centre."""
     found = EllipseEdge(shape)
     origin = np.zeros(1)
     q = np.hypot(kx, ky)
