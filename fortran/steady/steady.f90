@@ -18,6 +18,8 @@ module ehl_steady
 
    !> Relative discretisation errors below this are not believed, as two levels may agree by chance
    real(dp), parameter :: least_error = 2.0e-5_dp
+   !> Share of the load on a boundary film from which on the films are its: those of the coarser grid say nothing of an error
+   real(dp), parameter :: mostly_touching = 0.5_dp
    !> Largest residual (rms, as far as it concerns the film; the wedge term is of order 1 in the inlet) of a converged
    !> solution
    real(dp), parameter :: residual_tolerance = 2.0e-3_dp
@@ -30,9 +32,8 @@ module ehl_steady
       logical :: bounded
    end type end_rule_t
 
-   !> Flows that thin and ellipses often meet the accuracy in the second cycle but for the load, or for an estimate by a
-   !> change that was tiny by chance; by the rule of Newtonian circles they go on to an algebraic error of 1/500 of that
-   !> wanted. Newtonian circles seldom do, and keep theirs, so that results of theirs that are stored are those of today.
+   !> Flows that thin and ellipses often meet the accuracy in the second cycle but for the load, or for a change that was tiny
+   !> by chance; the rule of Newtonian circles, which seldom do, would take them to 1/500 of the algebraic error wanted
    type(end_rule_t), parameter :: rule_of_circles = end_rule_t(3.0e-6_dp, 0.1_dp, .false.), &
                                   rule_of_others = end_rule_t(1.0e-5_dp, 0.25_dp, .true.)
    !> What an error of the load changes the film, per relative error: the deflection by the Hertz pressure differs from its
@@ -40,12 +41,10 @@ module ehl_steady
    real(dp), parameter :: film_per_load = 0.3_dp
    !> Largest relative algebraic error of a result, however coarse its grid
    real(dp), parameter :: largest_error = 2.0e-3_dp
-   !> Relative algebraic error wanted on the first grid, where no discretisation error is known yet
-   real(dp), parameter :: start_tolerance = 1.0e-3_dp
-   !> The same where two finer grids follow: the first one then gives a guess, and enters no result
-   real(dp), parameter :: guess_tolerance = 3.0e-2_dp
-   !> Relative algebraic error that a light cycle can be trusted with: where less is wanted (1025 x 1025 nodes at low M, 2049 x
-   !> 2049) it costs a cycle in place of saving half of one
+   !> Relative algebraic error wanted on the first grid, where no discretisation error is known yet; and where two finer grids
+   !> follow: the first one then gives a guess, and enters no result
+   real(dp), parameter :: start_tolerance = 1.0e-3_dp, guess_tolerance = 3.0e-2_dp
+   !> Relative algebraic error that a light cycle can be trusted with: where less is wanted it costs a cycle
    real(dp), parameter :: light_error = 3.0e-4_dp
    !> Cycles that are few: on a level that began from a coarser one, and from the Hertz pressure
    integer, parameter :: few = 2, few_from_guess = 3
@@ -202,11 +201,9 @@ contains
       rule = rule_of_others
       if (self%how%newtonian_circle) rule = rule_of_circles
       change = abs(self%m%films() - before%films())
-      if (rule%bounded .and. self%cycles > 1) then
-         q = reduction(change, self%change, self%cycles, self%residual/max(self%residual_before, tiny(1.0_dp)))
-      else
-         q = reduction(change, self%change, self%cycles)
-      end if
+      q = reduction(change, self%change, self%cycles)
+      if (rule%bounded .and. self%cycles > 1) q = &
+         reduction(change, self%change, self%cycles, self%residual/max(self%residual_before, tiny(1.0_dp)))
       self%results(self%n)%algebraic = change*q/(1.0_dp - q)
       self%change = change
       self%residual_before = self%residual
@@ -268,11 +265,12 @@ contains
    !> Algebraic errors of H_c and H_min that the present level deserves
    pure function wanted(self)
       class(steady_t), intent(in) :: self
-      real(dp) :: wanted(2)
+      real(dp) :: wanted(2), least
 
+      least = merge(start_tolerance, least_error, self%m%touching%load_share > mostly_touching)
       associate (values => self%m%films())
          if (has_coarser(self)) then
-            wanted = self%how%accuracy*max(discretisation_error(self%m, self%results(self%n - 1)%m), least_error*values)
+            wanted = self%how%accuracy*max(discretisation_error(self%m, self%results(self%n - 1)%m), least*values)
          else
             wanted = start_tolerance*values
             if (self%n == self%how%levels) wanted = self%how%accuracy*wanted
