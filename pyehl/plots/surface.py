@@ -45,13 +45,7 @@ SHORT = (-3, 4)
 
 
 def heights(topography: Topography, *, ax: Axes | None = None) -> Axes:
-    """Heights of a tile as a map with a colour bar; peaks positive.
-
-    Parameters
-    ----------
-    topography
-        The tile.
-    """
+    """Heights of a tile as a map with a colour bar; peaks positive."""
     ax = axes_or_new(ax, 3.6, 3.0)
     z = topography.heights
     unit, name = height_unit(float(np.abs(z).max()))
@@ -66,13 +60,7 @@ def heights(topography: Topography, *, ax: Axes | None = None) -> Axes:
 
 
 def spectrum_map(topography: Topography, *, ax: Axes | None = None) -> Axes:
-    """Two-dimensional spectrum C2D [m^4] of a tile over both wavenumbers.
-
-    Parameters
-    ----------
-    topography
-        The tile.
-    """
+    """Two-dimensional spectrum C2D [m^4] of a tile over both wavenumbers."""
     ax = axes_or_new(ax, 3.6, 3.0)
     qx, qy, c2d = psd_2d(topography)
     most = float(c2d.max())
