@@ -203,7 +203,6 @@ s | cycles_per_step | - | cycles of a step
 s | seconds_per_step | s | time of a step
 s | step_residual_allowed | - | largest residual at which a step was allowed to end
 s | coarsening_changed_at | - | step in which the coarsening changed; 0: none
-s | skips | | what was not done
 p | outside_range | | what lies outside of the range of the model
 p | note | | what mu_ratio is
 p | tracks | - | tracks of the tile that mu_ratio_tracks is over

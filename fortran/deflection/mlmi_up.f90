@@ -26,37 +26,38 @@ contains
       integer, intent(in) :: threads
       real(dp), intent(inout) :: work(:, :, :)
       real(dp), intent(out) :: w(stage%low(1):stage%high(1), stage%low(2):stage%high(2))
-
-      if (stage%axis == 1) then
-         call ascend_x(stage, omega, threads, work, w)
-      else
-         call ascend_y(stage, omega, threads, work, w)
-      end if
-   end subroutine ascend
-
-   !> A grid halved in X
-   subroutine ascend_x(stage, omega, threads, work, w)
-      type(stage_t), intent(inout) :: stage
-      real(dp), intent(in) :: omega(:)
-      integer, intent(in) :: threads
-      real(dp), intent(inout) :: work(:, :, :)
-      real(dp), intent(out) :: w(stage%low(1):stage%high(1), stage%low(2):stage%high(2))
       integer :: j, me
 
       !$omp parallel num_threads(threads) default(none) private(j, me) &
       !$omp shared(stage, omega, work, w)
       me = 1
       !$ me = omp_get_thread_num() + 1
-      !$omp do schedule(dynamic, 8)
-      do j = stage%low(2), stage%high(2)
-         call ascend_row_x(stage, j, omega, work(:, 1, me), work(:, 2, me), work(:, 3, me), &
-                           stage%coarse(:, j), w(:, j))
-      end do
-      !$omp end do
+      if (stage%axis == 1) then
+         !$omp do schedule(dynamic, 8)
+         do j = stage%low(2), stage%high(2)
+            call ascend_row_x(stage, j, omega, work(:, 1, me), work(:, 2, me), work(:, 3, me), &
+                              stage%coarse(:, j), w(:, j))
+         end do
+         !$omp end do
+      else
+         ! even rows are corrected, odd ones interpolated from them and corrected
+         !$omp do schedule(dynamic, 8)
+         do j = stage%coarse_low(2), stage%coarse_high(2)
+            call correct_row_y(stage, 2*j, work(:, :, me), stage%coarse(:, j))
+            if (2*j >= stage%low(2) .and. 2*j <= stage%high(2)) w(:, 2*j) = stage%coarse(:, j)
+         end do
+         !$omp end do
+         !$omp do schedule(dynamic, 8)
+         do j = stage%low(2) + 1 - modulo(stage%low(2), 2), stage%high(2), 2
+            call interpolate_row(stage, j, omega, w(:, j))
+            call correct_row_y(stage, j, work(:, :, me), w(:, j))
+         end do
+         !$omp end do
+      end if
       !$omp end parallel
-   end subroutine ascend_x
+   end subroutine ascend
 
-   !> One row of it: even columns are corrected, odd ones interpolated from them and
+   !> One row of a grid halved in X: even columns are corrected, odd ones interpolated from them and
    !> corrected. The buffers start at the same column as the sources.
    subroutine ascend_row_x(stage, j, omega, odd, s_even, s_odd, even, w)
       type(stage_t), intent(in) :: stage
@@ -121,34 +122,6 @@ contains
          call add_centred(n, stencil%n_even(d), stencil%even(:, d), s_odd, column, odd)
       end associate
    end subroutine correct_row_x
-
-   !> A grid halved in Y: even rows are corrected, odd ones interpolated and corrected
-   subroutine ascend_y(stage, omega, threads, work, w)
-      type(stage_t), intent(inout) :: stage
-      real(dp), intent(in) :: omega(:)
-      integer, intent(in) :: threads
-      real(dp), intent(inout) :: work(:, :, :)
-      real(dp), intent(out) :: w(stage%low(1):stage%high(1), stage%low(2):stage%high(2))
-      integer :: j, me
-
-      !$omp parallel num_threads(threads) default(none) private(j, me) &
-      !$omp shared(stage, omega, work, w)
-      me = 1
-      !$ me = omp_get_thread_num() + 1
-      !$omp do schedule(dynamic, 8)
-      do j = stage%coarse_low(2), stage%coarse_high(2)
-         call correct_row_y(stage, 2*j, work(:, :, me), stage%coarse(:, j))
-         if (2*j >= stage%low(2) .and. 2*j <= stage%high(2)) w(:, 2*j) = stage%coarse(:, j)
-      end do
-      !$omp end do
-      !$omp do schedule(dynamic, 8)
-      do j = stage%low(2) + 1 - modulo(stage%low(2), 2), stage%high(2), 2
-         call interpolate_row(stage, j, omega, w(:, j))
-         call correct_row_y(stage, j, work(:, :, me), w(:, j))
-      end do
-      !$omp end do
-      !$omp end parallel
-   end subroutine ascend_y
 
    !> Odd row j from the even ones around it
    subroutine interpolate_row(stage, j, omega, w)

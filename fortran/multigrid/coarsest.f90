@@ -18,6 +18,9 @@ module ehl_coarsest
    private
    public :: coarsest_t
 
+   !> Residual reduction wanted, and the most Newton steps to get it
+   real(dp), parameter :: reduction = 0.05_dp
+   integer, parameter :: most_steps = 12
    !> Factors serve while a step with them brings the residual down to this share
    real(dp), parameter :: slow = 0.3_dp
    integer, parameter :: most_halvings = 12
@@ -104,13 +107,11 @@ contains
    end function unknown
 
    !> Newton iteration with an active set of cavitated nodes, from the level's present state until
-   !> the residual has fallen to `reduction` of its start, or for `max_steps` steps. The
+   !> the residual has fallen to `reduction` of its start, or for `most_steps` steps. The
    !> factors are kept from step to step and from call to call while they serve.
-   subroutine solve(self, level, reduction, max_steps)
+   subroutine solve(self, level)
       class(coarsest_t), intent(inout) :: self
       type(level_t), intent(inout) :: level
-      real(dp), intent(in) :: reduction
-      integer, intent(in) :: max_steps
       real(dp) :: norm, norm_start, norm_before
       integer :: step
       logical :: fresh
@@ -118,7 +119,7 @@ contains
       call refresh(level)
       call self%find_residual(level, norm_start)
       norm = norm_start
-      do step = 1, max_steps
+      do step = 1, most_steps
          if (norm <= reduction*norm_start .or. norm <= tiny(1.0_dp)) exit
          fresh = .not. self%factored
          if (fresh) call self%assemble(level)

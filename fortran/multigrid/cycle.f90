@@ -16,10 +16,6 @@ module ehl_cycle
    public :: careful_cycle, cycle_options_t, finest_cycle, prolong_solution
    public :: coarsening_classical, coarsening_alcouffe
 
-   !> Residual reduction wanted on the coarsest level, and the most Newton steps to get it
-   real(dp), parameter :: coarsest_reduction = 0.05_dp
-   integer, parameter :: coarsest_steps = 12
-
    !> A careful cycle: largest change of the logarithm of a node's conductance, shares of the changes that are made. Where
    !> the pressure spike is a few nodes wide (L = 25 on 513 x 513 nodes) F cycles throw it about; docs/design.md.
    real(dp), parameter :: careful_trust = full_trust/3.0_dp, careful_share = 0.6_dp
@@ -74,7 +70,7 @@ contains
       integer :: k
 
       if (n == 1) then
-         call coarsest%solve(levels(1), coarsest_reduction, coarsest_steps)
+         call coarsest%solve(levels(1))
          call update_residual(levels(1), residual)
       else
          call visit_coarser(levels, spaces, coarsenings, n, coarsest, options)
@@ -97,7 +93,7 @@ contains
       type(cycle_options_t), intent(in) :: options
 
       if (n == 1) then
-         call coarsest%solve(levels(1), coarsest_reduction, coarsest_steps)
+         call coarsest%solve(levels(1))
          return
       end if
       call visit_coarser(levels, spaces, coarsenings, n, coarsest, options)

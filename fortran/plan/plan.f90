@@ -108,7 +108,9 @@ contains
       real(dp), intent(in), optional :: heights(:, :), second_heights(:, :)
       real(dp) :: rho(1), slope(1), film
 
-      call pick_contact(input, plan)
+      call find_contact(input, plan%contact, plan%scales, plan%point)
+      plan%sliding = plan_sliding(input, plan%contact, plan%scales)
+      if (input%contact%si) plan%point = plan_point(input, plan%contact, plan%scales, plan%sliding)
       plan%flooded = input%grid%border == "flooded"
       call plan_lubricant(input, plan%point, plan%scales, plan%lubricant, status)
       if (status%failed()) return
@@ -207,16 +209,6 @@ contains
                           " on this grid, or 0: a rough surface at rest is a steady contact")
       end associate
    end subroutine check_steps
-
-   !> Shape, scales and operating point
-   subroutine pick_contact(input, plan)
-      type(case_t), intent(in) :: input
-      type(plan_t), intent(inout) :: plan
-
-      call find_contact(input, plan%contact, plan%scales, plan%point)
-      plan%sliding = plan_sliding(input, plan%contact, plan%scales)
-      if (input%contact%si) plan%point = plan_point(input, plan%contact, plan%scales, plan%sliding)
-   end subroutine pick_contact
 
    !> Kind of cycle, for the smooth contact and for time steps
    subroutine pick_cycle(input, plan)

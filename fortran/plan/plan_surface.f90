@@ -6,7 +6,7 @@ module ehl_plan_surface
    use ehl_feature, only: feature_t, new_feature
    use ehl_fractal, only: fractal_t, make_fractal
    use ehl_grid, only: grid_t
-   use ehl_harmonic, only: harmonic_t, new_harmonic
+   use ehl_harmonic, only: new_harmonic
    use ehl_height_map, only: height_map_t
    use ehl_kinds, only: dp
    use ehl_map_file, only: check_heights, read_map

@@ -41,9 +41,8 @@ module ehl_contact_run
       !> A row per cycle or time step; seconds spent on those of the rough contact
       type(table_t) :: history
       real(dp) :: seconds = 0.0_dp
-      !> Pressure and film of the smooth contact, kept where there is a rough one; frames of the transient run
+      !> Pressure, film and separation of the smooth contact, kept where there is a rough one; frames of the transient run
       real(dp), allocatable :: p_smooth(:, :), h_smooth(:, :)
-      !> Its separation
       real(dp) :: h00_smooth = 0.0_dp
       type(frames_t) :: frames
       !> Heat of the smooth contact, and of the rough one at the end
@@ -112,11 +111,9 @@ contains
 
       if (status%failed()) return
       if (allocated(self%plan%why_front)) self%why_front = self%plan%why_front
-      associate (plan => self%plan)
-         call self%hierarchy%setup(plan%coarsest, plan%levels, plan%lubricant, plan%point%speed_parameter, &
-                                   plan%contact%kernel_factor(), plan%engine, plan%threads, status)
-         call self%steady%start(plan%contact, plan%steady_options_t)
-      end associate
+      call self%hierarchy%setup(self%plan%coarsest, self%plan%levels, self%plan%lubricant, self%plan%point%speed_parameter, &
+                                self%plan%contact%kernel_factor(), self%plan%engine, self%plan%threads, status)
+      call self%steady%start(self%plan%contact, self%plan%steady_options_t)
       call self%hierarchy%grow(self%steady%n, status)
       if (status%failed()) return
       self%grid = self%hierarchy%levels(self%steady%n)%grid
@@ -129,19 +126,18 @@ contains
       character(len=16), allocatable :: columns(:)
 
       if (self%plan%surfaces%rest()) then
-         call self%history%init([character(len=16) :: "cycle", "share", "mu_ratio", "H_c", "H_min", "P_max", "load_error", &
-                                 "residual"])
+         columns = [character(len=16) :: "cycle", "share", "mu_ratio", "H_c", "H_min", "P_max", "load_error", "residual"]
       else if (self%plan%surfaces%move()) then
          columns = [character(len=16) :: "step", "T", "mu_ratio", "H_c", "H_min", "P_max", "load_error", "cycles", "residual"]
          if (self%plan%heat%counts) columns = [character(len=16) :: columns, "heat_ratio"]
          if (self%plan%lubricant%boundary_film > 0.0_dp) then
             columns = [character(len=16) :: columns, touching_names(:known_names(self%plan%lubricant))]
          end if
-         call self%history%init(columns)
       else
-         call self%history%init([character(len=16) :: "level", "points", "cycle", "H_c", "H_min", "P_max", "F", &
-                                 "load_error", "residual", "H_c_algebraic"])
+         columns = [character(len=16) :: "level", "points", "cycle", "H_c", "H_min", "P_max", "F", "load_error", "residual", &
+                    "H_c_algebraic"]
       end if
+      call self%history%init(columns)
    end subroutine begin_history
 
    !> One multigrid cycle, or one time step
@@ -227,9 +223,7 @@ contains
       end if
       self%seconds = self%seconds + clock%seconds()
       self%outcome = self%rest%outcome
-      if (self%plan%heat%counts .and. self%outcome == outcome_converged) then
-         call add_heat(self, self%steady%n, .true., self%rough_heat)
-      end if
+      if (self%plan%heat%counts .and. self%outcome == outcome_converged) call add_heat(self, self%steady%n, .true., self%rough_heat)
       associate (rest => self%rest, m => self%rest%m)
          call self%history%append([real(dp) :: rest%total_cycles, rest%share, rest%mu_ratio(), m%film_central, &
                                    m%film_minimum, m%pressure_maximum, m%load_error, rest%residual])

@@ -28,24 +28,23 @@ contains
       !> Level of the results
       integer, intent(in) :: n
       logical, intent(in) :: good
+      character(len=5), parameter :: of_contact(4) = [character(len=5) :: "H_c", "H_min", "P_max", "F"]
       type(contact_results_t) :: m
-      real(dp) :: error(2), limit(2), domain(2), nothing
+      real(dp) :: values(4), error(2), limit(2), domain(2), nothing
       logical :: coarser
+      integer :: k
       character(len=:), allocatable :: why
 
       nothing = ieee_value(nothing, ieee_quiet_nan)
       m = steady%results(n)%m
+      values = [m%films(), m%pressure_maximum, m%friction]
       if (.not. good) then
-         call record%set("last_H_c", m%film_central)
-         call record%set("last_H_min", m%film_minimum)
-         call record%set("last_P_max", m%pressure_maximum)
-         call record%set("last_F", m%friction)
-         m%film_central = nothing
-         m%film_minimum = nothing
-         m%pressure_maximum = nothing
-         m%friction = nothing
+         do k = 1, size(values)
+            call record%set("last_"//trim(of_contact(k)), values(k))
+         end do
+         values = nothing
       end if
-      if (.not. knows_friction(plan, m)) m%friction = nothing
+      if (.not. knows_friction(plan, m)) values(4) = nothing
       error = nothing
       limit = nothing
       coarser = .false.
@@ -58,21 +57,17 @@ contains
          error = relative_errors(plan%contact, plan%point, plan%finest)*m%films()
       end if
       domain = nothing
-      where (plan%domain_cost < 1.0_dp) domain = m%films()*plan%domain_cost/(1.0_dp - plan%domain_cost)
-      call record%set("H_c", m%film_central)
-      call record%set("H_min", m%film_minimum)
-      call record%set("P_max", m%pressure_maximum)
-      call record%set("F", m%friction)
-      call record%set("H_c_extrapolated", limit(1))
-      call record%set("H_c_error", error(1) + domain(1))
-      call record%set("H_c_error_grid", error(1))
-      call record%set("H_c_error_domain", domain(1))
-      call record%set("H_min_extrapolated", limit(2))
-      call record%set("H_min_error", error(2) + domain(2))
-      call record%set("H_min_error_grid", error(2))
-      call record%set("H_min_error_domain", domain(2))
-      if (good .and. .not. plan%domain_cost(1) < 1.0_dp) call record%set("H_c_error_note", too_small)
-      if (good .and. .not. plan%domain_cost(2) < 1.0_dp) call record%set("H_min_error_note", too_small)
+      where (plan%domain_cost < 1.0_dp) domain = values(:2)*plan%domain_cost/(1.0_dp - plan%domain_cost)
+      do k = 1, size(values)
+         call record%set(trim(of_contact(k)), values(k))
+      end do
+      do k = 1, 2
+         call record%set(trim(of_contact(k))//"_extrapolated", limit(k))
+         call record%set(trim(of_contact(k))//"_error", error(k) + domain(k))
+         call record%set(trim(of_contact(k))//"_error_grid", error(k))
+         call record%set(trim(of_contact(k))//"_error_domain", domain(k))
+         if (good .and. .not. plan%domain_cost(k) < 1.0_dp) call record%set(trim(of_contact(k))//"_error_note", too_small)
+      end do
       why = too_coarse(plan%contact, plan%point, plan%finest)
       if (why == "") why = finer_across(plan%contact, plan%finest)
       if (.not. good .and. why /= "") call record%set("H_c_error_note", why)
@@ -83,11 +78,11 @@ contains
       call record%set("load_beyond", 1.0_dp - m%load/plan%contact%load())
       call record%set("load_error", m%load_error)
       if (plan%scales%has_size()) then
-         call record%set("h_c_m", m%film_central*plan%scales%film)
+         call record%set("h_c_m", values(1)*plan%scales%film)
          call record%set("h_c_error_m", (error(1) + domain(1))*plan%scales%film)
-         call record%set("h_min_m", m%film_minimum*plan%scales%film)
+         call record%set("h_min_m", values(2)*plan%scales%film)
          call record%set("h_min_error_m", (error(2) + domain(2))*plan%scales%film)
-         call record%set("p_max_Pa", m%pressure_maximum*plan%scales%pressure)
+         call record%set("p_max_Pa", values(3)*plan%scales%pressure)
       end if
       call record%set("cycles", steady%results(n)%cycles)
       call record%set("total_cycles", sum(steady%results%cycles))

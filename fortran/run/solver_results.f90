@@ -13,7 +13,6 @@ submodule (ehl_solver) ehl_solver_results
    use ehl_report_passage, only: report_passage
    use ehl_report_smooth, only: report_smooth
    use ehl_report_touching, only: no_boundary_friction, report_touching
-   use ehl_skipped_work, only: skipped_work
    use ehl_surface_text, only: window_words
    use ehl_text, only: newline
    use ehl_touching, only: touching_names
@@ -59,7 +58,6 @@ contains
       if (self%plan%surfaces%rough()) call report_ratio(self, record, ratio, stop_error)
       call summarise_touching(self, record, good)
       call summarise_friction(self, record, good)
-      if (self%in_steps .and. self%done()) call record%set("skips", skipped_work(self%plan, self%transient, self%converged()))
       call record%set("bytes", real(self%hierarchy%bytes(), dp) + self%plan%surfaces%bytes())
       call judge(record, judgement, worth)
       call record%set("judgement", judgement)

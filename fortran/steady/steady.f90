@@ -95,7 +95,7 @@ contains
 
    !> Ready for the first cycle
    subroutine start(self, contact, how)
-      class(steady_t), intent(inout) :: self
+      class(steady_t), intent(out) :: self
       class(contact_t), intent(in) :: contact
       type(steady_options_t), intent(in) :: how
 
@@ -105,10 +105,6 @@ contains
       self%max_cycles = how%max_cycles
       self%of_film = .true.
       self%n = how%start
-      self%entered = .false.
-      self%careful = .false.
-      self%outcome = outcome_running
-      self%restarts = 0
       self%results = spread(level_result_t(), 1, how%levels)
    end subroutine start
 
@@ -194,16 +190,15 @@ contains
       class(steady_t), intent(inout) :: self
       type(contact_results_t), intent(in) :: before
       type(end_rule_t) :: rule
-      real(dp) :: change(2), q, error
+      real(dp) :: change(2), q, error, fall
 
       may_balance = .false.
       if (self%unsound() /= outcome_running) return
-      rule = rule_of_others
-      if (self%how%newtonian_circle) rule = rule_of_circles
+      rule = merge(rule_of_circles, rule_of_others, self%how%newtonian_circle)
       change = abs(self%m%films() - before%films())
-      q = reduction(change, self%change, self%cycles)
-      if (rule%bounded .and. self%cycles > 1) q = &
-         reduction(change, self%change, self%cycles, self%residual/max(self%residual_before, tiny(1.0_dp)))
+      fall = huge(fall)
+      if (rule%bounded .and. self%cycles > 1) fall = self%residual/max(self%residual_before, tiny(1.0_dp))
+      q = reduction(change, self%change, self%cycles, fall)
       self%results(self%n)%algebraic = change*q/(1.0_dp - q)
       self%change = change
       self%residual_before = self%residual
@@ -216,8 +211,7 @@ contains
    !> Whether the level is solved; the load must be right where the solution may end
    pure logical function meets(self)
       class(steady_t), intent(in) :: self
-      meets = accurate(self)
-      if (is_end(self)) meets = meets .and. abs(self%m%load_error) <= load_tolerance
+      meets = accurate(self) .and. (abs(self%m%load_error) <= load_tolerance .or. .not. is_end(self))
    end function meets
 
    !> Whether the error of H_c is the one that was asked for
@@ -258,26 +252,25 @@ contains
    !> Whether the algebraic errors are what the grid deserves, and on a level where the solution may end the residual, too
    pure logical function accurate(self)
       class(steady_t), intent(in) :: self
-      accurate = all(self%results(self%n)%algebraic <= wanted(self))
-      if (is_end(self)) accurate = accurate .and. self%residual <= residual_tolerance
+      accurate = all(self%results(self%n)%algebraic <= wanted(self)) .and. &
+                 (self%residual <= residual_tolerance .or. .not. is_end(self))
    end function accurate
 
    !> Algebraic errors of H_c and H_min that the present level deserves
    pure function wanted(self)
       class(steady_t), intent(in) :: self
-      real(dp) :: wanted(2), least
+      real(dp) :: wanted(2), values(2), least
 
       least = merge(start_tolerance, least_error, self%m%touching%load_share > mostly_touching)
-      associate (values => self%m%films())
-         if (has_coarser(self)) then
-            wanted = self%how%accuracy*max(discretisation_error(self%m, self%results(self%n - 1)%m), least*values)
-         else
-            wanted = start_tolerance*values
-            if (self%n == self%how%levels) wanted = self%how%accuracy*wanted
-            if (self%n < self%how%levels - 1 .and. .not. is_end(self)) wanted = guess_tolerance*values
-         end if
-         if (is_end(self)) wanted = min(wanted, largest_error*values)
-      end associate
+      values = self%m%films()
+      if (has_coarser(self)) then
+         wanted = self%how%accuracy*max(discretisation_error(self%m, self%results(self%n - 1)%m), least*values)
+      else
+         wanted = start_tolerance*values
+         if (self%n == self%how%levels) wanted = self%how%accuracy*wanted
+         if (self%n < self%how%levels - 1 .and. .not. is_end(self)) wanted = guess_tolerance*values
+      end if
+      if (is_end(self)) wanted = min(wanted, largest_error*values)
    end function wanted
 
    !> Failure on a level: begin anew on the next finer one, where the discrete problem is better posed; on the finest one

@@ -4,7 +4,7 @@ module ehl_friction_mean
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: friction_mean_t, start_up, periods_compared, automatic_periods
+   public :: friction_mean_t, periods_compared, automatic_periods
 
    !> The last period is compared with those that end earlier, one by one, by these shares of the longest lag: half a
    !> period, where a period holds several ones of the slowest surface half of such a one, or what a run that begins with

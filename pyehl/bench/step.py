@@ -89,7 +89,6 @@ COLUMNS = (
     ("error", ".1e"),
 )
 
-
 RUN_COLUMNS = (
     ("points", "d"),
     ("case", "s"),

@@ -63,11 +63,11 @@ class ScipyDeflection:
         return w[: self.shape[0], : self.shape[1]]
 
 
-def median_seconds(call: Callable[[], object], least: float = 0.3) -> float:
-    """Median time of a call, repeated at least three times and for `least` seconds."""
+def median_seconds(call: Callable[[], object]) -> float:
+    """Median time of a call, repeated at least three times and for 0.3 seconds."""
     call()
     times: list[float] = []
-    while len(times) < 3 or sum(times) < least:
+    while len(times) < 3 or sum(times) < 0.3:
         began = time.perf_counter()
         call()
         times.append(time.perf_counter() - began)

@@ -30,6 +30,7 @@ from pyehl.plots.style import (
     hertz_ticks,
     nearest,
     pressure_unit,
+    y_label,
 )
 
 __all__ = [
@@ -99,13 +100,10 @@ def pressure_and_film(
     twin = ax.twinx()
     twin.plot(along * unit, film * unit_h, color=VERMILLION, lw=1.4, label="film")
     twin.set_ylim(0.0, 5.0 * float(film[nearest(along, 0.0)]) * unit_h)
-    twin.tick_params(axis="y", colors=VERMILLION)
-    twin.set_ylabel(label_h, color=VERMILLION)
-    ax.set_xlim(along[0] * unit, along[-1] * unit)
-    ax.set_ylim(0.0, 1.08 * max(unit_p, float(pressure.max()) * unit_p))
-    ax.set_xlabel(label)
-    ax.set_ylabel(label_p, color=BLUE)
-    ax.tick_params(axis="y", colors=BLUE)
+    y_label(twin, label_h, VERMILLION)
+    ax.set(xlim=(along[0] * unit, along[-1] * unit))
+    ax.set(ylim=(0.0, 1.08 * max(unit_p, float(pressure.max()) * unit_p)), xlabel=label)
+    y_label(ax, label_p, BLUE)
     return ax
 
 
@@ -161,10 +159,9 @@ def _frame(ax: Axes, x: Array, y: Array, scales: Scales | None, outline: Outline
     ax.add_patch(outline.patch(unit, ls="--", lw=0.9, ec=VERMILLION))
     along, across = (VIEW * reach for reach in outline.reach)
     ax.set_aspect("equal")
-    ax.set_xlim(max(x[0], -along) * unit, min(x[-1], along) * unit)
-    ax.set_ylim(max(y[0], -across) * unit, min(y[-1], across) * unit)
-    ax.set_xlabel(label_x)
-    ax.set_ylabel(label_y)
+    ax.set(xlim=(max(x[0], -along) * unit, min(x[-1], along) * unit))
+    ax.set(ylim=(max(y[0], -across) * unit, min(y[-1], across) * unit), xlabel=label_x)
+    ax.set(ylabel=label_y)
     if scales is None:
         hertz_ticks(ax, outline)
     elif outline.slender > SLENDER:

@@ -45,8 +45,7 @@ def draw_oil(
         left.semilogy(1e-9 * p[known], eta[known], color=colour, label=label)
         beyond = ~known if inside else p >= 0.0
         left.semilogy(1e-9 * p[beyond], eta[beyond], "--", color=colour, lw=1)
-    left.set_xlabel("p [GPa]")
-    left.set_ylabel(r"$\eta$ [Pa s]")
+    left.set(xlabel="p [GPa]", ylabel=r"$\eta$ [Pa s]")
     left.legend(fontsize="small", title="dashed: beyond the range", title_fontsize="small")
     law = ShearLaw() if limit is None else ShearLaw("limiting", limiting_coefficient=limit)
     rate = np.geomspace(1.0, 1e8, 200)
@@ -61,8 +60,7 @@ def draw_oil(
             right.plot([], [], ":", color=colour, label=f"{1e-9 * pressure:g} GPa")
     right.set_xlim(rate[0], rate[-1])
     right.set_ylim(*STRESSES)
-    right.set_xlabel(r"$\dot\gamma$ [1/s]")
-    right.set_ylabel(r"$\tau$ [Pa]")
+    right.set(xlabel=r"$\dot\gamma$ [1/s]", ylabel=r"$\tau$ [Pa]")
     words = "Newtonian" if limit is None else f"dotted: Newtonian; limit {limit:g} p"
     title = f"{lubricant.temperature:g} °C; {words}"
     right.legend(fontsize="small", title=title, title_fontsize="small", loc="lower right")
@@ -81,8 +79,7 @@ def draw_fit(
     ax.errorbar(slide_to_roll, measured, bars, fmt="k^", ms=5, mfc="none", capsize=2, lw=0.8)
     ax.plot([], [], "k^", mfc="none", label="measured")
     ax.plot(*curve, "o-", ms=3, color=BLUE, label=words)
-    ax.set_xlabel("slide-to-roll ratio")
-    ax.set_ylabel(r"$\mu$")
+    ax.set(xlabel="slide-to-roll ratio", ylabel=r"$\mu$")
     ax.set_xlim(left=0.0)
     ax.set_ylim(bottom=0.0)
     ax.legend()

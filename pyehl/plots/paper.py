@@ -77,8 +77,7 @@ def _points(ax: Axes, series: Sequence[Series], *, lines: bool) -> None:
 
 
 def _logarithmic(ax: Axes) -> None:
-    ax.set_xscale("log")
-    ax.set_yscale("log")
+    ax.set(xscale="log", yscale="log")
     for axis in (ax.xaxis, ax.yaxis):
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     left, right = ax.get_xlim()
@@ -115,8 +114,7 @@ def collapses(panels: Sequence[Collapse]) -> Figure:
         for label, style, place, friction in panel.curves:
             ax.plot(place, friction, style, lw=1.3, color="black", label=label, zorder=3)
         ax.set_title(f"({mark}) {panel.title}", fontsize="medium", loc="left")
-        ax.set_xlabel(panel.abscissa)
-        ax.set_ylabel(r"$\mu_r/\mu_s$")
+        ax.set(xlabel=panel.abscissa, ylabel=r"$\mu_r/\mu_s$")
         _logarithmic(ax)
         handles, labels = ax.get_legend_handles_labels()
         count = len(panel.curves)

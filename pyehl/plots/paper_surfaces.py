@@ -79,8 +79,7 @@ def spectrum(topography: Topography) -> Figure:
     axes[2].loglog(q[shown], c_iso[shown], "o", ms=2.5, color=BLUE, label=r"$C^{iso}$")
     line = c_iso[8] * (q / q[8]) ** -3.6
     axes[2].loglog(q, line, "--", color="black", lw=1.0, label="$q^{-2-2H}$, $H$ = 0.8")
-    axes[2].set_xlabel(r"$|q|$ [rad/m]")
-    axes[2].set_ylabel(r"$C^{iso}$ [m$^4$]")
+    axes[2].set(xlabel=r"$|q|$ [rad/m]", ylabel=r"$C^{iso}$ [m$^4$]")
     axes[2].legend(fontsize="small")
     letter(list(axes))
     return figure
@@ -119,11 +118,9 @@ def deformed(x: Array, y: Array, inside: NDArray[np.bool_], fields: Mapping[str,
         if name != "undeformed":
             shown = inside[:, line]
             middle.plot(x[shown], 1e9 * field[shown, line], color=colour, lw=1.1, label=name)
-    histogram.set_xlabel("height [nm]")
-    histogram.set_ylabel("share per nm")
+    histogram.set(xlabel="height [nm]", ylabel="share per nm")
     histogram.legend(fontsize="small")
-    middle.set_xlabel("$X$ on the line $Y$ = 0")
-    middle.set_ylabel("height [nm]")
+    middle.set(xlabel="$X$ on the line $Y$ = 0", ylabel="height [nm]")
     middle.legend(fontsize="small")
     return figure
 
@@ -141,7 +138,6 @@ def by_seed(
         ax.plot(seeds, values, marker, color=colour, mfc="none", ms=6, label=label)
     ax.axhline(1.0, color=GREY, lw=0.8, ls=":")
     ax.set_xticks(seeds)
-    ax.set_xlabel("seed of the surface")
-    ax.set_ylabel(r"$\mu_r/\mu_s$")
+    ax.set(xlabel="seed of the surface", ylabel=r"$\mu_r/\mu_s$")
     ax.legend(fontsize="small")
     return figure

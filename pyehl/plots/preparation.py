@@ -11,7 +11,16 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from pyehl.plots.style import BLUE, DIVERGING, GREY, VERMILLION, height_unit, letter, new_figure
+from pyehl.plots.style import (
+    BLUE,
+    DIVERGING,
+    GREY,
+    VERMILLION,
+    height_unit,
+    letter,
+    new_figure,
+    y_label,
+)
 from pyehl.surfaces import Preparation, Topography, psd_isotropic
 from pyehl.surfaces.holes import nearest
 from pyehl.theory.amplitude import component_amplitude_ratio
@@ -75,8 +84,7 @@ def _map(ax: Axes, heights: Array, size: tuple[float, float], title: str) -> Non
     rms = float(np.nanstd(heights)) * unit
     peak = float(np.nanmax(np.abs(heights))) * unit
     ax.set_title(f"{title}\nrms {rms:.3g}, peak {peak:.3g} {name}", fontsize="small", loc="right")
-    ax.set_xlabel("x [mm]")
-    ax.set_ylabel("y [mm]")
+    ax.set(xlabel="x [mm]", ylabel="y [mm]")
 
 
 def _spectra(
@@ -90,8 +98,7 @@ def _spectra(
         shown = c_iso > c_iso.max() * 1e-14
         ax.loglog(q[shown], c_iso[shown], "-", lw=1.2, color=colour, label=label)
         ends += [float(q[0]), float(q[-1])]
-    ax.set_xlabel("|q| [rad/m]")
-    ax.set_ylabel("isotropic spectrum [m⁴]")
+    ax.set(xlabel="|q| [rad/m]", ylabel="isotropic spectrum [m⁴]")
     ax.legend(loc="lower left", fontsize="small")
     if conditions is None:
         return
@@ -101,5 +108,4 @@ def _spectra(
     ratio = component_amplitude_ratio(line, 0.0, radius, moes_m, moes_l, convention=convention)
     twin.plot(line, ratio, color=VERMILLION, lw=1.4)
     twin.set_ylim(0.0, 1.02)
-    twin.set_ylabel(r"$A_d/A_i$", color=VERMILLION)
-    twin.tick_params(axis="y", colors=VERMILLION)
+    y_label(twin, r"$A_d/A_i$", VERMILLION)

@@ -199,5 +199,4 @@ def _draw_eq_16(ax: Axes) -> None:
     ratio = stribeck.relative_friction(theta)
     shown = ratio < top
     ax.plot(theta[shown], ratio[shown], "--", lw=1, color="black", label="harmonic waves (eq. 16)")
-    ax.set_xlim(low, high)
-    ax.set_ylim(min(bottom, float(ratio.min()) - 0.02), top)
+    ax.set(xlim=(low, high), ylim=(min(bottom, float(ratio.min()) - 0.02), top))

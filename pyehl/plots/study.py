@@ -53,8 +53,7 @@ def study_figure(panels: Sequence[tuple[str, Sequence[Line]]], abscissa: str, ti
         places = np.concatenate([line.places for line in lines])
         if places.min() > 0.0 and places.max() > WIDE * places.min():
             ax.set_xscale("log")
-        ax.set_xlabel(abscissa)
-        ax.set_ylabel(label)
+        ax.set(xlabel=abscissa, ylabel=label)
         ax.grid(visible=True, color="0.92", lw=0.6)
     letter(axes)
     if len(panels[0][1]) > 1:

@@ -61,6 +61,7 @@ __all__ = [
     "pressure_unit",
     "save",
     "wrapped",
+    "y_label",
 ]
 
 Array = NDArray[np.float64]
@@ -152,6 +153,12 @@ def colour_bar(
     ax.figure.colorbar(image, cax=beside, format=powers).set_label(label)
 
 
+def y_label(ax: Axes, label: str, colour: str) -> None:
+    """Label a y axis in the colour of its line."""
+    ax.set_ylabel(label, color=colour)
+    ax.tick_params(axis="y", colors=colour)
+
+
 def label_decades(*axes: Axis) -> None:
     """Label the decades of logarithmic axes as `POWERS` does, where there are two or more."""
     for axis in axes:
@@ -186,8 +193,8 @@ def contact_heights(
     rms = float(np.nanstd(heights))
     ax.set_title(f"{name} rms {rms:.3g} {unit}".strip(), loc="left", fontsize="medium", y=1.0)
     along, across = outline.reach
-    ax.set_xlim(-1.05 * along * radius, 1.05 * along * radius)
-    ax.set_ylim(-1.05 * across * radius, 1.05 * across * radius)
+    ax.set(xlim=(-1.05 * along * radius, 1.05 * along * radius))
+    ax.set(ylim=(-1.05 * across * radius, 1.05 * across * radius))
     if bar:
         colour_bar(image, ax, f"height [{unit}]", shrink=0.85, slender=outline.slender)
 

@@ -30,6 +30,7 @@ from pyehl.plots.style import (
     height_unit,
     hertz_ticks,
     label_decades,
+    y_label,
 )
 from pyehl.surfaces import Topography, interpolated, psd_2d, psd_isotropic
 
@@ -44,13 +45,7 @@ SHORT = (-3, 4)
 
 
 def heights(topography: Topography, *, ax: Axes | None = None) -> Axes:
-    """Heights of a tile as a map with a colour bar; peaks positive.
-
-    Parameters
-    ----------
-    topography
-        The tile.
-    """
+    """Heights of a tile as a map with a colour bar; peaks positive."""
     ax = axes_or_new(ax, 3.6, 3.0)
     z = topography.heights
     unit, name = height_unit(float(np.abs(z).max()))
@@ -60,19 +55,12 @@ def heights(topography: Topography, *, ax: Axes | None = None) -> Axes:
         z.T * unit, origin="lower", extent=extent, cmap=DIVERGING, vmin=-top, vmax=top
     )
     colour_bar(image, ax, f"height [{name}]")
-    ax.set_xlabel("x [mm]")
-    ax.set_ylabel("y [mm]")
+    ax.set(xlabel="x [mm]", ylabel="y [mm]")
     return ax
 
 
 def spectrum_map(topography: Topography, *, ax: Axes | None = None) -> Axes:
-    """Two-dimensional spectrum C2D [m^4] of a tile over both wavenumbers.
-
-    Parameters
-    ----------
-    topography
-        The tile.
-    """
+    """Two-dimensional spectrum C2D [m^4] of a tile over both wavenumbers."""
     ax = axes_or_new(ax, 3.6, 3.0)
     qx, qy, c2d = psd_2d(topography)
     most = float(c2d.max())
@@ -82,8 +70,7 @@ def spectrum_map(topography: Topography, *, ax: Axes | None = None) -> Axes:
         norm=LogNorm(vmin=FLOOR * most, vmax=most),
     )  # fmt: skip
     colour_bar(image, ax, "spectrum [m⁴]")
-    ax.set_xlabel("q along x [rad/µm]")
-    ax.set_ylabel("q along y [rad/µm]")
+    ax.set(xlabel="q along x [rad/µm]", ylabel="q along y [rad/µm]")
     return ax
 
 
@@ -107,16 +94,14 @@ def spectrum_line(
     shown = c_iso > FLOOR * float(psd_2d(topography)[2].max())
     ax.loglog(q[shown], c_iso[shown], "o", ms=2.5, color=BLUE, label="isotropic spectrum")
     ax.set_xlabel("|q| [rad/m]")
-    ax.set_ylabel("isotropic spectrum [m⁴]", color=BLUE)
-    ax.tick_params(axis="y", colors=BLUE)
+    y_label(ax, "isotropic spectrum [m⁴]", BLUE)
     label_decades(ax.xaxis, ax.yaxis)
     twin = ax.twinx()
     for values, style, label in ((deformed, "-", "|T|"), (flattened, "--", "|1 − T|")):
         part = Topography(values, topography.size)
         share = np.sqrt(psd_isotropic(part)[1][shown] / c_iso[shown])
         twin.plot(q[shown], share, style, color=VERMILLION, lw=1.4, label=label)
-    twin.set_ylabel("response at the centre (rms)", color=VERMILLION)
-    twin.tick_params(axis="y", colors=VERMILLION)
+    y_label(twin, "response at the centre (rms)", VERMILLION)
     # the spectrum falls and the response rises: below both there is room
     twin.legend(loc="lower center", fontsize="small")
     return ax
@@ -165,8 +150,7 @@ def roughness(
     contact_heights(
         shown, extent, 1.0, top * unit, label, name=name, bar=bar, ax=ax, outline=outline
     )
-    ax.set_xlabel("x/a")
-    ax.set_ylabel("y/a")
+    ax.set(xlabel="x/a", ylabel="y/a")
     hertz_ticks(ax, outline)
     return ax
 
@@ -201,9 +185,8 @@ def passage(
     ax.plot(shift * 1e3, ratio, "o", ms=3.0, color=BLUE)
     ax.axhline(mean, color=VERMILLION, lw=1.0, ls="--", label=f"mean {mean:.3f}")
     ax.axhline(1.0, color=GREY, lw=0.8, ls=":", label="smooth")
-    ax.set_xlim(0.0, length * 1e3)
-    ax.set_xlabel("displacement of the surface [mm]")
-    ax.set_ylabel("relative friction")
+    ax.set(xlim=(0.0, length * 1e3), xlabel="displacement of the surface [mm]")
+    ax.set(ylabel="relative friction")
     ax.ticklabel_format(axis="y", scilimits=SHORT)
     ax.legend(loc="best", fontsize="small")
     return ax
@@ -230,8 +213,7 @@ def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = No
     ax.axhline(0.0, color=GREY, lw=0.8)
     ax.set_xscale("log")
     label_decades(ax.xaxis)
-    ax.set_xlabel("wavelength of the component [μm]")
-    ax.set_ylabel("contribution to relative friction")
+    ax.set(xlabel="wavelength of the component [μm]", ylabel="contribution to relative friction")
     ax.ticklabel_format(axis="y", scilimits=SHORT)
     ax.legend(fontsize="small", frameon=False)
     return ax

@@ -29,6 +29,7 @@ from pyehl.plots.style import (
     height_unit,
     hertz_ticks,
     pressure_unit,
+    y_label,
 )
 from pyehl.theory import stribeck
 
@@ -112,8 +113,7 @@ def friction_history(
         ax.plot([end - period, end], [mean, mean], color=VERMILLION, lw=2.0, label=label)
     ax.set_xlim(float(time[0]), end)
     low, high = min(1.0, float(ratio.min())), max(float(ratio.max()), formula or 1.0)
-    ax.set_ylim(low - 0.05 * (high - low), high + 0.05 * (high - low))
-    ax.set_xlabel("T = t u/a")
+    ax.set(ylim=(low - 0.05 * (high - low), high + 0.05 * (high - low)), xlabel="T = t u/a")
     ax.set_ylabel(r"$\mu_r/\mu_s$")
     if seconds > 0.0:
         scale = seconds * 1e3
@@ -155,16 +155,14 @@ def extremes_history(
     factor, label = pressure_unit(scales)
     ax.plot(time, pressure * factor, color=BLUE, lw=1.4, label="largest pressure")
     ax.set_xlabel("T = t u/a")
-    ax.set_ylabel(label, color=BLUE)
-    ax.tick_params(axis="y", colors=BLUE)
+    y_label(ax, label, BLUE)
     ax.set_xlim(float(time[0]), float(time[-1]))
     twin = ax.twinx()
     factor, label = film_unit(scales)
     for (name, values), style in zip(films.items(), ("-", "--", ":"), strict=False):
         twin.plot(time, values * factor, style, color=VERMILLION, lw=1.4, label=name)
     twin.set_ylim(0.0, 1.1 * max(float(v.max()) for v in films.values()) * factor)
-    twin.set_ylabel(label, color=VERMILLION)
-    twin.tick_params(axis="y", colors=VERMILLION)
+    y_label(twin, label, VERMILLION)
     ax.legend(
         handles=[*ax.get_lines(), *twin.get_lines()], loc="lower center", ncols=3,
         bbox_to_anchor=(0.5, 1.0), fontsize="small", frameon=False,
@@ -236,8 +234,7 @@ def roughness(
     contact_heights(
         shown, extent, unit_x, top * unit, label, name=name, bar=bar, ax=ax, outline=outline
     )
-    ax.set_xlabel(label_x)
-    ax.set_ylabel(label_y)
+    ax.set(xlabel=label_x, ylabel=label_y)
     if scales is None:
         hertz_ticks(ax, outline)
     return ax
@@ -272,8 +269,6 @@ def profiles(
     unit_x, label_x = axis_unit(scales, "x")
     ax.plot(x * unit_x, rough * unit[0], color=colour, lw=1.3, label="rough")
     ax.plot(x * unit_x, smooth * unit[0], "--", color="black", lw=0.9, label="smooth")
-    ax.set_xlabel(label_x)
-    ax.set_ylabel(unit[1])
-    ax.set_xlim(-1.5 * unit_x, 1.5 * unit_x)
+    ax.set(xlabel=label_x, ylabel=unit[1], xlim=(-1.5 * unit_x, 1.5 * unit_x))
     ax.legend(loc="best", fontsize="small", framealpha=0.9)
     return ax

@@ -22,6 +22,9 @@ Carries = Callable[[Topography], bool]
 FEW = 0.01
 """Largest share of a map that counts as a few spikes."""
 
+CUT_OFF_TOLERANCE, THRESHOLD_TOLERANCE = 0.05, 0.1
+"""Of a cut-off and of a threshold of spikes, relative."""
+
 LEAST_THRESHOLD = 5.0
 """Below it, points of a normal distribution would be taken for spikes."""
 
@@ -30,12 +33,10 @@ def carrying_wavelength(
     shortest: float,
     longest: float,
     carries: Callable[[float], bool],
-    *,
-    tolerance: float = 0.05,
 ) -> float | None:
     """Find the cut-off [m] at which the film is full: shorter waves are taken off.
 
-    Bisection in the logarithm of the wavelength to a relative `tolerance`, between a `shortest`
+    Bisection in the logarithm of the wavelength to 5 %, between a `shortest`
     one, two pixels, and the `longest`, the length of the tile; the film need not be full for every
     longer cut-off, but it is for the one returned. `carries` tells whether it is for a cut-off.
     None if even the longest waves break the film.
@@ -43,7 +44,7 @@ def carrying_wavelength(
     low, high = math.log(shortest), math.log(longest)
     if not carries(math.exp(high)):
         return None
-    while high - low > tolerance:
+    while high - low > CUT_OFF_TOLERANCE:
         middle = 0.5 * (low + high)
         if carries(math.exp(middle)):
             high = middle
@@ -57,24 +58,19 @@ def carrying_outliers(
     prominence: Array,
     without_spikes: Callable[[float], Topography],
     carries: Carries,
-    *,
-    few: float = FEW,
-    tolerance: float = 0.1,
 ) -> tuple[float, int] | None:
     """Find the threshold of spikes at which the film is full, if a few points are what breaks it.
 
     `prominence` is (nx, ny), see :func:`pyehl.surfaces.spikes.prominence`; `without_spikes` takes
-    a threshold, `few` is the largest share of the points that may be removed, `tolerance` that of
-    the threshold, relative. Threshold and number of points beyond it; None if more than a few have
-    to go.
+    a threshold. Threshold and number of points beyond it; None if more than a few have to go.
     """
-    allowed = float(np.quantile(prominence, 1.0 - few))
+    allowed = float(np.quantile(prominence, 1.0 - FEW))
     low = max(LEAST_THRESHOLD, allowed)
     high = float(prominence.max())
     if low >= high or not carries(without_spikes(low)):
         return None
     least, most = math.log(low), math.log(high)
-    while most - least > tolerance:
+    while most - least > THRESHOLD_TOLERANCE:
         middle = 0.5 * (least + most)
         if carries(without_spikes(math.exp(middle))):
             least = middle

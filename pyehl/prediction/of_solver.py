@@ -46,7 +46,7 @@ class Predictions:
         if not self._resolved:
             try:
                 self._resolution = resolution(self._case, self._tiles)
-            except (EhlError, ValueError, ArithmeticError, OSError, MemoryError) as error:
+            except (EhlError, MemoryError) as error:
                 why = str(error) or type(error).__name__
                 self._resolution = why.replace(chr(10), " ")
             self._resolved = True

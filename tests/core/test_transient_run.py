@@ -101,42 +101,6 @@ def test_huge_ratios_are_printed(drive, tmp_path: Path):
     assert f"mu_r/mu_s {ratio:.5E}" in done.stdout
 
 
-@pytest.mark.parametrize("driver", ["ehl", "pyehl"])
-def test_what_was_not_done_is_listed(drive, tmp_path: Path, driver: str):
-    (tmp_path / "case.nml").write_text(WAVE)
-    done = drive(driver, "case.nml", "-o", "out")
-    assert done.returncode == 0
-    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
-    skips = summary["skips"]
-
-    def find(part: str) -> str:
-        return next(text for text in skips if part in text)
-
-    assert len(skips) == 5
-    # 65 x 32 nodes lie below Y = 0
-    assert find("symmetric").startswith("2080 of 4225 nodes")
-    assert find("second solve")
-    assert find("where P = 0")
-    assert int(find("before the roughness").split()[0]) == summary["steps_skipped"] == 13
-    assert int(find("settled").split()[0]) > 0
-
-    words = ["solver.symmetry=full", "time.skip_start=.false.", "time.steps=3"]
-    options = [word for text in words for word in ("--set", text)]
-    done = drive(driver, "case.nml", "-o", "none", *options)
-    assert done.returncode == 1
-    summary = json.loads((tmp_path / "none" / "summary.json").read_text())
-    assert len(summary["skips"]) == 2
-    told = " ".join(summary["skips"])
-    assert "symmetric" not in told
-    assert "before the roughness" not in told
-    assert "settled" not in told
-
-    (tmp_path / "smooth.nml").write_text("&contact moes_m = 100.0 /\n&grid points = 65 /\n")
-    done = drive(driver, "smooth.nml", "-o", "smooth")
-    assert done.returncode == 0
-    assert "skips" not in json.loads((tmp_path / "smooth" / "summary.json").read_text())
-
-
 def test_plot_of_a_transient_run(run_folder: Path, tmp_path: Path, capsys):
     assert cli.main(["plot", str(run_folder), "-o", str(tmp_path), "--dpi", "40"]) == 0
     written = {Path(line).name for line in capsys.readouterr().out.splitlines()}
