@@ -24,6 +24,7 @@ from pyehl.prediction.deformed import film_levels
 from pyehl.prediction.edge import Edge
 from pyehl.prediction.errors import model_error
 from pyehl.prediction.friction import (
+    BEYOND,
     LARGEST_RATIO,
     RoughFriction,
     SecondPassage,
@@ -33,6 +34,7 @@ from pyehl.prediction.friction import (
 from pyehl.prediction.meeting import Meeting
 from pyehl.prediction.moving_together import as_one
 from pyehl.prediction.pair_contact import PairContact, TileOnPoints
+from pyehl.prediction.pair_cut_off import known_by_cut_off
 from pyehl.prediction.passage import longer_waves, working_grid
 from pyehl.prediction.smooth import circle_of, zone_of
 from pyehl.prediction.spectrum import Spectrum
@@ -209,7 +211,7 @@ class RoughPair:
             limit = one.options.film_limit / one.operating.film_scale
             contact.watch(film_levels(limit, left))
             places = meeting.mean(contact.friction, one.options.positions, LARGEST_RATIO)
-            found = self._result(contact, parts, places)
+            found = self._result(contact, parts, places, brief)
             if found.status != "predicted":
                 return found, (math.nan, math.nan), []
             ratios = [
@@ -237,14 +239,15 @@ class RoughPair:
         one = self.as_one
         if one is not None:
             return one.below(shortest)
+        limit = 2.0 * math.pi / shortest
         with np.errstate(over="ignore", invalid="ignore"):
-            return self._below(self.parts(), 2.0 * math.pi / shortest)
+            return self.below_limits(self.parts(), (limit, limit))
 
-    def _below(self, parts: PairParts, limit: float) -> float:
-        """mu_r/mu_s of the waves with |q| below a limit [1/a]."""
+    def below_limits(self, parts: PairParts, limits: tuple[float, float]) -> float:
+        """mu_r/mu_s of the waves with |q| below a limit [1/a] of each, in their order."""
         kept: PairParts = []
         powers = []
-        for spectrum, transfer, edge in parts:
+        for (spectrum, transfer, edge), limit in zip(parts, limits, strict=True):
             few, index = longer_waves(spectrum, limit, self.of[0].operating.ellipse.ellipticity)
             powers.append(np.where(spectrum.q < limit, spectrum.power, 0.0))
             kept.append((few, transfer.kept(index), edge.below(limit)))
@@ -264,7 +267,7 @@ class RoughPair:
         q, power, deformed, pressure = (np.concatenate(both) for both in zip(*waves, strict=True))
         return joining(
             (q, power, deformed, pressure),
-            lambda limit: self._below(parts, limit),
+            lambda limit: self.below_limits(parts, (limit, limit)),
             total,
             self.of[0].operating,
             brief=brief,
@@ -275,15 +278,25 @@ class RoughPair:
         contact: PairContact,
         parts: PairParts,
         places: tuple[Array, Array, Array, float],
+        brief: bool,
     ) -> RoughFriction:
         o, ratios = self.of[0].operating, places[2]
+        status, message = outcome(contact, ratios)
+        if status == BEYOND and not brief:
+            message += known_by_cut_off(
+                [spectrum for spectrum, _, _ in parts],
+                self.order,
+                o.hertz_radius,
+                lambda limits: self.below_limits(parts, limits),
+                lambda numbers, length: self.without_shorter(numbers, length).run(0, brief=True)[0],
+            )
         responses = self.responses(parts)
         moved = [places[0] * o.hertz_radius, places[1] * o.hertz_radius]
         shifts = [moved[k] for k in self.order]
         touching = contact.touching / (contact.count * contact.points)
         return passed(
             contact,
-            outcome(contact, ratios),
+            (status, message),
             (shifts[0], ratios, places[3]),
             film_unit=o.film_scale,
             response=responses[0],
