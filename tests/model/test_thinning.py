@@ -75,12 +75,13 @@ def waves_at(case: Case) -> tuple[np.ndarray, float]:
     """T at the centre of a few waves, and by how much the lubricant is thinner for the inlet."""
     settings = case.resolve()
     o, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
-    zone = zone_of(solve_contact(settings), o, oil)
+    contact = solve_contact(settings)
+    zone = zone_of(contact, o, oil)
     kx, ky = np.array([10.0, 25.0, 40.0, 20.0]), np.array([0.0, 25.0, 0.0, 50.0])
     ratio = float(settings["surface"]["velocity_ratio"])
     inlet = inlet_transfer(zone, kx, ky, (o.moes_m, o.moes_l), ratio)
     ((driven, free),) = transport(zone, kx, ky, ratio, np.array([0.0]))
-    return driven + free * inlet * np.exp(1j * kx * (ratio - 1.0)), zone.thinning
+    return driven + free * inlet * np.exp(1j * kx * (ratio - 1.0)), contact.thinning
 
 
 def test_a_law_at_low_stress_is_newtonian():
