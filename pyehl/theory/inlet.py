@@ -36,6 +36,8 @@ GAUSS = np.polynomial.legendre.leggauss(4)
 # Waves that `passed` solves for, between which it interpolates: |q| [1/a] and direction
 WAVENUMBERS = np.geomspace(1.0, 128.0, 24)
 DIRECTIONS = np.linspace(0.0, 0.5 * np.pi, 7)
+# |q| at which half of the transport equation is taken out before [1/a]
+SHORT = 16.0
 
 
 def at_inlet(zone: Zone, qx: Array, qy: Array, velocity_ratio: float) -> Complex:
@@ -116,18 +118,24 @@ def _carried(n: int, h: float, slip: Array) -> Complex:
 def passed(zone: Zone, qx: ArrayLike, qy: ArrayLike, velocity_ratio: float) -> Complex:
     """`at_inlet` of waves (m,) [1/a], interpolated.
 
-    What it adds to :func:`pyehl.theory.transport.upstream` is smooth over wavenumber and direction.
-    Beyond WAVENUMBERS it is held.
+    What it adds to the share of :func:`pyehl.theory.transport.upstream` that short waves have is
+    smooth over wavenumber and direction. Beyond WAVENUMBERS it is held.
     """
     kx, ky = np.asarray(qx, dtype=float), np.asarray(qy, dtype=float)
+
+    def transported(x: Array, y: Array) -> Complex:
+        share = 1.0 / (1.0 + (SHORT / np.maximum(np.hypot(x, y), 1e-12)) ** 3)
+        return np.asarray(share * upstream(zone, x, y, velocity_ratio))
+
     added = []
     for direction in DIRECTIONS:
         x, y = WAVENUMBERS * np.cos(direction), WAVENUMBERS * np.sin(direction)
-        more = at_inlet(zone, x, y, velocity_ratio) - upstream(zone, x, y, velocity_ratio)
-        added.append(more)
+        added.append(at_inlet(zone, x, y, velocity_ratio) - transported(x, y))
+    # a wave that goes against the motion is the conjugate of one that goes along it
+    table = np.array([*added, *np.conj(added[-2::-1])])
     low, high = np.log(WAVENUMBERS[[0, -1]])
     q = np.clip(np.log(np.maximum(np.hypot(kx, ky), 1e-12)), low, high)
     column = (q - low) * ((WAVENUMBERS.size - 1) / (high - low))
     row = np.arctan2(ky, kx) * (2.0 / np.pi * (DIRECTIONS.size - 1))
-    found = map_coordinates(np.array(added), [row, column], order=3, mode="mirror")
-    return np.asarray(upstream(zone, kx, ky, velocity_ratio) + found)
+    found = map_coordinates(table, [row, column], order=3, mode="mirror")
+    return np.asarray(transported(kx, ky) + found)
