@@ -22,9 +22,9 @@ velocity along the normal makes the film, and the gap is that of the pressure ne
 move along a straight edge changes nothing. Nothing of that is fitted (docs/evidence/response,
 docs/evidence/ellipse).
 
-Where the lubricant thins by shear, B knows it, and of F - 1 the share
-:func:`pyehl.theory.transport.kept_of_inlet` remains; M and L are those of a Newtonian lubricant
-that makes as thick a film. Nothing of that is fitted.
+Where the lubricant thins by shear, or slips by more than the fit knows, G is that of a Newtonian
+lubricant at the nearest velocity ratio of the fit, times the ratio of what the linearised Reynolds
+equation makes of both (:mod:`pyehl.theory.inlet`). Nothing of that is fitted.
 """
 
 from __future__ import annotations
