@@ -76,3 +76,31 @@ def test_a_law_that_does_not_thin_changes_nothing(zone: Zone):
     qx, qy = np.array([3.0, 10.0, 30.0]), np.array([0.0, 10.0, 5.0])
     same = inlet_transfer(replace(zone, newtonian=zone), qx, qy, MOES, 1.1)
     np.testing.assert_allclose(same, inlet_transfer(zone, qx, qy, MOES, 1.1), rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("moes", "count", "largest"),
+    [
+        ((100.0, 3.0), 4, 0.081),
+        ((100.0, 20.0), 2, 0.064),
+        ((200.0, 10.0), 4, 0.038),
+        ((300.0, 12.0), 4, 0.033),
+        ((500.0, 5.0), 4, 0.05),
+        ((1000.0, 10.0), 4, 0.031),
+        ((2000.0, 15.0), 4, 0.057),
+        ((3000.0, 3.0), 2, 0.058),
+        ((3000.0, 20.0), 2, 0.113),
+    ],
+)
+def test_measured_waves_beyond_the_slip_of_the_fit(evidence, moes, count, largest):
+    """T at X = 0 in slip.csv: its largest deviation, and that the prediction is of this package."""
+    slip = evidence("response", "slip")
+    rows = slip.read()
+    rows = rows[(rows[:, :2] == moes).all(1)]
+    runs = np.unique(rows[:, 2:4], axis=0)
+    assert len(runs) == count
+    centre = rows[slip.compared(rows) & (rows[:, 6] == 0.0)]
+    assert 0.8 * largest < slip.off(centre).max() < largest
+    run = rows[(rows[:, 2:4] == runs[0]).all(1)]
+    found = slip.predicted(run)
+    np.testing.assert_allclose(found, run[:, 9] + 1j * run[:, 10], atol=2e-3)
