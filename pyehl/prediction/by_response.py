@@ -158,7 +158,8 @@ class RoughPassage:
         spectrum = self.spectrum(grid)
         transfer = self.transfer(spectrum)
         flattened = 1.0 - transfer.at_centre(spectrum, self.velocity_ratio)
-        edge = Edge.of(spectrum, flattened, self.operating.ellipse)
+        beside = transfer.beside(spectrum.qx, self.velocity_ratio)
+        edge = Edge.of(spectrum, flattened, self.operating.ellipse, beside)
         return grid, spectrum, transfer, edge
 
     def mean(self, parts: Parts | None = None) -> float:

@@ -12,6 +12,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.prediction.across import harmonics
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.theory.disc import LARGEST, RADIUS, disc_correction, disc_rim, monomials
 from pyehl.theory.ellipse import Ellipse
@@ -44,8 +45,17 @@ class Edge:
         self.shape = shape
 
     @classmethod
-    def of(cls, spectrum: Spectrum, flattened: Complex, shape: Ellipse) -> Edge:
-        """Of a tile, each component flattened by a factor (shape of the spectrum)."""
+    def of(
+        cls,
+        spectrum: Spectrum,
+        flattened: Complex,
+        shape: Ellipse,
+        beside: Complex | None = None,
+    ) -> Edge:
+        """Of a tile, each component flattened by a factor (shape of the spectrum).
+
+        `beside`: by how much less on lines beside the centre line of an ellipse (lines, ...).
+        """
         nx, ny = spectrum.shape
         q = spectrum.q
         strong = np.abs(spectrum.values) > 1e-9 * np.abs(spectrum.values).max()
@@ -60,7 +70,19 @@ class Edge:
         theta = np.linspace(0.0, 2.0 * math.pi, ANGLES, endpoint=False)
         found = ellipse.correction(qx, qy) if ellipse else disc_correction(qx, qy)
         rim = ellipse.rim(qx, qy, theta) if ellipse else disc_rim(qx, qy, theta)
-        return cls(qx, qy, found * amplitude, rim * amplitude, shape)
+        found, rim = found * amplitude, rim * amplitude
+        if ellipse and beside is not None:
+            # a wave whose amplitude changes across the motion is a sum of waves
+            parts = -twice * spectrum.values[i, j] / (nx * ny) * beside[:, i, j]
+            for k, part in zip(*harmonics(parts), strict=True):
+                there = qy + k / shape.ellipticity
+                q = np.hypot(qx, there)
+                feels = (q > 1e-9) & (q < ellipse.largest)
+                if feels.any():
+                    wave = qx[feels], there[feels]
+                    found[:, feels] += ellipse.correction(*wave) * part[feels]
+                    rim[:, feels] += ellipse.rim(*wave, theta) * part[feels]
+        return cls(qx, qy, found, rim, shape)
 
     def below(self, limit: float) -> Edge:
         """Return the part of the waves with |q| below a limit [1/a]."""

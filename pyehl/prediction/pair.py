@@ -107,7 +107,12 @@ class RoughPair:
             (
                 spectrum,
                 transfer,
-                Edge.of(spectrum, 1.0 - transfer.at_centre(spectrum, ratio), one.operating.ellipse),
+                Edge.of(
+                    spectrum,
+                    1.0 - transfer.at_centre(spectrum, ratio),
+                    one.operating.ellipse,
+                    transfer.beside(spectrum.qx, ratio),
+                ),
             )
             for (spectrum, ratio), transfer in zip(moving, transfers, strict=True)
         ]

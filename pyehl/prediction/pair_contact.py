@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl.prediction.edge import Edge
-from pyehl.prediction.rough_contact import REACH, WavyContact, add_waves, slipped
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.prediction.waves import REFINEMENT, Waves
+from pyehl.prediction.wavy_contact import REACH, WavyContact, add_waves, slipped
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
@@ -65,11 +65,10 @@ class TileOnPoints:
 
     def add(self, contact: PairContact, shift: float, total: Single) -> None:
         """Add loss of film and gain of pressure (m, n, 2) where the tile has moved by a shift."""
-        waves = self.waves
         columns = np.arange(contact.y.size, dtype=np.int32)
         driven, free = (self._rows(places - shift) for places in (self.places, self.free_places))
-        add_waves(waves.driven, driven, columns, contact.weights, 0, total)
-        contact.add_free(waves, free, columns, 0, total)
+        add_waves(self.waves.driven, driven, columns, contact.weights, 0, total)
+        contact.add_free(self.waves, free, columns, 0, total)
         contact.add_edge(total, self.edge.at(shift, self.track))
 
 

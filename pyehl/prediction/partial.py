@@ -30,11 +30,11 @@ from numpy.typing import NDArray
 
 from pyehl.prediction.by_response import Parts, RoughPassage
 from pyehl.prediction.obstacle import Compliance, lifted
-from pyehl.prediction.rough_contact import missing, slipped
 from pyehl.prediction.second_order import film_left, loss_at
 from pyehl.prediction.smooth import circle_of, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
+from pyehl.prediction.wavy_contact import missing, slipped
 from pyehl.surfaces import Topography
 from pyehl.theory.transport import stiffness
 

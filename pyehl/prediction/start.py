@@ -25,19 +25,18 @@ from pyehl.prediction.edge import Edge
 from pyehl.prediction.errors import model_error, outside_range
 from pyehl.prediction.options import Options, turned
 from pyehl.prediction.pair import RoughPair
-from pyehl.prediction.rough_contact import (
+from pyehl.prediction.smooth import SmoothContact, solve_contact
+from pyehl.prediction.spectrum import Spectrum
+from pyehl.prediction.transfer import Transfer
+from pyehl.prediction.wavy_contact import (
     REACH,
     line_weights,
     slipped,
     station_weights,
 )
-from pyehl.prediction.smooth import SmoothContact, solve_contact
-from pyehl.prediction.spectrum import Spectrum
-from pyehl.prediction.transfer import Transfer
 from pyehl.surfaces import Topography
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.response import edge_gain
 from pyehl.theory.transport import free_stiffness, stiffness
 
 __all__ = ["hand_over", "starting_pressure"]
@@ -216,19 +215,21 @@ class _Waves:
     ) -> None:
         """Splines through the pressure of driven and free waves, by station."""
         qx, qy = spectrum.qx[:, np.newaxis], spectrum.qy[np.newaxis, :]
-        stiffening = transfer.stiffening
-        gain = stiffening * edge_gain(
-            qx, qy, stiffening * contact.central_film, ellipticity=transfer.ellipticity
-        )
+        gain = transfer.gain(qx, qy, contact.central_film)
         k, k_free = gain * stiffness(spectrum.q), gain * free_stiffness(qx, qy, ratio)
 
         def spline(factor: Complex) -> Array:
             tile = spectrum.tile(factor, REFINEMENT)
             return np.asarray(scipy.ndimage.spline_filter(tile, order=3, mode="grid-wrap"))
 
-        self.driven = [spline(k * (1.0 - t)) for t in transfer.driven]
-        self.free = [spline(-k_free * t) for t in transfer.free]
-        self.free_off = [spline(-k_free * t) for t in transfer.off_centre]
+        driven = [k * (1.0 - t) for t in transfer.driven]
+        free, off = ([-k_free * t for t in part] for part in (transfer.free, transfer.off_centre))
+        if transfer.pressed:
+            pressures = transfer.free_pressures(qx, qy, ratio)
+            free, off = ([-gain * p for p in part] for part in pressures)
+        self.driven, self.free, self.free_off = (
+            [spline(one) for one in part] for part in (driven, free, off)
+        )
 
     def _at(self, spline: Array, x: Array) -> Array:
         """Values of a tile at places X on it and at the Y of the nodes."""

@@ -12,11 +12,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from pyehl.prediction.across import LINES, pressed
 from pyehl.prediction.second_order import SecondOrder
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.wave_table import WaveTable, coarsened
-from pyehl.theory.response import inlet_transfer
-from pyehl.theory.transport import Zone, transport, wave_pressure
+from pyehl.theory.response import edge_gain, inlet_transfer
+from pyehl.theory.transport import Zone, free_stiffness, transport, wave_pressure
 
 __all__ = ["LINES", "MIDDLE", "STATIONS", "Transfer"]
 
@@ -29,9 +30,6 @@ STATIONS = np.array([-0.5, 0.0, 0.5])
 MIDDLE = 1
 """The one of them at X = 0."""
 CENTRE = STATIONS[: MIDDLE + 1]
-LINES = np.array([-0.95, -0.8, -0.6, -0.3, 0.0, 0.3, 0.6, 0.8, 0.95])
-"""Lines along the motion on which the free wave is made [semi-axis], symmetric about the centre
-line; between them it is interpolated."""
 AXIS = LINES.size // 2
 """The one of them on the centre line."""
 
@@ -50,6 +48,12 @@ def _bends(spectrum: Spectrum, velocity_ratio: float) -> bool:
     shortest wave differs little over the lines that friction comes from, it is interpolated.
     """
     return abs(velocity_ratio - 1.0) * float(spectrum.qx[-1]) * 0.5 * FRICTION_LINES**2 > BENDING
+
+
+def _bend(kx: Array, slip: float) -> Complex:
+    """Phase that slip loses by the curved inlet on LINES: (lines, ...)."""
+    behind = np.sqrt(1.0 - np.square(LINES)) - 1.0
+    return np.asarray(np.exp(1j * slip * np.multiply.outer(behind, kx)))
 
 
 def _at_amplitude(zone: Zone, variance: float) -> Zone:
@@ -83,8 +87,7 @@ class _Entering:
         self._slip = velocity_ratio - 1.0
         self._inlet = inlet_transfer(zone, kx, ky, moes, velocity_ratio, LINES)
         if not self.bent:
-            behind = np.sqrt(1.0 - np.square(LINES)) - 1.0
-            self._inlet *= np.exp(1j * self._slip * np.outer(behind, kx))
+            self._inlet *= _bend(kx, self._slip)
 
     def variance(self, zone: Zone, mesh: float) -> float:
         """Mean square of their pressure at X = 0 where they leak as in a zone [p_h^2]."""
@@ -116,19 +119,26 @@ class _Entering:
                 for (d, f), t in zip(stations, turned, strict=True)
             ]
         )
+        beside = stations[MIDDLE][1] * (self._inlet - inlet)
+        lines = [np.delete(beside, AXIS, 0)]
+        if zone.ellipticity != 1.0:
+            bend = _bend(kx, self._slip) if self.bent else 1.0
+            lines.append(pressed(beside * bend, kx, ky, self.ratio, zone.ellipticity) / bend)
         found = self.table.spread(
             [driven for driven, _ in stations]
             + [free * inlet for _, free in stations]
-            + [stations[MIDDLE][1] * (there - inlet) for there in np.delete(self._inlet, AXIS, 0)]
+            + [part for parts in lines for part in parts]
         )
         # the table has k_Y > 0; a wave with -k_Y is on a line what one with k_Y is on its mirror
         # image
-        count = 2 * STATIONS.size
-        beside, mirrored = found[count:], found[: count - 1 : -1]
-        negative = self._negative
-        found[count:] = [
-            np.where(negative, other, one) for one, other in zip(beside, mirrored, strict=True)
-        ]
+        first = 2 * STATIONS.size
+        for part in lines:
+            sides = found[first : first + len(part)]
+            found[first : first + len(part)] = [
+                np.where(self._negative, other, one)
+                for one, other in zip(sides, sides[::-1], strict=True)
+            ]
+            first += len(part)
         return found, (ratios, pressures, carried)
 
 
@@ -147,6 +157,9 @@ class Transfer:
     bent: bool
     # The pressure of second order; None where the waves move with the roughness as they are
     second: SecondOrder | None = None
+    # Of an ellipse, what gives way where `off_centre` is [p_h R/a^2], of a half-space under a circle:
+    # on each of LINES (:func:`pyehl.prediction.across.pressed`)
+    pressed: tuple[Complex, ...] = ()
     stiffening: float = 1.0  # stiffness over that of the half-space under a circle
     ellipticity: float = 1.0  # of the contact
 
@@ -205,9 +218,10 @@ class Transfer:
             cls(
                 found[:count],
                 found[count : 2 * count],
-                found[2 * count :],
+                found[2 * count : 2 * count + LINES.size - 1],
                 waves.bent,
                 second,
+                tuple(found[2 * count + LINES.size - 1 :]),
                 zone.stiffness,
                 zone.ellipticity,
             )
@@ -226,7 +240,36 @@ class Transfer:
         driven, free, off = (
             [t[cut] for t in part] for part in (self.driven, self.free, self.off_centre)
         )
-        return replace(self, driven=driven, free=free, off_centre=off)
+        pressed = tuple(p[cut] for p in self.pressed)
+        return replace(self, driven=driven, free=free, off_centre=off, pressed=pressed)
+
+    def gain(self, qx: Array, qy: Array, central_film: float) -> Array:
+        """Stiffness of waves [1/a] over that of the half-space under a circle, at H_c [a^2/R].
+
+        The factor that was measured on circles is for what is calculated on ellipses.
+        """
+        if self.pressed:
+            return np.full(np.broadcast_shapes(qx.shape, qy.shape), self.stiffening)
+        return self.stiffening * edge_gain(qx, qy, self.stiffening * central_film)
+
+    def free_pressures(self, qx: Array, qy: Array, velocity_ratio: float) -> tuple[list[Complex], ...]:
+        """Pressures by which free waves give way on an ellipse, of a half-space under a circle.
+
+        At the stations, and what is added on each of LINES but the centre line.
+        """
+        k_free, axis = free_stiffness(qx, qy, velocity_ratio), self.pressed[AXIS]
+        lines = [p - axis for i, p in enumerate(self.pressed) if i != AXIS]
+        return [k_free * t + axis for t in self.free], lines
+
+    def beside(self, qx: Array, velocity_ratio: float) -> Complex | None:
+        """Change of T at X = 0 on LINES (lines, ...) of an ellipse; None of a circle."""
+        if not self.pressed:
+            return None
+        slip = velocity_ratio - 1.0
+        kx = np.broadcast_to(qx[:, np.newaxis], self.off_centre[0].shape)
+        bend = _bend(kx, slip) if self.bent else 1.0
+        lines = np.insert(np.array(self.off_centre), AXIS, 0.0, axis=0)
+        return np.asarray(lines * np.exp(1j * kx * slip) * bend)
 
     def at_centre(self, spectrum: Spectrum, velocity_ratio: float) -> Complex:
         """T at X = Y = 0."""

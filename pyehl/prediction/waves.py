@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
-from pyehl.theory.response import edge_gain
 from pyehl.theory.transport import free_stiffness, stiffness
 
 __all__ = ["REFINEMENT", "Waves"]
@@ -62,10 +61,7 @@ class Waves:
         On the columns of the tile, or on lines Y (n,) [a].
         """
         qx, qy = spectrum.qx[:, np.newaxis], spectrum.qy[np.newaxis, :]
-        stiffening = transfer.stiffening
-        gain = stiffening * edge_gain(
-            qx, qy, stiffening * central_film, ellipticity=transfer.ellipticity
-        )
+        gain = transfer.gain(qx, qy, central_film)
         k = (stiffness(spectrum.q) * gain).astype(np.float32)
         k_free = (free_stiffness(qx, qy, velocity_ratio) * gain).astype(np.float32)
         narrow = spectrum.single()
@@ -83,17 +79,27 @@ class Waves:
                     place[..., i] = narrow.tile(factor, refinement, stride, across)
             return found
 
-        def free(waves: list[Complex]) -> Single:
-            lit = (t.astype(np.complex64) * bright for t in waves)
-            return tiles([(t, -k_free * t) for t in lit], REFINEMENT)
+        def lit(waves: list[Complex]) -> list[Narrow]:
+            return [t.astype(np.complex64) * bright for t in waves]
+
+        def free(waves: list[Complex], pressures: list[Complex]) -> Single:
+            if not pressures:
+                return tiles([(t, -k_free * t) for t in lit(waves)], REFINEMENT)
+            given = [-one for one in lit([gain * p for p in pressures])]
+            return tiles(list(zip(lit(waves), given, strict=True)), REFINEMENT)
+
+        on_stations: list[Complex] = []
+        on_lines: list[Complex] = []
+        if transfer.pressed:
+            on_stations, on_lines = transfer.free_pressures(qx, qy, velocity_ratio)
 
         driven = [(t, k * (1 - t)) for t in (t.astype(np.complex64) for t in transfer.driven)]
         if lines is not None:
             driven = [(t * bright, pressure * bright) for t, pressure in driven]
         return cls(
             tiles(driven, 1 if lines is None else REFINEMENT),
-            free(transfer.free) if transfer.free else None,
-            free(transfer.off_centre) if transfer.off_centre else None,
+            free(transfer.free, on_stations) if transfer.free else None,
+            free(transfer.off_centre, on_lines) if transfer.off_centre else None,
             stride,
             transfer.bent,
         )

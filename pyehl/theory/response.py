@@ -50,11 +50,6 @@ Complex = NDArray[np.complex128]
 GAIN = (0.0674, 0.3085, 2.414, 28.44)
 """Constants of `edge_gain`, fitted by docs/evidence/response/gain.py."""
 
-CURVATURE = -2.35
-"""Power of the ellipticity in it."""
-NARROW = 4.0
-"""Power with which the weight of oblique waves in it falls in narrow contacts."""
-
 SHORT = 3.0
 """nabla_2 of the wave for which the transport equation counts half in the inlet; others do as well
 (docs/evidence/response)."""
@@ -67,7 +62,6 @@ def edge_gain(
     qy: ArrayLike,
     central_film: ArrayLike,
     constants: Sequence[float] | Array = GAIN,
-    ellipticity: float = 1.0,
 ) -> Array:
     """Pressure of a wave in the contact over that of the half-space, K (1 - T), at its centre [-].
 
@@ -77,19 +71,18 @@ def edge_gain(
     or less, the largest 0.05. At M = 100, where little pressure is left to measure, it is wrong;
     for ridges of a/8 it is 2 % too low.
 
-    In an ellipse it goes with the curvature of the inlet: measured on ellipticities from 0.4 to 4
-    (docs/evidence/ellipse), with the power `CURVATURE`; in narrow ones it is mainly that of ridges.
+    On ellipses the pressure is calculated (:mod:`pyehl.prediction.across`), and there is no such
+    factor.
 
-    Wavenumbers [1/a], H_c [a^2/R], of an ellipse over its kernel ratio. The constants are factor
-    and power of the film, weight of oblique waves, |q| at which it fades [1/a].
+    Wavenumbers [1/a], H_c [a^2/R]. The constants are factor and power of the film, weight of oblique
+    waves, |q| at which it fades [1/a].
     """
     kx, ky = np.asarray(qx, dtype=float), np.asarray(qy, dtype=float)
     q = np.hypot(kx, ky)
     across = np.square(ky / np.maximum(q, 1e-12))
     factor, power, weight, fading = constants
-    film = factor * np.asarray(central_film, dtype=float) ** power * ellipticity**CURVATURE
+    film = factor * np.asarray(central_film, dtype=float) ** power
     fade = 1.0 + (q / fading) ** 2.5
-    weight *= min(1.0, ellipticity) ** NARROW
     return np.asarray(1.0 + film * across * (1.0 + weight * (1.0 - across)) / fade)
 
 

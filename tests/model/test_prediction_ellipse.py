@@ -15,9 +15,11 @@ import pytest
 import pyehl
 from pyehl.errors import InputError
 from pyehl.measured_response.table import shipped_response
+from pyehl.prediction.across import LINES, harmonics, pressed
 from pyehl.prediction.errors import model_error, outside_range
 from pyehl.prediction.options import Options
 from pyehl.prediction.smooth import solve_contact, zone_of
+from pyehl.prediction.transfer import AXIS
 from pyehl.theory.disc import RADIUS, disc_correction, monomials
 from pyehl.theory.ellipse import Ellipse, ellipse
 from pyehl.theory.ellipse_edge import EllipseEdge, pressure
@@ -25,6 +27,7 @@ from pyehl.theory.film import circle_with_same_inlet
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_fit
+from pyehl.theory.transport import free_stiffness
 
 # R_x/R_y of the ellipticities 2 and 0.4
 WIDE, NARROW = 0.351771642284186, 3.998264475680259
@@ -101,7 +104,10 @@ def test_polynomials_meet_the_edge(kappa):
 
 
 def test_circle_is_the_limit_of_ellipses():
-    """A hair beside the circle the other code predicts the same, but for its film by a formula."""
+    """A hair beside the circle the other code predicts nearly the same.
+
+    Its film is that of a formula, and the pressure of oblique waves is calculated, not fitted.
+    """
     contact = {"contact.moes_m": 300.0, "contact.moes_l": 10.0}
     found = [
         pyehl.predict(pyehl.Case.from_text("", contact | ROUGH | {"contact.radius_ratio": ratio}))
@@ -113,7 +119,7 @@ def test_circle_is_the_limit_of_ellipses():
         here.summary["mu_ratio_tracks"], rel=1e-3
     )
     for one, other in zip(here.bands, near.bands, strict=True):
-        assert other.rise == pytest.approx(one.rise, abs=5e-4)
+        assert other.rise == pytest.approx(one.rise, abs=1e-3)
     assert "ellipticity" not in here.summary
     assert near.summary["ellipticity"] == pytest.approx(1.0, abs=1e-6)
 
@@ -159,7 +165,7 @@ def test_waves_as_measured(root: Path):
         if kappa < 0.5 or kappa > 1.5:
             assert rms["circle"] < 0.9 * rms["dry"]
         mean = sum(r["circle_pressure"] / r["pressure"] for r in part) / len(part)
-        assert mean == pytest.approx(1.0, abs=0.015)
+        assert mean == pytest.approx(1.0, abs=0.012 if kappa > 0.5 else 0.023)
 
 
 def test_shipped_waves_are_those_of_the_table(root: Path, script):
@@ -270,7 +276,8 @@ def test_readme_says_what_the_table_says(compare):
     ended = [row for row in compare.read("simulated.csv") if row["status"] == "converged"]
     assert len(table) == len(ended) == len(compare.read("cases.csv")) - 1
     number = r" ([-\d.]+)(?: %)? \|"
-    lines = re.findall(r"^\| [^|]+ \| (\d+) \|" + 6 * number + "$", text, re.M)
+    head = text.split("\n## ")[0]
+    lines = re.findall(r"^\| [^|]+ \| (\d+) \|" + 6 * number + "$", head, re.M)
     limits = compare.LIMITS
     for low, high, words in zip(limits[:-1], limits[1:], lines, strict=True):
         part = [row for row in table if low < row["mu_ratio"] <= high]
@@ -303,7 +310,46 @@ def test_pages_show_the_finer_grid(root: Path, compare):
     run, said = fine["k050b"], table["k050b"]["prediction"]
     limit = run["mu_ratio"] + run["mu_ratio_error_grid"] / 3.0
     text = (compare.HERE / "README.md").read_text(encoding="utf-8")
-    assert f"approaches {limit:.3f} with order 2, {100.0 * (said / limit - 1.0):.1f} %" in text
+    assert f"approaches {limit:.3f} with order 2, {100.0 * (1.0 - said / limit):.1f} % above" in text
+
+
+def test_ridges_beside_the_centre_line(root: Path, compare, script):
+    """What they take beyond the half-space, by calculation: most of what is measured."""
+    folder = root / "docs" / "evidence" / "ellipse"
+    rows, text = rows_of(folder / "sides.csv"), (folder / "README.md").read_text(encoding="utf-8")
+    for key in {(row["ellipticity"], row["wavelength"]) for row in rows}:
+        part = {row["y"]: row for row in rows if (row["ellipticity"], row["wavelength"]) == key}
+        cells = [
+            f"{part[y][name]:.3f}" if y in part else ""
+            for y in (0.0, 0.25, 0.5)
+            for name in ("gain", "predicted_gain")
+        ]
+        assert f"| {key[0]:g} | {key[1]:g} | {' | '.join(cells)} |" in text
+    near = [row for row in rows if row["y"] <= 0.5]
+    off = [row["predicted_gain"] - row["gain"] for row in near]
+    assert min(off) > -0.1
+    assert max(off) < 0.02
+    # and today's prediction is the one of the table
+    sides = script("docs/evidence/ellipse/sides.py")
+    settings = sides.case_of_circle(0.5, 300.0, 12.0, 1.0).resolve()
+    _, gain = sides.predicted(settings, 0.25)
+    (row,) = (r for r in rows if r["wavelength"] == 0.25 and r["moes_m"] == 300.0 and not r["y"])
+    assert gain[sides.AXIS] == pytest.approx(row["predicted_gain"], abs=2e-3)
+
+
+def test_waves_across_the_motion():
+    """An amplitude that is the same on all lines is one wave; one that changes is a sum."""
+    ky, level = np.array([5.0]), np.ones((LINES.size, 1), dtype=complex)
+    wavenumbers, parts = harmonics(level)
+    inside = np.abs(LINES) < 0.9
+    there = np.exp(1j * np.outer(LINES, wavenumbers)) @ parts[:, 0]
+    assert np.abs(there - 1.0)[inside].max() < 0.01
+    # a hump is stiffer than a wave as high everywhere
+    hump = level * (1.0 - np.square(LINES))[:, np.newaxis]
+    here = pressed(level, 0.0 * ky, ky, 1.0, 1e3)[AXIS, 0]
+    assert here == pytest.approx(free_stiffness(0.0 * ky, ky, 1.0)[0], rel=1e-2)
+    wide, narrow = (pressed(hump, 0.0 * ky, ky, 1.0, kappa)[AXIS, 0].real for kappa in (1e3, 0.3))
+    assert narrow > 1.005 * wide
 
 
 def test_static_ridges(root: Path):

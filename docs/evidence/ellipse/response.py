@@ -1,21 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Measure small waves on elliptical contacts: lines of response.csv, a minute or some each.
 
-python docs/evidence/ellipse/response.py ELLIPTICITY M L U
+    python docs/evidence/ellipse/response.py ELLIPTICITY M L U     measures and adds waves
+    python docs/evidence/ellipse/response.py                       predicts those of the table anew
 
 M and L are those of the circular contact with the same dry inlet (`equivalent_moes`). A line is a
-wave, on 257 nodes along X, at X = Y = 0: T as measured; by the
-response of the circle with the same inlet and film, that with the same dry inlet, that of Biboulet
-& Houpert 2010, and that of M and L by R_x; the pressure over roughness measured, and by the first.
+wave, on 257 nodes along X, at X = Y = 0: T as measured; by the response of the circle with the
+same inlet and film, that with the same dry inlet, that of Biboulet & Houpert 2010, and that of M
+and L by R_x; the pressure over roughness measured, and by the first.
 """
 
 from __future__ import annotations
 
 import csv
+import itertools
 import sys
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from centre import at_centre
+from numpy.typing import NDArray
 
 from cases import HERE, case_of_circle
 from pyehl.handle import SolverHandle
@@ -25,9 +30,13 @@ from pyehl.prediction.smooth import solve_contact, zone_on
 from pyehl.theory.film import circle_with_same_inlet
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.response import edge_gain, inlet_transfer
-from pyehl.theory.transport import Zone, transport, wave_pressure
+from pyehl.theory.response import inlet_transfer
+from pyehl.theory.transport import Zone, transport
 
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+# Length of the domain of a measurement [a]
+WIDTH = 4.0
 MODELS = ("circle", "dry", "houpert", "by_rx")
 COLUMNS = (
     "ellipticity moes_m moes_l velocity_ratio kx ky T_re T_im "
@@ -49,50 +58,75 @@ def smooth_zone(settings: dict[str, dict[str, Any]], points: int) -> Zone:
     return zone_on(x, np.maximum(pressure[:, middle], 0.0), film[:, middle], point, oil)
 
 
-def lines(conditions: list[float], waves: WaveSet, found: Superposition) -> list[list[str]]:
-    """Give the lines of a measurement."""
-    ratio = conditions[3]
+def predicted(
+    conditions: Sequence[float], kx: Array, ky: Array, points: int
+) -> tuple[list[Complex], Array]:
+    """T by the models and pressure over roughness by the first, of waves on a grid."""
     settings = case_of_circle(*conditions).resolve()
+    ratio, spacing = conditions[3], WIDTH / (points - 1)
     point, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
     shape = point.ellipse
-    zone = smooth_zone(settings, TIERS[0].points)
-    kx, ky = waves.kx, waves.ky
-    driven, free = transport(zone, kx, ky, ratio, np.zeros(1), found.spacing)[0]
+    zone = smooth_zone(settings, points)
+    driven, free = transport(zone, kx, ky, ratio, np.zeros(1), spacing)[0]
     turned = free * np.exp(1j * kx * (ratio - 1.0))
     same = circle_with_same_inlet(point, oil, solve_contact(settings).central_film)
     houpert = (
         point.moes_m * shape.kernel_ratio**-0.25 / shape.ellipticity,
         point.moes_l * shape.kernel_ratio**0.75,
     )
-    carried = [
-        turned * inlet_transfer(zone, kx, ky, moes, ratio)
+    amplitudes = [
+        driven + turned * inlet_transfer(zone, kx, ky, moes, ratio)
         for moes in (same, point.equivalent_moes, houpert, (point.moes_m, point.moes_l))
     ]
-    cell = np.sinc(kx * found.spacing / (2.0 * np.pi)) * np.sinc(ky * found.spacing / (2.0 * np.pi))
-    film = zone.stiffness * found.central_film
-    gain = zone.stiffness * edge_gain(kx, ky, film, ellipticity=shape.ellipticity) / cell
-    pressure = gain * wave_pressure(kx, ky, ratio, driven, carried[0])
+    cell = np.sinc(kx * spacing / (2.0 * np.pi)) * np.sinc(ky * spacing / (2.0 * np.pi))
+    _, pressure = at_centre(zone, same, (kx, ky, ratio), shape, edge=False, spacing=spacing)
+    return amplitudes, np.abs(pressure) / cell
+
+
+def lines(conditions: list[float], waves: WaveSet, found: Superposition) -> list[list[str]]:
+    """Give the lines of a measurement."""
+    amplitudes, pressure = predicted(conditions, waves.kx, waves.ky, TIERS[0].points)
     middle = int(np.argmin(np.abs(found.x)))
     table = []
     for k in np.argsort(waves.q):
         length = 2.0 * np.pi / waves.q[k]
-        if length < NODES * found.spacing * 0.9 or 2.0 * np.pi / kx[k] > LONGEST:
+        if length < NODES * found.spacing * 0.9 or 2.0 * np.pi / waves.kx[k] > LONGEST:
             continue
-        values = [*conditions, kx[k], ky[k]]
-        for one in (found.response[k, middle], *(driven[k] + wave[k] for wave in carried)):
+        values = [*conditions, waves.kx[k], waves.ky[k]]
+        for one in (found.response[k, middle], *(wave[k] for wave in amplitudes)):
             values += [one.real, one.imag]
-        values += [abs(found.stiffness[k, middle]), abs(pressure[k])]
+        values += [abs(found.stiffness[k, middle]), pressure[k]]
         table.append([f"{v:.5g}" for v in values])
     return table
 
 
+def again() -> list[list[str]]:
+    """Lines of the table with the predictions of today."""
+    with (HERE / "response.csv").open(encoding="utf-8", newline="") as stream:
+        rows = list(csv.reader(stream))[1:]
+    table = []
+    for key, group in itertools.groupby(rows, key=lambda row: row[:4]):
+        part = list(group)
+        kx, ky = (np.array([float(row[i]) for row in part]) for i in (4, 5))
+        amplitudes, pressure = predicted([float(v) for v in key], kx, ky, TIERS[0].points)
+        for k, row in enumerate(part):
+            waves = [f"{v:.5g}" for t in amplitudes for v in (t[k].real, t[k].imag)]
+            table.append([*row[:8], *waves, row[-2], f"{pressure[k]:.5g}"])
+    return table
+
+
 def main() -> None:
-    """Measure, and add the waves to the table."""
+    """Measure, and add the waves to the table; or predict those in it."""
+    path = HERE / "response.csv"
+    if len(sys.argv) == 1:
+        table = again()
+        with path.open("w", newline="", encoding="utf-8") as stream:
+            csv.writer(stream, lineterminator="\n").writerows([COLUMNS, *table])
+        return
     conditions = [float(word) for word in sys.argv[1:5]]
     waves = tier_waves(TIERS[0])
     settings = case_of_circle(*conditions).resolve()
     found = superpose(settings, waves, points=TIERS[0].points, velocity_ratio=conditions[3])
-    path = HERE / "response.csv"
     fresh = [] if path.exists() else [COLUMNS]
     with path.open("a", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream, lineterminator="\n")

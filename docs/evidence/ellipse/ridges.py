@@ -13,14 +13,12 @@ import csv
 import sys
 
 import numpy as np
+from centre import at_centre
 
 from cases import HERE, case_of_circle
 from pyehl.prediction.smooth import circle_of, solve_contact, zone_of
-from pyehl.theory.ellipse_edge import EllipseEdge
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.response import edge_gain, inlet_transfer
-from pyehl.theory.transport import stiffness, transport
 
 POINTS = 129
 WAVELENGTHS = (1.0, 0.5, 1.0 / 3.0, 0.25)
@@ -41,7 +39,6 @@ def main() -> None:
 
     lines = [COLUMNS]
     ky = 2.0 * np.pi / np.array(WAVELENGTHS)
-    still = np.zeros(1)
     for contact in CONTACTS:
         settings = case_of_circle(*contact, 1.0).resolve()
         point, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
@@ -49,15 +46,9 @@ def main() -> None:
         middle = int(np.argmin(np.abs(found["x"])))
         smooth = solve_contact(settings)
         zone = zone_of(smooth, point, oil)
-        inlet = inlet_transfer(zone, 0.0 * ky, ky, circle_of(smooth, point, oil), 1.0)
-        ((driven, free),) = transport(zone, 0.0 * ky, ky, 1.0, still)
-        t = (driven + free * inlet).real
-        edge = EllipseEdge(point.ellipse)
-        beyond = (edge.functions(still, still).T @ edge.correction(0.0 * ky, ky))[0].real
-        film = zone.stiffness * smooth.central_film
-        gain = edge_gain(0.0 * ky, ky, film, ellipticity=point.ellipse.ellipticity)
-        pressure = (zone.stiffness * stiffness(ky) * gain + beyond) * (1.0 - t)
-        columns = found["response"][:, middle], t, found["stiffness"][:, middle], pressure
+        moes = circle_of(smooth, point, oil)
+        t, pressure = at_centre(zone, moes, (0.0 * ky, ky, 1.0), point.ellipse, edge=True)
+        columns = found["response"][:, middle], t.real, found["stiffness"][:, middle], pressure.real
         for values in zip(WAVELENGTHS, *columns, strict=True):
             lines.append([f"{v:.4g}" for v in (*contact, *values)])
             print(*lines[-1], flush=True)

@@ -33,10 +33,10 @@ from pyehl import surfaces  # noqa: E402
 from pyehl.prediction import second_order  # noqa: E402
 from pyehl.prediction.by_response import RoughPassage  # noqa: E402
 from pyehl.prediction.options import Options  # noqa: E402
-from pyehl.prediction.rough_contact import WavyContact  # noqa: E402
 from pyehl.prediction.smooth import solve_contact  # noqa: E402
 from pyehl.prediction.spectrum import Spectrum  # noqa: E402
 from pyehl.prediction.transfer import Transfer  # noqa: E402
+from pyehl.prediction.wavy_contact import WavyContact  # noqa: E402
 from pyehl.solver import Solver  # noqa: E402
 from pyehl.surfaces import Topography, shifted  # noqa: E402
 from pyehl.theory.lubricant import Lubricant  # noqa: E402

@@ -1,0 +1,264 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Friction of a contact at one position of a rough tile, by the response of the contact.
+
+Pressure P_s + delta P and film H_s - rr_d with P_s and H_s of the smooth contact; friction is the
+integral of the shear stress (Zhang et al. 2019, eqs 13, 14). The waves that the tile makes come
+from :mod:`pyehl.prediction.waves`, the pressure of second order is that of
+:mod:`pyehl.prediction.second_order`; a wave longer than half the contact radius also feels the edge
+of the contact, which it moves (:mod:`pyehl.prediction.edge`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pyehl import library
+from pyehl.prediction.contact import INNER, NEAR, ShearedContact
+from pyehl.prediction.edge import ANGLES, Edge
+from pyehl.prediction.second_order import FILM_ENDS, film_left
+from pyehl.prediction.smooth import SmoothContact
+from pyehl.prediction.transfer import AXIS, LINES, STATIONS
+from pyehl.prediction.waves import Waves
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+
+__all__ = [
+    "REACH",
+    "WavyContact",
+    "add_waves",
+    "line_weights",
+    "missing",
+    "pairs",
+    "slipped",
+    "station_weights",
+]
+
+Array = NDArray[np.float64]
+Single = NDArray[np.float32]
+
+REACH = 1.0
+"""Friction is taken within this distance from the centre [semi-axes]."""
+OUTER = 0.7
+"""Distance from the centre beyond which the smooth film moves with the edge [semi-axes]; further
+inside it is level."""
+RINGS = np.array([0.0, 0.4, OUTER])
+"""Inner radii of the rings in which the pressure carries what the waves leave [semi-axes]."""
+
+
+def station_weights(x: Array) -> Array:
+    """Weights (..., n) of the stations in the waves at places X [a]."""
+    return np.stack([np.interp(x, STATIONS, unit) for unit in np.eye(STATIONS.size)], axis=-1)
+
+
+def line_weights(y: Array) -> Array:
+    """Weights (n, lines) of LINES but the centre line in the free wave at places Y [semi-axis]."""
+    lines = np.delete(np.eye(LINES.size), AXIS, 0)
+    return np.stack([np.interp(y, LINES, unit) for unit in lines], axis=-1)
+
+
+def slipped(x: Array, y: Array, velocity_ratio: float, *, bent: bool) -> Array:
+    """Way of the roughness past the free wave since the inlet made that [a].
+
+    At places X [a] and Y [semi-axis].
+    """
+    inlet = np.sqrt(np.maximum(0.0, 1.0 - y * y)) if bent else np.ones_like(y)
+    return (velocity_ratio - 1.0) * (x + inlet)
+
+
+class WavyContact(ShearedContact):
+    """Points of a contact that waves change: pressures in p_h, films in a^2/R.
+
+    At places x (m,), y (n,) [a]; a point stands for an `area` [m^2]. `edges` of the tiles;
+    `second`: gamma and s^2 of the pressure of second order at the stations.
+    """
+
+    def __init__(
+        self,
+        contact: SmoothContact,
+        x: Array,
+        y: Array,
+        *,
+        edges: Sequence[Edge],
+        area: float,
+        operating: OperatingPoint,
+        lubricant: Lubricant,
+        second: tuple[Array, Array] | None = None,
+    ) -> None:
+        super().__init__(operating, lubricant)
+        self.x, self.y, self.area = x, y, area
+        self.pressure, self.film = contact.at(self.x, self.y)
+        self.across = self.y / operating.ellipse.ellipticity
+        self.radius = np.hypot(self.x[:, np.newaxis], self.across[np.newaxis, :])
+        self.inside = (self.radius < REACH) & (self.pressure > 0.0)
+        self.points = int(np.count_nonzero(self.inside))
+        self.inner, self.near = (self.inside & (self.radius < r) for r in (INNER, NEAR))
+        self.rings = np.searchsorted(RINGS, self.radius[self.inside], side="right") - 1
+        self.contact, self.moved = contact, np.zeros(ANGLES)
+        self.outer = np.nonzero(self.inside & (self.radius > OUTER))
+        self.least = math.inf
+        self.weights = station_weights(self.x).astype(np.float32)
+        self.off = line_weights(self.across).astype(np.float32)
+        self.expansion = self._expansion(contact)
+        grid = np.meshgrid(self.x, self.across, indexing="ij")
+        # (n, points): what is summed over them is read in order
+        edge = max(edges, key=lambda edge: edge.coefficients.shape)
+        shape = edge.coefficients.shape[0], self.film.size
+        self.polynomials = edge.polynomials(*grid).reshape(shape).astype(np.float32)
+        # Loss of first order over the film at which the film ends
+        self.ends = FILM_ENDS if second else 1.0
+        # of the pressure of second order
+        self.second = second and [np.interp(self.x, STATIONS, v)[:, np.newaxis] for v in second]
+        self.smooth = float(self.stress(self.pressure, self.film)[self.inside].sum())
+        self.thinnest = float(self.film[self.inside].min())
+
+    def _expansion(self, contact: SmoothContact) -> Single:
+        """Free waves over those of the centre line (m, n): a mass fills more where P is lower."""
+        p_h = self.operating.hertz_pressure
+        axis, _ = contact.at(STATIONS, np.zeros(1))
+        made = self.weights @ self.lubricant.density_ratio(axis[:, 0] * p_h)
+        here = self.lubricant.density_ratio(np.maximum(self.pressure, 0.0) * p_h)
+        return (made[:, np.newaxis] / here).astype(np.float32)
+
+    def add_free(
+        self,
+        waves: Waves,
+        places: tuple[NDArray[np.int32], Single],
+        columns: NDArray[np.int32],
+        shift: int,
+        total: Single,
+    ) -> None:
+        """Add free waves to loss of film and gain of pressure (m, n, 2), moved by some rows.
+
+        `places` are the row before each point (m, 1 or n) and the share of the next one; columns
+        (n,).
+        """
+        if waves.free is None or waves.off_centre is None:
+            return
+        free = np.zeros_like(total)
+        add_waves(waves.free, places, columns, self.weights, shift, free)
+        everywhere = np.ones_like(self.weights[:, :1])
+        for tile, part in zip(waves.off_centre, self.off.T, strict=True):
+            # a line counts up to the next ones only
+            counts = np.flatnonzero(part)
+            if not counts.size:
+                continue
+            there = slice(counts[0], counts[-1] + 1)
+            beside = np.zeros((free.shape[0], counts.size, 2), dtype=np.float32)
+            rows, between = places
+            if rows.shape[1] > 1:
+                rows, between = rows[:, there].copy(), between[:, there].copy()
+            here, one = (rows, between), tile[np.newaxis]
+            add_waves(one, here, columns[there], everywhere, shift, beside, part[there].copy())
+            free[:, there] += beside
+        total += free * self.expansion[..., np.newaxis]
+
+    def add_edge(self, total: Single, edge: tuple[Array, Array]) -> None:
+        """Add what the edge does to the pressure (:meth:`Edge.at`), keep how far it is moved."""
+        coefficients, moved = edge
+        self.moved += moved
+        if not coefficients.size:
+            return
+        # threads of a product of matrices cost more than they bring
+        wide = np.einsum("k,kn->n", coefficients.astype(np.float32), self.polynomials)
+        total[..., 1] += wide.reshape(self.film.shape)
+
+    def smooth_film(self) -> Array:
+        """Film of the smooth contact with its edge where it was moved to (m, n) [a^2/R]."""
+        film = self.film.copy()
+        i, j = self.outer
+        x, y, radius = self.x[i], self.across[j], self.radius[i, j]
+        place = np.arctan2(y, x) * (0.5 * ANGLES / math.pi)
+        outwards = np.interp(place, np.arange(ANGLES), self.moved, period=ANGLES)
+        share = 1.0 - outwards / radius
+        film[i, j] = self.contact.film_at(x * share, self.y[j] * share)
+        return film
+
+    def add_second(self, total: Single) -> None:
+        """Add the pressure of second order to that of the waves."""
+        if self.second:
+            gain, variance = self.second
+            total[..., 1] += gain * (np.square(total[..., 1]) - variance)
+
+    def least_film(self) -> float:
+        """Least film over the positions, as it is told [a^2/R]."""
+        return self.least if self.thinnest > 0.0 else self.thinnest
+
+    def sheared(self, change: Single) -> float:
+        """Friction over that of the smooth contact, film and pressure changed by (m, n, 2).
+
+        NaN where the film is not positive, or a ring of the contact would have to pull.
+        """
+        smooth = self.smooth_film()
+        loss = change[..., 0]
+        film = smooth * film_left(loss / smooth) if self.second else smooth - loss
+        pressure = self.pressure + change[..., 1]
+        self.count += 1
+        imbalance = 1.5 * float(change[..., 1].sum(where=self.inside)) / self.points
+        self.imbalance = max(self.imbalance, abs(imbalance))
+        borne = float((self.ends * smooth - loss).min(where=self.inside, initial=math.inf))
+        if borne <= 0.0:
+            self.thinnest = min(self.thinnest, borne)
+            return math.nan
+        self.thinnest = min(self.thinnest, float(film.min(where=self.inside, initial=math.inf)))
+        self.cavitated += int(np.count_nonzero((pressure <= 0.0) & self.inside))
+        # outside nothing is counted: any film and pressure will do
+        film[~self.inside] = math.inf
+        whole = film + missing(self.contact, smooth)
+        self.least = min(self.least, float(whole.min()))
+        self.meet(change[..., 1], pressure, whole, self.inner, self.near)
+        film[~self.inside] = 1.0
+        carried = np.bincount(self.rings, pressure[self.inside], len(RINGS))
+        np.maximum(pressure, 0.0, out=pressure)
+        pushes = np.bincount(self.rings, pressure[self.inside], len(RINGS))
+        if (carried < 0.0).any():
+            self.lost = True
+            return math.nan
+        # what cannot pull leaves less to carry for what is around
+        share = np.divide(carried, pushes, out=np.ones_like(carried), where=pushes > 0.0)
+        pressure[self.inside] *= share[self.rings]
+        with np.errstate(over="ignore"):
+            return float(self.stress(pressure, film).sum(where=self.inside)) / self.smooth
+
+
+def missing(contact: SmoothContact, film: Array) -> Array | float:
+    """Give what films H_s [a^2/R] of a smooth contact lack beside those extrapolated.
+
+    They are scaled to the extrapolated central film; the minimum film lacks more than that, on the
+    grid of the smooth contact. In between it is linear in the film.
+    """
+    least, central = float(contact.film.min()), contact.central_film
+    if not contact.extrapolated or least >= central:
+        return 0.0
+    share = np.clip((central - film) / (central - least), 0.0, 1.0)
+    return np.asarray((contact.minimum_film - least) * share)
+
+
+def add_waves(
+    tiles: Single,
+    places: tuple[NDArray[np.int32], Single],
+    columns: NDArray[np.int32],
+    weights: Single,
+    shift: int,
+    total: Single,
+    parts: Single | None = None,
+) -> None:
+    """Add tiles (k, rows, columns, 2), moved by some rows, to film and pressure (m, n, 2).
+
+    `places` are the row before each point (m, 1 or n) and the share of the next one, `columns` (n,)
+    those of the tile; weights of the tiles (m, k), parts of each column that are added (n,).
+    """
+    rows, between = places
+    if parts is None:
+        parts = np.ones(columns.size, dtype=np.float32)
+    library.waves.free_waves(
+        pairs(tiles), rows.T, columns, between.T, weights.T, parts, shift, pairs(total)
+    )
+
+
+def pairs(values: NDArray[np.float32]) -> NDArray[np.complex64]:
+    """Film and pressure of the last dimension as one number, the dimensions reversed."""
+    return values.view(np.complex64)[..., 0].T
