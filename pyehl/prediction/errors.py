@@ -34,6 +34,8 @@ NARROW = 0.025
 KNOWN_RATIO = 5.0
 # Ellipticities between which it was
 ELLIPTICITY = [0.39, 4.1]
+# Velocity ratios between which waves were (docs/evidence/response/slip.csv)
+VELOCITY_RATIO = [0.5, 1.5]
 # Of the viscosity, by the film of lubricants that thin in the inlet (docs/evidence/thinning)
 THINNING = [0.95, 1.5]
 
@@ -101,5 +103,9 @@ def outside_range(
         "ellipticity": operating.ellipse.ellipticity,
         "thinning": thinning,
     }
-    limits = fitted_range() | {"ellipticity": ELLIPTICITY, "thinning": THINNING}
+    limits = fitted_range() | {
+        "velocity_ratio": VELOCITY_RATIO,
+        "ellipticity": ELLIPTICITY,
+        "thinning": THINNING,
+    }
     return [name for name, v in values.items() if not limits[name][0] <= v <= limits[name][1]]

@@ -85,7 +85,7 @@ def predict(
     else:
         contact = read_contact(Path(smooth), operating, settings)
         if lubricant.shear.in_flow:
-            contact = replace(contact, thinning=solve_contact(settings).thinning)
+            contact = replace(contact, newtonian=solve_contact(settings).newtonian)
     film = contact.central_film * operating.film_scale
     alone = []
     for group in groups:

@@ -66,9 +66,15 @@ class SmoothContact:
     source: str  # where it is from, in words
     minimum_film: float = math.nan  # H_min, extrapolated as H_c [a^2/R]; NaN where it is not known
     extrapolated: bool = False  # whether `central_film` is
-    # Viscosity at low shear over that of a Newtonian lubricant with as thick a film [-]
-    thinning: float = 1.0
+    newtonian: SmoothContact | None = None  # that contact with a Newtonian flow; None: it is
     minimum_film_error: float = math.nan  # estimated error of `minimum_film` [a^2/R]
+
+    @property
+    def thinning(self) -> float:
+        """Viscosity at low shear over that of a Newtonian lubricant with as thick a film [-]."""
+        if self.newtonian is None:
+            return 1.0
+        return float((self.central_film / self.newtonian.central_film) ** THINNING_POWER)
 
     def film_at(self, x: Array, y: Array) -> Array:
         """H at places (n,)."""
@@ -149,15 +155,14 @@ def solve_contact(settings: Mapping[str, Mapping[str, Any]]) -> SmoothContact:
     if not ShearLaw.from_settings(settings).in_flow:
         return found
     newtonian = {**settings, "lubricant": {**settings["lubricant"], "flow": "newtonian"}}
-    film = found.central_film / _solved(smooth_case(newtonian)).central_film
-    return replace(found, thinning=film**THINNING_POWER)
+    return replace(found, newtonian=_solved(smooth_case(newtonian)))
 
 
 def circle_of(
     contact: SmoothContact, operating: OperatingPoint, lubricant: Lubricant
 ) -> tuple[float, float]:
     """M and L [-] of the circular contact with the same inlet, in a Newtonian flow."""
-    film = contact.central_film / contact.thinning ** (1.0 / THINNING_POWER)
+    film = (contact.newtonian or contact).central_film
     return circle_with_same_inlet(operating, lubricant, film)
 
 
@@ -284,7 +289,10 @@ def zone_of(contact: SmoothContact, operating: OperatingPoint, lubricant: Lubric
     pressure = np.maximum(contact.pressure[:, middle], 0.0)
     film = contact.film[:, middle]
     zone = zone_on(contact.x, pressure, film, operating, lubricant)
-    return replace(zone, thinning=contact.thinning)
+    if contact.newtonian is None:
+        return zone
+    oil = replace(lubricant, shear=replace(lubricant.shear, in_flow=False))
+    return replace(zone, newtonian=zone_of(contact.newtonian, operating, oil))
 
 
 def zone_on(

@@ -22,9 +22,9 @@ velocity along the normal makes the film, and the gap is that of the pressure ne
 move along a straight edge changes nothing. Nothing of that is fitted (docs/evidence/response,
 docs/evidence/ellipse).
 
-Where the lubricant thins by shear, B knows it, and of F - 1 the share
-:func:`pyehl.theory.transport.kept_of_inlet` remains; M and L are those of a Newtonian lubricant
-that makes as thick a film. Nothing of that is fitted.
+Where the lubricant thins by shear, or slips by more than the fit knows, G is that of a Newtonian
+lubricant at the nearest velocity ratio of the fit, times the ratio of what the linearised Reynolds
+equation makes of both (:mod:`pyehl.theory.inlet`). Nothing of that is fitted.
 """
 
 from __future__ import annotations
@@ -39,16 +39,10 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pyehl.theory.transport import Zone, kept_of_inlet, upstream
+from pyehl.theory.inlet import passed
+from pyehl.theory.transport import Zone, upstream
 
-__all__ = [
-    "edge_gain",
-    "fitted_range",
-    "inlet_base",
-    "inlet_fit",
-    "inlet_transfer",
-    "thinned",
-]
+__all__ = ["edge_gain", "fitted_range", "inlet_base", "inlet_fit", "inlet_transfer"]
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -111,6 +105,7 @@ def inlet_transfer(
     moes: tuple[float, float],
     velocity_ratio: float,
     y: ArrayLike = 0.0,
+    spacing: float = 0.0,
 ) -> Complex:
     """G = mu/rho where the inlet ends, turned back to the edge of the contact [-].
 
@@ -120,19 +115,16 @@ def inlet_transfer(
     value is real), M and L of the circular contact with the same inlet, and U. The lines are the
     first dimensions of the result.
     """
-    moes = thinned(moes, zone.thinning)
-    base = inlet_base(zone, qx, qy, moes, velocity_ratio)
+    # of the Newtonian contact, at the nearest velocity ratio that was fitted
+    known, (low, high) = zone.newtonian or zone, fitted_range()["velocity_ratio"]
+    known_ratio = min(max(velocity_ratio, low), high)
+    base = inlet_base(known, qx, qy, moes, known_ratio, spacing)
     lines = np.asarray(y, dtype=float)
-    fits = [inlet_fit(qx, qy, moes, velocity_ratio, line, zone.ellipticity) for line in lines.flat]
-    fit = np.reshape(fits, lines.shape + base.shape)
-    if zone.factors:
-        fit = 1.0 + kept_of_inlet(zone, qx, qy, velocity_ratio) * (fit - 1.0)
-    return base * fit
-
-
-def thinned(moes: tuple[float, float], thinning: float) -> tuple[float, float]:
-    """M and L with a viscosity that is lower by a factor."""
-    return moes[0] * thinning**0.75, moes[1] * thinning**-0.25
+    fits = [inlet_fit(qx, qy, moes, known_ratio, line, zone.ellipticity) for line in lines.flat]
+    found = base * np.reshape(fits, lines.shape + base.shape)
+    if known is not zone or known_ratio != velocity_ratio:
+        found *= passed(zone, qx, qy, velocity_ratio) / passed(known, qx, qy, known_ratio)
+    return found
 
 
 def inlet_base(

@@ -32,7 +32,7 @@ d ln phi_x/d ln S.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -41,9 +41,9 @@ from pyehl.theory.thinning import FlowFactors
 
 __all__ = [
     "INLET",
+    "Flow",
     "Zone",
     "free_stiffness",
-    "kept_of_inlet",
     "stiffness",
     "transport",
     "upstream",
@@ -84,12 +84,11 @@ class Zone:
     stiffness: float = 1.0  # of waves, over that in a circular contact [-]
     # How much more than a Newtonian lubricant flows, and how that changes; None: Newtonian
     factors: FlowFactors | None = None
-    # Viscosity at low shear over that of a Newtonian lubricant with as thick a film [-]
-    thinning: float = 1.0
+    newtonian: Zone | None = None  # that contact with a Newtonian lubricant; None: it is
     ellipticity: float = 1.0  # semi-axis across the motion over a [-]
 
 
-class _Flow:
+class Flow:
     """The smooth contact at places (n,): what the coefficients of the equation are made of."""
 
     def __init__(self, zone: Zone, places: Array) -> None:
@@ -101,7 +100,7 @@ class _Flow:
         inside = np.where((places >= zone.x[0]) & (places <= OUTLET), 1.0, 0.0)
         self.film, self.density = at(zone.film), at(zone.density)
         self.compressibility = at(zone.compressibility)
-        f = zone.factors or _constant(zone.x, 1.0)
+        f = zone.factors or _newtonian(zone.x)
         self.softening = at(zone.compressibility - zone.thickening * (1.0 - f.by_sliding))
         self.power = at(3.0 - f.by_sliding + f.by_gradient)
         self.across = np.exp(at(logarithm + np.log(f.across)))
@@ -112,10 +111,10 @@ class _Flow:
         self.gradient = flow * at(np.gradient(zone.pressure, zone.x))
 
 
-def _constant(x: Array, factor: float) -> FlowFactors:
-    """Flow factors at places (n,) of a Newtonian lubricant whose viscosity is less by a factor."""
-    phi, none = np.full_like(x, factor), np.zeros_like(x)
-    return FlowFactors(phi, phi, none, none, phi)
+def _newtonian(x: Array) -> FlowFactors:
+    """Flow factors at places (n,) of a Newtonian lubricant."""
+    one, none = np.ones_like(x), np.zeros_like(x)
+    return FlowFactors(one, one, none, none, one)
 
 
 class _Waves:
@@ -135,7 +134,7 @@ class _Waves:
         self.slip = self.turned * (velocity_ratio - 1.0)
         self.changing = self.turned * self.k / np.maximum(squared, 1e-24)
 
-    def at(self, flow: _Flow, i: int) -> tuple[Complex, Complex, Complex, Complex]:
+    def at(self, flow: Flow, i: int) -> tuple[Complex, Complex, Complex, Complex]:
         """Give a, b, t, s of mu' = a mu + b and T = t mu + s at the place i."""
         e, h, rho, k = flow.along[i], flow.film[i], flow.density[i], self.k
         held = flow.compressibility[i] * h
@@ -198,7 +197,7 @@ def upstream(
     fast. `spacing` as in `transport`.
     """
     lengths = np.diff(APPROACH)
-    flow = _Flow(zone, APPROACH[:-1] + 0.5 * lengths)
+    flow = Flow(zone, APPROACH[:-1] + 0.5 * lengths)
     waves = _Waves(zone, qx, qy, velocity_ratio, spacing)
     # where nothing leaks or slips any mu is a solution: that of the undeformed wave
     mu = np.full(qx.shape, flow.density[0], dtype=complex)
@@ -210,32 +209,6 @@ def upstream(
         mu = mu * grown + (b * h) * way
     back = np.exp(-waves.slip * (INLET + 1.0))
     return np.asarray(mu * back / np.interp(INLET, zone.x, zone.density))
-
-
-def kept_of_inlet(
-    zone: Zone, qx: ArrayLike, qy: ArrayLike, velocity_ratio: float, spacing: float = 0.0
-) -> Array:
-    """Share of what an inlet adds to the transport equation that a thinning flow keeps (m,) [-].
-
-    The part that is fitted (:mod:`pyehl.theory.response`) arises where the wave leaks no more
-    in a Newtonian lubricant with as thick a film, spread as what is left of a wave from there at
-    INLET. A lubricant that thins leaks longer, so that the wave forgets it again: its modulus falls
-    by the difference of the two leaks on the rest of the way. Parameters as of `upstream`.
-    """
-    kx, ky = np.asarray(qx, dtype=float), np.asarray(qy, dtype=float)
-    lengths = np.diff(APPROACH)
-    places = APPROACH[:-1] + 0.5 * lengths
-    waves = _Waves(zone, kx, ky, velocity_ratio, spacing)
-    like = replace(zone, factors=_constant(zone.x, zone.thinning))
-    rates = [
-        np.array([h * waves.at(flow, i)[0].real for i, h in enumerate(lengths)])
-        for flow in (_Flow(like, places), _Flow(zone, places))
-    ]
-    # of a wave from the start of each step, and from the end of all
-    ways = [np.vstack([np.cumsum(r[::-1], 0)[::-1], np.zeros((1, kx.size))]) for r in rates]
-    left, less = np.exp(ways[0]), np.exp(ways[1] - ways[0])
-    arising = np.diff(left, axis=0)
-    return np.asarray((0.5 * arising * (less[1:] + less[:-1])).sum(0) / arising.sum(0))
 
 
 def _grown(turn: Complex) -> tuple[Complex, Complex]:
@@ -267,7 +240,7 @@ def transport(
     steps = np.ceil((stations - starts) / STEP - 1e-9).astype(int)
     lengths = np.repeat((stations - starts) / steps, steps)
     middles = INLET + np.cumsum(lengths) - 0.5 * lengths
-    flow, there = _Flow(zone, middles), _Flow(zone, stations)
+    flow, there = Flow(zone, middles), Flow(zone, stations)
     waves = _Waves(zone, qx, qy, velocity_ratio, spacing)
     free = np.full(qx.shape, np.interp(INLET, zone.x, zone.density), dtype=complex)
     driven = np.zeros(qx.shape, dtype=complex)

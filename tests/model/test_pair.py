@@ -339,7 +339,7 @@ def test_bands_hold_the_waves_of_both(contact):
 def test_composite_statistics():
     """Rms height and slope of both together, and the film over them."""
     keys = {
-        "contact.load": 120.0, "contact.slide_to_roll": 0.5,
+        "contact.load": 120.0, "contact.slide_to_roll": 1.1,
         "surface.kind": "harmonic", "surface.amplitude": 5e-3, "surface.wavelength": 1.0,
         "second_surface.kind": "harmonic", "second_surface.amplitude": 3e-3,
         "second_surface.wavelength": 0.5,

@@ -146,7 +146,7 @@ def test_a_flat_surface_has_no_share_of_short_waves():
 
 def test_outside_the_range_is_said(settings):
     settings["psd"] |= {"reduction": "response", "smooth": "solved"}
-    settings["surface"]["velocity_ratio"] = 1.5
+    settings["surface"]["velocity_ratio"] = 1.6
     summary = of_case.predict(settings).summary
     assert summary["outside_range"] == ["velocity_ratio"]
     assert summary["mu_ratio_model_error"] is None

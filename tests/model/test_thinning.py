@@ -75,12 +75,13 @@ def waves_at(case: Case) -> tuple[np.ndarray, float]:
     """T at the centre of a few waves, and by how much the lubricant is thinner for the inlet."""
     settings = case.resolve()
     o, oil = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
-    zone = zone_of(solve_contact(settings), o, oil)
+    contact = solve_contact(settings)
+    zone = zone_of(contact, o, oil)
     kx, ky = np.array([10.0, 25.0, 40.0, 20.0]), np.array([0.0, 25.0, 0.0, 50.0])
     ratio = float(settings["surface"]["velocity_ratio"])
     inlet = inlet_transfer(zone, kx, ky, (o.moes_m, o.moes_l), ratio)
     ((driven, free),) = transport(zone, kx, ky, ratio, np.array([0.0]))
-    return driven + free * inlet * np.exp(1j * kx * (ratio - 1.0)), zone.thinning
+    return driven + free * inlet * np.exp(1j * kx * (ratio - 1.0)), contact.thinning
 
 
 def test_a_law_at_low_stress_is_newtonian():
@@ -103,7 +104,7 @@ def test_short_waves_of_an_oil_that_thins_are_not_flattened():
 
 
 def test_measured_waves(root):
-    """T at X = 0 in the table: within 0.03 where the velocity ratio is in the fitted range."""
+    """T at X = 0 in the table: within 0.03 at slide-to-roll ratios up to 1."""
     table = root / "docs" / "evidence" / "thinning" / "waves.csv"
     with table.open(newline="", encoding="utf-8") as stream:
         rows = [row for row in csv.DictReader(stream) if float(row["x"]) == 0.0]
@@ -111,21 +112,19 @@ def test_measured_waves(root):
     def value(row: dict[str, str], name: str) -> complex:
         return complex(float(row[f"{name}_re"]), float(row[f"{name}_im"]))
 
-    off = {float(row["slide_to_roll"]): [] for row in rows}
-    for row in rows:
-        off[float(row["slide_to_roll"])].append(abs(value(row, "T") - value(row, "predicted")))
-    inside = [v for slip, values in off.items() if slip <= 0.4 for v in values]
-    assert len(inside) >= 200
-    assert len({row["run"] for row in rows}) >= 8
-    assert max(inside) < 0.031
-    assert max(off) == 1.0
-    assert max(off[1.0]) < 0.1
+    off = np.array([abs(value(row, "T") - value(row, "predicted")) for row in rows])
+    assert off.size == 400
+    assert max(float(row["slide_to_roll"]) for row in rows) == 1.0
+    assert len({row["run"] for row in rows}) == 16
+    assert off.max() < 0.03
+    fine = [row["run"].endswith("fine") for row in rows]
+    assert off[fine].max() < 0.013
 
 
 def test_the_table_of_waves_is_that_of_this_package(root, evidence):
     folder = root / "docs" / "evidence" / "thinning"
     compare = evidence("thinning", "compare")
-    name = "table1-eyring-20"
+    name = "m500-carreau-100"
     run, measured = compare.PLAN[name], compare.of_table()
     waves = compare.Waves(run, measured[name])
     newtonian = compare.Waves(compare.twin(run), measured[f"{name}-newtonian"])
@@ -297,12 +296,14 @@ def simulated(run: dict[str, float], name: str) -> float:
 @pytest.mark.parametrize(
     ("table", "names", "count", "most", "covered"),
     [
-        ("predicted", "e", 18, (0.006, 0.03, 0.2, 0.093, 0.15), (18, 18, 17, 17, 18)),
+        ("predicted", "e", 18, (0.005, 0.03, 0.19, 0.094, 0.14), (18, 18, 17, 17, 18)),
         ("predicted", "f", 8, (0.004, 0.014, 0.045, 0.055, 0.14), (8, 8, 8, 8, 7)),
-        ("predicted", "g", 10, (0.009, 0.018, 0.075, 0.051, 0.22), (10, 10, 10, 10, 9)),
+        ("predicted", "g", 10, (0.009, 0.023, 0.083, 0.048, 0.22), (10, 10, 10, 10, 9)),
         ("predicted", "h", 8, (0.004, 0.017, 0.125, 0.064, 0.085), (8, 8, 8, 8, 8)),
+        ("predicted", "i", 6, (0.002, 0.009, 0.061, 0.181, 0.12), (6, 6, 6, 2, 6)),
         ("committed", "g", 10, (0.009, 0.018, 0.075, 0.051, 0.22), (10, 10, 10, 10, 9)),
         ("committed", "h", 8, (0.004, 0.017, 0.125, 0.064, 0.085), (8, 8, 8, 8, 8)),
+        ("committed", "i", 6, (0.002, 0.009, 0.061, 0.181, 0.12), (6, 6, 6, 2, 6)),
     ],
 )
 def test_simulated_surfaces(root, table, names, count, most, covered):
@@ -339,13 +340,13 @@ def test_all_surfaces_of_the_page(root):
 
 
 def test_rows_of_the_page(root):
-    """Predicted and simulated of each surface, those of g and h as committed."""
+    """Predicted and simulated of each surface, those of g, h and i as committed."""
     folder = root / "docs" / "evidence" / "thinning"
     before, today = numbers(folder / "committed.csv"), numbers(folder / "predicted.csv")
     text = (folder / "README.md").read_text(encoding="utf-8")
     units = {"p_rise_rms_Pa": 1e6, "p_rise_max_Pa": 1e6, "h_min_rough_m": 1e-9}
     for name, run in numbers(folder / "simulated.csv").items():
-        said = (before if name[0] in "gh" else today)[name]
+        said = (before if name[0] in "ghi" else today)[name]
         cells = [f"{said['mu_ratio']:.4f} / {run['mu_ratio']:.4f}"]
         cells += [
             f"{said[key] / unit:.3g} / {simulated(run, key) / unit:.3g}"
@@ -377,19 +378,15 @@ def test_surfaces_predicted_before(root):
 
 
 def test_committed_friction(root):
-    """What was there before the simulations: g of the same response, which is today's but for load.
-
-    Of g films and pressures are those of today, but for the algebraic error of the smooth contact,
-    which ends as soon as it has the accuracy asked for: up to 1.3e-3 of the least film (g6).
-    """
+    """What was there before the simulations is today's but for the load and the inlet."""
     folder = root / "docs" / "evidence" / "thinning"
     said, committed = numbers(folder / "predicted.csv"), numbers(folder / "committed.csv")
     for row, before in committed.items():
-        of_g = row[0] in "gh"
-        rel = 2.9e-3 if of_g else 9e-3
+        later = row[0] in "ghi"
+        rel = 2.9e-3 if later else 9e-3
         assert said[row]["mu_ratio"] == pytest.approx(before["mu_ratio"], rel=rel)
-        for name in ("p_rise_rms_Pa", "p_rise_max_Pa", "h_min_rough_m") if of_g else ():
-            assert said[row][name] == pytest.approx(before[name], rel=1.5e-3)
+        for name in ("p_rise_rms_Pa", "p_rise_max_Pa", "h_min_rough_m") if later else ():
+            assert said[row][name] == pytest.approx(before[name], rel=0.01)
 
 
 @pytest.mark.parametrize("name", ["e1", "e8"])

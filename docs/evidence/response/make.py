@@ -13,7 +13,8 @@ from __future__ import annotations
 import csv
 import math
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,7 @@ from pyehl.case import Case
 from pyehl.measured_response.superposition import FILLING, Superposition, WaveSet, superpose
 from pyehl.measured_response.tiers import TIERS, tier_waves
 from pyehl.prediction.smooth import zone_on
+from pyehl.solver import Solver
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_base
@@ -95,10 +97,25 @@ def settings_of(moes_m: float, moes_l: float) -> dict[str, dict[str, Any]]:
     return Case.from_text(f"&contact moes_m = {moes_m!r} moes_l = {moes_l!r} /\n").resolve()
 
 
-def zone_of(found: Superposition, settings: Mapping[str, Mapping[str, Any]]) -> Zone:
-    """Centre line of the smooth contact as the run itself had it."""
+@lru_cache
+def smooth_zone(moes_m: float, moes_l: float, points: int) -> Zone:
+    """Centre line of the smooth contact on a grid."""
+    settings = settings_of(moes_m, moes_l)
     operating, lubricant = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
-    return zone_on(found.x, np.maximum(found.pressure, 0.0), found.film, operating, lubricant)
+    x, pressure, film = smooth_line(moes_m, moes_l, points)
+    return zone_on(x, np.maximum(pressure, 0.0), film, operating, lubricant)
+
+
+def smooth_line(moes_m: float, moes_l: float, points: int) -> tuple[Array, ...]:
+    """X, P and H of a smooth contact on Y = 0."""
+    text = f"&contact moes_m = {moes_m!r} moes_l = {moes_l!r} /\n"
+    options = ["surface.kind=smooth", f"grid.points={points}", "solver.accuracy=0.02"]
+    with Solver.open(Case.from_text(text, options)) as solver:
+        if not solver.run():
+            raise SystemExit(f"{moes_m:g}, {moes_l:g} on {points}: {solver.summary()['status']}")
+        x, y = solver.axes()
+        middle = int(np.argmin(np.abs(y)))
+        return x, solver.field("P")[:, middle], solver.field("H")[:, middle]
 
 
 def parts_of(
@@ -118,11 +135,10 @@ def rows(
     waves: WaveSet, found: Superposition, moes_m: float, moes_l: float, ratio: float
 ) -> Iterator[list[str]]:
     """Lines of the table: T, and the parts of it that the transport equation gives."""
-    settings = settings_of(moes_m, moes_l)
     kx, ky = waves.kx, waves.ky
-    zone = zone_of(found, settings)
-    parts = parts_of(zone, kx, ky, (moes_m, moes_l), ratio, found.spacing)
     points = round(TILE / found.spacing) + 1
+    zone = smooth_zone(moes_m, moes_l, points)
+    parts = parts_of(zone, kx, ky, (moes_m, moes_l), ratio, found.spacing)
     for j in range(kx.size):
         for x, (driven, free) in zip(STATIONS, parts, strict=True):
             i = int(np.argmin(np.abs(found.x - x)))

@@ -14,9 +14,8 @@ import csv
 import sys
 
 import numpy as np
-from make import HERE, MIDDLE, parts_of, settings_of
+from make import HERE, MIDDLE, parts_of, settings_of, smooth_zone
 from numpy.typing import NDArray
-from parts import smooth_zone
 
 from pyehl.measured_response.superposition import (
     FRONT,

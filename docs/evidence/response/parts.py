@@ -10,38 +10,9 @@ gives of it is taken from smooth contacts that are solved on the grids of the ru
 from __future__ import annotations
 
 import csv
-from functools import lru_cache
 
 import numpy as np
-from make import HERE, STATIONS, parts_of, settings_of
-
-from pyehl.case import Case
-from pyehl.prediction.smooth import zone_on
-from pyehl.solver import Solver
-from pyehl.theory.lubricant import Lubricant
-from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.transport import Zone
-
-
-@lru_cache
-def smooth_zone(moes_m: float, moes_l: float, points: int) -> Zone:
-    """Centre line of the smooth contact on a grid."""
-    settings = settings_of(moes_m, moes_l)
-    operating, lubricant = OperatingPoint.from_settings(settings), Lubricant.from_settings(settings)
-    x, pressure, film = smooth_line(moes_m, moes_l, points)
-    return zone_on(x, np.maximum(pressure, 0.0), film, operating, lubricant)
-
-
-def smooth_line(moes_m: float, moes_l: float, points: int) -> tuple[np.ndarray, ...]:
-    """X, P and H of a smooth contact on Y = 0."""
-    text = f"&contact moes_m = {moes_m!r} moes_l = {moes_l!r} /\n"
-    options = ["surface.kind=smooth", f"grid.points={points}", "solver.accuracy=0.02"]
-    with Solver.open(Case.from_text(text, options)) as solver:
-        if not solver.run():
-            raise SystemExit(f"{moes_m:g}, {moes_l:g} on {points}: {solver.summary()['status']}")
-        x, y = solver.axes()
-        middle = int(np.argmin(np.abs(y)))
-        return x, solver.field("P")[:, middle], solver.field("H")[:, middle]
+from make import HERE, STATIONS, parts_of, smooth_zone
 
 
 def main() -> None:

@@ -7,9 +7,8 @@ FOLDER has the runs of ``waves.py``; without it the measured waves are those of 
 
 T is predicted with pressure and film of the smooth contact on 257 x 257 nodes, so that the error of
 that grid in the smooth contact is not in the comparison. What the grid does to the wave in the
-inlet is not in it either: the part of the inlet that is fitted, for a grid without error, is
-multiplied by what the Newtonian twin of a run shows to be the ratio of the two. ``waves.csv`` has T
-with and without that.
+inlet is not in it either: the inlet transfer, for a grid without error, is multiplied by what the
+Newtonian twin of a run shows to be the ratio of the two. ``waves.csv`` has T with and without that.
 """
 
 from __future__ import annotations
@@ -25,12 +24,12 @@ from numpy.typing import NDArray
 from waves import PLAN, POINTS, TILE, Run, case_of, twin
 
 from pyehl.case import Case
-from pyehl.prediction.smooth import THINNING_POWER, zone_on
+from pyehl.prediction.smooth import zone_on
 from pyehl.solver import Solver
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.theory.response import inlet_base, inlet_fit, thinned
-from pyehl.theory.transport import Zone, kept_of_inlet, transport
+from pyehl.theory.response import inlet_transfer
+from pyehl.theory.transport import Zone, transport
 
 Array, Complex = NDArray[np.float64], NDArray[np.complex128]
 Measured = tuple[Array, Array, Complex]
@@ -82,16 +81,17 @@ class Waves:
         self.zone = zone(settings, self.operating, run.points)
         self.film = float(np.interp(0.0, self.zone.x, self.zone.film))
 
-    def predicted(self, thinning: float = 1.0, of_grid: Complex | float = 1.0) -> Complex:
-        """T at the STATIONS (m, 3); `of_grid` is what the grid makes of the fitted part."""
+    def predicted(self, of_grid: Complex | float = 1.0, newtonian: Zone | None = None) -> Complex:
+        """T at the STATIONS (m, 3).
+
+        `of_grid`: what the grid makes of the inlet transfer; `newtonian`: the smooth contact of the
+        twin.
+        """
         o, spacing = self.operating, SIDE / (self.points - 1)
         waves = self.kx, self.ky
-        here = replace(self.zone, thinning=thinning)
-        moes = thinned((o.moes_m, o.moes_l), thinning)
-        fit = inlet_fit(*waves, moes, self.ratio) * of_grid
-        if here.factors:
-            fit = 1.0 + kept_of_inlet(here, *waves, self.ratio, spacing) * (fit - 1.0)
-        inlet = inlet_base(here, *waves, moes, self.ratio, spacing) * fit
+        here = replace(self.zone, newtonian=newtonian)
+        moes = o.moes_m, o.moes_l
+        inlet = inlet_transfer(here, *waves, moes, self.ratio, spacing=spacing) * of_grid
         found = []
         for x, (driven, free) in zip(
             STATIONS, transport(here, *waves, self.ratio, STATIONS, spacing), strict=True
@@ -100,7 +100,7 @@ class Waves:
         return np.stack(found, axis=-1)
 
     def of_grid(self) -> Complex:
-        """Give what the grid makes of the fitted part of the inlet, of Newtonian waves."""
+        """Give what the grid makes of the inlet transfer, of Newtonian waves."""
         none, whole = self.predicted(of_grid=0.0)[:, 0], self.predicted()[:, 0]
         return np.asarray((self.measured[:, 0] - none) / (whole - none))
 
@@ -121,11 +121,10 @@ def zone(settings: dict[str, dict[str, Any]], operating: OperatingPoint, points:
 
 def predicted(waves: Waves, newtonian: Waves) -> tuple[Complex, Complex]:
     """T at the STATIONS, with what the twin shows the grid to do and without (m, 3)."""
-    thinning = (waves.film / newtonian.film) ** THINNING_POWER
-    plain = waves.predicted(thinning)
+    plain = waves.predicted(newtonian=newtonian.zone)
     if np.isnan(newtonian.measured).all():
         return plain, plain
-    return waves.predicted(thinning, newtonian.of_grid()), plain
+    return waves.predicted(newtonian.of_grid(), newtonian.zone), plain
 
 
 def main(arguments: list[str]) -> None:

@@ -136,6 +136,13 @@ PLAN: dict[str, Row] = {
     "h6": Row(by_moes(877.0, 9.6), f"{EYRING} 5.7e+06", 1.01, 5.69e-08, 0.8, 86, 1.25),
     "h7": Row(by_moes(607.0, 7.8), f"{EYRING} 9.0e+06", 1.03, 3.67e-08, 0.9, 87, 1.0),
     "h8": Row(by_moes(1350.0, 7.8), f"{EYRING} 1.1e+07", 0.99, 3.94e-08, 0.9, 88, 1.25),
+    # slide-to-roll ratios up to 1
+    "i1": Row(TABLE1, f"{EYRING} 5e6", 1.5, 5e-8, 0.8, 61),
+    "i2": Row(by_moes(500.0, 8.0), f"{CARREAU} 1e6 carreau_exponent = 0.6", 0.5, 3e-8, 0.8, 62),
+    "i3": Row(by_moes(300.0, 12.0), f"{EYRING} 8e6", 0.65, 6e-8, 0.7, 63),
+    "i4": Row(by_moes(700.0, 9.0), f"{CARREAU} 1e7 carreau_exponent = 0.7", 1.35, 5e-8, 0.9, 64),
+    "i5": Row(BALL, f"{THICK} {CARREAU} 3e6 carreau_exponent = 0.7", 1.4, 5e-8, 0.8, 65),
+    "i6": Row(by_moes(1500.0, 7.0), f"{EYRING} 1e7", 0.6, 2e-8, 0.8, 66),
 }
 
 

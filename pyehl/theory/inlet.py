@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Waves in the inlet: the linearised Reynolds equation itself, with the elasticity of half-spaces.
+
+Roughness, T, Pi, mu and the units are those of :mod:`pyehl.theory.transport`. That module takes the
+coefficients of the equation to change slowly, which in the inlet they do for short waves only. Here
+it is solved on the nodes of the centre line: with D = d/dX + i k, what flows along the motion is
+
+    F = eps D Pi + eps P' ((c - d ln eta/dP) Pi - 3 T/H),   T = 1 - K^-1 * Pi,
+
+and D F - eps k_Y^2 Pi + (d/dX - i k (U - 1)) mu = 0, mu = rho (T - c H Pi). K^-1 * is the integral
+over X of (4/pi^2) K_0(kappa |X - X'|) exp(i k (X' - X)), kappa^2 = k_Y^2 + (exp(-gamma)/b)^2 with
+the semi-axis b across the motion and Euler's gamma: a wave across the motion deflects as in a strip
+as wide as the contact. Behind the last node the wave goes on as one that does not leak, and
+fades towards the edge at X = 1. Nothing is fitted. What the flow of the smooth contact to the sides
+does to the wave is left out.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.ndimage import map_coordinates
+from scipy.special import k0, sici
+
+from pyehl.theory.transport import INLET, Flow, Zone, stiffness, upstream
+
+__all__ = ["at_inlet", "passed"]
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+# Nodes from START to END [a], one of them at INLET
+SPACING, START, END, EDGE = 1.0 / 64.0, -1.6, -0.6, 1.0
+# Of a cell of constant pressure, beside the one with the singularity
+GAUSS = np.polynomial.legendre.leggauss(4)
+# Waves that `passed` solves for, between which it interpolates: |q| [1/a] and direction
+WAVENUMBERS = np.geomspace(1.0, 128.0, 24)
+DIRECTIONS = np.linspace(0.0, 0.5 * np.pi, 7)
+# |q| at which half of the transport equation is taken out before [1/a]
+SHORT = 16.0
+
+
+def at_inlet(zone: Zone, qx: Array, qy: Array, velocity_ratio: float) -> Complex:
+    """mu/rho at INLET (m,), turned back to X = -1 as a wave that does not leak [-].
+
+    Of waves (m,) [1/a], qx >= 0, not both 0.
+    """
+    h, last = SPACING, round((END - INLET) / SPACING)
+    x = np.asarray(INLET + h * np.arange(round((START - INLET) / h), last + 1), dtype=np.float64)
+    n, place = x.size, x.size - 1 - last
+    slip = qx * (velocity_ratio - 1.0)
+    nodes, middles = Flow(zone, x), Flow(zone, x[:-1] + 0.5 * h)
+    yielding = _yielding(zone, qx, qy, slip, x)
+    one = np.eye(n)
+    held = yielding + np.diag(nodes.compressibility * nodes.film)
+    mean = 0.5 * (one[1:] + one[:-1])
+    turned = 1j * qx[:, np.newaxis, np.newaxis]
+    change = (one[1:] - one[:-1]) / h + turned * mean
+    softening = middles.gradient * middles.softening
+    bending = middles.gradient * middles.power / middles.film
+    flow = bending[:, np.newaxis] * (mean @ yielding)
+    flow += middles.along[:, np.newaxis] * change + softening[:, np.newaxis] * mean
+    # D F at the nodes but the ends; at the last one that of the one before
+    inner = np.arange(n - 2)
+    spread = np.zeros((qx.size, n, n - 1), dtype=complex)
+    spread[:, inner + 1, inner] = -1.0 / h + 0.5 * turned[:, 0]
+    spread[:, inner + 1, inner + 1] = 1.0 / h + 0.5 * turned[:, 0]
+    spread[:, -1] = spread[:, -2]
+    carried = _carried(n, h, slip) * nodes.density
+    leak = (nodes.across * np.square(qy)[:, np.newaxis])[:, :, np.newaxis] * one
+    system = spread @ flow - leak - carried @ held
+    right = spread @ bending - carried.sum(-1)
+    # no pressure wave at the start
+    system[:, 0], right[:, 0] = one[0], 0.0
+    pressure = np.linalg.solve(system, right[..., np.newaxis])[..., 0]
+    kept = 1.0 - np.einsum("mi,mi->m", held[:, place], pressure)
+    return np.asarray(kept * np.exp(-1j * slip * (INLET + 1.0)))
+
+
+def _yielding(zone: Zone, qx: Array, qy: Array, slip: Array, x: Array) -> Complex:
+    """Flattening at places x (n,) by the pressure wave there (m, n, n)."""
+    h, n = SPACING, x.size
+    more = round((EDGE - x[-1]) / h)
+    far = h * np.arange(1, n + more)
+    k = np.maximum(qx, 1e-9)[:, np.newaxis]
+    strip = np.exp(-np.euler_gamma) / zone.ellipticity
+    kappa = np.hypot(qy, strip)[:, np.newaxis]
+    half = 0.5 * h
+    # K_0(z) is -ln(z/2) - gamma next to 0
+    sine, integral = np.sin(k * half), sici(k * half)[0]
+    near = (2.0 / k) * (integral - sine * (np.log(0.5 * kappa * half) + np.euler_gamma))
+    beside = np.zeros((qx.size, far.size), dtype=complex)
+    for node, weight in zip(*GAUSS, strict=True):
+        away = far + half * node
+        beside += (half * weight) * k0(kappa * away) * np.exp(1j * k * away)
+    # of what is |i - j| nodes downstream or upstream
+    kernel = np.hstack([np.conj(beside[:, n - 2 :: -1]), near, beside])
+    kernel *= 1.0 / (np.pi * float(stiffness(1.0)) * zone.stiffness)
+    i, behind = np.arange(n)[:, np.newaxis], np.arange(1, more + 1)
+    found = kernel[:, np.arange(n) - i + n - 1]
+    tail = np.exp(1j * np.outer(slip, h * behind)) * np.cos(0.5 * np.pi * behind / more)
+    found[:, :, -1] += np.einsum("mij,mj->mi", kernel[:, behind - i + 2 * n - 2], tail)
+    return found
+
+
+def _carried(n: int, h: float, slip: Array) -> Complex:
+    """d/dX - i slip at n nodes (m, n, n), exact for a wave exp(i slip X)."""
+    i = np.arange(2, n - 1)
+    difference = np.zeros((n, n))
+    for step, weight in zip((-2, -1, 0, 1), (1.0, -6.0, 3.0, 2.0), strict=True):
+        difference[i, i + step] = weight / (6.0 * h)
+    difference[1, :2] = np.array([-1.0, 1.0]) / h
+    difference[-1, -3:] = np.array([0.5, -2.0, 1.5]) / h
+    apart = h * (np.arange(n) - np.arange(n)[:, np.newaxis])
+    return np.asarray(difference * np.exp(-1j * slip[:, np.newaxis, np.newaxis] * apart))
+
+
+def passed(zone: Zone, qx: ArrayLike, qy: ArrayLike, velocity_ratio: float) -> Complex:
+    """`at_inlet` of waves (m,) [1/a], interpolated.
+
+    What it adds to the share of :func:`pyehl.theory.transport.upstream` that short waves have is
+    smooth over wavenumber and direction. Beyond WAVENUMBERS it is held.
+    """
+    kx, ky = np.asarray(qx, dtype=float), np.asarray(qy, dtype=float)
+
+    def transported(x: Array, y: Array) -> Complex:
+        share = 1.0 / (1.0 + (SHORT / np.maximum(np.hypot(x, y), 1e-12)) ** 3)
+        return np.asarray(share * upstream(zone, x, y, velocity_ratio))
+
+    added = []
+    for direction in DIRECTIONS:
+        x, y = WAVENUMBERS * np.cos(direction), WAVENUMBERS * np.sin(direction)
+        added.append(at_inlet(zone, x, y, velocity_ratio) - transported(x, y))
+    # a wave that goes against the motion is the conjugate of one that goes along it
+    table = np.array([*added, *np.conj(added[-2::-1])])
+    low, high = np.log(WAVENUMBERS[[0, -1]])
+    q = np.clip(np.log(np.maximum(np.hypot(kx, ky), 1e-12)), low, high)
+    column = (q - low) * ((WAVENUMBERS.size - 1) / (high - low))
+    row = np.arctan2(ky, kx) * (2.0 / np.pi * (DIRECTIONS.size - 1))
+    found = map_coordinates(table, [row, column], order=3, mode="mirror")
+    return np.asarray(transported(kx, ky) + found)

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Waves in the inlet by the linearised Reynolds equation, and what goes by them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pyehl.case import Case
+from pyehl.prediction.smooth import solve_contact, zone_of
+from pyehl.theory.inlet import END, SPACING, START, _yielding, at_inlet, passed
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.response import inlet_transfer
+from pyehl.theory.transport import Zone, stiffness, upstream
+
+MOES = (500.0, 8.0)
+
+
+@pytest.fixture(scope="module")
+def zone() -> Zone:
+    """Return the centre line of a smooth contact."""
+    settings = Case.from_text(f"&contact moes_m = {MOES[0]} moes_l = {MOES[1]} /\n").resolve()
+    operating = OperatingPoint.from_settings(settings)
+    return zone_of(solve_contact(settings), operating, Lubricant.from_settings(settings))
+
+
+def test_a_uniform_wave_deflects_as_on_the_half_space(zone: Zone):
+    x = np.arange(START, END + 0.5 * SPACING, SPACING)
+    qx, qy = np.array([15.0, 20.0, 50.0]), np.array([25.0, 30.0, 20.0])
+    middle = _yielding(zone, qx, qy, 0.0 * qx, x)[:, np.argmin(np.abs(x + 1.1))].sum(-1)
+    np.testing.assert_allclose(middle, 1.0 / stiffness(np.hypot(qx, qy)), rtol=0.05)
+
+
+@pytest.mark.parametrize("ratio", [0.5, 1.0, 1.5])
+def test_halved_spacing(zone: Zone, monkeypatch: pytest.MonkeyPatch, ratio: float):
+    q = np.array([2.0, 8.0, 20.0, 50.0])
+    coarse = at_inlet(zone, q, 0.5 * q, ratio)
+    monkeypatch.setattr("pyehl.theory.inlet.SPACING", 0.5 * SPACING)
+    np.testing.assert_allclose(at_inlet(zone, q, 0.5 * q, ratio), coarse, atol=0.012)
+
+
+def test_long_waves_do_not_pass_and_short_ones_as_by_transport(zone: Zone):
+    long = at_inlet(zone, np.array([0.5]), np.array([0.0]), 1.0)
+    assert abs(long[0]) < 0.05
+    q = np.array([100.0, 128.0])
+    for ratio in (0.95, 1.0, 1.05):
+        short = at_inlet(zone, q, 0.5 * q, ratio)
+        np.testing.assert_allclose(short, upstream(zone, q, 0.5 * q, ratio), atol=0.06)
+
+
+def test_waves_between_those_that_are_solved(zone: Zone):
+    random = np.random.default_rng(3)
+    q, angle = np.exp(random.uniform(0.5, 4.5, 40)), random.uniform(0.0, 0.5 * np.pi, 40)
+    qx, qy = q * np.cos(angle), q * np.sin(angle)
+    for ratio in (0.5, 1.5):
+        found = passed(zone, qx, qy, ratio)
+        np.testing.assert_allclose(found, at_inlet(zone, qx, qy, ratio), atol=0.003)
+
+
+@pytest.mark.parametrize("edge", [0.8, 1.2])
+def test_the_transfer_goes_on_beyond_the_fitted_slip(zone: Zone, edge: float):
+    """From the value at the edge of the range, and as the waves of `at_inlet`."""
+    qx, qy = np.array([3.0, 10.0, 30.0]), np.array([0.0, 10.0, 5.0])
+    at = inlet_transfer(zone, qx, qy, MOES, edge)
+    further = edge + np.sign(edge - 1.0) * 1e-9
+    np.testing.assert_allclose(inlet_transfer(zone, qx, qy, MOES, further), at, rtol=1e-6)
+    far = 1.0 + 2.5 * (edge - 1.0)
+    expected = at_inlet(zone, qx, qy, far) / at_inlet(zone, qx, qy, edge)
+    np.testing.assert_allclose(inlet_transfer(zone, qx, qy, MOES, far) / at, expected, rtol=0.02)
+
+
+def test_a_law_that_does_not_thin_changes_nothing(zone: Zone):
+    qx, qy = np.array([3.0, 10.0, 30.0]), np.array([0.0, 10.0, 5.0])
+    same = inlet_transfer(replace(zone, newtonian=zone), qx, qy, MOES, 1.1)
+    np.testing.assert_allclose(same, inlet_transfer(zone, qx, qy, MOES, 1.1), rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("moes", "count", "largest"),
+    [
+        ((100.0, 3.0), 4, 0.081),
+        ((100.0, 20.0), 2, 0.064),
+        ((200.0, 10.0), 4, 0.038),
+        ((300.0, 12.0), 4, 0.033),
+        ((500.0, 5.0), 4, 0.05),
+        ((1000.0, 10.0), 4, 0.031),
+        ((2000.0, 15.0), 4, 0.057),
+        ((3000.0, 3.0), 2, 0.058),
+        ((3000.0, 20.0), 2, 0.113),
+    ],
+)
+def test_measured_waves_beyond_the_slip_of_the_fit(evidence, moes, count, largest):
+    """T at X = 0 in slip.csv: its largest deviation, and that the prediction is of this package."""
+    slip = evidence("response", "slip")
+    rows = slip.read()
+    rows = rows[(rows[:, :2] == moes).all(1)]
+    runs = np.unique(rows[:, 2:4], axis=0)
+    assert len(runs) == count
+    centre = rows[slip.compared(rows) & (rows[:, 6] == 0.0)]
+    assert 0.8 * largest < slip.off(centre).max() < largest
+    run = rows[(rows[:, 2:4] == runs[0]).all(1)]
+    found = slip.predicted(run)
+    np.testing.assert_allclose(found, run[:, 9] + 1j * run[:, 10], atol=2e-3)
