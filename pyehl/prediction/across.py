@@ -3,10 +3,10 @@
 
 The sides of a narrow contact flatten a wave as long as it is wide more than the middle does. A
 half-space does not answer to that line by line: where the amplitude is a sum of waves across the
-motion, so is the film, and each of them has its own stiffness. The amplitude is known on
-some lines (:data:`LINES`) and linear between them; beyond the contact it
-falls to zero, and what is there is nobody's film: the edge takes it off (:class:`Edge`). No constant
-is in it but the number of waves.
+motion, so is the film, and each of them has its own stiffness. The amplitude is known on some
+lines (:data:`LINES`) and linear between them; beyond the contact it falls to zero, and what is
+there is no film: the edge takes it off (:class:`pyehl.prediction.edge.Edge`). No constant is in it
+but the number of waves.
 """
 
 from __future__ import annotations
@@ -37,8 +37,9 @@ def harmonics(amplitudes: Complex) -> tuple[Array, Complex]:
     places = np.concatenate([[-END, -1.0], LINES, [1.0, END]])
     held = np.pad(np.pad(np.eye(LINES.size), ((1, 1), (0, 0)), mode="edge"), ((1, 1), (0, 0)))
     hats = np.stack([np.interp(y, places, one) for one in held.T], axis=1)
-    k = 2.0 * np.pi / PERIOD * np.arange(-SHORTEST, SHORTEST + 1)
-    return k, np.tensordot(np.exp(-1j * np.outer(k, y)) @ hats / POINTS, amplitudes, 1)
+    k = 2.0 * np.pi / PERIOD * np.arange(-SHORTEST, SHORTEST + 1, dtype=np.float64)
+    parts = np.tensordot(np.exp(-1j * np.outer(k, y)) @ hats / POINTS, amplitudes, 1)
+    return np.asarray(k, dtype=np.float64), np.asarray(parts, dtype=np.complex128)
 
 
 def pressed(

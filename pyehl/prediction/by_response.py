@@ -186,7 +186,7 @@ class RoughPassage:
             contact = self._contact(spectrum, transfer, edge)
             t = transfer.at_centre(spectrum, self.velocity_ratio)
             limit = self.options.film_limit / self.operating.film_scale
-            contact.watch(film_levels(limit, [(spectrum.power, np.abs(t))]))
+            contact.watch(film_levels(limit, [(spectrum.power, np.abs(t))], [self.velocity_ratio]))
             passage = friction_along(contact, grid.shape[0], self.options.positions, LARGEST_RATIO)
             if not self.options.positions:
                 meet_more(contact, grid.shape[0], passage[0])

@@ -14,7 +14,14 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from pyehl.prediction.friction import RoughFriction
 
-__all__ = ["FILM", "deformed_surface", "deformed_surfaces", "error_name", "film_levels"]
+__all__ = [
+    "FILM",
+    "deformed_surface",
+    "deformed_surfaces",
+    "error_name",
+    "film_levels",
+    "film_share",
+]
 
 Array = NDArray[np.float64]
 
@@ -22,21 +29,36 @@ Array = NDArray[np.float64]
 # beside that of the smooth contact by the rms height of the deformed roughness
 RMS_DEFORMED, RISE_RMS, RISE = 0.13, 0.05, 0.15
 FILM = 0.35
+# Slip from which on that of the film is twice as large
+MUCH_SLIP = 0.2
 
 
-def film_levels(limit: float, waves: Sequence[tuple[Array, Array]]) -> tuple[float, ...]:
+def film_share(*velocity_ratios: float) -> float:
+    """Error of a film over the rms height of the deformed roughness, at velocity ratios [-]."""
+    slips = [abs(ratio - 1.0) for ratio in velocity_ratios]
+    return FILM * (2.0 if max(slips) > MUCH_SLIP else 1.0)
+
+
+def film_levels(
+    limit: float, waves: Sequence[tuple[Array, Array]], velocity_ratios: Sequence[float]
+) -> tuple[float, ...]:
     """Film limit less its error, itself, and with its error; () without a limit.
 
     Of each surface `waves` has the mean square of the components of the roughness, in the square of
     the unit of the limit, and how much of each the contact leaves.
     """
     left = sum(float((power * np.square(ratio)).sum()) for power, ratio in waves)
-    margin = FILM * math.sqrt(left)
+    margin = film_share(*velocity_ratios) * math.sqrt(left)
     return (limit - margin, limit, limit + margin) if limit > 0.0 else ()
 
 
 def deformed_surface(
-    friction: RoughFriction, film_minimum: float, film_limit: float, *, known: bool
+    friction: RoughFriction,
+    film_minimum: float,
+    film_limit: float,
+    velocity_ratios: Sequence[float],
+    *,
+    known: bool,
 ) -> dict[str, Any]:
     """Give what a summary says of the deformed surface.
 
@@ -52,7 +74,7 @@ def deformed_surface(
     if friction.status != "predicted":
         rms = rise = share = share_error = math.nan
     values = {
-        "h_min_rough_m": (friction.film_min, FILM * of_all),
+        "h_min_rough_m": (friction.film_min, film_share(*velocity_ratios) * of_all),
         "rms_deformed_m": (deformed, RMS_DEFORMED * deformed),
         "lambda_ratio_deformed": (ratio, RMS_DEFORMED * ratio),
         "p_rise_rms_Pa": (rms, RISE_RMS * rms),

@@ -209,7 +209,8 @@ class RoughPair:
             contact = self._contact(parts)
             left = [(s.power, np.abs(t.at_centre(s, ratio))) for s, t, ratio in self._moving(parts)]
             limit = one.options.film_limit / one.operating.film_scale
-            contact.watch(film_levels(limit, left))
+            ratios = [p.velocity_ratio for p in self.of]
+            contact.watch(film_levels(limit, left, ratios))
             places = meeting.mean(contact.friction, one.options.positions, LARGEST_RATIO)
             found = self._result(contact, parts, places, brief)
             if found.status != "predicted":

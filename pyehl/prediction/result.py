@@ -161,10 +161,16 @@ class Prediction:
         return self.friction.mu_ratio
 
     @property
+    def _ratios(self) -> list[float]:
+        """Velocity ratios of the rough surfaces."""
+        return [self.velocity_ratio, *([self.second.velocity_ratio] if self.second else [])]
+
+    @property
     def outside_range(self) -> list[str]:
         """What of the case lies outside the range in which the response was measured; mostly []."""
-        ratios = [self.velocity_ratio, *([self.second.velocity_ratio] if self.second else [])]
-        found = [outside_range(self.operating, u, self.options, self.thinning) for u in ratios]
+        found = [
+            outside_range(self.operating, u, self.options, self.thinning) for u in self._ratios
+        ]
         return list(dict.fromkeys(name for names in found for name in names))
 
     @property
@@ -285,7 +291,9 @@ class Prediction:
             "lambda_ratio_central": self.film / sigma if sigma > 0.0 else None,
             **statistics(s, f.response),
             **(self.second.summary(s) if self.second else {}),
-            **deformed_surface(f, self.film_minimum, self.options.film_limit, known=self._known),
+            **deformed_surface(
+                f, self.film_minimum, self.options.film_limit, self._ratios, known=self._known
+            ),
             **contact_numbers(self.partial, layer, known=self._known),
             "cavitated_share": f.cavitated_share,
             "cavitated_friction": f.cavitated_friction,

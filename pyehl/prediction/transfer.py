@@ -157,8 +157,8 @@ class Transfer:
     bent: bool
     # The pressure of second order; None where the waves move with the roughness as they are
     second: SecondOrder | None = None
-    # Of an ellipse, what gives way where `off_centre` is [p_h R/a^2], of a half-space under a circle:
-    # on each of LINES (:func:`pyehl.prediction.across.pressed`)
+    # Of an ellipse, what gives way where `off_centre` is [p_h R/a^2], of a half-space under a
+    # circle: on each of LINES (:func:`pyehl.prediction.across.pressed`)
     pressed: tuple[Complex, ...] = ()
     stiffening: float = 1.0  # stiffness over that of the half-space under a circle
     ellipticity: float = 1.0  # of the contact
@@ -252,7 +252,9 @@ class Transfer:
             return np.full(np.broadcast_shapes(qx.shape, qy.shape), self.stiffening)
         return self.stiffening * edge_gain(qx, qy, self.stiffening * central_film)
 
-    def free_pressures(self, qx: Array, qy: Array, velocity_ratio: float) -> tuple[list[Complex], ...]:
+    def free_pressures(
+        self, qx: Array, qy: Array, velocity_ratio: float
+    ) -> tuple[list[Complex], ...]:
         """Pressures by which free waves give way on an ellipse, of a half-space under a circle.
 
         At the stations, and what is added on each of LINES but the centre line.

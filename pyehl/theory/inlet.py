@@ -18,9 +18,8 @@ does to the wave is left out.
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.ndimage import map_coordinates
-from scipy.special import k0, sici
 
 from pyehl.theory.transport import INLET, Flow, Zone, stiffness, upstream
 
@@ -87,12 +86,12 @@ def _yielding(zone: Zone, qx: Array, qy: Array, slip: Array, x: Array) -> Comple
     kappa = np.hypot(qy, strip)[:, np.newaxis]
     half = 0.5 * h
     # K_0(z) is -ln(z/2) - gamma next to 0
-    sine, integral = np.sin(k * half), sici(k * half)[0]
+    sine, integral = np.sin(k * half), scipy.special.sici(k * half)[0]
     near = (2.0 / k) * (integral - sine * (np.log(0.5 * kappa * half) + np.euler_gamma))
     beside = np.zeros((qx.size, far.size), dtype=complex)
     for node, weight in zip(*GAUSS, strict=True):
         away = far + half * node
-        beside += (half * weight) * k0(kappa * away) * np.exp(1j * k * away)
+        beside += (half * weight) * scipy.special.k0(kappa * away) * np.exp(1j * k * away)
     # of what is |i - j| nodes downstream or upstream
     kernel = np.hstack([np.conj(beside[:, n - 2 :: -1]), near, beside])
     kernel *= 1.0 / (np.pi * float(stiffness(1.0)) * zone.stiffness)
@@ -137,5 +136,5 @@ def passed(zone: Zone, qx: ArrayLike, qy: ArrayLike, velocity_ratio: float) -> C
     q = np.clip(np.log(np.maximum(np.hypot(kx, ky), 1e-12)), low, high)
     column = (q - low) * ((WAVENUMBERS.size - 1) / (high - low))
     row = np.arctan2(ky, kx) * (2.0 / np.pi * (DIRECTIONS.size - 1))
-    found = map_coordinates(table, [row, column], order=3, mode="mirror")
+    found = scipy.ndimage.map_coordinates(table, [row, column], order=3, mode="mirror")
     return np.asarray(transported(kx, ky) + found)

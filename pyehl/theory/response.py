@@ -74,8 +74,8 @@ def edge_gain(
     On ellipses the pressure is calculated (:mod:`pyehl.prediction.across`), and there is no such
     factor.
 
-    Wavenumbers [1/a], H_c [a^2/R]. The constants are factor and power of the film, weight of oblique
-    waves, |q| at which it fades [1/a].
+    Wavenumbers [1/a], H_c [a^2/R]. The constants are factor and power of the film, weight of
+    oblique waves, |q| at which it fades [1/a].
     """
     kx, ky = np.asarray(qx, dtype=float), np.asarray(qy, dtype=float)
     q = np.hypot(kx, ky)

@@ -69,7 +69,7 @@ SOLUTIONS = {
         "&time steps = 2 /\n"
     ),
     "two waves without a common period": (
-        f"{MOES}{WAVE.format('velocity_ratio = 1.3137')}{SECOND}"
+        f"{MOES}{WAVE.format('velocity_ratio = 1.6137')}{SECOND}"
         "&time max_periods = 6 start = 'prediction' /\n"
     ),
     "second surface at rest alone": f"{MOES}{SECOND.replace('0.1', '0.1 velocity_ratio = 0')}",

@@ -310,7 +310,9 @@ def test_pages_show_the_finer_grid(root: Path, compare):
     run, said = fine["k050b"], table["k050b"]["prediction"]
     limit = run["mu_ratio"] + run["mu_ratio_error_grid"] / 3.0
     text = (compare.HERE / "README.md").read_text(encoding="utf-8")
-    assert f"approaches {limit:.3f} with order 2, {100.0 * (1.0 - said / limit):.1f} % above" in text
+    assert (
+        f"approaches {limit:.3f} with order 2, {100.0 * (1.0 - said / limit):.1f} % above" in text
+    )
 
 
 def test_ridges_beside_the_centre_line(root: Path, compare, script):
