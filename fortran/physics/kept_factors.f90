@@ -108,20 +108,24 @@ contains
       type(factor_rows_t), intent(in) :: found
       real(dp), intent(inout) :: kept(:, :)
       real(real32), intent(inout) :: changes(:, :)
-      !> d ln|S_x|/dS_x, d ln|S_y|/dS_y; d ln(phi)/d ln|S| of a direction, by its own part of S and by the other
-      real(dp) :: per(2), own, other
+      !> d ln|S_x|/dS_x, d ln|S_y|/dS_y; d ln(phi)/d ln|S| of a direction, by its own part of S and by the other;
+      !> 1 along X and 0 across, and the other way round
+      real(dp) :: per_x, per_y, own, other, along, across
       integer :: i, d
 
       do d = 1, 2
+         along = merge(1.0_dp, 0.0_dp, d == 1)
+         across = 1.0_dp - along
          do i = 1, size(b)
-            per = s(i, :2)/(s(i, :2)**2 + faint**2)
+            per_x = s(i, 1)/(s(i, 1)**2 + faint**2)
+            per_y = s(i, 2)/(s(i, 2)**2 + faint**2)
             own = found%tangent(i, d)/found%phi(i, d) - 1.0_dp
             other = found%by_gradient(i, d) - own
             kept(i, f_s + d - 1) = s(i, d)
             kept(i, f_phi + d - 1) = found%phi(i, d)
             changes(i, c_by_sliding + d - 1) = real(found%by_sliding(i, d), real32)
-            changes(i, c_by_x + d - 1) = real(merge(own, other, d == 1)*per(1), real32)
-            changes(i, c_by_y + d - 1) = real(merge(own, other, d == 2)*per(2), real32)
+            changes(i, c_by_x + d - 1) = real((along*own + across*other)*per_x, real32)
+            changes(i, c_by_y + d - 1) = real((across*own + along*other)*per_y, real32)
             changes(i, c_tangent + d - 1) = real(found%tangent(i, d), real32)
             changes(i, c_stress_by_gradient + d - 1) = real(found%stress_by_gradient(i, d), real32)
          end do
