@@ -19,10 +19,10 @@ module ehl_kept_factors
    !> B of a node without factors, near no other
    real(dp), parameter :: none = -1.0_dp
    !> What is kept of a node: B, S, phi and the stress; and as numbers of single precision, since memory is what time goes
-   !> to, the changes of phi and of the stress. As in factor_rows_t
+   !> to, the changes of phi and of the stress: those of ln(phi) with ln(B), and of ln(phi_x) and ln(phi_y) with S_x, with S_y
    integer, parameter :: f_b = 1, f_s = 2, f_phi = 4, f_stress = 6, fields = 6
-   integer, parameter :: c_by_sliding = 1, c_by_gradient = 3, c_tangent = 5, c_stress_by_sliding = 7, &
-                         c_stress_by_gradient = 8, change_fields = 9
+   integer, parameter :: c_by_sliding = 1, c_by_x = 3, c_by_y = 5, c_tangent = 7, c_stress_by_sliding = 9, &
+                         c_stress_by_gradient = 10, change_fields = 11
 
    type :: kept_factors_t
       type(thinning_t) :: law
@@ -38,6 +38,7 @@ module ehl_kept_factors
       procedure :: setup
       procedure :: forget
       procedure :: find
+      procedure :: stress
       procedure :: film_power
       procedure :: bytes
    end type kept_factors_t
@@ -66,7 +67,7 @@ contains
       if (allocated(self%values)) self%values(:, f_b, :, :) = none
    end subroutine forget
 
-   !> Factors of a stretch of row j, of size(b) nodes, and their changes but those with the gradient
+   !> Factors of a stretch of row j, of size(b) nodes, their changes with the sliding, and that of the flow
    pure subroutine find(self, b, s, stretch, j, rows)
       class(kept_factors_t), intent(inout) :: self
       !> B >= 0, and S along X and along Y of as many nodes, or more, shape (nodes, 2)
@@ -75,7 +76,7 @@ contains
       type(factor_rows_t), intent(inout) :: rows
       type(factor_rows_t) :: found
       real(dp) :: beyond(most), ss(most, 2), share, bound
-      integer :: i, n, from, to
+      integer :: i, n, outside, from, to
 
       n = size(b)
       share = merge(0.0_dp, self%reach, self%law%law == eyring)
@@ -85,14 +86,13 @@ contains
             beyond(i) = max(abs(b(i) - kept(i, f_b)) - self%reach*(kept(i, f_b) + slight), abs(s(i, 1) - kept(i, f_s)) - bound, &
                             abs(s(i, 2) - kept(i, f_s + 1)) - bound)
          end do
-         from = n + 1
-         to = 0
+         outside = 0
          do i = 1, n
-            if (beyond(i) <= 0.0_dp) cycle
-            from = min(from, i)
-            to = i
+            outside = outside + merge(0, 1, beyond(i) <= 0.0_dp)
          end do
-         if (from <= to) then
+         if (outside > 0) then
+            from = findloc(beyond(:n) <= 0.0_dp, .false., dim=1)
+            to = findloc(beyond(:n) <= 0.0_dp, .false., dim=1, back=.true.)
             n = to - from + 1
             ss(:n, :) = s(from:to, :)
             call find_factors(self%law, b(from:to), ss, found)
@@ -108,16 +108,26 @@ contains
       type(factor_rows_t), intent(in) :: found
       real(dp), intent(inout) :: kept(:, :)
       real(real32), intent(inout) :: changes(:, :)
+      !> d ln|S_x|/dS_x, d ln|S_y|/dS_y; d ln(phi)/d ln|S| of a direction, by its own part of S and by the other;
+      !> 1 along X and 0 across, and the other way round
+      real(dp) :: per_x, per_y, own, other, along, across
       integer :: i, d
 
-      do d = 0, 1
+      do d = 1, 2
+         along = merge(1.0_dp, 0.0_dp, d == 1)
+         across = 1.0_dp - along
          do i = 1, size(b)
-            kept(i, f_s + d) = s(i, 1 + d)
-            kept(i, f_phi + d) = found%phi(i, 1 + d)
-            changes(i, c_by_sliding + d) = real(found%by_sliding(i, 1 + d), real32)
-            changes(i, c_by_gradient + d) = real(found%by_gradient(i, 1 + d), real32)
-            changes(i, c_tangent + d) = real(found%tangent(i, 1 + d), real32)
-            changes(i, c_stress_by_gradient + d) = real(found%stress_by_gradient(i, 1 + d), real32)
+            per_x = s(i, 1)/(s(i, 1)**2 + faint**2)
+            per_y = s(i, 2)/(s(i, 2)**2 + faint**2)
+            own = found%tangent(i, d)/found%phi(i, d) - 1.0_dp
+            other = found%by_gradient(i, d) - own
+            kept(i, f_s + d - 1) = s(i, d)
+            kept(i, f_phi + d - 1) = found%phi(i, d)
+            changes(i, c_by_sliding + d - 1) = real(found%by_sliding(i, d), real32)
+            changes(i, c_by_x + d - 1) = real((along*own + across*other)*per_x, real32)
+            changes(i, c_by_y + d - 1) = real((across*own + along*other)*per_y, real32)
+            changes(i, c_tangent + d - 1) = real(found%tangent(i, d), real32)
+            changes(i, c_stress_by_gradient + d - 1) = real(found%stress_by_gradient(i, d), real32)
          end do
       end do
       do i = 1, size(b)
@@ -127,46 +137,64 @@ contains
       end do
    end subroutine keep
 
-   !> Factors and stress to first order
+   !> Factors to first order
    pure subroutine follow(b, s, kept, changes, rows)
       real(dp), contiguous, intent(in) :: b(:), s(:, :)
       real(dp), contiguous, intent(in) :: kept(:, :)
       real(real32), contiguous, intent(in) :: changes(:, :)
       type(factor_rows_t), intent(inout) :: rows
-      !> Changes of ln(B), of S, and of ln|S_x| and ln|S_y|; d ln(phi)/d ln|S| of a direction, by its own part of S
-      real(dp) :: db, dx, dy, lx, ly, own
+      !> Changes of ln(B) and of S
+      real(dp) :: db, dx, dy
       integer :: i
 
       do i = 1, size(b)
+         db = (b(i) - kept(i, f_b))/(kept(i, f_b) + tiny(1.0_dp))
+         dx = s(i, 1) - kept(i, f_s)
+         dy = s(i, 2) - kept(i, f_s + 1)
          rows%by_sliding(i, 1) = changes(i, c_by_sliding)
          rows%by_sliding(i, 2) = changes(i, c_by_sliding + 1)
          rows%tangent(i, 1) = changes(i, c_tangent)
          rows%tangent(i, 2) = changes(i, c_tangent + 1)
-         rows%stress_by_sliding(i) = changes(i, c_stress_by_sliding)
-         db = b(i) - kept(i, f_b)
-         dx = s(i, 1) - kept(i, f_s)
-         dy = s(i, 2) - kept(i, f_s + 1)
-         rows%stress(i) = kept(i, f_stress) + changes(i, c_stress_by_sliding)*db + changes(i, c_stress_by_gradient)*dx &
-                          + changes(i, c_stress_by_gradient + 1)*dy
-         db = db/(kept(i, f_b) + tiny(1.0_dp))
-         lx = dx*kept(i, f_s)/(kept(i, f_s)**2 + faint**2)
-         ly = dy*kept(i, f_s + 1)/(kept(i, f_s + 1)**2 + faint**2)
-         own = rows%tangent(i, 1)/kept(i, f_phi) - 1.0_dp
-         rows%phi(i, 1) = kept(i, f_phi)*(1.0_dp + rows%by_sliding(i, 1)*db + own*lx + (changes(i, c_by_gradient) - own)*ly)
-         own = rows%tangent(i, 2)/kept(i, f_phi + 1) - 1.0_dp
-         rows%phi(i, 2) = kept(i, f_phi + 1)*(1.0_dp + rows%by_sliding(i, 2)*db + own*ly + (changes(i, c_by_gradient + 1) - own)*lx)
+         rows%phi(i, 1) = kept(i, f_phi)*(1.0_dp + rows%by_sliding(i, 1)*db + changes(i, c_by_x)*dx + changes(i, c_by_y)*dy)
+         rows%phi(i, 2) = kept(i, f_phi + 1)*(1.0_dp + rows%by_sliding(i, 2)*db + changes(i, c_by_x + 1)*dx &
+                                              + changes(i, c_by_y + 1)*dy)
       end do
    end subroutine follow
+
+   !> Mean stress of a stretch of row j, and its change with B, by what is kept
+   pure subroutine stress(self, b, s, stretch, j, values, by_sliding)
+      class(kept_factors_t), intent(in) :: self
+      !> As in `find`
+      real(dp), contiguous, intent(in) :: b(:), s(:, :)
+      integer, intent(in) :: stretch, j
+      real(dp), contiguous, intent(out) :: values(:), by_sliding(:)
+      integer :: i
+
+      associate (kept => self%values(:, :, stretch, j), changes => self%changes(:, :, stretch, j))
+         do i = 1, size(b)
+            by_sliding(i) = changes(i, c_stress_by_sliding)
+            values(i) = kept(i, f_stress) + by_sliding(i)*(b(i) - kept(i, f_b)) &
+                        + changes(i, c_stress_by_gradient)*(s(i, 1) - kept(i, f_s)) &
+                        + changes(i, c_stress_by_gradient + 1)*(s(i, 2) - kept(i, f_s + 1))
+         end do
+      end associate
+   end subroutine stress
 
    !> d ln(eps)/d ln(H) at node (i, j), as kept
    pure real(dp) function film_power(self, i, j, direction)
       class(kept_factors_t), intent(in) :: self
       integer, intent(in) :: i, j, direction
-      integer :: stretch
+      real(dp) :: s(2), by_gradient(2)
+      integer :: stretch, k
 
       stretch = (i - 1)/self%width + 1
-      associate (changes => self%changes(i - (stretch - 1)*self%width, :, stretch, j))
-         film_power = 3.0_dp - changes(c_by_sliding + direction - 1) + changes(c_by_gradient + direction - 1)
+      k = i - (stretch - 1)*self%width
+      associate (kept => self%values(k, :, stretch, j), changes => self%changes(k, :, stretch, j))
+         s = kept(f_s:f_s + 1)
+         ! as keep has them
+         s = sign(max(abs(s), real(tiny(1.0_real32), dp)), s)
+         by_gradient = [changes(c_by_x + direction - 1), changes(c_by_y + direction - 1)]*(s + faint**2/s)
+         film_power = 3.0_dp - changes(c_by_sliding + direction - 1) + sum(by_gradient)
       end associate
    end function film_power
 

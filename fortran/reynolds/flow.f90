@@ -28,10 +28,10 @@ module ehl_flow
       real(dp) :: inverse_speed = 0.0_dp
       !> Conductance, and d ln(eps)/dP at constant film
       real(dp), allocatable :: eps(:, :, :), dlneps_dp(:, :, :)
-      !> Whether the conductance depends on the gradient of pressure; then -dq/d(grad P), for linear systems, and
-      !> the shear stress of the sliding (nx, ny) as stress_row has it; else not allocated
+      !> Whether the conductance depends on the gradient of pressure; then -dq/d(grad P), for linear systems; else
+      !> not allocated
       logical :: bends = .false.
-      real(dp), allocatable :: tangent(:, :, :), stress(:, :)
+      real(dp), allocatable :: tangent(:, :, :)
       !> Flow factors of the nodes, if there are any
       type(kept_factors_t) :: kept
       type(grid_t) :: grid
@@ -96,7 +96,6 @@ contains
       allocate (self%eps(grid%nx, grid%ny, self%across), self%dlneps_dp(grid%nx, grid%ny, self%across), source=0.0_dp, &
                 stat=stat)
       if (stat == 0 .and. self%bends) allocate (self%tangent, source=self%eps, stat=stat)
-      if (stat == 0 .and. self%bends) allocate (self%stress(grid%nx, grid%ny), source=0.0_dp, stat=stat)
       if (stat == 0 .and. self%bends) call self%kept%setup(grid%nx, grid%ny, stat)
       if (stat /= 0) call status%fail(ehl_no_memory, "no memory for the conductances of a grid level")
    end subroutine setup
@@ -121,7 +120,6 @@ contains
       class(flow_t), intent(in) :: self
       bytes = 0
       if (allocated(self%eps)) bytes = 16*size(self%eps, kind=int64)
-      if (allocated(self%tangent)) bytes = bytes + 8*size(self%tangent, kind=int64) + 8*size(self%stress, kind=int64) &
-                                           + self%kept%bytes()
+      if (allocated(self%tangent)) bytes = bytes + 8*size(self%tangent, kind=int64) + self%kept%bytes()
    end function bytes
 end module ehl_flow

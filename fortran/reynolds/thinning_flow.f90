@@ -61,7 +61,7 @@ contains
       real(dp), contiguous, intent(in) :: rho(:), drho_dp(:)
       integer, intent(in) :: j, last
       type(factor_rows_t) :: factors
-      real(dp), dimension(most) :: b, newtonian
+      real(dp), dimension(most) :: b, newtonian, by_density
       real(dp) :: log_eta(size(p, 1)), slope(size(p, 1)), s(most, 2)
       integer :: stretch, first, n, i, k
 
@@ -79,8 +79,8 @@ contains
             i = first + k - 1
             newtonian(k) = exp(log_eta(i))
             b(k) = abs(self%sliding*newtonian(k)/h(i, j))
-            self%stress(i, j) = newtonian(k)/h(i, j)
             newtonian(k) = rho(i)*h(i, j)**3/newtonian(k)*self%inverse_speed
+            by_density(k) = drho_dp(i)/rho(i)
          end do
          call self%kept%find(b(:n), s, stretch, j, factors)
          do k = along, sideways
@@ -88,17 +88,10 @@ contains
                associate (m => i - first + 1)
                   self%eps(i, j, k) = factors%phi(m, k)*newtonian(m)
                   self%tangent(i, j, k) = factors%tangent(m, k)*newtonian(m)
-                  self%dlneps_dp(i, j, k) = drho_dp(i)/rho(i) - slope(i)*(1.0_dp - factors%by_sliding(m, k))
+                  self%dlneps_dp(i, j, k) = by_density(m) - slope(i)*(1.0_dp - factors%by_sliding(m, k))
                end associate
             end do
          end do
-         i = first + n - 1
-         if (self%sliding > 0.0_dp) then
-            self%stress(first:i, j) = factors%stress(:n)/self%sliding
-         else
-            ! in the limit of vanishing sliding
-            self%stress(first:i, j) = self%stress(first:i, j)*factors%stress_by_sliding(:n)
-         end if
       end do
    end subroutine find_row
 
@@ -110,22 +103,23 @@ contains
       integer, intent(in) :: j, first, n
       !> Along X and along Y, shape (n or more, 2)
       real(dp), contiguous, intent(inout) :: s(:, :)
+      real(dp) :: rx, ry
       integer :: i, k, north, south, last
 
+      rx = 0.5_dp*self%gradient/self%grid%hx
+      ry = 0.5_dp*self%gradient/self%grid%hy
       last = first + n - 1
       south = self%grid%south(j)
       north = j + 1
       if (j == size(p, 2)) north = south
-      if (first == 1) s(1, 1) = (p(2, j) - p(1, j))/self%grid%hx
-      if (last == size(p, 1)) s(n, 1) = (p(last, j) - p(last - 1, j))/self%grid%hx
+      if (first == 1) s(1, 1) = 2.0_dp*rx*h(1, j)*(p(2, j) - p(1, j))
+      if (last == size(p, 1)) s(n, 1) = 2.0_dp*rx*h(last, j)*(p(last, j) - p(last - 1, j))
       do i = max(first, 2), min(last, size(p, 1) - 1)
-         s(i - first + 1, 1) = (p(i + 1, j) - p(i - 1, j))/(2.0_dp*self%grid%hx)
+         s(i - first + 1, 1) = rx*h(i, j)*(p(i + 1, j) - p(i - 1, j))
       end do
       do k = 1, n
          i = first + k - 1
-         s(k, 2) = (p(i, north) - p(i, south))/(2.0_dp*self%grid%hy)
-         s(k, 1) = s(k, 1)*self%gradient*h(i, j)
-         s(k, 2) = s(k, 2)*self%gradient*h(i, j)
+         s(k, 2) = ry*h(i, j)*(p(i, north) - p(i, south))
       end do
    end subroutine gradients
 
@@ -136,7 +130,7 @@ contains
       film_power = self%kept%film_power(i, j, direction)
    end function film_power
 
-   !> Newtonian and real shear stress of row j, the latter as find_row left it
+   !> Newtonian and real shear stress of row j, the latter by the factors that find_row left
    pure subroutine stress_row(self, lubricant, p, h, rho, j, newtonian, stress)
       class(thinning_flow_t), intent(in) :: self
       type(lubricant_t), intent(in) :: lubricant
@@ -147,11 +141,27 @@ contains
       integer, intent(in) :: j
       real(dp), contiguous, intent(out) :: newtonian(:), stress(:)
       real(dp), dimension(size(p, 1)) :: log_eta, slope
+      real(dp) :: b(most), s(most, 2), by_sliding(most)
+      integer :: stretch, first, last
 
       associate (unused => rho)
       end associate
       call lubricant%log_viscosity(p(:, j), log_eta, slope)
       newtonian = exp(log_eta)/h(:, j)
-      stress = self%stress(:, j)
+      do stretch = 1, (size(p, 1) - 1)/self%kept%width + 1
+         first = (stretch - 1)*self%kept%width + 1
+         last = min(first + self%kept%width - 1, size(p, 1))
+         associate (n => last - first + 1)
+            call self%gradients(p, h, j, first, n, s)
+            b(:n) = abs(self%sliding*newtonian(first:last))
+            call self%kept%stress(b(:n), s, stretch, j, stress(first:last), by_sliding(:n))
+            if (self%sliding > 0.0_dp) then
+               stress(first:last) = stress(first:last)/self%sliding
+            else
+               ! in the limit of vanishing sliding
+               stress(first:last) = newtonian(first:last)*by_sliding(:n)
+            end if
+         end associate
+      end do
    end subroutine stress_row
 end module ehl_thinning_flow
