@@ -13,7 +13,7 @@ def evidence(script):
     return script("docs/evidence/speed/make.py")
 
 
-@pytest.mark.parametrize("name", ["steps", "whole", "smooth", "sweep"])
+@pytest.mark.parametrize("name", ["steps", "whole", "smooth", "ratios", "sweep"])
 def test_the_page_of_speed_shows_the_table(root: Path, evidence, name: str):
     text = (root / "docs" / "speed.md").read_text(encoding="utf-8")
     assert "\n".join(getattr(evidence, name)()) in text

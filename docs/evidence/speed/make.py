@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Make the tables of this folder from what benchmarks measured, or print those of the documents.
+r"""Make the tables of this folder from what benchmarks measured, or print those of the documents.
 
 pyehl bench step --points 129,257,513 --error -o step.json
 pyehl bench step --points 1025 --front 0 --steps 16 -o step_1025.json
 pyehl bench smooth -o smooth.json
 pyehl bench skips -o skips.json
 pyehl bench sweep -o sweep.json
+pyehl bench step --points 257 --threads 1 --cases wave-law,fractal-law,two-fractals -o laws.json
+pyehl bench smooth --points 257,513 --threads 1 --engines mlmi --cases circle,law,ellipse \
+    -o more.json
 python docs/evidence/speed/make.py read FOLDER    writes the tables, from these files
 python docs/evidence/speed/make.py show           prints them as the documents have them
 """
@@ -23,7 +26,15 @@ HERE = Path(__file__).resolve().parent
 Row = dict[str, Any]
 
 # Scenes as the documents call them
-SCENES = {"wave": "wave of Fig. 2", "fractal": "fractal surface of Table 1"}
+SCENES = {
+    "wave": "wave of Fig. 2",
+    "fractal": "fractal surface of Table 1",
+    "wave-law": "step of a wave, Eyring",
+    "fractal-law": "step of a fractal surface, Eyring",
+    "two-fractals": "step of two rough surfaces",
+    "law": "smooth contact, Eyring",
+    "ellipse": "smooth ellipse, κ = 2",
+}
 
 # Table, the files that it is made of, its columns and their formats
 TABLES: dict[str, tuple[tuple[str, ...], dict[str, str]]] = {
@@ -47,6 +58,10 @@ TABLES: dict[str, tuple[tuple[str, ...], dict[str, str]]] = {
             **{"points": "d", "engine": "s", "threads": "d", "status": "s", "cycles": "d"},
             **{"units": ".1f", "error": ".1e", "estimated_error": ".1e"},
         },
+    ),
+    "ratios": (
+        ("laws", "more"),
+        {"case": "s", "points": "d", "cycles": "g", "ratio": ".2f"},
     ),
     "skips": (
         ("skips",),
@@ -163,6 +178,16 @@ def smooth() -> list[str]:
     )
 
 
+def ratios() -> list[str]:
+    """Make the table of what a law, an ellipse or a second surface costs."""
+    found = [
+        [SCENES[row["case"]], f"{row['points']} nodes", row["ratio"]]
+        for row in table("ratios")
+        if row["case"] in SCENES
+    ]
+    return lines("| scene | along X | time per node |", found)
+
+
 def power(text: str) -> str:
     """Write a small number as the documents do."""
     digit, _, exponent = text.partition("e")
@@ -214,7 +239,8 @@ def main() -> None:
     if sys.argv[1:2] == ["read"] and len(sys.argv) == 3:
         read_measurements(Path(sys.argv[2]))
     elif sys.argv[1:] == ["show"]:
-        print("\n\n".join("\n".join(made()) for made in (steps, whole, smooth, sweep, skips)))
+        every = steps, whole, smooth, ratios, sweep, skips
+        print("\n\n".join("\n".join(made()) for made in every))
     else:
         sys.exit(__doc__)
 
