@@ -241,6 +241,15 @@ def test_contact_of_a_coarse_grid(solve):
     assert "an error that is not known" in done["judgement"]
 
 
+def test_a_layer_that_would_have_to_give_much(solve):
+    """A thick one on a coarse grid: the judgement says that the model ends there."""
+    done = solve(None, 65, STEEL | MIXED | {"lubricant.boundary_film": 8e-8})
+    assert done.converged
+    assert done["layer_supply"] > 0.1
+    assert "the layer would have to give" in done["judgement"]
+    assert "where the model ends" in done["judgement"]
+
+
 def test_both_drivers_say_the_same(solve, tmp_path):
     values = STEEL | MIXED | {"lubricant.boundary_friction": 0.1, "time.steps": 12}
     done = solve(None, 65, values)
