@@ -72,9 +72,11 @@ def campaign(
 ) -> list[Row]:
     """Run so many cases of a seed and check what they say; a row for each.
 
-    `law` is their shear law; with `layer` each has a boundary film. A row is the case, what its run said, `outcome`, `difference` and `allowed`. The folder gets
-    the journals of the runs, so that a campaign that was stopped is resumed. Each grid has half as
-    many cases as the one before. KeyboardInterrupt if it is stopped.
+    `law` is their shear law; with `layer` each has a boundary film. A row is the case, what its
+    run said, `outcome`, `difference` and `allowed`; with a layer what conditions its fields break
+    (`broken`) and load shares of other runs, too. The folder gets the journals of the runs, so that
+    a campaign that was stopped is resumed. Each grid has half as many cases as the one before.
+    KeyboardInterrupt if it is stopped.
     """
     rows: list[Row] = []
     drawn = draw(cases, seed, grids, law, layer=layer)
