@@ -44,7 +44,7 @@ def draw_contact(
         for ax in (share, film):
             ax.grid(visible=True, which="major", color="0.92", lw=0.6)
             ax.set_axisbelow(True)
-    panels[0, 0].set_ylabel("contact: load, area (dashed, diamonds)")
+    panels[0, 0].set_ylabel("load, area (dashed)")
     panels[1, 0].set_ylabel("least film [nm]")
 
 
