@@ -21,6 +21,8 @@ module ehl_judgement
    real(dp), parameter :: touching = 1.0_dp, apart = 3.0_dp
    !> A result whose error is a larger share of it is not well known
    real(dp), parameter :: well_known = 0.05_dp
+   !> Share of the flow that a boundary film would have to give from which on a contact is not the one of the model
+   real(dp), parameter :: much_supplied = 0.1_dp
    !> Flash temperature [K] above which an oil is thinner than computed, where its heat is left out
    real(dp), parameter :: hot = 10.0_dp
 
@@ -89,6 +91,8 @@ contains
       else
          text = text//"with an error that is not known; "
       end if
+      if (larger(summary%number("layer_supply"), much_supplied)) text = text//"the layer would have to give "// &
+         percent(summary%number("layer_supply"))//" of the flow, where the model ends; "
    end function of_contact
 
    !> Solids that yield at their hardness

@@ -21,7 +21,7 @@ module ehl_report_touching
 contains
 
    !> Results of the contact of the case, null unless they are good; nothing where there is no boundary film
-   subroutine report_touching(record, plan, grid, numbers, coarser, why)
+   subroutine report_touching(record, plan, grid, numbers, coarser, stop_error, why)
       type(record_t), intent(inout) :: record
       type(plan_t), intent(in) :: plan
       !> Of the results
@@ -30,6 +30,8 @@ contains
       real(dp), intent(in) :: numbers(size(touching_names))
       !> Load share on the next coarser grid; NaN where it is not known, and then why
       real(dp), intent(in) :: coarser
+      !> Error of the share by the end of the run; NaN where there is no solution
+      real(dp), intent(in) :: stop_error
       character(len=*), intent(in) :: why
       real(dp) :: error
       character(len=:), allocatable :: note
@@ -48,7 +50,9 @@ contains
       end if
       call record%set("boundary_film", plan%lubricant%boundary_film)
       call record%set("contact_load_share", numbers(1))
-      call record%set("contact_load_share_error", error)
+      call record%set("contact_load_share_error", error + stop_error)
+      call record%set("contact_load_share_error_grid", error)
+      call record%set("contact_load_share_error_stop", stop_error)
       call record%set("contact_load_share_error_note", note)
       call record%set("contact_area_share", numbers(2)/(pi*plan%contact%ellipticity))
       call record%set("layer_supply", numbers(3))

@@ -16,7 +16,7 @@ submodule (ehl_solver) ehl_solver_results
    use ehl_surface_text, only: window_words
    use ehl_text, only: newline
    use ehl_touching, only: touching_names
-   use ehl_touching_mean, only: touching_of
+   use ehl_touching_mean, only: share_stop_error, touching_of
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
    implicit none (type, external)
 
@@ -211,26 +211,31 @@ contains
       type(record_t), intent(inout) :: record
       !> Whether the smooth contact is converged
       logical, intent(in) :: good
-      real(dp) :: numbers(size(touching_names)), coarser
+      real(dp) :: numbers(size(touching_names)), coarser, stop_error
       character(len=:), allocatable :: why
       integer :: n
 
       if (.not. self%plan%lubricant%boundary_film > 0.0_dp) return
       numbers = ieee_value(numbers, ieee_quiet_nan)
       coarser = numbers(1)
+      stop_error = numbers(1)
       why = "there is no solution on the next coarser grid"
       if (self%plan%surfaces%rough()) then
-         if (self%converged()) numbers = touching_of(self)
+         if (self%converged()) then
+            numbers = touching_of(self)
+            stop_error = share_stop_error(self)
+         end if
          if (self%coarse_outcome == outcome_converged) coarser = self%coarse_load_share
          why = why_no_grid_error(self)
       else if (good) then
          numbers = touching_of(self)
+         stop_error = 0.0_dp
          n = self%level()
          if (n > 1) then
             if (self%steady%results(n - 1)%solved) coarser = self%steady%results(n - 1)%m%touching%load_share
          end if
       end if
-      call report_touching(record, self%plan, self%grid, numbers, coarser, why)
+      call report_touching(record, self%plan, self%grid, numbers, coarser, stop_error, why)
    end subroutine summarise_touching
 
    !> Whether friction is known: everywhere in the film, or of the boundary film, too

@@ -2,11 +2,12 @@
 !> Contact at a boundary film over a run
 module ehl_touching_mean
    use ehl_contact_run, only: contact_run_t
+   use ehl_friction_mean, only: friction_mean_t
    use ehl_kinds, only: dp
    use ehl_touching, only: at_depth, known_names, touching_names
    implicit none (type, external)
    private
-   public :: load_share_of, touching_of
+   public :: load_share_of, share_stop_error, touching_of
 
 contains
 
@@ -41,4 +42,16 @@ contains
       numbers = touching_of(run)
       load_share_of = numbers(1)
    end function load_share_of
+
+   !> Error of the load share by the end of the run: that of a mean over time, as of the friction ratio; else 0
+   real(dp) function share_stop_error(run)
+      class(contact_run_t), intent(in) :: run
+      type(friction_mean_t) :: mean
+
+      share_stop_error = 0.0_dp
+      if (.not. run%in_steps) return
+      mean = run%transient%mean
+      mean%values = run%history%column(touching_names(1))
+      share_stop_error = mean%uncertainty()
+   end function share_stop_error
 end module ehl_touching_mean

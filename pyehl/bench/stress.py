@@ -2,7 +2,8 @@
 """``pyehl bench stress``: where the solver converges and where not, and that it is never wrong.
 
 Cases drawn from a seed run through the machinery of ``pyehl sweep``. All that end with a result are
-solved once more to a twentieth of the algebraic error.
+solved once more to a twentieth of the algebraic error. Cases with a boundary film are checked by
+their fields and on a finer grid as well.
 """
 
 from __future__ import annotations
@@ -13,10 +14,11 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from pyehl.bench import stress_contact
 from pyehl.bench.stress_cases import FAMILIES, StressCase, draw, study_of
 from pyehl.destination import write_json
-from pyehl.studies.plan import plan
-from pyehl.studies.sweep import perform
+from pyehl.studies.plan import Plan, plan
+from pyehl.studies.sweep import CASES, perform
 
 __all__ = ["COLUMNS", "ENDED", "MEANING", "campaign", "folders", "judge", "summary"]
 
@@ -36,7 +38,7 @@ KEPT = (
     *("status", "points", "restarts", "steps", "cycles_per_step", "cycles", "rough_cycles"),
     *("amplitude", "H_c", "H_c_error_grid", "H_min", "mu_ratio", "mu_ratio_error", "last_mu_ratio"),
     *("mu_ratio_min", "mu_ratio_max", "T_mean", "coarsening_changed_at", "seconds", "message"),
-    *("points_suggested",),
+    *("points_suggested", "contact_load_share", "contact_load_share_error", "layer_supply"),
 )
 
 COLUMNS = (
@@ -65,22 +67,25 @@ def campaign(
     jobs: int = 1,
     grids: Sequence[int] = (65, 129, 257),
     law: str = "newtonian",
+    layer: bool = False,
     tell: Callable[[str], None] = lambda text: None,
 ) -> list[Row]:
     """Run so many cases of a seed and check what they say; a row for each.
 
-    A row is the case, what its run said, `outcome`, `difference` and `allowed`. The folder gets
-    the journals of the runs, so that a campaign that was stopped is resumed. Each grid has half as
-    many cases as the one before. KeyboardInterrupt if it is stopped.
+    `law` is their shear law; with `layer` each has a boundary film. A row is the case, what its
+    run said, `outcome`, `difference` and `allowed`; with a layer what conditions its fields break
+    (`broken`) and load shares of other runs, too. The folder gets the journals of the runs, so that
+    a campaign that was stopped is resumed. Each grid has half as many cases as the one before.
+    KeyboardInterrupt if it is stopped.
     """
     rows: list[Row] = []
-    drawn = draw(cases, seed, grids, law)
+    drawn = draw(cases, seed, grids, law, layer=layer)
     for family in FAMILIES:
         mine = [case for case in drawn if case.family == family]
         if not mine:
             continue
         tell(f"{family}: {len(mine)} cases")
-        found = _run(family, mine, folder / family, jobs)
+        found = _run(family, mine, folder / family, jobs, fields=layer)
         chosen = [row for row in found if row["outcome"] in ("converged", ENDED)]
         if chosen:
             tell(f"{family}: {len(chosen)} once more, to a stricter end")
@@ -88,40 +93,47 @@ def campaign(
                 part = [row for row in chosen if _is_high(row) == high]
                 if part:
                     _check(family, part, folder / f"{family}-{name}", jobs)
+        known = [row for row in chosen if row["contact_load_share_error"] is not None]
+        if known:
+            tell(f"{family}: {len(known)} once more, on a finer grid")
+            for name, high in (("finer", False), ("finer-high", True)):
+                part = [row for row in known if _is_high(row) == high]
+                if part:
+                    _check(family, part, folder / f"{family}-{name}", jobs, finer=True)
         rows += found
     return rows
 
 
 def folders() -> list[str]:
     """Names of the folders of the runs."""
-    ends = ("", "-strict", "-strict-high")
+    ends = ("", "-strict", "-strict-high", "-finer", "-finer-high")
     return [f"{family}{end}" for family in FAMILIES for end in ends]
 
 
-def _run(family: str, cases: Sequence[StressCase], folder: Path, jobs: int) -> list[Row]:
-    solved = _solved(family, cases, [], folder, jobs)
+def _run(
+    family: str, cases: Sequence[StressCase], folder: Path, jobs: int, *, fields: bool
+) -> list[Row]:
+    keep = folder / CASES if fields else None
+    todo = plan(study_of(family, cases, fields=fields), keep)
     rows = []
-    for case, told in zip(cases, solved, strict=True):
+    for task, case, told in zip(todo.tasks, cases, _solved(todo, folder, jobs), strict=True):
         row: Row = {"family": family, "moes_m": case.moes_m, "moes_l": case.moes_l}
         row |= {"values": dict(case.values)} | {name: told.get(name) for name in KEPT}
         row["outcome"] = _outcome(row)
         row |= {"difference": None, "allowed": None, "strict_status": None, "wrong": False}
+        if fields and row["outcome"] in ("converged", ENDED):
+            row["broken"] = stress_contact.broken(Path(task.folder))
+            row["wrong"] = row["broken"] != ""
         rows.append(row)
     return rows
 
 
-def _solved(
-    family: str,
-    cases: Sequence[StressCase],
-    more: Sequence[Mapping[str, Any]],
-    folder: Path,
-    jobs: int,
-) -> list[Row]:
+def _solved(todo: Plan, folder: Path, jobs: int) -> list[Row]:
     """Rows of all cases; KeyboardInterrupt if the study was stopped, its folder has the rest."""
-    outcome = perform(plan(study_of(family, cases, more)), folder, jobs=jobs)
+    outcome = perform(todo, folder, jobs=jobs)
     if outcome.interrupted:
         raise KeyboardInterrupt
-    return [outcome.rows[number] for number in range(len(cases))]
+    return [outcome.rows[number] for number in range(len(todo.points))]
 
 
 def _outcome(row: Mapping[str, Any]) -> str:
@@ -136,8 +148,10 @@ def _is_high(row: Mapping[str, Any]) -> bool:
     return row["amplitude"] is not None and row["amplitude"] > HIGHEST
 
 
-def _check(family: str, rows: Sequence[Row], folder: Path, jobs: int) -> None:
-    """Solve again what has a result, to a stricter end."""
+def _check(
+    family: str, rows: Sequence[Row], folder: Path, jobs: int, *, finer: bool = False
+) -> None:
+    """Solve again what has a result, to a stricter end or on a finer grid."""
     cases = [StressCase(family, r["moes_m"], r["moes_l"], r["points"], r["values"]) for r in rows]
     strict: list[dict[str, Any]] = []
     for row in rows:
@@ -145,11 +159,18 @@ def _check(family: str, rows: Sequence[Row], folder: Path, jobs: int) -> None:
         if row["amplitude"] is not None and not _is_high(row):
             # a share of the film would be another height
             more |= {"surface.amplitude_over_film": None, "surface.amplitude": row["amplitude"]}
-        if row["steps"] is not None:
+        if finer:
+            more |= {"grid.points": 2 * row["values"]["grid.points"] - 1, "time.steps": 0}
+            more |= {"time.estimate_error": False, **dict.fromkeys(STRICT)}
+        elif row["steps"] is not None:
             more["time.steps"] = row["steps"]
         strict.append(more)
-    for row, told in zip(rows, _solved(family, cases, strict, folder, jobs), strict=True):
-        judge(row, told)
+    todo = plan(study_of(family, cases, strict))
+    for row, told in zip(rows, _solved(todo, folder, jobs), strict=True):
+        if not finer:
+            judge(row, told)
+        name = "share_finer" if finer else "share_strict"
+        stress_contact.judge_share(row, name, told, UNKNOWN_ERROR)
 
 
 def judge(row: Row, strict: Mapping[str, Any]) -> None:
@@ -173,7 +194,7 @@ def judge(row: Row, strict: Mapping[str, Any]) -> None:
     if other is None:
         return
     row["difference"] = abs(value / other - 1.0) if other else math.inf
-    row["wrong"] = row["difference"] > row["allowed"]
+    row["wrong"] = row.get("wrong", False) or row["difference"] > row["allowed"]
 
 
 def summary(rows: Sequence[Row]) -> list[Row]:

@@ -55,9 +55,17 @@ class StressCase:
 
 
 def draw(
-    cases: int, seed: int, grids: Sequence[int] = GRIDS, law: str = "newtonian"
+    cases: int,
+    seed: int,
+    grids: Sequence[int] = GRIDS,
+    law: str = "newtonian",
+    *,
+    layer: bool = False,
 ) -> list[StressCase]:
-    """Draw cases; the same for the same seed. Half of them on the first grid, and so on."""
+    """Draw cases; the same for the same seed. Half of them on the first grid, and so on.
+
+    `layer`: those with a law have a boundary film, too.
+    """
     generator = np.random.default_rng(seed)
     names = list(FAMILIES)
     shares = np.cumsum(list(FAMILIES.values()))
@@ -69,7 +77,22 @@ def draw(
         return drawn
     # the scenes are those without a law
     generator = np.random.default_rng((seed, LAWS.index(law)))
-    return [_with_law(case, law, generator) for case in drawn]
+    drawn = [_with_law(case, law, generator) for case in drawn]
+    if not layer:
+        return drawn
+    generator = np.random.default_rng((seed, len(LAWS)))
+    return [_with_layer(case, generator) for case in drawn]
+
+
+def _with_layer(case: StressCase, generator: np.random.Generator) -> StressCase:
+    """Give a case in SI units a boundary film of 0.2 to 1.5 of its central film."""
+    film = generator.uniform(0.2, 1.5) * _film(case) * _point(case).film_scale
+    values = dict(case.values)
+    values["lubricant.boundary_film"] = float(f"{film:.3g}")
+    values["lubricant.boundary_friction"] = float(f"{generator.uniform(0.05, 0.15):.3g}")
+    if values.get("solver.coarsening") == "alcouffe":  # a case with a layer refuses it
+        values["solver.coarsening"] = "auto"
+    return replace(case, values=values)
 
 
 def _with_law(case: StressCase, law: str, generator: np.random.Generator) -> StressCase:
@@ -185,7 +208,11 @@ def _si(case: StressCase) -> dict[str, Value]:
 
 
 def study_of(
-    family: str, cases: Sequence[StressCase], values: Sequence[Mapping[str, Any]] = ()
+    family: str,
+    cases: Sequence[StressCase],
+    values: Sequence[Mapping[str, Any]] = (),
+    *,
+    fields: bool = False,
 ) -> Study:
     """Give the study of cases of one family, at least one, for the machinery of ``pyehl sweep``.
 
@@ -199,7 +226,7 @@ def study_of(
         for key in chosen[0]
         if chosen[0][key] is not None
     ]
-    options = ["output.fields=.false."]
+    options = [f"output.fields=.{str(fields).lower()}."]
     if family != "feature":
         options.append(f"surface.kind={kinds.get(family, family)}")
     if family in ("wave", "rest"):

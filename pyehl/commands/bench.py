@@ -101,6 +101,8 @@ def _skips(args: argparse.Namespace, answer: Answer) -> Rows:
 def _stress(args: argparse.Namespace, answer: Answer) -> Rows:
     if args.output is None or args.cases < 1:
         raise InputError("pyehl bench stress: -o DIR is needed, and 1 or more cases")
+    if args.boundary_film and args.shear_law == "newtonian":
+        raise InputError("pyehl bench stress: --boundary-film needs a --shear-law that thins")
     names = ("stress.json", "stress.png", *stress.folders())
     Destination(args.output, "bench stress", names, force=args.force).claim({})
     try:
@@ -111,12 +113,14 @@ def _stress(args: argparse.Namespace, answer: Answer) -> Rows:
             jobs=args.jobs,
             grids=args.points,
             law=args.shear_law,
+            layer=args.boundary_film,
             tell=_tell,
         )
     except KeyboardInterrupt:
         _tell(f"interrupted; the same command resumes it in {args.output}")
         raise
-    answer |= {name: getattr(args, name) for name in ("cases", "seed", "points", "shear_law")}
+    asked = ("cases", "seed", "points", "shear_law", "boundary_film")
+    answer |= {name: getattr(args, name) for name in asked}
     stress.write(rows, args.output, answer)
     figures.stress(rows, args.output / "stress.png")
     _print(stress.summary(rows), stress.COLUMNS, stress.MEANING)

@@ -104,6 +104,11 @@ def _add_stress(parser: argparse.ArgumentParser) -> None:
         default="newtonian",
         help="of all cases, each with a stress of its own (default: newtonian)",
     )
+    parser.add_argument(
+        "--boundary-film",
+        action="store_true",
+        help="all cases with one of a thickness of its own; needs a --shear-law",
+    )
     _add_number(parser, "jobs", 2, "worker processes")
 
 

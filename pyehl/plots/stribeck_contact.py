@@ -26,22 +26,25 @@ class HasColumns(Protocol):
 def draw_contact(
     panels: NDArray[Any], abscissae: Sequence[str], curves: Sequence[tuple[HasColumns, str]]
 ) -> None:
-    """Draw shares of load and area on the first row of panels (2, n), least film on the second."""
+    """Draw shares of load and area on the first row of panels (2, n), least film on the second.
+
+    Lines are predictions, squares and diamonds full simulations.
+    """
     for (share, film), name in zip(panels.T, abscissae, strict=True):
         for curve, colour in curves:
             x = curve.column(name)
             _band(share, x, curve, "contact_load_share", colour)
             share.plot(x, curve.column("contact_area_share"), "--", lw=1, color=colour)
-            full = curve.column("contact_load_share_ehl")
-            if np.isfinite(full).any():
-                share.plot(x, full, "s", ms=5, mfc="white", color=colour)
+            _points(share, x, curve, "contact_load_share_ehl", colour)
+            _points(share, x, curve, "contact_area_share_ehl", colour, marker="D")
             _band(film, x, curve, "h_min_rough_m", colour, 1e9)
+            _points(film, x, curve, "h_min_rough_ehl_m", colour, 1e9)
         share.set_ylim(-0.03, 1.03)
         film.set_ylim(bottom=0.0)
         for ax in (share, film):
             ax.grid(visible=True, which="major", color="0.92", lw=0.6)
             ax.set_axisbelow(True)
-    panels[0, 0].set_ylabel("contact: load, area (dashed)")
+    panels[0, 0].set_ylabel("load, area (dashed)")
     panels[1, 0].set_ylabel("least film [nm]")
 
 
@@ -55,6 +58,27 @@ def _band(
     if known.any():
         low, high = y[known] - error[known], y[known] + error[known]
         ax.fill_between(x[known], low, high, color=colour, alpha=0.35, lw=0)
+
+
+def _points(
+    ax: Axes,
+    x: Array,
+    curve: HasColumns,
+    name: str,
+    colour: str,
+    factor: float = 1.0,
+    marker: str = "s",
+) -> None:
+    """Draw a column of the full simulation; a load share with its error."""
+    y = factor * curve.column(name)
+    error = curve.column(_error(name)) if name.startswith("contact_load") else 0.0 * y
+    known = np.isfinite(y)
+    if known.any():
+        bars = np.nan_to_num(error[known])
+        wide = bars if bars.any() else None
+        ax.errorbar(
+            x[known], y[known], wide, fmt=marker, ms=5, mfc="white", color=colour, capsize=3
+        )
 
 
 def _error(name: str) -> str:

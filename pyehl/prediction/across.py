@@ -25,8 +25,8 @@ LINES = np.array([-0.95, -0.8, -0.6, -0.3, 0.0, 0.3, 0.6, 0.8, 0.95])
 """Lines along the motion on which the free wave is made [semi-axis], symmetric about the centre
 line; between them it is interpolated."""
 
-# Waves across the motion: their period and where they have fallen to zero [semi-axis], and the
-# shortest one of that period
+# Waves across the motion: their period and where they have fallen to zero [semi-axis], and how many
+# there are: shorter ones than half a semi-axis the lines do not tell apart
 PERIOD, END, SHORTEST = 4.0, 1.7, 8
 POINTS = 256
 

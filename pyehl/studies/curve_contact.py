@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from statistics import fmean
@@ -27,6 +28,8 @@ CONTACT = {
     "contact_area_share_error": "1",
     "contact_load_share_ehl": "1",
     "contact_load_share_ehl_error": "1",
+    "contact_area_share_ehl": "1",
+    "h_min_rough_ehl_m": "m",
 }
 """Columns of a curve of a case with a boundary film, and their units."""
 
@@ -49,8 +52,11 @@ def contact_columns(found: Sequence[Row], full: Row) -> dict[str, float | None]:
         if numbers and len(numbers) == len(found):
             values[name] = of_all(numbers)
     if full.get("status") == "converged":
-        for name in ("contact_load_share", "contact_load_share_error"):
-            values[name.replace("share", "share_ehl")] = full.get(name)
+        for name in (
+            *("contact_load_share", "contact_load_share_error"),
+            *("contact_area_share", "h_min_rough_m"),
+        ):
+            values[re.sub("share|rough", r"\g<0>_ehl", name)] = full.get(name)
     return values
 
 

@@ -57,6 +57,7 @@ def test_full_film_changes_no_bit(solve, scene):
         assert (without.field(name) == with_film.field(name)).all()
     timed = {"bytes", "wall_seconds", "seconds_per_step", "files", "version", "case"}
     said = {"contact_load_share", "contact_load_share_error", "contact_load_share_error_note"}
+    said |= {f"contact_load_share_error_{part}" for part in ("grid", "stop")}
     said |= {"contact_area_share", "layer_supply", "mu_note", "boundary_film"}
     left = {k: v for k, v in without.summary.items() if k not in timed | said}
     assert left == {k: v for k, v in with_film.summary.items() if k not in timed | said}
@@ -196,7 +197,10 @@ def test_mixed_film(solve):
     assert 0.02 < share < 0.05
     same = solve(None, 65, STEEL | known | {"surface.amplitude": fine["amplitude"]})
     difference = abs(share - same["contact_load_share"])
-    assert fine["contact_load_share_error"] == pytest.approx(difference, rel=1e-2)
+    assert fine["contact_load_share_error_grid"] == pytest.approx(difference, rel=1e-2)
+    parts = [fine[f"contact_load_share_error_{part}"] for part in ("grid", "stop")]
+    assert fine["contact_load_share_error"] == pytest.approx(sum(parts))
+    assert 0.0 < parts[1] < 0.05 * share
     first = -round(fine["T_mean"] / fine["x_mesh"])
     assert fine.history["load_share"][first:].mean() == pytest.approx(share, rel=0.05)
     # the layer carries its share of the friction, and the film no less than nothing
@@ -239,6 +243,15 @@ def test_contact_of_a_coarse_grid(solve):
     assert "does not resolve the inlet" in done["contact_load_share_error_note"]
     assert done["judgement"].startswith("mixed film: ")
     assert "an error that is not known" in done["judgement"]
+
+
+def test_a_layer_that_would_have_to_give_much(solve):
+    """A thick one on a coarse grid: the judgement says that the model ends there."""
+    done = solve(None, 65, STEEL | MIXED | {"lubricant.boundary_film": 8e-8})
+    assert done.converged
+    assert done["layer_supply"] > 0.1
+    assert "the layer would have to give" in done["judgement"]
+    assert "where the model ends" in done["judgement"]
 
 
 def test_both_drivers_say_the_same(solve, tmp_path):

@@ -38,11 +38,11 @@ def test_how_often_stated_errors_cover_the_next_grid(text: str, evidence, shares
     for row in evidence.read():
         name, layer, points = evidence.key_of(row)
         finer = shares.get((name, layer, 2 * points - 1), 0.0)
-        if not row["contact_load_share_error"] or finer == 0.0:
+        if not row["contact_load_share_error_grid"] or finer == 0.0:
             continue
         known += 1
         change = abs(finer - float(row["contact_load_share"]))
-        covered += change <= float(row["contact_load_share_error"])
+        covered += change <= float(row["contact_load_share_error_grid"])
     assert f"covers the next change in {covered} of {known} rows" in text
 
 

@@ -69,3 +69,39 @@ def test_failures_of_a_newtonian_oil_are_failures_of_all(
         more = Counter(campaigns[law][k]["outcome"] for k in those - newtonian)
         words = f"fails in {more.total()} more, {more['diverged']} of them diverged"
         assert f"Either law {words}" in text
+
+
+def test_contacts(root: Path):
+    """What the page says of boundary films is in contacts.csv, and `wrong` follows from it."""
+    with (root / "docs/evidence/stress/contacts.csv").open(newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    counts = Counter(row["outcome"] for row in rows)
+    fields = [row for row in rows if row["broken"]]
+    shares = {
+        name: [row for row in rows if row["contact_load_share"] and row[name]]
+        for name in ("share_strict", "share_finer")
+    }
+    wrong = {name: [row for row in found if off(row, name)] for name, found in shares.items()}
+    numbers = [len(rows), *(counts[name] for name in (*GOOD, "diverged", "cycle limit"))]
+    assert sum(numbers[1:]) == len(rows)
+    numbers += [len(fields), sum(row["broken"] != "none" for row in fields)]
+    for name, found in shares.items():
+        numbers += [len(found), len(wrong[name])]
+    text = (root / "docs" / "robustness.md").read_text(encoding="utf-8")
+    assert f"| {' | '.join(map(str, numbers))} |" in text
+    (worst,) = wrong["share_finer"]
+    assert [row for row in rows if row["wrong"] == "True"] == [worst]
+    words = (
+        f"({worst['moes_m']}, {worst['moes_l']}) on {worst['points']} × {worst['points']} nodes, "
+        f"whose bodies touch nearly everywhere: a load share of "
+        f"{float(worst['contact_load_share']):.3f} with a stated error of "
+        f"{float(worst['contact_load_share_error']):.3f} and {float(worst['share_finer']):.3f} on"
+    )
+    assert words in text
+
+
+def off(row: dict[str, str], name: str) -> bool:
+    """Whether a load share differs from that of another run by more than is allowed."""
+    stated = row["contact_load_share_error"]
+    allowed = max(float(stated), 1e-3) if stated else 0.03
+    return abs(float(row["contact_load_share"]) - float(row[name])) > allowed

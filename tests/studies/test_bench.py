@@ -28,6 +28,7 @@ from pyehl.bench import (
 )
 from pyehl.bench.faults import CASE, run, same
 from pyehl.bench.faults_states import damage
+from pyehl.bench.stress_contact import broken, judge_share
 from pyehl.cli import main
 from pyehl.studies.gather import Outcome
 from pyehl.studies.journal import NAME
@@ -197,6 +198,39 @@ def test_cases_with_a_shear_law_are_the_same_scenes():
             resolved = pyehl.Case.from_text("", case.values).resolve()
             assert resolved["lubricant"]["shear_law"] == law
             assert resolved["lubricant"]["flow"] == "consistent"
+
+
+def test_cases_with_a_boundary_film_are_the_same_scenes():
+    thinning = stress_cases.draw(60, 1, law="eyring")
+    layered = stress_cases.draw(60, 1, law="eyring", layer=True)
+    new = {"lubricant.boundary_film", "lubricant.boundary_friction"}
+    for with_layer, without in zip(layered, thinning, strict=True):
+        changed = dict(with_layer.values.items() ^ without.values.items())
+        assert set(changed) - {"solver.coarsening"} == new
+        assert pyehl.Case.from_text("", with_layer.values).resolve()["lubricant"]["boundary_film"]
+    words = ["bench", "stress", "--boundary-film", "--cases", "1", "-o", "nowhere"]
+    assert main(words) == 2
+
+
+@pytest.mark.parametrize(
+    ("other", "error", "wrong"),
+    [(0.32, 0.03, False), (0.34, 0.03, True), (0.3009, 0.0, False), (0.32, None, False)],
+)
+def test_wrong_load_shares_are_seen(other: float, error: float | None, *, wrong: bool):
+    row = {"contact_load_share": 0.3, "contact_load_share_error": error, "wrong": False}
+    judge_share(row, "share_finer", {"contact_load_share": other}, 0.03)
+    assert row["wrong"] is wrong
+    assert row["share_finer"] == other
+
+
+def test_fields_that_break_a_condition_are_seen(tmp_path: Path):
+    values = {"contact.load": 20.0, "contact.mean_velocity": 0.1, "grid.points": 65}
+    values["lubricant.boundary_film"] = 1e-7
+    pyehl.solve(pyehl.Case.from_text("", values), output=tmp_path / "c")
+    assert broken(tmp_path / "c") == ""
+    film = np.load(tmp_path / "c" / "H.npy")
+    np.save(tmp_path / "c" / "H.npy", 0.9 * film)
+    assert broken(tmp_path / "c").startswith("film of the layer")
 
 
 def test_mutated_inputs(tmp_path: Path):

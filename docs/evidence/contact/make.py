@@ -83,7 +83,7 @@ CONTACTS: dict[str, tuple[Row, tuple[float, ...], tuple[int, ...]]] = {
 }
 KEYS = ("contact", "boundary_film", "points")
 NAMES = (
-    "status contact_load_share contact_load_share_error contact_area_share layer_supply mu"
+    "status contact_load_share contact_load_share_error_grid contact_area_share layer_supply mu"
 ).split()
 
 
@@ -145,7 +145,7 @@ def cell(row: Row | None) -> str:
         return ""
     if not row["contact_load_share"]:
         return str(row["status"])
-    share, error = (row[name] for name in ("contact_load_share", "contact_load_share_error"))
+    share, error = (row[name] for name in ("contact_load_share", "contact_load_share_error_grid"))
     text = f"{float(share):.2g}" if float(share) else "0"
     return text + (f" ± {float(error):.1g}" if error and float(error) else "")
 

@@ -46,7 +46,7 @@ def compared() -> list[dict[str, Any]]:
                 f"{name}_now": round(now[name], digits),
             }
         error = round(now["contact_load_share_error"], 4)
-        grid = round(float(found["contact_load_share_error"]), 4)
+        grid = round(float(found["contact_load_share_error_grid"]), 4)
         off = abs(now["contact_load_share"] - float(found["contact_load_share"]))
         line |= {
             "simulation_error": grid,

@@ -14,7 +14,7 @@ from pyehl.solver import Solver
 
 COLUMNS = (
     "contact_load_share",
-    "contact_load_share_error",
+    "contact_load_share_error_grid",
     "contact_area_share",
     "layer_supply",
     "mu",
