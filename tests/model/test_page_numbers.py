@@ -10,6 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.optimize import brentq
+
+from pyehl.theory.ellipse import ellipse
 
 Row = dict[str, str]
 Read = Callable[[str], list[Row]]
@@ -108,8 +111,8 @@ def accuracy(read: Read) -> Iterator[str]:
     yield f"the error from the two grids alone is {grid.min():.2f} to {grid.max():.2f},"
 
 
-def thin_films(read: Read) -> Iterator[str]:
-    """The rough ball on a disc of docs/limits.md, whose films are as thin as its roughness."""
+def limits(read: Read) -> Iterator[str]:
+    """The rough ball on a disc whose films are as thin as its roughness, and narrow contacts."""
     said, runs = (
         [
             row
@@ -132,6 +135,13 @@ def thin_films(read: Read) -> Iterator[str]:
     )
     yield f"{films[0]:.0f} and {films[1]:.0f} ± {errors[1]:.0f} nm, are above those"
     yield f"{there[0]:.0f} and {there[1]:.0f} nm"
+    # M of the round contact with the same equations over M by R_x
+    narrow = [
+        ellipse(brentq(lambda d, kappa=kappa: ellipse(d).ellipticity - kappa, 1.0, 1e3))
+        for kappa in (0.1, 1.0 / 30.0)
+    ]
+    ten, thirty = (1.0 / (e.ellipticity * e.kernel_ratio**0.25) for e in narrow)
+    yield f"at κ = 0.1 M is {ten:.1f} times that by R_x, at 1/30 it is {thirty:.0f} times"
 
 
 def starts(read: Read) -> Iterator[str]:
@@ -221,7 +231,7 @@ def introduction(read: Read) -> Iterator[str]:
     [
         ("README.md", introduction),
         ("docs/accuracy.md", accuracy),
-        ("docs/limits.md", thin_films),
+        ("docs/limits.md", limits),
         ("docs/howto/mixed.md", mixed),
         ("docs/theory/prediction.md", high_ratios),
         ("docs/theory/prediction-compared.md", compared),
