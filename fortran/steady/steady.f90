@@ -19,7 +19,10 @@ module ehl_steady
    !> Relative discretisation errors below this are not believed, as two levels may agree by chance
    real(dp), parameter :: least_error = 2.0e-5_dp
    !> Share of the load on a boundary film from which on the films are its: those of the coarser grid say nothing of an error
-   real(dp), parameter :: mostly_touching = 0.5_dp
+   !> - unless that gives more than this share of the flow, where contact is not well posed
+   real(dp), parameter :: mostly_touching = 0.5_dp, much_supplied = 0.1_dp
+   !> Algebraic error of that share, which then ends a level where the films have ended moving
+   real(dp), parameter :: share_tolerance = 1.0e-3_dp
    !> Largest residual (rms, as far as it concerns the film; the wedge term is of order 1 in the inlet) of a converged
    !> solution
    real(dp), parameter :: residual_tolerance = 2.0e-3_dp
@@ -84,6 +87,8 @@ module ehl_steady
       type(level_result_t), allocatable :: results(:)
       !> Changes of H_c and H_min in the last cycle, and the residual after it
       real(dp), private :: change(2) = 0.0_dp, residual_before = 0.0_dp
+      !> Change of the load share of a boundary film in the last cycle, and its algebraic error
+      real(dp), private :: share_change = 0.0_dp, share_error = 0.0_dp
    contains
       procedure :: start
       procedure :: advance
@@ -201,12 +206,25 @@ contains
       q = reduction(change, self%change, self%cycles, fall)
       self%results(self%n)%algebraic = change*q/(1.0_dp - q)
       self%change = change
+      call judge_share(self, abs(self%m%touching%load_share - before%touching%load_share))
       self%residual_before = self%residual
       error = abs(self%m%load_error)
       if (rule%bounded .and. is_end(self)) self%results(self%n)%algebraic = self%results(self%n)%algebraic + film_per_load*error
       may_balance = is_end(self) .and. error <= rule%small_load_error .and. accurate(self)
       if (may_balance) may_balance = film_per_load*error <= rule%share_of_load*minval(wanted(self))
    end function may_balance
+
+   !> Algebraic error of the load share by its change in a cycle, as that of the films
+   pure subroutine judge_share(self, change)
+      class(steady_t), intent(inout) :: self
+      real(dp), intent(in) :: change
+      real(dp) :: q
+
+      q = 0.95_dp
+      if (self%cycles > 1) q = min(q, max(0.3_dp, change/max(self%share_change, tiny(1.0_dp))))
+      self%share_error = change*q/(1.0_dp - q)
+      self%share_change = change
+   end subroutine judge_share
 
    !> Whether the level is solved; the load must be right where the solution may end
    pure logical function meets(self)
@@ -253,15 +271,22 @@ contains
    pure logical function accurate(self)
       class(steady_t), intent(in) :: self
       accurate = all(self%results(self%n)%algebraic <= wanted(self)) .and. &
-                 (self%residual <= residual_tolerance .or. .not. is_end(self))
+                 (self%residual <= residual_tolerance .or. .not. is_end(self)) .and. &
+                 (self%share_error <= share_tolerance .or. .not. rests_on_layer(self))
    end function accurate
+
+   !> Whether a boundary film carries most of the load
+   pure logical function rests_on_layer(self)
+      class(steady_t), intent(in) :: self
+      rests_on_layer = self%m%touching%load_share > mostly_touching .and. self%m%touching%supply <= much_supplied
+   end function rests_on_layer
 
    !> Algebraic errors of H_c and H_min that the present level deserves
    pure function wanted(self)
       class(steady_t), intent(in) :: self
       real(dp) :: wanted(2), values(2), least
 
-      least = merge(start_tolerance, least_error, self%m%touching%load_share > mostly_touching)
+      least = merge(start_tolerance, least_error, rests_on_layer(self))
       values = self%m%films()
       if (has_coarser(self)) then
          wanted = self%how%accuracy*max(discretisation_error(self%m, self%results(self%n - 1)%m), least*values)

@@ -65,12 +65,14 @@ def test_the_shares_converge_with_order_two(text: str, shares):
 
 
 def test_the_finest_grids(text: str, shares):
-    coarse, middle, fine = (shares["light", 4e-8, points] for points in (257, 513, 1025))
-    said = (
-        f"changes by {100.0 * (middle - fine) / middle:.0f} % of itself, the change before over "
-        f"{(coarse - middle) / (middle - fine):.1f}"
-    )
-    assert said in text
+    said = []
+    for layer in (4e-8, 8e-8):
+        coarse, middle, fine = (shares["light", layer, points] for points in (257, 513, 1025))
+        ratio = (coarse - middle) / (middle - fine)
+        change = f"{100.0 * (middle - fine) / middle:.1f} %"
+        said += [change, f"the change before over {ratio:.1f}"]
+    assert f"changes by {said[0]} of itself at 40 nm, {said[1]}, and by {said[2]} at 80" in text
+    assert f"nm, {said[3]}. 5 % were aimed at." in text
 
 
 def test_this_build_makes_the_stored_shares(evidence):
