@@ -187,11 +187,17 @@ def mixed(read: Read) -> Iterator[str]:
         )
         for row in read("contact/shares.csv")
     }
-    fine = [key for key in shares if key[2] == 513]
-    falls = [100.0 * (1.0 - shares[key] / shares[(*key[:2], 257)]) for key in fine]
-    yield f"changes by {min(falls):.0f} to {max(falls):.0f} % of itself from 257 to 513 nodes"
-    last = 100.0 * (1.0 - shares["light", 4e-8, 1025] / shares["light", 4e-8, 513])
-    yield f"by {last:.0f} % to 1025"
+    falls = {
+        points: [
+            100.0 * (1.0 - share / shares[(*key[:2], points // 2 + 1)])
+            for key, share in shares.items()
+            if key[2] == points
+        ]
+        for points in (513, 1025)
+    }
+    middle, last = (f"{min(part):.0f} to {max(part):.0f} %" for part in falls.values())
+    yield f"changes by {middle} of itself from 257 to 513 nodes"
+    yield f"by {last} to 1025"
 
 
 def pairs(read: Read) -> Iterator[str]:
