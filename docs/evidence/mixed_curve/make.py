@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Make curve.csv of a curve through mixed film, or print the table of its page.
+
+python docs/evidence/mixed_curve/make.py FOLDER     of `pyehl stribeck`, as the page has it
+python docs/evidence/mixed_curve/make.py
+"""
+
+from __future__ import annotations
+
+import csv
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+SHARE, AREA, FILM = "contact_load_share", "contact_area_share", "h_min_rough_m"
+COLUMNS = (
+    *("contact.mean_velocity", "status", "lambda_ratio", "mu", "mu_ratio", "mu_ratio_ehl"),
+    *(SHARE, f"{SHARE}_error", f"{SHARE}_ehl", f"{SHARE}_ehl_error", AREA, f"{AREA}_ehl"),
+    *(FILM, "h_min_rough_ehl_m"),
+)
+
+
+def rows() -> list[dict[str, str]]:
+    """Read the table."""
+    with (HERE / "curve.csv").open(encoding="utf-8", newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def lines() -> list[str]:
+    """Give the points with a full simulation: prediction, then simulation."""
+    found = [
+        "| speed [m/s] | Λ | load share | simulated | area share | simulated | least film [nm] "
+        "| simulated |",
+        "|---|---|---|---|---|---|---|---|",
+    ]
+    for row in rows():
+        if not row[f"{SHARE}_ehl"]:
+            continue
+        speed = f"{float(row['contact.mean_velocity']):.3g}"
+        shares = [
+            f"{float(row[name]):.2g} ± {float(row[f'{name}_error']):.1g}"
+            if float(row[name])
+            else "0"
+            for name in (SHARE, f"{SHARE}_ehl")
+        ]
+        areas = [f"{float(row[name]):.2g}" for name in (AREA, f"{AREA}_ehl")]
+        films = [f"{1e9 * float(row[name]):.1f}" for name in (FILM, "h_min_rough_ehl_m")]
+        cells = [speed, f"{float(row['lambda_ratio']):.2f}", *shares, *areas, *films]
+        found.append(f"| {' | '.join(cells)} |")
+    return found
+
+
+def main() -> None:
+    """Do what the arguments say."""
+    if len(sys.argv) == 2:
+        with (Path(sys.argv[1]) / "stribeck.csv").open(encoding="utf-8", newline="") as stream:
+            made = list(csv.DictReader(stream))
+        with (HERE / "curve.csv").open("w", encoding="utf-8", newline="") as stream:
+            table = csv.DictWriter(stream, COLUMNS, extrasaction="ignore", lineterminator="\n")
+            table.writeheader()
+            table.writerows(made)
+    print("\n".join(lines()))
+
+
+if __name__ == "__main__":
+    main()
