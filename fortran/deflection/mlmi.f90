@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Deflection by multilevel multi-integration (Brandt & Lubrecht 1990, J. Comput. Phys. 90;
-!> Venner & Lubrecht 2000, Multilevel methods in lubrication, chapter 5)
+!> Venner & Lubrecht 2000, Multi-level methods in lubrication, chapter 5)
 !>
 !> Where the kernel is smooth, the sum over many small cells is one over fewer, larger ones:
 !> sources go to the grid of every second node along one axis, and on to the next along the

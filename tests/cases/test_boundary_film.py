@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -63,15 +64,16 @@ def test_full_film_changes_no_bit(solve, scene):
     assert left == {k: v for k, v in with_film.summary.items() if k not in timed | said}
 
 
-def test_smooth_dry_limit_is_hertz(solve):
+def test_smooth_dry_limit_is_hertz(solve, root):
     """A layer of five times the film that the inlet would make."""
     slow = {"contact.mean_velocity": 0.05, "lubricant.boundary_film": 1e-7}
     done = solve(None, 257, STEEL | slow, fields=True)
     assert done.converged
     x, y, _ = grid(257)
     hertz = np.sqrt(np.maximum(0.0, 1.0 - x**2 - y**2))
-    # a film of 1e-2 a^2/R changes the pressure at the edge: 0.15 % (rms)
-    assert np.sqrt(np.mean((done.field("P") - hertz)[hertz > 0.0] ** 2)) <= 4e-3
+    # a film of 1e-2 a^2/R changes the pressure at the edge
+    off = np.sqrt(np.mean((done.field("P") - hertz)[hertz > 0.0] ** 2))
+    assert f"that of Hertz to {within(off)} of $p_h$ (rms)" in theory(root, "contact")
     assert done["contact_load_share"] == pytest.approx(1.0, abs=5e-3)
     assert done["contact_area_share"] == pytest.approx(1.0, abs=2e-2)
     assert 0.0 < done["contact_load_share_error"] < 0.01
@@ -80,28 +82,40 @@ def test_smooth_dry_limit_is_hertz(solve):
     assert "lubricant.boundary_friction" in done["mu_note"]
 
 
-def test_rough_dry_limit_full_contact(solve):
+def within(off: float) -> str:
+    """A deviation in per cent, rounded up, as the chapters of the theory have it."""
+    return f"{np.ceil(1e3 * off) / 10.0:.1f} %"
+
+
+def theory(root: Path, name: str) -> str:
+    """Text of a chapter of the theory."""
+    return (root / "docs" / "theory" / f"{name}.md").read_text(encoding="utf-8")
+
+
+def test_rough_dry_limit_full_contact(solve, root):
     """Pressure and area of a dry solver where the waves are pressed flat."""
     rest = REST | {"contact.mean_velocity": 0.02, "lubricant.boundary_film": 2e-8}
     done = solve(None, 129, STEEL | rest, fields=True)
     assert done.converged
     dry, mesh = dry_of(done, 129)
-    pressure = done.field("P")
-    assert np.linalg.norm(pressure - dry) <= 0.01 * np.linalg.norm(dry)
+    off = np.linalg.norm(done.field("P") - dry) / np.linalg.norm(dry)
     area = (dry > 0.0).sum() * mesh**2 / np.pi
-    assert done["contact_area_share"] == pytest.approx(area, rel=0.03)
+    off_area = abs(done["contact_area_share"] / area - 1.0)
+    said = f"pressure to {within(off)} and area to {within(off_area)} of the dry solver"
+    assert said in theory(root, "contact")
 
 
-def test_rough_dry_limit_partial_contact(solve):
+def test_rough_dry_limit_partial_contact(solve, root):
     """Pressure of a dry solver where the waves are not: lubricant in closed valleys carries on."""
     rest = REST | {"contact.mean_velocity": 0.005, "lubricant.boundary_film": 1e-8}
     done = solve(None, 129, STEEL | rest | {"surface.amplitude": 0.05}, fields=True)
     assert done.converged
     dry, mesh = dry_of(done, 129)
-    pressure = done.field("P")
-    assert np.linalg.norm(pressure - dry) <= 0.03 * np.linalg.norm(dry)
+    off = np.linalg.norm(done.field("P") - dry) / np.linalg.norm(dry)
+    wet = 1.0 - done["contact_load_share"]
+    said = f"pressure to {within(off)}, while {100.0 * wet:.0f} % of the load"
+    assert said in theory(root, "contact")
     assert (dry > 0.0).sum() * mesh**2 < 0.95 * np.pi
-    assert 0.5 < done["contact_load_share"] < 1.0
 
 
 @pytest.mark.long
@@ -128,11 +142,11 @@ def dry_of(done, points: int, limit: float = np.inf) -> tuple[np.ndarray, float]
 
 
 @pytest.mark.parametrize(
-    ("amplitude", "velocity", "layer", "limit", "error"),
-    [(0.02, 0.02, 2e-8, 1.15, 0.004), (0.05, 0.005, 1e-8, 1.35, 0.02)],
+    ("amplitude", "velocity", "layer", "limit"),
+    [(0.02, 0.02, 2e-8, 1.15), (0.05, 0.005, 1e-8, 1.35)],
     ids=["pressed flat", "with valleys"],
 )
-def test_hardness_dry_limit(solve, amplitude, velocity, layer, limit, error):
+def test_hardness_dry_limit(solve, root, amplitude, velocity, layer, limit):
     """Pressure, and what of the load is at the limit, of a dry solver with a limit of pressure."""
     rest = {"contact.mean_velocity": velocity, "lubricant.boundary_film": layer}
     rest |= {"surface.amplitude": amplitude, "contact.hardness": limit * HERTZ}
@@ -142,10 +156,11 @@ def test_hardness_dry_limit(solve, amplitude, velocity, layer, limit, error):
     elastic, _ = dry_of(done, 129)
     pressure = done.field("P")
     assert pressure.max() == pytest.approx(limit, rel=1e-9)
-    assert np.linalg.norm(pressure - dry) <= error * np.linalg.norm(dry)
+    off = np.linalg.norm(pressure - dry) / np.linalg.norm(dry)
+    assert f"the limit is {limit} $p_h$, pressure to {within(off)}" in theory(root, "hardness")
     assert np.linalg.norm(pressure - elastic) > 2.0 * np.linalg.norm(pressure - dry)
     share = dry[dry >= limit].sum() / dry.sum()
-    assert share > 0.04
+    assert f"({100.0 * share:.{1 if share < 0.1 else 0}f} %)" in theory(root, "hardness")
     assert done["load_share_at_hardness"] == pytest.approx(share, rel=0.01)
     assert done["plastic_depth_max_m"] > 5e-8
     # where the solids give way, the film is no less than the layer
