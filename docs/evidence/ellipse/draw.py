@@ -1,18 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draw the cases r01 to r10, or s01 to s04, of cases.csv.
-
-    python docs/evidence/ellipse/draw.py           r: ellipticity 0.4 to 4, 513 nodes along X
-    python docs/evidence/ellipse/draw.py wide      s: ellipticity 4 to 10, 257 nodes along X
+"""Draw the cases r01 to r10 of cases.csv: python docs/evidence/ellipse/draw.py.
 
 Ellipticity, operating point and surface are drawn at random; the rms height is such that the
-prediction is near a ratio drawn as well. All waves are longer than a/16 (s: a/8), so that the grid
-has them.
+prediction is near a ratio drawn as well. All waves are longer than a/16, so that the grid has them.
 """
 
 from __future__ import annotations
 
 import csv
-import sys
 from typing import Any
 
 import numpy as np
@@ -21,17 +16,12 @@ from compare import prediction
 from cases import HERE, radius_ratio
 from pyehl.theory.ellipse import ellipse
 
-# Name, seed, how many, least ellipticity and the span of it, nodes along X, shortest waves [a]
-NARROW = ("r", 20263, 10, 0.4, 10.0, 513, (0.0625, 0.125))
-WIDE = ("s", 20264, 4, 4.0, 2.5, 257, (0.125,))
+SEED, CASES = 20263, 10
 
 
-def drawn(
-    number: int, random: np.random.Generator, kind: tuple[Any, ...] = NARROW
-) -> dict[str, Any]:
-    """Draw a case, with M and L of the circle with the same dry inlet, and square cells."""
-    letter, _, _, least, span, points, shortest = kind
-    kappa = float(least * span ** random.random())
+def drawn(number: int, random: np.random.Generator) -> dict[str, Any]:
+    """Draw a case, with M and L of the circle with the same dry inlet, and cells of 1/128 a."""
+    kappa = float(0.4 * 10.0 ** random.random())
     ratio = radius_ratio(kappa)
     kernel = ellipse(ratio).kernel_ratio
     moes_m = float(150.0 * 10.0 ** random.random())
@@ -39,7 +29,7 @@ def drawn(
     extent = round(max(1.5, kappa + 1.0) * 4.0) / 4.0
     goal = float(1.05 * (2.3 / 1.05) ** random.random())
     row = {
-        "name": f"{letter}{number:02d}",
+        "name": f"r{number:02d}",
         "radius_ratio": ratio,
         "ellipticity": kappa,
         "moes_m": moes_m * kappa / kernel**1.25,
@@ -52,10 +42,10 @@ def drawn(
         "rms_height": 3e-3,
         "hurst": float(random.uniform(0.6, 1.0)),
         "rolloff_wavelength": 0.0,
-        "shortest_wavelength": float(random.choice(shortest)),
-        "seed": (400 if letter == "r" else 500) + number,
-        "points": points,
-        "points_y": round(0.5 * extent * (points - 1)) + 1,
+        "shortest_wavelength": float(random.choice([0.0625, 0.125])),
+        "seed": 400 + number,
+        "points": 513,
+        "points_y": round(2.0 * extent * 128.0) + 1,
         "y_extent": extent,
     }
     row["pixels_y"] = round(96 * row["length_y"])
@@ -68,11 +58,10 @@ def drawn(
 
 def main() -> None:
     """Draw and add to the table."""
-    kind = WIDE if sys.argv[1:] == ["wide"] else NARROW
-    random = np.random.default_rng(kind[1])
+    random = np.random.default_rng(SEED)
     with (HERE / "cases.csv").open("a", newline="", encoding="utf-8") as stream:
-        for number in range(1, kind[2] + 1):
-            row = drawn(number, random, kind)
+        for number in range(1, CASES + 1):
+            row = drawn(number, random)
             csv.writer(stream, lineterminator="\n").writerow(
                 f"{v:g}" if isinstance(v, float) else v for v in row.values()
             )
