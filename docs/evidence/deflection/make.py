@@ -2,7 +2,7 @@
 """Error of multilevel multi-integration by grid and by patch, beside that of the discretisation.
 
     python docs/evidence/deflection/make.py run     writes errors.csv, in some seconds
-    python docs/evidence/deflection/make.py show    prints the tables of the theory page and of this one
+    python docs/evidence/deflection/make.py show    prints the tables of both pages
 
 The pressure is that of Hertz on -2.5 <= X <= 1.5, |Y| <= 2. The error of the multi-integration is
 its largest difference from the sum that it stands for (engine 'fft'), that of the discretisation
