@@ -13,7 +13,7 @@ module ehl_iteration
    use ehl_reynolds, only: film_residual, update_residual
    implicit none (type, external)
    private
-   public :: iteration_t, reduction
+   public :: iteration_t, reduction, most_reduction
 
    !> Reductions per cycle that are believed
    real(dp), parameter :: least_reduction = 0.3_dp, most_reduction = 0.95_dp

@@ -4,6 +4,7 @@ module ehl_judgement
    use ehl_kinds, only: dp
    use ehl_record, only: record_t
    use ehl_text, only: fixed, to_text
+   use ehl_touching, only: much_supplied
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
    private
@@ -21,8 +22,6 @@ module ehl_judgement
    real(dp), parameter :: touching = 1.0_dp, apart = 3.0_dp
    !> A result whose error is a larger share of it is not well known
    real(dp), parameter :: well_known = 0.05_dp
-   !> Share of the flow that a boundary film would have to give from which on a contact is not the one of the model
-   real(dp), parameter :: much_supplied = 0.1_dp
    !> Flash temperature [K] above which an oil is thinner than computed, where its heat is left out
    real(dp), parameter :: hot = 10.0_dp
 

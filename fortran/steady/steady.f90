@@ -7,11 +7,12 @@ module ehl_steady
    use ehl_far_field, only: far_field_t
    use ehl_film, only: refresh
    use ehl_hierarchy, only: hierarchy_t
-   use ehl_iteration, only: iteration_t, reduction
+   use ehl_iteration, only: iteration_t, most_reduction, reduction
    use ehl_kinds, only: dp
    use ehl_level_result, only: discretisation_error, level_result_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_running, outcome_target_missed
    use ehl_status, only: status_t
+   use ehl_touching, only: much_supplied
    implicit none (type, external)
    private
    public :: steady_options_t, steady_t, largest_error, residual_tolerance
@@ -19,8 +20,7 @@ module ehl_steady
    !> Relative discretisation errors below this are not believed, as two levels may agree by chance
    real(dp), parameter :: least_error = 2.0e-5_dp
    !> Share of the load on a boundary film from which on the films are its: those of the coarser grid say nothing of an error
-   !> - unless that gives more than this share of the flow, where contact is not well posed
-   real(dp), parameter :: mostly_touching = 0.5_dp, much_supplied = 0.1_dp
+   real(dp), parameter :: mostly_touching = 0.5_dp
    !> Algebraic error of that share, which then ends a level where the films have ended moving
    real(dp), parameter :: share_tolerance = 1.0e-3_dp
    !> Largest residual (rms, as far as it concerns the film; the wedge term is of order 1 in the inlet) of a converged
@@ -220,8 +220,8 @@ contains
       real(dp), intent(in) :: change
       real(dp) :: q
 
-      q = 0.95_dp
-      if (self%cycles > 1) q = min(q, max(0.3_dp, change/max(self%share_change, tiny(1.0_dp))))
+      q = most_reduction
+      if (self%cycles > 1) q = reduction([change], [self%share_change], self%cycles)
       self%share_error = change*q/(1.0_dp - q)
       self%share_change = change
    end subroutine judge_share
@@ -275,7 +275,7 @@ contains
                  (self%share_error <= share_tolerance .or. .not. rests_on_layer(self))
    end function accurate
 
-   !> Whether a boundary film carries most of the load
+   !> Whether a boundary film carries most of the load; where it would have to give much contact is not well posed
    pure logical function rests_on_layer(self)
       class(steady_t), intent(in) :: self
       rests_on_layer = self%m%touching%load_share > mostly_touching .and. self%m%touching%supply <= much_supplied
