@@ -5,8 +5,8 @@ The sides of a narrow contact flatten a wave as long as it is wide more than the
 half-space does not answer to that line by line: where the amplitude is a sum of waves across the
 motion, so is the film, and each of them has its own stiffness. The amplitude is known on some
 lines (:data:`LINES`) and linear between them; beyond the contact it falls to zero, and what is
-there is no film: the edge takes it off (:class:`pyehl.prediction.edge.Edge`). No constant is in it
-but the number of waves.
+there is no film: the edge takes it off (:class:`pyehl.prediction.edge.Edge`). No constant in it is
+fitted.
 """
 
 from __future__ import annotations
