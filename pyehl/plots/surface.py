@@ -214,6 +214,7 @@ def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = No
     ax.set_xscale("log")
     label_decades(ax.xaxis)
     ax.set(xlabel="wavelength of the component [μm]", ylabel="contribution to relative friction")
-    ax.ticklabel_format(axis="y", scilimits=SHORT)
+    # a power of ten above the panel would lie on its letter: for large contributions alone
+    ax.ticklabel_format(axis="y", scilimits=(-9, SHORT[1]))
     ax.legend(fontsize="small", frameon=False)
     return ax
