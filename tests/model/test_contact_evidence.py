@@ -5,7 +5,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
+
+from pyehl.studies.plan import formula_film
 
 
 @pytest.fixture(scope="module")
@@ -82,3 +85,53 @@ def test_this_build_makes_the_stored_shares(evidence):
     found = evidence.simulated(run)
     for name in ("contact_load_share", "contact_area_share", "layer_supply", "mu"):
         assert found[name] == pytest.approx(float(row[name]), rel=1e-6), name
+
+
+@pytest.fixture(scope="module")
+def dry(script):
+    return script("docs/evidence/contact/dry.py")
+
+
+@pytest.mark.parametrize(
+    "surface", ["ridges along the motion", "ridges across it", "tile 1", "tile 6", "tile 8"]
+)
+def test_rough_balls_at_vanishing_speed(dry, surface):
+    """Area and pressure of the dry solver within 3 %; of tile 8, with streaks, the pressure."""
+    found = dry.simulated(surface, 129)
+    assert abs(dry.area_off(found)) < 0.03 or surface == "tile 8"
+    assert found["rms"] < 0.03
+    assert abs(found["P_max_off"]) < 0.03
+    (row,) = (r for r in dry.read() if (r["surface"], r["points"]) == (surface, 129))
+    for name in dry.NAMES[1:]:
+        assert found[name] == pytest.approx(row[name], rel=1e-3), name
+
+
+def test_the_page_says_how_rough_balls_compare(root: Path, text: str, dry):
+    assert "\n".join(dry.lines()) in text
+    solved = [row for row in dry.read() if row["status"] == "converged"]
+    worst = f"{np.ceil(1e3 * max(row['rms'] for row in solved)) / 10.0:.1f} %"
+    peak = np.ceil(1e3 * max(abs(row["P_max_off"]) for row in solved)) / 10.0
+    assert f"within {worst} (rms), the greatest one within {peak:.1f} %" in text
+    chapter = (root / "docs/theory/contact.md").read_text(encoding="utf-8")
+    assert f"within {worst[:-2]} % of $p_h$ (rms) for every surface tried" in chapter
+    # those of the layer and speed of the text
+    same = [row for row in solved if row["surface"] not in list(dry.SURFACES)[-3:]]
+    count, missing = [], []
+    for points in dry.GRIDS:
+        off = {row["surface"]: dry.area_off(row) for row in same if row["points"] == points}
+        count.append((sum(abs(o) < 0.03 for o in off.values()), len(off)))
+        missing.append(-100.0 * min(off.values()))
+    (few, all_few), (many, all_many) = count
+    words = f"{few} of {all_few} on 129 × 129 and {many} of {all_many} on 257 × 257 nodes"
+    assert f"within 3 % in {words}, and too small by up to {max(missing):.0f} %" in text
+    tiles = sum(abs(o) < 0.03 for surface, o in off.items() if surface.startswith("tile"))
+    assert f"for {tiles} of 12 fractal tiles on 257 × 257 nodes" in chapter
+    assert f"up to {max(missing):.0f} % of it is missing" in chapter
+    slow = [row["layer_supply"] for row in same if row["points"] == 129]
+    assert f"is {min(slow):.1f} to {max(slow):.0f} on 129 × 129 nodes" in text
+
+
+def test_the_layer_is_thicker_than_the_film_of_the_inlet(text: str, dry):
+    _, film = formula_film(dry.pyehl.Case.from_text(dry.CASE).resolve())
+    assert 2e-8 > 5.0 * film
+    assert "five times the film that the formula" in text
