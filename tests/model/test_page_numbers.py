@@ -3,34 +3,15 @@
 
 from __future__ import annotations
 
-import csv
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
+from records import Read, Said, largest, missing, of, percent
 from scipy.optimize import brentq
 
 from pyehl.theory.ellipse import ellipse
-
-Row = dict[str, str]
-Read = Callable[[str], list[Row]]
-
-
-def of(rows: Iterable[Row], name: str) -> NDArray[np.float64]:
-    """Numbers of a column; NaN where it is empty."""
-    return np.array([float(row[name] or "nan") for row in rows])
-
-
-def percent(value: float, digits: int = 1) -> str:
-    """A share in per cent, with the sign of the pages."""
-    return f"{value:.{digits}f} %".replace("-", "−")
-
-
-def largest(values: Iterable[float], digits: int) -> str:
-    """The largest magnitude, rounded."""
-    return f"{np.nanmax(np.abs(np.array(list(values)))):.{digits}f}"
 
 
 def compared(read: Read) -> Iterator[str]:
@@ -249,12 +230,5 @@ def introduction(read: Read) -> Iterator[str]:
         ("docs/evidence/partial/README.md", partial_rows),
     ],
 )
-def test_the_page_says_what_its_record_has(
-    root: Path, page: str, said: Callable[[Read], Iterator[str]]
-):
-    def read(name: str) -> list[Row]:
-        lines = (root / "docs" / "evidence" / name).read_text(encoding="utf-8").splitlines()
-        return list(csv.DictReader(line for line in lines if not line.startswith("#")))
-
-    text = (root / page).read_text(encoding="utf-8")
-    assert [words for words in said(read) if words not in text] == []
+def test_the_page_says_what_its_record_has(root: Path, page: str, said: Said):
+    assert missing(root, page, said) == []
