@@ -140,6 +140,18 @@ def wide_ellipses(read: Read) -> Iterator[str]:
     yield f"κ above 6 at M below 20: up to {off.max():.1f} times the stated share"
 
 
+def extreme_ellipses(read: Read) -> Iterator[str]:
+    """Which very narrow and wide contacts converge."""
+    lines: dict[str, list[str]] = {}
+    for row in read("errors_ellipses/ends.csv"):
+        kappa = "1/30" if row["kappa"].startswith("0.03") else f"{float(row['kappa']):g}"
+        heads = f"{float(row['moes_m']):g}", f"{float(row['moes_l']):g}", row["points"]
+        cells = lines.setdefault(f"| {' | '.join((kappa, *heads))} |", ["", ""])
+        ended = row["status"] == "converged"
+        cells[int(row["short_cells"])] = f"{row['cycles']} cycles" if ended else row["status"]
+    yield "\n".join(f"{head} {' | '.join(cells)} |" for head, cells in lines.items())
+
+
 def fields(read: Read) -> Iterator[str]:
     """Slopes on the coarser grid, and the part of second order in pressure."""
     rows = read("fields/table.csv")
@@ -259,7 +271,7 @@ PAGES: dict[str, tuple[Said, ...]] = {
     "contact": (contact,),
     "ellipse": (ellipse, ellipse_waves),
     "errors": (rough_errors,),
-    "errors_ellipses": (wide_ellipses,),
+    "errors_ellipses": (wide_ellipses, extreme_ellipses),
     "fields": (fields,),
     "mixed_curve": (curve,),
     "pairs": (pairs,),
