@@ -123,11 +123,22 @@ def speed(read: Read) -> Iterator[str]:
     yield "which needs a cycle less on 257 nodes"
 
 
+def coarse_film(read: Read) -> Iterator[str]:
+    """What the grid takes of the central film."""
+    (error,) = (
+        float(row["error"])
+        for row in read("speed/smooth.csv")
+        if (row["points"], row["engine"], row["threads"]) == ("257", "mlmi", "1")
+    )
+    yield f"H_c is {100.0 * error:.0f} % low at 257 × 257"
+
+
 @pytest.mark.parametrize(
     ("page", "said"),
     [
         ("docs/robustness.md", robustness),
         ("docs/speed.md", speed),
+        ("fortran/README.md", coarse_film),
         ("docs/evidence/start/README.md", starts),
         ("docs/evidence/stress/README.md", stress),
         ("docs/evidence/workprec/README.md", workprec),

@@ -251,6 +251,9 @@ def response(read: Read) -> Iterator[str]:
     assert len(far) == len(said)
     yield "0.024 or less at ten; {} at (1000, 3), {} and {} at (3000, 3)".format(*said)
     yield f"and (100, 20), {said[3]} at (100, 3)."
+    fitted = sum(int(r["waves"]) for r in read("response/residuals.csv") if r["moes_m"])
+    ridges = len(read("response/ridges.csv"))
+    yield f"shorter than 3 a along the motion: {fitted} of them, and {ridges} ridges"
     runs = defaultdict(dict)
     for row in read("response/slip.csv"):
         kx, q = float(row["kx"]), np.hypot(float(row["kx"]), float(row["ky"]))

@@ -15,6 +15,7 @@ from scipy.optimize import brentq
 import pyehl
 from pyehl.app import answers, worker
 from pyehl.prediction import second_order
+from pyehl.prediction.errors import ELLIPTICITY
 from pyehl.studies import plan, study
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
@@ -125,6 +126,18 @@ def test_heat_of_the_gears(says, cases: Path):
     ]
     assert ratio[0]["mu"] / ratio[1]["mu"] == pytest.approx(0.75, abs=0.02)
     says("docs/howto/gear.md", "which takes a quarter of it")
+
+
+@pytest.mark.parametrize(("name", "case"), [("gear", "gear_pair"), ("bearing", "ball_bearing")])
+def test_ellipses_outside_the_range(says, cases: Path, name: str, case: str):
+    kappa = pyehl.film(cases / f"{case}.nml")["ellipticity"]
+    least, most = ELLIPTICITY
+    assert not least < kappa < most
+    says(
+        f"docs/howto/{name}.md",
+        f"the ellipticity, {kappa:.1f}, is outside the range in which the prediction",
+        f"(../theory/prediction-ellipses.md), {least:.1f} to {most:.0f}.",
+    )
 
 
 def test_limits(says, cases: Path):
