@@ -30,6 +30,9 @@ def contact(read: Read) -> Iterator[str]:
     ]
     yield f"is {pairs[0]} on 257 and 513 nodes at 40 nm, {pairs[1]} at 80 nm"
     share = {key: float(row["contact_load_share"]) for key, row in rows.items()}
+    for load, said in ((600.0, "At 600 N (M = {})"), (100.0, "At 100 N (M = {}")):
+        moes_m = OperatingPoint(load=load, mean_velocity=0.1).moes_m
+        yield said.format(round(moes_m, -2 if load > 500.0 else -1)).replace(".0", "")
     assert round(share["8e-08", "513"] / share["4e-08", "513"]) == 8
     assert round(share["4e-08", "257"] / share["2e-08", "257"], -1) == 40
     yield "carries an eighth on 513 nodes, and 20 nm a fortieth of 40 nm on 257"
@@ -64,6 +67,13 @@ def ellipse(read: Read) -> Iterator[str]:
     off = [f"{float(r[BEFORE]):.1f}" for r in rows if r["name"] in ("k040e", "k060b")]
     yield f"{' and '.join(off)} % too high"
     yield f"a term {errors.NARROW:g} (1/κ − 1)"
+    yield f"the predicted ratios are {span(of(read('ellipse/predicted.csv'), 'prediction'), '.1f')}"
+    (gain,) = (
+        f"{row['predicted_gain']} of {row['gain']}"
+        for row in read("ellipse/sides.csv")
+        if (row["ellipticity"], row["wavelength"], row["y"]) == ("1", "0.5", "0")
+    )
+    yield f"({gain} for ridges of a/2)"
     known = [float(r["mu_ratio_error"]) for r in rows if r["name"] in whole]
     yield f"states an error of {span(known, '.2f')},"
     off = [
@@ -208,31 +218,6 @@ def partial(read: Read) -> Iterator[str]:
     yield f"slide-to-roll ratios from {span(slip, 'g')}."
 
 
-def predicted(read: Read) -> Iterator[str]:
-    """What was simulated."""
-    rows = read("prediction/cases.csv")
-    m, ell, ratio, hurst = (of(rows, n) for n in ("moes_m", "moes_l", "velocity_ratio", "hurst"))
-    yield f"{len(rows)} rough surfaces, M from {span(m, 'g')}, L from {span(ell, 'g')}, velocity"
-    yield f"ratios from {span(ratio, 'g')}, Hurst exponents from {span(hurst, 'g')}"
-    tiles = [
-        float(r["length"])
-        / OperatingPoint(float(r["load"]), float(r["mean_velocity"])).hertz_radius
-        for r in rows
-    ]
-    yield f"tiles of {span(tiles, '.2g')} Hertz radii"
-
-
-def pairs(read: Read) -> Iterator[str]:
-    """The two pairs that meet in all positions."""
-    rows = [row for row in read("pairs/cases.csv") if row["name"][0] == "n"]
-    assert [row["name"] for row in rows] == ["n30ff", "n10wf"]
-    slower = [float(row["second_tiles"]) for row in rows]
-    for tiles, lasts, passages in zip(slower, (14, 16), (17, 19), strict=True):
-        assert tiles * lasts == pytest.approx(passages)
-    yield "17 and 19 passages of the slower tile bring both back"
-    yield "their runs of 14 and 16 a/u"
-
-
 def response(read: Read) -> Iterator[str]:
     """Points left out, and waves with much slip."""
     rows = read("response/leave_out.csv")
@@ -277,9 +262,7 @@ PAGES: dict[str, tuple[Said, ...]] = {
     "errors_ellipses": (wide_ellipses, extreme_ellipses),
     "fields": (fields,),
     "mixed_curve": (curve,),
-    "pairs": (pairs,),
     "partial": (partial,),
-    "prediction": (predicted,),
     "response": (response,),
 }
 

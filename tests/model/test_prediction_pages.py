@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 from records import Read, Said, largest, missing, of, percent, span
 
+from pyehl.theory.operating import OperatingPoint
+
 
 def compared(read: Read) -> Iterator[str]:
     """The prediction and the full simulation, all cases and those drawn at random."""
@@ -50,6 +52,8 @@ def finest(read: Read) -> Iterator[str]:
             f"| {percent(float(row['deviation_1025_percent']), 2)} |"
         )
     yield f"covers the change to 1025 × 1025 in {inside} of {len(rows)}"
+    coarse, fine = (of(rows, f"deviation{n}_percent").mean() for n in ("", "_1025"))
+    yield f"by {percent(coarse)} in the mean from the coarser grid and by {percent(fine)} from"
 
 
 def even_part(read: Read) -> Iterator[str]:
@@ -159,6 +163,11 @@ def mixed(read: Read) -> Iterator[str]:
     yield f"the load share is right to {off.max():.3f} of the load in all of them"
     off = np.abs(of(others, "contact_load_share_now") - of(others, "contact_load_share"))
     covered += int(np.sum(off <= of(others, "stated_error")))
+    named = [row for row in others if row["name"] in ("c5", "c11", "c14")]
+    over = of(named, "contact_load_share_now") / of(named, "contact_load_share")
+    yield f"too high by a factor of {span(over, '.1f')} in three"
+    most = max(of(read("mixed_curve/curve.csv"), "contact_load_share"))
+    yield f"from {100.0 * most:.0f} % of the load at the boundary film to none"
     yield f"The stated error covers {covered} of these {len(rows)}"
     shares = {
         (row["contact"], float(row["boundary_film"]), int(row["points"])): float(
@@ -211,6 +220,36 @@ def introduction(read: Read) -> Iterator[str]:
     yield f"*Friction of {len(read('prediction/table.csv'))} rough contacts over that of"
 
 
+def surfaces(read: Read) -> Iterator[str]:
+    """What was simulated."""
+    rows = read("prediction/cases.csv")
+    m, ell, ratio, hurst = (of(rows, n) for n in ("moes_m", "moes_l", "velocity_ratio", "hurst"))
+    yield f"{len(rows)} rough surfaces, M from {span(m, 'g')}, L from {span(ell, 'g')}, velocity"
+    yield f"ratios from {span(ratio, 'g')}, Hurst exponents from {span(hurst, 'g')}"
+    tiles = [
+        float(r["length"])
+        / OperatingPoint(float(r["load"]), float(r["mean_velocity"])).hertz_radius
+        for r in rows
+    ]
+    yield f"tiles of {span(tiles, '.2g')} Hertz radii"
+
+
+def all_positions(read: Read) -> Iterator[str]:
+    """The two pairs that meet in all positions."""
+    table = read("pairs/table.csv")
+    m, ell, slip = (of(table, name) for name in ("moes_m", "moes_l", "slide_to_roll"))
+    yield f"{len(table)} pairs, M from {span(m, 'g')}, L from {span(ell, 'g')}, slide-to-roll"
+    most = 0.5 * max(slip)
+    yield f"{span(slip, 'g')} (velocity ratios of both up to {1 + most:g} and down to {1 - most:g})"
+    rows = [row for row in read("pairs/cases.csv") if row["name"][0] == "n"]
+    assert [row["name"] for row in rows] == ["n30ff", "n10wf"]
+    slower = [float(row["second_tiles"]) for row in rows]
+    for tiles, lasts, passages in zip(slower, (14, 16), (17, 19), strict=True):
+        assert tiles * lasts == pytest.approx(passages)
+    yield "17 and 19 passages of the slower tile bring both back"
+    yield "their runs of 14 and 16 a/u"
+
+
 @pytest.mark.parametrize(
     ("page", "said"),
     [
@@ -226,6 +265,8 @@ def introduction(read: Read) -> Iterator[str]:
         ("docs/theory/prediction-pairs.md", pairs),
         ("docs/evidence/prediction/README.md", finest),
         ("docs/evidence/pairs/README.md", pair_ranges),
+        ("docs/evidence/pairs/README.md", all_positions),
+        ("docs/evidence/prediction/README.md", surfaces),
         ("docs/evidence/partial/README.md", partial_rows),
     ],
 )
