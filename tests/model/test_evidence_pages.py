@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import csv
 from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
@@ -270,3 +271,21 @@ PAGES: dict[str, tuple[Said, ...]] = {
 @pytest.mark.parametrize(("name", "said"), [(n, s) for n, part in PAGES.items() for s in part])
 def test_the_page_says_what_its_tables_have(root: Path, name: str, said: Said):
     assert missing(root, f"docs/evidence/{name}/README.md", said) == []
+
+
+def test_this_build_makes_a_narrow_contact(root: Path, script):
+    """A row of ends.csv."""
+    made = script("docs/evidence/errors_ellipses/make.py").ends((0.1, 200.0, 10.0, 257))
+    (row,) = ({name: str(value) for name, value in one.items()} for one in made)
+    with (root / "docs/evidence/errors_ellipses/ends.csv").open(encoding="utf-8") as stream:
+        assert row == next(csv.DictReader(stream))
+
+
+@pytest.mark.long
+def test_this_build_makes_a_point_left_out(root: Path, evidence):
+    leave_out = evidence("response", "leave_out")
+    everything = leave_out.read()
+    data = everything.chosen(leave_out.select(everything))
+    found = leave_out.left_out(data, leave_out.fit(data), 500.0, 5.0)
+    text = (root / "docs/evidence/response/leave_out.csv").read_text(encoding="utf-8")
+    assert f"500,5,{','.join(found)}\n" in text
