@@ -66,7 +66,7 @@ def accuracy(read: Read) -> Iterator[str]:
     rise = np.array([fine[row["name"]] for row in coarse]) - of(coarse, "mu_ratio")
     yield f"the value on 513 × 513 nodes is {rise.min():.2f} to {rise.max():.2f} higher"
     grid = of(coarse, "grid_error")
-    yield f"the error from the two grids alone is {grid.min():.2f} to {grid.max():.2f},"
+    yield f"the error from the two grids alone is {grid.min():.2f} to {grid.max():.2f};"
 
 
 def limits(read: Read) -> Iterator[str]:
