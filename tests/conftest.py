@@ -50,6 +50,8 @@ def evidence(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[str, str], M
 
     def load(folder: str, name: str) -> ModuleType:
         monkeypatch.syspath_prepend(str(ROOT / "docs" / "evidence" / folder))
+        # several folders have a `make`
+        monkeypatch.delitem(sys.modules, name, raising=False)
         return importlib.import_module(name)
 
     before = set(sys.modules)

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
@@ -29,7 +31,7 @@ FAST = {
 }
 
 
-def test_as_another_program_on_the_fields(solve):
+def test_as_another_program_on_the_fields(solve, root):
     """Another program: 0.0330, isothermal 0.0563; 69 K in the film, 35 K on the walls' mean."""
     done = solve(None, 257, FAST)
     assert done["mu_isothermal"] == pytest.approx(0.0563, rel=6e-3)
@@ -41,12 +43,27 @@ def test_as_another_program_on_the_fields(solve):
     assert walls[0] < walls[1]
     assert done["flash_temperature_K"] == pytest.approx(np.mean(walls), rel=0.03)
     assert "temperature" in done["mu_note"]
+    text = (root / "docs/theory/temperature-friction.md").read_text(encoding="utf-8")
+    for said in (
+        f"| {done['mu']:.4f}; isothermal {done['mu_isothermal']:.4f} |",
+        f"| {done['temperature_rise_max_K']:.1f} K; {np.mean(walls):.1f} K |",
+        f"Tian & Kennedy at that friction: {done['flash_temperature_K']:.1f} K",
+    ):
+        assert said in text
+    heat = done["mu"] * done["hertz_pressure_Pa"] * 0.3 * 5.0
+    assert heat == pytest.approx(1e8, rel=0.2)
+    share = round(100.0 * (1.0 - done["mu"] / done["mu_isothermal"]), -1)
+    say = f"by {done['temperature_rise_max_K']:.0f} K and takes {share:.0f} % of the friction"
+    assert say in (root / "docs/theory/temperature.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(("srr", "mu"), [(0.03, 0.043), (1.0, 0.021)])
-def test_traction_rises_and_falls(solve, srr, mu):
+def test_traction_rises_and_falls(solve, root, srr, mu):
     done = solve(None, 257, FAST | {"contact.slide_to_roll": srr})
     assert done["mu"] == pytest.approx(mu, abs=6e-4)
+    text = (root / "docs/theory/temperature-friction.md").read_text(encoding="utf-8")
+    (row,) = re.findall(r"ratios 0.03 and 1 \| (.*?) \|", text)
+    assert f"{done['mu']:.4f}" in row
 
 
 def test_where_it_does_not_count(solve):

@@ -36,6 +36,12 @@ def same(shown: list[str], printed: str) -> None:
             assert float(b) == pytest.approx(float(a), rel=2e-3), line
 
 
+def row_of(text: str) -> str:
+    """The films of the last lines as the table of the page has them."""
+    films = [re.findall(rf"{name} ([\d.]+) \+- ([\d.]+) nm", text)[0] for name in ("h_c", "h_min")]
+    return " | ".join(f"{film} ± {error} nm" for film, error in films)
+
+
 def test_ball_bearing(root: Path, ehl: str, tmp_path: Path):
     case, page = root / "cases" / "ball_bearing.nml", root / "docs" / "howto" / "bearing.md"
     words = [ehl, case, "-o", tmp_path / "out"]
@@ -45,11 +51,13 @@ def test_ball_bearing(root: Path, ehl: str, tmp_path: Path):
     same(texts(page), f"{report(sheet)}\n{run.stdout}")
     found = pyehl.load(tmp_path / "out").attrs
     text = page.read_text(encoding="utf-8")
+    assert f"| solved on 257 × 1633 nodes | {row_of(text)} |" in text
     unit = found["film_scale_m"] * 1e9
     films = [found[f"{name}_extrapolated"] * unit for name in ("H_c", "H_min")]
     assert f"| {films[0]:.1f} nm | {films[1]:.1f} nm |" in text
     for formula in sheet["formulas"]:
-        assert f"| {formula['h_c_m'] * 1e9:.1f} nm |" in text
+        least = f" {formula['h_min_m'] * 1e9:.1f} nm |" if formula["h_min_m"] else ""
+        assert f"| {formula['h_c_m'] * 1e9:.1f} nm |{least}" in text
     assert f"{found['rolling_moment_N_m'] * 1e4:.2f}·10⁻⁴ N m" in text
     assert f"is {1 - found['H_min'] / found['H_c']:.0%} below".replace("%", " %") in text
     # bearing, speed and load make the case
@@ -68,11 +76,13 @@ def test_gear_pair(root: Path, ehl: str, tmp_path: Path):
     case, page = root / "cases" / "gear_pair.nml", root / "docs" / "howto" / "gear.md"
     text = page.read_text(encoding="utf-8")
     record = json.loads(page.with_suffix(".json").read_text(encoding="utf-8"))
+    assert f"| solved on 97 nodes along the motion | {row_of(text)} |" in text
     unit = record["film_scale_m"] * 1e9
     films = [record[f"{name}_extrapolated"] * unit for name in ("H_c", "H_min")]
     assert f"| {films[0]:.1f} nm | {films[1]:.1f} nm |" in text
     for formula in pyehl.film(case)["formulas"]:
-        assert f"| {formula['h_c_m'] * 1e9:.1f} nm |" in text
+        least = f" {formula['h_min_m'] * 1e9:.1f} nm |" if formula["h_min_m"] else ""
+        assert f"| {formula['h_c_m'] * 1e9:.1f} nm |{least}" in text
     assert f"```text\n{library.conclude(record)}\n```" in text
     least = [round(record[name] * 1e9) for name in ("h_min_m", "h_min_rough_m")]
     assert "least film from {} to {} nm".format(*least) in text

@@ -8,6 +8,14 @@ import re
 import shlex
 from pathlib import Path
 
+ROOT = Path(__file__).parents[2]
+DOCUMENTS = (
+    "README.md",
+    "cases/README.md",
+    "tests/README.md",
+    "fortran/README.md",
+    *sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "docs").glob("**/*.md")),
+)
 NUMBER = r"\d+(?:\.\d+)?(?:[eE][-+]?\d+)?"
 # Differ from machine to machine
 _FREE = re.compile(rf"(?<=residual )\s*{NUMBER}|\d+(?= ms\b)")

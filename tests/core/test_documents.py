@@ -19,21 +19,13 @@ import sys
 from pathlib import Path
 
 import pytest
-from document_text import NUMBER, blocks, commands, fences, is_shown, lines_of
+from document_text import DOCUMENTS, NUMBER, blocks, commands, fences, is_shown, lines_of
 
 import pyehl
 from pyehl import Case, library
 from pyehl.prediction import friction
 from pyehl.studies import curve
 
-ROOT = Path(__file__).parents[2]
-DOCUMENTS = (
-    "README.md",
-    "cases/README.md",
-    "tests/README.md",
-    "fortran/README.md",
-    *sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "docs").glob("**/*.md")),
-)
 # Those of `docs/` take half a minute each
 EXECUTED = [
     pytest.param(name, marks=pytest.mark.long) if name.startswith("docs/") else name

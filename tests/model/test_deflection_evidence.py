@@ -8,6 +8,8 @@ from types import ModuleType
 
 import pytest
 
+from pyehl.bench.workprec import share_of_deflection
+
 
 @pytest.fixture(scope="module")
 def evidence(script) -> ModuleType:
@@ -28,6 +30,18 @@ def test_this_build_makes_the_stored_errors(evidence):
         # rounding is a part of what 16 points leave
         for name in ("accuracy", "error", "discretisation", "inside"):
             assert found[name] == pytest.approx(stored[name], rel=1e-3, abs=1e-13), (points, name)
+
+
+def test_share_in_the_friction_of_a_short_wave(root: Path):
+    found = share_of_deflection()
+    share = f"{100.0 * found['share']:.1f} % of the grid error there"
+    for page, said in (
+        ("theory/deflection.md", "it is {:.2f} %, " + share),
+        ("evidence/workprec/README.md", "makes {:.2f} % of μ_r/μ_s"),
+        ("evidence/workprec/README.md", share),
+    ):
+        text = (root / "docs" / page).read_text(encoding="utf-8")
+        assert said.format(100.0 * found["difference"]) in text
 
 
 def test_errors_stay_small_beside_the_discretisation(evidence):

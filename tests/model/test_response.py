@@ -282,7 +282,7 @@ def test_response_is_that_of_measured_waves(evidence: ModuleType):
 
 
 def test_gain_of_oblique_waves_is_that_of_the_measured_pressures(
-    script: Callable[[str], ModuleType],
+    script: Callable[[str], ModuleType], root: Path
 ):
     """Waves too short for the edge of the disc, 513 x 513 nodes, M >= 200."""
     gain = script("docs/evidence/response/gain.py")
@@ -291,10 +291,12 @@ def test_gain_of_oblique_waves_is_that_of_the_measured_pressures(
     left = gain.residual(waves, GAIN)
     points = {(m, ell) for m, ell in waves[:, :2]}
     assert len(points) >= 15
-    for m, ell in points:
-        here = left[(waves[:, 0] == m) & (waves[:, 1] == ell)]
-        assert np.sqrt(np.mean(np.square(here))) <= 0.011, (m, ell)
-        assert np.abs(here).max() <= 0.051, (m, ell)
+    each = [left[(waves[:, 0] == m) & (waves[:, 1] == ell)] for m, ell in points]
+    rms = [float(np.sqrt(np.mean(np.square(here)))) for here in each]
+    text = (root / "docs/evidence/response/README.md").read_text(encoding="utf-8")
+    assert f"the rms it leaves is {min(rms):.3f} to {max(rms):.3f} at an operating point" in text
+    assert max(rms) <= 0.011
+    assert max(np.abs(here).max() for here in each) <= 0.051
 
 
 def test_range_of_the_fit_is_that_of_the_data(evidence: ModuleType):

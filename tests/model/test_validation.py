@@ -55,6 +55,50 @@ def test_spans_of_the_formulas(root: Path):
         assert (f"{min(found):.3f}", f"{max(found):.3f}") == (least, largest)
 
 
+def test_what_the_page_says_of_the_formulas(root: Path):
+    """Largest deviations of the central films, and of the least ones at high loads."""
+    text = (root / "docs" / "validation.md").read_text(encoding="utf-8")
+    off = {}
+    for row in rows(root, "formulas.csv"):
+        key = row["formula"].partition("-")[0], row["quantity"], float(row["moes_m"]) >= 500.0
+        off.setdefault(key, []).append(100.0 * (float(row["ratio"]) - 1.0))
+    moes = [off["Nijenbanning", "H_c", heavy] for heavy in (True, False)]
+    assert f"is within {max(map(abs, moes[0])):.1f} % from M = 500 on" in text
+    assert f"it is up to {-min(moes[1]):.0f} % low" in text
+    high = [
+        max(off[name, "H_c", True] + off[name, "H_c", False])
+        for name in ("Hamrock", "Chittenden et al.")
+    ]
+    assert "is up to {:.0f} % and {:.0f} % high".format(*high) in text
+    least = max(off["Hamrock", "H_min", True])
+    assert 100.0 < least < 130.0
+    assert "their minimum film is twice too thick at high loads" in text
+
+
+def test_rows_of_the_other_programs(root: Path, made: dict[str, Any]):
+    """How far two rows are apart, and what Carreau's law takes of the film."""
+    text = (root / "docs" / "validation.md").read_text(encoding="utf-8")
+    with (root / "pyehl/reproduce/data/smooth.csv").open(encoding="utf-8") as stream:
+        known = {
+            (r["lubricant.roelands_z"], r["grid.points"]): r
+            for r in csv.DictReader(line for line in stream if line[0] != "#")
+            if r["contact.moes_m"] == "1000.0"
+        }
+    change = {
+        name: float(known["0.6684", "513"][name]) / float(known["0.68", "513"][name])
+        for name in ("H_c", "H_min")
+    }
+    apart = 100.0 * (change["H_min"] / change["H_c"] - 1.0)
+    assert f"contradict one another by {apart:.2f} % in H_min" in text
+    options = made["PLACE"] | made["THINNING"]["Carreau 0.1 MPa, n = 0.8, SRR 0.1"][0]
+    films = [
+        float(made["solved"](options | more, 65).h_c_m)
+        for more in ({}, {"lubricant.flow": "newtonian"})
+    ]
+    assert films[0] / films[1] == pytest.approx(0.8, abs=0.01)
+    assert "the film is a fifth thinner than that of the Newtonian oil" in text
+
+
 def test_this_build_makes_the_stored_numbers(root: Path, made: dict[str, Any]):
     """One contact in the limit of fine grids and one point of the formulas."""
     ds = made["solved"]({"contact.moes_m": 200.0, "contact.moes_l": 10.0}, 257)

@@ -3,7 +3,8 @@
 
     python docs/evidence/errors_ellipses/make.py errors     # errors.csv
     python docs/evidence/errors_ellipses/make.py cells      # cells.csv
-    python docs/evidence/errors_ellipses/make.py show       # what both tables say
+    python docs/evidence/errors_ellipses/make.py ends       # ends.csv
+    python docs/evidence/errors_ellipses/make.py show       # what the first two tables say
 
 M and L are those of the round contact with the same equations (Biboulet & Houpert 2010), kappa is
 the semi-axis across the motion over that along it. Points are drawn from a seed that was not used
@@ -147,9 +148,38 @@ def cells(point: tuple[float, float, float]) -> list[Row]:
     return rows
 
 
+# kappa, M, L by R_x, nodes along X
+EXTREME = (
+    *itertools.product((0.1,), (200.0, 400.0), (10.0,), (257,)),
+    *itertools.product((1.0 / 30.0,), (10.0, 50.0), (10.0,), (257,)),
+    (1.0 / 30.0, 50.0, 2.0, 257),
+    *itertools.product((0.1,), (400.0, 1000.0), (10.0,), (513,)),
+    (1.0 / 30.0, 50.0, 10.0, 513),
+    *itertools.product((10.0,), (1000.0,), (5.0, 10.0, 15.0), (129,)),
+)
+# Cells half as long across, near the contact alone
+SHORT = {"grid.y_extent": 0.5, "grid.points_y": 513, "solver.max_cycles": 100}
+
+
+def ends(point: tuple[float, float, float, int]) -> list[Row]:
+    """Solve a very narrow or wide contact; on cells SHORT, too, where it fails on 257 nodes."""
+    *place, nodes = point
+    keys = contact(*place) | {"contact.moes_l": point[2], "grid.points": nodes}
+    rows: list[Row] = []
+    for cells_given in ({}, SHORT):
+        found = solved(keys | cells_given)
+        row: Row = dict(zip((*NAMES[1:], "points"), point, strict=True))
+        row["short_cells"] = int(bool(cells_given))
+        rows.append(row | {key: found[key] for key in ("status", "cycles", "restarts")})
+        if found["status"] == "converged" or nodes != 257:
+            break
+    return rows
+
+
 TABLES: dict[str, tuple[Callable[[Any], list[Row]], Callable[[], Any]]] = {
     "errors": (errors, points),
     "cells": (cells, lambda: CELL_POINTS),
+    "ends": (ends, lambda: EXTREME),
 }
 
 

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Commands that documents name, run or not: their scripts and options are there."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from pathlib import Path
+
+from document_text import DOCUMENTS
+
+from pyehl.cli import SUBCOMMANDS, _parser
+
+
+def test_scripts_in_documents_are_there(root: Path):
+    """What `python …` runs, from the root or from the folder of the page."""
+    seen = 0
+    for name in DOCUMENTS:
+        text = (root / name).read_text()
+        for script in re.findall(r"python (docs/evidence/[\w/]+\.py|make\.py)", text):
+            places = root / script, (root / name).parent / script
+            assert any(place.is_file() for place in places), f"{name}: {script}"
+            seen += 1
+    assert seen > 40
+
+
+def options_of(parser: argparse.ArgumentParser) -> set[str]:
+    """Options of a subcommand and of those below it."""
+    found: set[str] = set()
+    for action in parser._actions:
+        found |= set(action.option_strings)
+        if isinstance(action, argparse._SubParsersAction):
+            found |= set().union(*map(options_of, action.choices.values()))
+    return found
+
+
+def test_options_in_documents_are_options(root: Path):
+    """Of every `pyehl SUBCOMMAND …` in a text or in a block, run or not."""
+    known = {name: options_of(_parser(name)) for name in SUBCOMMANDS}
+    seen = 0
+    for name in DOCUMENTS:
+        text = (root / name).read_text()
+        for line in re.findall(r"(?:`|^)(pyehl [a-z][^`\n]*)", text, re.MULTILINE):
+            subcommand = line.split()[1]
+            for option in re.findall(r"(?<!\S)--[a-z][a-z-]*", line.partition("#")[0]):
+                assert option in known[subcommand], f"{name}: {line}"
+                seen += 1
+    assert seen > 100

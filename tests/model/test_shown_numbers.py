@@ -1,0 +1,218 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Numbers in README, tutorial, how-tos, limits and theory that this build makes in seconds."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from records import percent
+from scipy.integrate import quad
+from scipy.optimize import brentq
+
+import pyehl
+from pyehl.app import answers, worker
+from pyehl.prediction import second_order
+from pyehl.prediction.errors import ELLIPTICITY
+from pyehl.studies import plan, study
+from pyehl.theory.lubricant import Lubricant
+from pyehl.theory.operating import OperatingPoint
+from pyehl.theory.response import edge_gain
+
+
+@pytest.fixture(scope="module")
+def says(root: Path):
+    """Assert that words stand in a page."""
+
+    def check(page: str, *words: str) -> None:
+        text = (root / page).read_text(encoding="utf-8")
+        assert [one for one in words if one not in text] == []
+
+    return check
+
+
+def test_smooth_contact_of_the_readme(says, cases: Path):
+    found = pyehl.solve(cases / "table1.nml", {"surface.kind": "smooth"}).attrs
+    whole, grid, domain = (
+        100.0 * found[f"H_c_error{part}"] / found["H_c"] for part in ("", "_grid", "_domain")
+    )
+    film = 1e9 * found["h_c_m"] / found["H_c"] * found["H_c_extrapolated"]
+    says(
+        "README.md",
+        f"is {1e9 * found['h_c_m']:.1f} nm thick, known to {percent(whole)}: {percent(grid)} of",
+        f"(extrapolated: {film:.1f} nm), {percent(domain)} the finite domain",
+    )
+    assert found["shear_stress_max_Pa"] == pytest.approx(2e13, rel=0.1)
+
+
+def test_tutorial(says, cases: Path):
+    found = pyehl.solve(cases / "quick.nml").attrs
+    values = [found[f"H_c{end}"] for end in ("", "_extrapolated", "_error", "_error_grid")]
+    say = "`H_c` {:.4f}, `H_c_extrapolated` {:.4f}, `H_c_error` {:.4f}. Of that {:.4f} is"
+    ground, honed = (
+        pyehl.predict(cases / "finish.nml", {"surface.rms_height": height}).summary
+        for height in (1e-7, 4e-8)
+    )
+    low = 1.0 - 0.17
+    says(
+        "docs/tutorial.md",
+        say.format(*values),
+        f"The roughness adds {percent(100.0 * (ground['mu_ratio'] - 1.0))} to the friction",
+        f"a film of {1e9 * ground['h_min_rough_m']:.0f} nm is left",
+        f"at Λ = {ground['lambda_ratio']:.2f} a real surface",
+        f"which leaves Λ = {low * honed['lambda_ratio']:.1f}.",
+    )
+
+
+def test_measured_surface(says, cases: Path):
+    found = pyehl.predict(cases / "scan.nml", {"surface.outliers": 100}, tracks=4)
+    steps = found.summary["surface_preparation"]["steps"]
+    rms = [1e9 * found.summary[f"rms_{name}_m"] for name in ("height", "deformed")]
+    strongest = max(found.bands, key=lambda band: band.rise)
+    says(
+        "docs/howto/measured-surface.md",
+        "the rms height falls from {:.1f} nm to {:.1f} nm".format(*rms),
+        f"waves of {1e6 * strongest.shortest:.0f} to {1e6 * strongest.longest:.0f} μm",
+    )
+    assert steps[0]["points_changed"] == 3
+
+
+def test_alpha_over_the_temperature(says, cases: Path):
+    """By Roelands' law with a constant exponent, and what that makes of the film."""
+    oils = [
+        pyehl.Case.read(cases / "finish.nml", [f"lubricant.temperature={t}"]).resolve()["lubricant"]
+        for t in (40, 100)
+    ]
+    cold, hot = (oil["pressure_viscosity"] for oil in oils)
+    kept, film = (
+        pyehl.film(cases / "finish.nml", {"lubricant.temperature": 100, **more})["formulas"][0]
+        for more in ({"lubricant.pressure_viscosity": cold}, {})
+    )
+    says(
+        "docs/howto/stribeck.md",
+        f"From 40 to 100 °C it falls by {100.0 * (1.0 - hot / cold):.0f} % for the ISO VG 46 oil",
+        f"thins the film by {100.0 * (1.0 - film['h_c_m'] / kept['h_c_m']):.0f} % more",
+    )
+
+
+def test_traction_near_the_origin(says, cases: Path):
+    """In proportion to the ratio below 1e-6, and no more at 1e-5."""
+    slopes = [
+        pyehl.solve(cases / "mtm.nml", {"contact.slide_to_roll": s, "grid.points": 129}).attrs["mu"]
+        / s
+        for s in (1e-7, 1e-6, 1e-5)
+    ]
+    assert slopes[1] / slopes[0] > 0.85
+    assert slopes[2] / slopes[0] < 0.5
+    says("docs/howto/traction.md", "in proportion to the ratio only below 10⁻⁶")
+    assert np.exp(-1.8 * 2.0**1.2) < 0.02
+    says("docs/howto/traction.md", "above Λ = 2 nearly all of the load is on the film")
+
+
+def test_fitted_shear_law(says, cases: Path):
+    case = pyehl.Case.read(cases / "traction.nml", ["grid.points=65"])
+    (found,) = pyehl.fit_lubricant(cases / "traction.csv", case).parameters
+    value, low, high = (f"{1e-6 * v:.1f}" for v in (found.value, found.low, found.high))
+    says("docs/howto/lubricants.md", f"finds {value} MPa with a 95 % interval from {low} to {high}")
+
+
+def test_heat_of_the_gears(says, cases: Path):
+    smooth = {f"{group}.kind": "smooth" for group in ("surface", "second_surface")}
+    ratio = [
+        pyehl.solve(cases / "gear_pair.nml", smooth | {"lubricant.thermal_friction": when}).attrs
+        for when in ("auto", "never")
+    ]
+    assert ratio[0]["mu"] / ratio[1]["mu"] == pytest.approx(0.75, abs=0.02)
+    says("docs/howto/gear.md", "which takes a quarter of it")
+
+
+@pytest.mark.parametrize(("name", "case"), [("gear", "gear_pair"), ("bearing", "ball_bearing")])
+def test_ellipses_outside_the_range(says, cases: Path, name: str, case: str):
+    kappa = pyehl.film(cases / f"{case}.nml")["ellipticity"]
+    least, most = ELLIPTICITY
+    assert not least < kappa < most
+    says(
+        f"docs/howto/{name}.md",
+        f"the ellipticity, {kappa:.1f}, is outside the range in which the prediction",
+        f"(../theory/prediction-ellipses.md), {least:.1f} to {most:.0f}.",
+    )
+
+
+def test_limits(says, cases: Path):
+    """Scatter over the scan lines, and the viscosity of a high pressure."""
+    found = pyehl.predict(cases / "table1.nml").summary
+    spread = found["mu_ratio_tracks_spread"] / found["mu_ratio_tracks"]
+    pressure = OperatingPoint.from_moes(2000.0, 20.0).hertz_pressure
+    assert pressure > 4e9
+    power = np.log(Lubricant().viscosity_ratio(pressure)) + 1e-9
+    superscript = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+    say = f"is e{f'{power:.0f}'.translate(superscript)} times that at its edge"
+    says("docs/limits.md", f"scatters by about {100.0 * spread:.0f} % between", say)
+    heavy = {"contact.moes_m": 2000.0, "contact.moes_l": 20.0, "grid.points": 513}
+    assert pyehl.solve(pyehl.Case.from_text("", heavy)).attrs["status"] == "converged"
+
+
+def test_constants_of_the_prediction(says):
+    """Where a film ends, what the inlet makes, what oblique waves take."""
+    ends, film, least = second_order.FILM_ENDS, second_order.INLET_FILM, second_order.QUADRATIC
+    says("docs/glossary.md", f"the waves take more than {ends:g} times the smooth film")
+    says("docs/theory/prediction.md", f"first order exceeds {ends:g} times the smooth film")
+    says(
+        "docs/theory/prediction-second-order.md",
+        f"regains ${film:g}\\,t_1^2/H$",
+        f"Beyond a loss of ${least:g}\\,H$",
+        f"at ${ends:g}\\,H$ it ends",
+        f"The pressure gains ${second_order.INLET_PRESSURE:g}\\,P_0^2$",
+    )
+    q = np.geomspace(0.1, 200.0, 20)
+    gains = [edge_gain(kx, q, film) for kx in (0.0, 5.0, 20.0) for film in (0.01, 0.03, 0.1)]
+    assert 0.03 < np.max(gains) - 1.0 < 0.04
+    says("docs/theory/prediction.md", "take up to 4 % more than that")
+
+
+def test_pressure_far_from_the_contact(says):
+    """Where the film ruptures, and what that adds to the load."""
+    angle = brentq(lambda x: np.tan(x) + 3.0 * np.tanh(3.0 * x), 1.6, 2.2)
+    second = -0.8 * np.cos(angle) / np.cosh(3.0 * angle)
+    load = quad(lambda x: 0.8 * np.cos(x) + second * np.cosh(3.0 * x), 0.0, angle)[0] / 0.8
+    says(
+        "docs/theory/border.md",
+        f"so that φ = {np.degrees(angle):.1f}° and C = {second:.5f}",
+        f"The rupture adds {100.0 * (load - 1.0):.0f} % to the load far away",
+        f"to the power −{3.0 + np.sqrt(10.0):.1f}",
+    )
+
+
+def test_what_a_study_may_be(says):
+    says(
+        "docs/howto/sweep.md",
+        f"Of more than {plan.MOST} cases `--plan` checks some, for at most five seconds",
+        f"{study.MAX_CASES:,} cases".replace(",", " "),
+        f"({plan.CASE_BYTES / 1000:g} kB each)",
+    )
+    assert plan.PATIENCE == 5.0
+
+
+def test_what_the_page_may_take(root: Path, says):
+    source = (root / "tests/app/latency.py").read_text(encoding="utf-8")
+    allowed = re.findall(r"(\d+): (0\.\d+)", source.partition("ALLOWED = ")[2].partition("\n")[0])
+    coarse, fine = (f"{1e3 * float(time):.0f} ms on {n} × {n}" for n, time in allowed)
+    says(
+        "docs/howto/app.md",
+        f"medians of {coarse} nodes and of {fine}, which includes the {answers.REST:g} s",
+        f"When it has rested for {answers.REST:g} s",
+    )
+    says("docs/design.md", f"may go on for {worker.GRACE:g} s")
+
+
+def test_constants_of_the_solver(root: Path):
+    """The table of docs/design.md has the values of the sources."""
+    text = (root / "docs/design.md").read_text(encoding="utf-8")
+    table = re.findall(r"^\| `(\w+)` \(`([\w/.]+)`\) \| (\S+) \|", text, re.MULTILINE)
+    assert len(table) == 12
+    for name, file, shown in table:
+        source = (root / "fortran" / file).read_text(encoding="utf-8")
+        (value,) = re.findall(rf"\b{name} = (-?[\d.]+)_dp", source)
+        assert float(value) == float(shown.replace("−", "-")), name
