@@ -6,7 +6,7 @@ module ehl_text
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: newline, to_text, fixed, lower_case, is_letter, is_digit, nearest_word, quoted
+   public :: newline, to_text, fixed, short, lower_case, is_letter, is_digit, nearest_word, quoted
 
    !> Line separator in texts and files
    character(len=*), parameter :: newline = new_line("a")
@@ -67,6 +67,13 @@ contains
       if (buffer(1:1) == "*") write (buffer, "(es12.5)") x
       text = trim(adjustl(buffer))
    end function fixed
+
+   !> Four digits of a number, for messages
+   function short(x) result(text)
+      real(dp), intent(in) :: x
+      character(len=:), allocatable :: text
+      text = fixed(x, "es10.3")
+   end function short
 
    !> The digits of a mantissa, without sign, point and trailing zeros
    pure function keep_digits(mantissa) result(digits)

@@ -5,7 +5,7 @@ module ehl_case
    use ehl_viscosity_table, only: isotherm_t
    implicit none (type, external)
    private
-   public :: case_t, lubricant_case_t, surface_case_t, is_feature, has_no_height, word_length, path_length
+   public :: case_t, contact_case_t, lubricant_case_t, surface_case_t, is_feature, has_no_height, word_length, path_length
 
    !> Longest option word
    integer, parameter :: word_length = 32
