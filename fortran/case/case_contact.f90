@@ -93,7 +93,7 @@ contains
             scales = hertz_scales(contact, c%load, c%radius_x, c%reduced_modulus)
             point = operating_point(input, contact, scales, l%viscosity)
          else
-            point = operating_from_moes(c%moes_m, c%moes_l, contact%ellipticity, contact%kernel_factor())
+            point = operating_from_moes(c%moes_m, c%moes_l, contact%ellipticity, contact%kernel_factor)
             scales%pressure = point%alpha_bar/l%pressure_viscosity
          end if
       end associate
@@ -110,7 +110,7 @@ contains
       associate (c => input%contact)
          point = operating_from_si(c%load, c%mean_velocity, c%radius_x, c%reduced_modulus, viscosity, &
                                    input%lubricant%pressure_viscosity, scales%pressure, contact%ellipticity, &
-                                   contact%kernel_factor())
+                                   contact%kernel_factor)
       end associate
    end function operating_point
 

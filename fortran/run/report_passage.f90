@@ -2,10 +2,9 @@
 !> What is said of a feature that passes the contact once
 module ehl_report_passage
    use ehl_extremes, only: extreme_film, extreme_pressure, extremes_t
-   use ehl_kinds, only: dp
+   use ehl_kinds, only: dp, not_known
    use ehl_record, only: record_t
    use ehl_scales, only: scales_t
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    implicit none (type, external)
    private
    public :: report_passage
@@ -25,7 +24,7 @@ contains
       integer :: i, k
 
       found = extremes%found
-      if (.not. good) found = ieee_value(found, ieee_quiet_nan)
+      if (.not. good) found = not_known
       do k = 1, size(names)
          do i = 1, size(parts)
             call record%set(trim(names(k))//trim(parts(i)), found(i, k))

@@ -2,12 +2,12 @@
 !> Contact at a boundary film in the summary: what of the load it carries, where, and what the layer gives
 module ehl_report_touching
    use ehl_grid, only: grid_t
-   use ehl_kinds, only: dp, pi
+   use ehl_kinds, only: dp, not_known, pi
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
    use ehl_resolution, only: has_solution
    use ehl_touching, only: touching_names
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
    private
    public :: report_touching, no_boundary_friction
@@ -46,7 +46,7 @@ contains
          note = why
       else if (.not. (is_dry(plan) .or. has_solution(plan%contact, plan%point, grid%coarser()))) then
          note = "the next coarser grid does not resolve the inlet, and bodies touch on it for that"
-         error = ieee_value(error, ieee_quiet_nan)
+         error = not_known
       end if
       call record%set("boundary_film", plan%lubricant%boundary_film)
       call record%set("contact_load_share", numbers(1))

@@ -133,7 +133,7 @@ contains
       if (self%outcome /= outcome_running) return
       if (.not. self%entered) call enter_level(self, hierarchy, status)
       if (status%failed()) return
-      if (self%how%flooded) call self%far_field%set_border(hierarchy%levels(self%n), self%contact%load())
+      if (self%how%flooded) call self%far_field%set_border(hierarchy%levels(self%n), self%contact%load)
       self%options = next_cycle(self)
       call self%improve(hierarchy)
       finest = self%n == self%how%levels
@@ -171,7 +171,7 @@ contains
             call self%contact%gap_row(grid%columns(), grid%y(j), level%geometry(:, j))
          end do
          level%rhs = 0.0_dp
-         level%load = self%contact%load()
+         level%load = self%contact%load
          if (has_coarser(self)) then
             call prolong_solution(hierarchy%levels(self%n - 1), level)
             self%m = self%results(self%n - 1)%m
@@ -179,7 +179,7 @@ contains
             do j = 1, grid%ny
                call self%contact%pressure_row(grid%columns(), grid%y(j), level%p(:, j))
             end do
-            level%h00 = self%how%film_expected + self%contact%dry_separation()
+            level%h00 = self%how%film_expected + self%contact%dry_separation
             call refresh(level)
             self%m = measure(level)
          end if

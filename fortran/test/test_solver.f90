@@ -64,7 +64,7 @@ contains
       call new_contact(1.0_dp, 0.0_dp, contact)
       scales = hertz_scales(contact, 600.0_dp, 0.018_dp, 2.26e11_dp)
       point = operating_from_si(600.0_dp, 0.84_dp, 0.018_dp, 2.26e11_dp, 0.04_dp, 2.2e-8_dp, scales%pressure, &
-                                contact%ellipticity, contact%kernel_factor())
+                                contact%ellipticity, contact%kernel_factor)
       call is_close(scales%length, 4.1540e-4_dp, 1.0e-8_dp, "Hertz radius")
       call is_close(scales%pressure, 1.6602e9_dp, 1.0e5_dp, "Hertz pressure")
       call is_close(point%moes_m, 1000.0_dp, 0.05_dp, "M")
@@ -89,11 +89,11 @@ contains
          call contact%gap_row(grid%columns(), grid%y(j), gap(:, j))
          call contact%pressure_row(grid%columns(), grid%y(j), p(:, j))
       end do
-      call is_close(sum(p)*grid%hx*grid%hy/contact%load(), 1.0_dp, 1.0e-3_dp, "load of the dry contact")
+      call is_close(sum(p)*grid%hx*grid%hy/contact%load, 1.0_dp, 1.0e-3_dp, "load of the dry contact")
       call new_deflection("fft", engine, status)
-      call engine%setup(grid, contact%kernel_factor(), 1.0e-8_dp, 1, status)
+      call engine%setup(grid, contact%kernel_factor, 1.0e-8_dp, 1, status)
       call engine%apply(p, w)
-      w = gap + w + contact%dry_separation()
+      w = gap + w + contact%dry_separation
       call is_close(maxval(abs(w), mask=p > 0.0_dp), 0.0_dp, 2.0e-3_dp, "no gap in the dry contact")
       call is_true(minval(w) > -2.0e-3_dp, "bodies do not overlap")
    end subroutine shapes_are_consistent
