@@ -116,10 +116,7 @@ contains
    pure function integer_to_text(i) result(text)
       integer, intent(in) :: i
       character(len=:), allocatable :: text
-      character(len=16) :: buffer
-
-      write (buffer, "(i0)") i
-      text = trim(buffer)
+      text = long_to_text(int(i, int64))
    end function integer_to_text
 
    !> The same for large ones

@@ -15,7 +15,7 @@ module ehl_elliptical
    use ehl_scales, only: circle_factor
    implicit none (type, external)
    private
-   public :: elliptical_t, new_elliptical
+   public :: new_elliptical
 
    type, extends(contact_t) :: elliptical_t
       private

@@ -19,7 +19,7 @@ module ehl_plan
    use ehl_resolution, only: has_solution, relative_errors
    use ehl_scales, only: scales_t
    use ehl_status, only: ehl_bad_input, status_t
-   use ehl_steady, only: steady_options_t
+   use ehl_steady_options, only: steady_options_t
    use ehl_surface, only: aliased_below, resolved_from
    use ehl_transient, only: steps_needed
    use ehl_text, only: fixed, to_text
