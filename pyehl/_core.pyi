@@ -116,14 +116,6 @@ class _Surfaces:
         longest: float,
         gaussian: int,
     ) -> tuple[int, bytes]: ...
-
-class _Thinning:
-    def flow_factors(
-        self, law: int, exponent: float, b: _Array, gradient: _Array, found: _Array
-    ) -> None: ...
-    def sliding_stresses(self, law: int, exponent: float, b: _Array, stress: _Array) -> None: ...
-
-class _Waves:
     def driven_waves(
         self,
         tile: _Pairs,
@@ -151,11 +143,13 @@ class _Lubricants:
         self, group: bytes, p: _Array, rise: _Array, log_viscosity: _Array, density: _Array
     ) -> tuple[int, bytes]: ...
     def alpha_origin(self, text: bytes) -> tuple[bytes, int, bytes]: ...
+    def flow_factors(
+        self, law: int, exponent: float, b: _Array, gradient: _Array, found: _Array
+    ) -> None: ...
+    def sliding_stresses(self, law: int, exponent: float, b: _Array, stress: _Array) -> None: ...
 
 ehl_f2py_solver: _Solver
 ehl_f2py_predicted: _Predicted
 ehl_f2py_functions: _Functions
 ehl_f2py_surfaces: _Surfaces
-ehl_f2py_thinning: _Thinning
-ehl_f2py_waves: _Waves
 ehl_f2py_lubricant: _Lubricants

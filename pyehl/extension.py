@@ -18,8 +18,6 @@ __all__ = [
     "predicted",
     "solvers",
     "surface_functions",
-    "thinning",
-    "waves",
 ]
 
 try:
@@ -35,5 +33,3 @@ predicted = cast("_core._Predicted", _extension.ehl_f2py_predicted)
 functions = cast("_core._Functions", _extension.ehl_f2py_functions)
 surface_functions = cast("_core._Surfaces", _extension.ehl_f2py_surfaces)
 lubricants = cast("_core._Lubricants", _extension.ehl_f2py_lubricant)
-thinning = cast("_core._Thinning", _extension.ehl_f2py_thinning)
-waves = cast("_core._Waves", _extension.ehl_f2py_waves)

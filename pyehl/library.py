@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import check
-from pyehl.extension import functions, lubricants, predicted, surface_functions, thinning, waves
+from pyehl.extension import functions, lubricants, predicted, surface_functions
 from pyehl.extension import solvers as ehl
 from pyehl.given import Option, options_of, path_of, text_of
 
@@ -44,9 +44,7 @@ __all__ = [
     "resolve",
     "returned",
     "surface_functions",
-    "thinning",
     "version",
-    "waves",
 ]
 
 Array = NDArray[np.float64]

@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Named values in the order in which they were set, written as one JSON object
 module ehl_record
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
-   use ehl_kinds, only: dp
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use ehl_kinds, only: dp, not_known
    use ehl_text, only: newline, to_text
    implicit none (type, external)
    private
@@ -44,7 +44,12 @@ contains
       class(record_t), intent(inout) :: self
       character(len=*), intent(in) :: name
       real(dp), intent(in) :: value
-      call self%put(name, json_real(value))
+
+      if (ieee_is_finite(value)) then
+         call self%put(name, to_text(value))
+      else
+         call self%put(name, "null")
+      end if
    end subroutine set_real
 
    !> Set a list of texts; trailing blanks are dropped
@@ -139,7 +144,7 @@ contains
 
       value = self%value_of(name)
       read (value, *, iostat=stat) number
-      if (stat /= 0) number = ieee_value(number, ieee_quiet_nan)
+      if (stat /= 0) number = not_known
    end function number
 
    !> The text under a name, its escapes taken away; empty where there is none
@@ -198,15 +203,6 @@ contains
          start = last + 2
       end do
    end subroutine take_json
-
-   !> A number; null when it is not finite
-   pure function json_real(value) result(text)
-      real(dp), intent(in) :: value
-      character(len=:), allocatable :: text
-
-      text = "null"
-      if (ieee_is_finite(value)) text = to_text(value)
-   end function json_real
 
    !> A JSON string with its escapes
    pure function json_text(value) result(text)

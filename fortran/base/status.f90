@@ -4,7 +4,7 @@ module ehl_status
    implicit none (type, external)
    private
    public :: status_t
-   public :: ehl_ok, ehl_bad_input, ehl_closed, ehl_no_memory, ehl_file, ehl_internal
+   public :: ehl_bad_input, ehl_closed, ehl_no_memory, ehl_file, ehl_internal
 
    !> Everything went well
    integer, parameter :: ehl_ok = 0

@@ -9,7 +9,7 @@ module ehl_table
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: table_t, column_name_length
+   public :: table_t
 
    !> Longest name of a column
    integer, parameter :: column_name_length = 32

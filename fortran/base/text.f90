@@ -6,7 +6,7 @@ module ehl_text
    use ehl_kinds, only: dp
    implicit none (type, external)
    private
-   public :: newline, to_text, fixed, lower_case, is_letter, is_digit, nearest_word, quoted
+   public :: newline, to_text, fixed, short, lower_case, is_letter, is_digit, nearest_word, quoted
 
    !> Line separator in texts and files
    character(len=*), parameter :: newline = new_line("a")
@@ -68,6 +68,13 @@ contains
       text = trim(adjustl(buffer))
    end function fixed
 
+   !> Four digits of a number, for messages
+   function short(x) result(text)
+      real(dp), intent(in) :: x
+      character(len=:), allocatable :: text
+      text = fixed(x, "es10.3")
+   end function short
+
    !> The digits of a mantissa, without sign, point and trailing zeros
    pure function keep_digits(mantissa) result(digits)
       character(len=*), intent(in) :: mantissa
@@ -109,10 +116,7 @@ contains
    pure function integer_to_text(i) result(text)
       integer, intent(in) :: i
       character(len=:), allocatable :: text
-      character(len=16) :: buffer
-
-      write (buffer, "(i0)") i
-      text = trim(buffer)
+      text = long_to_text(int(i, int64))
    end function integer_to_text
 
    !> The same for large ones

@@ -1,10 +1,13 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> Lubricants for Python; for the rules see ehl_f2py_solver
+!> Lubricants for Python, and flow and stress of those that thin by shear; for the rules see ehl_f2py_solver.
+!>
+!> `law` is 1 for Eyring and 2 for Carreau with `exponent` n; B and S are those of flow_factors.f90.
 module ehl_f2py_lubricant
    use, intrinsic :: iso_c_binding, only: c_double, c_int
    use ehl_case, only: case_t
    use ehl_case_law, only: make_lubricant
    use ehl_case_reader, only: read_case
+   use ehl_flow_factors, only: exact_factors, factors_t
    use ehl_group_reader, only: read_groups
    use ehl_handles, only: reply
    use ehl_keys, only: bind_keys
@@ -14,9 +17,10 @@ module ehl_f2py_lubricant
    use ehl_schema, only: schema_t
    use ehl_source, only: source_t
    use ehl_status, only: status_t
+   use ehl_thinning, only: thinning_t
    implicit none (type, external)
    private
-   public :: oils, properties, alpha_origin
+   public :: oils, properties, alpha_origin, flow_factors, sliding_stresses
 
 contains
 
@@ -66,4 +70,32 @@ contains
       if (.not. status%failed()) note = alpha_note(input)
       call reply(status, stat, message)
    end subroutine alpha_origin
+
+   !> Flow factors through the film, n times: phi_x, phi_y, and of phi_x d ln(phi)/d ln(B), d ln(phi)/d ln(S) and
+   !> d(phi S)/dS; NaNs where they are not found
+   subroutine flow_factors(n, law, exponent, b, gradient, found)
+      integer(c_int), intent(in) :: n, law
+      real(c_double), intent(in) :: exponent
+      real(c_double), intent(inout) :: b(n), gradient(2, n), found(5, n)
+      type(factors_t) :: factors
+      integer :: i
+      !f2py threadsafe
+
+      do i = 1, n
+         factors = exact_factors(thinning_t(law, exponent), b(i), gradient(:, i))
+         found(:, i) = [factors%phi, factors%by_sliding(1), factors%by_gradient(1), factors%tangent(1)]
+      end do
+   end subroutine flow_factors
+
+   !> Stresses of films that slide without a gradient of pressure, in units of that of the law; NaNs where not found
+   subroutine sliding_stresses(n, law, exponent, b, stress)
+      integer(c_int), intent(in) :: n, law
+      real(c_double), intent(in) :: exponent
+      real(c_double), intent(inout) :: b(n), stress(n)
+      type(thinning_t) :: thinning
+      !f2py threadsafe
+
+      thinning = thinning_t(law, exponent)
+      stress = thinning%sliding_stress(b)
+   end subroutine sliding_stresses
 end module ehl_f2py_lubricant

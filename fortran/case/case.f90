@@ -5,7 +5,7 @@ module ehl_case
    use ehl_viscosity_table, only: isotherm_t
    implicit none (type, external)
    private
-   public :: case_t, lubricant_case_t, surface_case_t, is_feature, has_no_height, word_length, path_length
+   public :: case_t, contact_case_t, lubricant_case_t, surface_case_t, is_feature, has_no_height, word_length, path_length
 
    !> Longest option word
    integer, parameter :: word_length = 32
@@ -19,8 +19,7 @@ module ehl_case
       !> Whether the case was given in SI: then load, mean_velocity, radius and reduced_modulus
       !> hold, else moes_m and moes_l. Not a key; set by the reader.
       logical :: si = .true.
-      real(dp) :: moes_m = 1000.0_dp
-      real(dp) :: moes_l = 10.0_dp
+      real(dp) :: moes_m = 1000.0_dp, moes_l = 10.0_dp
       real(dp) :: load = 600.0_dp
       real(dp) :: mean_velocity = 0.84_dp
       !> Of a round contact
@@ -40,11 +39,9 @@ module ehl_case
       !> Which body has &surface; the other one has &second_surface
       integer :: rough_surface = 1
       !> Of bearing steel
-      real(dp) :: thermal_conductivity = 46.0_dp
-      real(dp) :: thermal_diffusivity = 1.25e-5_dp
+      real(dp) :: thermal_conductivity = 46.0_dp, thermal_diffusivity = 1.25e-5_dp
       !> Of body 2
-      real(dp) :: thermal_conductivity_2 = 0.0_dp
-      real(dp) :: thermal_diffusivity_2 = 0.0_dp
+      real(dp) :: thermal_conductivity_2 = 0.0_dp, thermal_diffusivity_2 = 0.0_dp
    end type contact_case_t
 
    !> &bodies: what makes the reduced radii and the reduced modulus; it rules where one of its keys is given
@@ -89,15 +86,11 @@ module ehl_case
       character(len=word_length) :: shear_law = "newtonian"
       character(len=word_length) :: flow = "consistent"
       real(dp) :: eyring_stress = 5.0e6_dp
-      real(dp) :: limiting_stress = 0.0_dp
-      real(dp) :: limiting_coefficient = 0.06_dp
-      real(dp) :: carreau_stress = 0.0_dp
-      real(dp) :: carreau_exponent = 0.0_dp
-      real(dp) :: boundary_film = 0.0_dp
-      real(dp) :: boundary_friction = 0.0_dp
+      real(dp) :: limiting_stress = 0.0_dp, limiting_coefficient = 0.06_dp
+      real(dp) :: carreau_stress = 0.0_dp, carreau_exponent = 0.0_dp
+      real(dp) :: boundary_film = 0.0_dp, boundary_friction = 0.0_dp
       real(dp) :: temperature = 40.0_dp
-      real(dp) :: kinematic_viscosity_40 = 0.0_dp
-      real(dp) :: kinematic_viscosity_100 = 0.0_dp
+      real(dp) :: kinematic_viscosity_40 = 0.0_dp, kinematic_viscosity_100 = 0.0_dp
       real(dp) :: density_15 = 870.0_dp
       real(dp) :: thermal_expansion = 6.5e-4_dp
       logical :: thermal_reduction = .false.
@@ -113,9 +106,7 @@ module ehl_case
       integer :: points = 513
       !> As many as along X in a round contact, else by the domain
       integer :: points_y = 0
-      real(dp) :: x_inlet = -2.5_dp
-      real(dp) :: x_outlet = 1.5_dp
-      real(dp) :: y_extent = 2.0_dp
+      real(dp) :: x_inlet = -2.5_dp, x_outlet = 1.5_dp, y_extent = 2.0_dp
       character(len=word_length) :: border = "zero"
       real(dp) :: target_error = 0.0_dp
       integer :: max_points = 2049
@@ -129,28 +120,21 @@ module ehl_case
       real(dp) :: amplitude = 0.0_dp
       real(dp) :: amplitude_over_film = 0.4_dp
       real(dp) :: height_m = 0.0_dp
-      real(dp) :: width = 0.5_dp
-      real(dp) :: length = 0.0_dp
-      real(dp) :: width_m = 0.0_dp
-      real(dp) :: length_m = 0.0_dp
+      real(dp) :: width = 0.5_dp, length = 0.0_dp
+      real(dp) :: width_m = 0.0_dp, length_m = 0.0_dp
       real(dp) :: angle = 0.0_dp
       real(dp) :: y_start = 0.0_dp
       real(dp) :: wavelength = 0.5_dp
       !> Set by the reader: these, the velocity and the start
-      real(dp) :: wavelength_x = 0.5_dp
-      real(dp) :: wavelength_y = 0.5_dp
+      real(dp) :: wavelength_x = 0.5_dp, wavelength_y = 0.5_dp
       real(dp) :: velocity_ratio = 1.01_dp
       real(dp) :: x_start = -2.5_dp
       !> Made absolute by the reader. .npy files are read here, the rest by pyehl.
       character(len=path_length) :: file = ""
       character(len=path_length) :: channel = ""
       !> Of a fractal surface set by the reader
-      real(dp) :: length_x = 0.0_dp
-      real(dp) :: length_y = 0.0_dp
-      real(dp) :: crop_x_min = 0.0_dp
-      real(dp) :: crop_x_max = 0.0_dp
-      real(dp) :: crop_y_min = 0.0_dp
-      real(dp) :: crop_y_max = 0.0_dp
+      real(dp) :: length_x = 0.0_dp, length_y = 0.0_dp
+      real(dp) :: crop_x_min = 0.0_dp, crop_x_max = 0.0_dp, crop_y_min = 0.0_dp, crop_y_max = 0.0_dp
       character(len=word_length) :: height_unit = "m"
       integer :: sign = 1
       real(dp) :: outliers = 0.0_dp
@@ -159,11 +143,9 @@ module ehl_case
       real(dp) :: rotate = 0.0_dp
       character(len=word_length) :: edges = "auto"
       real(dp) :: track = 0.0_dp
-      real(dp) :: tile_x = 0.0_dp
-      real(dp) :: tile_y = 0.0_dp
+      real(dp) :: tile_x = 0.0_dp, tile_y = 0.0_dp
       logical :: tile_mirrored = .false.
-      real(dp) :: shortest_wavelength = 0.0_dp
-      real(dp) :: longest_wavelength = 0.0_dp
+      real(dp) :: shortest_wavelength = 0.0_dp, longest_wavelength = 0.0_dp
       character(len=word_length) :: filter = "sharp"
       real(dp) :: rms_height = 0.05e-6_dp
       real(dp) :: hurst = 0.8_dp

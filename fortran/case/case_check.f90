@@ -11,9 +11,7 @@ module ehl_case_check
    use ehl_case_surface, only: check_surfaces, complete_surfaces
    use ehl_case_temperature, only: check_heat, complete_alpha, complete_viscosity
    use ehl_grid, only: coarsest_most, find_levels
-   use ehl_refusal, only: refuse
    use ehl_schema, only: schema_t
-   use ehl_source, only: source_t
    use ehl_status, only: status_t
    use ehl_text, only: to_text
    implicit none (type, external)
@@ -23,65 +21,61 @@ module ehl_case_check
 contains
 
    !> Check a case whose keys are all good by themselves, and complete it
-   subroutine check_case(schema, input, sources, status)
+   subroutine check_case(schema, input, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(inout) :: input
-      !> Where the values came from; the first is the case file
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
 
-      call check_contact_kind(schema, input, sources, status)
-      call complete_radii(schema, input, sources, status)
-      if (.not. status%failed()) call complete_oil(schema, input, sources, status)
-      if (.not. status%failed()) call complete_viscosity(schema, input, sources, status)
-      if (.not. status%failed()) call complete_alpha(schema, input, sources, status)
-      if (.not. status%failed()) call complete_law(schema, input, sources, status)
-      if (.not. status%failed()) call check_operating_point(schema, input, sources, status)
+      call check_contact_kind(schema, input, status)
+      call complete_radii(schema, input, status)
+      if (.not. status%failed()) call complete_oil(schema, input, status)
+      if (.not. status%failed()) call complete_viscosity(schema, input, status)
+      if (.not. status%failed()) call complete_alpha(schema, input, status)
+      if (.not. status%failed()) call complete_law(schema, input, status)
+      if (.not. status%failed()) call check_operating_point(schema, input, status)
       if (.not. status%failed()) call complete_domain(schema, input)
-      if (.not. status%failed()) call check_extent(schema, input, sources, status)
-      if (.not. status%failed()) call complete_kinematics(schema, input, sources, status)
-      if (.not. status%failed()) call complete_lubricant(schema, input, sources, status)
-      if (.not. status%failed()) call check_law(schema, input, sources, status)
-      if (.not. status%failed()) call check_shear_law(schema, input, sources, status)
-      if (.not. status%failed()) call check_boundary_film(schema, input, sources, status)
-      if (.not. status%failed()) call check_heat(schema, input, sources, status)
-      if (.not. status%failed()) call check_points(schema, input, sources, status)
+      if (.not. status%failed()) call check_extent(schema, input, status)
+      if (.not. status%failed()) call complete_kinematics(schema, input, status)
+      if (.not. status%failed()) call complete_lubricant(schema, input, status)
+      if (.not. status%failed()) call check_law(schema, input, status)
+      if (.not. status%failed()) call check_shear_law(schema, input, status)
+      if (.not. status%failed()) call check_boundary_film(schema, input, status)
+      if (.not. status%failed()) call check_heat(schema, input, status)
+      if (.not. status%failed()) call check_points(schema, input, status)
       if (.not. status%failed()) call complete_surfaces(schema, input)
-      if (.not. status%failed()) call check_surfaces(schema, input, sources, status)
-      if (.not. status%failed()) call check_time(schema, input, sources, status)
+      if (.not. status%failed()) call check_surfaces(schema, input, status)
+      if (.not. status%failed()) call check_time(schema, input, status)
    end subroutine check_case
 
    !> Give values to keys that follow from others; check_case tells what contradicts
-   subroutine complete_case(schema, input, sources)
+   subroutine complete_case(schema, input)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(inout) :: input
-      type(source_t), intent(in) :: sources(:)
       type(status_t) :: ignored(8)
 
-      call check_contact_kind(schema, input, sources, ignored(1))
-      call complete_radii(schema, input, sources, ignored(5))
-      call complete_oil(schema, input, sources, ignored(6))
-      call complete_viscosity(schema, input, sources, ignored(2))
-      call complete_alpha(schema, input, sources, ignored(8))
-      call complete_law(schema, input, sources, ignored(7))
+      call check_contact_kind(schema, input, ignored(1))
+      call complete_radii(schema, input, ignored(2))
+      call complete_oil(schema, input, ignored(3))
+      call complete_viscosity(schema, input, ignored(4))
+      call complete_alpha(schema, input, ignored(5))
+      call complete_law(schema, input, ignored(6))
       call complete_domain(schema, input)
-      call complete_kinematics(schema, input, sources, ignored(3))
-      call complete_lubricant(schema, input, sources, ignored(4))
+      call complete_kinematics(schema, input, ignored(7))
+      call complete_lubricant(schema, input, ignored(8))
       call complete_surfaces(schema, input)
    end subroutine complete_case
 
    !> Halving points - 1 must end at a grid that can be the coarsest one, and points_y - 1 must halve as often
-   subroutine check_points(schema, input, sources, status)
+   subroutine check_points(schema, input, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(in) :: input
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
       integer :: below, above, points
       character(len=:), allocatable :: why
 
       points = input%grid%points
       if (has_levels(points, points)) then
-         call check_rows(schema, input, sources, status)
+         call check_rows(schema, input, status)
          return
       end if
       below = points
@@ -94,16 +88,15 @@ contains
       end do
       why = "too few grids can be made by halving"
       if (mod(points, 2) == 0) why = "an even number of points"
-      call refuse(schema, sources, "grid", "points", "grid.points = " // to_text(points) // ": " &
+      call schema%refuse("grid.points", "grid.points = " // to_text(points) // ": " &
          // why, "an odd number with points - 1 halved down to an even number of " // to_text(coarsest_most) // " or less; " &
          // "the nearest are " // to_text(below) // " and " // to_text(above), status)
    end subroutine check_points
 
    !> Rows of a grid whose number of columns is good
-   subroutine check_rows(schema, input, sources, status)
+   subroutine check_rows(schema, input, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(in) :: input
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
       integer :: levels, intervals(2), step, below
 
@@ -112,9 +105,9 @@ contains
          step = 2*((nx - 1)/intervals(1))
          if (mod(ny - 1, step) == 0 .and. has_levels(nx, ny)) return
          below = max(4*step, ((ny - 1)/step)*step)
-         call refuse(schema, sources, "grid", "points_y", "grid.points_y = "//to_text(ny)//" with "//to_text(nx)// &
-                     " nodes along X", "points_y - 1 in multiples of "//to_text(step)//": the nearest are "// &
-                     to_text(below + 1)//" and "//to_text(below + step + 1), status)
+         call schema%refuse("grid.points_y", "grid.points_y = "//to_text(ny)//" with "//to_text(nx)// &
+                            " nodes along X", "points_y - 1 in multiples of "//to_text(step)//": the nearest are "// &
+                            to_text(below + 1)//" and "//to_text(below + step + 1), status)
       end associate
    end subroutine check_rows
 
@@ -128,14 +121,12 @@ contains
    end function has_levels
 
    !> A number of steps and a number of periods cannot both rule
-   subroutine check_time(schema, input, sources, status)
+   subroutine check_time(schema, input, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(in) :: input
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
 
       if (input%time%steps == 0 .or. input%time%max_periods == 0) return
-      call refuse(schema, sources, "time", "max_periods", "time.max_periods contradicts " &
-                  // "time.steps", "one of the two, the other 0", status)
+      call schema%refuse("time.max_periods", "time.max_periods contradicts time.steps", "one of the two, the other 0", status)
    end subroutine check_time
 end module ehl_case_check

@@ -8,17 +8,15 @@ module ehl_case_contact
    use ehl_grid, only: find_levels
    use ehl_kinds, only: dp, pi
    use ehl_moes, only: operating_from_moes, operating_from_si, operating_t
-   use ehl_refusal, only: contradict, first_given, is_before, refuse, short
    use ehl_keys, only: bind_keys
    use ehl_scales, only: scales_t
    use ehl_schema, only: schema_t
-   use ehl_source, only: point_at, source_t
-   use ehl_status, only: ehl_bad_input, status_t
-   use ehl_text, only: to_text
+   use ehl_status, only: status_t
+   use ehl_text, only: short, to_text
    implicit none (type, external)
    private
    public :: check_contact_kind, check_operating_point, check_extent, complete_domain, complete_kinematics, &
-             find_contact
+             find_contact, hertz_pressure, operating_point
 
    character(len=12), parameter :: moes_keys(3) = [character(len=12) :: "moes_m", "moes_l", "radius_ratio"]
    character(len=16), parameter :: si_keys(6) = &
@@ -35,37 +33,27 @@ module ehl_case_contact
 contains
 
    !> Moes numbers or SI values, not both
-   subroutine check_contact_kind(schema, input, sources, status)
+   subroutine check_contact_kind(schema, input, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(inout) :: input
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
-      integer :: moes, si, later
+      integer :: moes, si
 
-      moes = first_given(schema, "contact", moes_keys)
-      si = first_given(schema, "contact", si_keys)
+      moes = schema%first_given("contact", moes_keys)
+      si = schema%first_given("contact", si_keys)
       input%contact%si = moes == 0
-      if (moes == 0 .or. si == 0) return
-      later = moes
-      if (is_before(schema, moes, si)) later = si
-      associate (key => schema%keys(later))
-         call status%fail(ehl_bad_input, point_at(sources(key%source), key%name_first, &
-            key%name_last, key%full_name() // " contradicts " &
-            // schema%keys(moes + si - later)%full_name(), &
-            "moes_m, moes_l and radius_ratio, or load, mean_velocity, reduced_modulus and radius or radius_x and radius_y"))
-      end associate
+      if (moes > 0 .and. si > 0) call schema%contradict(schema%keys(moes)%full_name(), schema%keys(si)%full_name(), &
+         "moes_m, moes_l and radius_ratio, or load, mean_velocity, reduced_modulus and radius or radius_x and radius_y", status)
    end subroutine check_contact_kind
 
    !> SI values must make a contact that can exist; a slip of units mostly does not
-   subroutine check_operating_point(schema, input, sources, status)
+   subroutine check_operating_point(schema, input, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(in) :: input
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
       class(contact_t), allocatable :: contact
       type(scales_t) :: scales
       type(operating_t) :: point
-      integer :: culprit
       character(len=:), allocatable :: what, expected
 
       if (.not. input%contact%si) return
@@ -86,11 +74,9 @@ contains
          expected = "values in SI units with L of 100 at most"
       end if
       if (what == "") return
-      culprit = most_unusual(schema)
-      associate (key => schema%keys(culprit))
-         call refuse(schema, sources, trim(key%group), trim(key%name), what // " with " &
-                     // key%full_name() // " = " // key%value_text(), &
-                     expected // key%in_millimetres(key%value_text()), status)
+      associate (key => schema%keys(most_unusual(schema)))
+         call schema%refuse(key%full_name(), what // " with " // key%full_name() // " = " // key%value_text(), &
+                            expected // key%in_millimetres(key%value_text()), status)
       end associate
    end subroutine check_operating_point
 
@@ -105,41 +91,65 @@ contains
       associate (c => input%contact, l => input%lubricant)
          if (c%si) then
             scales = hertz_scales(contact, c%load, c%radius_x, c%reduced_modulus)
-            point = operating_from_si(c%load, c%mean_velocity, c%radius_x, c%reduced_modulus, l%viscosity, &
-                                      l%pressure_viscosity, scales%pressure, contact%ellipticity, contact%kernel_factor())
+            point = operating_point(input, contact, scales, l%viscosity)
          else
-            point = operating_from_moes(c%moes_m, c%moes_l, contact%ellipticity, contact%kernel_factor())
+            point = operating_from_moes(c%moes_m, c%moes_l, contact%ellipticity, contact%kernel_factor)
             scales%pressure = point%alpha_bar/l%pressure_viscosity
          end if
       end associate
    end subroutine find_contact
 
+   !> Operating point of a contact in SI units with a viscosity [Pa s]
+   pure function operating_point(input, contact, scales, viscosity) result(point)
+      type(case_t), intent(in) :: input
+      class(contact_t), intent(in) :: contact
+      type(scales_t), intent(in) :: scales
+      real(dp), intent(in) :: viscosity
+      type(operating_t) :: point
+
+      associate (c => input%contact)
+         point = operating_from_si(c%load, c%mean_velocity, c%radius_x, c%reduced_modulus, viscosity, &
+                                   input%lubricant%pressure_viscosity, scales%pressure, contact%ellipticity, &
+                                   contact%kernel_factor)
+      end associate
+   end function operating_point
+
+   !> Hertz pressure of a case [Pa]
+   real(dp) function hertz_pressure(input)
+      type(case_t), intent(in) :: input
+      class(contact_t), allocatable :: contact
+      type(scales_t) :: scales
+      type(operating_t) :: point
+
+      call find_contact(input, contact, scales, point)
+      hertz_pressure = scales%pressure
+   end function hertz_pressure
+
    !> The domain must hold the contact
-   subroutine check_extent(schema, input, sources, status)
+   subroutine check_extent(schema, input, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(in) :: input
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
       class(contact_t), allocatable :: contact
       type(scales_t) :: scales
       type(operating_t) :: point
-      character(len=8), parameter :: borders(3) = [character(len=8) :: "x_inlet", "x_outlet", "y_extent"]
+      character(len=*), parameter :: borders(3) = [character(len=13) :: "grid.x_inlet", "grid.x_outlet", "grid.y_extent"]
       real(dp) :: ends(3)
       integer :: axis, k
 
       call find_contact(input, contact, scales, point)
       if (input%grid%border == "flooded" .and. .not. contact%is_even()) then
-         call refuse(schema, sources, "grid", "border", "grid.border = 'flooded' with contact.angle = " &
-                     // to_text(input%contact%angle), "'zero': the pressure far from a turned contact is not known", status)
+         call schema%refuse("grid.border", "grid.border = 'flooded' with contact.angle = " &
+                            // to_text(input%contact%angle), "'zero': the pressure far from a turned contact is not known", status)
          return
       end if
       ends = [-input%grid%x_inlet, input%grid%x_outlet, input%grid%y_extent]
       do k = 1, 3
          axis = merge(2, 1, k == 3)
          if (ends(k) >= beyond_contact*contact%reach(axis)) cycle
-         call refuse(schema, sources, "grid", trim(borders(k)), "grid." // trim(borders(k)) // " is " // short(ends(k)) &
-                     // " a from the centre, and the contact reaches to " // short(contact%reach(axis)) // " a", "at least " &
-                     // short(beyond_contact*contact%reach(axis)) // " a", status)
+         call schema%refuse(trim(borders(k)), trim(borders(k)) // " is " // short(ends(k)) &
+                            // " a from the centre, and the contact reaches to " // short(contact%reach(axis)) // " a", &
+                            "at least " // short(beyond_contact*contact%reach(axis)) // " a", status)
          return
       end do
    end subroutine check_extent
@@ -200,16 +210,10 @@ contains
       !> Powers of ten around their defaults that are common; the radii of bodies around that of the ball
       real(dp), parameter :: common(12) = [3.0_dp, 2.0_dp, 1.0_dp, 0.5_dp, 1.0_dp, 1.0_dp, 2.0_dp, 0.5_dp, 1.0_dp, 1.0_dp, &
                                            1.0_dp, 1.0_dp]
-      real(dp) :: unusual, most
+      real(dp) :: value, unusual, most
       integer :: k, at
 
       call bind_keys(defaults, usual)
-      usual%contact%radius_x = usual%contact%radius
-      usual%contact%radius_y = usual%contact%radius
-      usual%bodies%radius_x1 = usual%contact%radius
-      usual%bodies%radius_y1 = usual%contact%radius
-      usual%bodies%radius_x2 = usual%contact%radius
-      usual%bodies%radius_y2 = usual%contact%radius
       culprit = schema%find("lubricant", "viscosity")
       most = -1.0_dp
       do k = 1, size(names)
@@ -217,7 +221,9 @@ contains
          if (.not. schema%keys(at)%given) cycle
          ! flat
          if (groups(k) == "bodies" .and. .not. abs(schema%keys(at)%real_value) > 0.0_dp) cycle
-         unusual = abs(log10(abs(schema%keys(at)%real_value)/defaults%keys(at)%real_value))/common(k)
+         value = defaults%keys(at)%real_value
+         if (index(names(k), "radius") == 1) value = usual%contact%radius
+         unusual = abs(log10(abs(schema%keys(at)%real_value)/value))/common(k)
          if (unusual <= most) cycle
          most = unusual
          culprit = at
@@ -226,10 +232,9 @@ contains
 
    !> Of slide-to-roll ratio and velocities of the surfaces one gives the others: body 1 moves at 1 + SRR/2, body 2 at
    !> 1 - SRR/2 times the mean velocity
-   subroutine complete_kinematics(schema, input, sources, status)
+   subroutine complete_kinematics(schema, input, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(inout) :: input
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
       real(dp) :: side
 
@@ -238,7 +243,7 @@ contains
                  srr => input%contact%slide_to_roll)
          if (schema%given("surface", "velocity_ratio") .and. schema%given("second_surface", "velocity_ratio")) then
             if (abs(first + second - 2.0_dp) > rounding) then
-               call contradict(schema, sources, "surface.velocity_ratio", "second_surface.velocity_ratio", &
+               call schema%contradict("surface.velocity_ratio", "second_surface.velocity_ratio", &
                   "one of the two, or velocity ratios that add up to 2: contact.mean_velocity is the mean of both bodies", &
                   status, to_text(first) // " and " // to_text(second) // " add up to " // to_text(first + second))
                return
@@ -251,20 +256,19 @@ contains
                srr = sliding(-side, second)
             end if
          end if
-         call settle_velocity(schema, "surface", input%contact%rough_surface, srr, first, sources, status)
-         call settle_velocity(schema, "second_surface", 3 - input%contact%rough_surface, srr, second, sources, status)
+         call settle_velocity(schema, "surface", input%contact%rough_surface, srr, first, status)
+         call settle_velocity(schema, "second_surface", 3 - input%contact%rough_surface, srr, second, status)
       end associate
    end subroutine complete_kinematics
 
    !> The velocity of a surface, which follows from the slide-to-roll ratio; one that was given must agree with it
-   subroutine settle_velocity(schema, group, body, srr, ratio, sources, status)
+   subroutine settle_velocity(schema, group, body, srr, ratio, status)
       type(schema_t), intent(in) :: schema
       character(len=*), intent(in) :: group
       !> Which body the surface is on: 1 or 2
       integer, intent(in) :: body
       real(dp), intent(in) :: srr
       real(dp), intent(inout) :: ratio
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
       real(dp) :: side, follows
 
@@ -274,7 +278,7 @@ contains
          ratio = follows
       else if (schema%given("contact", "slide_to_roll") .and. abs(ratio - follows) > rounding .and. &
                .not. status%failed()) then
-         call contradict(schema, sources, group // ".velocity_ratio", "contact.slide_to_roll", &
+         call schema%contradict(group // ".velocity_ratio", "contact.slide_to_roll", &
             "one of the two, or slide_to_roll = " // to_text(sliding(side, ratio)) // " with this velocity_ratio", &
             status, "with contact.slide_to_roll = " // to_text(srr) // ", &" // group // ", on body " // to_text(body) &
             // ", moves at " // to_text(follows) // " times the mean velocity, not at " // to_text(ratio))

@@ -3,11 +3,10 @@
 module ehl_case_feature
    use ehl_case, only: has_no_height, is_feature, surface_case_t
    use ehl_kinds, only: dp
-   use ehl_refusal, only: contradict, refuse, short
    use ehl_schema, only: schema_t
-   use ehl_source, only: source_t
    use ehl_status, only: status_t
    use ehl_surface, only: x_filled, x_matters
+   use ehl_text, only: short
    implicit none (type, external)
    private
    public :: check_feature, check_arrival, late_start
@@ -22,13 +21,12 @@ module ehl_case_feature
 contains
 
    !> A size is given once, in metres only where the contact has a size; nothing begins inside the contact
-   subroutine check_feature(schema, group, s, si, sources, status)
+   subroutine check_feature(schema, group, s, si, status)
       type(schema_t), intent(in) :: schema
       character(len=*), intent(in) :: group
       type(surface_case_t), intent(in) :: s
       !> Whether the contact is given in SI units
       logical, intent(in) :: si
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
       real(dp) :: value(4)
       integer :: k
@@ -37,21 +35,20 @@ contains
       value = [s%height_m, s%height_m, s%width_m, s%length_m]
       do k = 1, size(metric)
          if (.not. value(k) > 0.0_dp) cycle
-         if (.not. si) then
-            call refuse(schema, sources, group, trim(metric(k)), group//"."//trim(metric(k))// &
-                        " is in metres, and the contact is given by its Moes numbers", group//"."//trim(others(k))// &
-                        ", or a contact in SI units", status)
-            return
-         else if (schema%given(group, trim(others(k)))) then
-            call contradict(schema, sources, group//"."//trim(metric(k)), group//"."//trim(others(k)), "one of the two", &
-                            status)
-            return
-         end if
+         associate (one => group//"."//trim(metric(k)), other => group//"."//trim(others(k)))
+            if (.not. si) then
+               call schema%refuse(one, one//" is in metres, and the contact is given by its Moes numbers", &
+                                  other//", or a contact in SI units", status)
+            else if (schema%given(group, trim(others(k)))) then
+               call schema%contradict(one, other, "one of the two", status)
+            end if
+         end associate
+         if (status%failed()) return
       end do
       if (s%velocity_ratio > 0.0_dp .and. s%x_start > x_matters) then
-         call refuse(schema, sources, group, "x_start", group//".x_start = "//short(s%x_start)//": a "//trim(s%kind)// &
-                     " would begin inside the contact", "at most "//short(x_matters)//", where its front end is at time 0", &
-                     status)
+         call schema%refuse(group//".x_start", group//".x_start = "//short(s%x_start)//": a "//trim(s%kind)// &
+                            " would begin inside the contact", "at most "//short(x_matters)//", where its front end is at time 0", &
+                            status)
       end if
    end subroutine check_feature
 
@@ -65,18 +62,17 @@ contains
    end subroutine late_start
 
    !> Refuse a feature that comes before the roughness of the other surface fills the contact
-   subroutine check_arrival(schema, group, s, other, sources, status)
+   subroutine check_arrival(schema, group, s, other, status)
       type(schema_t), intent(in) :: schema
       character(len=*), intent(in) :: group
       type(surface_case_t), intent(in) :: s, other
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
 
       if (status%failed() .or. .not. waits(s, other)) return
       if (s%x_start <= latest_start(s, other)) return
-      call refuse(schema, sources, group, "x_start", group//".x_start = "//short(s%x_start)//": the "//trim(s%kind)// &
-                  " would come before the roughness of the other surface fills the contact", &
-                  "at most "//short(latest_start(s, other)), status)
+      call schema%refuse(group//".x_start", group//".x_start = "//short(s%x_start)//": the "//trim(s%kind)// &
+                         " would come before the roughness of the other surface fills the contact", &
+                         "at most "//short(latest_start(s, other)), status)
    end subroutine check_arrival
 
    !> Whether one is a feature on the move and the other one roughness on the move

@@ -6,7 +6,7 @@ module ehl_case_key
    use ehl_text, only: quoted, to_text
    implicit none (type, external)
    private
-   public :: key_t, choices, allowed_length, name_length, mark_default, mark_derived
+   public :: key_t, origin_t, choices, allowed_length, name_length, mark_default, mark_derived
    public :: kind_real, kind_integer, kind_logical, kind_word, kind_path, kind_text
 
    integer, parameter :: name_length = 24, allowed_length = 96
@@ -16,8 +16,15 @@ module ehl_case_key
    !> One of a list of words; a file name; any text
    integer, parameter :: kind_word = 4, kind_path = 5, kind_text = 6
 
+   !> Whether the input gave a key, and where: source number, first and last position of the name, first and last position
+   !> of the value
+   type :: origin_t
+      logical :: given = .false.
+      integer :: source = 0, name_first = 0, name_last = 0, first = 0, last = 0
+   end type origin_t
+
    !> One key
-   type :: key_t
+   type, extends(origin_t) :: key_t
       character(len=name_length) :: group = "", name = ""
       integer :: kind = 0
       character(len=8) :: unit = "-"
@@ -30,10 +37,6 @@ module ehl_case_key
       logical, pointer :: logical_value => null()
       character(len=word_length), pointer :: word_value => null()
       character(len=path_length), pointer :: path_value => null()
-      !> Whether the input gave it, and where: source number, first and last position of the
-      !> name, first and last position of the value
-      logical :: given = .false.
-      integer :: source = 0, name_first = 0, name_last = 0, first = 0, last = 0
       !> Whether the input says that nobody gave it; whether an option replaces what the file gives
       logical :: marked = .false., replaced = .false.
    contains
@@ -168,11 +171,6 @@ contains
       case default
          self%path_value = other%path_value
       end select
-      self%given = other%given
-      self%source = other%source
-      self%name_first = other%name_first
-      self%name_last = other%name_last
-      self%first = other%first
-      self%last = other%last
+      self%origin_t = other%origin_t
    end subroutine take
 end module ehl_case_key

@@ -2,15 +2,11 @@
 !> The lubricant of a case: defaults that depend on other keys, and laws that need them
 module ehl_case_lubricant
    use ehl_case, only: case_t
-   use ehl_case_contact, only: find_contact
-   use ehl_contact, only: contact_t
+   use ehl_case_contact, only: hertz_pressure
    use ehl_kinds, only: dp
-   use ehl_moes, only: operating_t
-   use ehl_refusal, only: contradict, refuse, short
-   use ehl_scales, only: scales_t
    use ehl_schema, only: schema_t
-   use ehl_source, only: source_t
    use ehl_status, only: status_t
+   use ehl_text, only: short
    implicit none (type, external)
    private
    public :: check_boundary_film, check_shear_law, complete_lubricant
@@ -18,98 +14,87 @@ module ehl_case_lubricant
 contains
 
    !> Roelands exponent from viscosity, alpha and p0 unless given; the PSD model's viscosity law
-   subroutine complete_lubricant(schema, input, sources, status)
+   subroutine complete_lubricant(schema, input, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(inout) :: input
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
-      character(len=22) :: at
+      character(len=:), allocatable :: at
 
       associate (l => input%lubricant)
          if (.not. schema%given("lubricant", "roelands_z")) then
             l%roelands_z = l%pressure_viscosity*l%roelands_p0/(log(l%viscosity) + 9.67_dp)
-            associate (key => schema%keys(schema%find("lubricant", "roelands_z")))
-               if (.not. key%allows(l%roelands_z) .and. l%viscosity_law == "roelands") then
-                  at = "viscosity"
-                  if (l%kinematic_viscosity_40 > 0.0_dp .and. .not. schema%given("lubricant", "viscosity")) then
-                     at = "kinematic_viscosity_40"
-                  end if
-                  call refuse(schema, sources, "lubricant", trim(at), &
-                     "lubricant.roelands_z = " // short(l%roelands_z) // " follows from viscosity, " &
-                     // "pressure_viscosity and roelands_p0", key%type_text(), status)
-               end if
-            end associate
+            at = "viscosity"
+            if (l%kinematic_viscosity_40 > 0.0_dp .and. .not. schema%given("lubricant", at)) at = "kinematic_viscosity_40"
+            if (l%viscosity_law == "roelands") call schema%check_range("lubricant.roelands_z", l%roelands_z, "lubricant."//at, &
+               "viscosity, pressure_viscosity and roelands_p0", status)
          end if
          if (input%psd%viscosity_law == "") input%psd%viscosity_law = l%viscosity_law
          if (all(input%psd%viscosity_law /= [character(len=32) :: "roelands", "barus", l%viscosity_law])) then
-            call refuse(schema, sources, "psd", "viscosity_law", "psd.viscosity_law = '" // trim(input%psd%viscosity_law) &
-                        // "' with lubricant.viscosity_law = '" // trim(l%viscosity_law) // "'", &
-                        "'roelands', 'barus' or that of the lubricant", status)
+            call schema%refuse("psd.viscosity_law", "psd.viscosity_law = '" // trim(input%psd%viscosity_law) &
+                               // "' with lubricant.viscosity_law = '" // trim(l%viscosity_law) // "'", &
+                               "'roelands', 'barus' or that of the lubricant", status)
          end if
       end associate
    end subroutine complete_lubricant
 
    !> Parameters of the shear law; a law with a stress needs a contact in SI units
-   subroutine check_shear_law(schema, input, sources, status)
+   subroutine check_shear_law(schema, input, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(in) :: input
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
 
       associate (l => input%lubricant)
          if (l%limiting_stress > 0.0_dp .and. schema%given("lubricant", "limiting_coefficient")) then
-            call contradict(schema, sources, "lubricant.limiting_stress", "lubricant.limiting_coefficient", &
-                            "one of the two, or limiting_stress = 0.0", status)
+            call schema%contradict("lubricant.limiting_stress", "lubricant.limiting_coefficient", &
+                                   "one of the two, or limiting_stress = 0.0", status)
             return
          end if
          if (l%shear_law == "newtonian") return
          if (.not. input%contact%si) then
-            call refuse(schema, sources, "lubricant", "shear_law", "lubricant.shear_law = '" // trim(l%shear_law) &
-                        // "' with a contact given by moes_m and moes_l, which has no sliding speed in m/s", &
-                        "'newtonian', or load, mean_velocity, radius and reduced_modulus", status)
+            call schema%refuse("lubricant.shear_law", "lubricant.shear_law = '" // trim(l%shear_law) &
+                               // "' with a contact given by moes_m and moes_l, which has no sliding speed in m/s", &
+                               "'newtonian', or load, mean_velocity, radius and reduced_modulus", status)
          else if (l%shear_law == "carreau" .and. .not. (l%carreau_stress > 0.0_dp .and. l%carreau_exponent > 0.0_dp)) then
-            call refuse(schema, sources, "lubricant", "shear_law", "lubricant.shear_law = 'carreau' without " &
-                        // "carreau_stress and carreau_exponent", "both, as measured for the oil: no two oils share them", &
-                        status)
+            call schema%refuse("lubricant.shear_law", "lubricant.shear_law = 'carreau' without " &
+                               // "carreau_stress and carreau_exponent", "both, as measured for the oil: no two oils share them", &
+                               status)
          end if
       end associate
    end subroutine check_shear_law
 
    !> A boundary film needs a contact in SI units; its friction and a hardness need it, and the heat of friction does not know it.
    !> Smooth bodies must be able to carry the load below the hardness.
-   subroutine check_boundary_film(schema, input, sources, status)
+   subroutine check_boundary_film(schema, input, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(in) :: input
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
-      class(contact_t), allocatable :: contact
-      type(scales_t) :: scales
-      type(operating_t) :: point
+      real(dp) :: pressure
 
-      call find_contact(input, contact, scales, point)
+      pressure = hertz_pressure(input)
       associate (l => input%lubricant, hardness => input%contact%hardness)
          if (l%boundary_friction > 0.0_dp .and. .not. l%boundary_film > 0.0_dp) then
-            call refuse(schema, sources, "lubricant", "boundary_friction", "lubricant.boundary_friction = " &
-                        // short(l%boundary_friction) // " without lubricant.boundary_film: no bodies touch", &
-                        "a boundary_film in m, or boundary_friction = 0.0", status)
+            call schema%refuse("lubricant.boundary_friction", "lubricant.boundary_friction = " &
+                               // short(l%boundary_friction) // " without lubricant.boundary_film: no bodies touch", &
+                               "a boundary_film in m, or boundary_friction = 0.0", status)
          else if (hardness > 0.0_dp .and. .not. l%boundary_film > 0.0_dp) then
-            call refuse(schema, sources, "contact", "hardness", "contact.hardness = " // short(hardness) &
-                        // " without lubricant.boundary_film: no bodies touch", "a boundary_film in m, or hardness = 0.0", status)
+            call schema%refuse("contact.hardness", "contact.hardness = " // short(hardness) &
+                               // " without lubricant.boundary_film: no bodies touch", &
+                               "a boundary_film in m, or hardness = 0.0", status)
          else if (l%boundary_film > 0.0_dp .and. .not. input%contact%si) then
-            call refuse(schema, sources, "lubricant", "boundary_film", "lubricant.boundary_film = " // short(l%boundary_film) &
-                        // " with a contact given by moes_m and moes_l, which has no size in m", &
-                        "0.0, or load, mean_velocity, radius and reduced_modulus", status)
-         else if (hardness > 0.0_dp .and. .not. hardness > scales%pressure) then
-            call refuse(schema, sources, "contact", "hardness", "contact.hardness = " // short(hardness) &
-                        // " Pa, and the Hertz pressure is " // short(scales%pressure) // " Pa: smooth bodies would yield", &
-                        "more than the Hertz pressure, a lower load, or 0.0 for elastic solids", status)
+            call schema%refuse("lubricant.boundary_film", "lubricant.boundary_film = " // short(l%boundary_film) &
+                               // " with a contact given by moes_m and moes_l, which has no size in m", &
+                               "0.0, or load, mean_velocity, radius and reduced_modulus", status)
+         else if (hardness > 0.0_dp .and. .not. hardness > pressure) then
+            call schema%refuse("contact.hardness", "contact.hardness = " // short(hardness) // " Pa, and the Hertz pressure is " &
+                               // short(pressure) // " Pa: smooth bodies would yield", &
+                               "more than the Hertz pressure, a lower load, or 0.0 for elastic solids", status)
          else if (l%boundary_film > 0.0_dp .and. l%thermal_friction == "always") then
-            call contradict(schema, sources, "lubricant.boundary_film", "lubricant.thermal_friction", &
-                            "thermal_friction = 'auto' or 'never'", status, "the heat where bodies touch is not computed")
+            call schema%contradict("lubricant.boundary_film", "lubricant.thermal_friction", &
+                                   "thermal_friction = 'auto' or 'never'", status, "the heat where bodies touch is not computed")
          else if (l%boundary_film > 0.0_dp .and. input%solver%coarsening == "alcouffe") then
-            call contradict(schema, sources, "lubricant.boundary_film", "solver.coarsening", &
-                            "coarsening = 'auto' or 'classical'", status, &
-                            "transfers by the conductance do not converge where bodies touch")
+            call schema%contradict("lubricant.boundary_film", "solver.coarsening", &
+                                   "coarsening = 'auto' or 'classical'", status, &
+                                   "transfers by the conductance do not converge where bodies touch")
          end if
       end associate
    end subroutine check_boundary_film

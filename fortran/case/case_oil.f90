@@ -4,19 +4,16 @@ module ehl_case_oil
    use ehl_case, only: case_t
    use ehl_case_contact, only: find_contact
    use ehl_case_law, only: make_lubricant, make_viscosity, own_law, uses_law
-   use ehl_case_path, only: find_file
    use ehl_contact, only: contact_t
    use ehl_heat, only: freezing
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
    use ehl_moes, only: operating_t
    use ehl_oils, only: oil_named, oil_t
-   use ehl_refusal, only: contradict, refuse, short
    use ehl_scales, only: scales_t
    use ehl_schema, only: schema_t
-   use ehl_source, only: source_t
    use ehl_status, only: status_t
-   use ehl_text, only: to_text
+   use ehl_text, only: short, to_text
    use ehl_viscosity_file, only: read_isotherms
    use ehl_viscosity_law, only: viscosity_law_t
    use ehl_viscosity_table, only: isotherm_t
@@ -36,10 +33,9 @@ module ehl_case_oil
 contains
 
    !> Constants of an oil where their keys are not given; the name of the table made absolute
-   subroutine complete_oil(schema, input, sources, status)
+   subroutine complete_oil(schema, input, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(inout) :: input
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
       type(oil_t) :: oil
       real(dp), pointer :: value
@@ -63,18 +59,17 @@ contains
          input%lubricant%density_law = "tait"
       end if
       if (input%lubricant%table == "") then
-         if (input%lubricant%viscosity_law == "table") call refuse(schema, sources, "lubricant", "viscosity_law", &
+         if (input%lubricant%viscosity_law == "table") call schema%refuse("lubricant.viscosity_law", &
             "lubricant.viscosity_law = 'table' without lubricant.table", "table = '...', a CSV of measured viscosities", status)
          return
       end if
-      call find_file(schema, sources, "lubricant", "table", input%lubricant%table, status)
+      call schema%find_file("lubricant.table", input%lubricant%table, status)
    end subroutine complete_oil
 
    !> Viscosity, pressure-viscosity coefficient and fall with temperature at the inlet, from the law that tells them
-   subroutine complete_law(schema, input, sources, status)
+   subroutine complete_law(schema, input, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(inout) :: input
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
       class(viscosity_law_t), allocatable :: law
       real(dp) :: alpha(1), level(1), at(2)
@@ -82,7 +77,7 @@ contains
       real(dp), parameter :: step = 0.01_dp
 
       if (own_law(input%lubricant) == "") return
-      call check_constants(schema, input, sources, status)
+      call check_constants(schema, input, status)
       if (status%failed()) return
       associate (l => input%lubricant)
          if (own_law(l) == "table" .and. .not. allocated(l%isotherms)) call read_isotherms(trim(l%table), l%isotherms, status)
@@ -91,8 +86,8 @@ contains
          call make_viscosity(l, own_law(l), 1.0_dp, law, status)
          if (status%failed()) return
          if (.not. ieee_is_finite(law%ambient_viscosity)) then
-            call refuse(schema, sources, "lubricant", law_key(schema), "the law '"//own_law(l)//"' has no viscosity at "// &
-                        to_text(l%temperature)//" degC", "a temperature and constants at which the oil is liquid", status)
+            call schema%refuse(law_key(schema), "the law '"//own_law(l)//"' has no viscosity at "// &
+                               to_text(l%temperature)//" degC", "a temperature and constants at which the oil is liquid", status)
             return
          end if
          call law%log_viscosity([0.0_dp], level, alpha)
@@ -132,16 +127,13 @@ contains
          character(len=:), allocatable :: by
 
          by = law_key(schema)
-         associate (key => schema%keys(schema%find("lubricant", name)))
-            if (.not. key%given) then
+         associate (temperature => to_text(input%lubricant%temperature)//" degC")
+            if (.not. schema%given("lubricant", name)) then
                value = follows
-               if (.not. key%allows(follows)) call refuse(schema, sources, "lubricant", by, "lubricant."//name//" = "// &
-                  short(follows)//" follows from lubricant."//by//" at "//to_text(input%lubricant%temperature)//" degC", &
-                  key%type_text(), status)
+               call schema%check_range("lubricant."//name, value, by, by//" at "//temperature, status)
             else if (abs(value - follows) > rounding*follows) then
-               call contradict(schema, sources, "lubricant."//name, "lubricant."//by, name//", or the law that tells it", &
-                  status, "lubricant."//name//" = "//to_text(value)//", and the law gives "//short(follows)//" at "// &
-                  to_text(input%lubricant%temperature)//" degC")
+               call schema%contradict("lubricant."//name, by, name//", or the law that tells it", status, "lubricant."//name// &
+                                      " = "//to_text(value)//", and the law gives "//short(follows)//" at "//temperature)
             end if
          end associate
       end subroutine follow
@@ -152,36 +144,29 @@ contains
       type(schema_t), intent(in) :: schema
       character(len=:), allocatable :: name
 
-      name = "viscosity_law"
-      if (schema%given("lubricant", "name")) name = "name"
-      if (schema%given("lubricant", "table")) name = "table"
+      name = "lubricant.viscosity_law"
+      if (schema%given("lubricant", "name")) name = "lubricant.name"
+      if (schema%given("lubricant", "table")) name = "lubricant.table"
    end function law_key
 
    !> The constants that the laws in use need
-   subroutine check_constants(schema, input, sources, status)
+   subroutine check_constants(schema, input, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(in) :: input
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
 
       associate (l => input%lubricant)
-         if (uses_law(l, "dicke")) then
-            call need("dicke", l%kinematic_viscosity_40 > 0.0_dp .or. &
-                      (l%vogel_viscosity > 0.0_dp .and. l%temperature + l%vogel_c > 0.0_dp), "the viscosity at ambient pressure", &
-                      "vogel_viscosity, vogel_b and vogel_c, or kinematic_viscosity_40 and kinematic_viscosity_100")
-            call need("dicke", l%dicke_a1 + l%dicke_a2*l%temperature > 0.0_dp, "a positive a1 + a2 theta", &
-                      "dicke_a1, dicke_a2, dicke_b1 and dicke_b2 with a1 + a2 theta above 0")
-         end if
-         if (uses_law(l, "yasutomi")) then
-            call need("yasutomi", l%yasutomi_a1*l%yasutomi_a2*l%yasutomi_c1*l%yasutomi_c2 > 0.0_dp, "all of its constants", &
-                      "yasutomi_tg0, yasutomi_a1, yasutomi_a2, yasutomi_b1, yasutomi_b2, yasutomi_c1 and yasutomi_c2")
-         end if
-         if (uses_law(l, "doolittle")) then
-            call need("doolittle", l%doolittle_viscosity*l%doolittle_b*l%doolittle_r0 > 0.0_dp, "all of its constants", &
-                      "doolittle_viscosity, doolittle_temperature, doolittle_b, doolittle_r0 and doolittle_expansion")
-            call need("doolittle", l%tait_modulus*l%tait_rate > 0.0_dp, "the volume under pressure", &
-                      "tait_modulus, tait_rate, tait_softening, tait_expansion and tait_temperature")
-         end if
+         call need("dicke", l%kinematic_viscosity_40 > 0.0_dp .or. &
+                   (l%vogel_viscosity > 0.0_dp .and. l%temperature + l%vogel_c > 0.0_dp), "the viscosity at ambient pressure", &
+                   "vogel_viscosity, vogel_b and vogel_c, or kinematic_viscosity_40 and kinematic_viscosity_100")
+         call need("dicke", l%dicke_a1 + l%dicke_a2*l%temperature > 0.0_dp, "a positive a1 + a2 theta", &
+                   "dicke_a1, dicke_a2, dicke_b1 and dicke_b2 with a1 + a2 theta above 0")
+         call need("yasutomi", l%yasutomi_a1*l%yasutomi_a2*l%yasutomi_c1*l%yasutomi_c2 > 0.0_dp, "all of its constants", &
+                   "yasutomi_tg0, yasutomi_a1, yasutomi_a2, yasutomi_b1, yasutomi_b2, yasutomi_c1 and yasutomi_c2")
+         call need("doolittle", l%doolittle_viscosity*l%doolittle_b*l%doolittle_r0 > 0.0_dp, "all of its constants", &
+                   "doolittle_viscosity, doolittle_temperature, doolittle_b, doolittle_r0 and doolittle_expansion")
+         call need("doolittle", l%tait_modulus*l%tait_rate > 0.0_dp, "the volume under pressure", &
+                   "tait_modulus, tait_rate, tait_softening, tait_expansion and tait_temperature")
       end associate
 
    contains
@@ -190,17 +175,15 @@ contains
          character(len=*), intent(in) :: law, missing, expected
          logical, intent(in) :: there
 
-         if (there .or. status%failed()) return
-         call refuse(schema, sources, "lubricant", law_key(schema), "lubricant.viscosity_law = '"//law//"' without "// &
-                     missing, expected, status)
+         if (there .or. .not. uses_law(input%lubricant, law)) return
+         call schema%refuse(law_key(schema), "lubricant.viscosity_law = '"//law//"' without "//missing, expected, status)
       end subroutine need
    end subroutine check_constants
 
    !> The laws must tell viscosity and density over all pressures of the contact
-   subroutine check_law(schema, input, sources, status)
+   subroutine check_law(schema, input, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(in) :: input
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
       type(lubricant_t) :: lubricant
       class(contact_t), allocatable :: contact
@@ -211,9 +194,9 @@ contains
       integer :: k
 
       associate (l => input%lubricant)
-         call check_density(schema, input, sources, status)
+         call check_density(schema, input, status)
          if (l%range_temperature_max < l%range_temperature_min) then
-            call refuse(schema, sources, "lubricant", "range_temperature_max", "lubricant.range_temperature_max = "// &
+            call schema%refuse("lubricant.range_temperature_max", "lubricant.range_temperature_max = "// &
                to_text(l%range_temperature_max)//" below range_temperature_min = "//to_text(l%range_temperature_min), &
                "a range of temperatures, or both 0", status)
          end if
@@ -225,11 +208,9 @@ contains
          if (status%failed()) return
          p = beyond_hertz*[(real(k, dp), k=0, n)]/n
          call lubricant%density(p, values, slope)
-         if (.not. any(l%density_law == simple_density)) call check_rise("density_law", trim(l%density_law), "density")
+         if (.not. any(l%density_law == simple_density)) call check_rise("lubricant.density_law", trim(l%density_law), "density")
          call lubricant%log_viscosity(p, values, slope)
-         if (.not. any(l%viscosity_law == simple_viscosity)) then
-            call check_rise(law_key(schema), trim(l%viscosity_law), "viscosity")
-         end if
+         if (.not. any(l%viscosity_law == simple_viscosity)) call check_rise(law_key(schema), trim(l%viscosity_law), "viscosity")
       end associate
 
    contains
@@ -242,7 +223,7 @@ contains
             if (ieee_is_finite(values(k))) then
                if (values(k) > values(k - 1)) cycle
             end if
-            call refuse(schema, sources, "lubricant", key, "the law '"//law//"' has no "//what//" that rises with pressure at "// &
+            call schema%refuse(key, "the law '"//law//"' has no "//what//" that rises with pressure at "// &
                short(p(k)*scales%pressure)//" Pa and "//to_text(input%lubricant%temperature)// &
                " degC, and the Hertz pressure is "//short(scales%pressure)//" Pa", &
                "a law that tells the "//what//" up to 1.5 times the Hertz pressure, or a lower load", status)
@@ -252,23 +233,22 @@ contains
    end subroutine check_law
 
    !> The constants of the density, and a thermal expansion beside a law that has its own
-   subroutine check_density(schema, input, sources, status)
+   subroutine check_density(schema, input, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(in) :: input
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
 
       associate (l => input%lubricant)
          if (l%density_law == "murnaghan" .and. .not. l%murnaghan_modulus*l%murnaghan_rate > 0.0_dp) then
-            call refuse(schema, sources, "lubricant", "density_law", "lubricant.density_law = 'murnaghan' without its constants", &
-                        "murnaghan_modulus, murnaghan_rate and murnaghan_softening", status)
+            call schema%refuse("lubricant.density_law", "lubricant.density_law = 'murnaghan' without its constants", &
+                               "murnaghan_modulus, murnaghan_rate and murnaghan_softening", status)
          else if (l%density_law == "tait" .and. .not. l%tait_modulus*l%tait_rate > 0.0_dp) then
-            call refuse(schema, sources, "lubricant", "density_law", "lubricant.density_law = 'tait' without its constants", &
-                        "tait_modulus, tait_rate, tait_softening, tait_expansion and tait_temperature", status)
+            call schema%refuse("lubricant.density_law", "lubricant.density_law = 'tait' without its constants", &
+                               "tait_modulus, tait_rate, tait_softening, tait_expansion and tait_temperature", status)
          else if (l%density_law == "tait" .and. schema%given("lubricant", "thermal_expansion") .and. &
                   .not. l%kinematic_viscosity_40 > 0.0_dp) then
-            call refuse(schema, sources, "lubricant", "thermal_expansion", "lubricant.thermal_expansion with "// &
-                        "lubricant.density_law = 'tait', which has its own", "tait_expansion alone", status)
+            call schema%refuse("lubricant.thermal_expansion", "lubricant.thermal_expansion with "// &
+                               "lubricant.density_law = 'tait', which has its own", "tait_expansion alone", status)
          end if
       end associate
    end subroutine check_density

@@ -3,10 +3,9 @@
 module ehl_case_radii
    use ehl_case, only: case_t
    use ehl_kinds, only: dp
-   use ehl_refusal, only: contradict, refuse, short
    use ehl_schema, only: schema_t
-   use ehl_source, only: source_t
    use ehl_status, only: status_t
+   use ehl_text, only: short
    implicit none (type, external)
    private
    public :: complete_radii
@@ -17,19 +16,18 @@ module ehl_case_radii
 contains
 
    !> Both radii, and their ratio, from what was given
-   subroutine complete_radii(schema, input, sources, status)
+   subroutine complete_radii(schema, input, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(inout) :: input
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
       character(len=8), parameter :: names(2) = ["radius_x", "radius_y"]
       character(len=9), parameter :: bodies(4) = ["radius_y1", "radius_y2", "radius_x1", "radius_x2"]
-      character(len=9) :: group, name
+      character(len=:), allocatable :: name
       integer :: one
 
       associate (c => input%contact)
          if (status%failed()) return
-         call complete_bodies(schema, input, sources, status)
+         call complete_bodies(schema, input, status)
          if (status%failed() .or. .not. c%si) return
          c%round = .not. (c%radius_x > 0.0_dp .or. c%radius_y > 0.0_dp)
          if (c%round) then
@@ -37,44 +35,38 @@ contains
             c%radius_y = c%radius
          else if (.not. (c%radius_x > 0.0_dp .and. c%radius_y > 0.0_dp)) then
             one = merge(1, 2, c%radius_x > 0.0_dp)
-            call refuse(schema, sources, "contact", names(one), "contact."//names(one)//" without contact."//names(3 - one), &
-                        "both, or contact.radius of a round contact", status)
+            call schema%refuse("contact."//names(one), "contact."//names(one)//" without contact."//names(3 - one), &
+                               "both, or contact.radius of a round contact", status)
             return
          else if (schema%given("contact", "radius")) then
             one = merge(1, 2, schema%given("contact", "radius_x"))
-            call contradict(schema, sources, "contact.radius", "contact."//names(one), &
-                            "radius of a round contact, or radius_x and radius_y", status)
+            call schema%contradict("contact.radius", "contact."//names(one), &
+                                   "radius of a round contact, or radius_x and radius_y", status)
             return
          end if
          c%radius_ratio = c%radius_x/c%radius_y
          associate (key => schema%keys(schema%find("contact", "radius_ratio")))
             if (key%allows(c%radius_ratio)) return
-            group = "contact"
-            name = "radius_y"
-            if (input%bodies%given) then
-               group = "bodies"
-               name = bodies(1)
-               do one = size(bodies), 1, -1
-                  if (schema%given("bodies", bodies(one))) name = bodies(one)
-               end do
-            end if
-            call refuse(schema, sources, trim(group), trim(name), "radius_x/radius_y is "//short(c%radius_ratio), &
-                        "a ratio in "//trim(key%allowed)//", an ellipse of at most 30 to 1", status)
+            name = "contact.radius_y"
+            if (input%bodies%given) name = "bodies."//bodies(1)
+            do one = size(bodies), 1, -1
+               if (schema%given("bodies", bodies(one))) name = "bodies."//bodies(one)
+            end do
+            call schema%refuse(name, "radius_x/radius_y is "//short(c%radius_ratio), &
+                               "a ratio in "//trim(key%allowed)//", an ellipse of at most 30 to 1", status)
          end associate
       end associate
    end subroutine complete_radii
 
    !> Reduced radii and reduced modulus of the bodies, if one of their keys was given
-   subroutine complete_bodies(schema, input, sources, status)
+   subroutine complete_bodies(schema, input, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(inout) :: input
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
       character(len=15), parameter :: rivals(7) = [character(len=15) :: "radius_x", "radius_y", "reduced_modulus", "radius", &
                                                    "moes_m", "moes_l", "radius_ratio"]
       real(dp) :: follows(3)
       logical :: agrees(size(rivals))
-      character(len=9) :: name
       integer :: k, first
 
       first = findloc(schema%keys%given .and. schema%keys%group == "bodies", .true., dim=1)
@@ -88,21 +80,17 @@ contains
          agrees(:3) = abs([c%radius_x, c%radius_y, c%reduced_modulus] - follows) <= rounding*follows
          do k = 1, size(rivals)
             if (agrees(k) .or. .not. schema%given("contact", trim(rivals(k)))) cycle
-            call contradict(schema, sources, schema%keys(first)%full_name(), "contact."//trim(rivals(k)), &
-                            "the bodies, or reduced radii and modulus, or Moes numbers", status)
+            call schema%contradict(schema%keys(first)%full_name(), "contact."//trim(rivals(k)), &
+                                   "the bodies, or reduced radii and modulus, or Moes numbers", status)
             return
          end do
          c%radius_x = follows(1)
          c%radius_y = follows(2)
          c%reduced_modulus = follows(3)
-         call check_closed(schema, sources, "radius_x", [b%radius_x1, b%radius_x2], c%radius_x, status)
-         call check_closed(schema, sources, "radius_y", [b%radius_y1, b%radius_y2], c%radius_y, status)
-         associate (key => schema%keys(schema%find("contact", "reduced_modulus")))
-            if (status%failed() .or. key%allows(c%reduced_modulus)) return
-            name = merge("modulus_1", "modulus_2", b%modulus_1 < b%modulus_2)
-            call refuse(schema, sources, "bodies", name, "contact.reduced_modulus = "//short(c%reduced_modulus)// &
-                        " follows from the bodies", key%type_text(), status)
-         end associate
+         call check_closed(schema, "radius_x", [b%radius_x1, b%radius_x2], c%radius_x, status)
+         call check_closed(schema, "radius_y", [b%radius_y1, b%radius_y2], c%radius_y, status)
+         call schema%check_range("contact.reduced_modulus", c%reduced_modulus, &
+                                 merge("bodies.modulus_1", "bodies.modulus_2", b%modulus_1 < b%modulus_2), "the bodies", status)
       end associate
    end subroutine complete_bodies
 
@@ -121,9 +109,8 @@ contains
    end function reduced_radius
 
    !> Refuse bodies whose gap does not open in one direction, or hardly does
-   subroutine check_closed(schema, sources, name, radii, reduced, status)
+   subroutine check_closed(schema, name, radii, reduced, status)
       type(schema_t), intent(in) :: schema
-      type(source_t), intent(in) :: sources(:)
       !> Name of the reduced radius; its value, and those of the bodies [m]
       character(len=*), intent(in) :: name
       real(dp), intent(in) :: radii(2), reduced
@@ -131,17 +118,13 @@ contains
       character(len=1) :: place
 
       if (status%failed()) return
-      associate (key => schema%keys(schema%find("contact", name)))
-         if (reduced > 0.0_dp .and. key%allows(reduced)) return
-         place = merge("1", "2", radii(1) < 0.0_dp .or. .not. abs(radii(2)) > 0.0_dp)
-         if (reduced > 0.0_dp) then
-            call refuse(schema, sources, "bodies", name//place, "contact."//name//" = "//short(reduced)// &
-                        " follows from the bodies", key%type_text(), status)
-            return
-         end if
-      end associate
-      call refuse(schema, sources, "bodies", name//place, "bodies."//name//"1 = "//short(radii(1))//" and "//name//"2 = "// &
-                  short(radii(2))//": the gap does not open in this direction", "a convex body, and a concave one (negative) "// &
-                  "only with a larger radius than the convex one", status)
+      place = merge("1", "2", radii(1) < 0.0_dp .or. .not. abs(radii(2)) > 0.0_dp)
+      if (reduced > 0.0_dp) then
+         call schema%check_range("contact."//name, reduced, "bodies."//name//place, "the bodies", status)
+      else
+         call schema%refuse("bodies."//name//place, "bodies."//name//"1 = "//short(radii(1))//" and "//name//"2 = "// &
+                            short(radii(2))//": the gap does not open in this direction", "a convex body, and a concave one "// &
+                            "(negative) only with a larger radius than the convex one", status)
+      end if
    end subroutine check_closed
 end module ehl_case_radii

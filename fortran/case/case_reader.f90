@@ -9,7 +9,7 @@ module ehl_case_reader
    use ehl_scanner, only: scan_token, token_atom, token_string, token_t
    use ehl_keys, only: bind_keys
    use ehl_schema, only: schema_t
-   use ehl_source, only: point_at, source_t
+   use ehl_source, only: source_t
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_text, only: lower_case, newline
    use ehl_whole_file, only: read_text
@@ -84,7 +84,8 @@ contains
       end do
       if (status%failed()) return
       input%given = schema%keys%given
-      call check_case(schema, input, sources, status)
+      call move_alloc(sources, schema%sources)
+      call check_case(schema, input, status)
    end subroutine read_case
 
    !> How many lines are not empty
@@ -117,7 +118,7 @@ contains
       equals = index(source%text, "=")
       dot = index(source%text(:max(equals - 1, 0)), ".")
       if (dot == 0) then
-         call status%fail(ehl_bad_input, point_at(source, 1, len(source%text), "option is not complete", "group.key=value"))
+         call source%refuse(1, len(source%text), "option is not complete", "group.key=value", status)
          return
       end if
       group = lower_case(trim(adjustl(source%text(:dot - 1))))
@@ -126,8 +127,7 @@ contains
          if (any(names == group)) then
             key = find_key(source, schema, group, name, status)
          else
-            call status%fail(ehl_bad_input, point_at(source, 1, max(1, dot - 1), "unknown group '"//group//"'", &
-                                                     known_groups(group, names, "")))
+            call source%refuse(1, max(1, dot - 1), "unknown group '"//group//"'", known_groups(group, names, ""), status)
          end if
       end associate
    end subroutine find_option
@@ -151,25 +151,17 @@ contains
       call scan_token(source%text, position, value)
       associate (key => schema%keys(k))
          if (key%given .and. key%source > 1) then
-            call fail(1, equals - 1, "key "//key%full_name()//" is set twice", "every key once")
+            call source%refuse(1, equals - 1, "key "//key%full_name()//" is set twice", "every key once", status)
          else if (first > last) then
-            call fail(equals + 1, equals + 1, "no value for "//key%full_name(), key%type_text())
+            call source%refuse(equals + 1, equals + 1, "no value for "//key%full_name(), key%type_text(), status)
          else if (value%kind == token_string .and. position <= last) then
-            call fail(position, last, "text behind the value of "//key%full_name(), "nothing more")
+            call source%refuse(position, last, "text behind the value of "//key%full_name(), "nothing more", status)
          else
             ! without quotes the rest of the option is the value, whatever it looks like
             if (value%kind /= token_string) value = token_t(token_atom, first, last, source%text(first:last))
             call set_value(key, source, number, name, value, status)
          end if
       end associate
-
-   contains
-
-      subroutine fail(from, to, what, expected)
-         integer, intent(in) :: from, to
-         character(len=*), intent(in) :: what, expected
-         call status%fail(ehl_bad_input, point_at(source, from, to, what, expected))
-      end subroutine fail
    end subroutine read_option
 
    !> Take a marked value as not given if it is what follows from those that were given: so an option on a written case
@@ -188,7 +180,8 @@ contains
       do k = 1, size(schema%keys)
          if (schema%keys(k)%given .and. .not. schema%keys(k)%marked) call tried%keys(k)%take(schema%keys(k))
       end do
-      call complete_case(tried, trial, sources)
+      tried%sources = sources
+      call complete_case(tried, trial)
       do k = 1, size(schema%keys)
          associate (key => schema%keys(k))
             if (key%marked .and. key%value_text() == tried%keys(k)%value_text()) call key%take(constant%keys(k))

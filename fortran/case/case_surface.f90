@@ -3,13 +3,11 @@
 module ehl_case_surface
    use ehl_case, only: case_t, is_feature, surface_case_t
    use ehl_case_feature, only: check_arrival, check_feature, late_start
-   use ehl_case_path, only: find_file
    use ehl_files, only: file_exists, is_file
    use ehl_kinds, only: dp
-   use ehl_refusal, only: contradict, refuse, short
    use ehl_schema, only: schema_t
-   use ehl_source, only: source_t
    use ehl_status, only: status_t
+   use ehl_text, only: short
    implicit none (type, external)
    private
    public :: complete_surfaces, check_surfaces
@@ -31,18 +29,17 @@ contains
    end subroutine complete_surfaces
 
    !> What the kinds of both need
-   subroutine check_surfaces(schema, input, sources, status)
+   subroutine check_surfaces(schema, input, status)
       type(schema_t), intent(in) :: schema
       type(case_t), intent(inout) :: input
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
 
       associate (si => input%contact%si)
-         call check_surface(schema, "surface", input%surface, si, sources, status)
-         if (.not. status%failed()) call check_surface(schema, "second_surface", input%second_surface, si, sources, status)
+         call check_surface(schema, "surface", input%surface, si, status)
+         if (.not. status%failed()) call check_surface(schema, "second_surface", input%second_surface, si, status)
       end associate
-      call check_arrival(schema, "surface", input%surface, input%second_surface, sources, status)
-      call check_arrival(schema, "second_surface", input%second_surface, input%surface, sources, status)
+      call check_arrival(schema, "surface", input%surface, input%second_surface, status)
+      call check_arrival(schema, "second_surface", input%second_surface, input%surface, status)
    end subroutine check_surfaces
 
    !> Defaults of one that depend on other keys
@@ -63,40 +60,31 @@ contains
    end subroutine complete_pattern
 
    !> What the kinds of surfaces need
-   subroutine check_surface(schema, group, s, si, sources, status)
+   subroutine check_surface(schema, group, s, si, status)
       type(schema_t), intent(in) :: schema
       character(len=*), intent(in) :: group
       type(surface_case_t), intent(inout) :: s
       !> Whether the contact is given in SI units
       logical, intent(in) :: si
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
 
       if (s%amplitude_given .and. schema%given(group, "amplitude_over_film")) then
-         call contradict(schema, sources, group//".amplitude", group//".amplitude_over_film", "one of the two", status)
+         call schema%contradict(group//".amplitude", group//".amplitude_over_film", "one of the two", status)
          return
       end if
-      call check_feature(schema, group, s, si, sources, status)
-      if (.not. status%failed()) call check_filter(schema, group, s, sources, status)
-      if (status%failed()) return
-      if (s%kind == "map" .and. s%file == "") then
-         call refuse(schema, sources, group, "kind", group//".kind = 'map' without " &
-            // group//".file", "file = '...', a height map: .npy, text or a file of an instrument", status)
-         return
-      end if
-      call check_map_keys(schema, group, s, sources, status)
-      if (status%failed()) return
-      if (s%file /= "") call find_map(schema, group, s, sources, status)
+      call check_feature(schema, group, s, si, status)
+      if (.not. status%failed()) call check_filter(schema, group, s, status)
+      if (.not. status%failed()) call check_map(schema, group, s, status)
    end subroutine check_surface
 
    !> A single wave or feature has no spectrum to cut, and something must be left of others
-   subroutine check_filter(schema, group, s, sources, status)
+   subroutine check_filter(schema, group, s, status)
       type(schema_t), intent(in) :: schema
       character(len=*), intent(in) :: group
       type(surface_case_t), intent(in) :: s
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
       character(len=20), parameter :: names(2) = [character(len=20) :: "shortest_wavelength", "longest_wavelength"]
+      character(len=:), allocatable :: name, why
       real(dp) :: limits(2)
       integer :: k
 
@@ -104,59 +92,52 @@ contains
       do k = 1, 2
          if (.not. limits(k) > 0.0_dp) cycle
          if (is_feature(s%kind)) then
-            call refuse(schema, sources, group, trim(names(k)), group//"."//trim(names(k))//": a "// &
-                        trim(s%kind)//" has a closed form, there is no spectrum to cut", &
-                        "0, or "//group//".kind = 'map' or 'fractal'", status)
-            return
+            why = "a "//trim(s%kind)//" has a closed form"
+         else if (s%kind == "harmonic") then
+            why = "a harmonic surface is a single wave"
+         else
+            cycle
          end if
-         if (s%kind /= "harmonic") cycle
-         call refuse(schema, sources, group, trim(names(k)), group//"."//trim(names(k))// &
-                     ": a harmonic surface is a single wave, there is no spectrum to cut", &
-                     "0, or "//group//".kind = 'map' or 'fractal'", status)
+         name = group//"."//trim(names(k))
+         call schema%refuse(name, name//": "//why//", there is no spectrum to cut", &
+                            "0, or "//group//".kind = 'map' or 'fractal'", status)
          return
       end do
       if (.not. limits(2) > 0.0_dp .or. limits(1) < limits(2)) return
-      call refuse(schema, sources, group, "longest_wavelength", group//".longest_wavelength = "// &
-                  short(limits(2))//" m is not longer than "//group//".shortest_wavelength = "//short(limits(1))//" m", &
-                  "a longest wavelength above the shortest one, or 0", status)
+      call schema%refuse(group//".longest_wavelength", group//".longest_wavelength = "// &
+                         short(limits(2))//" m is not longer than "//group//".shortest_wavelength = "//short(limits(1))//" m", &
+                         "a longest wavelength above the shortest one, or 0", status)
    end subroutine check_filter
 
-   !> Keys of a map that do not go together
-   subroutine check_map_keys(schema, group, s, sources, status)
-      type(schema_t), intent(in) :: schema
-      character(len=*), intent(in) :: group
-      type(surface_case_t), intent(in) :: s
-      type(source_t), intent(in) :: sources(:)
-      type(status_t), intent(inout) :: status
-
-      if (s%sign == 0) then
-         call refuse(schema, sources, group, "sign", group//".sign = 0", "1 or -1", status)
-      else if (s%crop_x_max > 0.0_dp .and. s%crop_x_max <= s%crop_x_min) then
-         call refuse(schema, sources, group, "crop_x_max", group//".crop_x_max is not beyond crop_x_min", &
-                     "a larger value [m], or 0 for the end of the map", status)
-      else if (s%crop_y_max > 0.0_dp .and. s%crop_y_max <= s%crop_y_min) then
-         call refuse(schema, sources, group, "crop_y_max", group//".crop_y_max is not beyond crop_y_min", &
-                     "a larger value [m], or 0 for the end of the map", status)
-      end if
-   end subroutine check_map_keys
-
-   !> Make the name of the height map absolute; it must be there when it is used
-   subroutine find_map(schema, group, s, sources, status)
+   !> Keys of a map that do not go together; the name of its file made absolute, which must be there when it is used
+   subroutine check_map(schema, group, s, status)
       type(schema_t), intent(in) :: schema
       character(len=*), intent(in) :: group
       type(surface_case_t), intent(inout) :: s
-      type(source_t), intent(in) :: sources(:)
       type(status_t), intent(inout) :: status
+      character(len=*), parameter :: height_map = "a height map: .npy, text or a file of an instrument"
 
-      call find_file(schema, sources, group, "file", s%file, status)
-      if (status%failed() .or. s%kind /= "map") return
-      if (.not. file_exists(trim(s%file))) then
-         ! the heights of a tile that pyehl has made come from it, or are kept beside the results
-         if (.not. s%tile_x > 0.0_dp) call refuse(schema, sources, group, "file", group//".file: there is no file "//trim(s%file), &
-                                                  "a height map: .npy, text or a file of an instrument", status)
-      else if (.not. is_file(trim(s%file))) then
-         call refuse(schema, sources, group, "file", group//".file: "//trim(s%file)//" is a folder, a device or a pipe", &
-                     "a height map: .npy, text or a file of an instrument", status)
+      if (s%kind == "map" .and. s%file == "") then
+         call schema%refuse(group//".kind", group//".kind = 'map' without "//group//".file", "file = '...', "//height_map, status)
+      else if (s%sign == 0) then
+         call schema%refuse(group//".sign", group//".sign = 0", "1 or -1", status)
+      else if (s%crop_x_max > 0.0_dp .and. s%crop_x_max <= s%crop_x_min) then
+         call schema%refuse(group//".crop_x_max", group//".crop_x_max is not beyond crop_x_min", &
+                            "a larger value [m], or 0 for the end of the map", status)
+      else if (s%crop_y_max > 0.0_dp .and. s%crop_y_max <= s%crop_y_min) then
+         call schema%refuse(group//".crop_y_max", group//".crop_y_max is not beyond crop_y_min", &
+                            "a larger value [m], or 0 for the end of the map", status)
+      else if (s%file /= "") then
+         call schema%find_file(group//".file", s%file, status)
+         if (status%failed() .or. s%kind /= "map") return
+         if (.not. file_exists(trim(s%file))) then
+            ! the heights of a tile that pyehl has made come from it, or are kept beside the results
+            if (.not. s%tile_x > 0.0_dp) call schema%refuse(group//".file", group//".file: there is no file "//trim(s%file), &
+                                                            height_map, status)
+         else if (.not. is_file(trim(s%file))) then
+            call schema%refuse(group//".file", group//".file: "//trim(s%file)//" is a folder, a device or a pipe", height_map, &
+                               status)
+         end if
       end if
-   end subroutine find_map
+   end subroutine check_map
 end module ehl_case_surface

@@ -2,11 +2,11 @@
 !> From a piece of text to the value of one key, or a message that says why not
 module ehl_case_value
    use ehl_case, only: path_length, word_length
-   use ehl_case_key, only: allowed_length, choices, key_t, kind_integer, kind_logical, kind_path, kind_real, kind_word
+   use ehl_case_key, only: allowed_length, choices, key_t, kind_integer, kind_logical, kind_path, kind_real, kind_word, origin_t
    use ehl_kinds, only: dp
    use ehl_scanner, only: token_atom, token_open_string, token_string, token_t
-   use ehl_source, only: point_at, source_t
-   use ehl_status, only: ehl_bad_input, status_t
+   use ehl_source, only: source_t
+   use ehl_status, only: status_t
    use ehl_text, only: lower_case, nearest_word, to_text
    implicit none (type, external)
    private
@@ -22,20 +22,15 @@ contains
       integer, intent(in) :: number
       type(token_t), intent(in) :: name, token
       type(status_t), intent(inout) :: status
-      character(len=:), allocatable :: problem, expected, near
+      character(len=:), allocatable :: problem, expected, near, shown
       integer :: first
 
       if (token%kind == token_open_string) then
-         call status%fail(ehl_bad_input, point_at(source, token%first, token%last, &
-            "the quote in the value of " // key%full_name() // " is not closed", key%type_text()))
+         call source%refuse(token%first, token%last, "the quote in the value of " // key%full_name() // " is not closed", &
+                            key%type_text(), status)
          return
       end if
-      key%given = .true.
-      key%source = number
-      key%name_first = name%first
-      key%name_last = name%last
-      key%first = token%first
-      key%last = token%last
+      key%origin_t = origin_t(.true., number, name%first, name%last, token%first, token%last)
       problem = ""
       expected = key%type_text()
       first = token%first
@@ -64,19 +59,10 @@ contains
          near = nearest_word(token%text, choices(key%allowed))
          if (near /= "") expected = expected // "; did you mean '" // near // "'?"
       end if
-      call status%fail(ehl_bad_input, point_at(source, first, token%last, &
-         key%full_name() // " = " // shortened(source%text(token%first:token%last)) // ": " // problem, &
-         expected))
+      shown = source%text(token%first:token%last)
+      if (len(shown) > 60) shown = shown(:57) // "..."
+      call source%refuse(first, token%last, key%full_name() // " = " // shown // ": " // problem, expected, status)
    end subroutine set_value
-
-   !> A value as a message shows it
-   pure function shortened(text) result(answer)
-      character(len=*), intent(in) :: text
-      character(len=:), allocatable :: answer
-
-      answer = text
-      if (len(text) > 60) answer = text(:57) // "..."
-   end function shortened
 
    !> Real and integer values
    subroutine set_number(key, token, problem, first)

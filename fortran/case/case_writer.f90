@@ -1,8 +1,8 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> The resolved case as namelist text, and the list of all options
 module ehl_case_writer
-   use ehl_case, only: case_t, is_feature, surface_case_t
-   use ehl_case_key, only: key_t, mark_default, mark_derived
+   use ehl_case, only: case_t, contact_case_t, is_feature, lubricant_case_t, surface_case_t
+   use ehl_case_key, only: key_t, mark_default, mark_derived, name_length
    use ehl_case_law, only: knows_temperature, own_law, uses_law
    use ehl_kinds, only: dp
    use ehl_keys, only: bind_keys
@@ -22,23 +22,25 @@ contains
       character(len=:), allocatable :: text
       type(case_t), target :: copy, defaults
       type(schema_t) :: schema, constant
+      character(len=name_length), allocatable :: groups(:)
       character(len=:), allocatable :: mark, lines
-      integer :: k
+      integer :: k, n
 
       copy = input
       call bind_keys(schema, copy)
       call bind_keys(constant, defaults)
+      allocate (groups, source=schema%group_names())
       text = ""
-      do k = 1, size(schema%keys)
-         if (schema%keys(k)%group == "second_surface" .and. .not. has_second(input, schema)) cycle
-         if (opens_group(schema, k)) lines = ""
-         if (holds(input, schema%keys(k))) then
+      do n = 1, size(groups)
+         if (groups(n) == "second_surface" .and. .not. has_second(input, schema)) cycle
+         lines = ""
+         do k = 1, size(schema%keys)
+            if (schema%keys(k)%group /= groups(n) .or. .not. holds(input, schema%keys(k))) cycle
             mark = ""
             if (allocated(input%given)) mark = mark_of(schema%keys(k), constant%keys(k), input%given(k))
             lines = lines // key_line(schema%keys(k), mark) // newline
-         end if
-         if (closes_group(schema, k) .and. lines /= "") text = text // "&" // trim(schema%keys(k)%group) // newline // lines &
-                                                                // "/" // newline
+         end do
+         if (lines /= "") text = text // "&" // trim(groups(n)) // newline // lines // "/" // newline
       end do
    end function case_text
 
@@ -57,14 +59,18 @@ contains
       type(key_t), intent(in) :: key
 
       select case (trim(key%group))
+      case ("contact")
+         holds = holds_of_contact(input%contact, key)
       case ("bodies")
          holds = input%bodies%given
+      case ("lubricant")
+         holds = holds_of_lubricant(input%lubricant, key)
       case ("surface")
          holds = holds_of_surface(input%surface, key)
       case ("second_surface")
          holds = holds_of_surface(input%second_surface, key)
       case default
-         holds = holds_elsewhere(input, key)
+         holds = .true.
       end select
    end function holds
 
@@ -88,59 +94,66 @@ contains
       end select
    end function holds_of_surface
 
-   !> The same of any other key
-   pure logical function holds_elsewhere(input, key)
-      type(case_t), intent(in) :: input
+   !> The same of a key of the contact
+   pure logical function holds_of_contact(c, key)
+      type(contact_case_t), intent(in) :: c
       type(key_t), intent(in) :: key
 
-      select case (key%full_name())
-      case ("contact.moes_m", "contact.moes_l", "contact.radius_ratio")
-         holds_elsewhere = .not. input%contact%si
-      case ("contact.load", "contact.mean_velocity", "contact.reduced_modulus")
-         holds_elsewhere = input%contact%si
-      case ("contact.hardness")
-         holds_elsewhere = input%contact%hardness > 0.0_dp
-      case ("contact.thermal_conductivity_2")
-         holds_elsewhere = input%contact%thermal_conductivity_2 > 0.0_dp
-      case ("contact.thermal_diffusivity_2")
-         holds_elsewhere = input%contact%thermal_diffusivity_2 > 0.0_dp
-      case ("contact.radius")
-         holds_elsewhere = input%contact%si .and. input%contact%round
-      case ("contact.radius_x", "contact.radius_y")
-         holds_elsewhere = input%contact%si .and. .not. input%contact%round
-      case ("lubricant.name")
-         holds_elsewhere = input%lubricant%name /= ""
-      case ("lubricant.table")
-         holds_elsewhere = input%lubricant%table /= ""
-      case ("lubricant.vogel_viscosity", "lubricant.vogel_b", "lubricant.vogel_c", "lubricant.dicke_a1", "lubricant.dicke_a2", &
-            "lubricant.dicke_b1", "lubricant.dicke_b2")
-         holds_elsewhere = uses_law(input%lubricant, "dicke")
-      case ("lubricant.yasutomi_tg0", "lubricant.yasutomi_a1", "lubricant.yasutomi_a2", "lubricant.yasutomi_b1", &
-            "lubricant.yasutomi_b2", "lubricant.yasutomi_c1", "lubricant.yasutomi_c2", "lubricant.yasutomi_viscosity")
-         holds_elsewhere = uses_law(input%lubricant, "yasutomi")
-      case ("lubricant.doolittle_viscosity", "lubricant.doolittle_temperature", "lubricant.doolittle_b", &
-            "lubricant.doolittle_r0", "lubricant.doolittle_expansion")
-         holds_elsewhere = uses_law(input%lubricant, "doolittle")
-      case ("lubricant.tait_modulus", "lubricant.tait_rate", "lubricant.tait_softening", "lubricant.tait_expansion", &
-            "lubricant.tait_temperature")
-         holds_elsewhere = uses_law(input%lubricant, "doolittle") .or. input%lubricant%density_law == "tait"
-      case ("lubricant.murnaghan_modulus", "lubricant.murnaghan_rate", "lubricant.murnaghan_softening")
-         holds_elsewhere = input%lubricant%density_law == "murnaghan"
-      case ("lubricant.range_temperature_min", "lubricant.range_temperature_max", "lubricant.range_pressure_max")
-         holds_elsewhere = own_law(input%lubricant) /= ""
-      case ("lubricant.temperature")
-         holds_elsewhere = knows_temperature(input%lubricant) .or. input%lubricant%temperature_viscosity > 0.0_dp
-      case ("lubricant.thermal_expansion")
-         holds_elsewhere = knows_temperature(input%lubricant) .or. input%lubricant%temperature_viscosity > 0.0_dp
-         if (input%lubricant%density_law == "tait") holds_elsewhere = input%lubricant%kinematic_viscosity_40 > 0.0_dp
-      case ("lubricant.density_15")
-         holds_elsewhere = input%lubricant%kinematic_viscosity_40 > 0.0_dp
-      case ("lubricant.limiting_coefficient")
-         holds_elsewhere = input%lubricant%limiting_stress <= 0.0_dp
+      select case (trim(key%name))
+      case ("moes_m", "moes_l", "radius_ratio")
+         holds_of_contact = .not. c%si
+      case ("load", "mean_velocity", "reduced_modulus")
+         holds_of_contact = c%si
+      case ("hardness", "thermal_conductivity_2", "thermal_diffusivity_2")
+         holds_of_contact = key%real_value > 0.0_dp
+      case ("radius")
+         holds_of_contact = c%si .and. c%round
+      case ("radius_x", "radius_y")
+         holds_of_contact = c%si .and. .not. c%round
       case default
-         holds_elsewhere = .true.
+         holds_of_contact = .true.
       end select
-   end function holds_elsewhere
+   end function holds_of_contact
+
+   !> The same of a key of the lubricant; constants of a law begin with its name
+   pure logical function holds_of_lubricant(l, key)
+      type(lubricant_case_t), intent(in) :: l
+      type(key_t), intent(in) :: key
+
+      holds_of_lubricant = .true.
+      select case (trim(key%name))
+      case ("name")
+         holds_of_lubricant = l%name /= ""
+      case ("table")
+         holds_of_lubricant = l%table /= ""
+      case ("temperature")
+         holds_of_lubricant = knows_temperature(l) .or. l%temperature_viscosity > 0.0_dp
+      case ("thermal_expansion")
+         holds_of_lubricant = knows_temperature(l) .or. l%temperature_viscosity > 0.0_dp
+         if (l%density_law == "tait") holds_of_lubricant = l%kinematic_viscosity_40 > 0.0_dp
+      case ("density_15")
+         holds_of_lubricant = l%kinematic_viscosity_40 > 0.0_dp
+      case ("limiting_coefficient")
+         holds_of_lubricant = l%limiting_stress <= 0.0_dp
+      case default
+         select case (key%name(:index(key%name, "_")))
+         case ("vogel_", "dicke_")
+            holds_of_lubricant = uses_law(l, "dicke")
+         case ("yasutomi_")
+            holds_of_lubricant = uses_law(l, "yasutomi")
+         case ("doolittle_")
+            holds_of_lubricant = uses_law(l, "doolittle")
+         case ("tait_")
+            holds_of_lubricant = uses_law(l, "doolittle") .or. l%density_law == "tait"
+         case ("murnaghan_")
+            holds_of_lubricant = l%density_law == "murnaghan"
+         case ("range_")
+            holds_of_lubricant = own_law(l) /= ""
+         case default
+            continue
+         end select
+      end select
+   end function holds_of_lubricant
 
    !> One key with its value and its meaning
    function key_line(key, mark) result(line)
@@ -165,22 +178,6 @@ contains
       mark = " " // mark_derived
       if (key%value_text() == default%value_text()) mark = " " // mark_default
    end function mark_of
-
-   pure logical function opens_group(schema, k)
-      type(schema_t), intent(in) :: schema
-      integer, intent(in) :: k
-
-      opens_group = k == 1
-      if (k > 1) opens_group = schema%keys(k)%group /= schema%keys(k - 1)%group
-   end function opens_group
-
-   pure logical function closes_group(schema, k)
-      type(schema_t), intent(in) :: schema
-      integer, intent(in) :: k
-
-      closes_group = k == size(schema%keys)
-      if (.not. closes_group) closes_group = opens_group(schema, k + 1)
-   end function closes_group
 
    !> All keys, one a line with tabs between the columns:
    !> group.key, unit, default, allowed values, meaning

@@ -7,8 +7,8 @@ module ehl_group_reader
    use ehl_scanner, only: scan_token, token_atom, token_comma, token_end, token_equals, token_group, token_open_string, &
                           token_slash, token_string, token_t
    use ehl_schema, only: schema_t
-   use ehl_source, only: line_number, point_at, source_t
-   use ehl_status, only: ehl_bad_input, status_t
+   use ehl_source, only: line_number, source_t
+   use ehl_status, only: status_t
    use ehl_text, only: is_digit, is_letter, lower_case, newline, to_text
    implicit none (type, external)
    private
@@ -52,13 +52,6 @@ contains
 
    contains
 
-      !> A fault at the characters from first to last
-      subroutine fail(first, last, what, expected)
-         integer, intent(in) :: first, last
-         character(len=*), intent(in) :: what, expected
-         call status%fail(ehl_bad_input, point_at(source, first, last, what, expected))
-      end subroutine fail
-
       !> A case file is text: control characters have no place in it
       subroutine check_characters()
          integer :: i, code
@@ -66,7 +59,7 @@ contains
          do i = 1, len(source%text)
             code = iachar(source%text(i:i))
             if (code >= 32 .or. any(code == [9, 10, 13])) cycle
-            call fail(i, i, "this is not a text file (byte "//to_text(code)//")", "namelist text")
+            call source%refuse(i, i, "this is not a text file (byte "//to_text(code)//")", "namelist text", status)
             return
          end do
       end subroutine check_characters
@@ -91,7 +84,7 @@ contains
             seen(number) = .true.
             return
          end if
-         call fail(opening%first, opening%last, what, expected)
+         call source%refuse(opening%first, opening%last, what, expected, status)
       end subroutine open_group
 
       !> Every key takes one value: '1, 2' is a list. `name` stands behind a comma.
@@ -107,7 +100,7 @@ contains
          else
             return
          end if
-         call fail(name%first, name%last, what//schema%keys(k)%full_name(), "one value, then the next key or '/'")
+         call source%refuse(name%first, name%last, what//schema%keys(k)%full_name(), "one value, then the next key or '/'", status)
       end subroutine refuse_list
 
       !> A key, which begins with `name`, and its value
@@ -115,8 +108,8 @@ contains
          type(status_t) :: reading
 
          if (name%kind == token_group .or. name%kind == token_end) then
-            call fail(min(name%first, end_of_text()), name%last, "group &"//group//", opened in line "// &
-                      to_text(line_number(source%text, opening%first))//", is not closed", "'/'")
+            call source%refuse(min(name%first, end_of_text()), name%last, "group &"//group//", opened in line "// &
+                      to_text(line_number(source%text, opening%first))//", is not closed", "'/'", status)
             return
          end if
          call read_equals()
@@ -148,7 +141,7 @@ contains
             call scan_token(source%text, position, equals)
             if (equals%kind == token_equals) return
             if (schema%find(group, lower_case(name%text)) > 0) then
-               call fail(behind, behind, "no '=' behind "//group//"."//lower_case(name%text), "'=' and a value")
+               call source%refuse(behind, behind, "no '=' behind "//group//"."//lower_case(name%text), "'=' and a value", status)
                return
             end if
          end if
@@ -163,7 +156,7 @@ contains
                end if
             end associate
          end if
-         call fail(name%first, name%last, what, expected)
+         call source%refuse(name%first, name%last, what, expected, status)
       end subroutine read_equals
 
       !> A value is there, and it has no decimal comma as in '0,84'
@@ -181,12 +174,13 @@ contains
                missing = next%kind == token_equals .and. is_letter(value%text(1:1))
             end if
             if (missing) then
-               call fail(min(value%first, end_of_text()), value%last, "no value for "//key%full_name(), key%type_text())
+               call source%refuse(min(value%first, end_of_text()), value%last, "no value for "//key%full_name(), &
+                                  key%type_text(), status)
             else if (value%kind == token_atom .and. comma < len(source%text)) then
                if (source%text(comma:comma) == "," .and. is_digit(source%text(comma - 1:comma - 1)) .and. &
                    is_digit(source%text(comma + 1:comma + 1))) then
-                  call fail(comma, comma, "decimal comma in the value of "//key%full_name(), &
-                            key%type_text()//", with a decimal point")
+                  call source%refuse(comma, comma, "decimal comma in the value of "//key%full_name(), &
+                            key%type_text()//", with a decimal point", status)
                end if
             end if
          end associate

@@ -6,7 +6,7 @@ module ehl_oils
    use ehl_text, only: newline, to_text
    implicit none (type, external)
    private
-   public :: constant_t, oil_t, oil_named, oil_names, oils_text
+   public :: oil_t, oil_named, oil_names, oils_text
 
    !> A key of &lubricant, its value, and where that stands
    type :: constant_t

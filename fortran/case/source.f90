@@ -1,10 +1,11 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> A text with a name, and messages that point into it
 module ehl_source
+   use ehl_status, only: ehl_bad_input, status_t
    use ehl_text, only: newline, to_text
    implicit none (type, external)
    private
-   public :: source_t, point_at, line_number
+   public :: source_t, line_number
 
    !> Longest part of a line that a message shows
    integer, parameter :: shown = 100
@@ -17,21 +18,23 @@ module ehl_source
       character(len=:), allocatable :: text
       !> Whether messages give line and column
       logical :: has_lines = .true.
+   contains
+      procedure :: refuse
    end type source_t
 
 contains
 
-   !> A message of several lines about text(first:last):
+   !> Refuse what stands at text(first:last) with a message of several lines:
    !> name:line:column: error: what; the line; a caret under the fault; what was expected
-   function point_at(source, first, last, what, expected) result(message)
-      type(source_t), intent(in) :: source
+   subroutine refuse(self, first, last, what, expected, status)
+      class(source_t), intent(in) :: self
       integer, intent(in) :: first, last
       character(len=*), intent(in) :: what, expected
-      character(len=:), allocatable :: message
+      type(status_t), intent(inout) :: status
       character(len=:), allocatable :: place, margin, number
       integer :: start, finish, from
 
-      associate (text => source%text)
+      associate (text => self%text)
          start = index(text(:first - 1), newline, back=.true.) + 1
          finish = start + index(text(start:), newline) - 2
          ! of a long line only the part around the fault is shown
@@ -42,20 +45,20 @@ contains
                from = from - 1
             end do
          end if
-         place = source%name
+         place = self%name
          margin = "  "
-         if (source%has_lines) then
+         if (self%has_lines) then
             number = to_text(line_number(text, first))
             place = place//":"//number//":"//to_text(characters(text(start:first - 1)) + 1)
             margin = margin//number//" "
          end if
-         message = place//": error: "//what//newline// &
-                   margin//"| "//one_line(text(from:min(finish, from + shown - 1)))//newline// &
-                   repeat(" ", len(margin))//"| "//blanks_for(text(from:first - 1))// &
-                   repeat("^", max(1, characters(text(first:min(last, finish)))))//newline// &
-                   "expected: "//expected
+         call status%fail(ehl_bad_input, place//": error: "//what//newline// &
+                          margin//"| "//one_line(text(from:min(finish, from + shown - 1)))//newline// &
+                          repeat(" ", len(margin))//"| "//blanks_for(text(from:first - 1))// &
+                          repeat("^", max(1, characters(text(first:min(last, finish)))))//newline// &
+                          "expected: "//expected)
       end associate
-   end function point_at
+   end subroutine refuse
 
    !> Line of a position, from 1
    pure integer function line_number(text, position)

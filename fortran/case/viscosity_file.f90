@@ -4,7 +4,7 @@
 module ehl_viscosity_file
    use ehl_heat, only: freezing
    use ehl_kinds, only: dp
-   use ehl_source, only: point_at, source_t
+   use ehl_source, only: source_t
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_text, only: lower_case, newline, to_text
    use ehl_viscosity_table, only: isotherm_t, new_isotherm
@@ -48,6 +48,9 @@ contains
          status%message = status%message//newline//"expected: a file of measured viscosities, "//header
          return
       end if
+      do first = 1, len(text)
+         if (text(first:first) == achar(13)) text(first:first) = " "
+      end do
       source = source_t(path, text//newline)
       call read_states(source, states, status)
       if (status%failed()) return
@@ -81,13 +84,13 @@ contains
       do while (first <= len(source%text) .and. .not. status%failed())
          last = first + index(source%text(first:), newline) - 2
          associate (line => source%text(first:last))
-            if (verify(line, " "//achar(9)//achar(13)) > 0 .and. index(adjustl(line), "#") /= 1) then
+            if (verify(line, " "//achar(9)) > 0 .and. index(adjustl(line), "#") /= 1) then
                if (places(1) == 0) then
                   do k = 1, 3
                      places(k) = place_of(line, trim(columns(k)))
                   end do
-                  if (any(places == 0)) call status%fail(ehl_bad_input, point_at(source, first, last, &
-                     "no column "//trim(columns(findloc(places, 0, dim=1))), header))
+                  if (any(places == 0)) call source%refuse(first, last, "no column "//trim(columns(findloc(places, 0, dim=1))), &
+                                                           header, status)
                else
                   state = state_t(first=first, last=last)
                   do k = 1, 3
@@ -113,7 +116,7 @@ contains
       do while (from <= len(line) + 1)
          to = from + index(line(from:)//",", ",") - 2
          place_of = place_of + 1
-         if (lower_case(trim(adjustl(without_return(line(from:to))))) == lower_case(name)) return
+         if (lower_case(trim(adjustl(line(from:to)))) == lower_case(name)) return
          from = to + 2
       end do
       place_of = 0
@@ -135,27 +138,15 @@ contains
       end do
       to = min(last, from + index(source%text(from:last)//",", ",") - 2)
       field = ""
-      if (from <= last) field = trim(adjustl(without_return(source%text(from:to))))
+      if (from <= last) field = trim(adjustl(source%text(from:to)))
       stat = 1
       if (field /= "" .and. verify(field, "0123456789+-.eEdD") == 0) read (field, *, iostat=stat) value
       if (stat == 0) then
          if (value >= least(column) .and. value <= greatest(column)) return
       end if
-      call status%fail(ehl_bad_input, point_at(source, min(from, last), max(min(from, last), to), trim(columns(column))//" = '"// &
-         field//"'", "a number in ["//to_text(least(column))//", "//to_text(greatest(column))//"]"))
+      call source%refuse(min(from, last), max(min(from, last), to), trim(columns(column))//" = '"//field//"'", &
+                         "a number in ["//to_text(least(column))//", "//to_text(greatest(column))//"]", status)
    end subroutine read_value
-
-   !> A text with its carriage returns as blanks
-   pure function without_return(text) result(clean)
-      character(len=*), intent(in) :: text
-      character(len=len(text)) :: clean
-      integer :: i
-
-      clean = text
-      do i = 1, len(text)
-         if (text(i:i) == achar(13)) clean(i:i) = " "
-      end do
-   end function without_return
 
    !> By temperature, then by pressure
    pure subroutine sort(states)
@@ -188,24 +179,26 @@ contains
       integer :: k
 
       if (size(states) == 1) then
-         call status%fail(ehl_bad_input, point_at(source, states(1)%first, states(1)%last, "a single pressure at "// &
-            to_text(states(1)%values(2))//" degC", "two pressures or more at each temperature"))
-         return
+         call refuse(1, "a single pressure at "//to_text(states(1)%values(2))//" degC", "two pressures or more at each temperature")
       else if (states(1)%values(1) > ambient) then
-         call status%fail(ehl_bad_input, point_at(source, states(1)%first, states(1)%last, "the lowest pressure at "// &
-            to_text(states(1)%values(2))//" degC", "a viscosity at ambient pressure, "//to_text(ambient)// &
-            " Pa or less, at each temperature"))
-         return
+         call refuse(1, "the lowest pressure at "//to_text(states(1)%values(2))//" degC", "a viscosity at ambient pressure, "// &
+                     to_text(ambient)//" Pa or less, at each temperature")
       end if
       do k = 2, size(states)
          if (.not. states(k)%values(1) > states(k - 1)%values(1)) then
-            call status%fail(ehl_bad_input, point_at(source, states(k)%first, states(k)%last, "the same state as before", &
-                                                     "each pressure once at each temperature"))
+            call refuse(k, "the same state as before", "each pressure once at each temperature")
          else if (.not. states(k)%values(3) > states(k - 1)%values(3)) then
-            call status%fail(ehl_bad_input, point_at(source, states(k)%first, states(k)%last, "the viscosity does not rise "// &
-               "from "//to_text(states(k - 1)%values(1))//" Pa, where it is "//to_text(states(k - 1)%values(3))//" Pa s", &
-               "a viscosity that rises with pressure at each temperature"))
+            call refuse(k, "the viscosity does not rise from "//to_text(states(k - 1)%values(1))//" Pa, where it is "// &
+                        to_text(states(k - 1)%values(3))//" Pa s", "a viscosity that rises with pressure at each temperature")
          end if
       end do
+
+   contains
+
+      subroutine refuse(number, what, expected)
+         integer, intent(in) :: number
+         character(len=*), intent(in) :: what, expected
+         call source%refuse(states(number)%first, states(number)%last, what, expected, status)
+      end subroutine refuse
    end subroutine check_isotherm
 end module ehl_viscosity_file

@@ -1,56 +1,32 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> The macroscopic contact: what of a scene is due to the shape of the two bodies and the load on them.
-!> A shape extends `contact_t`; only ehl_contact_factory knows one. Lengths, films and pressures by the scales of the
-!> contact (ehl_scales).
+!> The macroscopic contact: what of a scene is due to the shape of the two bodies and the load on them. That of a ball on a
+!> flat (Hertz 1881); another shape extends it, and only ehl_contact_factory knows one. Lengths, films and pressures by the
+!> scales of the contact (ehl_scales).
 module ehl_contact
-   use ehl_kinds, only: dp
+   use ehl_film_formula, only: film_central_formula
+   use ehl_kinds, only: dp, pi
+   use ehl_scales, only: circle_factor
    implicit none (type, external)
    private
    public :: contact_t
 
-   type, abstract :: contact_t
+   type :: contact_t
       !> Semi-axis of the dry contact across the motion over that along it; D = R_x/R_y
       real(dp) :: ellipticity = 1.0_dp, radius_ratio = 1.0_dp
       !> Angle of the principal axes against X and Y [rad], counter-clockwise; how far the dry contact reaches along X and Y
       real(dp) :: angle = 0.0_dp, reach(2) = 1.0_dp
+      !> iint P dX dY; k_b of the deflection k_b iint P/r; H00 of the dry contact
+      real(dp) :: load = 2.0_dp*pi/3.0_dp, kernel_factor = circle_factor, dry_separation = -1.0_dp
+      !> Of the contact with the same curvatures along the motion and across it, and its axes there: radius along the motion
+      !> over R_x, ratio of the radii, kappa k_b over that of a circle
+      real(dp) :: radius = 1.0_dp, ratio = 1.0_dp, load_share = 1.0_dp
    contains
       procedure :: is_round
       procedure :: is_even
-      procedure(row), deferred :: gap_row
-      procedure(row), deferred :: pressure_row
-      procedure(number), deferred :: load
-      procedure(number), deferred :: kernel_factor
-      procedure(number), deferred :: dry_separation
-      procedure(film), deferred :: film_formula
+      procedure :: film_formula
+      procedure :: gap_row
+      procedure :: pressure_row
    end type contact_t
-
-   abstract interface
-      !> gap_row: gap of the undeformed bodies, 0 where they touch; pressure_row: pressure of the dry contact.
-      !> In the columns x of a row at y.
-      pure subroutine row(self, x, y, values)
-         import :: contact_t, dp
-         implicit none (type, external)
-         class(contact_t), intent(in) :: self
-         !> Shape (nx)
-         real(dp), intent(in) :: x(:), y
-         real(dp), intent(out) :: values(:)
-      end subroutine row
-
-      !> load: iint P dX dY; kernel_factor: k_b of the deflection k_b iint P/r; dry_separation: H00 of the dry contact
-      pure real(dp) function number(self)
-         import :: contact_t, dp
-         implicit none (type, external)
-         class(contact_t), intent(in) :: self
-      end function number
-
-      !> Central film by formula, incompressible
-      pure real(dp) function film(self, moes_m, moes_l)
-         import :: contact_t, dp
-         implicit none (type, external)
-         class(contact_t), intent(in) :: self
-         real(dp), intent(in) :: moes_m, moes_l
-      end function film
-   end interface
 
 contains
 
@@ -65,4 +41,40 @@ contains
       class(contact_t), intent(in) :: self
       is_even = .not. abs(self%angle) > 0.0_dp
    end function is_even
+
+   !> Gap of the undeformed bodies in the columns x of a row at y, 0 where they touch: X^2/2 + Y^2/2
+   pure subroutine gap_row(self, x, y, values)
+      class(contact_t), intent(in) :: self
+      !> Shape (nx)
+      real(dp), intent(in) :: x(:), y
+      real(dp), intent(out) :: values(:)
+
+      associate (unused => self)
+      end associate
+      values = 0.5_dp*(x**2 + y**2)
+   end subroutine gap_row
+
+   !> Pressure of the dry contact in the columns x of a row at y: sqrt(1 - X^2 - Y^2), zero outside
+   pure subroutine pressure_row(self, x, y, values)
+      class(contact_t), intent(in) :: self
+      !> Shape (nx)
+      real(dp), intent(in) :: x(:), y
+      real(dp), intent(out) :: values(:)
+
+      associate (unused => self)
+      end associate
+      values = sqrt(max(0.0_dp, 1.0_dp - x**2 - y**2))
+   end subroutine pressure_row
+
+   !> Central film of an incompressible lubricant by Nijenbanning, Venner & Moes (1994), with the curvatures along the motion and
+   !> across it: M goes with R^(-5/4), L with R^(-1/4), and films with a^2/R
+   pure real(dp) function film_formula(self, moes_m, moes_l)
+      class(contact_t), intent(in) :: self
+      real(dp), intent(in) :: moes_m, moes_l
+      real(dp) :: length
+
+      length = (self%radius*self%ellipticity*self%kernel_factor/circle_factor/self%load_share)**(1.0_dp/3.0_dp)
+      film_formula = film_central_formula(moes_m*self%radius**(-1.25_dp), moes_l*self%radius**(-0.25_dp), self%ratio, &
+                                          self%load_share)*length**2/self%radius
+   end function film_formula
 end module ehl_contact

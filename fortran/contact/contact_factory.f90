@@ -1,7 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> From the bodies of a contact to its shape and its scales. No other module names a shape.
 module ehl_contact_factory
-   use ehl_circular, only: circular_t
    use ehl_contact, only: contact_t
    use ehl_elliptical, only: new_elliptical
    use ehl_kinds, only: dp
@@ -21,7 +20,7 @@ contains
       if (abs(radius_ratio - 1.0_dp) > 0.0_dp) then
          allocate (contact, source=new_elliptical(radius_ratio, angle))
       else
-         allocate (circular_t :: contact)
+         allocate (contact_t :: contact)
       end if
    end subroutine new_contact
 
@@ -32,6 +31,6 @@ contains
       !> 2/E' = sum (1 - nu^2)/E
       real(dp), intent(in) :: load, radius, reduced_modulus
       type(scales_t) :: scales
-      scales = scales_from_si(load, radius, reduced_modulus, contact%ellipticity, contact%kernel_factor())
+      scales = scales_from_si(load, radius, reduced_modulus, contact%ellipticity, contact%kernel_factor)
    end function hertz_scales
 end module ehl_contact_factory

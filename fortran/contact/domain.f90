@@ -102,7 +102,7 @@ contains
       real(dp) :: film, length, whole, inlet, load, sides, side, width
 
       side = domain%side/sides_over_round(contact)
-      width = contact%ellipticity*contact%kernel_factor()/circle_factor
+      width = contact%ellipticity*contact%kernel_factor/circle_factor
       film = contact%film_formula(point%moes_m, point%moes_l)
       associate (lambda_bar => point%speed_parameter)
          if (flooded) then

@@ -11,29 +11,19 @@
 module ehl_elliptical
    use ehl_contact, only: contact_t
    use ehl_elliptic, only: complete_rd, complete_rf
-   use ehl_film_formula, only: film_central_formula
    use ehl_kinds, only: dp, pi
    use ehl_scales, only: circle_factor
    implicit none (type, external)
    private
-   public :: elliptical_t, new_elliptical
+   public :: new_elliptical
 
    type, extends(contact_t) :: elliptical_t
       private
-      !> k_b, and H00 of the dry contact
-      real(dp) :: factor = 0.0_dp, separation = 0.0_dp
       !> Direction of the axis of R_x
       real(dp) :: along = 1.0_dp, across = 0.0_dp
-      !> Of the contact with the same curvatures along the motion and across it, and its axes there: radius along the motion
-      !> over R_x, ratio of the radii, kappa k_b over that of a circle
-      real(dp) :: radius = 1.0_dp, ratio = 1.0_dp, load_share = 1.0_dp
    contains
       procedure :: gap_row
       procedure :: pressure_row
-      procedure :: load
-      procedure :: kernel_factor
-      procedure :: dry_separation
-      procedure :: film_formula
    end type elliptical_t
 
 contains
@@ -47,8 +37,9 @@ contains
       contact%radius_ratio = radius_ratio
       contact%ellipticity = ellipticity_of(radius_ratio)
       associate (k => contact%ellipticity)
-         contact%factor = 0.5_dp/(pi*k/3.0_dp*complete_rd(k**2, 1.0_dp))
-         contact%separation = -contact%factor*pi*k*complete_rf(1.0_dp, k**2)
+         contact%load = 2.0_dp*pi/3.0_dp*k
+         contact%kernel_factor = 0.5_dp/(pi*k/3.0_dp*complete_rd(k**2, 1.0_dp))
+         contact%dry_separation = -contact%kernel_factor*pi*k*complete_rf(1.0_dp, k**2)
          contact%angle = angle
          contact%along = cos(angle)
          contact%across = sin(angle)
@@ -102,34 +93,4 @@ contains
       values = sqrt(max(0.0_dp, 1.0_dp - (self%along*x + self%across*y)**2 &
                         - ((self%along*y - self%across*x)/self%ellipticity)**2))
    end subroutine pressure_row
-
-   !> iint P dX dY
-   pure real(dp) function load(self)
-      class(elliptical_t), intent(in) :: self
-      load = 2.0_dp*pi/3.0_dp*self%ellipticity
-   end function load
-
-   !> 1/(2 c_x)
-   pure real(dp) function kernel_factor(self)
-      class(elliptical_t), intent(in) :: self
-      kernel_factor = self%factor
-   end function kernel_factor
-
-   !> H00 of the dry contact
-   pure real(dp) function dry_separation(self)
-      class(elliptical_t), intent(in) :: self
-      dry_separation = self%separation
-   end function dry_separation
-
-   !> Nijenbanning, Venner & Moes (1994), with the curvatures along the motion and across it: M goes with R^(-5/4), L with
-   !> R^(-1/4), and films with a^2/R
-   pure real(dp) function film_formula(self, moes_m, moes_l)
-      class(elliptical_t), intent(in) :: self
-      real(dp), intent(in) :: moes_m, moes_l
-      real(dp) :: length
-
-      length = (self%radius*self%ellipticity*self%factor/circle_factor/self%load_share)**(1.0_dp/3.0_dp)
-      film_formula = film_central_formula(moes_m*self%radius**(-1.25_dp), moes_l*self%radius**(-0.25_dp), self%ratio, &
-                                          self%load_share)*length**2/self%radius
-   end function film_formula
 end module ehl_elliptical

@@ -83,7 +83,7 @@ contains
       real(dp), intent(out) :: half, potential
       real(dp) :: pressure(1), x
 
-      potential = -contact%dry_separation()/contact%kernel_factor()
+      potential = -contact%dry_separation/contact%kernel_factor
       x = 0.5_dp*min(1.0_dp, contact%ellipticity)
       call contact%pressure_row([x], 0.0_dp, pressure)
       half = x/sqrt(1.0_dp - pressure(1)**2)

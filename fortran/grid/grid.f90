@@ -101,13 +101,7 @@ contains
       class(grid_t), intent(in) :: self
       type(grid_t) :: grid
 
-      grid%nx = (self%nx + 1)/2
-      grid%ny = (self%ny + 1)/2
-      grid%x0 = self%x0
-      grid%y0 = self%y0
-      grid%hx = 2.0_dp*self%hx
-      grid%hy = 2.0_dp*self%hy
-      grid%mirror = self%mirror
+      grid = grid_t((self%nx + 1)/2, (self%ny + 1)/2, self%x0, self%y0, 2.0_dp*self%hx, 2.0_dp*self%hy, self%mirror)
    end function coarser
 
    !> The grid of half the mesh size
@@ -115,13 +109,7 @@ contains
       class(grid_t), intent(in) :: self
       type(grid_t) :: grid
 
-      grid%nx = 2*self%nx - 1
-      grid%ny = 2*self%ny - 1
-      grid%x0 = self%x0
-      grid%y0 = self%y0
-      grid%hx = 0.5_dp*self%hx
-      grid%hy = 0.5_dp*self%hy
-      grid%mirror = self%mirror
+      grid = grid_t(2*self%nx - 1, 2*self%ny - 1, self%x0, self%y0, 0.5_dp*self%hx, 0.5_dp*self%hy, self%mirror)
    end function finer
 
    !> Area that row j stands for in a sum over the whole contact, per node:

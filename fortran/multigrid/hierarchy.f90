@@ -15,7 +15,7 @@ module ehl_hierarchy
    use ehl_workspace, only: workspace_t
    implicit none (type, external)
    private
-   public :: hierarchy_t, deflection_accuracy
+   public :: hierarchy_t
 
    !> Nodes of a grid from which several threads pay, measured on two cores that others use too; see docs/design.md
    integer, parameter :: parallel_from = 60000

@@ -2,7 +2,7 @@
 !> The plan of a run: what this scene needs, decided once. The only reader of option words.
 module ehl_plan
    use ehl_case, only: case_t
-   use ehl_case_contact, only: find_contact
+   use ehl_case_contact, only: find_contact, operating_point
    use ehl_contact, only: contact_t
    use ehl_cycle, only: coarsening_alcouffe, coarsening_classical, cycle_options_t
    use ehl_domain, only: domain_cost, domain_t
@@ -12,14 +12,14 @@ module ehl_plan
    use ehl_lubricant, only: lubricant_t
    use ehl_moes, only: operating_t
    use ehl_moving_surfaces, only: moving_surfaces_t
-   use ehl_plan_friction, only: plan_point, plan_sliding, sliding_t
+   use ehl_plan_friction, only: plan_sliding, sliding_t
    use ehl_plan_heat, only: heat_plan_t, plan_heat
    use ehl_plan_lubricant, only: alpha_note, law_note, plan_lubricant
    use ehl_plan_surface, only: check_carried, make_surfaces
    use ehl_resolution, only: has_solution, relative_errors
    use ehl_scales, only: scales_t
    use ehl_status, only: ehl_bad_input, status_t
-   use ehl_steady, only: steady_options_t
+   use ehl_steady_options, only: steady_options_t
    use ehl_surface, only: aliased_below, resolved_from
    use ehl_transient, only: steps_needed
    use ehl_text, only: fixed, to_text
@@ -110,7 +110,7 @@ contains
 
       call find_contact(input, plan%contact, plan%scales, plan%point)
       plan%sliding = plan_sliding(input, plan%contact, plan%scales)
-      if (input%contact%si) plan%point = plan_point(input, plan%contact, plan%scales, plan%sliding)
+      if (input%contact%si) plan%point = operating_point(input, plan%contact, plan%scales, plan%sliding%inlet_viscosity)
       plan%flooded = input%grid%border == "flooded"
       call plan_lubricant(input, plan%point, plan%scales, plan%lubricant, status)
       if (status%failed()) return

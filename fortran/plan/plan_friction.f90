@@ -2,14 +2,15 @@
 !> What absolute friction and the heat of it need to know of a case
 module ehl_plan_friction
    use ehl_case, only: case_t
+   use ehl_case_contact, only: operating_point
    use ehl_contact, only: contact_t
    use ehl_heat, only: thermal_loading, thermal_reduction
    use ehl_kinds, only: dp
-   use ehl_moes, only: operating_from_si, operating_t
+   use ehl_moes, only: operating_t
    use ehl_scales, only: scales_t
    implicit none (type, external)
    private
-   public :: sliding_t, plan_sliding, plan_point
+   public :: sliding_t, plan_sliding
 
    !> Motion, load and heat of a contact
    type :: sliding_t
@@ -68,30 +69,6 @@ contains
       end associate
    end function plan_sliding
 
-   !> Operating point of a contact in SI units, with the viscosity of its inlet
-   pure function plan_point(input, contact, scales, sliding) result(point)
-      type(case_t), intent(in) :: input
-      class(contact_t), intent(in) :: contact
-      type(scales_t), intent(in) :: scales
-      type(sliding_t), intent(in) :: sliding
-      type(operating_t) :: point
-      point = point_of(input, contact, scales, sliding%inlet_viscosity)
-   end function plan_point
-
-   pure function point_of(input, contact, scales, viscosity) result(point)
-      type(case_t), intent(in) :: input
-      class(contact_t), intent(in) :: contact
-      type(scales_t), intent(in) :: scales
-      real(dp), intent(in) :: viscosity
-      type(operating_t) :: point
-
-      associate (c => input%contact)
-         point = operating_from_si(c%load, c%mean_velocity, c%radius_x, c%reduced_modulus, viscosity, &
-                                   input%lubricant%pressure_viscosity, scales%pressure, contact%ellipticity, &
-                                   contact%kernel_factor())
-      end associate
-   end function point_of
-
    !> Viscosity [Pa s] at which the film formula gives a share of the film of the lubricant's own viscosity
    pure real(dp) function inlet_viscosity(input, contact, scales, share)
       type(case_t), intent(in) :: input
@@ -125,7 +102,7 @@ contains
       real(dp), intent(in) :: log_viscosity
       type(operating_t) :: point
 
-      point = point_of(input, contact, scales, exp(log_viscosity))
+      point = operating_point(input, contact, scales, exp(log_viscosity))
       film_at = contact%film_formula(point%moes_m, point%moes_l)
    end function film_at
 end module ehl_plan_friction

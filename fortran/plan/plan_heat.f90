@@ -2,14 +2,14 @@
 !> Whether the heat of sliding counts for the friction of a case, and what it needs to know then
 module ehl_plan_heat
    use ehl_case, only: case_t
-   use ehl_case_contact, only: find_contact
+   use ehl_case_contact, only: find_contact, operating_point
    use ehl_contact, only: contact_t
    use ehl_heat, only: flash_temperature
    use ehl_heated_friction, only: film_heat_t
    use ehl_kinds, only: dp
    use ehl_lubricant, only: lubricant_t
    use ehl_moes, only: operating_t
-   use ehl_plan_friction, only: plan_point, plan_sliding, sliding_t
+   use ehl_plan_friction, only: plan_sliding, sliding_t
    use ehl_plan_lubricant, only: plan_lubricant
    use ehl_scales, only: scales_t
    use ehl_status, only: status_t
@@ -121,7 +121,7 @@ contains
 
       call find_contact(input, contact, scales, point)
       sliding = plan_sliding(input, contact, scales)
-      if (input%contact%si) point = plan_point(input, contact, scales, sliding)
+      if (input%contact%si) point = operating_point(input, contact, scales, sliding%inlet_viscosity)
       call plan_lubricant(input, point, scales, lubricant, status)
       if (status%failed()) return
       call lubricant%density([1.0_dp], rho, slope)

@@ -8,7 +8,7 @@ module ehl_resolution
    use ehl_text, only: to_text
    implicit none (type, external)
    private
-   public :: relative_errors, has_solution, too_coarse, finer_across
+   public :: relative_errors, has_solution, too_coarse, better_grid
 
    !> Most that half of the a-priori error of H_min may be where the equations have a solution (docs/robustness.md)
    real(dp), parameter :: most_unresolved = 0.6_dp
@@ -64,17 +64,18 @@ contains
                                       to_text(grid%nx)//" or more"
    end function too_coarse
 
-   !> What may help where a narrow contact has no solution on a grid that seems fine enough: cells half as long across, in a
-   !> domain a quarter as wide; empty where it is not narrow, or has such cells (docs/evidence/errors_ellipses)
-   pure function finer_across(contact, finest) result(text)
+   !> What may help where there is no solution: a grid that has one, or in a narrow contact on a grid that seems fine enough cells
+   !> half as long across, in a domain a quarter as wide; empty where nothing is known (docs/evidence/errors_ellipses)
+   pure function better_grid(contact, point, finest) result(text)
       class(contact_t), intent(in) :: contact
+      type(operating_t), intent(in) :: point
       type(grid_t), intent(in) :: finest
       character(len=:), allocatable :: text
 
-      text = ""
-      if (contact%reach(2) > most_narrow*contact%reach(1) .or. 6.0_dp*finest%hy < finest%hx) return
+      text = too_coarse(contact, point, finest)
+      if (text /= "" .or. contact%reach(2) > most_narrow*contact%reach(1) .or. 6.0_dp*finest%hy < finest%hx) return
       text = "the ends of a narrow contact need shorter cells across the motion: grid.y_extent = "// &
              to_text(0.125_dp*finest%hx*(finest%nx - 1))//", grid.points_y = "//to_text(2*finest%nx - 1)// &
              " and solver.max_cycles = 100 may do"
-   end function finer_across
+   end function better_grid
 end module ehl_resolution

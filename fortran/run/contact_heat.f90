@@ -2,7 +2,7 @@
 !> The heat of friction in a run: of the smooth contact, and of the rough one at its end and in some of its steps
 submodule (ehl_contact_run) ehl_contact_heat
    use ehl_heated_friction, only: heat_film
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+   use ehl_kinds, only: not_known
    implicit none (type, external)
 
    !> Steps in a period after which it is computed: what the heat takes from the friction changes slowly
@@ -20,7 +20,7 @@ contains
    module procedure step_heat
       type(heated_t) :: found
 
-      step_heat = ieee_value(step_heat, ieee_quiet_nan)
+      step_heat = not_known
       if (mod(self%transient%step, interval(self)) > 0) return
       call add_heat(self, self%steady%n, .false., found)
       step_heat = found%ratio()
@@ -29,7 +29,7 @@ contains
    module procedure heat_ratio
       real(dp), allocatable :: ratio(:), isothermal(:), step(:)
 
-      heat_ratio = ieee_value(heat_ratio, ieee_quiet_nan)
+      heat_ratio = not_known
       if (self%resting) then
          heat_ratio = self%rough_heat%ratio()
          return

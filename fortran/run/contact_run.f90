@@ -112,7 +112,7 @@ contains
       if (status%failed()) return
       if (allocated(self%plan%why_front)) self%why_front = self%plan%why_front
       call self%hierarchy%setup(self%plan%coarsest, self%plan%levels, self%plan%lubricant, self%plan%point%speed_parameter, &
-                                self%plan%contact%kernel_factor(), self%plan%engine, self%plan%threads, status)
+                                self%plan%contact%kernel_factor, self%plan%engine, self%plan%threads, status)
       call self%steady%start(self%plan%contact, self%plan%steady_options_t)
       call self%hierarchy%grow(self%steady%n, status)
       if (status%failed()) return

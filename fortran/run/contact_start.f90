@@ -10,11 +10,7 @@ submodule (ehl_contact_run) ehl_contact_start
 
 contains
 
-   module subroutine begin_steps(self, n, status)
-      class(contact_run_t), intent(inout) :: self
-      integer, intent(in) :: n
-      type(status_t), intent(inout) :: status
-
+   module procedure begin_steps
       associate (plan => self%plan, transient => self%transient, m => self%steady%results(n)%m)
          ! where a feature passes once, the largest pressure and the least film are asked for, not the mean friction alone
          call transient%accuracy%set(self%grid%hx, plan%accuracy, m%friction_newtonian, &
@@ -31,7 +27,7 @@ contains
       self%resting = .false.
       call self%frames%start()
       if (self%checkpoint%found()) call take_state(self, status)
-   end subroutine begin_steps
+   end procedure begin_steps
 
    !> The predicted start, unless somebody has said why there is none
    subroutine begin_filled(self, n, status)
@@ -50,10 +46,7 @@ contains
       if (.not. done) self%why_front = "the film would be negative"
    end subroutine begin_filled
 
-   module subroutine begin_again(self, status)
-      class(contact_run_t), intent(inout) :: self
-      type(status_t), intent(inout) :: status
-
+   module procedure begin_again
       self%why_front = "the first steps from it ended with '"//trim(outcome_names(self%transient%state))//"'"
       associate (level => self%hierarchy%levels(self%steady%n))
          self%transient%rr = 0.0_dp
@@ -65,7 +58,7 @@ contains
       call self%begin_history()
       call begin_steps(self, self%steady%n, status)
       self%outcome = outcome_running
-   end subroutine begin_again
+   end procedure begin_again
 
    !> The state that was kept takes the place of the start of the transient run
    subroutine take_state(self, status)

@@ -4,7 +4,7 @@ module ehl_no_answer
    use ehl_contact_run, only: contact_run_t
    use ehl_kinds, only: dp
    use ehl_outcome, only: outcome_cycle_limit, outcome_diverged, outcome_interrupted, outcome_negative_film, outcome_unsettled
-   use ehl_resolution, only: finer_across, too_coarse
+   use ehl_resolution, only: better_grid
    use ehl_text, only: fixed, to_text
    implicit none (type, external)
    private
@@ -92,12 +92,8 @@ contains
       character(len=:), allocatable :: text
 
       text = ""
-      if (.not. is_rough(run)) then
-         text = too_coarse(run%plan%contact, run%plan%point, run%plan%finest)
-         if (text == "") text = finer_across(run%plan%contact, run%plan%finest)
-      end if
-      if (text == "") text = "give a finer grid (grid.points = "// &
-                           to_text(2*run%plan%finest%nx - 1)//")"
+      if (.not. is_rough(run)) text = better_grid(run%plan%contact, run%plan%point, run%plan%finest)
+      if (text == "") text = "give a finer grid (grid.points = "//to_text(2*run%plan%finest%nx - 1)//")"
    end function finer
 
    !> Whether the roughness is in

@@ -2,17 +2,18 @@
 !> Absolute friction of a run, where it means something, and the heat of it
 module ehl_report_friction
    use ehl_contact, only: contact_t
+   use ehl_contact_run, only: contact_run_t
    use ehl_grid, only: grid_t
    use ehl_heat, only: flash_temperature
-   use ehl_heated_friction, only: heated_t
-   use ehl_kinds, only: dp, pi
+   use ehl_kinds, only: dp, not_known, pi
+   use ehl_level, only: gap
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
    use ehl_report_touching, only: no_boundary_friction
    use ehl_text, only: fixed, to_text
    use ehl_touching, only: same_film
    use ehl_wall_heat, only: heat_source
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
    private
    public :: report_friction
@@ -21,28 +22,41 @@ contains
 
    !> Coefficients, shear rate and stress of the smooth contact, flash temperature; null where they are not known or
    !> mean nothing
-   subroutine report_friction(record, plan, grid, p, h, known, friction, ratio, smooth_heat, rough_heat, heat_ratio)
+   subroutine report_friction(record, run, good, converged, known)
       type(record_t), intent(inout) :: record
-      type(plan_t), intent(in) :: plan
-      type(grid_t), intent(in) :: grid
-      !> Whether friction is known where the bodies touch
-      logical, intent(in) :: known
-      !> Pressure and film of the smooth contact, its friction integral, and the friction over it (1: smooth); nan:
-      !> not known
-      real(dp), intent(in) :: p(:, :), h(:, :), friction, ratio
-      !> Heat of the smooth contact and of the rough one at the end; friction of the rough one with it over that without it
-      type(heated_t), intent(in) :: smooth_heat, rough_heat
-      real(dp), intent(in) :: heat_ratio
-      real(dp) :: nothing, mu_smooth, mu, rate, stress, rise, rises(3), speed, moment, isothermal(2), source(2)
+      class(contact_run_t), intent(in) :: run
+      !> Whether the smooth contact is converged, and the run; whether friction is known where the bodies touch
+      logical, intent(in) :: good, converged, known
+      !> Friction integral of the smooth contact, the friction over it, and that of the rough contact with heat over it without
+      real(dp) :: friction, ratio, heat_ratio
+      real(dp) :: mu_smooth, mu, rate, stress, moment, rise, rises(3), speed, isothermal(2), source(2)
+      logical :: rough
       character(len=:), allocatable :: note
 
-      nothing = ieee_value(nothing, ieee_quiet_nan)
-      mu_smooth = nothing
-      rate = nothing
-      stress = nothing
-      rise = nothing
-      associate (s => plan%sliding, shear => plan%lubricant%shear)
+      rough = run%in_steps .or. run%resting
+      friction = merge(run%steady%results(run%level())%m%friction, not_known, good .and. known)
+      ratio = merge(not_known, 1.0_dp, run%plan%surfaces%rough())
+      heat_ratio = not_known
+      if (rough .and. converged .and. known) then
+         ratio = run%mu_ratio()
+         if (run%plan%heat%counts) heat_ratio = run%heat_ratio()
+      end if
+      mu_smooth = not_known
+      rate = not_known
+      stress = not_known
+      moment = not_known
+      rise = not_known
+      associate (plan => run%plan, s => run%plan%sliding, shear => run%plan%lubricant%shear)
          speed = abs(s%slide_to_roll)*s%mean_velocity
+         if (ieee_is_finite(friction)) then
+            if (rough) then
+               call read_off(run%grid, run%p_smooth, run%h_smooth)
+            else
+               associate (level => run%hierarchy%levels(run%level()))
+                  call read_off(level%grid, level%p, gap(level))
+               end associate
+            end if
+         end if
          if (.not. s%mean_velocity > 0.0_dp) then
             note = "a ratio alone: moes_m and moes_l give no sliding speed in m/s"
          else if (.not. speed > 0.0_dp) then
@@ -51,23 +65,19 @@ contains
             note = no_boundary_friction
          else if (.not. ieee_is_finite(friction)) then
             note = "the smooth contact is not converged"
+         else if (shear%thins() .or. stress <= s%newtonian_limit) then
+            mu_smooth = friction*shear%scale*plan%scales%length**2/s%load
+            note = plan%heat%note
          else
-            rate = speed/plan%scales%film*mean_inverse(plan%contact, grid, h)
-            stress = greatest_stress(plan, p, h)
-            if (shear%thins() .or. stress <= s%newtonian_limit) then
-               mu_smooth = friction*shear%scale*plan%scales%length**2/s%load
-               note = plan%heat%note
-            else
-               note = "a ratio alone: the Newtonian shear stress reaches "//fixed(stress, "es8.1e2")// &
-                      " Pa, and oils shear thin above some "//to_text(s%newtonian_limit)// &
-                      " Pa (lubricant.eyring_stress): give a lubricant.shear_law"
-            end if
+            note = "a ratio alone: the Newtonian shear stress reaches "//fixed(stress, "es8.1e2")// &
+                   " Pa, and oils shear thin above some "//to_text(s%newtonian_limit)// &
+                   " Pa (lubricant.eyring_stress): give a lubricant.shear_law"
          end if
          mu = ratio*mu_smooth
          isothermal = [mu, mu_smooth]
          if (plan%heat%counts) then
-            mu_smooth = mu_smooth*smooth_heat%ratio()
-            mu = mu*merge(heat_ratio, smooth_heat%ratio(), plan%surfaces%rough())
+            mu_smooth = mu_smooth*run%smooth_heat%ratio()
+            mu = mu*merge(heat_ratio, run%smooth_heat%ratio(), plan%surfaces%rough())
             if (ieee_is_finite(isothermal(2)) .and. .not. ieee_is_finite(mu_smooth)) note = "the temperature is not converged"
          end if
          if (ieee_is_finite(mu)) then
@@ -75,8 +85,6 @@ contains
             rise = flash_temperature(mu*s%load*speed/(pi*plan%scales%length**2*plan%contact%ellipticity), &
                                      source(1)*plan%scales%length, source(2), s%speeds(), s%conductivity, s%diffusivity)
          end if
-         moment = nothing
-         if (ieee_is_finite(friction)) moment = rolling_moment(grid, p, h)
          call record%set("rolling_moment", moment)
          if (plan%scales%has_size()) call record%set("rolling_moment_N_m", moment*plan%scales%pressure*plan%scales%length**3)
          call record%set("shear_law", trim(s%law))
@@ -86,9 +94,9 @@ contains
          call record%set("mu_isothermal", isothermal(1))
          call record%set("mu_smooth_isothermal", isothermal(2))
          if (plan%heat%counts) then
-            rises = nothing
-            if (ieee_is_finite(mu)) rises = smooth_heat%greatest
-            if (ieee_is_finite(mu) .and. plan%surfaces%rough()) rises = rough_heat%greatest
+            rises = not_known
+            if (ieee_is_finite(mu)) rises = run%smooth_heat%greatest
+            if (ieee_is_finite(mu) .and. plan%surfaces%rough()) rises = run%rough_heat%greatest
             if (ieee_is_finite(rises(1))) then
                if (rises(1) > max(0.0_dp, plan%heat%measured_rise)) then
                   note = note//"; the film is hotter than the temperatures at which the viscosity was measured"
@@ -108,6 +116,19 @@ contains
             call record%set("inlet_viscosity_Pa_s", s%inlet_viscosity)
          end if
       end associate
+
+   contains
+
+      !> Rolling moment, mean shear rate and greatest stress of the smooth contact with pressure p and film h
+      subroutine read_off(grid, p, h)
+         type(grid_t), intent(in) :: grid
+         real(dp), intent(in) :: p(:, :), h(:, :)
+
+         moment = rolling_moment(grid, p, h)
+         if (.not. speed > 0.0_dp) return
+         rate = speed/run%plan%scales%film*mean_inverse(run%plan%contact, grid, h)
+         stress = greatest_stress(run%plan, p, h)
+      end subroutine read_off
    end subroutine report_friction
 
    !> iint H/2 dP/dX, the moment of the pressure flow on each surface, which resists the rolling [p_h a^3]; a long inlet

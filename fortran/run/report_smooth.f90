@@ -3,13 +3,12 @@
 module ehl_report_smooth
    use ehl_contact_results, only: contact_results_t
    use ehl_domain, only: too_small
-   use ehl_kinds, only: dp, pi
+   use ehl_kinds, only: dp, not_known, pi
    use ehl_level_result, only: discretisation_error, extrapolated, limit_error
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
-   use ehl_resolution, only: finer_across, relative_errors, too_coarse
+   use ehl_resolution, only: better_grid, relative_errors
    use ehl_steady, only: steady_t
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    implicit none (type, external)
    private
    public :: report_smooth
@@ -30,23 +29,22 @@ contains
       logical, intent(in) :: good
       character(len=5), parameter :: of_contact(4) = [character(len=5) :: "H_c", "H_min", "P_max", "F"]
       type(contact_results_t) :: m
-      real(dp) :: values(4), error(2), limit(2), domain(2), nothing
+      real(dp) :: values(4), error(2), limit(2), domain(2)
       logical :: coarser
       integer :: k
       character(len=:), allocatable :: why
 
-      nothing = ieee_value(nothing, ieee_quiet_nan)
       m = steady%results(n)%m
       values = [m%films(), m%pressure_maximum, m%friction]
       if (.not. good) then
          do k = 1, size(values)
             call record%set("last_"//trim(of_contact(k)), values(k))
          end do
-         values = nothing
+         values = not_known
       end if
-      if (.not. knows_friction(plan, m)) values(4) = nothing
-      error = nothing
-      limit = nothing
+      if (.not. knows_friction(plan, m)) values(4) = not_known
+      error = not_known
+      limit = not_known
       coarser = .false.
       if (good .and. n > 1) coarser = steady%results(n - 1)%solved
       if (coarser) then
@@ -56,7 +54,7 @@ contains
          ! one grid alone: what such grids have been found to miss
          error = relative_errors(plan%contact, plan%point, plan%finest)*m%films()
       end if
-      domain = nothing
+      domain = not_known
       where (plan%domain_cost < 1.0_dp) domain = values(:2)*plan%domain_cost/(1.0_dp - plan%domain_cost)
       do k = 1, size(values)
          call record%set(trim(of_contact(k)), values(k))
@@ -68,14 +66,13 @@ contains
          call record%set(trim(of_contact(k))//"_error_domain", domain(k))
          if (good .and. .not. plan%domain_cost(k) < 1.0_dp) call record%set(trim(of_contact(k))//"_error_note", too_small)
       end do
-      why = too_coarse(plan%contact, plan%point, plan%finest)
-      if (why == "") why = finer_across(plan%contact, plan%finest)
+      why = better_grid(plan%contact, plan%point, plan%finest)
       if (.not. good .and. why /= "") call record%set("H_c_error_note", why)
       call record%set("error_estimate", trim(merge("two grids", "a priori ", coarser)))
       call report_limits(record, plan, steady, n, good)
       call record%set("H_c_algebraic_error", steady%results(n)%algebraic(1))
       call record%set("H_min_algebraic_error", steady%results(n)%algebraic(2))
-      call record%set("load_beyond", 1.0_dp - m%load/plan%contact%load())
+      call record%set("load_beyond", 1.0_dp - m%load/plan%contact%load)
       call record%set("load_error", m%load_error)
       if (plan%scales%has_size()) then
          call record%set("h_c_m", values(1)*plan%scales%film)
@@ -124,7 +121,7 @@ contains
       associate (m => steady%results(n)%m)
          error = error + [m%pressure_maximum, m%friction]*plan%domain_cost(1) + [0.0_dp, friction_beyond]
       end associate
-      where (.not. known) error = ieee_value(error, ieee_quiet_nan)
+      where (.not. known) error = not_known
       call record%set("P_max_error", error(1))
       if (.not. known(1)) call record%set("P_max_error_note", trim(note))
       call record%set("F_error", error(2))

@@ -14,9 +14,9 @@ module ehl_solver
    use ehl_plan_need, only: check_need
    use ehl_ratio_error, only: waves_t
    use ehl_record, only: record_t
+   use ehl_report_touching, only: load_share_of
    use ehl_smooth_film, only: film_by_finer_grids, known_film
    use ehl_status, only: status_t
-   use ehl_touching_mean, only: load_share_of
    implicit none (type, external)
    private
    public :: solver_t, field_length
@@ -26,7 +26,6 @@ module ehl_solver
 
    !> Cost of a step on the next coarser grid, in steps: it has a quarter of the nodes
    real(dp), parameter :: coarse_step = 0.25_dp
-
 
    !> The run of the case, and for the grid error of its friction ratio another one on the next coarser grid
    type, extends(contact_run_t) :: solver_t

@@ -2,9 +2,9 @@
 !> What a run says on its way: one line about the state, how much is done, the time left
 submodule (ehl_solver) ehl_solver_progress
    use, intrinsic :: iso_fortran_env, only: int64
+   use ehl_outcome, only: outcome_names
    use ehl_stopping_criterion, only: least_periods, most_periods
-   use ehl_report, only: cycle_line, step_line, rest_line
-   use ehl_text, only: to_text
+   use ehl_text, only: fixed, to_text
    implicit none (type, external)
 
 contains
@@ -22,14 +22,33 @@ contains
    function state_line(run, stand) result(text)
       class(contact_run_t), intent(in) :: run
       integer, intent(in) :: stand
-      character(len=:), allocatable :: text
+      character(len=:), allocatable :: text, nodes
+      real(dp) :: residual
 
+      nodes = to_text(run%grid%nx)//" x "//to_text(run%grid%full_ny())
       if (run%in_steps) then
-         text = step_line(run%transient, stand)
+         associate (t => run%transient)
+            residual = t%residual
+            text = "step "//to_text(t%step)//"  T "//fixed(t%time, "f8.4")//"  mu_r/mu_s "// &
+                   fixed(t%m%friction/t%friction_smooth, "f9.5")
+            if (t%mean%has_mean()) text = text//"  mean "//fixed(t%mean%mean(0.0_dp), "f9.5")
+            if (t%mean%has_change()) text = text//" +- "//fixed(t%mean%change(), "es8.1")
+            text = text//"  H_min "//fixed(t%m%film_minimum, "f10.6")//"  cycles "//to_text(t%cycles)
+         end associate
       else if (run%resting) then
-         text = rest_line(run%grid, run%rest, stand)
+         residual = run%rest%residual
+         text = nodes//"  cycle "//to_text(run%rest%total_cycles)//"  mu_r/mu_s "//fixed(run%rest%mu_ratio(), "f9.5")// &
+                "  H_c "//fixed(run%rest%m%film_central, "f10.6")//"  H_min "//fixed(run%rest%m%film_minimum, "f10.6")
       else
-         text = cycle_line(run%grid, run%steady%results(run%level()), stand)
+         associate (result => run%steady%results(run%level()))
+            residual = result%residual
+            text = nodes//"  cycle "//to_text(result%cycles)//"  H_c "//fixed(result%m%film_central, "f10.6")// &
+                   "  H_min "//fixed(result%m%film_minimum, "f10.6")
+         end associate
+      end if
+      text = text//"  residual "//fixed(residual, "es8.1")//"  "//trim(outcome_names(stand))
+      if (run%resting .and. run%rest%share < 1.0_dp .and. .not. run%rest%smooth) then
+         text = text//", share of the roughness "//fixed(run%rest%share, "f7.4")
       end if
    end function state_line
 

@@ -3,21 +3,18 @@
 submodule (ehl_solver) ehl_solver_results
    use ehl_domain, only: ratio_cost, too_small
    use ehl_judgement, only: judge
-   use ehl_level, only: gap
+   use ehl_kinds, only: not_known
    use ehl_level_result, only: discretisation_error, spike_grows
    use ehl_no_answer, only: why_no_answer
    use ehl_outcome, only: outcome_names, outcome_target_missed
    use ehl_ratio_error, only: ratio_error_t
-   use ehl_report, only: report_transient, report_rest, report_scene, report_waves
+   use ehl_report, only: report_passage, report_rest, report_scene, report_transient, report_waves
    use ehl_report_friction, only: report_friction
-   use ehl_report_passage, only: report_passage
    use ehl_report_smooth, only: report_smooth
-   use ehl_report_touching, only: no_boundary_friction, report_touching
+   use ehl_report_touching, only: knows_friction, no_boundary_friction, report_touching
    use ehl_surface_text, only: window_words
    use ehl_text, only: newline
-   use ehl_touching, only: touching_names
-   use ehl_touching_mean, only: share_stop_error, touching_of
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
 
    !> Shares of a variance below this one are rounding
@@ -29,35 +26,37 @@ submodule (ehl_solver) ehl_solver_results
 contains
 
    module procedure summary
-      logical :: good
+      logical :: good, converged, known, rough
       real(dp) :: ratio, stop_error
       character(len=:), allocatable :: judgement, why
       integer :: worth
 
+      converged = self%converged()
+      known = knows_friction(self, converged)
+      rough = self%in_steps .or. self%resting
       call record%set("kind", "solution")
       call record%set("status", trim(outcome_names(self%stand())))
       why = why_no_answer(self)
       if (why /= "") call record%set("message", why)
-      call record%set("converged", self%converged())
-      ! the smooth results are good as soon as the transient run has begun
-      good = self%in_steps .or. self%resting .or. self%steady%outcome == outcome_converged .or. &
-             self%steady%outcome == outcome_target_missed
-      call report_scene(record, self%plan, self%grid)
+      call record%set("converged", converged)
+      ! the smooth results are good as soon as the rough contact has begun
+      good = rough .or. self%steady%outcome == outcome_converged .or. self%steady%outcome == outcome_target_missed
+      call report_scene(record, self)
       call report_smooth(record, self%plan, self%steady, self%level(), good)
-      ratio = ieee_value(ratio, ieee_quiet_nan)
-      stop_error = ratio
+      ratio = not_known
+      stop_error = not_known
       if (self%in_steps) then
-         call report_transient(record, self%plan, self%transient, self%converged(), knows_friction(self), self%seconds, &
-                               self%history%column("H_min"), self%history%column("P_max"), ratio, stop_error)
+         call report_transient(record, self, converged, known, ratio, stop_error)
          call report_start(self, record)
-         if (self%plan%surfaces%pass_once()) call report_passage(record, self%plan%scales, self%transient%extremes, &
-                                                                self%converged())
+         if (self%plan%surfaces%pass_once()) then
+            call report_passage(record, self%plan%scales, self%transient%extremes, converged)
+         end if
       end if
-      if (self%in_steps .or. self%resting) call report_waves(record, self%plan, self%steady%results(self%level())%m)
-      if (self%resting) call report_rest(record, self%plan, self%rest, self%converged(), knows_friction(self), ratio, stop_error)
-      if (self%plan%surfaces%rough()) call report_ratio(self, record, ratio, stop_error)
-      call summarise_touching(self, record, good)
-      call summarise_friction(self, record, good)
+      if (rough) call report_waves(record, self)
+      if (self%resting) call report_rest(record, self, converged, known, ratio, stop_error)
+      if (self%plan%surfaces%rough()) call report_ratio(self, record, ratio, stop_error, known)
+      call report_touching(record, self, good, converged, why_no_grid_error(self))
+      call report_friction(record, self, good, converged, known)
       call record%set("bytes", real(self%hierarchy%bytes(), dp) + self%plan%surfaces%bytes())
       call judge(record, judgement, worth)
       call record%set("judgement", judgement)
@@ -77,19 +76,20 @@ contains
    end subroutine report_start
 
    !> The friction ratio, that in the limit of fine grids, and its error with the parts of it
-   subroutine report_ratio(self, record, ratio, stop_error)
+   subroutine report_ratio(self, record, ratio, stop_error, known)
       type(solver_t), intent(in) :: self
       type(record_t), intent(inout) :: record
       !> NaN where they are not known
       real(dp), intent(in) :: ratio, stop_error
+      !> Whether friction is known where the bodies touch
+      logical, intent(in) :: known
       type(ratio_error_t) :: error
       type(waves_t) :: waves
-      real(dp) :: nothing, limit, grid, domain
+      real(dp) :: limit, grid, domain
       character(len=:), allocatable :: why
 
-      nothing = ieee_value(nothing, ieee_quiet_nan)
-      limit = nothing
-      grid = nothing
+      limit = not_known
+      grid = not_known
       if (self%coarse_outcome == outcome_converged .and. ieee_is_finite(ratio)) then
          ! order 2 (Richardson), if both grids resolve the surface
          if (self%plan%extrapolates) limit = ratio + (ratio - self%coarse_ratio)/3.0_dp
@@ -100,8 +100,8 @@ contains
       if (why == "" .and. .not. ieee_is_finite(grid)) why = "pressures change so much from grid to grid that no limit is in sight"
       if (.not. ieee_is_finite(ratio)) then
          why = "there is no mu_ratio"
-         if (.not. knows_friction(self)) why = no_boundary_friction
-         waves = waves_t(.true., nothing, nothing, why)
+         if (.not. known) why = no_boundary_friction
+         waves = waves_t(.true., not_known, not_known, why)
       end if
       call record%set("mu_ratio", ratio)
       call record%set("mu_ratio_extrapolated", limit)
@@ -109,9 +109,9 @@ contains
       call error%add(record, "mu_ratio_error_grid", grid, why)
       call error%add(record, "mu_ratio_error_stop", stop_error, why)
       if (self%plan%surfaces%mismatch > 0.0_dp .and. ieee_is_finite(ratio)) call error%add(record, "mu_ratio_error_window", &
-         merge(self%transient%mean%window_error(), nothing, self%plan%surfaces%meets), window_words(self%plan%surfaces))
+         merge(self%transient%mean%window_error(), not_known, self%plan%surfaces%meets), window_words(self%plan%surfaces))
       call error%add(record, "mu_ratio_error_left_out", waves%left_out, waves%why)
-      domain = nothing
+      domain = not_known
       if (self%plan%domain_cost(1) < 1.0_dp) then
          domain = ratio_cost(self%plan%domain_cost(1), ratio)
       else if (ieee_is_finite(ratio)) then
@@ -156,7 +156,7 @@ contains
 
       waves = self%waves
       if (.not. waves%known) then
-         if (self%plan%surfaces%unresolved > rounding) waves%unresolved = ieee_value(waves%unresolved, ieee_quiet_nan)
+         if (self%plan%surfaces%unresolved > rounding) waves%unresolved = not_known
          waves%left_out = waves%unresolved
          waves%why = "what the waves left out add is not predicted (pyehl run does)"
          if (self%plan%surfaces%rest()) waves%why = &
@@ -204,81 +204,4 @@ contains
          if (text(i:i) == newline) text(i:i) = " "
       end do
    end function one_line
-
-   !> Contact at a boundary film: that of the rough surfaces where there are any
-   subroutine summarise_touching(self, record, good)
-      type(solver_t), intent(in) :: self
-      type(record_t), intent(inout) :: record
-      !> Whether the smooth contact is converged
-      logical, intent(in) :: good
-      real(dp) :: numbers(size(touching_names)), coarser, stop_error
-      character(len=:), allocatable :: why
-      integer :: n
-
-      if (.not. self%plan%lubricant%boundary_film > 0.0_dp) return
-      numbers = ieee_value(numbers, ieee_quiet_nan)
-      coarser = numbers(1)
-      stop_error = numbers(1)
-      why = "there is no solution on the next coarser grid"
-      if (self%plan%surfaces%rough()) then
-         if (self%converged()) then
-            numbers = touching_of(self)
-            stop_error = share_stop_error(self)
-         end if
-         if (self%coarse_outcome == outcome_converged) coarser = self%coarse_load_share
-         why = why_no_grid_error(self)
-      else if (good) then
-         numbers = touching_of(self)
-         stop_error = 0.0_dp
-         n = self%level()
-         if (n > 1) then
-            if (self%steady%results(n - 1)%solved) coarser = self%steady%results(n - 1)%m%touching%load_share
-         end if
-      end if
-      call report_touching(record, self%plan, self%grid, numbers, coarser, stop_error, why)
-   end subroutine summarise_touching
-
-   !> Whether friction is known: everywhere in the film, or of the boundary film, too
-   logical function knows_friction(self)
-      type(solver_t), intent(in) :: self
-      real(dp) :: numbers(size(touching_names))
-
-      knows_friction = .not. self%plan%lubricant%boundary_film > 0.0_dp .or. self%plan%lubricant%boundary_stress > 0.0_dp
-      if (knows_friction) return
-      numbers = 0.0_dp
-      if (self%resting) numbers = self%rest%m%touching%numbers()
-      if (self%in_steps) numbers = self%transient%m%touching%numbers()
-      if (self%in_steps .and. self%converged()) numbers = touching_of(self)
-      knows_friction = .not. (numbers(1) > 0.0_dp .or. self%steady%results(self%level())%m%touching%load_share > 0.0_dp)
-   end function knows_friction
-
-   !> Absolute friction of the smooth contact and of the rough one
-   subroutine summarise_friction(self, record, good)
-      type(solver_t), intent(in) :: self
-      type(record_t), intent(inout) :: record
-      !> Whether the smooth contact is converged
-      logical, intent(in) :: good
-      real(dp) :: nothing, friction, ratio, heat_ratio
-      logical :: known
-
-      nothing = ieee_value(nothing, ieee_quiet_nan)
-      known = knows_friction(self)
-      friction = merge(self%steady%results(self%level())%m%friction, nothing, good .and. known)
-      ratio = 1.0_dp
-      if (self%plan%surfaces%rough()) ratio = nothing
-      heat_ratio = nothing
-      if ((self%in_steps .or. self%resting) .and. self%converged() .and. known) then
-         ratio = self%mu_ratio()
-         if (self%plan%heat%counts) heat_ratio = self%heat_ratio()
-      end if
-      if (self%in_steps .or. self%resting) then
-         call report_friction(record, self%plan, self%grid, self%p_smooth, self%h_smooth, known, friction, ratio, &
-                              self%smooth_heat, self%rough_heat, heat_ratio)
-      else
-         associate (level => self%hierarchy%levels(self%level()))
-            call report_friction(record, self%plan, level%grid, level%p, gap(level), known, friction, ratio, &
-                                 self%smooth_heat, self%rough_heat, heat_ratio)
-         end associate
-      end if
-   end subroutine summarise_friction
 end submodule ehl_solver_results

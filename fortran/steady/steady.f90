@@ -12,10 +12,11 @@ module ehl_steady
    use ehl_level_result, only: discretisation_error, level_result_t
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_running, outcome_target_missed
    use ehl_status, only: status_t
+   use ehl_steady_options, only: end_rule_t, rule_of_circles, rule_of_others, steady_options_t
    use ehl_touching, only: much_supplied
    implicit none (type, external)
    private
-   public :: steady_options_t, steady_t, largest_error, residual_tolerance
+   public :: steady_t, largest_error, residual_tolerance
 
    !> Relative discretisation errors below this are not believed, as two levels may agree by chance
    real(dp), parameter :: least_error = 2.0e-5_dp
@@ -26,19 +27,6 @@ module ehl_steady
    !> Largest residual (rms, as far as it concerns the film; the wedge term is of order 1 in the inlet) of a converged
    !> solution
    real(dp), parameter :: residual_tolerance = 2.0e-3_dp
-   !> When a level ends
-   type :: end_rule_t
-      !> Relative error of the force balance that may be taken away by scaling the pressure; share of the algebraic error
-      !> wanted that it may take
-      real(dp) :: small_load_error, share_of_load
-      !> Whether the reduction per cycle is no more than that of the residual, and the error counts that of the load
-      logical :: bounded
-   end type end_rule_t
-
-   !> Flows that thin and ellipses often meet the accuracy in the second cycle but for the load, or for a change that was tiny
-   !> by chance; the rule of Newtonian circles, which seldom do, would take them to 1/500 of the algebraic error wanted
-   type(end_rule_t), parameter :: rule_of_circles = end_rule_t(3.0e-6_dp, 0.1_dp, .false.), &
-                                  rule_of_others = end_rule_t(1.0e-5_dp, 0.25_dp, .true.)
    !> What an error of the load changes the film, per relative error: the deflection by the Hertz pressure differs from its
    !> mean under it by 1/5 at the centre and by 3/10 at the edge [a^2/R]
    real(dp), parameter :: film_per_load = 0.3_dp
@@ -51,26 +39,6 @@ module ehl_steady
    real(dp), parameter :: light_error = 3.0e-4_dp
    !> Cycles that are few: on a level that began from a coarser one, and from the Hertz pressure
    integer, parameter :: few = 2, few_from_guess = 3
-
-   !> How the smooth contact is solved
-   type :: steady_options_t
-      !> Central film expected, scaled by a^2/R
-      real(dp) :: film_expected = 0.0_dp
-      !> Levels, the one nested iteration starts on, most cycles on a level
-      integer :: levels = 0, start = 0, max_cycles = 0
-      !> Cycles of a level, and the second one where it began from a coarser level
-      type(cycle_options_t) :: cycle, second_cycle
-      !> Algebraic error wanted as a share of the discretisation error
-      real(dp) :: accuracy = 0.1_dp
-      !> Relative error of H_c wanted; 0: none, solve on the finest grid
-      real(dp) :: target_error = 0.0_dp
-      !> Whether the border has the pressure of a flooded contact, else 0
-      logical :: flooded = .false.
-      !> Whether what fails on the finest level may begin again with care
-      logical :: may_restart = .false.
-      !> Whether the contact is a circle and its flow Newtonian
-      logical :: newtonian_circle = .true.
-   end type steady_options_t
 
    !> Full multigrid on its way: the state of the iteration is that of level n
    type, extends(iteration_t) :: steady_t
@@ -133,7 +101,7 @@ contains
       if (self%outcome /= outcome_running) return
       if (.not. self%entered) call enter_level(self, hierarchy, status)
       if (status%failed()) return
-      if (self%how%flooded) call self%far_field%set_border(hierarchy%levels(self%n), self%contact%load())
+      if (self%how%flooded) call self%far_field%set_border(hierarchy%levels(self%n), self%contact%load)
       self%options = next_cycle(self)
       call self%improve(hierarchy)
       finest = self%n == self%how%levels
@@ -171,7 +139,7 @@ contains
             call self%contact%gap_row(grid%columns(), grid%y(j), level%geometry(:, j))
          end do
          level%rhs = 0.0_dp
-         level%load = self%contact%load()
+         level%load = self%contact%load
          if (has_coarser(self)) then
             call prolong_solution(hierarchy%levels(self%n - 1), level)
             self%m = self%results(self%n - 1)%m
@@ -179,7 +147,7 @@ contains
             do j = 1, grid%ny
                call self%contact%pressure_row(grid%columns(), grid%y(j), level%p(:, j))
             end do
-            level%h00 = self%how%film_expected + self%contact%dry_separation()
+            level%h00 = self%how%film_expected + self%contact%dry_separation
             call refresh(level)
             self%m = measure(level)
          end if

@@ -33,7 +33,6 @@ module ehl_feature
       real(dp) :: y_start = 0.0_dp, reach = 0.0_dp
    contains
       procedure :: height
-      procedure :: heights_at
       procedure :: unresolved
       procedure :: centre
       procedure, private :: wavelengths
@@ -123,30 +122,16 @@ contains
       type(grid_t), intent(in) :: grid
       real(dp), intent(in) :: time
       real(dp), intent(out) :: rr(:, :)
-      real(dp) :: x(grid%nx), y(grid%ny)
-      integer :: k
-
-      do k = 1, grid%nx
-         x(k) = grid%x(k) - self%centre(time)
-      end do
-      do k = 1, grid%ny
-         y(k) = grid%y(k) - self%y_start
-      end do
-      call self%heights_at(x, y, rr)
-   end subroutine height
-
-   !> Heights at distances x along the motion and y across it from the centre, rr(size(x), size(y))
-   pure subroutine heights_at(self, x, y, rr)
-      class(feature_t), intent(in) :: self
-      real(dp), intent(in) :: x(:), y(:)
-      real(dp), intent(out) :: rr(:, :)
-      real(dp) :: across, along, square
+      !> Distances from the centre along the motion and across it
+      real(dp) :: x(grid%nx), y, across, along, square
       integer :: i, j
 
-      do j = 1, size(y)
-         do i = 1, size(x)
-            across = (x(i)*self%turn(1) + y(j)*self%turn(2))/self%width
-            along = y(j)*self%turn(1) - x(i)*self%turn(2)
+      x = grid%columns() - self%centre(time)
+      do j = 1, grid%ny
+         y = grid%y(j) - self%y_start
+         do i = 1, grid%nx
+            across = (x(i)*self%turn(1) + y*self%turn(2))/self%width
+            along = y*self%turn(1) - x(i)*self%turn(2)
             square = across**2
             if (.not. self%is_line) square = square + (along/self%length)**2
             rr(i, j) = 0.0_dp
@@ -156,7 +141,7 @@ contains
                *10.0_dp**(-10.0_dp*(max(0.0_dp, abs(along) - 0.5_dp*self%length)/self%width)**2)
          end do
       end do
-   end subroutine heights_at
+   end subroutine height
 
    !> Width of its profile along X and along Y [a]
    pure function wavelengths(self) result(length)

@@ -6,7 +6,7 @@ module ehl_harmonic
    use ehl_surface, only: aliased_below, surface_t
    implicit none (type, external)
    private
-   public :: harmonic_t, new_harmonic
+   public :: new_harmonic
 
    !> RR = A_i 10^(-10 max(0, (X - X_f)/lambda_x)^2) cos(2 pi (X - X_f)/lambda_x) cos(2 pi Y/lambda_y)
    type, extends(surface_t) :: harmonic_t

@@ -24,7 +24,6 @@ module ehl_pcg64
       integer(ik) :: state(0:3) = 0, increment(0:3) = 0
    contains
       procedure :: seed
-      procedure :: next
       procedure :: uniform
    end type pcg64_t
 
@@ -47,21 +46,15 @@ contains
       call step(self)
    end subroutine seed
 
-   !> The next 64 random bits
-   integer(int64) function next(self)
+   !> A number in [0, 1), a multiple of 2^-53, from the next 64 random bits
+   real(dp) function uniform(self)
       class(pcg64_t), intent(inout) :: self
       integer(ik) :: low, high
 
       call step(self)
       low = ior(self%state(0), ishft(self%state(1), 32))
       high = ior(self%state(2), ishft(self%state(3), 32))
-      next = ishftc(ieor(low, high), -int(ishft(high, -58)))
-   end function next
-
-   !> A number in [0, 1), a multiple of 2^-53
-   real(dp) function uniform(self)
-      class(pcg64_t), intent(inout) :: self
-      uniform = real(ishft(self%next(), -11), dp)*2.0_dp**(-53)
+      uniform = real(ishft(ishftc(ieor(low, high), -int(ishft(high, -58))), -11), dp)*2.0_dp**(-53)
    end function uniform
 
    !> state = state*multiplier + increment, modulo 2^128

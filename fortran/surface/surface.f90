@@ -174,18 +174,12 @@ contains
       time_to_mean = (merge(x_matters, x_filled, self%passes_once) - self%front_position(time))/self%velocity_ratio
    end function time_to_mean
 
-   !> Share of the roughness at a distance ahead of the front; at rest there is no front
+   !> Share of the roughness at a distance d ahead of the front (Zhang et al. 2019, eq. 15): 10^(-10 max(0, d/length)^2); at rest
+   !> there is no front
    elemental real(dp) function share(self, distance)
       class(surface_t), intent(in) :: self
       real(dp), intent(in) :: distance
       share = 1.0_dp
-      if (.not. self%at_rest()) share = front(distance, self%front_length)
+      if (.not. self%at_rest()) share = 10.0_dp**(-10.0_dp*max(0.0_dp, distance/self%front_length)**2)
    end function share
-
-   !> Share of the roughness at a distance d ahead of the front (Zhang et al. 2019, eq. 15):
-   !> 10^(-10 max(0, d/length)^2)
-   elemental real(dp) function front(distance, length)
-      real(dp), intent(in) :: distance, length
-      front = 10.0_dp**(-10.0_dp*max(0.0_dp, distance/length)**2)
-   end function front
 end module ehl_surface

@@ -1,10 +1,9 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 !> Records, tables and .npy files
 module test_record
-   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
    use check, only: has_text, is_close, is_equal, is_text, is_true
    use ehl_files, only: process_mark, remove_file
-   use ehl_kinds, only: dp
+   use ehl_kinds, only: dp, not_known
    use ehl_npy, only: read_npy, write_npy
    use ehl_record, only: record_t
    use ehl_status, only: ehl_file, status_t
@@ -31,11 +30,13 @@ contains
       call record%set("cycles", 3)
       call record%set("si", .true.)
       call record%set("status", 'a "word" \')
-      call record%set("F", ieee_value(1.0_dp, ieee_quiet_nan))
+      call record%set("F", not_known)
       call record%set("cycles", 4)
       call is_text(record%to_json(), "{" // lf // '  "H_c": 0.1,' // lf // '  "cycles": 4,' // lf &
                    // '  "si": true,' // lf // '  "status": "a \"word\" \\",' // lf &
                    // '  "F": null' // lf // "}" // lf, "record")
+      call is_text(record%text("status"), 'a "word" \', "text of a record")
+      call is_true(record%has("F") .and. .not. record%has("G"), "names of a record")
       call lists%set("b", [character(len=4) :: 'x"', "long"])
       call lists%set("c", [character(len=4) ::])
       call is_text(lists%to_json(), "{" // lf // '  "b": ["x\"", "long"],' // lf &

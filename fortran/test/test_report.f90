@@ -4,12 +4,12 @@ module test_report
    use check, only: has_text, is_close, is_equal, is_text, is_true
    use ehl_conclusion, only: conclusion
    use ehl_judgement, only: holds, judge, no_answer, with_care
-   use ehl_kinds, only: dp
+   use ehl_kinds, only: dp, not_known
    use ehl_lock, only: lock, lock_t, unlock
    use ehl_ratio_error, only: ratio_error_t
    use ehl_record, only: record_t
    use ehl_status, only: ehl_internal, status_t
-   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
    private
    public :: run_report
@@ -20,43 +20,26 @@ module test_report
 contains
 
    subroutine run_report()
-      call values_read_back()
       call parts_and_sum()
       call last_lines()
       call judgements()
       call lock_fails()
    end subroutine run_report
 
-   subroutine values_read_back()
-      type(record_t) :: record
-
-      call record%set("a", 0.1_dp)
-      call record%set("b", ieee_value(1.0_dp, ieee_quiet_nan))
-      call record%set("c", 'a "word" \')
-      call is_close(record%number("a"), 0.1_dp, 0.0_dp, "number of a record")
-      call is_true(.not. ieee_is_finite(record%number("b")), "null of a record")
-      call is_true(.not. ieee_is_finite(record%number("d")), "number that is not there")
-      call is_text(record%text("c"), 'a "word" \', "text of a record")
-      call is_text(record%text("d"), "", "text that is not there")
-      call is_true(record%has("b") .and. .not. record%has("d"), "names of a record")
-   end subroutine values_read_back
-
    !> Parts count without their sign; one that is not known makes the sum unknown, each reason is told once
    subroutine parts_and_sum()
       type(record_t) :: record
       type(ratio_error_t) :: known, unknown
-      real(dp) :: nothing
 
-      nothing = ieee_value(nothing, ieee_quiet_nan)
       call known%add(record, "one", 0.25_dp, "")
       call known%add(record, "two", -0.5_dp, "")
       call known%report(record)
       call is_close(record%number("two"), 0.5_dp, 0.0_dp, "part")
       call is_close(record%number("mu_ratio_error"), 0.75_dp, 0.0_dp, "sum of the parts")
       call is_text(record%text("mu_ratio_error_note"), "", "note of a known error")
-      call unknown%add(record, "one", nothing, "first")
-      call unknown%add(record, "two", nothing, "second")
-      call unknown%add(record, "three", nothing, "first")
+      call unknown%add(record, "one", not_known, "first")
+      call unknown%add(record, "two", not_known, "second")
+      call unknown%add(record, "three", not_known, "first")
       call unknown%report(record)
       call is_true(.not. ieee_is_finite(record%number("mu_ratio_error")), "sum with an unknown part")
       call is_text(record%text("mu_ratio_error_note"), "first; second", "note of an unknown error")
@@ -68,7 +51,7 @@ contains
       character(len=*), parameter :: lf = new_line("a")
 
       call record%set("status", "cycle limit")
-      call record%set("H_c", ieee_value(1.0_dp, ieee_quiet_nan))
+      call record%set("H_c", not_known)
       call is_text(conclusion(record), "judgement  no answer: the status is 'cycle limit'", "no solution")
       call record%set("message", "too coarse")
       call is_text(conclusion(record), "judgement  no answer: the status is 'cycle limit': too coarse", "why there is none")
@@ -76,7 +59,7 @@ contains
       call record%set("H_c", 0.024369_dp)
       call record%set("H_c_error", 0.000266_dp)
       call record%set("H_min", 0.008315_dp)
-      call record%set("H_min_error", ieee_value(1.0_dp, ieee_quiet_nan))
+      call record%set("H_min_error", not_known)
       call is_text(conclusion(record), "H_c        0.02437 +- 0.00027"//lf//"H_min      0.008315, error not known"//lf// &
                    "judgement  full film: smooth surfaces; the case gives no size in metres; but the error of H_min is not "// &
                    "known", "smooth contact without a size")
@@ -99,15 +82,15 @@ contains
       call has_text(text, lf//"mu_r/mu_s  1.185 +- 0.048"//lf, "friction ratio")
       call has_text(text, "Lambda     1.590 (h_c/sigma 4.670), smooth films", "film over roughness")
       call has_text(text, lf//"mu         0.04000, smooth contact 0.03380; law 'eyring'"//lf, "friction with its law")
-      call record%set("mu_ratio_error", ieee_value(1.0_dp, ieee_quiet_nan))
+      call record%set("mu_ratio_error", not_known)
       call record%set("mu_ratio_error_note", "no coarser run")
       call has_text(conclusion(record), "mu_r/mu_s  1.18490, error not known: no coarser run", "unknown error")
       ! as a prediction has them
-      call record%set("P_max", ieee_value(1.0_dp, ieee_quiet_nan))
+      call record%set("P_max", not_known)
       call record%set("p_rise_max_Pa", 8.53e7_dp)
       call has_text(conclusion(record), lf//"p_max      1.0215 GPa; rough 1.0684 GPa, up to 0.0853 GPa above the smooth "// &
                     "contact, error not known"//lf, "pressures of a prediction")
-      call record%set("p_max_rough_Pa", ieee_value(1.0_dp, ieee_quiet_nan))
+      call record%set("p_max_rough_Pa", not_known)
       call record%set("p_rise_max_error_Pa", 1.2e7_dp)
       call has_text(conclusion(record), lf//"p_max      1.0215 GPa; rough 0.085 +- 0.012 GPa above the smooth contact"//lf, &
                     "its rise alone")
@@ -159,7 +142,7 @@ contains
       call record%set("mu_ratio_error", 0.01_dp)
       call record%set("mu_ratio_unresolved", -0.12_dp)
       call is_judged(record, "unresolved waves: they hold 10 % of mu_r/mu_s by prediction", with_care)
-      call record%set("mu_ratio_unresolved", ieee_value(1.0_dp, ieee_quiet_nan))
+      call record%set("mu_ratio_unresolved", not_known)
       call record%set("variance_unresolved", 0.3_dp)
       call is_judged(record, "unresolved waves: they hold 30 % of the variance", with_care)
 
@@ -169,7 +152,7 @@ contains
       ! of a run: the roughness, on a smooth contact that is solved; else the smooth contact itself
       call record%set("status", "negative film")
       call is_judged(record, "film breakdown: 5 nm below zero", no_answer)
-      call record%set("H_c", ieee_value(1.0_dp, ieee_quiet_nan))
+      call record%set("H_c", not_known)
       call is_judged(record, "no answer: the status is 'negative film': 5 nm below zero", no_answer)
 
       record = good

@@ -5,7 +5,7 @@ module ehl_extremes
    use ehl_level, only: gap, level_t
    implicit none (type, external)
    private
-   public :: extremes_t, extreme_pressure, extreme_film, extreme_rise, extreme_ratio
+   public :: extremes_t, extreme_pressure, extreme_film
 
    !> Largest pressure; least film; largest pressure above that of the smooth contact at the same place; least film
    !> over that of the smooth contact there

@@ -72,7 +72,7 @@ class RoughContact(WavyContact):
         columns = columns.astype(np.int32)
         self.moved[:] = 0.0
         total = np.zeros((*self.film.shape, 2), dtype=np.float32)
-        library.waves.driven_waves(
+        library.surface_functions.driven_waves(
             pairs(waves.driven), self.rows, columns, self.weights.T, shift, pairs(total)
         )
         self.add_free(waves, (self.free_rows, self.between), columns, shift * REFINEMENT, total)

@@ -254,7 +254,7 @@ def add_waves(
     rows, between = places
     if parts is None:
         parts = np.ones(columns.size, dtype=np.float32)
-    library.waves.free_waves(
+    library.surface_functions.free_waves(
         pairs(tiles), rows.T, columns, between.T, weights.T, parts, shift, pairs(total)
     )
 

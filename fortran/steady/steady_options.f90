@@ -1,0 +1,43 @@
+! SPDX-License-Identifier: BSD-3-Clause
+!> How the smooth contact is solved, and when a level of it ends
+module ehl_steady_options
+   use ehl_cycle, only: cycle_options_t
+   use ehl_kinds, only: dp
+   implicit none (type, external)
+   private
+   public :: steady_options_t, end_rule_t, rule_of_circles, rule_of_others
+
+   !> How the smooth contact is solved
+   type :: steady_options_t
+      !> Central film expected, scaled by a^2/R
+      real(dp) :: film_expected = 0.0_dp
+      !> Levels, the one nested iteration starts on, most cycles on a level
+      integer :: levels = 0, start = 0, max_cycles = 0
+      !> Cycles of a level, and the second one where it began from a coarser level
+      type(cycle_options_t) :: cycle, second_cycle
+      !> Algebraic error wanted as a share of the discretisation error
+      real(dp) :: accuracy = 0.1_dp
+      !> Relative error of H_c wanted; 0: none, solve on the finest grid
+      real(dp) :: target_error = 0.0_dp
+      !> Whether the border has the pressure of a flooded contact, else 0
+      logical :: flooded = .false.
+      !> Whether what fails on the finest level may begin again with care
+      logical :: may_restart = .false.
+      !> Whether the contact is a circle and its flow Newtonian
+      logical :: newtonian_circle = .true.
+   end type steady_options_t
+
+   !> When a level ends
+   type :: end_rule_t
+      !> Relative error of the force balance that may be taken away by scaling the pressure; share of the algebraic error
+      !> wanted that it may take
+      real(dp) :: small_load_error, share_of_load
+      !> Whether the reduction per cycle is no more than that of the residual, and the error counts that of the load
+      logical :: bounded
+   end type end_rule_t
+
+   !> Flows that thin and ellipses often meet the accuracy in the second cycle but for the load, or for a change that was tiny
+   !> by chance; the rule of Newtonian circles, which seldom do, would take them to 1/500 of the algebraic error wanted
+   type(end_rule_t), parameter :: rule_of_circles = end_rule_t(3.0e-6_dp, 0.1_dp, .false.), &
+                                  rule_of_others = end_rule_t(1.0e-5_dp, 0.25_dp, .true.)
+end module ehl_steady_options
