@@ -10,8 +10,6 @@ import sys
 
 from pyehl.cli import main
 
-__all__ = ["program"]
-
 MANY = 500_000
 """New objects after which the garbage collector looks for cycles: pictures have many that stay."""
 

@@ -16,8 +16,6 @@ from pyehl import library
 from pyehl.destination import new_file
 from pyehl.errors import EhlError, FileError, NoMemoryError
 
-__all__ = ["read_array", "write_csv"]
-
 
 def read_array(path: Path) -> NDArray[np.float64]:
     """Read an array that pyehl has written.

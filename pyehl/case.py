@@ -14,8 +14,6 @@ from pyehl.given import Option, check_kind, path_of
 if TYPE_CHECKING:
     from pyehl.surfaces import Surface, Topography
 
-__all__ = ["Case", "exchanged", "files_of", "with_surface"]
-
 
 @dataclass(frozen=True, slots=True, repr=False, init=False)
 class Case:

@@ -20,8 +20,6 @@ from pyehl.errors import (
     did_you_mean,
 )
 
-__all__ = ["main"]
-
 # Subcommand, which is a module of `pyehl.commands`, and what it does
 SUBCOMMANDS = {
     "run": "solve a case and write a result folder",

@@ -23,17 +23,6 @@ from pathlib import Path
 from pyehl.errors import FileError, InputError, check
 from pyehl.extension import functions
 
-__all__ = [
-    "Destination",
-    "check_files",
-    "file_errors",
-    "finite",
-    "made_by",
-    "mark",
-    "new_file",
-    "write_json",
-]
-
 AnyPath = str | os.PathLike[str]
 
 # Bytes at both ends of a file that may say what made it

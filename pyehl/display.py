@@ -8,8 +8,6 @@ from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Any
 
-__all__ = ["Columns", "table", "text_table", "with_error"]
-
 Columns = Sequence[tuple[str, str]]
 """Names and formats."""
 

@@ -15,20 +15,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import InputError
 
-__all__ = [
-    "Option",
-    "Value",
-    "check_kind",
-    "heights_of",
-    "option",
-    "options_of",
-    "path_of",
-    "plain",
-    "positive",
-    "text_file",
-    "text_of",
-]
-
 Option = str | Mapping[str, Any] | Iterable[str | Mapping[str, Any]]
 """A text ``group.key=value``, a dict with values by ``group.key``, or several of these."""
 Value = float | int | bool | str

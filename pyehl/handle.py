@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import check
+from pyehl.extension import predicted
+from pyehl.extension import solvers as ehl
 from pyehl.given import path_of, text_of
-from pyehl.library import ehl, predicted, returned
-
-__all__ = ["SolverHandle", "Work"]
+from pyehl.library import returned
 
 Array = NDArray[np.float64]
 

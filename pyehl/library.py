@@ -20,34 +20,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import check
-from pyehl.extension import functions, lubricants, predicted, surface_functions, thinning, waves
-from pyehl.extension import solvers as ehl
+from pyehl.extension import functions, lubricants
 from pyehl.given import Option, options_of, path_of, text_of
-
-__all__ = [
-    "WORTH",
-    "Conclusion",
-    "Deflection",
-    "Key",
-    "alpha_origin",
-    "build",
-    "check_memory",
-    "checkpoint_case",
-    "conclude",
-    "deflection",
-    "ehl",
-    "free_bytes",
-    "functions",
-    "keys",
-    "lubricants",
-    "predicted",
-    "resolve",
-    "returned",
-    "surface_functions",
-    "thinning",
-    "version",
-    "waves",
-]
 
 Array = NDArray[np.float64]
 

@@ -13,8 +13,6 @@ from typing import Any
 
 from pyehl.errors import InputError
 
-__all__ = ["given", "text_of", "values"]
-
 END = "\n/\n"
 WORD = r"'(?:[^']|'')*'|\.true\.|\.false\.|-?\d+[\d.]*(?:e[+-]?\d+)?"
 LINE = re.compile(rf"\s*(\w+) = ({WORD})\s*(?:!.*)?")

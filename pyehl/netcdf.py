@@ -16,8 +16,6 @@ from pyehl import results
 from pyehl.destination import check_files, mark, new_file
 from pyehl.given import path_of
 
-__all__ = ["export", "write_netcdf"]
-
 
 def export(folder: str | os.PathLike[str], path: str | os.PathLike[str] | None = None) -> Path:
     """Write a result folder as netCDF-3.

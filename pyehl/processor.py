@@ -17,8 +17,6 @@ from pathlib import Path
 
 from pyehl.errors import InputError
 
-__all__ = ["VARIABLE", "run_program", "suffix"]
-
 VARIABLE = "PYEHL_CPU"
 BASELINE, V3 = "baseline", "x86-64-v3"
 # What x86-64-v3 adds, by the names of Linux (the psABI of x86-64, microarchitecture levels)

@@ -5,8 +5,6 @@ from __future__ import annotations
 
 from pyehl.solver import Solver
 
-__all__ = ["ProgressBar"]
-
 STEADY = "{desc} [{elapsed}]"
 TRANSIENT = "{percentage:3.0f}%|{bar:10}|{desc} [{elapsed}]"
 

@@ -28,8 +28,6 @@ from pyehl.given import path_of
 from pyehl.schema import QUANTITIES
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["load", "prediction_dataset", "scalars", "settings_of", "unit_of"]
-
 Array = NDArray[np.float64]
 Settings = Mapping[str, Mapping[str, Any]]
 

@@ -26,8 +26,6 @@ from pyehl.errors import FileError, InputError
 from pyehl.solver import Solver
 from pyehl.surfaces import GROUPS, Surface, for_solver
 
-__all__ = ["Outcome", "resume", "run", "signals_to"]
-
 AnyPath = str | os.PathLike[str]
 
 LOG = logging.getLogger(__name__)

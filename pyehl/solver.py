@@ -37,8 +37,6 @@ from pyehl.surfaces import (
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["Solver", "Step"]
-
 
 @dataclass(frozen=True, slots=True)
 class Step:

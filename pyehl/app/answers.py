@@ -19,20 +19,6 @@ from pyehl.prediction.result import Prediction
 from pyehl.solver import Solver
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = [
-    "COARSE",
-    "CURVES",
-    "FINE",
-    "CurvePoint",
-    "Film",
-    "Rough",
-    "curve",
-    "film",
-    "follow",
-    "places",
-    "rough",
-]
-
 Array = NDArray[np.float64]
 
 COARSE, FINE = 129, (257, 513)

@@ -11,8 +11,6 @@ from typing import Any
 
 from bokeh.models import ColumnDataSource, CustomJS
 
-__all__ = ["Changes"]
-
 APPLY = "source.data.model.forEach((m, k) => m.setv(source.data.values[k], {sync: false}))"
 
 

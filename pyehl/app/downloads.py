@@ -14,8 +14,6 @@ from pyehl.app.position import Position
 from pyehl.plots.folder import plot
 from pyehl.reports.folder import report
 
-__all__ = ["figures", "report_page"]
-
 # The settings of matplotlib are those of the process: one thread draws at a time
 _DRAWING = threading.Lock()
 

@@ -17,8 +17,6 @@ from pyehl.plots.outline import Outline
 from pyehl.plots.style import Scales
 from pyehl.prediction.result import Prediction
 
-__all__ = ["Map", "centre_lines", "contour_lines", "film_map", "octaves", "outline", "tiles"]
-
 Array = NDArray[np.float64]
 
 VIEW = 1.3

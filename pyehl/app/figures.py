@@ -25,8 +25,6 @@ from pyehl.app.answers import CurvePoint, Film, Rough
 from pyehl.app.changes import Changes
 from pyehl.plots.style import BLUE, GREEN, GREY, VERMILLION
 
-__all__ = ["Pictures"]
-
 SIDE = 310
 WHITE = "#ffffff"
 

@@ -10,8 +10,6 @@ from dataclasses import dataclass
 from pyehl.errors import InputError
 from pyehl.theory.oils import known_oils
 
-__all__ = ["GROUPS", "KNOBS", "STEPS", "Choice", "Knob", "Value", "shown"]
-
 Value = float | int | str
 
 # Places of a slider

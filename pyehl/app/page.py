@@ -26,8 +26,6 @@ from pyehl.app.worker import Ticket, Worker
 from pyehl.case import Case
 from pyehl.errors import EhlError, InputError
 
-__all__ = ["Page"]
-
 # Nodes a side of the case file, the report and the figures
 POINTS = FINE[-1]
 CURVE_POINTS = 9

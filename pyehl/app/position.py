@@ -17,8 +17,6 @@ from pyehl.surfaces import rough_groups
 from pyehl.theory.oils import known_oils
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["Position", "from_case"]
-
 # Keys that the knobs stand for; of an opened case all others are kept as they are
 OWNED = {
     "bodies": None,

@@ -18,8 +18,6 @@ from pyehl.app.position import Position
 from pyehl.app.uploads import LARGEST
 from pyehl.errors import InputError
 
-__all__ = ["ADDRESS", "serve"]
-
 ADDRESS = "127.0.0.1"
 # A tab that was closed is gone after so long [ms]
 UNUSED = 3000

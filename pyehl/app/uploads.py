@@ -15,8 +15,6 @@ from typing import Any
 from pyehl.errors import EhlError, InputError
 from pyehl.surfaces.reading import read_scan
 
-__all__ = ["LARGEST", "Uploads"]
-
 LARGEST = 64 * 2**20
 """Bytes of the largest file that is taken."""
 # What is read for the first time, and what could be read

@@ -13,8 +13,6 @@ from bokeh.models import Div, Select, Slider, TextInput
 from pyehl.app.knobs import STEPS, Choice, Knob, Value
 from pyehl.errors import InputError
 
-__all__ = ["KnobWidget"]
-
 WIDTH = 300
 ERROR = {"color": "#b00020", "white-space": "pre-wrap", "font-size": "85%"}
 NOTHING = {"display": "none"}

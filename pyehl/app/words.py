@@ -14,8 +14,6 @@ from pyehl.app.position import Position
 from pyehl.display import with_error
 from pyehl.theory.moes_film import regime
 
-__all__ = ["film_rows", "python_lines", "rough_rows", "status_line"]
-
 NM = 1e9
 # Film ratios below which roughness touches, and from which a film is thick
 TOUCHING, THICK = 1.0, 3.0

@@ -15,20 +15,6 @@ from pyehl.case import Case
 from pyehl.handle import SolverHandle
 from pyehl.prediction.start import hand_over
 
-__all__ = [
-    "ROUNDING",
-    "Row",
-    "Timed",
-    "Values",
-    "compare",
-    "mean_tolerance",
-    "nothing",
-    "rounding",
-    "solve",
-    "solve_from_prediction",
-    "step_tolerance",
-]
-
 Row = dict[str, Any]
 Values = Mapping[str, Any]
 

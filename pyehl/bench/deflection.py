@@ -13,8 +13,6 @@ from numpy.typing import NDArray
 from pyehl import library
 from pyehl.bench.unit import ScipyDeflection, hertz, median_seconds
 
-__all__ = ["COLUMNS", "MEANING", "deflection_rows"]
-
 Array = NDArray[np.float64]
 
 # Share of the discretisation error that the error of a deflection may have

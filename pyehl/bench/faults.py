@@ -23,8 +23,6 @@ import numpy as np
 
 from pyehl.bench.faults_states import damage
 
-__all__ = ["COLUMNS", "campaign"]
-
 Row = dict[str, Any]
 
 COLUMNS = (("campaign", "s"), ("trials", "d"), ("wrong", "d"), ("outcomes", "s"))

@@ -18,8 +18,6 @@ import numpy as np
 from pyehl.case import Case
 from pyehl.errors import EhlError
 
-__all__ = ["mutate", "run_chunk"]
-
 Command = Callable[[Sequence[str]], int]
 
 CASE = b"""! a small case

@@ -11,8 +11,6 @@ from pathlib import Path
 
 import numpy as np
 
-__all__ = ["damage"]
-
 Run = Callable[..., subprocess.CompletedProcess[str]]
 Found = tuple[int, dict[str, int], list[str]]
 

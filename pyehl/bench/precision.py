@@ -12,8 +12,6 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-__all__ = ["LEVELS", "add_errors", "cheapest", "extrapolated", "told"]
-
 Row = dict[str, Any]
 
 LEVELS = (0.03, 0.01, 0.003, 0.001)

@@ -31,8 +31,6 @@ from pyehl.errors import InputError
 from pyehl.prediction import smooth as smooth_contact
 from pyehl.prediction.of_case import predict
 
-__all__ = ["COLUMNS", "MEANING", "SCENES", "skip_rows"]
-
 COLUMNS = (
     ("scene", "s"),
     ("skipped", "s"),

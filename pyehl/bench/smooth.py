@@ -20,8 +20,6 @@ from pyehl.case import Case
 from pyehl.solver import Solver
 from pyehl.theory.ellipse import ellipse
 
-__all__ = ["CASES", "COLUMNS", "MEANING", "exponents", "smooth_rows", "solve_once"]
-
 # The circle of the Moes numbers asked for; that of Table 1 with a law, which has nearly those of
 # the default; the ellipse kappa = 2 with the same equations as the circle
 CASES = ("circle", "law", "ellipse")

@@ -22,18 +22,6 @@ from pyehl.case import Case
 from pyehl.errors import EhlError
 from pyehl.solver import Solver
 
-__all__ = [
-    "CASES",
-    "COLUMNS",
-    "FILLED",
-    "RUN_COLUMNS",
-    "STEPS",
-    "USUAL",
-    "error_rows",
-    "meaning",
-    "step_rows",
-]
-
 # X of the front when the contact is full
 FILLED = 1.05
 # Steps measured; their cycles vary over a period of the wave, which has points/8 steps

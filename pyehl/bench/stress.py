@@ -20,8 +20,6 @@ from pyehl.destination import write_json
 from pyehl.studies.plan import Plan, plan
 from pyehl.studies.sweep import CASES, perform
 
-__all__ = ["COLUMNS", "ENDED", "MEANING", "campaign", "folders", "judge", "summary"]
-
 Row = dict[str, Any]
 
 STRICT = {"solver.accuracy": 0.005, "solver.max_cycles": 200}

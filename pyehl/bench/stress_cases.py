@@ -15,8 +15,6 @@ from pyehl.studies.study import Study, make
 from pyehl.studies.vary import Axis, Value
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["BOUNDS", "FAMILIES", "GRIDS", "LAWS", "StressCase", "draw", "study_of"]
-
 ROELANDS_Z = 0.6684
 """Of waves, in place of the default 0.66841: that of the second solver, which checks some."""
 GRIDS = (65, 129, 257)

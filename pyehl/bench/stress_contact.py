@@ -13,8 +13,6 @@ from pyehl.results import load, settings_of
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["broken", "judge_share"]
-
 HELD = 0.01
 """Share of the layer by which the film of a touching node may differ from it."""
 LOAD = 1e-4

@@ -21,8 +21,6 @@ from pyehl.studies.sweep import perform
 from pyehl.studies.tasks import Task
 from pyehl.studies.vary import axis
 
-__all__ = ["COLUMNS", "MEANING", "SCENES", "Scene", "sweep_rows"]
-
 COLUMNS = (
     ("scene", "s"),
     ("cases", "d"),

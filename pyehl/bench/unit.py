@@ -19,15 +19,6 @@ from numpy.typing import NDArray
 
 from pyehl import library
 
-__all__ = [
-    "ScipyDeflection",
-    "hertz",
-    "machine",
-    "median_seconds",
-    "processor_seconds",
-    "unit_seconds",
-]
-
 Array = NDArray[np.float64]
 
 X_INLET, X_OUTLET, Y_EXTENT = -2.5, 1.5, 2.0

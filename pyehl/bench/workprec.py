@@ -18,8 +18,6 @@ from pyehl.errors import InputError
 from pyehl.prediction.of_case import predict
 from pyehl.solver import Solver
 
-__all__ = ["COLUMNS", "SCENES", "Scene", "share_of_deflection", "work_rows"]
-
 Row = dict[str, Any]
 
 COLUMNS = (

@@ -10,8 +10,6 @@ from pyehl.case import Case
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.errors import InputError
 
-__all__ = ["add_arguments", "execute"]
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of ``pyehl app``."""

@@ -5,8 +5,6 @@ from __future__ import annotations
 
 import argparse
 
-__all__ = ["add_case_arguments", "add_force", "add_overrides"]
-
 
 def add_case_arguments(parser: argparse.ArgumentParser, *, optional: bool = False) -> None:
     """Case file and --set options, the same for every subcommand that takes a case."""

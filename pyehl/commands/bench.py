@@ -28,8 +28,6 @@ from pyehl.display import Columns, text_table
 from pyehl.errors import InputError
 from pyehl.plots import bench as figures
 
-__all__ = ["add_arguments", "execute"]
-
 Rows = list[dict[str, Any]]
 Answer = dict[str, Any]
 

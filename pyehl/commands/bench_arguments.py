@@ -9,8 +9,6 @@ from typing import Any
 
 from pyehl.bench import skips, smooth, step, stress_cases, sweep, workprec
 
-__all__ = ["DECLARE"]
-
 GRIDS = (65, 129, 257, 513, 1025)
 STEP_GRIDS = GRIDS[1:4]
 

@@ -8,8 +8,6 @@ import argparse
 from pyehl.api import check
 from pyehl.commands.arguments import add_case_arguments
 
-__all__ = ["add_arguments", "execute"]
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of ``pyehl check``."""

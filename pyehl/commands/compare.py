@@ -9,8 +9,6 @@ from pyehl.errors import EXIT_FAILED, EXIT_OK
 from pyehl.studies.compare import compare, read_results
 from pyehl.studies.reference_table import SHIPPED, read_reference
 
-__all__ = ["add_arguments", "execute"]
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of ``pyehl compare``."""

@@ -7,8 +7,6 @@ import argparse
 
 from pyehl.netcdf import export
 
-__all__ = ["add_arguments", "execute"]
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of ``pyehl export``."""

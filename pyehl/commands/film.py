@@ -11,8 +11,6 @@ from typing import Any
 from pyehl.api import film
 from pyehl.commands.arguments import add_case_arguments
 
-__all__ = ["add_arguments", "execute", "report"]
-
 
 def _heat(v: Mapping[str, Any]) -> list[str]:
     """Return what shear heating of the inlet does, in one line or none."""

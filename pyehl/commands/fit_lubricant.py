@@ -10,8 +10,6 @@ from pyehl.commands.arguments import add_force, add_overrides
 from pyehl.studies.fit_folder import fit_lubricant
 from pyehl.studies.shear_fit import PARAMETERS, Fit
 
-__all__ = ["add_arguments", "execute"]
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of ``pyehl fit-lubricant``."""

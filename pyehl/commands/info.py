@@ -8,8 +8,6 @@ import os
 import platform
 from importlib import metadata
 
-__all__ = ["add_arguments", "execute", "lines"]
-
 LIBRARIES = (
     "bokeh",
     "numpy",

@@ -9,8 +9,6 @@ from pathlib import Path
 from pyehl.studies.oil_list import lubricants
 from pyehl.theory.oils import Oil, film_forming, reciprocal_isoviscous
 
-__all__ = ["add_arguments", "execute"]
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of ``pyehl lubricants``."""

@@ -13,8 +13,6 @@ from pyehl.plots.movie import FRAME_SECONDS, SUFFIXES, movie
 from pyehl.plots.style import DPI
 from pyehl.results import load
 
-__all__ = ["add_arguments", "execute"]
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of ``pyehl plot``."""

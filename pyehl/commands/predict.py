@@ -17,8 +17,6 @@ from pyehl.prediction.friction import TRACKS
 from pyehl.prediction.result import Prediction
 from pyehl.surfaces import Topography
 
-__all__ = ["add_arguments", "execute", "report"]
-
 
 def report(prediction: Prediction) -> str:
     """Return the lines that ``pyehl predict`` prints."""

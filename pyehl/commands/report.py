@@ -7,8 +7,6 @@ import argparse
 
 from pyehl.reports.folder import report
 
-__all__ = ["add_arguments", "execute"]
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of ``pyehl report``."""

@@ -19,8 +19,6 @@ from pyehl.reproduce.level import LEVELS, Level
 from pyehl.reproduce.piece import Result
 from pyehl.studies.plan import Plan
 
-__all__ = ["add_arguments", "execute"]
-
 PAPERS = ("zhang2019",)
 LIBRARIES = ("numpy", "scipy", "matplotlib")
 

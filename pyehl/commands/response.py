@@ -13,8 +13,6 @@ from pyehl.commands.watching import Bar
 from pyehl.measured_response.folder import response
 from pyehl.measured_response.tiers import TIERS
 
-__all__ = ["add_arguments", "execute"]
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of ``pyehl response``."""

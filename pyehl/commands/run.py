@@ -16,8 +16,6 @@ from pyehl.progress import ProgressBar
 from pyehl.run import Outcome, resume, run
 from pyehl.solver import Solver
 
-__all__ = ["add_arguments", "execute"]
-
 # Seconds between progress lines where the output is not a terminal
 PROGRESS_INTERVAL = 2.0
 

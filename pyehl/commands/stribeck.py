@@ -33,8 +33,6 @@ from pyehl.studies.measured_friction import Measured, read_measured
 from pyehl.surfaces import rough_groups
 from pyehl.theory.load_share import AIHARA, LoadShare
 
-__all__ = ["add_arguments", "execute"]
-
 SLIP = KEYS["slide-to-roll"]
 
 Row = Mapping[str, Any]

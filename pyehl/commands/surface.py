@@ -23,8 +23,6 @@ from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["add_arguments", "execute", "numbers"]
-
 MADE = f"! {mark('surface')}\n! A tile in the contact that it was made for\n"
 
 # Keys of a tile that is on its track and whose spectrum is cut

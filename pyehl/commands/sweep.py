@@ -24,8 +24,6 @@ from pyehl.studies.sweep import CASES, CSV, NETCDF, perform
 from pyehl.studies.tasks import why_none
 from pyehl.studies.vary import parse_axis
 
-__all__ = ["add_arguments", "execute"]
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments of ``pyehl sweep``."""

@@ -19,14 +19,6 @@ from pyehl.studies.plan import duration
 from pyehl.studies.pool import processors
 from pyehl.studies.tasks import FAILED, Task
 
-__all__ = [
-    "Bar",
-    "Terminal",
-    "add_worker_arguments",
-    "jobs_of",
-    "tell_lost",
-]
-
 MOST_MESSAGES = 100
 # Seconds between lines where the output is not a terminal
 LINE_INTERVAL = 5.0

@@ -26,8 +26,6 @@ from pyehl.results import scalars
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["destination", "response"]
-
 Array = NDArray[np.float64]
 
 PICTURE = "response.png"

@@ -30,8 +30,6 @@ from pyehl.studies.journal import difference
 from pyehl.studies.pool import processors
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["measure", "with_tiers"]
-
 Progress = Callable[[str, int, int], object]
 
 

@@ -27,16 +27,6 @@ from pyehl.errors import EhlError
 from pyehl.solver import Solver
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = [
-    "SLOPE",
-    "Superposition",
-    "WaveSet",
-    "linear_surface",
-    "step_counts",
-    "superpose",
-    "transient_case",
-]
-
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 

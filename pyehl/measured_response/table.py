@@ -16,8 +16,6 @@ from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_transfer
 from pyehl.theory.transport import Zone, stiffness, transport
 
-__all__ = ["STATIONS", "dataset", "nabla_2", "shipped_response", "write_table"]
-
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 

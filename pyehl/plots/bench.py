@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 
 from pyehl.plots import style
 
-__all__ = ["stress", "work"]
-
 Row = Mapping[str, Any]
 
 # On a screen, as in the documents

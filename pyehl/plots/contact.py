@@ -33,15 +33,6 @@ from pyehl.plots.style import (
     y_label,
 )
 
-__all__ = [
-    "contours",
-    "fringe_colours",
-    "fringe_spacings",
-    "interferogram",
-    "pressure_and_film",
-    "pressure_map",
-]
-
 Array = NDArray[np.float64]
 
 # Light of the interferogram [m]: red and green, as in two-colour interferometry; mineral oil

@@ -22,8 +22,6 @@ from pyehl.plots.style import DPI, page_width, save
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["FORMATS", "UNITS", "made", "plot", "save_all"]
-
 FORMATS = ("png", "pdf", "svg")
 LEAST_WIDTH, MOST_WIDTH = 0.04, 0.4
 """Widths of figures [m]."""

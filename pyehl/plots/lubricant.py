@@ -11,8 +11,6 @@ from pyehl.plots.style import BLUE, GREEN, VERMILLION, letter, new_figure
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.shear import ShearLaw, shear_stress
 
-__all__ = ["draw_fit", "draw_oil"]
-
 Array = NDArray[np.float64]
 
 # Of the picture of an oil: rises of temperature [K], pressures [Pa]

@@ -21,8 +21,6 @@ from pyehl.plots.style import film_unit, nearest, new_figure
 from pyehl.results import settings_of
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["movie"]
-
 SUFFIXES = ("gif", "mp4")
 FRAME_SECONDS, DPI = 0.08, 100
 # A GIF counts hundredths of a second, and viewers slow down frames that are shorter

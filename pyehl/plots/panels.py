@@ -11,8 +11,6 @@ from matplotlib.figure import Figure
 
 from pyehl.plots.style import PAGE_WIDTH, Scales, letter, new_figure, wrapped
 
-__all__ = ["headline", "no_second_label", "panels"]
-
 # Room below and above a row of panels [in]
 BELOW, ABOVE = 0.52, 0.57
 # Panels narrower than this are put below one another [in]

@@ -14,8 +14,6 @@ from numpy.typing import NDArray
 
 from pyehl.plots.style import BLUE, GREY, VERMILLION, new_figure
 
-__all__ = ["Collapse", "Series", "collapses", "friction_over_film", "wave_history"]
-
 Array = NDArray[np.float64]
 
 COLOURS = (BLUE, VERMILLION, "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "black")

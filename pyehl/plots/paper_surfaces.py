@@ -26,8 +26,6 @@ from pyehl.plots.style import (
 )
 from pyehl.surfaces import Topography, psd_isotropic
 
-__all__ = ["Array", "Step", "by_seed", "deformed", "flow", "spectrum"]
-
 Array = NDArray[np.float64]
 
 COLOURS = (GREY, "black", BLUE, VERMILLION)

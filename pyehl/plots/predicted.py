@@ -16,8 +16,6 @@ from pyehl.surfaces import Topography, wavenumbers
 from pyehl.theory.ellipse import ellipse
 from pyehl.theory.transport import stiffness
 
-__all__ = ["prediction_figures"]
-
 Array = NDArray[np.float64]
 
 

@@ -25,8 +25,6 @@ from pyehl.surfaces import Preparation, Topography, psd_isotropic
 from pyehl.surfaces.holes import nearest
 from pyehl.theory.amplitude import component_amplitude_ratio
 
-__all__ = ["before_and_after"]
-
 Array = NDArray[np.float64]
 
 SHOWN = 0.005

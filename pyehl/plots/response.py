@@ -14,8 +14,6 @@ from numpy.typing import NDArray
 from pyehl.plots.style import GREY, SEQUENTIAL, letter, new_figure
 from pyehl.theory.amplitude import amplitude_ratio, wavelength_parameter
 
-__all__ = ["response_figure"]
-
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 

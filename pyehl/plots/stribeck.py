@@ -25,8 +25,6 @@ from pyehl.plots.style import (
 )
 from pyehl.theory import stribeck
 
-__all__ = ["ABSCISSAE", "COLOURS", "Curve", "Points", "draw_stribeck"]
-
 Array = NDArray[np.float64]
 
 ABSCISSAE = {

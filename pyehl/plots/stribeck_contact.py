@@ -10,8 +10,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-__all__ = ["draw_contact"]
-
 Array = NDArray[np.float64]
 
 

@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 
 from pyehl.plots.style import BLUE, GREEN, GREY, VERMILLION, letter, new_figure
 
-__all__ = ["Line", "study_figure"]
-
 Array = NDArray[np.float64]
 
 COLOURS = (BLUE, VERMILLION, GREEN, "#CC79A7", "#E69F00", "#56B4E9", GREY)

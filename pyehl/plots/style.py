@@ -32,38 +32,6 @@ from numpy.typing import NDArray
 from pyehl.destination import mark, new_file
 from pyehl.plots.outline import CIRCLE, Outline
 
-__all__ = [
-    "BLUE",
-    "DIVERGING",
-    "DPI",
-    "GREEN",
-    "GREY",
-    "PAGE_WIDTH",
-    "SEQUENTIAL",
-    "VERMILLION",
-    "Scales",
-    "axes_or_new",
-    "axis_unit",
-    "colour_bar",
-    "contact_heights",
-    "edges",
-    "extent_of",
-    "film_unit",
-    "height_unit",
-    "hertz_ticks",
-    "label_decades",
-    "label_log_ticks",
-    "letter",
-    "nearest",
-    "new_figure",
-    "page_width",
-    "png",
-    "pressure_unit",
-    "save",
-    "wrapped",
-    "y_label",
-]
-
 Array = NDArray[np.float64]
 
 DPI = 150

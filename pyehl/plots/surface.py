@@ -34,8 +34,6 @@ from pyehl.plots.style import (
 )
 from pyehl.surfaces import Topography, interpolated, psd_2d, psd_isotropic
 
-__all__ = ["heights", "octaves", "passage", "roughness", "spectrum_line", "spectrum_map"]
-
 Array = NDArray[np.float64]
 
 # Least spectral density that is drawn, as a share of the largest

@@ -13,8 +13,6 @@ from numpy.typing import NDArray
 from pyehl.plots.stribeck import COLOURS, Curve, Points
 from pyehl.plots.style import letter, new_figure
 
-__all__ = ["draw_traction"]
-
 Array = NDArray[np.float64]
 
 

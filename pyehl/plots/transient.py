@@ -33,15 +33,6 @@ from pyehl.plots.style import (
 )
 from pyehl.theory import stribeck
 
-__all__ = [
-    "eq_16",
-    "extremes_history",
-    "friction_history",
-    "profiles",
-    "roughness",
-    "roughness_top",
-]
-
 Array = NDArray[np.float64]
 
 

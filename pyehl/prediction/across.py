@@ -16,8 +16,6 @@ from numpy.typing import NDArray
 
 from pyehl.theory.transport import free_stiffness
 
-__all__ = ["LINES", "harmonics", "pressed"]
-
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 

@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["BAND_COLUMNS", "Band", "joining", "octaves", "records"]
-
 Array = NDArray[np.float64]
 
 # A wave at the end of an octave begins the next one, whatever its last digits

@@ -20,14 +20,6 @@ from pyehl.surfaces.prepare import Preparation
 from pyehl.surfaces.spikes import prominence
 from pyehl.surfaces.tile import Topography
 
-__all__ = [
-    "Advice",
-    "BelowZero",
-    "Borne",
-    "advise",
-    "below_zero",
-]
-
 Array = NDArray[np.float64]
 
 DeformedOf = Callable[[Topography], Array]

@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 from pyehl.prediction.errors import KNOWN_RATIO
 from pyehl.surfaces.tile import Topography
 
-__all__ = ["Carries", "carrying_outliers", "carrying_wavelength", "confirmed", "within_range"]
-
 Array = NDArray[np.float64]
 
 Carries = Callable[[Topography], bool]

@@ -16,8 +16,6 @@ from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import shear_stress
 
-__all__ = ["INNER", "NEAR", "HertzContact", "Response", "ShearedContact"]
-
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
 

@@ -18,8 +18,6 @@ from pyehl.theory.disc import LARGEST, RADIUS, disc_correction, disc_rim, monomi
 from pyehl.theory.ellipse import Ellipse
 from pyehl.theory.ellipse_edge import ellipse_edge
 
-__all__ = ["ANGLES", "Edge"]
-
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 

@@ -11,14 +11,6 @@ from pyehl.prediction.options import Options
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import fitted_range
 
-__all__ = [
-    "KNOWN_RATIO",
-    "cutoff_error",
-    "model_error",
-    "outside_range",
-    "why_no_error",
-]
-
 # Error of mu_r/mu_s against the full simulation: a part that small waves and tracks make at any
 # ratio, and a part that grows with the rise. Measured in docs/evidence/prediction.
 CONSTANT = 0.01

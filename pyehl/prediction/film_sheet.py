@@ -12,8 +12,6 @@ from pyehl.theory import film, stribeck
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["sheet"]
-
 
 def sheet(settings: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
     """All that ``pyehl film`` says of a resolved case, as plain numbers in SI units.

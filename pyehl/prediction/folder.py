@@ -16,8 +16,6 @@ from pyehl.destination import Destination, write_json
 from pyehl.prediction.result import Prediction
 from pyehl.prediction.sides import SECOND
 
-__all__ = ["destination", "write"]
-
 TABLES = ("passage", "spectrum", "bands")
 ARRAYS = ("x", "y", "surface", "deformed", "delta_p")
 ARRAYS_OF_TWO = tuple(f"{SECOND}{name}" for name in ARRAYS)

@@ -12,17 +12,6 @@ from numpy.typing import NDArray
 from pyehl.prediction.contact import Response, ShearedContact
 from pyehl.surfaces import interpolated
 
-__all__ = [
-    "BEYOND",
-    "LARGEST_RATIO",
-    "TRACKS",
-    "RoughFriction",
-    "SecondPassage",
-    "broken",
-    "outcome",
-    "passed",
-]
-
 Array = NDArray[np.float64]
 
 BEYOND = "beyond linear response"

@@ -10,12 +10,11 @@ import numpy as np
 
 from pyehl import namelist
 from pyehl.errors import check
-from pyehl.library import functions, returned
+from pyehl.extension import functions
+from pyehl.library import returned
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.theory.heat import Heat
 from pyehl.theory.lubricant import Lubricant
-
-__all__ = ["heat_of"]
 
 NOT_SOLVED = "the temperature is not converged"
 

@@ -21,8 +21,6 @@ from numpy.typing import NDArray
 from pyehl.prediction.options import MAX_POSITIONS
 from pyehl.prediction.passage import POSITION_TOLERANCE
 
-__all__ = ["SAME", "Meeting", "common_passages"]
-
 Array = NDArray[np.float64]
 Friction = Callable[[tuple[float, float]], float]
 """mu_r/mu_s where two tiles have moved by so much [a]."""

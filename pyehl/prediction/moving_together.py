@@ -13,8 +13,6 @@ import numpy as np
 from pyehl.prediction.meeting import SAME
 from pyehl.surfaces import MAX_PIXELS, Topography, resampled, shifted
 
-__all__ = ["as_one"]
-
 MOST = 12
 """Tiles beside each other, along one way, that are added to those of the other surface."""
 

@@ -18,8 +18,6 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-__all__ = ["Compliance", "Lifted", "lifted"]
-
 Array = NDArray[np.float64]
 
 ENOUGH, DEEPEST = 2e-3, 1e-2

@@ -39,8 +39,6 @@ from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["predict"]
-
 Array = NDArray[np.float64]
 
 MAX_TRACKS = 10_000

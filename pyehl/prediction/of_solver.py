@@ -13,8 +13,6 @@ from pyehl.handle import SolverHandle
 from pyehl.prediction.resolution import Resolution, resolution
 from pyehl.surfaces import Topography
 
-__all__ = ["Predictions"]
-
 
 class Predictions:
     """The predictions for a run, each made once and when it is asked for.

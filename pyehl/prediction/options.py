@@ -10,8 +10,6 @@ from typing import Any
 from pyehl.surfaces import FEATURES, rough_groups
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["MAX_POSITIONS", "Options", "turned", "unpredictable"]
-
 MAX_POSITIONS = 4096
 """Most positions of a passage, as the schema of cases has it."""
 

@@ -41,8 +41,6 @@ from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.surfaces import Topography, filtered, track_offsets
 
-__all__ = ["RoughPair"]
-
 Array = NDArray[np.float64]
 PairParts = list[tuple[Spectrum, Transfer, Edge]]
 

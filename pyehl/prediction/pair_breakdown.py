@@ -19,8 +19,6 @@ from pyehl.prediction.carrying import carrying_wavelength
 from pyehl.prediction.pair import RoughPair
 from pyehl.surfaces import GROUPS, Topography
 
-__all__ = ["PairAdvice", "PairBelowZero", "advise_pair", "pair_below_zero"]
-
 Array = NDArray[np.float64]
 Pixels = tuple[tuple[int, int], tuple[int, int]]
 

@@ -22,8 +22,6 @@ from pyehl.prediction.wavy_contact import REACH, WavyContact, add_waves, slipped
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["PairContact", "TileOnPoints"]
-
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
 

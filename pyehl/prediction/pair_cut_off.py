@@ -12,8 +12,6 @@ from pyehl.prediction.friction import RoughFriction
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import GROUPS
 
-__all__ = ["known_by_cut_off"]
-
 Below = Callable[[tuple[float, float]], float]
 Predicted = Callable[[Sequence[int], float], RoughFriction]
 

@@ -38,8 +38,6 @@ from pyehl.prediction.wavy_contact import missing, slipped
 from pyehl.surfaces import Topography
 from pyehl.theory.transport import stiffness
 
-__all__ = ["Partial", "partial_film", "without"]
-
 Array = NDArray[np.float64]
 
 HOLD = 0.01

@@ -15,16 +15,6 @@ from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import MAX_PIXELS, Topography, interpolated, resampled, track_offsets
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = [
-    "POSITION_TOLERANCE",
-    "friction_along",
-    "longer_waves",
-    "meet_more",
-    "short_mean",
-    "tracks_of",
-    "working_grid",
-]
-
 Array = NDArray[np.float64]
 Indices = NDArray[np.int_]
 

@@ -21,8 +21,6 @@ from pyehl.theory.film import central_film as formula_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["Resolution", "resolution"]
-
 NODES = 8
 """Nodes that a wave needs to be resolved."""
 CARRIED = 2

@@ -38,8 +38,6 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
 
-__all__ = ["Prediction"]
-
 Array = NDArray[np.float64]
 
 NEWTONIAN_NOTE = (

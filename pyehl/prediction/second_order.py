@@ -41,8 +41,6 @@ from numpy.typing import NDArray
 from pyehl.prediction.wave_table import WaveTable, coarsened
 from pyehl.theory.transport import Zone, stiffness
 
-__all__ = ["FILM_ENDS", "INLET_FILM", "SecondOrder", "film_left", "loss_at"]
-
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 

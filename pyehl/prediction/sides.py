@@ -15,8 +15,6 @@ from pyehl.prediction.friction import SecondPassage
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import Topography
 
-__all__ = ["SECOND", "SecondSurface", "arrays", "statistics"]
-
 Array = NDArray[np.float64]
 SECOND = "second_"
 """Before the names of what belongs to the second surface."""

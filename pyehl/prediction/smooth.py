@@ -26,18 +26,6 @@ from pyehl.theory.shear import ShearLaw
 from pyehl.theory.thinning import FlowFactors, flow_factors
 from pyehl.theory.transport import Zone
 
-__all__ = [
-    "SmoothContact",
-    "circle_of",
-    "forget",
-    "hertz_contact",
-    "read_contact",
-    "smooth_case",
-    "solve_contact",
-    "zone_of",
-    "zone_on",
-]
-
 Array = NDArray[np.float64]
 
 POINTS = 257

@@ -39,8 +39,6 @@ from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.transport import free_stiffness, stiffness
 
-__all__ = ["hand_over", "starting_pressure"]
-
 LOG = logging.getLogger(__name__)
 
 Array = NDArray[np.float64]

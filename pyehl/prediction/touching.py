@@ -11,8 +11,6 @@ from pyehl.prediction.friction import RoughFriction
 from pyehl.prediction.partial import Partial
 from pyehl.surfaces import interpolated
 
-__all__ = ["NO_FRICTION", "contact_numbers", "touching"]
-
 NO_FRICTION = (
     "the bodies touch, and the friction there is not known: lubricant.boundary_friction and "
     "sliding are needed"

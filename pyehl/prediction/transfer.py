@@ -19,8 +19,6 @@ from pyehl.prediction.wave_table import WaveTable, coarsened
 from pyehl.theory.response import edge_gain, inlet_transfer
 from pyehl.theory.transport import Zone, free_stiffness, transport, wave_pressure
 
-__all__ = ["LINES", "MIDDLE", "STATIONS", "Transfer"]
-
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Indices = NDArray[np.int_]

@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 
 from pyehl.prediction.spectrum import Spectrum
 
-__all__ = ["WaveTable", "coarsened"]
-
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 

@@ -20,8 +20,6 @@ from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.theory.transport import free_stiffness, stiffness
 
-__all__ = ["REFINEMENT", "Waves"]
-
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Narrow = NDArray[np.complexfloating[Any, Any]]

@@ -16,7 +16,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from pyehl import library
+from pyehl import extension
 from pyehl.prediction.contact import INNER, NEAR, ShearedContact
 from pyehl.prediction.edge import ANGLES, Edge
 from pyehl.prediction.second_order import FILM_ENDS, film_left
@@ -25,17 +25,6 @@ from pyehl.prediction.transfer import AXIS, LINES, STATIONS
 from pyehl.prediction.waves import Waves
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = [
-    "REACH",
-    "WavyContact",
-    "add_waves",
-    "line_weights",
-    "missing",
-    "pairs",
-    "slipped",
-    "station_weights",
-]
 
 Array = NDArray[np.float64]
 Single = NDArray[np.float32]
@@ -254,7 +243,7 @@ def add_waves(
     rows, between = places
     if parts is None:
         parts = np.ones(columns.size, dtype=np.float32)
-    library.waves.free_waves(
+    extension.waves.free_waves(
         pairs(tiles), rows.T, columns, between.T, weights.T, parts, shift, pairs(total)
     )
 

@@ -9,8 +9,6 @@ from typing import Any, NamedTuple
 from pyehl import library
 from pyehl.display import with_error
 
-__all__ = ["WELL_KNOWN", "Judgement", "answer", "judge"]
-
 Summary = Mapping[str, Any]
 
 # A result whose error is a larger share of it is to be taken with care

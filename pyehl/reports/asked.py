@@ -10,8 +10,6 @@ from pyehl.surfaces import rough_groups
 from pyehl.theory.oils import oil
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["conditions", "numbers", "surface_words"]
-
 Settings = Mapping[str, Mapping[str, Any]]
 
 

@@ -12,8 +12,6 @@ from pathlib import Path
 from pyehl.destination import mark, new_file
 from pyehl.errors import EhlError, InputError
 
-__all__ = ["BROWSERS", "browser", "write_pdf"]
-
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 OPTIONS = (
     "--headless",

@@ -27,8 +27,6 @@ from pyehl.results import load, settings_of
 from pyehl.schema import QUANTITIES
 from pyehl.studies.journal import NAME, read_header
 
-__all__ = ["report"]
-
 # A page is to stay below this many bytes: its pictures are drawn with fewer dots where need be
 LARGEST = 2_000_000
 # Keys that name a file

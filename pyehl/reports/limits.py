@@ -9,8 +9,6 @@ from typing import Any
 from pyehl.surfaces import FEATURES, rough_groups
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["limits", "unheated", "warnings"]
-
 Settings = Mapping[str, Mapping[str, Any]]
 Summary = Mapping[str, Any]
 

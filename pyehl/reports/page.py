@@ -14,20 +14,6 @@ from pathlib import Path
 
 from pyehl.destination import mark, new_file
 
-__all__ = [
-    "bullets",
-    "facts",
-    "folded",
-    "heading",
-    "page",
-    "paragraph",
-    "picture",
-    "preformatted",
-    "table",
-    "verdict",
-    "write_page",
-]
-
 STYLE = """
 body{font-family:system-ui,sans-serif;max-width:62em;margin:2em auto;padding:0 1em;
 line-height:1.45;color:#111;background:#fff}

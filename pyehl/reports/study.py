@@ -22,8 +22,6 @@ from pyehl.reports.limits import limits
 from pyehl.studies.journal import read_header
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["STUDY_DPI", "study_parts"]
-
 STUDY_DPI = 110
 TABLES = {"stribeck": "stribeck.csv"}
 GOOD = ("converged", "predicted", "computed", "full film")

@@ -35,8 +35,6 @@ from pyehl.reproduce.runs import RunFailed, Runs
 from pyehl.studies.gather import Watcher
 from pyehl.studies.plan import Plan
 
-__all__ = ["PIECES", "reproduce"]
-
 DPI = 130
 # In the order of the report; the order of the work is the same
 MODULES = (table1, figure1, figure2, figure3, figure4, figure5, figure6, table2, figure7)

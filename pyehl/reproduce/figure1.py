@@ -20,8 +20,6 @@ from pyehl.reproduce.runs import Runs
 from pyehl.reproduce.surface_runs import CASE, MODELS, SEED
 from pyehl.theory.amplitude import component_amplitude_ratio
 
-__all__ = ["NAME", "TITLE", "Flow", "run", "show"]
-
 Array = paper_surfaces.Array
 
 NAME = "figure 1"

@@ -17,8 +17,6 @@ from pyehl.reproduce.runs import Made, Runs
 from pyehl.reproduce.waves import SCHEMES
 from pyehl.studies.reference_table import read_reference
 
-__all__ = ["NAME", "TITLE", "Wave", "run", "show"]
-
 Array = NDArray[np.float64]
 
 NAME = "figure 2"

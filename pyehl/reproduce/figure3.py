@@ -12,8 +12,6 @@ from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Runs
 from pyehl.reproduce.waves import SCHEMES, WaveSet, smooth_films, waves
 
-__all__ = ["NAME", "TITLE", "run", "series", "show", "without_result"]
-
 NAME = "figure 3"
 TITLE = "Relative friction of moving waves over H_c/A_i"
 

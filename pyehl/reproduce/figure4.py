@@ -20,8 +20,6 @@ from pyehl.reproduce.runs import Runs
 from pyehl.reproduce.waves import SCHEMES, VELOCITY_RATIO, WaveSet, waves
 from pyehl.theory.stribeck import theta_2
 
-__all__ = ["NAME", "TITLE", "Collapsed", "run", "show"]
-
 Array = NDArray[np.float64]
 
 NAME = "figure 4"

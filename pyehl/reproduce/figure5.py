@@ -16,8 +16,6 @@ from pyehl.reproduce.runs import Runs
 from pyehl.reproduce.surface_runs import SEED, tile
 from pyehl.surfaces import Topography, psd_2d, psd_isotropic
 
-__all__ = ["NAME", "TITLE", "Spectrum", "run", "show"]
-
 NAME = "figure 5"
 TITLE = "An artificial fractal surface and its spectrum"
 

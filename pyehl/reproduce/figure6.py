@@ -22,8 +22,6 @@ from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_base, inlet_fit
 from pyehl.theory.transport import INLET, Zone, transport
 
-__all__ = ["NAME", "TITLE", "Deformed", "run", "show"]
-
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 

@@ -23,8 +23,6 @@ from pyehl.reproduce.surface_runs import (
 )
 from pyehl.reproduce.table1 import CASE
 
-__all__ = ["NAME", "TITLE", "Surfaces", "run", "show"]
-
 Array = NDArray[np.float64]
 
 NAME = "figure 7"

@@ -14,8 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import nnls
 
-__all__ = ["CONFIDENCE", "Fit", "evaluate", "fit", "scatter"]
-
 Array = NDArray[np.float64]
 
 CONFIDENCE = 0.95

@@ -5,8 +5,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-__all__ = ["FULL", "LEVELS", "QUICK", "Level"]
-
 
 @dataclass(frozen=True, slots=True)
 class Level:

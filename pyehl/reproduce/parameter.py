@@ -27,8 +27,6 @@ from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import edge_gain, inlet_transfer
 from pyehl.theory.transport import transport, wave_pressure
 
-__all__ = ["SMALL_WAVES", "response_parameter"]
-
 Array = NDArray[np.float64]
 
 SMALL_WAVES = 0.25

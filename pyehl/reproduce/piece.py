@@ -14,8 +14,6 @@ from pyehl.reproduce.level import Level
 from pyehl.reproduce.references import Reference, References
 from pyehl.reproduce.runs import Made, Runs
 
-__all__ = ["Check", "Finding", "Piece", "Result"]
-
 
 @dataclass(frozen=True, slots=True)
 class Check:

@@ -14,8 +14,6 @@ from typing import Any
 
 from pyehl.errors import InternalError
 
-__all__ = ["Reference", "References", "read_references"]
-
 FILE = "zhang2019.csv"
 
 

@@ -12,8 +12,6 @@ from pyehl.reports import page
 from pyehl.reproduce.level import Level
 from pyehl.reproduce.piece import Result
 
-__all__ = ["write_report"]
-
 PAPER = (
     "Zhang, Biboulet, Venner & Lubrecht 2019, Prediction of the Stribeck curve under full-film "
     "elastohydrodynamic lubrication, doi 10.1016/j.triboint.2019.01.028"

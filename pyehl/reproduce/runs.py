@@ -23,8 +23,6 @@ from pyehl.studies.sweep import CASES, perform
 from pyehl.studies.tasks import why_none
 from pyehl.studies.vary import axis
 
-__all__ = ["Made", "RunFailed", "Runs", "friction_of"]
-
 Row = dict[str, Any]
 
 

@@ -14,8 +14,6 @@ from pyehl.reproduce.table1 import CASE
 from pyehl.surfaces import Topography
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["MODELS", "SEED", "carried", "deformed_run", "predictions", "simulations", "tile"]
-
 Row = dict[str, Any]
 
 SEED = 1

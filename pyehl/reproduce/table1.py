@@ -12,8 +12,6 @@ from pyehl.reproduce.runs import Runs
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["CASE", "NAME", "TITLE", "run", "show"]
-
 NAME = "table 1"
 TITLE = "Operating conditions and what follows from them"
 CASE = """&contact

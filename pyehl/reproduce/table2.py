@@ -20,8 +20,6 @@ from pyehl.reproduce.surface_runs import (
 )
 from pyehl.reproduce.waves import SCHEMES
 
-__all__ = ["NAME", "TITLE", "Meshes", "run", "show"]
-
 NAME = "table 2"
 TITLE = "Relative friction of one surface on three meshes"
 

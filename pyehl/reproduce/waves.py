@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 from pyehl.reproduce.level import Level
 from pyehl.reproduce.runs import Made, Runs, friction_of
 
-__all__ = ["CURVES", "RATIOS", "SCHEMES", "VELOCITY_RATIO", "WaveSet", "smooth_films", "waves"]
-
 Array = NDArray[np.float64]
 
 SCHEMES = ("paper", "narrow")

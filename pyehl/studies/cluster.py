@@ -14,8 +14,6 @@ from typing import Any
 from pyehl.errors import EhlError, InputError
 from pyehl.studies.tasks import FAILED, Task, execute
 
-__all__ = ["rows"]
-
 Row = dict[str, Any]
 
 # Seconds to wait for the scheduler

@@ -21,8 +21,6 @@ from pyehl.given import option, text_file
 from pyehl.studies.journal import read_header
 from pyehl.studies.reference_table import Expected, Key, ReferenceRow, ReferenceTable
 
-__all__ = ["Comparison", "Deviation", "Results", "compare", "read_results"]
-
 Row = Mapping[str, Any]
 
 TABLES = ("results.csv", "stribeck.csv")

@@ -24,22 +24,6 @@ from pyehl.theory.load_share import LoadShare
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = [
-    "BREAKDOWN",
-    "EMPIRICAL",
-    "FULL_FILM",
-    "MIXED",
-    "OUTSIDE",
-    "STATUSES",
-    "UNITS",
-    "UNSOLVED",
-    "WORDS",
-    "conclude",
-    "curve_rows",
-    "full_film_ends",
-    "no_coefficient",
-]
-
 Row = Mapping[str, Any]
 
 STATUSES = ("full film", "mixed film", "film breakdown", "outside the range", "not solved")

@@ -13,8 +13,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["CONTACT", "LIFT_OFF", "LiftOff", "contact_columns", "lift_off", "touches"]
-
 Row = Mapping[str, Any]
 Array = NDArray[np.float64]
 

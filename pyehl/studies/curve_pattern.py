@@ -19,8 +19,6 @@ from pyehl import surfaces
 from pyehl.studies.curve_plan import Settings
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["SMOOTH", "Pattern", "kept_pattern", "pattern"]
-
 
 @dataclass(frozen=True, slots=True)
 class Pattern:

@@ -24,8 +24,6 @@ from pyehl.studies.tasks import Task
 from pyehl.studies.vary import Axis
 from pyehl.theory.load_share import LoadShare
 
-__all__ = ["KEYS", "CurvePlan", "CurvePoint", "plan_curve"]
-
 Settings = Mapping[str, Mapping[str, Any]]
 
 KEYS = {

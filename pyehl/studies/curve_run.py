@@ -26,8 +26,6 @@ from pyehl.studies.journal import NAME
 from pyehl.studies.vary import Axis, axis
 from pyehl.theory.load_share import AIHARA, LoadShare
 
-__all__ = ["CSV", "NETCDF", "PICTURE", "axes_of", "perform", "stribeck"]
-
 CSV, NETCDF, PICTURE = "stribeck.csv", "stribeck.nc", "stribeck.png"
 FILES = (CSV, NETCDF, PICTURE)
 

@@ -15,8 +15,6 @@ from pyehl.studies.curve_contact import lift_off
 from pyehl.studies.curve_plan import CurvePlan
 from pyehl.studies.measured_friction import Measured
 
-__all__ = ["absolute_friction", "curves_of", "deviation", "last_lines", "report"]
-
 Row = Mapping[str, Any]
 Array = NDArray[np.float64]
 

@@ -17,8 +17,6 @@ from pyehl.studies.tasks import Task
 from pyehl.surfaces import FEATURES, rough_groups
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["TaskList", "seconds_of", "smooth_seconds"]
-
 Settings = Mapping[str, Mapping[str, Any]]
 
 PREDICTION, PREDICTION_PIXEL = 0.1, 1.4e-6

@@ -14,8 +14,6 @@ from pyehl.studies.measured_friction import read_measured
 from pyehl.studies.shear_fit import PARAMETERS, Fit, fit_law
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["fit_lubricant"]
-
 KEY = "contact.slide_to_roll"
 FILES = ("fit.csv", "parameters.csv", "lubricant.nml", "fit.png", "summary.json")
 

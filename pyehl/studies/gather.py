@@ -17,8 +17,6 @@ from pyehl.studies import cluster, pool
 from pyehl.studies.journal import Journal
 from pyehl.studies.tasks import FAILED, Task
 
-__all__ = ["Outcome", "Watcher", "gather"]
-
 Row = dict[str, Any]
 
 # Seconds between tables that are written while a study runs

@@ -22,8 +22,6 @@ from typing import Any, BinaryIO, Self
 from pyehl.destination import Destination
 from pyehl.errors import FileError, InputError
 
-__all__ = ["NAME", "Journal", "difference", "read_header"]
-
 NAME = "journal.jsonl"
 VERSION = 1
 

@@ -16,8 +16,6 @@ from numpy.typing import NDArray
 from pyehl.errors import InputError
 from pyehl.given import text_file
 
-__all__ = ["Measured", "read_measured"]
-
 Array = NDArray[np.float64]
 Row = Mapping[str, Any]
 

@@ -11,8 +11,6 @@ from pyehl.errors import InputError
 from pyehl.given import path_of
 from pyehl.theory.oils import Oil, known_oils, oil
 
-__all__ = ["lubricants"]
-
 
 def lubricants(
     *names: str, temperature: float = 40.0, output: str | os.PathLike[str] | None = None

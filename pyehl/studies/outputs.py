@@ -11,8 +11,6 @@ from pyehl.theory.film import estimates
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["LAST", "NOT_IN_A_TABLE", "TRACKS", "checked", "film_columns", "known"]
-
 LAST = ("status", "seconds", "message")
 """Columns that every table has, behind all others."""
 TRACKS = ("tracks", "mu_ratio_tracks", "mu_ratio_tracks_spread")

@@ -23,8 +23,6 @@ from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["Plan", "check_memory", "duration", "formula_film", "plan"]
-
 Settings = Mapping[str, Mapping[str, Any]]
 
 THREADS = "solver.threads"

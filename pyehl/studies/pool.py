@@ -16,8 +16,6 @@ from typing import Any
 from pyehl.errors import InternalError
 from pyehl.studies.tasks import FAILED, Task
 
-__all__ = ["Queue", "processors", "rows"]
-
 Row = dict[str, Any]
 
 # A worker has the next task waiting where tasks are shorter than this [s]

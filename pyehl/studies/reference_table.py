@@ -23,8 +23,6 @@ from pyehl.errors import InputError, did_you_mean
 from pyehl.given import text_file
 from pyehl.studies.vary import LOGICAL
 
-__all__ = ["SHIPPED", "Expected", "ReferenceRow", "ReferenceTable", "read_reference"]
-
 SHIPPED = ("smooth", "waviness")
 """Tables that come with the package."""
 NOTE = "note"

@@ -26,8 +26,6 @@ from pyehl.theory.shear import ShearLaw, shear_stress
 if TYPE_CHECKING:
     from scipy.optimize import OptimizeResult
 
-__all__ = ["PARAMETERS", "Fit", "Parameter", "fit_law"]
-
 Array = NDArray[np.float64]
 Settings = Mapping[str, Mapping[str, Any]]
 

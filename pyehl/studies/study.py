@@ -20,8 +20,6 @@ from pyehl.given import Value, option
 from pyehl.studies.outputs import TRACKS, checked
 from pyehl.studies.vary import Axis
 
-__all__ = ["MAX_CASES", "RUNS", "Point", "Study", "make"]
-
 RUNS = ("solve", "predict", "film")
 """What may be done with each case."""
 MAX_CASES = 1_000_000

@@ -12,8 +12,6 @@ from pyehl.errors import InputError, did_you_mean
 from pyehl.given import option, text_file
 from pyehl.studies.vary import axis
 
-__all__ = ["read_study"]
-
 # Keys, their types, and these in words
 KEYS: dict[str, tuple[Any, str]] = {
     "case": (str, "a text"),

@@ -23,8 +23,6 @@ from pyehl.studies.plan import Plan, plan
 from pyehl.studies.study import make
 from pyehl.studies.vary import axis
 
-__all__ = ["CASES", "CSV", "NETCDF", "perform", "sweep"]
-
 Row = dict[str, Any]
 
 CSV, NETCDF, CASES = "results.csv", "results.nc", "cases"

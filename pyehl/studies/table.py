@@ -15,8 +15,6 @@ from pyehl.results import unit_of
 from pyehl.studies.outputs import LAST
 from pyehl.studies.study import Point, Study
 
-__all__ = ["columns", "dataset", "over", "write_csv"]
-
 Row = Mapping[str, Any]
 
 # Words that are always in the table; other words only where they are asked for

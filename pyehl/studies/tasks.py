@@ -22,8 +22,6 @@ from pyehl.run import run
 from pyehl.solver import Solver
 from pyehl.studies.outputs import NOT_IN_A_TABLE, TRACKS, film_columns
 
-__all__ = ["FAILED", "Task", "execute", "why_none"]
-
 FAILED = "failed"
 """Status of a case that ended with an exception."""
 INSIDE, OUTSIDE = "inside all ranges", "outside the range of a formula"

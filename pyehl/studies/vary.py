@@ -13,8 +13,6 @@ import numpy as np
 from pyehl.errors import InputError
 from pyehl.given import Value, plain
 
-__all__ = ["Axis", "Value", "axis", "parse_axis"]
-
 FORMS = (
     "start:stop:count, start:stop:countlog (geometric spacing), start:stop (whole numbers), "
     "or values with commas between"

@@ -16,8 +16,6 @@ from typing import TextIO
 
 from pyehl.studies.tasks import Task, execute
 
-__all__ = ["main"]
-
 
 def _read(source: TextIO, tasks: queue.Queue[Task]) -> None:
     """Take tasks in while another one is done, so that none is waited for."""

@@ -10,8 +10,6 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-__all__ = ["AREAL_NAMES", "Extent", "areal_numbers", "extent", "texture_aspect_ratio"]
-
 Array = NDArray[np.float64]
 
 AREAL_NAMES = {

@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 
-__all__ = ["cropped", "rotated"]
-
 Array = NDArray[np.float64]
 
 LEAST_PIXELS = 4

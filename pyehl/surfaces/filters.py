@@ -9,10 +9,8 @@ from dataclasses import replace
 import numpy as np
 
 from pyehl.errors import InputError, check
-from pyehl.library import surface_functions
+from pyehl.extension import surface_functions
 from pyehl.surfaces.tile import Topography
-
-__all__ = ["filtered"]
 
 
 def filtered(

@@ -14,11 +14,9 @@ import math
 import numpy as np
 
 from pyehl.errors import InputError, check
+from pyehl.extension import surface_functions
 from pyehl.given import positive
-from pyehl.library import surface_functions
 from pyehl.surfaces.tile import MAX_PIXELS, Topography
-
-__all__ = ["FEATURES", "fractal", "harmonic"]
 
 FEATURES = ("dent", "bump", "ridge", "groove")
 """Kinds of surfaces that pass the contact once; the solver alone makes them."""

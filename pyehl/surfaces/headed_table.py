@@ -13,8 +13,6 @@ from pyehl.errors import InputError
 from pyehl.surfaces.instruments import Foreign, Sizes
 from pyehl.surfaces.text_map import count_numbers, read_text
 
-__all__ = ["UNITS", "read_headed"]
-
 UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
 """Metres in the units of `surface.height_unit`."""
 

@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 
-__all__ = ["MAX_MISSING", "filled", "nearest"]
-
 Array = NDArray[np.float64]
 
 MAX_MISSING = 0.1

@@ -17,8 +17,6 @@ from pyehl.given import heights_of
 from pyehl.surfaces.seams import mirrored
 from pyehl.surfaces.tile import Topography
 
-__all__ = ["READY", "Surface", "as_map", "given", "in_memory", "keep_beside", "part_of"]
-
 Surface = Topography | ArrayLike
 """A tile, or heights [m] of shape (nx, ny) that have the size that the case says."""
 

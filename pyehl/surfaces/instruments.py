@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 from pyehl.errors import EhlError, InputError
 from pyehl.surfaces.memory import check_pixels
 
-__all__ = ["Foreign", "Sizes", "UnknownFormatError", "read_instrument"]
-
 INSTALL = "pip install 'pyehl[surfaces]', or pip install SurfaceTopography"
 
 Sizes = tuple[float | None, float | None]

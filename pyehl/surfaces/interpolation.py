@@ -13,8 +13,6 @@ from pyehl.errors import InputError
 from pyehl.surfaces.spectra import wavenumbers
 from pyehl.surfaces.tile import Topography
 
-__all__ = ["interpolated", "resampled", "shift_across", "shifted"]
-
 Array = NDArray[np.float64]
 
 LINES = 64

@@ -8,8 +8,6 @@ from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 
-__all__ = ["level"]
-
 Array = NDArray[np.float64]
 
 DEGREES = {"centre": 0, "tilt": 1, "curvature": 2}

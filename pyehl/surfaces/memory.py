@@ -8,8 +8,6 @@ import logging
 from pyehl import library
 from pyehl.errors import NoMemoryError
 
-__all__ = ["PREDICTION_COPIES", "check_pixels"]
-
 WORKING_COPIES, PREDICTION_COPIES = 12, 28
 """Arrays of the size of the map that its preparation holds at once, and of the size of a made tile
 that a prediction does, spectra included."""

@@ -21,21 +21,6 @@ from pyehl.surfaces.reading import Scan, read_scan
 from pyehl.surfaces.tile import Topography
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = [
-    "GROUPS",
-    "finished",
-    "from_settings",
-    "harmonic_amplitude",
-    "moved",
-    "one_rough",
-    "rough_groups",
-    "scan_of",
-    "tile_of",
-    "track_offsets",
-    "whole",
-    "without_spikes",
-]
-
 GROUPS = ("surface", "second_surface")
 """Groups of a case that describe a surface each."""
 

@@ -9,8 +9,6 @@ from typing import Any
 
 from pyehl.surfaces.reading import Scan
 
-__all__ = ["NEUTRAL", "Options", "defaults"]
-
 
 @dataclass(frozen=True, slots=True)
 class Options:

@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 from pyehl.errors import InputError
 from pyehl.surfaces.memory import check_pixels
 
-__all__ = ["grid_of", "is_list"]
-
 Array = NDArray[np.float64]
 
 # Of a mesh size: how far points may be from the grid

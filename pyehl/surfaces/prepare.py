@@ -21,8 +21,6 @@ from pyehl.surfaces.options import NEUTRAL, Options, defaults
 from pyehl.surfaces.reading import Scan
 from pyehl.surfaces.working_map import Record, Step, WorkingMap
 
-__all__ = ["Preparation", "consume", "prepare"]
-
 Array = NDArray[np.float64]
 
 LOG = logging.getLogger(__name__)

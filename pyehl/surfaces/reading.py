@@ -23,8 +23,6 @@ from pyehl.surfaces.memory import check_pixels
 from pyehl.surfaces.point_list import grid_of, is_list
 from pyehl.surfaces.text_map import read_text
 
-__all__ = ["Scan", "is_array_file", "plain_array", "read_scan"]
-
 Array = NDArray[np.float64]
 
 PIXEL_BAND = (1e-10, 1e-3)

@@ -10,8 +10,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["RIM", "jump", "mirrored", "rim", "unmirrored", "windowed"]
-
 Array = NDArray[np.float64]
 
 LINES = 64

@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pyehl import library
 from pyehl.errors import InputError
+from pyehl.extension import surface_functions
+from pyehl.library import returned
 from pyehl.surfaces.in_memory import given, part_of
 from pyehl.surfaces.interpolation import shift_across
 from pyehl.surfaces.of_case import GROUPS, moved, scan_of, whole
@@ -23,8 +24,6 @@ from pyehl.surfaces.seams import mirrored
 from pyehl.surfaces.tile import Topography
 from pyehl.surfaces.working_map import Record
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["SolverSurface", "SolverSurfaces", "for_solver", "gather"]
 
 LOG = logging.getLogger(__name__)
 
@@ -105,7 +104,7 @@ def for_solver(settings: Mapping[str, Mapping[str, Any]], group: str = "surface"
         )
         return SolverSurface(np.asfortranarray(moved(made, surface).heights))
     if surface["kind"] == "fractal":
-        need = library.returned(library.surface_functions.making(int(surface["pixels"])))
+        need = returned(surface_functions.making(int(surface["pixels"])))
         if need:
             LOG.info(need)
     if surface["kind"] != "map":

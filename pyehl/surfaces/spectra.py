@@ -13,8 +13,6 @@ from numpy.typing import NDArray
 
 from pyehl.surfaces.tile import Topography
 
-__all__ = ["psd_2d", "psd_isotropic", "wavenumbers"]
-
 Array = NDArray[np.float64]
 
 

@@ -15,8 +15,6 @@ from pyehl.errors import InputError
 from pyehl.surfaces.holes import nearest
 from pyehl.surfaces.levelling import level
 
-__all__ = ["WINDOW", "prominence"]
-
 Array = NDArray[np.float64]
 
 WINDOW = 5

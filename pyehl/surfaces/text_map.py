@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 from pyehl.errors import InputError
 from pyehl.surfaces.memory import check_pixels
 
-__all__ = ["count_numbers", "read_text"]
-
 Array = NDArray[np.float64]
 
 # What stands between separators

@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 from pyehl.errors import InputError
 from pyehl.surfaces.prepare import Preparation
 
-__all__ = ["MAX_PIXELS", "Topography"]
-
 Array = NDArray[np.float64]
 
 MAX_PIXELS = 2**26

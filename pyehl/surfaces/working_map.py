@@ -15,8 +15,6 @@ from pyehl.surfaces import areal
 from pyehl.surfaces.options import Options
 from pyehl.surfaces.reading import Scan
 
-__all__ = ["Record", "Step", "WorkingMap"]
-
 Array = NDArray[np.float64]
 
 LARGEST = 1e6

@@ -12,8 +12,6 @@ from pyehl.destination import new_file
 from pyehl.errors import InputError
 from pyehl.surfaces.tile import Topography
 
-__all__ = ["SUFFIXES", "write_map"]
-
 SUFFIXES = (".npy", ".txt", ".nc")
 """What a tile can be written as."""
 

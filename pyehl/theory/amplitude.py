@@ -32,15 +32,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import InputError
 
-__all__ = [
-    "CONVENTIONS",
-    "amplitude_ratio",
-    "anisotropy_factor",
-    "component_amplitude_ratio",
-    "component_wavelength",
-    "wavelength_parameter",
-]
-
 Array = NDArray[np.float64]
 
 CONVENTIONS = ("components", "wavevector", "pattern")

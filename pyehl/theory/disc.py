@@ -24,17 +24,6 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-__all__ = [
-    "DEGREE",
-    "LARGEST",
-    "RADIUS",
-    "RIM",
-    "disc_correction",
-    "disc_rim",
-    "monomials",
-    "spherical_bessel",
-]
-
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 

@@ -9,8 +9,6 @@ from functools import lru_cache
 
 from pyehl.given import positive
 
-__all__ = ["Ellipse", "ellipse"]
-
 
 @dataclass(frozen=True, slots=True)
 class Ellipse:

@@ -21,8 +21,6 @@ from numpy.typing import NDArray
 from pyehl.theory.disc import DEGREE, LARGEST, RADIUS, RIM, spherical_bessel
 from pyehl.theory.ellipse import Ellipse
 
-__all__ = ["EllipseEdge", "ellipse_edge"]
-
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 

@@ -11,8 +11,6 @@ from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import shear_stress
 
-__all__ = ["absolute_friction"]
-
 
 def absolute_friction(
     operating: OperatingPoint,

@@ -10,8 +10,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-__all__ = ["Heat", "flash_temperature", "thermal_loading", "thermal_reduction"]
-
 # Power of the potential of a narrow contact, as in ``fortran/physics/heat.f90``
 NARROW = 0.38
 

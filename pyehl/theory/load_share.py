@@ -14,8 +14,6 @@ from dataclasses import dataclass
 
 from pyehl.errors import InputError
 
-__all__ = ["AIHARA", "LoadShare"]
-
 AIHARA = 1.8, 1.2
 """B and C of Aihara 1987, J. Tribol. 109, 471, eq. 13 [-]."""
 

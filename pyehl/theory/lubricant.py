@@ -12,12 +12,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pyehl.errors import InputError, check
+from pyehl.extension import lubricants
 from pyehl.given import positive
-from pyehl.library import lubricants, resolve
+from pyehl.library import resolve
 from pyehl.namelist import text_of, values
 from pyehl.theory.shear import ShearLaw
-
-__all__ = ["Lubricant", "default_roelands_z"]
 
 Array = NDArray[np.float64]
 

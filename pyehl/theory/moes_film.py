@@ -9,8 +9,6 @@ from typing import NamedTuple
 from pyehl.errors import InputError
 from pyehl.theory.ellipse import Ellipse, ellipse
 
-__all__ = ["inlet_viscosity_ratio", "nijenbanning_venner_moes", "regime"]
-
 CIRCLE = ellipse(1.0)
 # Asymptotes whose ratio is less are passed from one to the other
 ALIKE = 1.25

@@ -18,8 +18,6 @@ from pyehl.theory.ellipse import Ellipse, ellipse
 from pyehl.theory.heat import thermal_loading, thermal_reduction
 from pyehl.theory.moes_film import inlet_viscosity_ratio
 
-__all__ = ["OperatingPoint"]
-
 # Contact body of the reference conditions (Zhang et al. 2019, table 1). A case given by M and L
 # alone has no length; these two fix one when a quantity in SI units is asked for.
 REFERENCE_RADIUS = 0.018

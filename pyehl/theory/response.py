@@ -42,8 +42,6 @@ from numpy.typing import ArrayLike, NDArray
 from pyehl.theory.inlet import passed
 from pyehl.theory.transport import Zone, upstream
 
-__all__ = ["edge_gain", "fitted_range", "inlet_base", "inlet_fit", "inlet_transfer"]
-
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 

@@ -17,8 +17,6 @@ from numpy.typing import ArrayLike, NDArray
 from pyehl.errors import InputError
 from pyehl.theory.thinning import CODES, sliding_stress
 
-__all__ = ["LAWS", "ShearLaw", "shear_stress"]
-
 Array = NDArray[np.float64]
 
 LAWS = ("newtonian", "eyring", "limiting", "carreau")

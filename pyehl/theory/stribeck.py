@@ -14,8 +14,6 @@ from numpy.typing import ArrayLike, NDArray
 from pyehl.errors import InputError
 from pyehl.theory.film import outside
 
-__all__ = ["RANGE", "in_range", "relative_friction", "theta_2"]
-
 Array = NDArray[np.float64]
 
 RANGE: dict[str, tuple[float, float]] = {

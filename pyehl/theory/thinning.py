@@ -13,10 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pyehl import library
+from pyehl import extension
 from pyehl.errors import EhlError
-
-__all__ = ["CODES", "FlowFactors", "flow_factors", "sliding_stress"]
 
 Array = NDArray[np.float64]
 
@@ -59,7 +57,7 @@ def flow_factors(
     for i, part in enumerate(gradient):
         s[i] = np.broadcast_to(part, b.shape).ravel()
     found = np.empty((5, b.size), order="F")
-    library.thinning.flow_factors(CODES[law], exponent, b.ravel().copy(), s, found)
+    extension.thinning.flow_factors(CODES[law], exponent, b.ravel().copy(), s, found)
     if not np.all(np.isfinite(found)):
         raise EhlError(f"no flow factors of a film that obeys {law} at a stress beyond all bounds")
     return FlowFactors(*(row.reshape(b.shape) for row in found))
@@ -72,5 +70,5 @@ def sliding_stress(law: str, exponent: float, sliding: ArrayLike) -> Array:
     """
     b = np.asarray(sliding, dtype=float)
     stress = np.empty(b.size)
-    library.thinning.sliding_stresses(CODES[law], exponent, b.ravel().copy(), stress)
+    extension.thinning.sliding_stresses(CODES[law], exponent, b.ravel().copy(), stress)
     return stress.reshape(b.shape)

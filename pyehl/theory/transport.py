@@ -39,17 +39,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from pyehl.theory.thinning import FlowFactors
 
-__all__ = [
-    "INLET",
-    "Flow",
-    "Zone",
-    "free_stiffness",
-    "stiffness",
-    "transport",
-    "upstream",
-    "wave_pressure",
-]
-
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 

@@ -11,8 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-__all__ = ["around", "far_field", "load_beyond"]
-
 Array = NDArray[np.float64]
 
 RUPTURE = brentq(lambda angle: np.tan(angle) + 3.0 * np.tanh(3.0 * angle), 1.6, 3.0)

@@ -15,19 +15,6 @@ from typing import cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = [
-    "FIG_2",
-    "PSD_TABLE_2",
-    "SMOOTH",
-    "TABLE_1",
-    "TABLE_2",
-    "WAVINESS",
-    "SmoothRow",
-    "WavinessRow",
-    "hertz_deflection",
-    "hertz_pressure",
-]
-
 Array = NDArray[np.float64]
 
 

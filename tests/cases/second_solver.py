@@ -19,8 +19,6 @@ from numpy.typing import NDArray
 from scipy import linalg, sparse
 from scipy.sparse.linalg import LinearOperator, gmres
 
-__all__ = ["START", "VELOCITY", "X_MATTERS", "NotSolvedError", "SecondSolver", "Wave", "Z"]
-
 Array = NDArray[np.float64]
 
 ALPHA, P_0, Z = 2.2e-8, 1.96e8, 0.6684

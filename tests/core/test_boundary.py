@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from pyehl import Case, Solver, errors, library
-from pyehl.library import ehl
+from pyehl.extension import solvers as ehl
 
 SMALL = (
     "&contact moes_m = 100.0 moes_l = 5.0 /\n"
