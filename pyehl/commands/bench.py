@@ -9,17 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from pyehl.bench import (
-    deflection,
-    faults,
-    precision,
-    skips,
-    smooth,
-    step,
-    stress,
-    sweep,
-    workprec,
-)
+from pyehl.bench import deflection, faults, precision, skips, smooth, step, stress, sweep, workprec
 from pyehl.bench.unit import machine
 from pyehl.commands.arguments import add_force
 from pyehl.commands.bench_arguments import DECLARE

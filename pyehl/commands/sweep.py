@@ -9,12 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from pyehl.commands.arguments import add_overrides
-from pyehl.commands.watching import (
-    Terminal,
-    add_worker_arguments,
-    jobs_of,
-    tell_lost,
-)
+from pyehl.commands.watching import Terminal, add_worker_arguments, jobs_of, tell_lost
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
 from pyehl.studies.gather import Outcome
 from pyehl.studies.plan import MOST, duration, plan

@@ -14,15 +14,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from pyehl.plots.stribeck_contact import draw_contact
-from pyehl.plots.style import (
-    BLUE,
-    GREEN,
-    GREY,
-    VERMILLION,
-    label_log_ticks,
-    letter,
-    new_figure,
-)
+from pyehl.plots.style import BLUE, GREEN, GREY, VERMILLION, label_log_ticks, letter, new_figure
 from pyehl.theory import stribeck
 
 Array = NDArray[np.float64]

@@ -23,12 +23,7 @@ from pyehl.prediction.friction import TRACKS, RoughFriction, SecondPassage, brok
 from pyehl.prediction.heated import heat_of
 from pyehl.prediction.options import Options, unpredictable
 from pyehl.prediction.pair import RoughPair
-from pyehl.prediction.pair_breakdown import (
-    PairAdvice,
-    PairBelowZero,
-    advise_pair,
-    pair_below_zero,
-)
+from pyehl.prediction.pair_breakdown import PairAdvice, PairBelowZero, advise_pair, pair_below_zero
 from pyehl.prediction.partial import Partial, partial_film, without
 from pyehl.prediction.result import Prediction
 from pyehl.prediction.second_order import FILM_ENDS

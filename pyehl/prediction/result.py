@@ -16,12 +16,7 @@ from pyehl.destination import finite
 from pyehl.prediction.bands import BAND_COLUMNS, Band, records
 from pyehl.prediction.breakdown import Advice, BelowZero
 from pyehl.prediction.deformed import deformed_surface
-from pyehl.prediction.errors import (
-    cutoff_error,
-    model_error,
-    outside_range,
-    why_no_error,
-)
+from pyehl.prediction.errors import cutoff_error, model_error, outside_range, why_no_error
 from pyehl.prediction.friction import TRACKS, RoughFriction
 from pyehl.prediction.options import Options
 from pyehl.prediction.pair_breakdown import PairAdvice, PairBelowZero

@@ -28,12 +28,7 @@ from pyehl.prediction.pair import RoughPair
 from pyehl.prediction.smooth import SmoothContact, solve_contact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
-from pyehl.prediction.wavy_contact import (
-    REACH,
-    line_weights,
-    slipped,
-    station_weights,
-)
+from pyehl.prediction.wavy_contact import REACH, line_weights, slipped, station_weights
 from pyehl.surfaces import Topography
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint

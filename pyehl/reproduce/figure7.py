@@ -14,13 +14,7 @@ from pyehl.reproduce.level import Level
 from pyehl.reproduce.piece import Check, Finding, Result
 from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Made, Runs, friction_of
-from pyehl.reproduce.surface_runs import (
-    MODELS,
-    SEED,
-    carried,
-    predictions,
-    simulations,
-)
+from pyehl.reproduce.surface_runs import MODELS, SEED, carried, predictions, simulations
 from pyehl.reproduce.table1 import CASE
 
 Array = NDArray[np.float64]

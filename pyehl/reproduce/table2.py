@@ -10,14 +10,7 @@ from pyehl.reproduce.level import Level
 from pyehl.reproduce.piece import Check, Finding, Result
 from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Made, Runs, friction_of
-from pyehl.reproduce.surface_runs import (
-    CASE,
-    MODELS,
-    SEED,
-    WIDTH,
-    deformed_run,
-    tile,
-)
+from pyehl.reproduce.surface_runs import CASE, MODELS, SEED, WIDTH, deformed_run, tile
 from pyehl.reproduce.waves import SCHEMES
 
 NAME = "table 2"

@@ -16,16 +16,7 @@ import pytest
 from matplotlib.image import imread
 
 import pyehl
-from pyehl.bench import (
-    faults_inputs,
-    precision,
-    skips,
-    smooth,
-    step,
-    stress,
-    stress_cases,
-    sweep,
-)
+from pyehl.bench import faults_inputs, precision, skips, smooth, step, stress, stress_cases, sweep
 from pyehl.bench.faults import CASE, run, same
 from pyehl.bench.faults_states import damage
 from pyehl.bench.stress_contact import broken, judge_share
