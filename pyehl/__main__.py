@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The program ``pyehl``, and ``python -m pyehl``."""
 
-from __future__ import annotations
-
 import atexit
 import gc
 import os

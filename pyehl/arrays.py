@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Arrays and tables of a result folder."""
 
-from __future__ import annotations
-
 import csv
 import math
 import os

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The command ``pyehl``: one module of `pyehl.commands` for each subcommand."""
 
-from __future__ import annotations
-
 import argparse
 import logging
 import os

@@ -7,8 +7,6 @@ for ``ehl``. A single file is written where nothing is, or over a file of the sa
 says so in its metadata; never onto what the command reads. Links are kept, their targets used.
 """
 
-from __future__ import annotations
-
 import json
 import math
 import os

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What callers hand over: checked where it comes in, so that a wrong type is told as bad input."""
 
-from __future__ import annotations
-
 import math
 import os
 import reprlib

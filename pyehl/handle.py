@@ -4,8 +4,6 @@
 One call at a time works on a solver: a call in another thread waits until it has ended.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import threading

@@ -7,8 +7,6 @@ Arrays are float64 of shape (nx, ny) in Fortran order, first index X. Pressures 
 Hertz pressure p_h, lengths by the Hertz radius a, films and deflections by a^2/R.
 """
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Iterable, Mapping

@@ -4,8 +4,6 @@
 What a user wrote is read by Fortran alone, which says what is wrong with it.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from functools import lru_cache

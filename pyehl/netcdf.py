@@ -5,8 +5,6 @@ netCDF-3 (64-bit offset), which xarray, MATLAB, Octave, ParaView and ncview open
 after the CF conventions. Planes are stored (Y, X), the last index fastest, as those tools expect.
 """
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 

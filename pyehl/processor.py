@@ -8,8 +8,6 @@ rounding, not to the last bit: v3 fuses multiplications and additions. The envir
 ``PYEHL_CPU`` set to ``baseline`` or ``x86-64-v3`` forces one of them.
 """
 
-from __future__ import annotations
-
 import os
 import sys
 from importlib.util import find_spec

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A progress bar of a solver, with the time left of a transient run."""
 
-from __future__ import annotations
-
 from pyehl.solver import Solver
 
 STEADY = "{desc} [{elapsed}]"

@@ -7,8 +7,6 @@ units. No two names differ only in case, so that readers that do not tell them a
 exported file.
 """
 
-from __future__ import annotations
-
 import csv
 import json
 import os

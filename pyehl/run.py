@@ -5,8 +5,6 @@ The same calls in the same order as the program ``ehl``, hence the same bits and
 A transient run keeps its state in ``DIR.checkpoint`` as it goes: `resume` resumes it.
 """
 
-from __future__ import annotations
-
 import logging
 import os
 import signal

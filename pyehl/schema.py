@@ -9,8 +9,6 @@ capital letters are Hertz units. Kinds: ``solution`` (``ehl``, ``pyehl run``), `
 summaries.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 KINDS = {"s": "solution", "p": "prediction", "f": "film", "r": "response", "t": "fit"}

@@ -5,8 +5,6 @@ Bokeh sends a message for each property, and the browser paints between them: ev
 times for one answer.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from bokeh.models import ColumnDataSource, CustomJS

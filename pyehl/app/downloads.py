@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a page gives to save: the report, and the figures in a width of a journal."""
 
-from __future__ import annotations
-
 import io
 import tempfile
 import threading

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fields as what a page draws: colours, levels, lines, in mm, nm and GPa."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One page: its knobs, its worker, its pictures. Each tab of a browser has its own."""
 
-from __future__ import annotations
-
 import base64
 import threading
 from collections.abc import Callable

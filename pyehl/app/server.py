@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The server of the page: on this machine alone, for browsers that were given its address."""
 
-from __future__ import annotations
-
 import logging
 import webbrowser
 from collections.abc import Callable

@@ -4,8 +4,6 @@
 The page knows their names alone. What a reader says of a file names it, not where it lies.
 """
 
-from __future__ import annotations
-
 import re
 import tempfile
 from collections.abc import Mapping

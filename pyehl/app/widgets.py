@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A knob as the page shows it: a slider, a field to type in, and room for what is wrong."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from html import escape
 from typing import Any

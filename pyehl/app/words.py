@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the page says: numbers with errors, formulas beside them, Python lines."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Mapping

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A scene as it is solved and with skipped work done: seconds, and the difference in a result."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

@@ -5,8 +5,6 @@ Nothing may be lost, no run may leave half a folder, no input may end in a trace
 a run that was killed and resumed gives the bits of an unbroken one.
 """
 
-from __future__ import annotations
-
 import csv
 import json
 import os

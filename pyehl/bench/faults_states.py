@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Damaged states for ``pyehl bench faults``."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 from collections import Counter

@@ -5,8 +5,6 @@ The reference is extrapolated from the two finest grids by the narrow scheme; it
 one grid more has changed it by.
 """
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Mapping, Sequence

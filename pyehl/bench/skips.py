@@ -5,8 +5,6 @@ Each row is a scene solved as usual and once more with that work done, in turn, 
 Seconds are those of the processor, the least of the repeats.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from typing import Any

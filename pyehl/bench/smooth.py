@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl bench smooth``: the time of smooth solves, the error of their film, their memory."""
 
-from __future__ import annotations
-
 import json
 import math
 import resource

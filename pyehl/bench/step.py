@@ -7,8 +7,6 @@ step of each in turn. The unit of time is one scipy.fft deflection on the same g
 of these turns.
 """
 
-from __future__ import annotations
-
 import contextlib
 import statistics
 import tempfile

@@ -6,8 +6,6 @@ solved once more to a twentieth of the algebraic error. Cases with a boundary fi
 their fields and on a finer grid as well.
 """
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence

@@ -4,8 +4,6 @@
 Zero-padded, real, float64, one worker, kernel transformed beforehand. With what measures seconds.
 """
 
-from __future__ import annotations
-
 import platform
 import resource
 import statistics

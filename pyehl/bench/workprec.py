@@ -5,8 +5,6 @@ Every setting is one run. Seconds are those of the processor; the unit, one scip
 the same grid, is measured before each run.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any

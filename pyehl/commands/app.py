@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl app``: an interactive contact, in the browser."""
 
-from __future__ import annotations
-
 import argparse
 from functools import partial
 

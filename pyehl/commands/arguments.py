@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Arguments that several subcommands share."""
 
-from __future__ import annotations
-
 import argparse
 
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl bench``: times beside their errors; the unit of time is that of `pyehl.bench.unit`."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections.abc import Callable

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl check``: a case resolved, and how it would be solved."""
 
-from __future__ import annotations
-
 import argparse
 
 from pyehl.api import check

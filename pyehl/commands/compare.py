@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl compare``: results against a table of references."""
 
-from __future__ import annotations
-
 import argparse
 
 from pyehl.errors import EXIT_FAILED, EXIT_OK

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl export``: a result folder as netCDF."""
 
-from __future__ import annotations
-
 import argparse
 
 from pyehl.netcdf import export

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl film``: film formulas side by side for a case."""
 
-from __future__ import annotations
-
 import argparse
 import json
 from collections.abc import Mapping

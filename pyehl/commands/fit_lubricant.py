@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl fit-lubricant``: a shear law fitted to a measured traction curve."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

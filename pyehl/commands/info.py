@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl info``: what a report of a fault needs."""
 
-from __future__ import annotations
-
 import argparse
 import os
 import platform

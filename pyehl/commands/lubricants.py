@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl lubricants``: oils by name."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl plot``: pictures of a result folder."""
 
-from __future__ import annotations
-
 import argparse
 import re
 from pathlib import Path

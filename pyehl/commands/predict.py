@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl predict``: relative friction of a rough contact from its spectrum."""
 
-from __future__ import annotations
-
 import argparse
 import math
 from collections.abc import Mapping

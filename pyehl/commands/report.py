@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl report``: one HTML page about a result."""
 
-from __future__ import annotations
-
 import argparse
 
 from pyehl.reports.folder import report

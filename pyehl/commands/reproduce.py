@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl reproduce``: the figures and tables of a paper by our own runs, beside its numbers."""
 
-from __future__ import annotations
-
 import argparse
 import os
 import platform

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl response``: what the contact of a case makes of small waves of roughness."""
 
-from __future__ import annotations
-
 import argparse
 import time
 from pathlib import Path

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl run``: solve a case and write a result folder."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 import time

@@ -4,8 +4,6 @@
 A file of an instrument or an array, or the surface of a case.
 """
 
-from __future__ import annotations
-
 import argparse
 import hashlib
 from collections.abc import Sequence

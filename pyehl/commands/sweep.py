@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl sweep``: many cases, one table."""
 
-from __future__ import annotations
-
 import argparse
 from contextlib import closing
 from pathlib import Path

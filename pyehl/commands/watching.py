@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What subcommands that run many cases share: arguments, and what they print meanwhile."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 import time

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The result folder of a measured response, and the shipped response beside it."""
 
-from __future__ import annotations
-
 import os
 import tempfile
 from collections.abc import Callable, Iterable, Mapping

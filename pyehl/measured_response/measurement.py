@@ -7,8 +7,6 @@ one transient run (:mod:`pyehl.measured_response.superposition`) and one file of
 a tier whose file is there is not run again.
 """
 
-from __future__ import annotations
-
 import json
 import time
 from collections.abc import Callable, Mapping, Sequence

@@ -12,8 +12,6 @@ exp(...). Lengths along the surface are scaled by the Hertz radius a, films by a
 p_h, times by a/u.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

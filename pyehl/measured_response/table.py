@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A measured response as an xarray Dataset and as a table, beside the shipped response."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any

@@ -5,8 +5,6 @@ Each function draws on `ax`, or on a new figure, and returns the axes; arrays ha
 index along x, the direction of motion. Units as in `pyehl.plots.style`.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

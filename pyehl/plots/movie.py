@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The frames of a transient run as a moving picture: film, pressure and roughness of a passage."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

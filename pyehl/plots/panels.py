@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Panels side by side under a line that says what they show."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

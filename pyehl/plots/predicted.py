@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figures of a prediction: its surfaces, deformed, and the friction of their passage."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

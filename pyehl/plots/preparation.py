@@ -4,8 +4,6 @@
 Arrays have their first index along x.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure

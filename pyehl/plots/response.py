@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The measured response of a contact to waves of roughness: amplitude and lag over wavelength."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

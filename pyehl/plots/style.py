@@ -6,8 +6,6 @@ else in Hertz units. Labels are plain text where it says the same: to set mathem
 as the rest of a panel.
 """
 
-from __future__ import annotations
-
 import io
 import math
 import re

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The picture of traction curves: friction and temperature over the slide-to-roll ratio."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from textwrap import wrap
 

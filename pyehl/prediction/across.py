@@ -9,8 +9,6 @@ there is no film: the edge takes it off (:class:`pyehl.prediction.edge.Edge`). N
 fitted.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -6,8 +6,6 @@ and its share of the contact, and the film is never clipped. What the film bears
 carry are given as functions, so that nothing here depends on the model.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -9,8 +9,6 @@ the real ratio of the paper takes the place of the response: it moves with the r
 ``smooth="hertz"`` too, the contact is that of the paper, a semi-ellipse and a uniform film.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 

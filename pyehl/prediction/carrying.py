@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What would carry where a film ends: a cut-off or a threshold of spikes, found by bisection."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

@@ -4,8 +4,6 @@
 Pressures by p_h, films by a^2/R.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

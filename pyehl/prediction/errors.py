@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How far a prediction can be trusted."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What closed formulas say about the film of a case."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Any

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The result folder of a prediction."""
 
-from __future__ import annotations
-
 import gc
 import os
 from collections.abc import Iterable, Iterator

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a passage of a tile is in the end: mu_r/mu_s with all that was met."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The heat of sliding in the smooth contact under a prediction."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -7,8 +7,6 @@ lattice of points over these takes the mean: positions k/n of the one and m k/n 
 k = 0 ... n - 1, with n = m^2 - 1. As m^2 is 1 modulo n, it is the same for either order of the two.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

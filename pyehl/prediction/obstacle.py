@@ -9,8 +9,6 @@ conjugate gradients on the nodes with p > 0, which are found on the way (Polonsk
 231, 206); s is a lift of all nodes that is there only where p would carry more than there is.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

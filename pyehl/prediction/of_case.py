@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The prediction of a resolved case."""
 
-from __future__ import annotations
-
 import math
 import os
 import time

@@ -5,8 +5,6 @@ Each point of the one meets points of the other on its line. Where the two have 
 period, it meets all of them in the course of time.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Which cut-off of two surfaces brings their ratio into the range of the model."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 

@@ -19,8 +19,6 @@ one after the other, and all films are thicker by the mean s of that:
 Compared with the full simulation in docs/evidence/partial.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The positions of a passage: their grid, their number, and what they leave undecided."""
 
-from __future__ import annotations
-
 import math
 from typing import Protocol
 

@@ -4,8 +4,6 @@
 Units: lengths along the surface by a, films by a^2/R, pressures by p_h.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

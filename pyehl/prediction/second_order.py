@@ -31,8 +31,6 @@ each, too: they meet in all positions, so that no product of two has a mean.
 Lengths along the surface are scaled by a, heights by a^2/R, pressures by p_h.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

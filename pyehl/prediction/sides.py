@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a result holds of each rough surface of a prediction."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any

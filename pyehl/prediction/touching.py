@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a prediction says of contact at a boundary film."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Any

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A table over wavenumber and direction, and the way between it and the components of a tile."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

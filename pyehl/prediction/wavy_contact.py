@@ -8,8 +8,6 @@ from :mod:`pyehl.prediction.waves`, the pressure of second order is that of
 of the contact, which it moves (:mod:`pyehl.prediction.edge`).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The answer of a result in rows with errors, and a judgement of it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What was asked: the conditions of a case in SI units and in the numbers of Moes and Hertz."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

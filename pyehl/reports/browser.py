@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A page as PDF, printed by an installed browser."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

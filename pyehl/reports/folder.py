@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The report of a result folder."""
 
-from __future__ import annotations
-
 import json
 import os
 import platform

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Which of the limits of the model apply to a result, and what it warns of itself."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -5,8 +5,6 @@ Functions take plain text and escape it; what they return is HTML. A page may no
 tells the browser so, too.
 """
 
-from __future__ import annotations
-
 import base64
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The parts of the page of a sweep or a Stribeck curve, from its journal, table and picture."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path

@@ -4,8 +4,6 @@
 A piece is run before the numbers of the paper are read for it: nothing that computes sees them.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figure 1: the flow of the prediction, with the fields of one surface at each step."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figure 2: mu_r/mu_s of a moving wave over time."""
 
-from __future__ import annotations
-
 import csv
 from dataclasses import dataclass
 

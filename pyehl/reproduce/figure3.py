@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figure 3: mu_r/mu_s of moving waves over H_c/A_i, a curve for each operating condition."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from pyehl.plots import paper

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figure 4: mu_r/mu_s of moving waves over theta_2 with eq. 16, our own fit, a better parameter."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figure 5: a fractal surface, its spectrum, and the radial mean of it."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

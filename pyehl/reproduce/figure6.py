@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figure 6: the roughness deformed in the contact, by simulation and by two predictions."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figure 7: mu_r/mu_s of random surfaces by simulation and by two predictions."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -6,8 +6,6 @@ leave the fit to the two or three largest. Points of one curve (one M, L and wav
 independent of one another, so that the confidence interval is that of a bootstrap over the curves.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How much is computed: ``--quick`` or ``--full``."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 

@@ -15,8 +15,6 @@ from a Gaussian of variance 1/b around the centre, where that mean is (1 + exp(-
 gives mu_r/mu_s = 1 + theta_r^-2/4 for small waves, with nothing fitted to friction.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -4,8 +4,6 @@
 Read by the driver alone, and handed to the pieces when their cases have run.
 """
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Mapping
 from dataclasses import dataclass

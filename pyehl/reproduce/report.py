@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One page of all pieces, ``report.html``, with the pictures in it."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 from html import escape

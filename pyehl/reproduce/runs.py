@@ -4,8 +4,6 @@
 Each study is a folder with its journal and its table; their rows are where the figures come from.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path

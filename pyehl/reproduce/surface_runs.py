@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Table 1 surfaces under Figs 5 to 7 and Table 2: simulations, and predictions by three models."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

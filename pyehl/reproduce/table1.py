@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Table 1: the operating conditions, and what follows from them."""
 
-from __future__ import annotations
-
 from pyehl import surfaces
 from pyehl.case import Case
 from pyehl.reproduce.level import Level

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Table 2: mu_r/mu_s of one surface on three meshes, by simulation and by prediction."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

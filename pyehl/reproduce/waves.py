@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The moving waves under Figs 2 to 4: cases, and friction over what they are plotted against."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -5,8 +5,6 @@ A task whose worker is lost goes to another one: dask does that, and gives a tas
 workers were lost with it (``distributed.scheduler.allowed-failures``).
 """
 
-from __future__ import annotations
-
 import uuid
 from collections.abc import Generator, Sequence
 from typing import Any

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Results against a table of references: deviations, pass or fail."""
 
-from __future__ import annotations
-
 import json
 import math
 import os

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Contact at a boundary film along a Stribeck curve, and the speed at which it ends."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Mapping, Sequence

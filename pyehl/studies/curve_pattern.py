@@ -7,8 +7,6 @@ height (A_i = 2 sigma) and the same mean wavenumber, which is 2 sqrt(2) pi/wavel
 surfaces for one with the power of both.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -6,8 +6,6 @@ and at some points the passage of the surface is solved in full. All of these ar
 study, so that a curve that was interrupted goes on.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass

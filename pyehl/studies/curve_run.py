@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Run the tasks of a Stribeck curve and write its table."""
 
-from __future__ import annotations
-
 import os
 import tempfile
 from collections.abc import Iterable, Mapping, Sequence

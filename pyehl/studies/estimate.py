@@ -6,8 +6,6 @@ so: what matters is that long cases begin first, and that the order of magnitude
 study runs.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

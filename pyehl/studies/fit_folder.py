@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A shear law fitted to a measured traction curve, and its result folder."""
 
-from __future__ import annotations
-
 import os
 
 from pyehl.arrays import write_csv

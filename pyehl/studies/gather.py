@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Do what is missing of some tasks, and keep what is finished."""
 
-from __future__ import annotations
-
 import os
 import time
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence

@@ -7,8 +7,6 @@ disk when `Journal.append` returns. What a kill leaves of the last line is cut o
 line it is written again.
 """
 
-from __future__ import annotations
-
 import fcntl
 import json
 import os

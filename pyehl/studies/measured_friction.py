@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Measured friction, to lay over a Stribeck curve."""
 
-from __future__ import annotations
-
 import csv
 import io
 import os

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The oils that the package knows, and their pictures."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 

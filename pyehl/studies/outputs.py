@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Names of the results in the table of a study: which there are, and what they cost."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from pyehl import schema

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The plan of a study: its cases resolved and checked, how long, and what is shared."""
 
-from __future__ import annotations
-
 import json
 import os
 import time

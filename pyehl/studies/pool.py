@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Worker processes on this machine: tasks to rows, in the order in which they are finished."""
 
-from __future__ import annotations
-
 import json
 import os
 import selectors

@@ -8,8 +8,6 @@ tolerance, rtol times the value plus atol, and ``note`` is a remark. An empty ce
 compared.
 """
 
-from __future__ import annotations
-
 import csv
 import math
 import os

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A study: a case, what is varied in it, and what each case is for."""
 
-from __future__ import annotations
-
 import hashlib
 import itertools
 import os

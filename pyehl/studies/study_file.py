@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Study files (TOML): a case, what is set and varied in it, and what each case is for."""
 
-from __future__ import annotations
-
 import os
 import tomllib
 from collections.abc import Mapping

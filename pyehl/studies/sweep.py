@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Run a study: many cases, one table, and nothing lost."""
 
-from __future__ import annotations
-
 import os
 import tempfile
 from collections.abc import Mapping, Sequence

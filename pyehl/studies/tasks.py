@@ -4,8 +4,6 @@
 Nothing that a case does ends a worker: whatever goes wrong is the status and the message of a row.
 """
 
-from __future__ import annotations
-
 import json
 import math
 import time

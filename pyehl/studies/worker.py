@@ -5,8 +5,6 @@
 nobody is left who would take the row.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import queue

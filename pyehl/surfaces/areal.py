@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Numbers of a height map by their ISO 25178-2 names."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Parts of maps, and maps turned: the lay against the motion."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

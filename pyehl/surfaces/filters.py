@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The cut of the spectrum of a tile, by the compiled library: what the solver does, too."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

@@ -7,8 +7,6 @@ because the seed must give the same surface for as long as the package lives, an
 modulus of each Fourier component must be selectable, exactly on the power law or random.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Height maps as tables of numbers under header lines of words, as spreadsheets export them."""
 
-from __future__ import annotations
-
 import re
 from itertools import islice, pairwise
 from pathlib import Path

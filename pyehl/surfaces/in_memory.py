@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A surface in memory: that of a caller, and part of a large one where its statistics do."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from dataclasses import replace

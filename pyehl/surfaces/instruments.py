@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Files of instruments, by the package SurfaceTopography (extra ``surfaces``)."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

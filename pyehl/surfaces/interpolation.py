@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tiles and periodic sequences moved, or on a finer grid, by their Fourier interpolant."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import cast
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Form taken off a map: its mean, its plane, its curvature, by least squares."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Whether a surface fits into the memory, before it is read or made."""
 
-from __future__ import annotations
-
 import logging
 
 from pyehl import library

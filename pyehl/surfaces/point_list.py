@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Height maps as lists of the x, y and z of their points."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

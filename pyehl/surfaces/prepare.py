@@ -6,8 +6,6 @@ is fitted, which they would tilt, and holes before the map is turned; the edges 
 What 'auto' means depends on what the file is, see :func:`pyehl.surfaces.options.defaults`.
 """
 
-from __future__ import annotations
-
 import logging
 from dataclasses import dataclass, field
 

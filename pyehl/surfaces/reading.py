@@ -6,8 +6,6 @@ An instrument file is taken as SurfaceTopography gives it: x along the lines of 
 width), y across them. A map whose lay or motion is another way is turned by `surface.rotate`.
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from pathlib import Path

@@ -5,8 +5,6 @@ A tile is repeated over and over. Where opposite edges do not meet, the heights 
 infinite slope that the surface does not have, and that holds the film up or breaks it.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

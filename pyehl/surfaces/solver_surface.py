@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The surface of a case for the solver: what it cannot make or read itself."""
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -6,8 +6,6 @@ C2D(q) = |dx dy sum z exp(-i q x)|^2/(Lx Ly) [m^4], so that h_rms^2 = sum C2D/(L
 its mean over annuli of |q|.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -5,8 +5,6 @@ Optical instruments give single pixels or small groups of them that lie micromet
 slopes and specks of dirt. Their heights are not those of the surface, and one of them ends a film.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import scipy
 from numpy.typing import NDArray

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Height maps as text: one x per line, y along the line."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A periodic tile of heights."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A map while it is prepared: its heights, and the record of what each step did to them."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any

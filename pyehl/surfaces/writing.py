@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tiles as files: `.npy`, text and netCDF, with their size."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

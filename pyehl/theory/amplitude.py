@@ -23,8 +23,6 @@ component of a rough surface is a plane wave, and three ways to give it a wavele
     Agrees with the formula for such patterns.
 """
 
-from __future__ import annotations
-
 from typing import cast
 
 import numpy as np

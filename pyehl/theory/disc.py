@@ -14,8 +14,6 @@ carries load and is left out. All lengths are scaled by the Hertz radius a, heig
 pressures by p_h.
 """
 
-from __future__ import annotations
-
 import math
 from functools import lru_cache
 from typing import cast

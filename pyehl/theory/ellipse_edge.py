@@ -9,8 +9,6 @@ there is one small set of equations, with the harmonics of g. The wavevector ent
 kappa q_Y). Lengths by a, heights by a^2/R_x, pressures by p_h.
 """
 
-from __future__ import annotations
-
 import math
 from functools import lru_cache
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Absolute friction: where it means something, and the heat of it."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

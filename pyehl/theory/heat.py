@@ -5,8 +5,6 @@ The same formulas as in ``fortran/physics/heat.f90``, which the solver uses. The
 film is computed there alone.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -7,8 +7,6 @@ of their own; the film has its friction on the rest of the load. B and C belong 
 surfaces.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Central film of a point contact in Moes numbers, and the viscosity that a film belongs to."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -27,8 +27,6 @@ lubricant at the nearest velocity ratio of the fit, times the ratio of what the 
 equation makes of both (:mod:`pyehl.theory.inlet`). Nothing of that is fitted.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Sequence

@@ -6,8 +6,6 @@ Zhang, Biboulet, Venner & Lubrecht 2019, doi 10.1016/j.triboint.2019.01.028, eq.
 vanishing slide-to-roll ratio; shear thinning at real sliding speeds brings it close to one.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 

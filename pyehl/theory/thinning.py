@@ -6,8 +6,6 @@ times as much along Y as in a Newtonian lubricant. The factors are those of
 ``fortran/physics/flow_factors.f90``, exact through the film.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

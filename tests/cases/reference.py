@@ -5,8 +5,6 @@ A leaf: it imports nothing of this package, and nothing that computes results im
 a test against it can fail.
 """
 
-from __future__ import annotations
-
 import csv
 from dataclasses import dataclass
 from importlib import resources

@@ -6,8 +6,6 @@ relaxation. Each time step is solved by Newton's method with the cavitated nodes
 the linear systems by GMRES, with the LU factors of an earlier, full matrix as preconditioner.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any

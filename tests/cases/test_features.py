@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Single features that pass the contact once: closed forms, limits, symmetry, extremes, the end."""
 
-from __future__ import annotations
-
 import subprocess
 from pathlib import Path
 from typing import Any

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A second solver of the same discrete equations comes to the same friction and the same end."""
 
-from __future__ import annotations
-
 from itertools import islice
 
 import numpy as np

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Slide-to-roll ratio, and shear laws in whole runs."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

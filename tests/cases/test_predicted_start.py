@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A rough run that starts where the prediction ends: the same mean in fewer steps."""
 
-from __future__ import annotations
-
 import json
 import math
 import subprocess

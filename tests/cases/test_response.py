@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`pyehl response`: measured waves against the shipped response and a second solver."""
 
-from __future__ import annotations
-
 import csv
 import json
 from itertools import islice

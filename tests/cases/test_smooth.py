@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The smooth contact against reference values, limits, other engines and its own error estimate."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from typing import Any

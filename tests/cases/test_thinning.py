@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Oils that thin by shear, in the flow that makes the film (lubricant.flow)."""
 
-from __future__ import annotations
-
 import subprocess
 from pathlib import Path
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Rough surfaces on both bodies: exact special cases, sums of waves, means, features."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

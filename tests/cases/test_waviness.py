@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Moving waviness: reference values, the start, symmetry, sign, and maps."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Arguments of the wrong type or value: InputError with what was expected, never a bare error."""
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Callable

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The boundary to Fortran: no copies, errors as exceptions, handles that end."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import sys

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Both drivers: the same bits, the same files, whole folders, clean interrupts."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """No command touches what it did not write, and every result is whole at every instant."""
 
-from __future__ import annotations
-
 import json
 import os
 import random

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The order of the Python modules, and who may do what."""
 
-from __future__ import annotations
-
 import ast
 import re
 from functools import cache

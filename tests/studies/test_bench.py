@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl bench``: what is skipped, stress, faults, work and precision, on tiny campaigns."""
 
-from __future__ import annotations
-
 import csv
 import json
 import math

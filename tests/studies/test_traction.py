@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Traction curves, and what an empirical law says where the film is thin."""
 
-from __future__ import annotations
-
 import csv
 import io
 import math
