@@ -11,15 +11,14 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, Self
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pyehl.errors import check
 from pyehl.extension import predicted
 from pyehl.extension import solvers as ehl
 from pyehl.given import path_of, text_of
 from pyehl.library import returned
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 NO_HEIGHTS = np.zeros((1, 1), order="F")
 

@@ -15,13 +15,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pyehl.errors import check
 from pyehl.extension import functions, lubricants
 from pyehl.given import Option, options_of, path_of, text_of
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 
 def returned(value: bytes) -> str:

@@ -17,7 +17,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from pyehl import namelist
 from pyehl.arrays import read_array
@@ -25,8 +24,8 @@ from pyehl.errors import FileError, InputError
 from pyehl.given import path_of
 from pyehl.schema import QUANTITIES
 from pyehl.theory.operating import OperatingPoint
+from pyehl.types import Array
 
-Array = NDArray[np.float64]
 Settings = Mapping[str, Mapping[str, Any]]
 
 

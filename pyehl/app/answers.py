@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl import api
 from pyehl.app.position import Position
@@ -16,8 +15,7 @@ from pyehl.errors import EhlError, InputError
 from pyehl.prediction.result import Prediction
 from pyehl.solver import Solver
 from pyehl.theory.operating import OperatingPoint
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 COARSE, FINE = 129, (257, 513)
 """Nodes a side while a knob moves, and when it rests."""

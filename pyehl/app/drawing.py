@@ -14,8 +14,7 @@ from pyehl.plots.contact import fringe_colours, fringe_spacings
 from pyehl.plots.outline import Outline
 from pyehl.plots.style import Scales
 from pyehl.prediction.result import Prediction
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 VIEW = 1.3
 # Pixels a side of the fringes, at least

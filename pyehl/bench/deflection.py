@@ -6,12 +6,10 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl import library
 from pyehl.bench.unit import ScipyDeflection, hertz, median_seconds
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 # Share of the discretisation error that the error of a deflection may have
 SHARE = 0.1

@@ -16,8 +16,7 @@ import scipy.fft
 from numpy.typing import NDArray
 
 from pyehl import library
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 X_INLET, X_OUTLET, Y_EXTENT = -2.5, 1.5, 2.0
 

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.commands.watching import (
@@ -34,7 +33,6 @@ from pyehl.theory.load_share import AIHARA, LoadShare
 SLIP = KEYS["slide-to-roll"]
 
 Row = Mapping[str, Any]
-Array = NDArray[np.float64]
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

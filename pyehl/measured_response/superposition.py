@@ -24,9 +24,7 @@ from pyehl.case import Case
 from pyehl.errors import EhlError
 from pyehl.solver import Solver
 from pyehl.theory.operating import OperatingPoint
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from pyehl.types import Array, Complex
 
 SLOPE = 1.2e-3
 """Amplitude of a wave times its wavenumber [a/R]: small enough for the response to be linear."""

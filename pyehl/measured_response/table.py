@@ -7,15 +7,12 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from pyehl.destination import new_file
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_transfer
 from pyehl.theory.transport import Zone, stiffness, transport
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from pyehl.types import Array, Complex
 
 STATIONS = np.array([-0.5, 0.0, 0.5])
 """Where the response is tabulated, on Y = 0 [a]."""

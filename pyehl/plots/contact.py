@@ -11,7 +11,6 @@ import numpy as np
 import scipy
 from matplotlib import colormaps
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 
 from pyehl.plots.outline import CIRCLE, Outline
 from pyehl.plots.style import (
@@ -30,8 +29,7 @@ from pyehl.plots.style import (
     pressure_unit,
     y_label,
 )
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 # Light of the interferogram [m]: red and green, as in two-colour interferometry; mineral oil
 RED, GREEN = 633e-9, 532e-9

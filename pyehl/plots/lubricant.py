@@ -3,13 +3,11 @@
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from pyehl.plots.style import BLUE, GREEN, VERMILLION, letter, new_figure
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.shear import ShearLaw, shear_stress
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 # Of the picture of an oil: rises of temperature [K], pressures [Pa]
 RISES = (0.0, 20.0, 60.0)

@@ -8,11 +8,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
-from numpy.typing import NDArray
 
 from pyehl.plots.style import BLUE, GREY, VERMILLION, new_figure
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 COLOURS = (BLUE, VERMILLION, "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "black")
 MARKERS = "osD^vP*"

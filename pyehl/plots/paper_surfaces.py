@@ -23,8 +23,7 @@ from pyehl.plots.style import (
     new_figure,
 )
 from pyehl.surfaces import Topography, psd_isotropic
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 COLOURS = (GREY, "black", BLUE, VERMILLION)
 

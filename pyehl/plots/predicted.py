@@ -6,15 +6,13 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from pyehl.plots import surface
 from pyehl.plots.panels import headline, no_second_label, panels
 from pyehl.surfaces import Topography, wavenumbers
 from pyehl.theory.ellipse import ellipse
 from pyehl.theory.transport import stiffness
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 
 def prediction_figures(

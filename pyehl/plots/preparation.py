@@ -7,7 +7,6 @@ Arrays have their first index along x.
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from pyehl.plots.style import (
     BLUE,
@@ -22,8 +21,7 @@ from pyehl.plots.style import (
 from pyehl.surfaces import Preparation, Topography, psd_isotropic
 from pyehl.surfaces.holes import nearest
 from pyehl.theory.amplitude import component_amplitude_ratio
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 SHOWN = 0.005
 """Share of the heights that may lie beyond either end of the colours, against spikes."""

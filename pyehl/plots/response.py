@@ -7,13 +7,10 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
-from numpy.typing import NDArray
 
 from pyehl.plots.style import GREY, SEQUENTIAL, letter, new_figure
 from pyehl.theory.amplitude import amplitude_ratio, wavelength_parameter
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from pyehl.types import Array, Complex
 
 
 def response_figure(

@@ -9,13 +9,11 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from pyehl.plots.stribeck_contact import draw_contact
 from pyehl.plots.style import BLUE, GREEN, GREY, VERMILLION, label_log_ticks, letter, new_figure
 from pyehl.theory import stribeck
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 ABSCISSAE = {
     "hersey": r"Hersey number $\eta_0 \bar u R/w$",

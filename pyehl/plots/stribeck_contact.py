@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 
 class HasColumns(Protocol):

@@ -6,11 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from pyehl.plots.style import BLUE, GREEN, GREY, VERMILLION, letter, new_figure
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 COLOURS = (BLUE, VERMILLION, GREEN, "#CC79A7", "#E69F00", "#56B4E9", GREY)
 MARKERS = "os^Dv<>"

@@ -29,8 +29,7 @@ from numpy.typing import NDArray
 
 from pyehl.destination import mark, new_file
 from pyehl.plots.outline import CIRCLE, Outline
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 DPI = 150
 INCH = 0.0254

@@ -11,7 +11,6 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
-from numpy.typing import NDArray
 
 from pyehl.plots.outline import Outline
 from pyehl.plots.style import (
@@ -31,8 +30,7 @@ from pyehl.plots.style import (
     y_label,
 )
 from pyehl.surfaces import Topography, interpolated, psd_2d, psd_isotropic
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 # Least spectral density that is drawn, as a share of the largest
 FLOOR = 1e-10

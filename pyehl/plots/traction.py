@@ -6,12 +6,10 @@ from textwrap import wrap
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from pyehl.plots.stribeck import COLOURS, Curve, Points
 from pyehl.plots.style import letter, new_figure
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 
 def draw_traction(

@@ -30,8 +30,7 @@ from pyehl.plots.style import (
     y_label,
 )
 from pyehl.theory import stribeck
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 
 def eq_16(summary: Mapping[str, Any], settings: Mapping[str, Mapping[str, Any]]) -> float | None:

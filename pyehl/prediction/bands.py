@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl.theory.operating import OperatingPoint
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 # A wave at the end of an octave begins the next one, whatever its last digits
 ROUNDING = 1e-9

@@ -10,15 +10,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.prediction.carrying import Carries, carrying_outliers, carrying_wavelength
 from pyehl.surfaces.cutting import cropped
 from pyehl.surfaces.prepare import Preparation
 from pyehl.surfaces.spikes import prominence
 from pyehl.surfaces.tile import Topography
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 DeformedOf = Callable[[Topography], Array]
 """Deformed roughness of a tile on its pixels [m], (nx, ny)."""

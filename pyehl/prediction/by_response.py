@@ -40,8 +40,8 @@ from pyehl.surfaces import Topography, filtered
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
+from pyehl.types import Array
 
-Array = NDArray[np.float64]
 Parts = tuple[Topography, Spectrum, Transfer, Edge]
 
 # Points per shorter semi-axis at which the shear stress is taken: the tile is finer, and its other

@@ -5,12 +5,10 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.prediction.errors import KNOWN_RATIO
 from pyehl.surfaces.tile import Topography
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 Carries = Callable[[Topography], bool]
 """Whether a tile is good enough: its film is full."""

@@ -13,9 +13,7 @@ from numpy.typing import NDArray
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import shear_stress
-
-Array = NDArray[np.float64]
-Single = NDArray[np.float32]
+from pyehl.types import Array, Single
 
 INNER = 0.8
 """Pressures are told within this distance from the centre: at the rim the roughness moves the edge

@@ -5,12 +5,10 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.prediction.contact import Response, ShearedContact
 from pyehl.surfaces import interpolated
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 BEYOND = "beyond linear response"
 """Status where the ratio is larger than the model can tell."""

@@ -14,12 +14,11 @@ from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.prediction.options import MAX_POSITIONS
 from pyehl.prediction.passage import POSITION_TOLERANCE
+from pyehl.types import Array
 
-Array = NDArray[np.float64]
 Friction = Callable[[tuple[float, float]], float]
 """mu_r/mu_s where two tiles have moved by so much [a]."""
 

@@ -16,7 +16,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 ENOUGH, DEEPEST = 2e-3, 1e-2
 """Error of the film at touching nodes (rms), and depth below the layer elsewhere, over the scale

@@ -9,9 +9,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
-import numpy as np
-from numpy.typing import NDArray
-
 from pyehl import surfaces
 from pyehl.errors import InputError
 from pyehl.prediction.bands import Band
@@ -31,8 +28,7 @@ from pyehl.prediction.touching import touching
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 MAX_TRACKS = 10_000
 

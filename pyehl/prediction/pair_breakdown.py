@@ -10,14 +10,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.prediction.breakdown import STATIONS, Borne
 from pyehl.prediction.carrying import carrying_wavelength
 from pyehl.prediction.pair import RoughPair
 from pyehl.surfaces import GROUPS, Topography
+from pyehl.types import Array
 
-Array = NDArray[np.float64]
 Pixels = tuple[tuple[int, int], tuple[int, int]]
 
 

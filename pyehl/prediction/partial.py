@@ -35,8 +35,7 @@ from pyehl.prediction.transfer import Transfer
 from pyehl.prediction.wavy_contact import missing, slipped
 from pyehl.surfaces import Topography
 from pyehl.theory.transport import stiffness
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 HOLD = 0.01
 """Bodies touch where the film exceeds the layer by less than this share, as in the solver."""

@@ -12,9 +12,7 @@ from pyehl.prediction.options import MAX_POSITIONS
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import MAX_PIXELS, Topography, interpolated, resampled, track_offsets
 from pyehl.theory.operating import OperatingPoint
-
-Array = NDArray[np.float64]
-Indices = NDArray[np.int_]
+from pyehl.types import Array, Indices
 
 # Fewest positions of an automatic passage
 FIRST_POSITIONS = 8

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl import display, library, namelist, surfaces
 from pyehl.destination import finite
@@ -28,12 +27,12 @@ from pyehl.theory.friction import absolute_friction
 from pyehl.theory.heat import Heat
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
+from pyehl.types import Array
 
 if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
 
-Array = NDArray[np.float64]
 
 NEWTONIAN_NOTE = (
     "Newtonian: a ratio at this slip, no absolute coefficient; shear thinning brings it close to "

@@ -5,7 +5,6 @@ Units: lengths along the surface by a, films by a^2/R, pressures by p_h.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl import extension
 from pyehl.prediction.edge import Edge
@@ -14,9 +13,7 @@ from pyehl.prediction.waves import REFINEMENT, Waves
 from pyehl.prediction.wavy_contact import REACH, WavyContact, pairs, slipped
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-
-Array = NDArray[np.float64]
-Single = NDArray[np.float32]
+from pyehl.types import Array, Single
 
 
 class RoughContact(WavyContact):

@@ -34,13 +34,10 @@ Lengths along the surface are scaled by a, heights by a^2/R, pressures by p_h.
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.prediction.wave_table import WaveTable, coarsened
 from pyehl.theory.transport import Zone, stiffness
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from pyehl.types import Array, Complex
 
 INLET_PRESSURE = 0.5
 """Pressure of second order that the inlet makes, over the square of that of first order [1/p_h]."""

@@ -6,14 +6,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.prediction.contact import Response
 from pyehl.prediction.friction import SecondPassage
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import Topography
+from pyehl.types import Array
 
-Array = NDArray[np.float64]
 SECOND = "second_"
 """Before the names of what belongs to the second surface."""
 

@@ -25,8 +25,7 @@ from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import ShearLaw
 from pyehl.theory.thinning import FlowFactors, flow_factors
 from pyehl.theory.transport import Zone
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 POINTS = 257
 """Nodes per side of the solution. Its film is scaled to the extrapolated central film, so that the

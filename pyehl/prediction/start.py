@@ -15,7 +15,6 @@ from typing import Any
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 from pyehl import surfaces
 from pyehl.errors import EhlError, InputError
@@ -33,11 +32,10 @@ from pyehl.surfaces import Topography
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.transport import free_stiffness, stiffness
+from pyehl.types import Array, Complex
 
 LOG = logging.getLogger(__name__)
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 # Points per half of the shortest wave along the motion, between which a cubic spline is used
 REFINEMENT = 2

@@ -8,9 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl.prediction.spectrum import Spectrum
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from pyehl.types import Array, Complex
 
 # Wavenumbers and directions: the interpolated T is right to 1e-3. Both are odd, and so are those of
 # the coarse tables, which every second one makes

@@ -23,9 +23,7 @@ from pyehl.prediction.transfer import AXIS, LINES, STATIONS
 from pyehl.prediction.waves import Waves
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-
-Array = NDArray[np.float64]
-Single = NDArray[np.float32]
+from pyehl.types import Array, Single
 
 REACH = 1.0
 """Friction is taken within this distance from the centre [semi-axes]."""

@@ -5,7 +5,6 @@ import csv
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.plots import paper
 from pyehl.reproduce.level import Level
@@ -14,8 +13,7 @@ from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Made, Runs
 from pyehl.reproduce.waves import SCHEMES
 from pyehl.studies.reference_table import read_reference
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 NAME = "figure 2"
 TITLE = "Relative friction of a moving wave over time"

@@ -17,8 +17,7 @@ from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Runs
 from pyehl.reproduce.waves import SCHEMES, VELOCITY_RATIO, WaveSet, waves
 from pyehl.theory.stribeck import theta_2
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 NAME = "figure 4"
 TITLE = "Relative friction of moving waves over theta_2, eq. 16, and over a better parameter"

@@ -19,9 +19,7 @@ from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_base, inlet_fit
 from pyehl.theory.transport import INLET, Zone, transport
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from pyehl.types import Array, Complex
 
 NAME = "figure 6"
 TITLE = "Deformed roughness by simulation and by prediction"

@@ -4,7 +4,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.plots import paper_surfaces
 from pyehl.prediction.by_response import STIFFER
@@ -14,8 +13,7 @@ from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Made, Runs, friction_of
 from pyehl.reproduce.surface_runs import MODELS, SEED, carried, predictions, simulations
 from pyehl.reproduce.table1 import CASE
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 NAME = "figure 7"
 TITLE = "Relative friction of random surfaces by simulation and by prediction"

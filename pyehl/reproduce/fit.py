@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import nnls
 
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 CONFIDENCE = 0.95
 SAMPLES = 2000

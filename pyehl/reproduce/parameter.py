@@ -16,7 +16,6 @@ gives mu_r/mu_s = 1 + theta_r^-2/4 for small waves, with nothing fitted to frict
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.case import Case
 from pyehl.prediction.smooth import solve_contact, zone_of
@@ -24,8 +23,7 @@ from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import edge_gain, inlet_transfer
 from pyehl.theory.transport import transport, wave_pressure
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 SMALL_WAVES = 0.25
 """Coefficient of theta_r^-2 for small waves."""

@@ -8,8 +8,7 @@ from numpy.typing import NDArray
 
 from pyehl.reproduce.level import Level
 from pyehl.reproduce.runs import Made, Runs, friction_of
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 SCHEMES = ("paper", "narrow")
 VELOCITY_RATIO = 1.01

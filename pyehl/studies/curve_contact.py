@@ -9,10 +9,10 @@ from statistics import fmean
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+
+from pyehl.types import Array
 
 Row = Mapping[str, Any]
-Array = NDArray[np.float64]
 
 LIFT_OFF = 0.01
 """Share of the load at the boundary film to which it falls at the transition speed."""

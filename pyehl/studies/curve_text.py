@@ -6,15 +6,14 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.studies.curve import FULL_FILM, MIXED, OUTSIDE, conclude, full_film_ends
 from pyehl.studies.curve_contact import lift_off
 from pyehl.studies.curve_plan import CurvePlan
 from pyehl.studies.measured_friction import Measured
+from pyehl.types import Array
 
 Row = Mapping[str, Any]
-Array = NDArray[np.float64]
 
 
 def curves_of(plan: CurvePlan, rows: Sequence[Row]) -> list[tuple[str, Array, Sequence[Row]]]:

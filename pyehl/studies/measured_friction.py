@@ -9,12 +9,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 from pyehl.given import text_file
+from pyehl.types import Array
 
-Array = NDArray[np.float64]
 Row = Mapping[str, Any]
 
 

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl import library, namelist
 from pyehl.errors import EhlError, InputError
@@ -22,11 +21,11 @@ from pyehl.studies.measured_friction import Measured
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import ShearLaw, shear_stress
+from pyehl.types import Array
 
 if TYPE_CHECKING:
     from scipy.optimize import OptimizeResult
 
-Array = NDArray[np.float64]
 Settings = Mapping[str, Mapping[str, Any]]
 
 # Parameters of each law that is fitted, keys of &lubricant

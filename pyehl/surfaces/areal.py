@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 AREAL_NAMES = {
     "Sq": ("m", "root mean square height"),

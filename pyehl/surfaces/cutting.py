@@ -5,11 +5,9 @@ import math
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 LEAST_PIXELS = 4
 

@@ -3,11 +3,9 @@
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 MAX_MISSING = 0.1
 """Largest share of a map that may be filled: beyond it the friction is that of the filling."""

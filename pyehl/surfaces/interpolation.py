@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from pyehl.errors import InputError
 from pyehl.surfaces.spectra import wavenumbers
 from pyehl.surfaces.tile import Topography
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 LINES = 64
 """Lines of a tile that are moved together."""

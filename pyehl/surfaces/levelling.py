@@ -5,8 +5,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl.errors import InputError
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 DEGREES = {"centre": 0, "tilt": 1, "curvature": 2}
 """Total degree of the polynomial in x and y that each word takes off."""

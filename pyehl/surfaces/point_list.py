@@ -4,12 +4,10 @@
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 from pyehl.surfaces.memory import check_pixels
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 # Of a mesh size: how far points may be from the grid
 OFF = 0.02

@@ -18,8 +18,7 @@ from pyehl.surfaces.memory import check_pixels
 from pyehl.surfaces.options import NEUTRAL, Options, defaults
 from pyehl.surfaces.reading import Scan
 from pyehl.surfaces.working_map import Record, Step, WorkingMap
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 LOG = logging.getLogger(__name__)
 

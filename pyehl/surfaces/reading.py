@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.errors import EhlError, FileError, InputError
 from pyehl.library import check_memory
@@ -20,8 +19,7 @@ from pyehl.surfaces.instruments import Foreign, UnknownFormatError, read_instrum
 from pyehl.surfaces.memory import check_pixels
 from pyehl.surfaces.point_list import grid_of, is_list
 from pyehl.surfaces.text_map import read_text
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 PIXEL_BAND = (1e-10, 1e-3)
 """Pixels outside of it [m] are mistakes of units."""

@@ -6,9 +6,8 @@ infinite slope that the surface does not have, and that holds the film up or bre
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 LINES = 64
 """Lines of a map that are looked at together."""

@@ -7,11 +7,9 @@ its mean over annuli of |q|.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.surfaces.tile import Topography
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 
 def wavenumbers(topography: Topography) -> tuple[Array, Array]:

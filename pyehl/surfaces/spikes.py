@@ -7,13 +7,11 @@ slopes and specks of dirt. Their heights are not those of the surface, and one o
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 from pyehl.surfaces.holes import nearest
 from pyehl.surfaces.levelling import level
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 WINDOW = 5
 """Pixels per side of the median that a point is compared with."""

@@ -5,12 +5,10 @@ import re
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 from pyehl.surfaces.memory import check_pixels
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 # What stands between separators
 WORD = re.compile(r"[^\s,;]+")

@@ -5,12 +5,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 from pyehl.surfaces.prepare import Preparation
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 MAX_PIXELS = 2**26
 """Most pixels a map may have (512 MB of heights)."""

@@ -6,14 +6,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 from pyehl.surfaces import areal
 from pyehl.surfaces.options import Options
 from pyehl.surfaces.reading import Scan
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 LARGEST = 1e6
 """Largest height [m] that is not taken for damage."""

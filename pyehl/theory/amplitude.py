@@ -26,11 +26,10 @@ component of a rough surface is a plane wave, and three ways to give it a wavele
 from typing import cast
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pyehl.errors import InputError
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 CONVENTIONS = ("components", "wavevector", "pattern")
 """Names of the ways to give a Fourier component a wavelength, the default first."""

@@ -20,10 +20,8 @@ from typing import cast
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from pyehl.types import Array, Complex
 
 DEGREE = 6
 """Degree of the polynomials in x, y that carry the correction."""

@@ -14,13 +14,10 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
 
 from pyehl.theory.disc import DEGREE, LARGEST, RADIUS, RIM, spherical_bessel
 from pyehl.theory.ellipse import Ellipse
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from pyehl.types import Array, Complex
 
 # Places along the short axis at which the polynomials are fitted, and angles of the integrals
 PLACES = 13

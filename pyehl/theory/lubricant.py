@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pyehl.errors import InputError, check
 from pyehl.extension import lubricants
@@ -17,8 +17,7 @@ from pyehl.given import positive
 from pyehl.library import resolve
 from pyehl.namelist import text_of, values
 from pyehl.theory.shear import ShearLaw
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 # Dowson & Higginson 1966, density under pressure
 DENSITY_PRESSURE = 5.9e8

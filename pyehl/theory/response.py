@@ -35,13 +35,11 @@ from importlib import resources
 from typing import Any, cast
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pyehl.theory.inlet import passed
 from pyehl.theory.transport import Zone, upstream
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from pyehl.types import Array, Complex
 
 GAIN = (0.0674, 0.3085, 2.414, 28.44)
 """Constants of `edge_gain`, fitted by docs/evidence/response/gain.py."""

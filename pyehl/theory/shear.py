@@ -12,12 +12,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pyehl.errors import InputError
 from pyehl.theory.thinning import CODES, sliding_stress
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 LAWS = ("newtonian", "eyring", "limiting", "carreau")
 

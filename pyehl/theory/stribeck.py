@@ -7,12 +7,11 @@ vanishing slide-to-roll ratio; shear thinning at real sliding speeds brings it c
 """
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pyehl.errors import InputError
 from pyehl.theory.film import outside
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 RANGE: dict[str, tuple[float, float]] = {
     "moes_m": (500.0, 2000.0),

@@ -9,12 +9,11 @@ times as much along Y as in a Newtonian lubricant. The factors are those of
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pyehl import extension
 from pyehl.errors import EhlError
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 CODES = {"eyring": 1, "carreau": 2}
 """Laws that thin a flow, by the numbers that the library has for them."""

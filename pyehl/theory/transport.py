@@ -35,12 +35,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pyehl.theory.thinning import FlowFactors
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from pyehl.types import Array, Complex
 
 INLET = -0.8
 """Where the zone of high pressure is taken to begin, on the centre line [a]."""
