@@ -81,10 +81,7 @@ class SolverHandle:
     converged = False
 
     def __init__(
-        self,
-        text: str,
-        heights: ArrayLike | None = None,
-        second_heights: ArrayLike | None = None,
+        self, text: str, heights: ArrayLike | None = None, second_heights: ArrayLike | None = None
     ) -> None:
         # a call may be made of several
         self._lock = threading.RLock()

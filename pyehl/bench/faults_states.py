@@ -17,10 +17,7 @@ REGIONS = 32
 
 
 def damage(
-    folder: Path,
-    generator: np.random.Generator,
-    run: Run,
-    same: Callable[[Path, Path], str],
+    folder: Path, generator: np.random.Generator, run: Run, same: Callable[[Path, Path], str]
 ) -> Found:
     """Flip a byte of every region of the newest state, or of both, and resume.
 

@@ -138,15 +138,7 @@ def _deflection_row(scene: str, points: int, repeats: int) -> Row:
         return deflect
 
     what = f"corrections where P = 0, {count} deflections"
-    return compare(
-        scene,
-        what,
-        "deflection",
-        call(pressure),
-        call(everywhere),
-        rounding,
-        repeats,
-    )
+    return compare(scene, what, "deflection", call(pressure), call(everywhere), rounding, repeats)
 
 
 def _run_rows(scene: str, options: Sequence[str], repeats: int, *, symmetric: bool) -> list[Row]:

@@ -119,12 +119,7 @@ def work_rows(
 
 
 def _run(
-    scene: Scene,
-    setting: str,
-    options: Sequence[str],
-    points: int,
-    threads: int,
-    unit: float,
+    scene: Scene, setting: str, options: Sequence[str], points: int, threads: int, unit: float
 ) -> list[Row]:
     texts = [*scene.options, *options, f"grid.points={points}", f"solver.threads={threads}"]
     if scene.rough:
@@ -200,11 +195,7 @@ def share_of_deflection(points: int = 129) -> Row:
             solver.run()
             return float(solver.summary()["mu_ratio"])
 
-    fast, exact, finer = (
-        ratio(points, "mlmi"),
-        ratio(points, "fft"),
-        ratio(2 * points - 1, "fft"),
-    )
+    fast, exact, finer = (ratio(points, "mlmi"), ratio(points, "fft"), ratio(2 * points - 1, "fft"))
     difference = abs(fast / exact - 1.0)
     grid = abs(4.0 / 3.0 * (exact / finer - 1.0))
     return {

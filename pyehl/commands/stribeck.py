@@ -11,18 +11,9 @@ from typing import Any
 import numpy as np
 
 from pyehl.commands.arguments import add_case_arguments
-from pyehl.commands.watching import (
-    Terminal,
-    add_worker_arguments,
-    jobs_of,
-    tell_lost,
-)
+from pyehl.commands.watching import Terminal, add_worker_arguments, jobs_of, tell_lost
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
-from pyehl.studies.curve import (
-    UNSOLVED,
-    full_film_ends,
-    no_coefficient,
-)
+from pyehl.studies.curve import UNSOLVED, full_film_ends, no_coefficient
 from pyehl.studies.curve_plan import KEYS, CurvePlan, plan_curve
 from pyehl.studies.curve_run import CSV, NETCDF, PICTURE, axes_of, perform
 from pyehl.studies.curve_text import absolute_friction, curves_of, deviation, last_lines, report

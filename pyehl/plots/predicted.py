@@ -16,9 +16,7 @@ from pyehl.types import Array
 
 
 def prediction_figures(
-    about: Mapping[str, Any],
-    arrays: Mapping[str, Array],
-    tables: Mapping[str, Mapping[str, Array]],
+    about: Mapping[str, Any], arrays: Mapping[str, Array], tables: Mapping[str, Mapping[str, Array]]
 ) -> dict[str, Figure]:
     """All figures of a prediction, by the names of their files.
 

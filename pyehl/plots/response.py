@@ -14,9 +14,7 @@ from pyehl.types import Array, Complex
 
 
 def response_figure(
-    waves: Mapping[str, Array],
-    lines: Mapping[float, tuple[Array, Complex]],
-    label: str,
+    waves: Mapping[str, Array], lines: Mapping[float, tuple[Array, Complex]], label: str
 ) -> Figure:
     """Draw |T| and the phase of T at X = 0 over nabla_2.
 

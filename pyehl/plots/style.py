@@ -101,12 +101,7 @@ def axes_or_new(ax: Axes | None, width: float, height: float) -> Axes:
 
 
 def colour_bar(
-    image: ScalarMappable,
-    ax: Axes,
-    label: str,
-    *,
-    shrink: float = 1.0,
-    slender: float = 1.0,
+    image: ScalarMappable, ax: Axes, label: str, *, shrink: float = 1.0, slender: float = 1.0
 ) -> None:
     """Put a colour bar beside axes, so much shorter than they are.
 

@@ -112,7 +112,7 @@ def show(data: Flow, references: References, level: Level) -> Result:
         f"surface back, as the check shows; as printed it would come back {factor:g}/(NxNy) = "
         f"{factor / np.prod(tile.shape):.2g} times as high. Eq. 10 prints |rr_q|: without its "
         f"phase this surface is one symmetric peak, {data.without_phase:.0f} times as high as its "
-        f"rms height; it is {np.abs(tile.heights).max() / tile.rms_height:.1f} times that with it.",
+        f"rms height; it is {np.abs(tile.heights).max() / tile.rms_height:.1f} times that with it."
     ]
     return Result(
         checks,

@@ -63,6 +63,6 @@ def show(data: dict[str, float], references: References, level: Level) -> Result
     notes = [
         "The rms height is measured on the surface that the generator makes. The tile is as wide "
         "as the contact and is repeated; its pixels are those of the grid of 513 x 513 nodes to "
-        "0.2 %.",
+        "0.2 %."
     ]
     return Result(checks, (("name", "ours", "paper", "unit", "deviation"), rows), notes=notes)

@@ -129,13 +129,7 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None, *, brief: boo
         folder = "" if keep is None else str(Path(keep) / f"{point.number + 1:0{digits}d}")
         points.append(point)
         tasks.add(number, case, study.run, folder=folder, tracks=study.tracks)
-    return Plan(
-        study,
-        tuple(points),
-        tuple(tasks.tasks),
-        tuple(files),
-        time.monotonic() - began,
-    )
+    return Plan(study, tuple(points), tuple(tasks.tasks), tuple(files), time.monotonic() - began)
 
 
 def _check(study: Study, case: Case, settings: Settings, checked: set[str]) -> None:

@@ -19,9 +19,7 @@ MARGIN = 12
 
 
 def cropped(
-    heights: Array,
-    pixel: tuple[float, float],
-    bounds: tuple[float, float, float, float],
+    heights: Array, pixel: tuple[float, float], bounds: tuple[float, float, float, float]
 ) -> Array:
     """Part of a map (nx, ny) with a pixel size along x and y [m].
 

@@ -52,10 +52,7 @@ LEAST_WEIGHT = 1e-4
 
 
 def edge_gain(
-    qx: ArrayLike,
-    qy: ArrayLike,
-    central_film: ArrayLike,
-    constants: Sequence[float] | Array = GAIN,
+    qx: ArrayLike, qy: ArrayLike, central_film: ArrayLike, constants: Sequence[float] | Array = GAIN
 ) -> Array:
     """Pressure of a wave in the contact over that of the half-space, K (1 - T), at its centre [-].
 

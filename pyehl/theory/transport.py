@@ -209,12 +209,7 @@ def _grown(turn: Complex) -> tuple[Complex, Complex]:
 
 
 def transport(
-    zone: Zone,
-    qx: Array,
-    qy: Array,
-    velocity_ratio: float,
-    stations: Array,
-    spacing: float = 0.0,
+    zone: Zone, qx: Array, qy: Array, velocity_ratio: float, stations: Array, spacing: float = 0.0
 ) -> list[tuple[Complex, Complex]]:
     """Integrate the transport equation from the inlet to the stations, ascending X (n,) [a].
 

@@ -113,10 +113,7 @@ def test_small_features_are_linear(solve: Any):
         keys = DENT | TIGHT | stop | {"surface.kind": kind, "surface.amplitude": amplitude}
         done = solve(POINT, 65, keys, fields=True)
         assert done["steps"] == 45
-        return (
-            done.field("P") - done.field("P_smooth"),
-            done.field("H") - done.field("H_smooth"),
-        )
+        return (done.field("P") - done.field("P_smooth"), done.field("H") - done.field("H_smooth"))
 
     small, twice, bump = change("dent", 1e-3), change("dent", 2e-3), change("bump", 1e-3)
     for one, two, other in zip(small, twice, bump, strict=True):

@@ -21,10 +21,7 @@ from pyehl.measured_response.folder import destination
 from pyehl.measured_response.superposition import SLOPE, WaveSet, superpose
 
 # Long waves and short ones in a thick film, where a coarse grid does
-TINY = (
-    tiers.Tier("long", 2.0, 65, 2.0, 0.5),
-    tiers.Tier("middle", 1.0, 257, 0.5, 0.25),
-)
+TINY = (tiers.Tier("long", 2.0, 65, 2.0, 0.5), tiers.Tier("middle", 1.0, 257, 0.5, 0.25))
 CASE = "&contact moes_m = 200.0 moes_l = 10.0 /\n&surface velocity_ratio = 1.05 /\n"
 
 

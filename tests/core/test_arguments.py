@@ -37,10 +37,7 @@ CALLS: dict[str, tuple[Callable[[str], Any], str]] = {
     "origin": (lambda q: pyehl.Case.from_text("", [], 3), "expected a path"),
     "read None": (lambda q: pyehl.Case.read(None), "expected a path, not NoneType"),
     "read zero byte": (lambda q: pyehl.Case.read("a\0b"), "zero byte"),
-    "read number": (
-        lambda q: pyehl.Case.read(q, 65),
-        "or a dict of values by group.key, not int",
-    ),
+    "read number": (lambda q: pyehl.Case.read(q, 65), "or a dict of values by group.key, not int"),
     "read dict": (lambda q: pyehl.Case.read(q, {"grid.pionts": 65}), "'points'"),
     "read nested": (
         lambda q: pyehl.Case.read(q, {"grid": {"points": 65}}),

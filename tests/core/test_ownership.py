@@ -314,8 +314,7 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize(
-    "name",
-    [pytest.param(n, marks=[pytest.mark.long] if n == "plot as pdf" else []) for n in FILES],
+    "name", [pytest.param(n, marks=[pytest.mark.long] if n == "plot as pdf" else []) for n in FILES]
 )
 def test_single_files(
     call: Call, results: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
