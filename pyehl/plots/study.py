@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.figure import Figure
 
-from pyehl.plots.style import BLUE, GREEN, GREY, VERMILLION, letter, new_figure
+from pyehl.plots.style import BLUE, GREEN, GREY, VERMILLION, letter, new_figure, points
 from pyehl.types import Array
 
 COLOURS = (BLUE, VERMILLION, GREEN, "#CC79A7", "#E69F00", "#56B4E9", GREY)
@@ -31,12 +31,11 @@ def study_figure(panels: Sequence[tuple[str, Sequence[Line]]], abscissa: str, ti
     axes = figure.subplots(1, len(panels), squeeze=False)[0]
     for ax, (label, lines) in zip(axes, panels, strict=True):
         for k, line in enumerate(lines):
-            known = np.isfinite(line.places) & np.isfinite(line.values)
-            errors = np.nan_to_num(line.errors[known])
-            ax.errorbar(
-                line.places[known],
-                line.values[known],
-                errors if errors.any() else None,
+            points(
+                ax,
+                line.places,
+                line.values,
+                line.errors,
                 fmt=f"{MARKERS[k % len(MARKERS)]}-",
                 ms=4,
                 lw=1.2,

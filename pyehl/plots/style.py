@@ -248,6 +248,21 @@ def _short(value: float) -> str:
     return f"${factor}10^{{{int(power)}}}$"
 
 
+def points(ax: Axes, x: Array, y: Array, error: Array, **how: Any) -> None:  # noqa: ANN401
+    """Draw points (n,), those that are numbers, with bars where one of their errors is known."""
+    known = np.isfinite(x) & np.isfinite(y)
+    bars = np.nan_to_num(error[known])
+    ax.errorbar(x[known], y[known], bars if bars.any() else None, **how)
+
+
+def band(ax: Axes, x: Array, y: Array, error: Array, **how: Any) -> None:  # noqa: ANN401
+    """Shade around a line (n,) where its error is known."""
+    known = np.isfinite(x) & np.isfinite(y) & np.isfinite(error)
+    if known.any():
+        low, high = y[known] - error[known], y[known] + error[known]
+        ax.fill_between(x[known], low, high, lw=0, **how)
+
+
 def height_unit(largest: float) -> tuple[float, str]:
     """Factor from metres to the unit for heights up to `largest`, and its name."""
     return (1e9, "nm") if largest < 5e-7 else (1e6, "µm")
