@@ -13,6 +13,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections import Counter
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -227,7 +228,7 @@ def _kill_exports(
 
 def _inputs(folder: Path, seed: int, inputs: int) -> tuple[int, dict[str, int], list[str]]:
     """Try mutated inputs in child processes, so that a crash or a hang is seen."""
-    counts: dict[str, int] = {}
+    counts: Counter[str] = Counter()
     bad: list[str] = []
     for chunk, first in enumerate(range(0, inputs, CHUNK)):
         number = 1000 * seed + chunk
@@ -251,7 +252,6 @@ def _inputs(folder: Path, seed: int, inputs: int) -> tuple[int, dict[str, int], 
             continue
         found = json.loads(done.stdout)
         bad += found["bad"]
-        for what, count in found["counts"].items():
-            counts[what] = counts.get(what, 0) + count
+        counts.update(found["counts"])
         shutil.rmtree(place)
     return inputs, counts, bad

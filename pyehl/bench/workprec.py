@@ -12,7 +12,6 @@ from typing import Any
 from pyehl.bench.precision import add_errors, extrapolated
 from pyehl.bench.unit import processor_seconds, unit_seconds
 from pyehl.case import Case
-from pyehl.errors import InputError
 from pyehl.prediction.of_case import predict
 from pyehl.solver import Solver
 
@@ -90,14 +89,10 @@ def work_rows(
     `grids`: nodes per side, where not those of the scene; `full`: with the finest of these, too.
     Of the numbers of threads those after the first are for the default setting alone. Rows have
     `COLUMNS` and `unit_seconds`; `error` is relative to the reference, `bar` the error of that,
-    `estimate` what the run says of its own error. InputError if there is no such scene.
+    `estimate` what the run says of its own error.
     """
-    known = {scene.name: scene for scene in SCENES}
     rows: list[Row] = []
-    for name in scenes:
-        if name not in known:
-            raise InputError(f"scene '{name}': expected some of {', '.join(known)}")
-        scene = known[name]
+    for scene in (scene for scene in SCENES if scene.name in scenes):
         used = grids or (scene.grids if full else scene.grids[:-1])
         mine: list[Row] = []
         for points in used:
@@ -108,7 +103,7 @@ def work_rows(
                 if reference and options:
                     continue
                 for workers in threads[:1] if reference or options else threads:
-                    tell(f"{name}: {points} x {points}, {setting}, threads {workers}")
+                    tell(f"{scene.name}: {points} x {points}, {setting}, threads {workers}")
                     mine += _run(scene, setting, options, points, workers, unit)
         if scene.rough:
             mine += _predicted(scene, unit_seconds(max(used)))
@@ -195,7 +190,7 @@ def share_of_deflection(points: int = 129) -> Row:
             solver.run()
             return float(solver.summary()["mu_ratio"])
 
-    fast, exact, finer = (ratio(points, "mlmi"), ratio(points, "fft"), ratio(2 * points - 1, "fft"))
+    fast, exact, finer = ratio(points, "mlmi"), ratio(points, "fft"), ratio(2 * points - 1, "fft")
     difference = abs(fast / exact - 1.0)
     grid = abs(4.0 / 3.0 * (exact / finer - 1.0))
     return {

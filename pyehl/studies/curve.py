@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from pyehl import library
 from pyehl.prediction.deformed import deformed_surfaces
 from pyehl.prediction.errors import KNOWN_RATIO
+from pyehl.results import unit_of
 from pyehl.studies.curve_contact import contact_columns, touches
 from pyehl.studies.curve_pattern import SMOOTH, Pattern, kept_pattern
 from pyehl.studies.curve_plan import CurvePlan, CurvePoint, Settings
@@ -27,45 +28,15 @@ Row = Mapping[str, Any]
 STATUSES = ("full film", "mixed film", "film breakdown", "outside the range", "not solved")
 """What a point of a curve can be."""
 FULL_FILM, MIXED, BREAKDOWN, OUTSIDE, UNSOLVED = STATUSES
-UNITS = {
-    "h_c_m": "m",
-    "h_c_error_m": "m",
-    "h_min_m": "m",
-    "h_min_error_m": "m",
-    "lambda_ratio": "1",
-    "lambda_ratio_central": "1",
-    "lambda_ratio_deformed": "1",
-    "lambda_ratio_deformed_error": "1",
-    "rms_deformed_m": "m",
-    "rms_deformed_error_m": "m",
-    "p_rise_rms_Pa": "Pa",
-    "p_rise_rms_error_Pa": "Pa",
-    "p_rise_max_Pa": "Pa",
-    "p_rise_max_error_Pa": "Pa",
-    "h_min_rough_m": "m",
-    "h_min_rough_error_m": "m",
-    "film_below_limit_share": "1",
-    "film_below_limit_error": "1",
-    "theta_2": "1",
-    "theta_2_wavelength_m": "m",
-    "hersey": "1",
-    "mu_smooth": "1",
-    "mu": "1",
-    "mu_isothermal": "1",
-    "temperature_rise_max_K": "K",
-    "flash_temperature_K": "K",
-    "p_max_Pa": "Pa",
-    "p_max_rough_Pa": "Pa",
-    "mu_spread": "1",
-    "mu_ratio": "1",
-    "mu_ratio_spread": "1",
-    "mu_ratio_model_error": "1",
-    "mu_ratio_ehl": "1",
-    "mu_ratio_ehl_error": "1",
-    "moes_m": "1",
-    "moes_l": "1",
-    "surfaces": "1",
-}
+_NUMBERS = """
+h_c_m h_c_error_m h_min_m h_min_error_m lambda_ratio lambda_ratio_central lambda_ratio_deformed
+lambda_ratio_deformed_error rms_deformed_m rms_deformed_error_m p_rise_rms_Pa p_rise_rms_error_Pa
+p_rise_max_Pa p_rise_max_error_Pa h_min_rough_m h_min_rough_error_m film_below_limit_share
+film_below_limit_error theta_2 theta_2_wavelength_m hersey mu_smooth mu mu_isothermal
+temperature_rise_max_K flash_temperature_K p_max_Pa p_max_rough_Pa mu_spread mu_ratio
+mu_ratio_spread mu_ratio_model_error mu_ratio_ehl mu_ratio_ehl_error moes_m moes_l surfaces
+"""
+UNITS = {name: unit_of(name) for name in _NUMBERS.split()}
 """Columns that are numbers, and their units; behind them come `WORDS`."""
 WORDS = ("status", "message", "judgement")
 EMPIRICAL = {"asperity_load_share_empirical": "1", "mu_empirical": "1"}

@@ -3,6 +3,7 @@
 
 import os
 import time
+from collections import Counter
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import dataclass
@@ -43,11 +44,7 @@ class Outcome:
 
     def statuses(self) -> dict[str, int]:
         """How many rows have each status."""
-        counts: dict[str, int] = {}
-        for row in self.rows.values():
-            status = str(row.get("status"))
-            counts[status] = counts.get(status, 0) + 1
-        return counts
+        return dict(Counter(str(row.get("status")) for row in self.rows.values()))
 
 
 class _Stop:

@@ -42,12 +42,7 @@ class Measured:
         Interpolated along the curve, between places that have the column.
         """
         source, target = (_column(n, key, places, rows) for n in (self.abscissa, name))
-        known = np.isfinite(source) & np.isfinite(target)
-        if np.count_nonzero(known) < 2:
-            return np.full(self.places.shape, np.nan)
-        order = np.argsort(source[known])
-        x, y = source[known][order], target[known][order]
-        return np.interp(self.places, x, y, left=np.nan, right=np.nan) / self.friction - 1.0
+        return _along(self.places, source, target) / self.friction - 1.0
 
     def over(self, name: str, key: str, places: Array, rows: Sequence[Row]) -> Array:
         """Give the places in another column of the curve, (n,); NaN outside of the curve.
@@ -57,16 +52,19 @@ class Measured:
         """
         if name == self.abscissa:
             return self.places
-        source = _column(self.abscissa, key, places, rows)
-        target = _column(name, key, places, rows)
-        known = np.isfinite(source) & np.isfinite(target)
-        known[known] = (source[known] > 0.0) & (target[known] > 0.0)
-        if np.count_nonzero(known) < 2:
-            return np.full(self.places.shape, np.nan)
-        order = np.argsort(source[known])
-        x, y = np.log(source[known][order]), np.log(target[known][order])
-        found = np.interp(np.log(self.places), x, y, left=np.nan, right=np.nan)
-        return np.asarray(np.exp(found))
+        columns = (_column(n, key, places, rows) for n in (self.abscissa, name))
+        source, target = (np.log(np.where(v > 0.0, v, np.nan)) for v in columns)
+        return np.asarray(np.exp(_along(np.log(self.places), source, target)))
+
+
+def _along(at: Array, source: Array, target: Array) -> Array:
+    """Interpolate one column of a curve over another; NaN outside of it."""
+    known = np.isfinite(source) & np.isfinite(target)
+    if np.count_nonzero(known) < 2:
+        return np.full(at.shape, np.nan)
+    order = np.argsort(source[known])
+    x, y = source[known][order], target[known][order]
+    return np.interp(at, x, y, left=np.nan, right=np.nan)
 
 
 def _column(name: str, key: str, places: Array, rows: Sequence[Row]) -> Array:

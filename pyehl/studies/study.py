@@ -3,6 +3,7 @@
 
 import hashlib
 import itertools
+import math
 import os
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -56,10 +57,7 @@ class Study:
     @property
     def size(self) -> int:
         """Number of cases."""
-        size = 1
-        for n in self.shape:
-            size *= n
-        return size
+        return math.prod(self.shape)
 
     @property
     def tracks(self) -> bool:
