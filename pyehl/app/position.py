@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Where the knobs stand, and the case that belongs to it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from pyehl import namelist
 from pyehl.app.knobs import GROUPS, KNOBS, Knob, Value
@@ -79,7 +77,7 @@ class Position:
     file: str = ""
     oil: Value = "at the inlet"
 
-    def turned(self, name: str, value: Value) -> Position:
+    def turned(self, name: str, value: Value) -> Self:
         """Give the position with a knob turned."""
         modulus = 0.0 if name in STEEL else self.modulus
         return replace(self, values={**self.values, name: value}, modulus=modulus)

@@ -34,18 +34,15 @@ Progress = Callable[[str, int, int], object]
 def _identity(settings: Mapping[str, Mapping[str, Any]], velocity_ratio: float, tier: Tier) -> str:
     """Tell what a tier depends on, as text."""
     o = OperatingPoint.from_settings(settings)
+    shape = [] if o.radius_ratio == 1.0 else [o.radius_ratio]
     values = {
         "pyehl version": metadata.version("pyehl"),
-        "contact": [o.load, o.mean_velocity, o.radius, o.reduced_modulus, *_elliptical(o)],
+        "contact": [o.load, o.mean_velocity, o.radius, o.reduced_modulus, *shape],
         "lubricant": dict(settings["lubricant"]),
         "velocity_ratio": velocity_ratio,
         "tier": asdict(tier),
     }
     return json.dumps(values, sort_keys=True)
-
-
-def _elliptical(point: OperatingPoint) -> list[float]:
-    return [] if point.radius_ratio == 1.0 else [point.radius_ratio]
 
 
 def _file(folder: Path, tier: Tier) -> Path:
@@ -76,11 +73,8 @@ def _check_folder(
             raise InputError(f"{path}: cannot be read ({error}); remove it") from error
         wrong = difference(found, json.loads(_identity(settings, velocity_ratio, tier)))
         if wrong:
-            raise InputError(
-                "\n  ".join(
-                    [f"{path}: is of another response; use another folder. It differs in", *wrong]
-                )
-            )
+            told = f"{path}: is of another response; use another folder. It differs in"
+            raise InputError("\n  ".join([told, *wrong]))
         done.append(tier)
     return done
 

@@ -188,13 +188,8 @@ def superpose(
                 films.append(run.field("H")[near, middle])
                 pressures.append(run.field("P")[near, middle])
             progress(step, total)
-    return _fit(
-        waves,
-        amplitude,
-        velocity_ratio,
-        (x[near], np.array(times), np.array(films), np.array(pressures)),
-        (spacing, central_film),
-    )
+    record = (x[near], np.array(times), np.array(films), np.array(pressures))
+    return _fit(waves, amplitude, velocity_ratio, record, (spacing, central_film))
 
 
 def _refuse_end(run: Solver) -> None:

@@ -12,27 +12,19 @@ from pyehl.errors import EhlError, InputError
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 OPTIONS = (
-    "--headless",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--no-pdf-header-footer",
-)
+    "--headless --disable-gpu --disable-quic --no-first-run --disable-background-networking "
+    "--disable-component-update --disable-sync --no-pdf-header-footer"
+).split()
 PATIENCE = 120.0
 
 
 def browser() -> str:
     """Give the path of a browser that prints; InputError if none is installed."""
-    for name in BROWSERS:
-        found = shutil.which(name)
-        if found:
-            return found
-    raise InputError(
-        f"--pdf: no browser is installed that prints pages\nexpected: one of {', '.join(BROWSERS)}"
-    )
+    found = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if found is None:
+        expected = f"expected: one of {', '.join(BROWSERS)}"
+        raise InputError(f"--pdf: no browser is installed that prints pages\n{expected}")
+    return found
 
 
 def write_pdf(page: Path, path: Path) -> Path:

@@ -102,17 +102,13 @@ def report(
     if pdf:
         browser.browser()
     title, judgement, parts = _content(source)
-    parts = [page.verdict(*_spoken(judgement)), *parts, *_versions()]
+    parts = [page.verdict(*judgement), *parts, *_versions()]
     files = _files(source)
     parts = [_nameless(text, files) for text in parts]
     page.write_page(path, title, parts, "report")
     if pdf:
         browser.write_pdf(path, printed)
     return path
-
-
-def _spoken(judgement: Judgement) -> tuple[str, str, str]:
-    return judgement.word, judgement.why, judgement.kind
 
 
 def _content(folder: Path) -> tuple[str, Judgement, list[str]]:
@@ -161,16 +157,15 @@ def _single(folder: Path, summary: Mapping[str, Any]) -> tuple[str, Judgement, l
     behind += [page.heading("Limits that apply"), page.bullets(limits(settings, summary))]
     behind += _case_parts(case)
     behind.append(page.folded("All numbers", _all_numbers(summary)))
-    title = "Prediction of a rough contact" if summary["kind"] == "prediction" else _title(summary)
+    rough = "mu_ratio_min" in summary or "H_c_rough" in summary
+    title = "Rough contact" if rough else "Contact"
+    if summary["kind"] == "prediction":
+        title = "Prediction of a rough contact"
     for dpi in DOTS:
         pictures = _pictures(data, summary, dpi)
         if sum(map(len, [*parts, *pictures, *behind])) < LARGEST:
             break
     return title, told, [*parts, *pictures, *behind]
-
-
-def _title(summary: Mapping[str, Any]) -> str:
-    return "Rough contact" if "mu_ratio_min" in summary or "H_c_rough" in summary else "Contact"
 
 
 def _files(folder: Path) -> set[str]:
@@ -217,11 +212,8 @@ def _pictures(data: Any, summary: Mapping[str, Any], dpi: int) -> list[str]:  # 
 
 def _case_parts(case: str) -> list[str]:
     short = namelist.given(case) or "! every value is the default\n"
-    return [
-        page.heading("The case"),
-        page.preformatted(short),
-        page.folded("Every value of it", page.preformatted(case)),
-    ]
+    whole = page.folded("Every value of it", page.preformatted(case))
+    return [page.heading("The case"), page.preformatted(short), whole]
 
 
 def _value(value: object) -> str:

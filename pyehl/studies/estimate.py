@@ -42,8 +42,8 @@ def seconds_of(settings: Settings, run: str, *, shared: bool = False, full: bool
     """
     if run == "film":
         return FILM
+    rough = [settings[group] for group in rough_groups(settings)]
     if run == "predict":
-        rough = [settings[group] for group in rough_groups(settings)]
         sides = [int(s["pixels"]) if s["kind"] == "fractal" else 256 for s in rough]
         alone = sum(PREDICTION + PREDICTION_PIXEL * side**2 for side in sides)
         alone *= (FULL if full else 1.0) * (PAIR if len(rough) > 1 else 1.0)
@@ -52,7 +52,6 @@ def seconds_of(settings: Settings, run: str, *, shared: bool = False, full: bool
     grid = settings["grid"]
     points = int(grid["points"])
     smooth = smooth_seconds(points)
-    rough = [settings[group] for group in rough_groups(settings)]
     moving = [surface for surface in rough if float(surface["velocity_ratio"]) > 0.0]
     if not moving:
         return smooth

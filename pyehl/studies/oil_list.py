@@ -63,11 +63,7 @@ def lubricants(
     paths = {name: place / f"{name}.png" for name in chosen}
     check_files(paths.values(), "lubricants")
     for name, those in chosen.items():
-        figure = draw_oil(
-            f"{name}: {those.title}",
-            at[name],
-            those.measured,
-            those.constant("limiting_coefficient"),
-        )
+        limit = those.constant("limiting_coefficient")
+        figure = draw_oil(f"{name}: {those.title}", at[name], those.measured, limit)
         save(figure, paths[name], command="lubricants")
     return chosen

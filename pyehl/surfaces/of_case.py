@@ -30,16 +30,7 @@ RADIUS_PIXELS = 64
 KEPT_PIXELS = 2**20
 # What a map is read by, and what a fractal tile follows from
 SCAN = ("file", "length_x", "length_y", "channel", "height_unit")
-FRACTAL = (
-    "pixels",
-    "length_x",
-    "length_y",
-    "rms_height",
-    "hurst",
-    "rolloff_wavenumber",
-    "seed",
-    "modulus",
-)
+FRACTAL = "pixels length_x length_y rms_height hurst rolloff_wavenumber seed modulus".split()
 
 
 def rough_groups(settings: Mapping[str, Mapping[str, Any]]) -> list[str]:
@@ -159,17 +150,10 @@ def _fractal(surface: Mapping[str, Any]) -> Topography:
     check_pixels(
         f"surface.pixels = {pixels}", (pixels, pixels), copies=PREDICTION_COPIES, way=FEWER
     )
-    made = fractal(
-        pixels,
-        float(surface["length_x"]),
-        float(surface["length_y"]),
-        rms_height=float(surface["rms_height"]),
-        hurst=float(surface["hurst"]),
-        rolloff_wavenumber=float(surface["rolloff_wavenumber"]),
-        seed=int(surface["seed"]),
-        modulus=str(surface["modulus"]),
-    )
-    return _read_only(made)
+    # all but the whole number and the words at both ends
+    numbers = {name: float(surface[name]) for name in FRACTAL[1:-2]}
+    seed, modulus = int(surface["seed"]), str(surface["modulus"])
+    return _read_only(fractal(pixels, **numbers, seed=seed, modulus=modulus))
 
 
 def scan_of(surface: Mapping[str, Any]) -> Scan:

@@ -5,12 +5,10 @@ The reduced modulus E' follows 2/E' = sum over the bodies of (1 - nu^2)/E, as ev
 package. Codes that use 1/E* = sum of (1 - nu^2)/E have E* = E'/2: a factor of two.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Self
 
 from pyehl.errors import InputError
 from pyehl.given import positive
@@ -113,7 +111,7 @@ class OperatingPoint:
         radius: float = REFERENCE_RADIUS,
         slide_to_roll: float = 0.02,
         radius_ratio: float = 1.0,
-    ) -> OperatingPoint:
+    ) -> Self:
         """Return the contact that has the given M and L, for a lubricant and a radius [m].
 
         Two numbers leave two lengths and a stress free: the radius, eta0 and alpha are given, E'
@@ -142,7 +140,7 @@ class OperatingPoint:
         )
 
     @classmethod
-    def from_settings(cls, settings: Mapping[str, Mapping[str, Any]]) -> OperatingPoint:
+    def from_settings(cls, settings: Mapping[str, Mapping[str, Any]]) -> Self:
         """From the groups ``contact`` and ``lubricant`` of a resolved case (either kind).
 
         With ``lubricant.thermal_reduction`` the viscosity is that of the warmer inlet.
@@ -160,10 +158,7 @@ class OperatingPoint:
                 slide_to_roll=slide_to_roll,
                 radius_ratio=float(contact.get("radius_ratio", 1.0)),
             )
-        radii = (
-            float(contact.get("radius_x", contact.get("radius", 0.0))),
-            float(contact.get("radius_y", contact.get("radius", 0.0))),
-        )
+        radii = [float(contact.get(f"radius_{k}", contact.get("radius", 0.0))) for k in "xy"]
         point = cls(
             load=float(contact["load"]),
             mean_velocity=float(contact["mean_velocity"]),

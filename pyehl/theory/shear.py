@@ -4,12 +4,10 @@
 The same laws as in ``fortran/physics/shear.f90``, for the prediction.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -61,7 +59,7 @@ class ShearLaw:
             )
 
     @classmethod
-    def from_settings(cls, settings: Mapping[str, Mapping[str, Any]]) -> ShearLaw:
+    def from_settings(cls, settings: Mapping[str, Mapping[str, Any]]) -> Self:
         """From the group ``lubricant`` of a resolved case."""
         group = settings["lubricant"]
         names = cls.__dataclass_fields__.keys() - {"law", "in_flow"}
