@@ -26,8 +26,6 @@ from pyehl.schema import QUANTITIES
 from pyehl.theory.operating import OperatingPoint
 from pyehl.types import Array
 
-Settings = Mapping[str, Mapping[str, Any]]
-
 
 @dataclass(frozen=True, slots=True)
 class Field:

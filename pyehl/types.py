@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Types of arrays."""
+"""Types of arrays, and of cases as groups of values."""
+
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,3 +11,4 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Single = NDArray[np.float32]
 Indices = NDArray[np.int_]
+Settings = Mapping[str, Mapping[str, Any]]

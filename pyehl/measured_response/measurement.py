@@ -9,7 +9,7 @@ a tier whose file is there is not run again.
 
 import json
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, replace
 from functools import partial
 from importlib import metadata
@@ -27,11 +27,12 @@ from pyehl.prediction.options import turned
 from pyehl.studies.journal import difference
 from pyehl.studies.pool import processors
 from pyehl.theory.operating import OperatingPoint
+from pyehl.types import Settings
 
 Progress = Callable[[str, int, int], object]
 
 
-def _identity(settings: Mapping[str, Mapping[str, Any]], velocity_ratio: float, tier: Tier) -> str:
+def _identity(settings: Settings, velocity_ratio: float, tier: Tier) -> str:
     """Tell what a tier depends on, as text."""
     o = OperatingPoint.from_settings(settings)
     shape = [] if o.radius_ratio == 1.0 else [o.radius_ratio]
@@ -56,9 +57,7 @@ def with_tiers(place: Destination) -> Destination:
     return replace(place, kept=there)
 
 
-def _check_folder(
-    place: Destination, settings: Mapping[str, Mapping[str, Any]], velocity_ratio: float
-) -> list[Tier]:
+def _check_folder(place: Destination, settings: Settings, velocity_ratio: float) -> list[Tier]:
     """Tiers that are there already; refuses a folder with anything else in it."""
     with_tiers(place).check()
     done = []
@@ -122,7 +121,7 @@ def measure(
 
 
 def _run_tier(
-    settings: Mapping[str, Mapping[str, Any]],
+    settings: Settings,
     velocity_ratio: float,
     tier: Tier,
     path: Path,

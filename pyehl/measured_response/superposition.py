@@ -24,7 +24,7 @@ from pyehl.case import Case
 from pyehl.errors import EhlError
 from pyehl.solver import Solver
 from pyehl.theory.operating import OperatingPoint
-from pyehl.types import Array, Complex
+from pyehl.types import Array, Complex, Settings
 
 SLOPE = 1.2e-3
 """Amplitude of a wave times its wavenumber [a/R]: small enough for the response to be linear."""
@@ -109,7 +109,7 @@ def step_counts(
 
 
 def transient_case(
-    settings: Mapping[str, Mapping[str, Any]],
+    settings: Settings,
     *,
     points: int,
     tile: float,
@@ -146,7 +146,7 @@ def transient_case(
 
 
 def superpose(
-    settings: Mapping[str, Mapping[str, Any]],
+    settings: Settings,
     waves: WaveSet,
     *,
     points: int,

@@ -15,10 +15,10 @@ from numpy.typing import ArrayLike, NDArray
 from pyehl.plots import style
 from pyehl.plots.outline import CIRCLE, Outline
 from pyehl.theory import stribeck
-from pyehl.types import Array
+from pyehl.types import Array, Settings
 
 
-def eq_16(summary: Mapping[str, Any], settings: Mapping[str, Mapping[str, Any]]) -> float | None:
+def eq_16(summary: Mapping[str, Any], settings: Settings) -> float | None:
     """mu_r/mu_s by eq. 16 of Zhang et al. 2019 for the waviness of a run, with its own H_c.
 
     Parameters

@@ -1,9 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The heat of sliding in the smooth contact under a prediction."""
 
-from collections.abc import Mapping
-from typing import Any
-
 import numpy as np
 
 from pyehl import namelist
@@ -13,13 +10,12 @@ from pyehl.library import returned
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.theory.heat import Heat
 from pyehl.theory.lubricant import Lubricant
+from pyehl.types import Settings
 
 NOT_SOLVED = "the temperature is not converged"
 
 
-def heat_of(
-    settings: Mapping[str, Mapping[str, Any]], contact: SmoothContact, lubricant: Lubricant
-) -> Heat:
+def heat_of(settings: Settings, contact: SmoothContact, lubricant: Lubricant) -> Heat:
     """Give what the heat of sliding makes of friction in the smooth contact of a resolved case.
 
     The same as in a run (``fortran/reynolds/heated_friction.f90``), on the pressure and the film of

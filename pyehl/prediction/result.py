@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -27,7 +27,7 @@ from pyehl.theory.friction import absolute_friction
 from pyehl.theory.heat import Heat
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.types import Array
+from pyehl.types import Array, Settings
 
 if TYPE_CHECKING:
     import xarray
@@ -102,7 +102,7 @@ class Prediction:
     (256, 256)
     """
 
-    settings: Mapping[str, Mapping[str, Any]]
+    settings: Settings
     operating: OperatingPoint
     lubricant: Lubricant
     options: Options

@@ -5,11 +5,9 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +23,7 @@ from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import ShearLaw
 from pyehl.theory.thinning import FlowFactors, flow_factors
 from pyehl.theory.transport import Zone
-from pyehl.types import Array
+from pyehl.types import Array, Settings
 
 POINTS = 257
 """Nodes per side of the solution. Its film is scaled to the extrapolated central film, so that the
@@ -114,7 +112,7 @@ OF_SHEAR = (
 OF_CONTACT = ("boundary_film", "boundary_friction")
 
 
-def smooth_case(settings: Mapping[str, Mapping[str, Any]]) -> str:
+def smooth_case(settings: Settings) -> str:
     """Text of the case whose solution is the smooth contact under a resolved case.
 
     Cases that differ in their surface or the heat of friction alone have the same; where the flow
@@ -132,7 +130,7 @@ def smooth_case(settings: Mapping[str, Mapping[str, Any]]) -> str:
     return namelist.text_of({"contact": contact, "lubricant": lubricant, "grid": domain})
 
 
-def solve_contact(settings: Mapping[str, Mapping[str, Any]]) -> SmoothContact:
+def solve_contact(settings: Settings) -> SmoothContact:
     """Solve the smooth contact of a resolved case on POINTS x POINTS nodes, or on a finer grid.
 
     The last few are kept, see `smooth_case`. EhlError if it does not converge on any grid up to
@@ -213,7 +211,7 @@ def _on_grid(text: str, points: int) -> tuple[SmoothContact | None, str]:
 
 
 def read_contact(
-    folder: str | Path, operating: OperatingPoint, settings: Mapping[str, Mapping[str, Any]]
+    folder: str | Path, operating: OperatingPoint, settings: Settings
 ) -> SmoothContact:
     """Pressure and film from a result folder, of a smooth contact or under a transient run.
 
@@ -251,7 +249,7 @@ def read_contact(
     return SmoothContact(x, y, pressure, film, central, math.nan, source, least)
 
 
-def _flow(settings: Mapping[str, Mapping[str, Any]]) -> str:
+def _flow(settings: Settings) -> str:
     """Law of the flow in words, with all that it depends on."""
     law = ShearLaw.from_settings(settings)
     if not law.in_flow:

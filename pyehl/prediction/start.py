@@ -11,7 +11,6 @@ import logging
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import scipy
@@ -32,7 +31,7 @@ from pyehl.surfaces import Topography
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.transport import free_stiffness, stiffness
-from pyehl.types import Array, Complex
+from pyehl.types import Array, Complex, Settings
 
 LOG = logging.getLogger(__name__)
 
@@ -46,7 +45,7 @@ EDGE_WIDTH = 0.1
 
 
 def starting_pressure(
-    settings: Mapping[str, Mapping[str, Any]],
+    settings: Settings,
     tiles: Mapping[str, Topography],
     x: Array,
     y: Array,
@@ -122,7 +121,7 @@ def _pressure(waves: Sequence[_Waves], error: float, x: Array, y: Array, fronts:
 
 def hand_over(
     solver: SolverHandle,
-    settings: Mapping[str, Mapping[str, Any]],
+    settings: Settings,
     tiles: Mapping[str, Topography],
     *,
     whole: bool,
@@ -145,9 +144,7 @@ def hand_over(
         solver.take_start(found)
 
 
-def _passages(
-    settings: Mapping[str, Mapping[str, Any]], tiles: Mapping[str, Topography]
-) -> list[RoughPassage]:
+def _passages(settings: Settings, tiles: Mapping[str, Topography]) -> list[RoughPassage]:
     """Each rough surface alone, in the order of their groups."""
     if turned(settings):
         raise InputError(turned(settings))

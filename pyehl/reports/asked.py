@@ -7,8 +7,7 @@ from typing import Any
 from pyehl.surfaces import rough_groups
 from pyehl.theory.oils import oil
 from pyehl.theory.operating import OperatingPoint
-
-Settings = Mapping[str, Mapping[str, Any]]
+from pyehl.types import Settings
 
 
 def conditions(settings: Settings) -> dict[str, str]:

@@ -6,8 +6,8 @@ from typing import Any
 
 from pyehl.surfaces import FEATURES, rough_groups
 from pyehl.theory.operating import OperatingPoint
+from pyehl.types import Settings
 
-Settings = Mapping[str, Mapping[str, Any]]
 Summary = Mapping[str, Any]
 
 # Rise of the temperature [K] above which an oil is thinner than computed: by a third at 0.04 1/K,

@@ -14,7 +14,7 @@ from pyehl.prediction.errors import KNOWN_RATIO
 from pyehl.results import unit_of
 from pyehl.studies.curve_contact import contact_columns, touches
 from pyehl.studies.curve_pattern import SMOOTH, Pattern, kept_pattern
-from pyehl.studies.curve_plan import CurvePlan, CurvePoint, Settings
+from pyehl.studies.curve_plan import CurvePlan, CurvePoint
 from pyehl.studies.tasks import FAILED, why_none
 from pyehl.theory import stribeck
 from pyehl.theory.film import central_film
@@ -22,6 +22,7 @@ from pyehl.theory.friction import absolute_friction
 from pyehl.theory.load_share import LoadShare
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
+from pyehl.types import Settings
 
 Row = Mapping[str, Any]
 

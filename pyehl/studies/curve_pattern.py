@@ -14,8 +14,8 @@ import numpy as np
 import scipy
 
 from pyehl import surfaces
-from pyehl.studies.curve_plan import Settings
 from pyehl.theory.operating import OperatingPoint
+from pyehl.types import Settings
 
 
 @dataclass(frozen=True, slots=True)

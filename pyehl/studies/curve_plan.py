@@ -7,7 +7,7 @@ study, so that a curve that was interrupted goes on.
 """
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,8 +21,7 @@ from pyehl.studies.study import MAX_CASES, Point, Study, make
 from pyehl.studies.tasks import Task
 from pyehl.studies.vary import Axis
 from pyehl.theory.load_share import LoadShare
-
-Settings = Mapping[str, Mapping[str, Any]]
+from pyehl.types import Settings
 
 KEYS = {
     "speed": "contact.mean_velocity",

@@ -14,8 +14,7 @@ from pyehl.prediction.smooth import POINTS, smooth_case
 from pyehl.studies.tasks import Task
 from pyehl.surfaces import FEATURES, rough_groups
 from pyehl.theory.operating import OperatingPoint
-
-Settings = Mapping[str, Mapping[str, Any]]
+from pyehl.types import Settings
 
 PREDICTION, PREDICTION_PIXEL = 0.1, 1.4e-6
 """Seconds of a prediction, and per pixel of its tile, without the smooth contact under it."""

@@ -4,7 +4,7 @@
 import json
 import os
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -20,8 +20,7 @@ from pyehl.studies.tasks import Task
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-
-Settings = Mapping[str, Mapping[str, Any]]
+from pyehl.types import Settings
 
 THREADS = "solver.threads"
 MOST, PATIENCE = 5000, 5.0

@@ -4,7 +4,6 @@
 import logging
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +21,7 @@ from pyehl.surfaces.seams import mirrored
 from pyehl.surfaces.tile import Topography
 from pyehl.surfaces.working_map import Record
 from pyehl.theory.operating import OperatingPoint
+from pyehl.types import Settings
 
 LOG = logging.getLogger(__name__)
 
@@ -54,9 +54,7 @@ class SolverSurfaces:
 
 
 def gather(
-    settings: Mapping[str, Mapping[str, Any]],
-    heights: Mapping[str, NDArray[np.float64]],
-    tiles: Mapping[str, Topography],
+    settings: Settings, heights: Mapping[str, NDArray[np.float64]], tiles: Mapping[str, Topography]
 ) -> SolverSurfaces:
     """Make what the solver needs from Python for both surfaces of a resolved case.
 
@@ -84,7 +82,7 @@ def gather(
     )
 
 
-def for_solver(settings: Mapping[str, Mapping[str, Any]], group: str = "surface") -> SolverSurface:
+def for_solver(settings: Settings, group: str = "surface") -> SolverSurface:
     """Make what the solver needs from Python for the surface of a group of a resolved case.
 
     The solver makes harmonic patterns and fractal surfaces, reads arrays that need no preparation,

@@ -2,9 +2,8 @@
 """Viscosity and density of a lubricant under pressure."""
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Self
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,7 +14,7 @@ from pyehl.given import positive
 from pyehl.library import resolve
 from pyehl.namelist import text_of, values
 from pyehl.theory.shear import ShearLaw
-from pyehl.types import Array
+from pyehl.types import Array, Settings
 
 # Dowson & Higginson 1966, density under pressure
 DENSITY_PRESSURE = 5.9e8
@@ -135,9 +134,7 @@ class Lubricant:
             positive("roelands_z", self.roelands_z, "-")
 
     @classmethod
-    def from_settings(
-        cls, settings: Mapping[str, Mapping[str, Any]], viscosity_law: str = ""
-    ) -> Self:
+    def from_settings(cls, settings: Settings, viscosity_law: str = "") -> Self:
         """From the group ``lubricant`` of a resolved case; `viscosity_law` overrides the law."""
         group = settings["lubricant"]
         given = {name: group[name] for name in cls.__dataclass_fields__ if name in group}

@@ -6,15 +6,15 @@ package. Codes that use 1/E* = sum of (1 - nu^2)/E have E* = E'/2: a factor of t
 """
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any, Self
+from typing import Self
 
 from pyehl.errors import InputError
 from pyehl.given import positive
 from pyehl.theory.ellipse import Ellipse, ellipse
 from pyehl.theory.heat import thermal_loading, thermal_reduction
 from pyehl.theory.moes_film import inlet_viscosity_ratio
+from pyehl.types import Settings
 
 # Contact body of the reference conditions (Zhang et al. 2019, table 1). A case given by M and L
 # alone has no length; these two fix one when a quantity in SI units is asked for.
@@ -140,7 +140,7 @@ class OperatingPoint:
         )
 
     @classmethod
-    def from_settings(cls, settings: Mapping[str, Mapping[str, Any]]) -> Self:
+    def from_settings(cls, settings: Settings) -> Self:
         """From the groups ``contact`` and ``lubricant`` of a resolved case (either kind).
 
         With ``lubricant.thermal_reduction`` the viscosity is that of the warmer inlet.

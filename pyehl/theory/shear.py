@@ -5,16 +5,15 @@ The same laws as in ``fortran/physics/shear.f90``, for the prediction.
 """
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from pyehl.errors import InputError
 from pyehl.theory.thinning import CODES, sliding_stress
-from pyehl.types import Array
+from pyehl.types import Array, Settings
 
 LAWS = ("newtonian", "eyring", "limiting", "carreau")
 
@@ -59,7 +58,7 @@ class ShearLaw:
             )
 
     @classmethod
-    def from_settings(cls, settings: Mapping[str, Mapping[str, Any]]) -> Self:
+    def from_settings(cls, settings: Settings) -> Self:
         """From the group ``lubricant`` of a resolved case."""
         group = settings["lubricant"]
         names = cls.__dataclass_fields__.keys() - {"law", "in_flow"}
