@@ -80,7 +80,6 @@ class Pictures:
         return {**{n: getattr(self, n) for n in names}, "curve_film": film, "curve_ratio": ratio}
 
     def _film_maps(self) -> tuple[Any, Any]:
-        """Fringes and contours of the film."""
         place = {"x": "x", "y": "y", "dw": "dw", "dh": "dh"}
         fringes = _map("film as fringes")
         fringes.xaxis[0].axis_label = "x [mm], motion →"
@@ -245,12 +244,10 @@ class Pictures:
         self.changes.send()
 
     def _empty(self, *sources: ColumnDataSource) -> None:
-        """Show nothing of these."""
         for source in sources:
             self.changes.of(source, data={name: [] for name in source.data})
 
     def _fit(self, picture: Any, made: drawing.Map) -> None:  # noqa: ANN401
-        """Show the whole map."""
         side = max(made.width, made.height)
         x, y = made.left + 0.5 * made.width, made.bottom + 0.5 * made.height
         self.changes.of(picture.x_range, start=x - 0.5 * side, end=x + 0.5 * side)

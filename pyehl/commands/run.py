@@ -5,6 +5,7 @@ import argparse
 import sys
 import time
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from pyehl.case import Case
@@ -18,9 +19,7 @@ from pyehl.solver import Solver
 PROGRESS_INTERVAL = 2.0
 
 
-def _say(text: str) -> None:
-    """Print a message."""
-    print(text, flush=True)
+_say = partial(print, flush=True)
 
 
 def _display() -> Callable[[Solver], None]:

@@ -60,7 +60,6 @@ def nabla_2(q: Array, moes: tuple[float, float]) -> Array:
 def _tier(
     tier: Mapping[str, Any], zone: Zone, moes: tuple[float, float], velocity_ratio: float
 ) -> dict[str, Array]:
-    """All columns of one tier."""
     k0 = 2.0 * np.pi / float(tier["tile"])
     kx, ky = k0 * tier["along"], k0 * tier["across"]
     q = np.hypot(kx, ky)

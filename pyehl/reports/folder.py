@@ -135,7 +135,6 @@ def _content(folder: Path) -> tuple[str, Judgement, list[str]]:
 
 
 def _single(folder: Path, summary: Mapping[str, Any]) -> tuple[str, Judgement, list[str]]:
-    """Parts of the page of a solution or a prediction."""
     data = load(folder)
     settings, case = settings_of(data), str(data.attrs["case"])
     told = judge(summary)
@@ -193,7 +192,6 @@ def _nameless(text: str, files: set[str]) -> str:
 
 
 def _text(path: Path) -> str:
-    """Read a text of a result folder."""
     with file_errors(path, "cannot be read"):
         return path.read_text(encoding="utf-8")
 
@@ -232,7 +230,6 @@ def _all_numbers(summary: Mapping[str, Any]) -> str:
 
 
 def _response(folder: Path, summary: Mapping[str, Any]) -> tuple[str, Judgement, list[str]]:
-    """Parts of the page of a measured response."""
     case = _text(folder / "case.nml")
     settings = namelist.values(case)
     words = "Amplitude and lag of small waves over their length, beside the shipped response"

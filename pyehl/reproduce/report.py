@@ -44,7 +44,6 @@ def _kind(result: Result) -> str:
 
 
 def _piece(folder: Path, r: Result) -> list[str]:
-    """Give the section of a piece."""
     out = [
         page.heading(f"{r.name.capitalize()}: {r.title}", r.folder.name),
         page.paragraph(r.line(), _kind(r)),

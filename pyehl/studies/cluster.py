@@ -19,7 +19,6 @@ PATIENCE = 20
 
 
 def _execute(message: dict[str, Any]) -> Row:
-    """Do a task on a worker."""
     return execute(Task(**message))
 
 

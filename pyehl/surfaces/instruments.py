@@ -77,7 +77,6 @@ def read_instrument(path: Path, channel: str = "") -> Foreign:
 
 
 def _pick(path: Path, channels: list[Any], default: Any, wanted: str) -> Any:  # noqa: ANN401
-    """Return the channel of a name or number."""
     listing = ", ".join(f"{n} '{c.name}'" for n, c in enumerate(channels, 1))
     if not wanted:
         # the library's default is mostly, not always, the first that can serve

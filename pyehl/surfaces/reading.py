@@ -125,7 +125,6 @@ def read_scan(
 def _read(
     path: Path, length_x: float | None, length_y: float | None, channel: str, height_unit: str
 ) -> Scan:
-    """Read a file of any kind."""
     length = path.stat().st_size
     if length == 0:
         raise InputError(f"{path}: the file is empty")
