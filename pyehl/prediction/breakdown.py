@@ -162,8 +162,7 @@ def advise(
 
     below = film(tile)
     made = tile.preparation
-    i, j = below.pixel
-    x, y = made.place(i, j) if made else (i * tile.pixel[0], j * tile.pixel[1])
+    x, y = place_of(tile, *below.pixel)
     spikes: tuple[float, int] | None = None
     if made is not None and without_spikes is not None and not made.options.outliers > 0.0:
         spikes = _spikes(made, without_spikes, carries)
@@ -176,6 +175,12 @@ def advise(
         ),
         *(spikes or (None, None)),
     )  # fmt: skip
+
+
+def place_of(tile: Topography, i: int, j: int) -> tuple[float, float]:
+    """Place of a pixel on the surface [m]; of a prepared map on the map."""
+    made = tile.preparation
+    return made.place(i, j) if made else (i * tile.pixel[0], j * tile.pixel[1])
 
 
 def _spikes(

@@ -92,21 +92,14 @@ def _linear(places: Array, axis: Array) -> tuple[NDArray[np.intp], Array]:
 OF_SLIP = ("slide_to_roll", "rough_surface")
 OF_SOLIDS = (
     "hardness",
-    "thermal_conductivity",
-    "thermal_diffusivity",
-    "thermal_conductivity_2",
-    "thermal_diffusivity_2",
+    *("thermal_conductivity", "thermal_diffusivity"),
+    *("thermal_conductivity_2", "thermal_diffusivity_2"),
 )
 # (a temperature is refused without something that it changes)
 OF_OIL = ("thermal_conductivity",)
 OF_SHEAR = (
-    "shear_law",
-    "flow",
-    "eyring_stress",
-    "limiting_stress",
-    "limiting_coefficient",
-    "carreau_stress",
-    "carreau_exponent",
+    *("shear_law", "flow", "eyring_stress", "limiting_stress", "limiting_coefficient"),
+    *("carreau_stress", "carreau_exponent"),
 )
 # The prediction is that of a full film
 OF_CONTACT = ("boundary_film", "boundary_friction")
@@ -194,17 +187,8 @@ def _on_grid(text: str, points: int) -> tuple[SmoothContact | None, str]:
         values.flags.writeable = False
     source = f"solved on {points} x {points} nodes, {how}"
     errors = [math.nan if summary[k] is None else summary[k] for k in ("H_c_error", "H_min_error")]
-    film = film * scale
     contact = SmoothContact(
-        x,
-        y,
-        pressure,
-        film,
-        central,
-        errors[0],
-        source,
-        least,
-        limit is not None,
+        *(x, y, pressure, film * scale, central, errors[0], source, least, limit is not None),
         minimum_film_error=errors[1],
     )
     return contact, "converged"
