@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Types of arrays, and of cases as groups of values."""
+"""Types of arrays, of cases as groups of values, and of the rows of tables."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -12,3 +12,5 @@ Complex = NDArray[np.complex128]
 Single = NDArray[np.float32]
 Indices = NDArray[np.int_]
 Settings = Mapping[str, Mapping[str, Any]]
+Row = dict[str, Any]
+Values = Mapping[str, Any]

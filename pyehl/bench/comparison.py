@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A scene as it is solved and with skipped work done: seconds, and the difference in a result."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -10,9 +10,7 @@ from pyehl.bench.unit import processor_seconds
 from pyehl.case import Case
 from pyehl.handle import SolverHandle
 from pyehl.prediction.start import hand_over
-
-Row = dict[str, Any]
-Values = Mapping[str, Any]
+from pyehl.types import Row, Values
 
 # Bits cannot be equal where sums are taken in another order; the cycles may make it more
 ROUNDING = 1e-10

@@ -21,8 +21,7 @@ from typing import Any
 import numpy as np
 
 from pyehl.bench.faults_states import damage
-
-Row = dict[str, Any]
+from pyehl.types import Row
 
 COLUMNS = (("campaign", "s"), ("trials", "d"), ("wrong", "d"), ("outcomes", "s"))
 CASE = """&contact moes_m = 100.0 moes_l = 6.0 /

@@ -8,9 +8,8 @@ one grid more has changed it by.
 import itertools
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
 
-Row = dict[str, Any]
+from pyehl.types import Row
 
 LEVELS = (0.03, 0.01, 0.003, 0.001)
 """Errors that the cheapest setting is looked for."""

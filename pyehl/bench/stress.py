@@ -17,8 +17,7 @@ from pyehl.bench.stress_cases import FAMILIES, StressCase, draw, study_of
 from pyehl.destination import write_json
 from pyehl.studies.plan import Plan, plan
 from pyehl.studies.sweep import CASES, perform
-
-Row = dict[str, Any]
+from pyehl.types import Row
 
 STRICT = {"solver.accuracy": 0.005, "solver.max_cycles": 200}
 """Settings of the stricter run."""

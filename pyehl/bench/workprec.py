@@ -7,15 +7,13 @@ the same grid, is measured before each run.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from pyehl.bench.precision import add_errors, extrapolated
 from pyehl.bench.unit import processor_seconds, unit_seconds
 from pyehl.case import Case
 from pyehl.prediction.of_case import predict
 from pyehl.solver import Solver
-
-Row = dict[str, Any]
+from pyehl.types import Row
 
 COLUMNS = (
     ("scene", "s"),

@@ -3,10 +3,9 @@
 
 import argparse
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import closing
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -20,10 +19,9 @@ from pyehl.studies.curve_text import absolute_friction, curves_of, deviation, la
 from pyehl.studies.measured_friction import Measured, read_measured
 from pyehl.surfaces import rough_groups
 from pyehl.theory.load_share import AIHARA, LoadShare
+from pyehl.types import Values
 
 SLIP = KEYS["slide-to-roll"]
-
-Row = Mapping[str, Any]
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -106,7 +104,7 @@ def _measured(path: str, plan: CurvePlan) -> Measured:
 
 
 def draw(
-    plan: CurvePlan, rows: Sequence[Row], measured: Measured | None, path: Path, dpi: int
+    plan: CurvePlan, rows: Sequence[Values], measured: Measured | None, path: Path, dpi: int
 ) -> None:
     """Draw the curves of a table."""
     from pyehl.plots.stribeck import (  # noqa: PLC0415 (matplotlib takes long to import)

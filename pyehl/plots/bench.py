@@ -1,16 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of benchmarks."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pyehl.plots import style
-
-Row = Mapping[str, Any]
+from pyehl.types import Values
 
 # On a screen, as in the documents
 DPI = 110
@@ -27,7 +25,7 @@ OUTCOMES = {
 }
 
 
-def _kind(row: Row) -> str:
+def _kind(row: Values) -> str:
     if row.get("second") == "no solution":
         return "no solution"
     outcome = str(row["outcome"])
@@ -36,10 +34,10 @@ def _kind(row: Row) -> str:
     return outcome if outcome in OUTCOMES else "other"
 
 
-def stress(rows: Sequence[Row], path: Path) -> None:
+def stress(rows: Sequence[Values], path: Path) -> None:
     """Draw outcomes of a stress campaign over M and L: smooth contacts, and rough ones by grid."""
     grids = sorted({row["values"]["grid.points"] for row in rows})
-    panels: list[tuple[str, list[Row]]] = [
+    panels: list[tuple[str, list[Values]]] = [
         ("smooth, all grids", [row for row in rows if row["family"] == "smooth"])
     ]
     panels += [
@@ -65,7 +63,7 @@ def stress(rows: Sequence[Row], path: Path) -> None:
     style.save(figure, path, DPI, "bench")
 
 
-def work(rows: Sequence[Row], path: Path) -> None:
+def work(rows: Sequence[Values], path: Path) -> None:
     """Draw error over processor seconds, a panel for each scene and quantity."""
     scenes = list(dict.fromkeys((row["scene"], row["quantity"]) for row in rows))
     settings = list(dict.fromkeys(row["setting"] for row in rows))

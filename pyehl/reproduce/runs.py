@@ -20,8 +20,7 @@ from pyehl.studies.study import make
 from pyehl.studies.sweep import CASES, perform
 from pyehl.studies.tasks import why_none
 from pyehl.studies.vary import axis
-
-Row = dict[str, Any]
+from pyehl.types import Row
 
 
 class RunFailed(EhlError):  # noqa: N818 (what happened)

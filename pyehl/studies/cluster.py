@@ -11,8 +11,7 @@ from typing import Any
 
 from pyehl.errors import EhlError, InputError
 from pyehl.studies.tasks import FAILED, Task, execute
-
-Row = dict[str, Any]
+from pyehl.types import Row
 
 # Seconds to wait for the scheduler
 PATIENCE = 20

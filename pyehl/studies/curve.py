@@ -22,9 +22,7 @@ from pyehl.theory.friction import absolute_friction
 from pyehl.theory.load_share import LoadShare
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.types import Settings
-
-Row = Mapping[str, Any]
+from pyehl.types import Settings, Values
 
 STATUSES = ("full film", "mixed film", "film breakdown", "outside the range", "not solved")
 """What a point of a curve can be."""
@@ -44,7 +42,7 @@ EMPIRICAL = {"asperity_load_share_empirical": "1", "mu_empirical": "1"}
 """More of them where an empirical law of a thin film is asked for."""
 
 
-def curve_rows(plan: CurvePlan, rows: Mapping[int, Row]) -> list[dict[str, Any]]:
+def curve_rows(plan: CurvePlan, rows: Mapping[int, Values]) -> list[dict[str, Any]]:
     """Give the columns of a curve at all points, in the order of the table.
 
     Names and units are those of `UNITS` and, where the plan has an empirical law, `EMPIRICAL`; None
@@ -54,7 +52,7 @@ def curve_rows(plan: CurvePlan, rows: Mapping[int, Row]) -> list[dict[str, Any]]
     return [_at(point, rows, kept, plan.load_share) for point in plan.points]
 
 
-def _empirical(values: Row, smooth: float | None, law: LoadShare) -> dict[str, Any]:
+def _empirical(values: Values, smooth: float | None, law: LoadShare) -> dict[str, Any]:
     """Give what the law says; the film has the friction of the smooth contact where it ends."""
     ratio = values["lambda_ratio_central"]
     film = smooth if values["mu"] is None else values["mu"]
@@ -65,7 +63,7 @@ def _empirical(values: Row, smooth: float | None, law: LoadShare) -> dict[str, A
 
 
 def _at(
-    point: CurvePoint, rows: Mapping[int, Row], kept: dict[str, Pattern], law: LoadShare | None
+    point: CurvePoint, rows: Mapping[int, Values], kept: dict[str, Pattern], law: LoadShare | None
 ) -> dict[str, Any]:
     operating = OperatingPoint.from_settings(point.settings)
     nothing = {"status": FAILED, "message": "not done"}
@@ -121,7 +119,7 @@ def _at(
     return values
 
 
-def conclude(point: CurvePoint, row: Row) -> library.Conclusion:
+def conclude(point: CurvePoint, row: Values) -> library.Conclusion:
     """Judge a point of a curve by its columns, and give its last lines."""
     status = "predicted" if row["status"] in (FULL_FILM, MIXED, OUTSIDE) else row["status"]
     message = str(row["message"]).removeprefix(f"{status}: ")
@@ -133,7 +131,7 @@ def conclude(point: CurvePoint, row: Row) -> library.Conclusion:
     return library.conclude({**known, **more})
 
 
-def _film(smooth: Row, operating: OperatingPoint) -> dict[str, Any]:
+def _film(smooth: Values, operating: OperatingPoint) -> dict[str, Any]:
     """Film of the smooth contact, extrapolated where it could be, with its error."""
     if smooth["status"] != "converged":
         return {}
@@ -147,7 +145,7 @@ def _film(smooth: Row, operating: OperatingPoint) -> dict[str, Any]:
     return values
 
 
-def _smooth_friction(smooth: Row) -> dict[str, Any]:
+def _smooth_friction(smooth: Values) -> dict[str, Any]:
     """Friction of smooth surfaces: their ratio is 1 by definition."""
     if smooth["status"] != "converged":
         return {"status": UNSOLVED, "message": ""}
@@ -163,7 +161,7 @@ def _smooth_friction(smooth: Row) -> dict[str, Any]:
     }
 
 
-def _friction(found: Sequence[Row], smooth: Row) -> dict[str, Any]:
+def _friction(found: Sequence[Values], smooth: Values) -> dict[str, Any]:
     """Mean and spread over the surfaces; no mean where one of them has no ratio.
 
     The coefficient of the smooth contact is that of its solution, which has the inlet too. Where
@@ -181,7 +179,7 @@ def _friction(found: Sequence[Row], smooth: Row) -> dict[str, Any]:
     if any((row["mu_ratio"] or 0.0) > KNOWN_RATIO for row in found):
         outside.append(f"mu_ratio above {KNOWN_RATIO:g}")
     coefficient, isothermal = smooth.get("mu_smooth"), smooth.get("mu_smooth_isothermal")
-    absolute: list[Row] = [
+    absolute: list[Values] = [
         {
             name: row[name]
             if touches([row]) or None in (row.get("mu"), number)
@@ -203,7 +201,7 @@ def _friction(found: Sequence[Row], smooth: Row) -> dict[str, Any]:
     }
 
 
-def _mean(found: Sequence[Row], name: str) -> dict[str, float | None]:
+def _mean(found: Sequence[Values], name: str) -> dict[str, float | None]:
     numbers = [row.get(name) for row in found]
     if any(number is None for number in numbers):
         return {name: None, f"{name}_spread": None}
@@ -212,7 +210,7 @@ def _mean(found: Sequence[Row], name: str) -> dict[str, float | None]:
     return {name: float(values.mean()), f"{name}_spread": spread}
 
 
-def _largest(found: Sequence[Row], name: str) -> float | None:
+def _largest(found: Sequence[Values], name: str) -> float | None:
     numbers = [row.get(name) for row in found]
     return max(numbers) if all(number is not None for number in numbers) else None  # type: ignore[type-var]
 
@@ -225,12 +223,12 @@ def no_coefficient(settings: Settings) -> str:
     return "" if math.isfinite(found["mu"]) else str(found["mu_note"])
 
 
-def _joined(values: Row, text: str) -> str:
+def _joined(values: Values, text: str) -> str:
     return f"{values['message']}; {text}" if values.get("message") else text
 
 
 def full_film_ends(
-    key: str, places: Sequence[float] | NDArray[np.float64], rows: Sequence[Row]
+    key: str, places: Sequence[float] | NDArray[np.float64], rows: Sequence[Values]
 ) -> tuple[str, tuple[int, ...]]:
     """Say where full film ends along a curve over `key`, and give the points without it.
 

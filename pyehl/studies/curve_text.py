@@ -2,8 +2,7 @@
 """What ``pyehl stribeck`` prints: the table, the deviation of measured friction, the last lines."""
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -11,15 +10,13 @@ from pyehl.studies.curve import FULL_FILM, MIXED, OUTSIDE, conclude, full_film_e
 from pyehl.studies.curve_contact import lift_off
 from pyehl.studies.curve_plan import CurvePlan
 from pyehl.studies.measured_friction import Measured
-from pyehl.types import Array
-
-Row = Mapping[str, Any]
+from pyehl.types import Array, Values
 
 
-def curves_of(plan: CurvePlan, rows: Sequence[Row]) -> list[tuple[str, Array, Sequence[Row]]]:
+def curves_of(plan: CurvePlan, rows: Sequence[Values]) -> list[tuple[str, Array, Sequence[Values]]]:
     """Split a table into curves: name, values of the first key, rows."""
     keys = plan.study.keys
-    found: dict[str, tuple[list[float], list[Row]]] = {}
+    found: dict[str, tuple[list[float], list[Values]]] = {}
     for point, row in zip(plan.points, rows, strict=True):
         name = ", ".join(f"{key} = {point.point.values[key]}" for key in keys[1:])
         places, those = found.setdefault(name, ([], []))
@@ -28,7 +25,7 @@ def curves_of(plan: CurvePlan, rows: Sequence[Row]) -> list[tuple[str, Array, Se
     return [(name, np.array(places), those) for name, (places, those) in found.items()]
 
 
-def absolute_friction(plan: CurvePlan, rows: Sequence[Row]) -> bool:
+def absolute_friction(plan: CurvePlan, rows: Sequence[Values]) -> bool:
     """Whether all answers are coefficients of friction, where there is sliding.
 
     A point whose smooth contact has no solution has a ratio, and is left out.
@@ -42,7 +39,7 @@ def absolute_friction(plan: CurvePlan, rows: Sequence[Row]) -> bool:
     return bool(answers) and all(row["mu"] is not None for row in answers)
 
 
-def report(plan: CurvePlan, rows: Sequence[Row]) -> str:
+def report(plan: CurvePlan, rows: Sequence[Values]) -> str:
     """Return the table that is printed."""
     keys = plan.study.keys
     columns = {
@@ -79,7 +76,7 @@ def report(plan: CurvePlan, rows: Sequence[Row]) -> str:
     return "\n".join(lines)
 
 
-def last_lines(plan: CurvePlan, rows: Sequence[Row]) -> str:
+def last_lines(plan: CurvePlan, rows: Sequence[Values]) -> str:
     """Tell all of the point with the thinnest film, and what the points are worth."""
     known = [k for k, row in enumerate(rows) if row["h_min_m"] is not None]
     if not known:
@@ -102,7 +99,7 @@ def last_lines(plan: CurvePlan, rows: Sequence[Row]) -> str:
     )
 
 
-def deviation(plan: CurvePlan, rows: Sequence[Row], measured: Measured) -> list[str]:
+def deviation(plan: CurvePlan, rows: Sequence[Values], measured: Measured) -> list[str]:
     """Say how far the curve is from measured friction."""
     key = plan.study.keys[0]
     places = np.array([float(p.point.values[key]) for p in plan.points])

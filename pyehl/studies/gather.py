@@ -15,8 +15,7 @@ from pyehl.run import signals_to
 from pyehl.studies import cluster, pool
 from pyehl.studies.journal import Journal
 from pyehl.studies.tasks import FAILED, Task
-
-Row = dict[str, Any]
+from pyehl.types import Row
 
 # Seconds between tables that are written while a study runs
 TABLE_INTERVAL = 30.0

@@ -19,11 +19,10 @@ from typing import Any, BinaryIO, Self
 
 from pyehl.destination import Destination
 from pyehl.errors import FileError, InputError
+from pyehl.types import Row
 
 NAME = "journal.jsonl"
 VERSION = 1
-
-Row = dict[str, Any]
 
 
 def _line(value: Mapping[str, Any]) -> bytes:

@@ -4,17 +4,14 @@
 import csv
 import io
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from pyehl.errors import InputError
 from pyehl.given import text_file
-from pyehl.types import Array
-
-Row = Mapping[str, Any]
+from pyehl.types import Array, Values
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +25,7 @@ class Measured:
     friction: Array
     error: Array
 
-    def outside(self, key: str, places: Array, rows: Sequence[Row]) -> int:
+    def outside(self, key: str, places: Array, rows: Sequence[Values]) -> int:
         """Give the number of its places that the curve does not reach."""
         column = _column(self.abscissa, key, places, rows)
         known = column[np.isfinite(column)]
@@ -36,7 +33,7 @@ class Measured:
         inside = (self.places >= low) & (self.places <= high)
         return int(np.count_nonzero(~inside))
 
-    def deviation(self, name: str, key: str, places: Array, rows: Sequence[Row]) -> Array:
+    def deviation(self, name: str, key: str, places: Array, rows: Sequence[Values]) -> Array:
         """Give a column of the curve over the measured friction less 1 (n,); NaN outside of it.
 
         Interpolated along the curve, between places that have the column.
@@ -44,7 +41,7 @@ class Measured:
         source, target = (_column(n, key, places, rows) for n in (self.abscissa, name))
         return _along(self.places, source, target) / self.friction - 1.0
 
-    def over(self, name: str, key: str, places: Array, rows: Sequence[Row]) -> Array:
+    def over(self, name: str, key: str, places: Array, rows: Sequence[Values]) -> Array:
         """Give the places in another column of the curve, (n,); NaN outside of the curve.
 
         Interpolated along the curve, in logarithms. `key` and `places` are what the curve goes
@@ -67,7 +64,7 @@ def _along(at: Array, source: Array, target: Array) -> Array:
     return np.interp(at, x, y, left=np.nan, right=np.nan)
 
 
-def _column(name: str, key: str, places: Array, rows: Sequence[Row]) -> Array:
+def _column(name: str, key: str, places: Array, rows: Sequence[Values]) -> Array:
     if name == key:
         return places
     return np.array([np.nan if row[name] is None else row[name] for row in rows], dtype=float)

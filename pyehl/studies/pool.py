@@ -9,12 +9,10 @@ import subprocess
 import sys
 from collections import deque
 from collections.abc import Generator, Sequence
-from typing import Any
 
 from pyehl.errors import InternalError
 from pyehl.studies.tasks import FAILED, Task
-
-Row = dict[str, Any]
+from pyehl.types import Row
 
 # A worker has the next task waiting where tasks are shorter than this [s]
 SHORT = 0.5

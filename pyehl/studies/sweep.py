@@ -20,8 +20,7 @@ from pyehl.studies.journal import NAME
 from pyehl.studies.plan import Plan, plan
 from pyehl.studies.study import make
 from pyehl.studies.vary import axis
-
-Row = dict[str, Any]
+from pyehl.types import Row
 
 CSV, NETCDF, CASES = "results.csv", "results.nc", "cases"
 

@@ -12,14 +12,13 @@ from pyehl import arrays, library
 from pyehl.results import unit_of
 from pyehl.studies.outputs import LAST
 from pyehl.studies.study import Point, Study
-
-Row = Mapping[str, Any]
+from pyehl.types import Values
 
 # Words that are always in the table; other words only where they are asked for
 WORDS = ("flags", "outside_range", "judgement")
 
 
-def columns(study: Study, rows: Mapping[int, Row]) -> list[str]:
+def columns(study: Study, rows: Mapping[int, Values]) -> list[str]:
     """Names of the results in the table, behind what was varied."""
     if study.outputs:
         found: Iterable[str] = study.outputs
@@ -38,7 +37,7 @@ def write_csv(
     path: Path,
     study: Study,
     points: Iterable[Point],
-    rows: Mapping[int, Row],
+    rows: Mapping[int, Values],
     names: Sequence[str] = (),
 ) -> None:
     """Write the table of all finished cases, whole or not at all; `names`: of these columns.
@@ -57,7 +56,7 @@ def write_csv(
     )
 
 
-def dataset(study: Study, points: Sequence[Point], rows: Mapping[int, Row]) -> xr.Dataset:
+def dataset(study: Study, points: Sequence[Point], rows: Mapping[int, Values]) -> xr.Dataset:
     """Give the results over what was varied."""
     found = {
         name: [rows.get(point.number, {}).get(name) for point in points]
