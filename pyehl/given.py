@@ -9,9 +9,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pyehl.errors import InputError
+from pyehl.types import Array
 
 Option = str | Mapping[str, Any] | Iterable[str | Mapping[str, Any]]
 """A text ``group.key=value``, a dict with values by ``group.key``, or several of these."""
@@ -122,7 +123,7 @@ def _option_of(key: Any, value: Any) -> str:  # noqa: ANN401
         ) from None
 
 
-def heights_of(heights: ArrayLike) -> NDArray[np.float64]:
+def heights_of(heights: ArrayLike) -> Array:
     """Heights of a surface in Fortran order; InputError if they are no matrix of finite numbers."""
     try:
         values = np.asfortranarray(heights, dtype=np.float64)

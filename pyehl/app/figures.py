@@ -16,12 +16,12 @@ from bokeh.models import (
 )
 from bokeh.palettes import PuOr11, Viridis256
 from bokeh.plotting import figure
-from numpy.typing import NDArray
 
 from pyehl.app import drawing
 from pyehl.app.answers import CurvePoint, Film, Rough
 from pyehl.app.changes import Changes
 from pyehl.plots.style import BLUE, GREEN, GREY, VERMILLION
+from pyehl.types import Array
 
 SIDE = 310
 WHITE = "#ffffff"
@@ -256,7 +256,7 @@ class Pictures:
     def _around(
         self,
         picture: Any,  # noqa: ANN401
-        values: Sequence[float] | NDArray[np.float64],
+        values: Sequence[float] | Array,
     ) -> None:
         """Let the y axis reach over values, with a little room."""
         low, high = float(min(values)), float(max(values))

@@ -5,10 +5,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.plots import style
-from pyehl.types import Values
+from pyehl.types import Array, Values
 
 # On a screen, as in the documents
 DPI = 110
@@ -52,7 +51,7 @@ def stress(rows: Sequence[Values], path: Path) -> None:
     for ax, (title, mine) in zip(axes, panels, strict=True):
         for name, (marker, colour, text) in OUTCOMES.items():
             places = [(r["moes_m"], r["moes_l"]) for r in mine if _kind(r) == name]
-            at: NDArray[np.float64] = np.array(places, dtype=float).reshape(-1, 2)
+            at: Array = np.array(places, dtype=float).reshape(-1, 2)
             ax.semilogx(
                 at[:, 0], at[:, 1], marker, color=colour, ms=4, label=text, linestyle="none"
             )
@@ -78,7 +77,7 @@ def work(rows: Sequence[Values], path: Path) -> None:
                 # the reference itself has no error
                 if row["setting"] == setting and row["error"] and row["threads"] == 1
             ]
-            at: NDArray[np.float64] = np.array(line, dtype=float).reshape(-1, 2)
+            at: Array = np.array(line, dtype=float).reshape(-1, 2)
             marker = "*" if setting == "prediction" else "os^vD<>pP"[number % 9]
             ax.loglog(at[:, 0], at[:, 1], marker=marker, ms=4, lw=0.8, label=setting)
         bars = [row["bar"] for row in mine if row["bar"]]

@@ -6,12 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from pyehl.plots import style
 from pyehl.plots import surface as panels
 from pyehl.surfaces import Topography, psd_isotropic
-from pyehl.types import Array
+from pyehl.types import Array, Indices, Mask
 
 COLOURS = (style.GREY, "black", style.BLUE, style.VERMILLION)
 
@@ -68,7 +67,7 @@ def spectrum(topography: Topography) -> Figure:
     return figure
 
 
-def deformed(x: Array, y: Array, inside: NDArray[np.bool_], fields: Mapping[str, Array]) -> Figure:
+def deformed(x: Array, y: Array, inside: Mask, fields: Mapping[str, Array]) -> Figure:
     """Draw roughness fields on one scale, their height distributions and centre lines (Fig. 6).
 
     At places (nx,), (ny,) [a], where `inside` (nx, ny); heights (nx, ny) [m] by name, the
@@ -108,9 +107,7 @@ def deformed(x: Array, y: Array, inside: NDArray[np.bool_], fields: Mapping[str,
     return figure
 
 
-def by_seed(
-    seeds: NDArray[np.int_], simulated: Array, predicted: Sequence[tuple[str, Array]]
-) -> Figure:
+def by_seed(seeds: Indices, simulated: Array, predicted: Sequence[tuple[str, Array]]) -> Figure:
     """Draw mu_r/mu_s by seed, simulated and predicted (Fig. 7)."""
     figure = style.new_figure(8.0, 4.2)
     ax = figure.subplots()

@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pyehl.plots import style
 from pyehl.plots.outline import CIRCLE, Outline
 from pyehl.theory import stribeck
-from pyehl.types import Array, Settings
+from pyehl.types import Array, Mask, Settings
 
 
 def eq_16(summary: Mapping[str, Any], settings: Settings) -> float | None:
@@ -143,13 +143,13 @@ def extremes_history(
     return ax
 
 
-def _around(x: Array, y: Array, outline: Outline) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+def _around(x: Array, y: Array, outline: Outline) -> tuple[Mask, Mask]:
     """Which columns and rows the contact has."""
     along, across = outline.reach
     return np.abs(x) <= along, np.abs(y) <= across
 
 
-def _inside(x: Array, y: Array, outline: Outline) -> tuple[tuple[Any, ...], NDArray[np.bool_]]:
+def _inside(x: Array, y: Array, outline: Outline) -> tuple[tuple[Any, ...], Mask]:
     """Index of the box around the contact, and which of its nodes are in it."""
     inner_x, inner_y = _around(x, y, outline)
     return np.ix_(inner_x, inner_y), outline.inside(x[inner_x], y[inner_y])

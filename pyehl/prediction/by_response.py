@@ -13,7 +13,6 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.prediction.bands import Band, joining
 from pyehl.prediction.carrying import confirmed, within_range
@@ -40,7 +39,7 @@ from pyehl.surfaces import Topography, filtered
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.types import Array
+from pyehl.types import Array, Indices
 
 Parts = tuple[Topography, Spectrum, Transfer, Edge]
 
@@ -212,7 +211,7 @@ class RoughPassage:
         contact: RoughContact | HertzContact,
         grid: Topography,
         parts: tuple[Spectrum, Transfer, Edge],
-        passage: tuple[NDArray[np.int_], Array, float],
+        passage: tuple[Indices, Array, float],
         brief: bool,
     ) -> RoughFriction:
         ratios = passage[1]

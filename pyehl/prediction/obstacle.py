@@ -14,9 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
-from pyehl.types import Array
+from pyehl.types import Array, Mask
 
 ENOUGH, DEEPEST = 2e-3, 1e-2
 """Error of the film at touching nodes (rms), and depth below the layer elsewhere, over the scale
@@ -71,7 +70,7 @@ def lifted(
 
 def _solved(
     gap: Array,
-    allowed: NDArray[np.bool_],
+    allowed: Mask,
     compliance: Compliance,
     scale: float,
     pressure: Array,

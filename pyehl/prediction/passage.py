@@ -5,7 +5,6 @@ import math
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 from pyehl.prediction.options import MAX_POSITIONS
@@ -100,7 +99,7 @@ def short_mean(contact: HasFriction, pixels: int, track: int = 0) -> float:
 
 def friction_along(
     contact: HasFriction, pixels: int, positions: int, largest: float = math.inf
-) -> tuple[NDArray[np.int_], Array, float]:
+) -> tuple[Indices, Array, float]:
     """Positions [pixels], ratios there and what they leave undecided at most (relative).
 
     No positions are added to a passage with a mean above `largest`.

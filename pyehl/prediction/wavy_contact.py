@@ -244,6 +244,6 @@ def add_waves(
     )
 
 
-def pairs(values: NDArray[np.float32]) -> NDArray[np.complex64]:
+def pairs(values: Single) -> NDArray[np.complex64]:
     """Film and pressure of the last dimension as one number, the dimensions reversed."""
     return values.view(np.complex64)[..., 0].T

@@ -4,7 +4,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl import results
 from pyehl.plots import paper_surfaces
@@ -19,7 +18,7 @@ from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_base, inlet_fit
 from pyehl.theory.transport import INLET, Zone, transport
-from pyehl.types import Array, Complex
+from pyehl.types import Array, Complex, Mask
 
 NAME = "figure 6"
 TITLE = "Deformed roughness by simulation and by prediction"
@@ -47,7 +46,7 @@ class Deformed:
     made: Made
 
     @property
-    def inside(self) -> NDArray[np.bool_]:
+    def inside(self) -> Mask:
         """Nodes of the zone of high pressure."""
         return np.asarray(np.hypot(self.x[:, None], self.y[None, :]) <= RADIUS)
 

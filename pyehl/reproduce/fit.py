@@ -9,10 +9,9 @@ independent of one another, so that the confidence interval is that of a bootstr
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import nnls
 
-from pyehl.types import Array
+from pyehl.types import Array, Indices
 
 CONFIDENCE = 0.95
 SAMPLES = 2000
@@ -54,7 +53,7 @@ def scatter(friction: Array, curve: Array) -> float:
     return float(np.sqrt(np.mean(np.log(friction / curve) ** 2)))
 
 
-def fit(theta: Array, friction: Array, curve: NDArray[np.int_]) -> Fit:
+def fit(theta: Array, friction: Array, curve: Indices) -> Fit:
     """Fit the form of eq. 16 to parameter and mu_r/mu_s of waves (n,), finite.
 
     `curve` (n,) is the number of the curve that a wave belongs to; ValueError for fewer than

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.case import Case
 from pyehl.errors import EhlError
@@ -20,7 +19,7 @@ from pyehl.studies.study import make
 from pyehl.studies.sweep import CASES, perform
 from pyehl.studies.tasks import why_none
 from pyehl.studies.vary import axis
-from pyehl.types import Row
+from pyehl.types import Array, Row
 
 
 class RunFailed(EhlError):  # noqa: N818 (what happened)
@@ -95,6 +94,6 @@ class Runs:
         return self.made[name]
 
 
-def friction_of(rows: Sequence[Row]) -> NDArray[np.float64]:
+def friction_of(rows: Sequence[Row]) -> Array:
     """mu_r/mu_s of rows (n,); NaN where a run has none."""
     return np.array([np.nan if r.get("mu_ratio") is None else r["mu_ratio"] for r in rows])

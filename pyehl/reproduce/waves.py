@@ -4,11 +4,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.reproduce.level import Level
 from pyehl.reproduce.runs import Made, Runs, friction_of
-from pyehl.types import Array
+from pyehl.types import Array, Mask
 
 SCHEMES = ("paper", "narrow")
 VELOCITY_RATIO = 1.01
@@ -71,7 +70,7 @@ class WaveSet:
     made: Made
 
     @property
-    def known(self) -> NDArray[np.bool_]:
+    def known(self) -> Mask:
         """Where there is a result."""
         return np.isfinite(self.friction)
 

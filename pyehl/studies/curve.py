@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl import library
 from pyehl.prediction.deformed import deformed_surfaces
@@ -22,7 +21,7 @@ from pyehl.theory.friction import absolute_friction
 from pyehl.theory.load_share import LoadShare
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-from pyehl.types import Settings, Values
+from pyehl.types import Array, Settings, Values
 
 STATUSES = ("full film", "mixed film", "film breakdown", "outside the range", "not solved")
 """What a point of a curve can be."""
@@ -228,7 +227,7 @@ def _joined(values: Values, text: str) -> str:
 
 
 def full_film_ends(
-    key: str, places: Sequence[float] | NDArray[np.float64], rows: Sequence[Values]
+    key: str, places: Sequence[float] | Array, rows: Sequence[Values]
 ) -> tuple[str, tuple[int, ...]]:
     """Say where full film ends along a curve over `key`, and give the points without it.
 

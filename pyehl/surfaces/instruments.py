@@ -5,16 +5,16 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.errors import EhlError, InputError
 from pyehl.surfaces.memory import check_pixels
+from pyehl.types import Array
 
 INSTALL = "pip install 'pyehl[surfaces]', or pip install SurfaceTopography"
 
 Sizes = tuple[float | None, float | None]
 # Heights, size, whether it is periodic, name of the channel, note
-Foreign = tuple[NDArray[np.float64], Sizes, bool, str, str]
+Foreign = tuple[Array, Sizes, bool, str, str]
 
 
 class UnknownFormatError(InputError):

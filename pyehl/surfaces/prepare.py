@@ -10,7 +10,6 @@ import logging
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 from pyehl.surfaces import cutting, holes, levelling, seams, spikes
@@ -18,7 +17,7 @@ from pyehl.surfaces.memory import check_pixels
 from pyehl.surfaces.options import NEUTRAL, Options, defaults
 from pyehl.surfaces.reading import Scan
 from pyehl.surfaces.working_map import Record, Step, WorkingMap
-from pyehl.types import Array
+from pyehl.types import Array, Mask
 
 LOG = logging.getLogger(__name__)
 
@@ -153,7 +152,7 @@ def _join(work: WorkingMap, options: Options, why: dict[str, str]) -> None:
         work.do("edges", "periodic", prepared, why["edges"], note=note)
 
 
-def _fill(work: WorkingMap, options: Options, valid: NDArray[np.bool_]) -> None:
+def _fill(work: WorkingMap, options: Options, valid: Mask) -> None:
     """Fill what is missing, spikes included, or refuse to."""
     missing = int(valid.size - np.count_nonzero(valid))
     if missing == 0:

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 from pyehl.extension import surface_functions
@@ -21,7 +20,7 @@ from pyehl.surfaces.seams import mirrored
 from pyehl.surfaces.tile import Topography
 from pyehl.surfaces.working_map import Record
 from pyehl.theory.operating import OperatingPoint
-from pyehl.types import Settings
+from pyehl.types import Array, Settings
 
 LOG = logging.getLogger(__name__)
 
@@ -31,7 +30,7 @@ class SolverSurface:
     """What the solver needs from Python for the surface of a case."""
 
     # (nx, ny) [m], Fortran order; None where the solver makes or reads the surface itself
-    heights: NDArray[np.float64] | None = None
+    heights: Array | None = None
     # Texts ``group.key=value`` to set in its case: the size of a prepared tile, and whether it is
     # the heights with their mirror images
     options: tuple[str, ...] = ()
@@ -46,7 +45,7 @@ class SolverSurfaces:
     """What the solver needs from Python for both surfaces of a case."""
 
     # (nx, ny) [m]; None where the solver makes or reads the surface itself
-    heights: tuple[NDArray[np.float64] | None, ...]
+    heights: tuple[Array | None, ...]
     options: tuple[str, ...]  # as those of `SolverSurface`
     preparations: dict[str, Record]  # how maps became tiles, by group
     # What a prediction is made with by group, where it is not the surface of the case
@@ -54,7 +53,7 @@ class SolverSurfaces:
 
 
 def gather(
-    settings: Settings, heights: Mapping[str, NDArray[np.float64]], tiles: Mapping[str, Topography]
+    settings: Settings, heights: Mapping[str, Array], tiles: Mapping[str, Topography]
 ) -> SolverSurfaces:
     """Make what the solver needs from Python for both surfaces of a resolved case.
 
