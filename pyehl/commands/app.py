@@ -10,7 +10,6 @@ from pyehl.errors import InputError
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl app``."""
     add_case_arguments(parser, optional=True)
     parser.add_argument(
         "--port", type=int, default=0, metavar="N", help="of 127.0.0.1 (default: one that is free)"

@@ -164,7 +164,6 @@ FOLDERS: dict[str, tuple[str, Callable[..., Rows]]] = {
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl bench``."""
     subparsers = parser.add_subparsers(dest="what", metavar="WHAT", required=True)
     for name, (text, _) in (FILES | FOLDERS).items():
         sub = subparsers.add_parser(

@@ -8,12 +8,10 @@ from pyehl.commands.arguments import add_case_arguments
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl check``."""
     parser.description = "Read and check a case; print it resolved, and the plan. Solve nothing."
     add_case_arguments(parser)
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl check``."""
     print(check(args.case, args.overrides))
     return 0

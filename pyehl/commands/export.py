@@ -7,12 +7,10 @@ from pyehl.netcdf import export
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl export``."""
     parser.add_argument("folder", metavar="DIR", help="result folder")
     parser.add_argument("-o", "--output", metavar="FILE.nc", help="default: DIR/results.nc")
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl export``."""
     print(export(args.folder, args.output))
     return 0

@@ -99,13 +99,11 @@ def report(values: Mapping[str, Any]) -> str:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl film``."""
     add_case_arguments(parser)
     parser.add_argument("--json", action="store_true", help="print JSON, in SI units")
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl film``."""
     values = film(args.case, args.overrides)
     print(json.dumps(values, indent=2) if args.json else report(values))
     return 0

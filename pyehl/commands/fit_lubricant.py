@@ -10,7 +10,6 @@ from pyehl.studies.shear_fit import PARAMETERS, Fit
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl fit-lubricant``."""
     parser.description = (
         "Fit the Eyring stress, the limiting coefficient, or G and n of Carreau to friction "
         "measured over the slide-to-roll ratio."
@@ -46,7 +45,6 @@ def report(fit: Fit) -> str:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl fit-lubricant``."""
     fit = fit_lubricant(
         args.data,
         args.case,

@@ -38,6 +38,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl info``."""
     print("\n".join(lines()))
     return 0

@@ -9,7 +9,6 @@ from pyehl.theory.oils import Oil, film_forming, reciprocal_isoviscous
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl lubricants``."""
     parser.description = (
         "Oils that lubricant.name knows: constants, their ranges and sources, viscosity and "
         "pressure-viscosity coefficients at a temperature."
@@ -41,7 +40,6 @@ def report(oil: Oil, temperature: float) -> str:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl lubricants``."""
     oils = lubricants(*args.names, temperature=args.temperature, output=args.output)
     print("\n\n".join(report(oil, args.temperature) for oil in oils.values()))
     if args.output is not None:

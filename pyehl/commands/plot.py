@@ -13,7 +13,6 @@ from pyehl.results import load
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl plot``."""
     parser.add_argument(
         "folder", metavar="DIR", type=Path, help="result folder of pyehl run or predict"
     )

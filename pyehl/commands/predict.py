@@ -107,7 +107,6 @@ def _model(prediction: Prediction) -> str:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl predict``."""
     add_case_arguments(parser)
     parser.add_argument("-o", "--output", type=Path, required=True, help="result folder")
     add_force(parser)

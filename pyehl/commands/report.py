@@ -7,7 +7,6 @@ from pyehl.reports.folder import report
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl report``."""
     parser.add_argument(
         "folder", metavar="DIR", help="folder of run, predict, stribeck, sweep or response"
     )

@@ -22,7 +22,6 @@ LIBRARIES = ("numpy", "scipy", "matplotlib")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl reproduce``."""
     left_out = " ".join(f"--{level.name}: {level.leaves_out}." for level in LEVELS.values())
     parser.description = (
         "Redo figures and tables of a paper (all unless some are named), compare them with its "
@@ -89,7 +88,6 @@ def _machine(args: argparse.Namespace, level: Level, jobs: int) -> list[str]:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl reproduce``."""
     names, level, jobs = _names(args), LEVELS[args.level], jobs_of(args)
     folder = Path(args.output)
     watchers: list[Terminal] = []

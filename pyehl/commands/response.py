@@ -13,7 +13,6 @@ from pyehl.measured_response.tiers import TIERS
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl response``."""
     add_case_arguments(parser)
     parser.add_argument(
         "-o",
@@ -35,7 +34,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl response``."""
     case = Case.read(args.case, args.overrides)
     case = exchanged(case) if args.second else case
     ratio = float(case.resolve()["surface"]["velocity_ratio"])

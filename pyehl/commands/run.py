@@ -47,7 +47,6 @@ def _status(outcome: Outcome) -> int:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl run``."""
     add_case_arguments(parser, optional=True)
     parser.add_argument("-o", "--output", metavar="DIR", help="result folder")
     parser.add_argument(
@@ -61,7 +60,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl run``."""
     words: dict[str, Any] = {} if args.quiet else {"say": _say, "advanced": _display()}
     words["force"] = args.force
     if args.resume is not None:

@@ -25,7 +25,6 @@ SLIP = KEYS["slide-to-roll"]
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl stribeck``."""
     parser.description = (
         "Friction of a contact over speed, viscosity, load, temperature or slide-to-roll ratio: "
         "the smooth contact solved, the friction of the roughness predicted, the full simulation "
@@ -160,7 +159,6 @@ def _conditions(plan: CurvePlan) -> str:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl stribeck``."""
     plan = _plan(args)
     jobs = jobs_of(args)
     measured = None if args.measured is None else _measured(args.measured, plan)

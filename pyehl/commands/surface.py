@@ -33,7 +33,6 @@ READY_IN_PLACE = {
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl surface``."""
     add_case_arguments(parser)
     parser.add_argument(
         "-o",
@@ -55,7 +54,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl surface``."""
     is_case = Path(args.case).suffix.lower() == ".nml"
     if is_case:
         case = Case.read(args.case, args.overrides)

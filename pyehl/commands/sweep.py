@@ -19,7 +19,6 @@ from pyehl.studies.vary import parse_axis
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl sweep``."""
     parser.description = (
         "Run a case with many values, in worker processes; started again it runs what is missing. "
         "Exit status: 0 all cases have a result, 1 at least one has none, 2 bad input (nothing "
@@ -85,7 +84,6 @@ def report(outcome: Outcome, folder: Path, workers: int) -> str:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl sweep``."""
     jobs = jobs_of(args)
     folder = Path(args.output)
     try:
