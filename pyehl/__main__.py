@@ -1,16 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The program ``pyehl``, and ``python -m pyehl``."""
 
-from __future__ import annotations
-
 import atexit
 import gc
 import os
 import sys
 
 from pyehl.cli import main
-
-__all__ = ["program"]
 
 MANY = 500_000
 """New objects after which the garbage collector looks for cycles: pictures have many that stay."""

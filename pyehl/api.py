@@ -22,8 +22,6 @@ from pyehl.surfaces import Surface, Topography
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["check", "film", "predict", "solve"]
-
 Progress = bool | Callable[[Solver], object]
 
 

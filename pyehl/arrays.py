@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Arrays and tables of a result folder."""
 
-from __future__ import annotations
-
 import csv
 import math
 import os
@@ -10,16 +8,14 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl import library
 from pyehl.destination import new_file
 from pyehl.errors import EhlError, FileError, NoMemoryError
+from pyehl.types import Array
 
-__all__ = ["read_array", "write_csv"]
 
-
-def read_array(path: Path) -> NDArray[np.float64]:
+def read_array(path: Path) -> Array:
     """Read an array that pyehl has written.
 
     NoMemoryError if it does not fit into the memory, nothing is read then; FileError if it cannot

@@ -10,11 +10,10 @@ from typing import TYPE_CHECKING, Any, Self
 
 from pyehl import display, library, namelist
 from pyehl.given import Option, check_kind, path_of
+from pyehl.types import Settings
 
 if TYPE_CHECKING:
     from pyehl.surfaces import Surface, Topography
-
-__all__ = ["Case", "exchanged", "files_of", "with_surface"]
 
 
 @dataclass(frozen=True, slots=True, repr=False, init=False)
@@ -149,7 +148,7 @@ class Case:
         return namelist.values(self.text)
 
 
-def files_of(settings: Mapping[str, Mapping[str, Any]]) -> list[str]:
+def files_of(settings: Settings) -> list[str]:
     """Give the files that a resolved case reads: height maps, a table of viscosities."""
     maps = [group["file"] for group in settings.values() if group.get("kind") == "map"]
     return [str(name) for name in (*maps, settings["lubricant"].get("table")) if name]

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The command ``pyehl``: one module of `pyehl.commands` for each subcommand."""
 
-from __future__ import annotations
-
 import argparse
 import logging
 import os
@@ -19,8 +17,6 @@ from pyehl.errors import (
     InputError,
     did_you_mean,
 )
-
-__all__ = ["main"]
 
 # Subcommand, which is a module of `pyehl.commands`, and what it does
 SUBCOMMANDS = {

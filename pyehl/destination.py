@@ -7,8 +7,6 @@ for ``ehl``. A single file is written where nothing is, or over a file of the sa
 says so in its metadata; never onto what the command reads. Links are kept, their targets used.
 """
 
-from __future__ import annotations
-
 import json
 import math
 import os
@@ -22,17 +20,6 @@ from pathlib import Path
 
 from pyehl.errors import FileError, InputError, check
 from pyehl.extension import functions
-
-__all__ = [
-    "Destination",
-    "check_files",
-    "file_errors",
-    "finite",
-    "made_by",
-    "mark",
-    "new_file",
-    "write_json",
-]
 
 AnyPath = str | os.PathLike[str]
 

@@ -1,14 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tables for notebooks and terminals."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Any
-
-__all__ = ["Columns", "table", "text_table", "with_error"]
 
 Columns = Sequence[tuple[str, str]]
 """Names and formats."""

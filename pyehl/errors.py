@@ -1,28 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Exceptions, one class per status code of the Fortran library; exit statuses."""
 
-from __future__ import annotations
-
 import difflib
 from collections.abc import Iterable
 from typing import Any
-
-__all__ = [
-    "EXIT_FAILED",
-    "EXIT_INTERRUPTED",
-    "EXIT_OK",
-    "EXIT_USAGE",
-    "ClosedError",
-    "EhlError",
-    "ExtensionError",
-    "FileError",
-    "InputError",
-    "InternalError",
-    "NoMemoryError",
-    "NotConverged",
-    "check",
-    "did_you_mean",
-]
 
 EXIT_OK, EXIT_FAILED, EXIT_USAGE, EXIT_INTERRUPTED = 0, 1, 2, 130
 """Exit statuses of commands: done, not converged or failed, bad input, interrupted (as ``ehl``)."""

@@ -12,14 +12,6 @@ from pyehl.processor import suffix
 if TYPE_CHECKING:
     from pyehl import _core
 
-__all__ = [
-    "functions",
-    "lubricants",
-    "predicted",
-    "solvers",
-    "surface_functions",
-]
-
 try:
     _extension = import_module(f"pyehl._core{suffix()}")
 except ImportError as error:  # pragma: no cover

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What callers hand over: checked where it comes in, so that a wrong type is told as bad input."""
 
-from __future__ import annotations
-
 import math
 import os
 import reprlib
@@ -11,23 +9,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pyehl.errors import InputError
-
-__all__ = [
-    "Option",
-    "Value",
-    "check_kind",
-    "heights_of",
-    "option",
-    "options_of",
-    "path_of",
-    "plain",
-    "positive",
-    "text_file",
-    "text_of",
-]
+from pyehl.types import Array
 
 Option = str | Mapping[str, Any] | Iterable[str | Mapping[str, Any]]
 """A text ``group.key=value``, a dict with values by ``group.key``, or several of these."""
@@ -138,7 +123,7 @@ def _option_of(key: Any, value: Any) -> str:  # noqa: ANN401
         ) from None
 
 
-def heights_of(heights: ArrayLike) -> NDArray[np.float64]:
+def heights_of(heights: ArrayLike) -> Array:
     """Heights of a surface in Fortran order; InputError if they are no matrix of finite numbers."""
     try:
         values = np.asfortranarray(heights, dtype=np.float64)

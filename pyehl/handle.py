@@ -4,8 +4,6 @@
 One call at a time works on a solver: a call in another thread waits until it has ended.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import threading
@@ -13,15 +11,14 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, Self
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pyehl.errors import check
+from pyehl.extension import predicted
+from pyehl.extension import solvers as ehl
 from pyehl.given import path_of, text_of
-from pyehl.library import ehl, predicted, returned
-
-__all__ = ["SolverHandle", "Work"]
-
-Array = NDArray[np.float64]
+from pyehl.library import returned
+from pyehl.types import Array
 
 NO_HEIGHTS = np.zeros((1, 1), order="F")
 
@@ -84,10 +81,7 @@ class SolverHandle:
     converged = False
 
     def __init__(
-        self,
-        text: str,
-        heights: ArrayLike | None = None,
-        second_heights: ArrayLike | None = None,
+        self, text: str, heights: ArrayLike | None = None, second_heights: ArrayLike | None = None
     ) -> None:
         # a call may be made of several
         self._lock = threading.RLock()

@@ -7,8 +7,6 @@ Arrays are float64 of shape (nx, ny) in Fortran order, first index X. Pressures 
 Hertz pressure p_h, lengths by the Hertz radius a, films and deflections by a^2/R.
 """
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Iterable, Mapping
@@ -17,37 +15,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pyehl.errors import check
-from pyehl.extension import functions, lubricants, predicted, surface_functions
-from pyehl.extension import solvers as ehl
+from pyehl.extension import functions, lubricants
 from pyehl.given import Option, options_of, path_of, text_of
-
-__all__ = [
-    "WORTH",
-    "Conclusion",
-    "Deflection",
-    "Key",
-    "alpha_origin",
-    "build",
-    "check_memory",
-    "checkpoint_case",
-    "conclude",
-    "deflection",
-    "ehl",
-    "free_bytes",
-    "functions",
-    "keys",
-    "lubricants",
-    "predicted",
-    "resolve",
-    "returned",
-    "surface_functions",
-    "version",
-]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 
 def returned(value: bytes) -> str:

@@ -4,16 +4,12 @@
 What a user wrote is read by Fortran alone, which says what is wrong with it.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
 
 from pyehl.errors import InputError
-
-__all__ = ["given", "text_of", "values"]
 
 END = "\n/\n"
 WORD = r"'(?:[^']|'')*'|\.true\.|\.false\.|-?\d+[\d.]*(?:e[+-]?\d+)?"

@@ -5,8 +5,6 @@ netCDF-3 (64-bit offset), which xarray, MATLAB, Octave, ParaView and ncview open
 after the CF conventions. Planes are stored (Y, X), the last index fastest, as those tools expect.
 """
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 
@@ -15,8 +13,6 @@ import xarray as xr
 from pyehl import results
 from pyehl.destination import check_files, mark, new_file
 from pyehl.given import path_of
-
-__all__ = ["export", "write_netcdf"]
 
 
 def export(folder: str | os.PathLike[str], path: str | os.PathLike[str] | None = None) -> Path:

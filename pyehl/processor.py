@@ -8,16 +8,12 @@ rounding, not to the last bit: v3 fuses multiplications and additions. The envir
 ``PYEHL_CPU`` set to ``baseline`` or ``x86-64-v3`` forces one of them.
 """
 
-from __future__ import annotations
-
 import os
 import sys
 from importlib.util import find_spec
 from pathlib import Path
 
 from pyehl.errors import InputError
-
-__all__ = ["VARIABLE", "run_program", "suffix"]
 
 VARIABLE = "PYEHL_CPU"
 BASELINE, V3 = "baseline", "x86-64-v3"

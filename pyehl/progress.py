@@ -1,11 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A progress bar of a solver, with the time left of a transient run."""
 
-from __future__ import annotations
-
 from pyehl.solver import Solver
-
-__all__ = ["ProgressBar"]
 
 STEADY = "{desc} [{elapsed}]"
 TRANSIENT = "{percentage:3.0f}%|{bar:10}|{desc} [{elapsed}]"

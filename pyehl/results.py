@@ -7,8 +7,6 @@ units. No two names differ only in case, so that readers that do not tell them a
 exported file.
 """
 
-from __future__ import annotations
-
 import csv
 import json
 import os
@@ -19,7 +17,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from pyehl import namelist
 from pyehl.arrays import read_array
@@ -27,11 +24,7 @@ from pyehl.errors import FileError, InputError
 from pyehl.given import path_of
 from pyehl.schema import QUANTITIES
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["load", "prediction_dataset", "scalars", "settings_of", "unit_of"]
-
-Array = NDArray[np.float64]
-Settings = Mapping[str, Mapping[str, Any]]
+from pyehl.types import Array
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,8 +5,6 @@ The same calls in the same order as the program ``ehl``, hence the same bits and
 A transient run keeps its state in ``DIR.checkpoint`` as it goes: `resume` resumes it.
 """
 
-from __future__ import annotations
-
 import logging
 import os
 import signal
@@ -25,8 +23,6 @@ from pyehl.destination import Destination
 from pyehl.errors import FileError, InputError
 from pyehl.solver import Solver
 from pyehl.surfaces import GROUPS, Surface, for_solver
-
-__all__ = ["Outcome", "resume", "run", "signals_to"]
 
 AnyPath = str | os.PathLike[str]
 

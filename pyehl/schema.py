@@ -9,11 +9,7 @@ capital letters are Hertz units. Kinds: ``solution`` (``ehl``, ``pyehl run``), `
 summaries.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-
-__all__ = ["KINDS", "QUANTITIES", "Quantity", "markdown"]
 
 KINDS = {"s": "solution", "p": "prediction", "f": "film", "r": "response", "t": "fit"}
 

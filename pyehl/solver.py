@@ -21,7 +21,7 @@ from pyehl import display
 from pyehl.case import Case, with_surface
 from pyehl.destination import Destination, write_json
 from pyehl.given import Option, heights_of, path_of
-from pyehl.handle import Array, SolverHandle, Work
+from pyehl.handle import SolverHandle, Work
 from pyehl.prediction.of_solver import Predictions
 from pyehl.surfaces import (
     GROUPS,
@@ -33,11 +33,10 @@ from pyehl.surfaces import (
     keep_beside,
     moved,
 )
+from pyehl.types import Array
 
 if TYPE_CHECKING:
     import xarray
-
-__all__ = ["Solver", "Step"]
 
 
 @dataclass(frozen=True, slots=True)

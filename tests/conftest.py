@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What all tests share: the program, the folder of cases, and a way to run both drivers."""
 
-from __future__ import annotations
-
 import importlib
 import importlib.util
 import os

@@ -7,8 +7,6 @@ import csv
 from pathlib import Path
 from typing import Any
 
-__all__ = ["numbers_of", "shares"]
-
 Row = dict[str, Any]
 
 

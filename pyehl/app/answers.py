@@ -1,15 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What is computed for a position: the film on a grid, the prediction, a curve."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl import api
 from pyehl.app.position import Position
@@ -18,22 +15,7 @@ from pyehl.errors import EhlError, InputError
 from pyehl.prediction.result import Prediction
 from pyehl.solver import Solver
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = [
-    "COARSE",
-    "CURVES",
-    "FINE",
-    "CurvePoint",
-    "Film",
-    "Rough",
-    "curve",
-    "film",
-    "follow",
-    "places",
-    "rough",
-]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 COARSE, FINE = 129, (257, 513)
 """Nodes a side while a knob moves, and when it rests."""

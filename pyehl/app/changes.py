@@ -5,13 +5,9 @@ Bokeh sends a message for each property, and the browser paints between them: ev
 times for one answer.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from bokeh.models import ColumnDataSource, CustomJS
-
-__all__ = ["Changes"]
 
 APPLY = "source.data.model.forEach((m, k) => m.setv(source.data.values[k], {sync: false}))"
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a page gives to save: the report, and the figures in a width of a journal."""
 
-from __future__ import annotations
-
 import io
 import tempfile
 import threading
@@ -13,8 +11,6 @@ from pyehl import api
 from pyehl.app.position import Position
 from pyehl.plots.folder import plot
 from pyehl.reports.folder import report
-
-__all__ = ["figures", "report_page"]
 
 # The settings of matplotlib are those of the process: one thread draws at a time
 _DRAWING = threading.Lock()

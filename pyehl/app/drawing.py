@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fields as what a page draws: colours, levels, lines, in mm, nm and GPa."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 
@@ -16,10 +14,7 @@ from pyehl.plots.contact import fringe_colours, fringe_spacings
 from pyehl.plots.outline import Outline
 from pyehl.plots.style import Scales
 from pyehl.prediction.result import Prediction
-
-__all__ = ["Map", "centre_lines", "contour_lines", "film_map", "octaves", "outline", "tiles"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 VIEW = 1.3
 # Pixels a side of the fringes, at least

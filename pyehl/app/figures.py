@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The pictures of the page, and how answers get into them."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -18,14 +16,12 @@ from bokeh.models import (
 )
 from bokeh.palettes import PuOr11, Viridis256
 from bokeh.plotting import figure
-from numpy.typing import NDArray
 
 from pyehl.app import drawing
 from pyehl.app.answers import CurvePoint, Film, Rough
 from pyehl.app.changes import Changes
 from pyehl.plots.style import BLUE, GREEN, GREY, VERMILLION
-
-__all__ = ["Pictures"]
+from pyehl.types import Array
 
 SIDE = 310
 WHITE = "#ffffff"
@@ -84,7 +80,6 @@ class Pictures:
         return {**{n: getattr(self, n) for n in names}, "curve_film": film, "curve_ratio": ratio}
 
     def _film_maps(self) -> tuple[Any, Any]:
-        """Fringes and contours of the film."""
         place = {"x": "x", "y": "y", "dw": "dw", "dh": "dh"}
         fringes = _map("film as fringes")
         fringes.xaxis[0].axis_label = "x [mm], motion →"
@@ -249,12 +244,10 @@ class Pictures:
         self.changes.send()
 
     def _empty(self, *sources: ColumnDataSource) -> None:
-        """Show nothing of these."""
         for source in sources:
             self.changes.of(source, data={name: [] for name in source.data})
 
     def _fit(self, picture: Any, made: drawing.Map) -> None:  # noqa: ANN401
-        """Show the whole map."""
         side = max(made.width, made.height)
         x, y = made.left + 0.5 * made.width, made.bottom + 0.5 * made.height
         self.changes.of(picture.x_range, start=x - 0.5 * side, end=x + 0.5 * side)
@@ -263,7 +256,7 @@ class Pictures:
     def _around(
         self,
         picture: Any,  # noqa: ANN401
-        values: Sequence[float] | NDArray[np.float64],
+        values: Sequence[float] | Array,
     ) -> None:
         """Let the y axis reach over values, with a little room."""
         low, high = float(min(values)), float(max(values))

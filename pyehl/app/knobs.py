@@ -1,16 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The knobs: names, units and ranges."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 from pyehl.errors import InputError
 from pyehl.theory.oils import known_oils
-
-__all__ = ["GROUPS", "KNOBS", "STEPS", "Choice", "Knob", "Value", "shown"]
 
 Value = float | int | str
 

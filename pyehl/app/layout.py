@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Where things are on the page, and their words."""
 
-from __future__ import annotations
-
 import base64
 from collections.abc import Callable, Mapping, Sequence
 from html import escape
@@ -25,8 +23,6 @@ from pyehl.app.figures import Pictures
 from pyehl.app.knobs import GROUPS, Value, shown
 from pyehl.app.position import Position
 from pyehl.app.widgets import ERROR, WIDTH, KnobWidget
-
-__all__ = ["PICTURES", "TEMPLATE", "Layout"]
 
 SAVE = """
 const bytes = Uint8Array.from(atob(source.data.data[0]), c => c.charCodeAt(0));
@@ -83,7 +79,7 @@ document.querySelectorAll('.picture').forEach((part, k) => part.hidden = k !== t
 """
 
 
-class Hears(Protocol):
+class _Hears(Protocol):
     """What the page does when something happens."""
 
     def turned(self, name: str, value: Value) -> None: ...
@@ -106,7 +102,7 @@ def _table(rows: Sequence[tuple[str, str]]) -> str:
 class Layout:
     """All that is on the page but the pictures, by name."""
 
-    def __init__(self, hears: Hears, pictures: Pictures, start: Position) -> None:
+    def __init__(self, hears: _Hears, pictures: Pictures, start: Position) -> None:
         self.knobs = {
             knob.name: KnobWidget(knob, start.values[knob.name], hears.turned)
             for group in GROUPS.values()
@@ -157,7 +153,7 @@ class Layout:
 
     def _file(
         self,
-        hears: Hears,
+        hears: _Hears,
         widget: Any,  # noqa: ANN401
         take: Callable[[str, bytes], None],
     ) -> Callable[[str, object, object], None]:
@@ -187,7 +183,7 @@ class Layout:
         self.show_knobs(start.values)
         return column(*parts, width=WIDTH + 20)
 
-    def _curves(self, hears: Hears) -> Any:  # noqa: ANN401
+    def _curves(self, hears: _Hears) -> Any:  # noqa: ANN401
         buttons = []
         for name in CURVES:
             button = Button(label=f"curve over {name}", name=f"curve_{CURVES[name]}")
@@ -195,7 +191,7 @@ class Layout:
             buttons.append(button)
         return row(*buttons)
 
-    def _right(self, hears: Hears) -> Any:  # noqa: ANN401
+    def _right(self, hears: _Hears) -> Any:  # noqa: ANN401
         copy, save = Button(label="Copy", name="copy"), Button(label="Save", name="save")
         copy.js_on_click(CustomJS(args={"area": self.case}, code=COPY))
         save.js_on_click(CustomJS(args={"area": self.case}, code=SAVE_TEXT))

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One page: its knobs, its worker, its pictures. Each tab of a browser has its own."""
 
-from __future__ import annotations
-
 import base64
 import threading
 from collections.abc import Callable
@@ -25,8 +23,6 @@ from pyehl.app.uploads import Uploads
 from pyehl.app.worker import Ticket, Worker
 from pyehl.case import Case
 from pyehl.errors import EhlError, InputError
-
-__all__ = ["Page"]
 
 # Nodes a side of the case file, the report and the figures
 POINTS = FINE[-1]

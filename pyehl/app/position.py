@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Where the knobs stand, and the case that belongs to it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from pyehl import namelist
 from pyehl.app.knobs import GROUPS, KNOBS, Knob, Value
@@ -16,8 +14,6 @@ from pyehl.errors import InputError
 from pyehl.surfaces import rough_groups
 from pyehl.theory.oils import known_oils
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["Position", "from_case"]
 
 # Keys that the knobs stand for; of an opened case all others are kept as they are
 OWNED = {
@@ -81,7 +77,7 @@ class Position:
     file: str = ""
     oil: Value = "at the inlet"
 
-    def turned(self, name: str, value: Value) -> Position:
+    def turned(self, name: str, value: Value) -> Self:
         """Give the position with a knob turned."""
         modulus = 0.0 if name in STEEL else self.modulus
         return replace(self, values={**self.values, name: value}, modulus=modulus)

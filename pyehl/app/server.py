@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The server of the page: on this machine alone, for browsers that were given its address."""
 
-from __future__ import annotations
-
 import logging
 import webbrowser
 from collections.abc import Callable
@@ -17,8 +15,6 @@ from pyehl.app.page import Page
 from pyehl.app.position import Position
 from pyehl.app.uploads import LARGEST
 from pyehl.errors import InputError
-
-__all__ = ["ADDRESS", "serve"]
 
 ADDRESS = "127.0.0.1"
 # A tab that was closed is gone after so long [ms]

@@ -4,8 +4,6 @@
 The page knows their names alone. What a reader says of a file names it, not where it lies.
 """
 
-from __future__ import annotations
-
 import re
 import tempfile
 from collections.abc import Mapping
@@ -14,8 +12,6 @@ from typing import Any
 
 from pyehl.errors import EhlError, InputError
 from pyehl.surfaces.reading import read_scan
-
-__all__ = ["LARGEST", "Uploads"]
 
 LARGEST = 64 * 2**20
 """Bytes of the largest file that is taken."""

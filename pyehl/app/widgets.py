@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A knob as the page shows it: a slider, a field to type in, and room for what is wrong."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from html import escape
 from typing import Any
@@ -12,8 +10,6 @@ from bokeh.models import Div, Select, Slider, TextInput
 
 from pyehl.app.knobs import STEPS, Choice, Knob, Value
 from pyehl.errors import InputError
-
-__all__ = ["KnobWidget"]
 
 WIDTH = 300
 ERROR = {"color": "#b00020", "white-space": "pre-wrap", "font-size": "85%"}

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the page says: numbers with errors, formulas beside them, Python lines."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Mapping
@@ -13,8 +11,6 @@ from pyehl.app.answers import Film, Rough
 from pyehl.app.position import Position
 from pyehl.display import with_error
 from pyehl.theory.moes_film import regime
-
-__all__ = ["film_rows", "python_lines", "rough_rows", "status_line"]
 
 NM = 1e9
 # Film ratios below which roughness touches, and from which a film is thick

@@ -12,8 +12,6 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-__all__ = ["Job", "Ticket", "Worker"]
-
 # A job that has been overtaken may go on for so long [s], so that something is seen while a knob
 # is turned without a pause
 GRACE = 0.4

@@ -1,11 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A scene as it is solved and with skipped work done: seconds, and the difference in a result."""
 
-from __future__ import annotations
-
-import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -14,41 +10,17 @@ from pyehl.bench.unit import processor_seconds
 from pyehl.case import Case
 from pyehl.handle import SolverHandle
 from pyehl.prediction.start import hand_over
-
-__all__ = [
-    "ROUNDING",
-    "Row",
-    "Timed",
-    "Values",
-    "compare",
-    "mean_tolerance",
-    "nothing",
-    "rounding",
-    "solve",
-    "solve_from_prediction",
-    "step_tolerance",
-]
-
-Row = dict[str, Any]
-Values = Mapping[str, Any]
+from pyehl.types import Row, Values
 
 # Bits cannot be equal where sums are taken in another order; the cycles may make it more
 ROUNDING = 1e-10
 
 
-@dataclass(slots=True)
-class Timed:
-    """The least processor seconds of something, and what it gave."""
-
-    call: Callable[[], Values]
-    seconds: float = math.inf
-    values: Values = None  # type: ignore[assignment]
-
-    def run(self) -> None:
-        """Do it once more."""
-        began = processor_seconds()
-        self.values = self.call()
-        self.seconds = min(self.seconds, processor_seconds() - began)
+def timed(call: Callable[[], Values]) -> tuple[float, Values]:
+    """Give the processor seconds of something, and what it gave."""
+    began = processor_seconds()
+    values = call()
+    return processor_seconds() - began, values
 
 
 def solve(*options: str) -> dict[str, Any]:
@@ -75,28 +47,24 @@ def compare(
     usual: Callable[[], Values],
     other: Callable[[], Values],
     allowed: Callable[[Values], float],
-    repeats: int,
     *,
     besides: bool = False,
 ) -> Row:
-    """Make both in turn; differences are relative, the greatest one where `quantity` is an array.
+    """Make both; differences are relative, the greatest one where `quantity` is an array.
 
     `besides`: the other is work on top of the usual one.
     """
-    pair = Timed(usual), Timed(other)
-    for _ in range(repeats):
-        for timed in pair:
-            timed.run()
-    one, two = (np.asarray(timed.values[quantity], dtype=float) for timed in pair)
+    (seconds, values), (without, others) = timed(usual), timed(other)
+    one, two = (np.asarray(found[quantity], dtype=float) for found in (values, others))
     difference = float(np.max(np.abs(one - two)) / np.max(np.abs(one)))
-    limit = allowed(pair[0].values)
-    without = pair[1].seconds + (pair[0].seconds if besides else 0.0)
+    limit = allowed(values)
+    without += seconds if besides else 0.0
     return {
         "scene": scene,
         "skipped": skipped,
-        "seconds": pair[0].seconds,
+        "seconds": seconds,
         "without": without,
-        "saved": 1.0 - pair[0].seconds / without,
+        "saved": 1.0 - seconds / without,
         "quantity": quantity,
         "difference": difference,
         "allowed": limit,

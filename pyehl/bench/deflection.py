@@ -1,21 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl bench deflection``: time and error of the deflection engines."""
 
-from __future__ import annotations
-
 import statistics
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl import library
 from pyehl.bench.unit import ScipyDeflection, hertz, median_seconds
-
-__all__ = ["COLUMNS", "MEANING", "deflection_rows"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 # Share of the discretisation error that the error of a deflection may have
 SHARE = 0.1
@@ -55,52 +49,29 @@ def deflection_rows(grids: Sequence[int], threads: Sequence[int]) -> list[dict[s
         reference = yardstick.apply(p)
         scale = reference.max()
         discretisation = float(np.abs(reference - exact)[inside].max() / scale)
-        rows.append(
-            {
-                "points": points,
-                "engine": "scipy.fft",
-                "domain": "whole",
-                "threads": 1,
-                "seconds": unit,
-                "units": 1.0,
-                "error": 0.0,
-                "share": 0.0,
-                "discretisation": discretisation,
-                "megabytes": yardstick.transform.nbytes / 1e6,
-            }
-        )
+        mine: list[dict[str, Any]] = [
+            {"engine": "scipy.fft", "domain": "whole", "threads": 1, "seconds": unit}
+            | {"error": 0.0, "megabytes": yardstick.transform.nbytes / 1e6}
+        ]
         for engine in ("mlmi", "fft"):
             for half in (False, True):
                 first = points // 2 if half else 0
-                rows += [
-                    _deflection_row(
-                        engine, p[:, first:], reference[:, first:], h, half, n, unit, discretisation
-                    )
-                    for n in threads
-                ]
+                part, wanted = p[:, first:], reference[:, first:]
+                accuracy = SHARE * discretisation
+                mine += [_measured(engine, part, wanted, h, half, n, accuracy) for n in threads]
+        for row in mine:
+            row |= {"points": points, "discretisation": discretisation}
+            row |= {"units": row["seconds"] / unit, "share": row["error"] / discretisation}
+        rows += mine
     return rows
 
 
-def _deflection_row(
-    engine: str,
-    p: Array,
-    reference: Array,
-    h: float,
-    half: bool,
-    threads: int,
-    unit: float,
-    discretisation: float,
+def _measured(
+    engine: str, p: Array, reference: Array, h: float, half: bool, threads: int, accuracy: float
 ) -> dict[str, Any]:
     def call(repeats: int) -> library.Deflection:
         return library.deflection(
-            p,
-            h,
-            h,
-            engine,
-            mirror=half,
-            accuracy=SHARE * discretisation,
-            threads=threads,
-            repeats=repeats,
+            p, h, h, engine, mirror=half, accuracy=accuracy, threads=threads, repeats=repeats
         )
 
     first = call(1)
@@ -108,14 +79,10 @@ def _deflection_row(
     seconds = statistics.median(call(repeats).seconds for _ in range(3))
     error = float(np.abs(first.values - reference).max() / reference.max())
     return {
-        "points": p.shape[0],
         "engine": engine,
         "domain": "half" if half else "whole",
         "threads": threads,
         "seconds": seconds,
-        "units": seconds / unit,
         "error": error,
-        "share": error / discretisation,
-        "discretisation": discretisation,
         "megabytes": first.bytes / 1e6,
     }

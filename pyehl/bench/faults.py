@@ -5,8 +5,6 @@ Nothing may be lost, no run may leave half a folder, no input may end in a trace
 a run that was killed and resumed gives the bits of an unbroken one.
 """
 
-from __future__ import annotations
-
 import csv
 import json
 import os
@@ -15,6 +13,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections import Counter
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -22,10 +21,7 @@ from typing import Any
 import numpy as np
 
 from pyehl.bench.faults_states import damage
-
-__all__ = ["COLUMNS", "campaign"]
-
-Row = dict[str, Any]
+from pyehl.types import Row
 
 COLUMNS = (("campaign", "s"), ("trials", "d"), ("wrong", "d"), ("outcomes", "s"))
 CASE = """&contact moes_m = 100.0 moes_l = 6.0 /
@@ -231,7 +227,7 @@ def _kill_exports(
 
 def _inputs(folder: Path, seed: int, inputs: int) -> tuple[int, dict[str, int], list[str]]:
     """Try mutated inputs in child processes, so that a crash or a hang is seen."""
-    counts: dict[str, int] = {}
+    counts: Counter[str] = Counter()
     bad: list[str] = []
     for chunk, first in enumerate(range(0, inputs, CHUNK)):
         number = 1000 * seed + chunk
@@ -255,7 +251,6 @@ def _inputs(folder: Path, seed: int, inputs: int) -> tuple[int, dict[str, int], 
             continue
         found = json.loads(done.stdout)
         bad += found["bad"]
-        for what, count in found["counts"].items():
-            counts[what] = counts.get(what, 0) + count
+        counts.update(found["counts"])
         shutil.rmtree(place)
     return inputs, counts, bad

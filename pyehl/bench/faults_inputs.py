@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Mutated inputs for ``pyehl bench faults``: case files, study files and height maps."""
 
-from __future__ import annotations
-
 import contextlib
 import io
 import json
@@ -17,8 +15,6 @@ import numpy as np
 
 from pyehl.case import Case
 from pyehl.errors import EhlError
-
-__all__ = ["mutate", "run_chunk"]
 
 Command = Callable[[Sequence[str]], int]
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Damaged states for ``pyehl bench faults``."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 from collections import Counter
@@ -10,8 +8,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-
-__all__ = ["damage"]
 
 Run = Callable[..., subprocess.CompletedProcess[str]]
 Found = tuple[int, dict[str, int], list[str]]
@@ -21,10 +17,7 @@ REGIONS = 32
 
 
 def damage(
-    folder: Path,
-    generator: np.random.Generator,
-    run: Run,
-    same: Callable[[Path, Path], str],
+    folder: Path, generator: np.random.Generator, run: Run, same: Callable[[Path, Path], str]
 ) -> Found:
     """Flip a byte of every region of the newest state, or of both, and resume.
 

@@ -5,16 +5,11 @@ The reference is extrapolated from the two finest grids by the narrow scheme; it
 one grid more has changed it by.
 """
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
 
-__all__ = ["LEVELS", "add_errors", "cheapest", "extrapolated", "told"]
-
-Row = dict[str, Any]
+from pyehl.types import Row
 
 LEVELS = (0.03, 0.01, 0.003, 0.001)
 """Errors that the cheapest setting is looked for."""

@@ -2,13 +2,12 @@
 """``pyehl bench skips``: what a scene does not need, the seconds saved, and that nothing changes.
 
 Each row is a scene solved as usual and once more with that work done, in turn, on one thread.
-Seconds are those of the processor, the least of the repeats.
+Seconds are those of the processor.
 """
-
-from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -27,11 +26,8 @@ from pyehl.bench.comparison import (
 )
 from pyehl.bench.unit import hertz
 from pyehl.case import Case
-from pyehl.errors import InputError
 from pyehl.prediction import smooth as smooth_contact
 from pyehl.prediction.of_case import predict
-
-__all__ = ["COLUMNS", "MEANING", "SCENES", "skip_rows"]
 
 COLUMNS = (
     ("scene", "s"),
@@ -71,14 +67,13 @@ FIXED_PERIODS = 3
 PREDICTIONS = 20
 
 
-def smooth_scene(points: int, repeats: int) -> list[Row]:
+def smooth_scene(points: int) -> list[Row]:
     """Smooth contact of Table 1 in SI units."""
     points = max(points, LEAST)
     scene, grid = "smooth contact, SI units", f"grid.points={points}"
 
     def usual() -> Values:
-        values = solve(grid)
-        return values | {"mu_ratio": 1.0}
+        return solve(grid) | {"mu_ratio": 1.0}
 
     def transient_run() -> Values:
         # one period, as a rough surface would need
@@ -94,40 +89,35 @@ def smooth_scene(points: int, repeats: int) -> list[Row]:
     def coarser() -> Values:
         return {"coarser H_c": solve(f"grid.points={(points + 1) // 2}")["H_c"]}
 
+    row = partial(compare, scene)
     return [
-        compare(
-            scene,
+        row(
             "half of the domain: symmetric in Y",
             "H_c",
             usual,
             lambda: solve(grid, "solver.symmetry=full"),
             rounding,
-            repeats,
         ),
-        compare(
-            scene,
+        row(
             "roughness, time levels and time steps",
             "mu_ratio",
             usual,
             transient_run,
             lambda values: 1e-4,
-            1,
         ),
-        compare(
-            scene,
+        row(
             "a solve on the next coarser grid for the error",
             "coarser H_c",
             estimated,
             coarser,
             lambda values: START_TOLERANCE,
-            repeats,
             besides=True,
         ),
-        _deflection_row(scene, points, repeats),
+        _deflection_row(scene, points),
     ]
 
 
-def _deflection_row(scene: str, points: int, repeats: int) -> Row:
+def _deflection_row(scene: str, points: int) -> Row:
     """Corrections of the deflection where P = 0, in so many deflections of a Hertz pressure."""
     pressure, h, _, _ = hertz(points)
     # as little as keeps a pressure from being zero
@@ -142,18 +132,10 @@ def _deflection_row(scene: str, points: int, repeats: int) -> Row:
         return deflect
 
     what = f"corrections where P = 0, {count} deflections"
-    return compare(
-        scene,
-        what,
-        "deflection",
-        call(pressure),
-        call(everywhere),
-        rounding,
-        repeats,
-    )
+    return compare(scene, what, "deflection", call(pressure), call(everywhere), rounding)
 
 
-def _run_rows(scene: str, options: Sequence[str], repeats: int, *, symmetric: bool) -> list[Row]:
+def _run_rows(scene: str, options: Sequence[str], *, symmetric: bool) -> list[Row]:
     """Measure what a transient run leaves out."""
 
     def usual() -> Values:
@@ -169,55 +151,46 @@ def _run_rows(scene: str, options: Sequence[str], repeats: int, *, symmetric: bo
         steps = math.ceil(filled / 1.01 / step + FIXED_PERIODS * float(first["T_period"]) / step)
         return solve(*options, f"time.steps={steps}")
 
+    row = partial(compare, scene)
     rows = []
     if symmetric:
         rows.append(
-            compare(
-                scene,
+            row(
                 "half of the domain: symmetric in Y",
                 "mu_ratio",
                 lambda: solve(*options, EXACTER),
                 lambda: solve(*options, EXACTER, "solver.symmetry=full"),
                 rounding,
-                repeats,
             )
         )
     rows += [
-        compare(
-            scene,
+        row(
             f"{first['steps_skipped']} steps before the roughness is near",
             "mu_ratio",
             usual,
             lambda: solve(*options, "time.skip_start=.false."),
             mean_tolerance,
-            repeats,
         ),
-        compare(
-            scene,
+        row(
             "steps in which the roughness fills the contact: time.start = 'prediction'",
             "mu_ratio",
             lambda: solve_from_prediction(*options),
             usual,
             mean_tolerance,
-            repeats,
         ),
-        compare(
-            scene,
+        row(
             f"steps up to the end of period {FIXED_PERIODS}: settled before",
             "mu_ratio",
             lambda: solve(*options, "time.estimate_error=.false."),
             at_the_end,
             lambda values: mean_tolerance(first),
-            repeats,
         ),
-        compare(
-            scene,
+        row(
             "a solve of the smooth contact for mu_s",
             "F",
             usual,
             lambda: _smooth_of(options, symmetric=symmetric),
             nothing,
-            repeats,
             besides=True,
         ),
     ]
@@ -230,19 +203,19 @@ def _smooth_of(options: Sequence[str], *, symmetric: bool) -> dict[str, Any]:
     return solve(*kept, "solver.cycle=F", f"solver.symmetry={'auto' if symmetric else 'full'}")
 
 
-def wave_scene(points: int, repeats: int) -> list[Row]:
+def wave_scene(points: int) -> list[Row]:
     """Wave of Fig. 2 of Zhang et al. 2019: symmetric in Y."""
     options = [*WAVE, f"grid.points={max(points, LEAST)}"]
-    return _run_rows("symmetric wave", options, repeats, symmetric=True)
+    return _run_rows("symmetric wave", options, symmetric=True)
 
 
-def fractal_scene(points: int, repeats: int) -> list[Row]:
+def fractal_scene(points: int) -> list[Row]:
     """Fractal surface of Table 1."""
     options = [*FRACTAL, f"grid.points={max(points, LEAST)}"]
-    return _run_rows("fractal surface", options, repeats, symmetric=False)
+    return _run_rows("fractal surface", options, symmetric=False)
 
 
-def prediction_scene(points: int, repeats: int) -> list[Row]:
+def prediction_scene(points: int) -> list[Row]:
     """Predictions of fractal surfaces, nothing simulated."""
     seeds = range(1, PREDICTIONS + 1)
     cases = [Case.from_text("", [*FRACTAL, f"surface.seed={seed}"]).resolve() for seed in seeds]
@@ -264,27 +237,22 @@ def prediction_scene(points: int, repeats: int) -> list[Row]:
             lambda: ratios(keep=True),
             lambda: ratios(keep=False),
             nothing,
-            repeats,
         )
     ]
 
 
-SCENES: dict[str, Callable[[int, int], list[Row]]] = {
+SCENES: dict[str, Callable[[int], list[Row]]] = {
     "smooth": smooth_scene,
     "wave": wave_scene,
     "fractal": fractal_scene,
     "predict": prediction_scene,
 }
-"""Scenes by name; each takes the nodes per side and the number of repeats."""
+"""Scenes by name; each takes the nodes per side."""
 
 
-def skip_rows(scenes: Sequence[str], points: int, repeats: int = 1) -> list[Row]:
+def skip_rows(scenes: Sequence[str], points: int) -> list[Row]:
     """Seconds with and without what is skipped, and the difference in the result.
 
-    Of scenes by their names in `SCENES`, on so many nodes per side, each made `repeats` times.
-    InputError if there is no such scene.
+    Of scenes by their names in `SCENES`, on so many nodes per side.
     """
-    for name in scenes:
-        if name not in SCENES:
-            raise InputError(f"scene '{name}': expected some of {', '.join(SCENES)}")
-    return [row for name in scenes for row in SCENES[name](points, repeats)]
+    return [row for name in scenes for row in SCENES[name](points)]

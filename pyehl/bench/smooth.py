@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl bench smooth``: the time of smooth solves, the error of their film, their memory."""
 
-from __future__ import annotations
-
 import json
 import math
 import resource
@@ -19,8 +17,6 @@ from pyehl.bench.unit import unit_seconds
 from pyehl.case import Case
 from pyehl.solver import Solver
 from pyehl.theory.ellipse import ellipse
-
-__all__ = ["CASES", "COLUMNS", "MEANING", "exponents", "smooth_rows", "solve_once"]
 
 # The circle of the Moes numbers asked for; that of Table 1 with a law, which has nearly those of
 # the default; the ellipse kappa = 2 with the same equations as the circle
@@ -69,11 +65,7 @@ def solve_once(text: str) -> dict[str, Any]:
     with Solver(case) as solver:
         solver.run()
         seconds = time.perf_counter() - began
-        return {
-            "seconds": seconds,
-            "summary": solver.summary(),
-            "peak_megabytes": peak_megabytes(),
-        }
+        return {"seconds": seconds, "summary": solver.summary(), "peak_megabytes": peak_megabytes()}
 
 
 def _solve_apart(text: str) -> dict[str, Any]:

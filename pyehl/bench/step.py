@@ -7,8 +7,6 @@ step of each in turn. The unit of time is one scipy.fft deflection on the same g
 of these turns.
 """
 
-from __future__ import annotations
-
 import contextlib
 import statistics
 import tempfile
@@ -21,18 +19,6 @@ from pyehl.bench.unit import ScipyDeflection, hertz
 from pyehl.case import Case
 from pyehl.errors import EhlError
 from pyehl.solver import Solver
-
-__all__ = [
-    "CASES",
-    "COLUMNS",
-    "FILLED",
-    "RUN_COLUMNS",
-    "STEPS",
-    "USUAL",
-    "error_rows",
-    "meaning",
-    "step_rows",
-]
 
 # X of the front when the contact is full
 FILLED = 1.05

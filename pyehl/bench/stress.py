@@ -6,8 +6,6 @@ solved once more to a twentieth of the algebraic error. Cases with a boundary fi
 their fields and on a finer grid as well.
 """
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
@@ -19,10 +17,7 @@ from pyehl.bench.stress_cases import FAMILIES, StressCase, draw, study_of
 from pyehl.destination import write_json
 from pyehl.studies.plan import Plan, plan
 from pyehl.studies.sweep import CASES, perform
-
-__all__ = ["COLUMNS", "ENDED", "MEANING", "campaign", "folders", "judge", "summary"]
-
-Row = dict[str, Any]
+from pyehl.types import Row
 
 STRICT = {"solver.accuracy": 0.005, "solver.max_cycles": 200}
 """Settings of the stricter run."""

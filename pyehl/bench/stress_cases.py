@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The cases of ``pyehl bench stress``: drawn from a seed, over all that can be asked for."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -14,8 +12,6 @@ from pyehl.case import Case
 from pyehl.studies.study import Study, make
 from pyehl.studies.vary import Axis, Value
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["BOUNDS", "FAMILIES", "GRIDS", "LAWS", "StressCase", "draw", "study_of"]
 
 ROELANDS_Z = 0.6684
 """Of waves, in place of the default 0.66841: that of the second solver, which checks some."""

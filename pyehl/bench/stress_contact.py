@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Checks of ``pyehl bench stress --boundary-film``: fields and load shares of contacts."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -12,8 +10,6 @@ import numpy as np
 from pyehl.results import load, settings_of
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["broken", "judge_share"]
 
 HELD = 0.01
 """Share of the layer by which the film of a touching node may differ from it."""

@@ -5,8 +5,6 @@ Each scene runs as a study, in one worker process and in several. The start of t
 import the package) is taken off: it ends with the first row.
 """
 
-from __future__ import annotations
-
 import tempfile
 import time
 from collections.abc import Mapping, Sequence
@@ -20,8 +18,6 @@ from pyehl.studies.study import make
 from pyehl.studies.sweep import perform
 from pyehl.studies.tasks import Task
 from pyehl.studies.vary import axis
-
-__all__ = ["COLUMNS", "MEANING", "SCENES", "Scene", "sweep_rows"]
 
 COLUMNS = (
     ("scene", "s"),

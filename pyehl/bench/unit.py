@@ -4,8 +4,6 @@
 Zero-padded, real, float64, one worker, kernel transformed beforehand. With what measures seconds.
 """
 
-from __future__ import annotations
-
 import platform
 import resource
 import statistics
@@ -15,20 +13,9 @@ from pathlib import Path
 
 import numpy as np
 import scipy.fft
-from numpy.typing import NDArray
 
 from pyehl import library
-
-__all__ = [
-    "ScipyDeflection",
-    "hertz",
-    "machine",
-    "median_seconds",
-    "processor_seconds",
-    "unit_seconds",
-]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array, Mask
 
 X_INLET, X_OUTLET, Y_EXTENT = -2.5, 1.5, 2.0
 
@@ -99,7 +86,7 @@ def machine() -> dict[str, str]:
     return {"processor": model or platform.processor(), "build": library.build()}
 
 
-def hertz(points: int) -> tuple[Array, float, Array, NDArray[np.bool_]]:
+def hertz(points: int) -> tuple[Array, float, Array, Mask]:
     """Hertz pressure on a grid, its mesh size, the exact deflection, and where that holds."""
     x = np.linspace(X_INLET, X_OUTLET, points)
     y = np.linspace(-Y_EXTENT, Y_EXTENT, points)

@@ -5,22 +5,15 @@ Every setting is one run. Seconds are those of the processor; the unit, one scip
 the same grid, is measured before each run.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from pyehl.bench.precision import add_errors, extrapolated
 from pyehl.bench.unit import processor_seconds, unit_seconds
 from pyehl.case import Case
-from pyehl.errors import InputError
 from pyehl.prediction.of_case import predict
 from pyehl.solver import Solver
-
-__all__ = ["COLUMNS", "SCENES", "Scene", "share_of_deflection", "work_rows"]
-
-Row = dict[str, Any]
+from pyehl.types import Row
 
 COLUMNS = (
     ("scene", "s"),
@@ -70,15 +63,14 @@ SCENES = (
 )
 
 
-def _settings(scene: Scene) -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Give what is varied, one at a time from the default."""
-    yield "default", ()
-    yield "fft", ("solver.deflection=fft",)
-    if not scene.rough:
-        return
-    yield "paper", ("time.scheme=paper",)
-    yield "alcouffe", ("solver.coarsening=alcouffe",)
-    yield "classical", ("solver.coarsening=classical",)
+# What is varied, one at a time from the default; behind the first two of rough contacts alone
+SETTINGS: tuple[tuple[str, tuple[str, ...]], ...] = (
+    ("default", ()),
+    ("fft", ("solver.deflection=fft",)),
+    ("paper", ("time.scheme=paper",)),
+    ("alcouffe", ("solver.coarsening=alcouffe",)),
+    ("classical", ("solver.coarsening=classical",)),
+)
 
 
 def work_rows(
@@ -94,25 +86,21 @@ def work_rows(
     `grids`: nodes per side, where not those of the scene; `full`: with the finest of these, too.
     Of the numbers of threads those after the first are for the default setting alone. Rows have
     `COLUMNS` and `unit_seconds`; `error` is relative to the reference, `bar` the error of that,
-    `estimate` what the run says of its own error. InputError if there is no such scene.
+    `estimate` what the run says of its own error.
     """
-    known = {scene.name: scene for scene in SCENES}
     rows: list[Row] = []
-    for name in scenes:
-        if name not in known:
-            raise InputError(f"scene '{name}': expected some of {', '.join(known)}")
-        scene = known[name]
+    for scene in (scene for scene in SCENES if scene.name in scenes):
         used = grids or (scene.grids if full else scene.grids[:-1])
         mine: list[Row] = []
         for points in used:
             unit = unit_seconds(points)
             # the finest grid is there for the reference
             reference = scene.rough and full and points == scene.grids[-1]
-            for setting, options in _settings(scene):
+            for setting, options in SETTINGS if scene.rough else SETTINGS[:2]:
                 if reference and options:
                     continue
                 for workers in threads[:1] if reference or options else threads:
-                    tell(f"{name}: {points} x {points}, {setting}, threads {workers}")
+                    tell(f"{scene.name}: {points} x {points}, {setting}, threads {workers}")
                     mine += _run(scene, setting, options, points, workers, unit)
         if scene.rough:
             mine += _predicted(scene, unit_seconds(max(used)))
@@ -123,12 +111,7 @@ def work_rows(
 
 
 def _run(
-    scene: Scene,
-    setting: str,
-    options: Sequence[str],
-    points: int,
-    threads: int,
-    unit: float,
+    scene: Scene, setting: str, options: Sequence[str], points: int, threads: int, unit: float
 ) -> list[Row]:
     texts = [*scene.options, *options, f"grid.points={points}", f"solver.threads={threads}"]
     if scene.rough:
@@ -204,11 +187,7 @@ def share_of_deflection(points: int = 129) -> Row:
             solver.run()
             return float(solver.summary()["mu_ratio"])
 
-    fast, exact, finer = (
-        ratio(points, "mlmi"),
-        ratio(points, "fft"),
-        ratio(2 * points - 1, "fft"),
-    )
+    fast, exact, finer = ratio(points, "mlmi"), ratio(points, "fft"), ratio(2 * points - 1, "fft")
     difference = abs(fast / exact - 1.0)
     grid = abs(4.0 / 3.0 * (exact / finer - 1.0))
     return {

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl app``: an interactive contact, in the browser."""
 
-from __future__ import annotations
-
 import argparse
 from functools import partial
 
@@ -10,11 +8,8 @@ from pyehl.case import Case
 from pyehl.commands.arguments import add_case_arguments
 from pyehl.errors import InputError
 
-__all__ = ["add_arguments", "execute"]
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl app``."""
     add_case_arguments(parser, optional=True)
     parser.add_argument(
         "--port", type=int, default=0, metavar="N", help="of 127.0.0.1 (default: one that is free)"

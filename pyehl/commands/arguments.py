@@ -1,11 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Arguments that several subcommands share."""
 
-from __future__ import annotations
-
 import argparse
-
-__all__ = ["add_case_arguments", "add_force", "add_overrides"]
 
 
 def add_case_arguments(parser: argparse.ArgumentParser, *, optional: bool = False) -> None:

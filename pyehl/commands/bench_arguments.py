@@ -1,15 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Arguments of ``pyehl bench``, for each of what it measures."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Callable, Sequence
 from typing import Any
 
 from pyehl.bench import skips, smooth, step, stress_cases, sweep, workprec
-
-__all__ = ["DECLARE"]
 
 GRIDS = (65, 129, 257, 513, 1025)
 STEP_GRIDS = GRIDS[1:4]
@@ -46,6 +42,7 @@ def _add_threads(parser: argparse.ArgumentParser, what: str = "threads") -> None
 
 def _add_scenes(parser: argparse.ArgumentParser, names: Sequence[str]) -> None:
     _add_list(parser, "scenes", names, f"of {', '.join(names)}", "all")
+    parser.set_defaults(known={"scenes": names})
 
 
 def _add_number(parser: argparse.ArgumentParser, name: str, default: float, what: str = "") -> None:
@@ -61,7 +58,9 @@ def _add_deflection(parser: argparse.ArgumentParser) -> None:
 def _add_smooth(parser: argparse.ArgumentParser) -> None:
     _add_points(parser, GRIDS)
     _add_threads(parser)
-    _add_list(parser, "engines", ("mlmi", "fft"), "of the deflection")
+    engines = ("mlmi", "fft")
+    _add_list(parser, "engines", engines, "of the deflection")
+    parser.set_defaults(known={"engines": engines, "cases": smooth.CASES})
     _add_number(parser, "moes-m", 1000.0)
     _add_number(parser, "moes-l", 10.0)
     known = ", ".join(smooth.CASES)
@@ -71,8 +70,10 @@ def _add_smooth(parser: argparse.ArgumentParser) -> None:
 def _add_step(parser: argparse.ArgumentParser) -> None:
     _add_points(parser, STEP_GRIDS)
     _add_threads(parser)
-    names = ", ".join(dict.fromkeys(scene.name for scene in step.CASES))
-    _add_list(parser, "cases", step.USUAL, f"of {names}; wave: of Fig. 2, fractal: of Table 1")
+    names = dict.fromkeys(scene.name for scene in step.CASES)
+    parser.set_defaults(known={"cases": names})
+    told = ", ".join(names)
+    _add_list(parser, "cases", step.USUAL, f"of {told}; wave: of Fig. 2, fractal: of Table 1")
     parser.add_argument("--scheme", choices=("narrow", "paper"), default="narrow")
     _add_number(parser, "steps", step.STEPS, "timed steps")
     front = "X of the front of the roughness when the timed steps begin; that takes many steps on "

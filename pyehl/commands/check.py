@@ -1,23 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl check``: a case resolved, and how it would be solved."""
 
-from __future__ import annotations
-
 import argparse
 
 from pyehl.api import check
 from pyehl.commands.arguments import add_case_arguments
 
-__all__ = ["add_arguments", "execute"]
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl check``."""
     parser.description = "Read and check a case; print it resolved, and the plan. Solve nothing."
     add_case_arguments(parser)
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl check``."""
     print(check(args.case, args.overrides))
     return 0

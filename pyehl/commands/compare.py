@@ -1,19 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl compare``: results against a table of references."""
 
-from __future__ import annotations
-
 import argparse
 
 from pyehl.errors import EXIT_FAILED, EXIT_OK
 from pyehl.studies.compare import compare, read_results
 from pyehl.studies.reference_table import SHIPPED, read_reference
 
-__all__ = ["add_arguments", "execute"]
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl compare``."""
     parser.description = (
         "Compare a result or a study with a table of reference values: deviations, pass or fail. "
         "Exit status: 0 all within their tolerances, 1 at least one outside, 2 bad input."
@@ -31,7 +26,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl compare``."""
     table, results = read_reference(args.reference), read_results(args.results)
     found = compare(results, table)
     line = 0

@@ -1,22 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl export``: a result folder as netCDF."""
 
-from __future__ import annotations
-
 import argparse
 
 from pyehl.netcdf import export
 
-__all__ = ["add_arguments", "execute"]
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl export``."""
     parser.add_argument("folder", metavar="DIR", help="result folder")
     parser.add_argument("-o", "--output", metavar="FILE.nc", help="default: DIR/results.nc")
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl export``."""
     print(export(args.folder, args.output))
     return 0

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl film``: film formulas side by side for a case."""
 
-from __future__ import annotations
-
 import argparse
 import json
 from collections.abc import Mapping
@@ -10,8 +8,6 @@ from typing import Any
 
 from pyehl.api import film
 from pyehl.commands.arguments import add_case_arguments
-
-__all__ = ["add_arguments", "execute", "report"]
 
 
 def _heat(v: Mapping[str, Any]) -> list[str]:
@@ -103,13 +99,11 @@ def report(values: Mapping[str, Any]) -> str:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl film``."""
     add_case_arguments(parser)
     parser.add_argument("--json", action="store_true", help="print JSON, in SI units")
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl film``."""
     values = film(args.case, args.overrides)
     print(json.dumps(values, indent=2) if args.json else report(values))
     return 0

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl fit-lubricant``: a shear law fitted to a measured traction curve."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 
@@ -10,11 +8,8 @@ from pyehl.commands.arguments import add_force, add_overrides
 from pyehl.studies.fit_folder import fit_lubricant
 from pyehl.studies.shear_fit import PARAMETERS, Fit
 
-__all__ = ["add_arguments", "execute"]
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl fit-lubricant``."""
     parser.description = (
         "Fit the Eyring stress, the limiting coefficient, or G and n of Carreau to friction "
         "measured over the slide-to-roll ratio."
@@ -50,7 +45,6 @@ def report(fit: Fit) -> str:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl fit-lubricant``."""
     fit = fit_lubricant(
         args.data,
         args.case,

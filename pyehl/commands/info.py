@@ -1,25 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl info``: what a report of a fault needs."""
 
-from __future__ import annotations
-
 import argparse
 import os
 import platform
 from importlib import metadata
 
-__all__ = ["add_arguments", "execute", "lines"]
-
-LIBRARIES = (
-    "bokeh",
-    "numpy",
-    "scipy",
-    "matplotlib",
-    "pandas",
-    "tqdm",
-    "xarray",
-    "SurfaceTopography",
-)
+LIBRARIES = "bokeh numpy scipy matplotlib pandas tqdm xarray SurfaceTopography".split()
 
 
 def _version(name: str) -> str:
@@ -51,6 +38,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl info``."""
     print("\n".join(lines()))
     return 0

@@ -1,19 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl lubricants``: oils by name."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 
 from pyehl.studies.oil_list import lubricants
 from pyehl.theory.oils import Oil, film_forming, reciprocal_isoviscous
 
-__all__ = ["add_arguments", "execute"]
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl lubricants``."""
     parser.description = (
         "Oils that lubricant.name knows: constants, their ranges and sources, viscosity and "
         "pressure-viscosity coefficients at a temperature."
@@ -45,7 +40,6 @@ def report(oil: Oil, temperature: float) -> str:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl lubricants``."""
     oils = lubricants(*args.names, temperature=args.temperature, output=args.output)
     print("\n\n".join(report(oil, args.temperature) for oil in oils.values()))
     if args.output is not None:

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl plot``: pictures of a result folder."""
 
-from __future__ import annotations
-
 import argparse
 import re
 from pathlib import Path
@@ -13,11 +11,8 @@ from pyehl.plots.movie import FRAME_SECONDS, SUFFIXES, movie
 from pyehl.plots.style import DPI
 from pyehl.results import load
 
-__all__ = ["add_arguments", "execute"]
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl plot``."""
     parser.add_argument(
         "folder", metavar="DIR", type=Path, help="result folder of pyehl run or predict"
     )

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl predict``: relative friction of a rough contact from its spectrum."""
 
-from __future__ import annotations
-
 import argparse
 import math
 from collections.abc import Mapping
@@ -16,8 +14,6 @@ from pyehl.prediction.deformed import error_name
 from pyehl.prediction.friction import TRACKS
 from pyehl.prediction.result import Prediction
 from pyehl.surfaces import Topography
-
-__all__ = ["add_arguments", "execute", "report"]
 
 
 def report(prediction: Prediction) -> str:
@@ -111,7 +107,6 @@ def _model(prediction: Prediction) -> str:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl predict``."""
     add_case_arguments(parser)
     parser.add_argument("-o", "--output", type=Path, required=True, help="result folder")
     add_force(parser)

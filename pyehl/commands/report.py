@@ -1,17 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl report``: one HTML page about a result."""
 
-from __future__ import annotations
-
 import argparse
 
 from pyehl.reports.folder import report
 
-__all__ = ["add_arguments", "execute"]
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl report``."""
     parser.add_argument(
         "folder", metavar="DIR", help="folder of run, predict, stribeck, sweep or response"
     )

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl reproduce``: the figures and tables of a paper by our own runs, beside its numbers."""
 
-from __future__ import annotations
-
 import argparse
 import os
 import platform
@@ -19,14 +17,11 @@ from pyehl.reproduce.level import LEVELS, Level
 from pyehl.reproduce.piece import Result
 from pyehl.studies.plan import Plan
 
-__all__ = ["add_arguments", "execute"]
-
 PAPERS = ("zhang2019",)
 LIBRARIES = ("numpy", "scipy", "matplotlib")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl reproduce``."""
     left_out = " ".join(f"--{level.name}: {level.leaves_out}." for level in LEVELS.values())
     parser.description = (
         "Redo figures and tables of a paper (all unless some are named), compare them with its "
@@ -93,7 +88,6 @@ def _machine(args: argparse.Namespace, level: Level, jobs: int) -> list[str]:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl reproduce``."""
     names, level, jobs = _names(args), LEVELS[args.level], jobs_of(args)
     folder = Path(args.output)
     watchers: list[Terminal] = []

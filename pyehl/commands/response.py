@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl response``: what the contact of a case makes of small waves of roughness."""
 
-from __future__ import annotations
-
 import argparse
 import time
 from pathlib import Path
@@ -13,11 +11,8 @@ from pyehl.commands.watching import Bar
 from pyehl.measured_response.folder import response
 from pyehl.measured_response.tiers import TIERS
 
-__all__ = ["add_arguments", "execute"]
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl response``."""
     add_case_arguments(parser)
     parser.add_argument(
         "-o",
@@ -39,7 +34,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl response``."""
     case = Case.read(args.case, args.overrides)
     case = exchanged(case) if args.second else case
     ratio = float(case.resolve()["surface"]["velocity_ratio"])

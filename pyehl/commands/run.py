@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl run``: solve a case and write a result folder."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 import time
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from pyehl.case import Case
@@ -16,15 +15,11 @@ from pyehl.progress import ProgressBar
 from pyehl.run import Outcome, resume, run
 from pyehl.solver import Solver
 
-__all__ = ["add_arguments", "execute"]
-
 # Seconds between progress lines where the output is not a terminal
 PROGRESS_INTERVAL = 2.0
 
 
-def _say(text: str) -> None:
-    """Print a message."""
-    print(text, flush=True)
+_say = partial(print, flush=True)
 
 
 def _display() -> Callable[[Solver], None]:
@@ -52,7 +47,6 @@ def _status(outcome: Outcome) -> int:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl run``."""
     add_case_arguments(parser, optional=True)
     parser.add_argument("-o", "--output", metavar="DIR", help="result folder")
     parser.add_argument(
@@ -66,7 +60,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl run``."""
     words: dict[str, Any] = {} if args.quiet else {"say": _say, "advanced": _display()}
     words["force"] = args.force
     if args.resume is not None:

@@ -1,48 +1,30 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl stribeck``: friction against speed, film ratio and theta_2."""
 
-from __future__ import annotations
-
 import argparse
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import closing
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.commands.arguments import add_case_arguments
-from pyehl.commands.watching import (
-    Terminal,
-    add_worker_arguments,
-    jobs_of,
-    tell_lost,
-)
+from pyehl.commands.watching import Terminal, add_worker_arguments, jobs_of, tell_lost
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
-from pyehl.studies.curve import (
-    UNSOLVED,
-    full_film_ends,
-    no_coefficient,
-)
+from pyehl.studies.curve import UNSOLVED, full_film_ends, no_coefficient
 from pyehl.studies.curve_plan import KEYS, CurvePlan, plan_curve
 from pyehl.studies.curve_run import CSV, NETCDF, PICTURE, axes_of, perform
 from pyehl.studies.curve_text import absolute_friction, curves_of, deviation, last_lines, report
 from pyehl.studies.measured_friction import Measured, read_measured
 from pyehl.surfaces import rough_groups
 from pyehl.theory.load_share import AIHARA, LoadShare
-
-__all__ = ["add_arguments", "execute"]
+from pyehl.types import Values
 
 SLIP = KEYS["slide-to-roll"]
 
-Row = Mapping[str, Any]
-Array = NDArray[np.float64]
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl stribeck``."""
     parser.description = (
         "Friction of a contact over speed, viscosity, load, temperature or slide-to-roll ratio: "
         "the smooth contact solved, the friction of the roughness predicted, the full simulation "
@@ -121,7 +103,7 @@ def _measured(path: str, plan: CurvePlan) -> Measured:
 
 
 def draw(
-    plan: CurvePlan, rows: Sequence[Row], measured: Measured | None, path: Path, dpi: int
+    plan: CurvePlan, rows: Sequence[Values], measured: Measured | None, path: Path, dpi: int
 ) -> None:
     """Draw the curves of a table."""
     from pyehl.plots.stribeck import (  # noqa: PLC0415 (matplotlib takes long to import)
@@ -177,7 +159,6 @@ def _conditions(plan: CurvePlan) -> str:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl stribeck``."""
     plan = _plan(args)
     jobs = jobs_of(args)
     measured = None if args.measured is None else _measured(args.measured, plan)

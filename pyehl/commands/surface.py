@@ -4,8 +4,6 @@
 A file of an instrument or an array, or the surface of a case.
 """
 
-from __future__ import annotations
-
 import argparse
 import hashlib
 from collections.abc import Sequence
@@ -23,8 +21,6 @@ from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 
-__all__ = ["add_arguments", "execute", "numbers"]
-
 MADE = f"! {mark('surface')}\n! A tile in the contact that it was made for\n"
 
 # Keys of a tile that is on its track and whose spectrum is cut
@@ -37,7 +33,6 @@ READY_IN_PLACE = {
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl surface``."""
     add_case_arguments(parser)
     parser.add_argument(
         "-o",
@@ -59,7 +54,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl surface``."""
     is_case = Path(args.case).suffix.lower() == ".nml"
     if is_case:
         case = Case.read(args.case, args.overrides)

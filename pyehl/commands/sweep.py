@@ -1,20 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl sweep``: many cases, one table."""
 
-from __future__ import annotations
-
 import argparse
 from contextlib import closing
 from pathlib import Path
 from typing import Any
 
 from pyehl.commands.arguments import add_overrides
-from pyehl.commands.watching import (
-    Terminal,
-    add_worker_arguments,
-    jobs_of,
-    tell_lost,
-)
+from pyehl.commands.watching import Terminal, add_worker_arguments, jobs_of, tell_lost
 from pyehl.errors import EXIT_FAILED, EXIT_INTERRUPTED, EXIT_OK, InputError
 from pyehl.studies.gather import Outcome
 from pyehl.studies.plan import MOST, duration, plan
@@ -24,11 +17,8 @@ from pyehl.studies.sweep import CASES, CSV, NETCDF, perform
 from pyehl.studies.tasks import why_none
 from pyehl.studies.vary import parse_axis
 
-__all__ = ["add_arguments", "execute"]
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the arguments of ``pyehl sweep``."""
     parser.description = (
         "Run a case with many values, in worker processes; started again it runs what is missing. "
         "Exit status: 0 all cases have a result, 1 at least one has none, 2 bad input (nothing "
@@ -94,7 +84,6 @@ def report(outcome: Outcome, folder: Path, workers: int) -> str:
 
 
 def execute(args: argparse.Namespace) -> int:
-    """Run ``pyehl sweep``."""
     jobs = jobs_of(args)
     folder = Path(args.output)
     try:

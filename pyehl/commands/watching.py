@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What subcommands that run many cases share: arguments, and what they print meanwhile."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 import time
@@ -18,14 +16,6 @@ from pyehl.studies.gather import Watcher
 from pyehl.studies.plan import duration
 from pyehl.studies.pool import processors
 from pyehl.studies.tasks import FAILED, Task
-
-__all__ = [
-    "Bar",
-    "Terminal",
-    "add_worker_arguments",
-    "jobs_of",
-    "tell_lost",
-]
 
 MOST_MESSAGES = 100
 # Seconds between lines where the output is not a terminal

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The result folder of a measured response, and the shipped response beside it."""
 
-from __future__ import annotations
-
 import os
 import tempfile
 from collections.abc import Callable, Iterable, Mapping
@@ -10,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from pyehl.case import Case, exchanged
 from pyehl.destination import Destination, write_json
@@ -25,10 +22,7 @@ from pyehl.prediction.smooth import circle_of, solve_contact, zone_of
 from pyehl.results import scalars
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["destination", "response"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 PICTURE = "response.png"
 FILES = ("response.csv", "response.nc", "case.nml", PICTURE, "summary.json")

@@ -7,11 +7,9 @@ one transient run (:mod:`pyehl.measured_response.superposition`) and one file of
 a tier whose file is there is not run again.
 """
 
-from __future__ import annotations
-
 import json
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, replace
 from functools import partial
 from importlib import metadata
@@ -29,27 +27,23 @@ from pyehl.prediction.options import turned
 from pyehl.studies.journal import difference
 from pyehl.studies.pool import processors
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["measure", "with_tiers"]
+from pyehl.types import Settings
 
 Progress = Callable[[str, int, int], object]
 
 
-def _identity(settings: Mapping[str, Mapping[str, Any]], velocity_ratio: float, tier: Tier) -> str:
+def _identity(settings: Settings, velocity_ratio: float, tier: Tier) -> str:
     """Tell what a tier depends on, as text."""
     o = OperatingPoint.from_settings(settings)
+    shape = [] if o.radius_ratio == 1.0 else [o.radius_ratio]
     values = {
         "pyehl version": metadata.version("pyehl"),
-        "contact": [o.load, o.mean_velocity, o.radius, o.reduced_modulus, *_elliptical(o)],
+        "contact": [o.load, o.mean_velocity, o.radius, o.reduced_modulus, *shape],
         "lubricant": dict(settings["lubricant"]),
         "velocity_ratio": velocity_ratio,
         "tier": asdict(tier),
     }
     return json.dumps(values, sort_keys=True)
-
-
-def _elliptical(point: OperatingPoint) -> list[float]:
-    return [] if point.radius_ratio == 1.0 else [point.radius_ratio]
 
 
 def _file(folder: Path, tier: Tier) -> Path:
@@ -63,9 +57,7 @@ def with_tiers(place: Destination) -> Destination:
     return replace(place, kept=there)
 
 
-def _check_folder(
-    place: Destination, settings: Mapping[str, Mapping[str, Any]], velocity_ratio: float
-) -> list[Tier]:
+def _check_folder(place: Destination, settings: Settings, velocity_ratio: float) -> list[Tier]:
     """Tiers that are there already; refuses a folder with anything else in it."""
     with_tiers(place).check()
     done = []
@@ -80,11 +72,8 @@ def _check_folder(
             raise InputError(f"{path}: cannot be read ({error}); remove it") from error
         wrong = difference(found, json.loads(_identity(settings, velocity_ratio, tier)))
         if wrong:
-            raise InputError(
-                "\n  ".join(
-                    [f"{path}: is of another response; use another folder. It differs in", *wrong]
-                )
-            )
+            told = f"{path}: is of another response; use another folder. It differs in"
+            raise InputError("\n  ".join([told, *wrong]))
         done.append(tier)
     return done
 
@@ -132,7 +121,7 @@ def measure(
 
 
 def _run_tier(
-    settings: Mapping[str, Mapping[str, Any]],
+    settings: Settings,
     velocity_ratio: float,
     tier: Tier,
     path: Path,

@@ -12,8 +12,6 @@ exp(...). Lengths along the surface are scaled by the Hertz radius a, films by a
 p_h, times by a/u.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -26,19 +24,7 @@ from pyehl.case import Case
 from pyehl.errors import EhlError
 from pyehl.solver import Solver
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = [
-    "SLOPE",
-    "Superposition",
-    "WaveSet",
-    "linear_surface",
-    "step_counts",
-    "superpose",
-    "transient_case",
-]
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from pyehl.types import Array, Complex, Settings
 
 SLOPE = 1.2e-3
 """Amplitude of a wave times its wavenumber [a/R]: small enough for the response to be linear."""
@@ -123,7 +109,7 @@ def step_counts(
 
 
 def transient_case(
-    settings: Mapping[str, Mapping[str, Any]],
+    settings: Settings,
     *,
     points: int,
     tile: float,
@@ -160,7 +146,7 @@ def transient_case(
 
 
 def superpose(
-    settings: Mapping[str, Mapping[str, Any]],
+    settings: Settings,
     waves: WaveSet,
     *,
     points: int,
@@ -202,13 +188,8 @@ def superpose(
                 films.append(run.field("H")[near, middle])
                 pressures.append(run.field("P")[near, middle])
             progress(step, total)
-    return _fit(
-        waves,
-        amplitude,
-        velocity_ratio,
-        (x[near], np.array(times), np.array(films), np.array(pressures)),
-        (spacing, central_film),
-    )
+    record = (x[near], np.array(times), np.array(films), np.array(pressures))
+    return _fit(waves, amplitude, velocity_ratio, record, (spacing, central_film))
 
 
 def _refuse_end(run: Solver) -> None:

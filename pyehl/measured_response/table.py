@@ -1,25 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A measured response as an xarray Dataset and as a table, beside the shipped response."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from pyehl.destination import new_file
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_transfer
 from pyehl.theory.transport import Zone, stiffness, transport
-
-__all__ = ["STATIONS", "dataset", "nabla_2", "shipped_response", "write_table"]
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from pyehl.types import Array, Complex
 
 STATIONS = np.array([-0.5, 0.0, 0.5])
 """Where the response is tabulated, on Y = 0 [a]."""
@@ -67,7 +60,6 @@ def nabla_2(q: Array, moes: tuple[float, float]) -> Array:
 def _tier(
     tier: Mapping[str, Any], zone: Zone, moes: tuple[float, float], velocity_ratio: float
 ) -> dict[str, Array]:
-    """All columns of one tier."""
     k0 = 2.0 * np.pi / float(tier["tile"])
     kx, ky = k0 * tier["along"], k0 * tier["across"]
     q = np.hypot(kx, ky)

@@ -1,15 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Which waves are measured together, on which grid."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
 
 from pyehl.measured_response.superposition import WaveSet, step_counts
-
-__all__ = ["DIRECTIONS", "TIERS", "Tier", "tier_waves"]
 
 # Angles of the crests to those across the motion, one wave after the other [deg]
 DIRECTIONS = (0, 45, 80, 26, 0, 63, 15, 75, 0, 56, 35, 70, 0, 45, 62, 20)

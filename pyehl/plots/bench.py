@@ -1,20 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of benchmarks."""
 
-from __future__ import annotations
-
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.plots import style
-
-__all__ = ["stress", "work"]
-
-Row = Mapping[str, Any]
+from pyehl.types import Array, Values
 
 # On a screen, as in the documents
 DPI = 110
@@ -31,7 +24,7 @@ OUTCOMES = {
 }
 
 
-def _kind(row: Row) -> str:
+def _kind(row: Values) -> str:
     if row.get("second") == "no solution":
         return "no solution"
     outcome = str(row["outcome"])
@@ -40,10 +33,10 @@ def _kind(row: Row) -> str:
     return outcome if outcome in OUTCOMES else "other"
 
 
-def stress(rows: Sequence[Row], path: Path) -> None:
+def stress(rows: Sequence[Values], path: Path) -> None:
     """Draw outcomes of a stress campaign over M and L: smooth contacts, and rough ones by grid."""
     grids = sorted({row["values"]["grid.points"] for row in rows})
-    panels: list[tuple[str, list[Row]]] = [
+    panels: list[tuple[str, list[Values]]] = [
         ("smooth, all grids", [row for row in rows if row["family"] == "smooth"])
     ]
     panels += [
@@ -58,7 +51,7 @@ def stress(rows: Sequence[Row], path: Path) -> None:
     for ax, (title, mine) in zip(axes, panels, strict=True):
         for name, (marker, colour, text) in OUTCOMES.items():
             places = [(r["moes_m"], r["moes_l"]) for r in mine if _kind(r) == name]
-            at: NDArray[np.float64] = np.array(places, dtype=float).reshape(-1, 2)
+            at: Array = np.array(places, dtype=float).reshape(-1, 2)
             ax.semilogx(
                 at[:, 0], at[:, 1], marker, color=colour, ms=4, label=text, linestyle="none"
             )
@@ -69,7 +62,7 @@ def stress(rows: Sequence[Row], path: Path) -> None:
     style.save(figure, path, DPI, "bench")
 
 
-def work(rows: Sequence[Row], path: Path) -> None:
+def work(rows: Sequence[Values], path: Path) -> None:
     """Draw error over processor seconds, a panel for each scene and quantity."""
     scenes = list(dict.fromkeys((row["scene"], row["quantity"]) for row in rows))
     settings = list(dict.fromkeys(row["setting"] for row in rows))
@@ -84,7 +77,7 @@ def work(rows: Sequence[Row], path: Path) -> None:
                 # the reference itself has no error
                 if row["setting"] == setting and row["error"] and row["threads"] == 1
             ]
-            at: NDArray[np.float64] = np.array(line, dtype=float).reshape(-1, 2)
+            at: Array = np.array(line, dtype=float).reshape(-1, 2)
             marker = "*" if setting == "prediction" else "os^vD<>pP"[number % 9]
             ax.loglog(at[:, 0], at[:, 1], marker=marker, ms=4, lw=0.8, label=setting)
         bars = [row["bar"] for row in mine if row["bar"]]

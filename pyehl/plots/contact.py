@@ -5,44 +5,16 @@ Each function draws on `ax`, or on a new figure, and returns the axes; arrays ha
 index along x, the direction of motion. Units as in `pyehl.plots.style`.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 import scipy
 from matplotlib import colormaps
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 
+from pyehl.plots import style
 from pyehl.plots.outline import CIRCLE, Outline
-from pyehl.plots.style import (
-    BLUE,
-    GREY,
-    SEQUENTIAL,
-    VERMILLION,
-    Scales,
-    axes_or_new,
-    axis_unit,
-    colour_bar,
-    extent_of,
-    film_unit,
-    hertz_ticks,
-    nearest,
-    pressure_unit,
-    y_label,
-)
-
-__all__ = [
-    "contours",
-    "fringe_colours",
-    "fringe_spacings",
-    "interferogram",
-    "pressure_and_film",
-    "pressure_map",
-]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 # Light of the interferogram [m]: red and green, as in two-colour interferometry; mineral oil
 RED, GREEN = 633e-9, 532e-9
@@ -62,7 +34,7 @@ def pressure_and_film(
     along: Array,
     pressure: Array,
     film: Array,
-    scales: Scales | None = None,
+    scales: style.Scales | None = None,
     *,
     name: str = "x",
     half: float = 1.0,
@@ -83,31 +55,31 @@ def pressure_and_film(
     ax
         Where to draw; None: a new figure. The film has a second axis on the right.
     """
-    ax = axes_or_new(ax, 4.2, 3.3)
-    unit, label = axis_unit(scales, name)
-    unit_p, label_p = pressure_unit(scales)
-    unit_h, label_h = film_unit(scales)
+    ax = style.axes_or_new(ax, 4.2, 3.3)
+    unit, label = style.axis_unit(scales, name)
+    unit_p, label_p = style.pressure_unit(scales)
+    unit_h, label_h = style.film_unit(scales)
     hertz = np.linspace(-1.0, 1.0, 401)
     ax.plot(
         half * hertz * unit,
         np.sqrt(1.0 - hertz**2) * unit_p,
         "--",
-        color=GREY,
+        color=style.GREY,
         lw=0.9,
         label="Hertz",
     )
-    ax.plot(along * unit, pressure * unit_p, color=BLUE, lw=1.4, label="pressure")
+    ax.plot(along * unit, pressure * unit_p, color=style.BLUE, lw=1.4, label="pressure")
     twin = ax.twinx()
-    twin.plot(along * unit, film * unit_h, color=VERMILLION, lw=1.4, label="film")
-    twin.set_ylim(0.0, 5.0 * float(film[nearest(along, 0.0)]) * unit_h)
-    y_label(twin, label_h, VERMILLION)
+    twin.plot(along * unit, film * unit_h, color=style.VERMILLION, lw=1.4, label="film")
+    twin.set_ylim(0.0, 5.0 * float(film[style.nearest(along, 0.0)]) * unit_h)
+    style.y_label(twin, label_h, style.VERMILLION)
     ax.set(xlim=(along[0] * unit, along[-1] * unit))
     ax.set(ylim=(0.0, 1.08 * max(unit_p, float(pressure.max()) * unit_p)), xlabel=label)
-    y_label(ax, label_p, BLUE)
+    style.y_label(ax, label_p, style.BLUE)
     return ax
 
 
-def fringe_spacings(central: float, scales: Scales | None) -> tuple[float, float, str]:
+def fringe_spacings(central: float, scales: style.Scales | None) -> tuple[float, float, str]:
     """Difference in film from fringe to fringe in red and in green, and a caption.
 
     Parameters
@@ -146,24 +118,24 @@ def fringe_colours(film: Array, red: float, green: float) -> Array:
 
 
 def _central(x: Array, y: Array, h: Array) -> float:
-    central = float(h[nearest(x, 0.0), nearest(y, 0.0)])
+    central = float(h[style.nearest(x, 0.0), style.nearest(y, 0.0)])
     if not (math.isfinite(central) and central > 0.0):
         raise ValueError(f"the film at the centre is {central:.4g}: no map of it can be drawn")
     return central
 
 
-def _frame(ax: Axes, x: Array, y: Array, scales: Scales | None, outline: Outline) -> None:
+def _frame(ax: Axes, x: Array, y: Array, scales: style.Scales | None, outline: Outline) -> None:
     """Hertz ellipse, limits and labels of a map."""
-    unit, label_x = axis_unit(scales, "x")
-    _, label_y = axis_unit(scales, "y")
-    ax.add_patch(outline.patch(unit, ls="--", lw=0.9, ec=VERMILLION))
+    unit, label_x = style.axis_unit(scales, "x")
+    _, label_y = style.axis_unit(scales, "y")
+    ax.add_patch(outline.patch(unit, ls="--", lw=0.9, ec=style.VERMILLION))
     along, across = (VIEW * reach for reach in outline.reach)
     ax.set_aspect("equal")
     ax.set(xlim=(max(x[0], -along) * unit, min(x[-1], along) * unit))
     ax.set(ylim=(max(y[0], -across) * unit, min(y[-1], across) * unit), xlabel=label_x)
     ax.set(ylabel=label_y)
     if scales is None:
-        hertz_ticks(ax, outline)
+        style.hertz_ticks(ax, outline)
     elif outline.slender > SLENDER:
         ax.locator_params(axis="x", nbins=2)
         ax.tick_params(axis="x", rotation=90)
@@ -173,19 +145,22 @@ def pressure_map(
     x: Array,
     y: Array,
     pressure: Array,
-    scales: Scales | None = None,
+    scales: style.Scales | None = None,
     *,
     outline: Outline = CIRCLE,
     ax: Axes | None = None,
 ) -> Axes:
     """Pressure P (nx, ny) as a map with a colour bar; other arguments as of `contours`."""
-    ax = axes_or_new(ax, 4.2, 3.6)
-    unit_p, label = pressure_unit(scales)
-    unit, _ = axis_unit(scales, "x")
+    ax = style.axes_or_new(ax, 4.2, 3.6)
+    unit_p, label = style.pressure_unit(scales)
+    unit, _ = style.axis_unit(scales, "x")
     image = ax.imshow(
-        pressure.T * unit_p, origin="lower", extent=extent_of(x, y, unit), cmap=SEQUENTIAL
+        pressure.T * unit_p,
+        origin="lower",
+        extent=style.extent_of(x, y, unit),
+        cmap=style.SEQUENTIAL,
     )
-    colour_bar(image, ax, label, shrink=0.9, slender=outline.slender)
+    style.colour_bar(image, ax, label, shrink=0.9, slender=outline.slender)
     _frame(ax, x, y, scales, outline)
     return ax
 
@@ -194,7 +169,7 @@ def interferogram(
     x: Array,
     y: Array,
     film: Array,
-    scales: Scales | None = None,
+    scales: style.Scales | None = None,
     *,
     fringes: tuple[float, float, str] | None = None,
     outline: Outline = CIRCLE,
@@ -221,9 +196,9 @@ def interferogram(
     ValueError
         If the film at the centre is not a positive number and `fringes` are not given.
     """
-    ax = axes_or_new(ax, 3.6, 3.6)
-    unit_h, _ = film_unit(scales)
-    unit, _ = axis_unit(scales, "x")
+    ax = style.axes_or_new(ax, 3.6, 3.6)
+    unit_h, _ = style.film_unit(scales)
+    unit, _ = style.axis_unit(scales, "x")
     h = film * unit_h
     red, green, caption = fringes or fringe_spacings(_central(x, y, h), scales)
     inner_x, inner_y = (
@@ -232,7 +207,7 @@ def interferogram(
     view = h[np.ix_(inner_x, inner_y)]
     factor = max(1, math.ceil(900 / max(view.shape)))
     fine = scipy.ndimage.zoom(view, factor, order=1, grid_mode=True, mode="nearest")
-    extent = extent_of(x[inner_x], y[inner_y], unit)
+    extent = style.extent_of(x[inner_x], y[inner_y], unit)
     colours = fringe_colours(fine, red, green).transpose(1, 0, 2)
     ax.imshow(colours, origin="lower", extent=extent, interpolation="antialiased")
     if outline.slender > SLENDER:
@@ -255,7 +230,7 @@ def contours(
     x: Array,
     y: Array,
     film: Array,
-    scales: Scales | None = None,
+    scales: style.Scales | None = None,
     *,
     outline: Outline = CIRCLE,
     ax: Axes | None = None,
@@ -276,17 +251,17 @@ def contours(
     ValueError
         If the film at the centre is not a positive number.
     """
-    ax = axes_or_new(ax, 4.2, 3.6)
-    unit_h, label = film_unit(scales)
-    unit, _ = axis_unit(scales, "x")
+    ax = style.axes_or_new(ax, 4.2, 3.6)
+    unit_h, label = style.film_unit(scales)
+    unit, _ = style.axis_unit(scales, "x")
     h = film * unit_h
     central, least = _central(x, y, h), float(h.min())
     step = _round_step(max((central - least) / 4.0, central / 20.0))
     first = step * math.floor(least / step)
     levels = np.arange(first, 1.6 * central + 0.5 * step, step)
-    shades = colormaps[SEQUENTIAL].with_extremes(over="white")
+    shades = colormaps[style.SEQUENTIAL].with_extremes(over="white")
     filled = ax.contourf(x * unit, y * unit, h.T, levels=levels, cmap=shades, extend="max")
     ax.contour(x * unit, y * unit, h.T, levels=levels, colors="black", linewidths=0.3, alpha=0.6)
-    colour_bar(filled, ax, label, shrink=0.9, slender=outline.slender)
+    style.colour_bar(filled, ax, label, shrink=0.9, slender=outline.slender)
     _frame(ax, x, y, scales, outline)
     return ax

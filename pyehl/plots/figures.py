@@ -17,8 +17,6 @@ from pyehl.theory.operating import OperatingPoint
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["scales_of", "solution_figures"]
-
 
 def scales_of(data: xr.Dataset, units: str = "auto") -> Scales | None:
     """Scales of a solution for `units`: 'si', 'hertz', or 'auto' for SI when the case has them."""

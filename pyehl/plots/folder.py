@@ -8,9 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from pyehl.destination import check_files
 from pyehl.errors import InputError
@@ -18,11 +16,10 @@ from pyehl.given import check_kind, path_of
 from pyehl.plots.figures import solution_figures
 from pyehl.plots.predicted import prediction_figures
 from pyehl.plots.style import DPI, page_width, save
+from pyehl.types import Array
 
 if TYPE_CHECKING:
     import xarray as xr
-
-__all__ = ["FORMATS", "UNITS", "made", "plot", "save_all"]
 
 FORMATS = ("png", "pdf", "svg")
 LEAST_WIDTH, MOST_WIDTH = 0.04, 0.4
@@ -140,7 +137,7 @@ def plot(
 
 def _of_prediction(data: xr.Dataset) -> dict[str, Figure]:
     arrays = {name: data[f"{name}_{unit}"].values for name, unit in PREDICTED.items()}
-    tables: dict[str, dict[str, NDArray[np.float64]]] = {"passage": {}, "bands": {}}
+    tables: dict[str, dict[str, Array]] = {"passage": {}, "bands": {}}
     for name, values in data.variables.items():
         table, _, column = str(name).partition("_")
         if table in tables:

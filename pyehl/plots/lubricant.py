@@ -1,19 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of lubricants: viscosity and shear stress of an oil, a shear law and what it fits."""
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
-from pyehl.plots.style import BLUE, GREEN, VERMILLION, letter, new_figure
+from pyehl.plots.style import BLUE, GREEN, VERMILLION, letter, new_figure, points
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.shear import ShearLaw, shear_stress
-
-__all__ = ["draw_fit", "draw_oil"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 # Of the picture of an oil: rises of temperature [K], pressures [Pa]
 RISES = (0.0, 20.0, 60.0)
@@ -75,8 +69,8 @@ def draw_fit(
     """Draw a measured traction curve with its errors (n,), and a fitted one: places, friction."""
     figure = new_figure(6.0, 4.2)
     ax = figure.subplots()
-    bars = error if error.any() else None
-    ax.errorbar(slide_to_roll, measured, bars, fmt="k^", ms=5, mfc="none", capsize=2, lw=0.8)
+    how = {"fmt": "k^", "ms": 5, "mfc": "none", "capsize": 2, "lw": 0.8}
+    points(ax, slide_to_roll, measured, error, **how)
     ax.plot([], [], "k^", mfc="none", label="measured")
     ax.plot(*curve, "o-", ms=3, color=BLUE, label=words)
     ax.set(xlabel="slide-to-roll ratio", ylabel=r"$\mu$")

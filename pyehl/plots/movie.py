@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The frames of a transient run as a moving picture: film, pressure and roughness of a passage."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 
@@ -20,8 +18,6 @@ from pyehl.plots.panels import headline
 from pyehl.plots.style import film_unit, nearest, new_figure
 from pyehl.results import settings_of
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["movie"]
 
 SUFFIXES = ("gif", "mp4")
 FRAME_SECONDS, DPI = 0.08, 100

@@ -14,8 +14,6 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["CIRCLE", "Outline"]
-
 Array = NDArray[np.floating[Any]]
 
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Panels side by side under a line that says what they show."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 
@@ -10,8 +8,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from pyehl.plots.style import PAGE_WIDTH, Scales, letter, new_figure, wrapped
-
-__all__ = ["headline", "no_second_label", "panels"]
 
 # Room below and above a row of panels [in]
 BELOW, ABOVE = 0.52, 0.57

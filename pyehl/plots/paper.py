@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figures 2 to 4 of Zhang et al. 2019: friction of waves, with the numbers of the paper over it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -10,13 +8,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
-from numpy.typing import NDArray
 
 from pyehl.plots.style import BLUE, GREY, VERMILLION, new_figure
-
-__all__ = ["Collapse", "Series", "collapses", "friction_over_film", "wave_history"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 COLOURS = (BLUE, VERMILLION, "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "black")
 MARKERS = "osD^vP*"

@@ -1,36 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figures 1 and 5 to 7 of Zhang et al. 2019: rough surfaces, their prediction and simulation."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from pyehl.plots import style
 from pyehl.plots import surface as panels
-from pyehl.plots.style import (
-    BLUE,
-    DIVERGING,
-    GREEN,
-    GREY,
-    SEQUENTIAL,
-    VERMILLION,
-    colour_bar,
-    extent_of,
-    hertz_ticks,
-    letter,
-    new_figure,
-)
 from pyehl.surfaces import Topography, psd_isotropic
+from pyehl.types import Array, Indices, Mask
 
-__all__ = ["Array", "Step", "by_seed", "deformed", "flow", "spectrum"]
-
-Array = NDArray[np.float64]
-
-COLOURS = (GREY, "black", BLUE, VERMILLION)
+COLOURS = (style.GREY, "black", style.BLUE, style.VERMILLION)
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +27,7 @@ class Step:
 
 def flow(steps: Sequence[Step], result: str) -> Figure:
     """Draw the steps of the prediction with arrows from each to the next (Fig. 1)."""
-    figure = new_figure(12.0, 6.4)
+    figure = style.new_figure(12.0, 6.4)
     axes = figure.subplots(2, -(-len(steps) // 2)).ravel()
     for k, (ax, step) in enumerate(zip(axes, steps, strict=False)):
         inside = step.field[np.isfinite(step.field)]
@@ -54,10 +36,10 @@ def flow(steps: Sequence[Step], result: str) -> Figure:
         if not step.signed:
             low, top = (float(v) for v in np.quantile(inside, (0.001, 0.999)))
         image = ax.imshow(
-            step.field.T, origin="lower", cmap=DIVERGING if step.signed else SEQUENTIAL,
+            step.field.T, origin="lower", cmap=style.DIVERGING if step.signed else style.SEQUENTIAL,
             vmin=low, vmax=top,
         )  # fmt: skip
-        colour_bar(image, ax, step.unit, shrink=0.8)
+        style.colour_bar(image, ax, step.unit, shrink=0.8)
         arrow = r"  $\longrightarrow$" if k + 1 < len(steps) else ""
         ax.set_title(f"{k + 1}. {step.title}{arrow}", fontsize="medium", loc="left")
         ax.set_xticks([])
@@ -70,40 +52,40 @@ def flow(steps: Sequence[Step], result: str) -> Figure:
 
 def spectrum(topography: Topography) -> Figure:
     """Draw a surface, its two-dimensional spectrum, and the radial mean (Fig. 5)."""
-    figure = new_figure(12.0, 3.6)
+    figure = style.new_figure(12.0, 3.6)
     axes = figure.subplots(1, 3)
     panels.heights(topography, ax=axes[0])
     panels.spectrum_map(topography, ax=axes[1])
     q, c_iso = psd_isotropic(topography)
     shown = c_iso > 0.0
-    axes[2].loglog(q[shown], c_iso[shown], "o", ms=2.5, color=BLUE, label=r"$C^{iso}$")
+    axes[2].loglog(q[shown], c_iso[shown], "o", ms=2.5, color=style.BLUE, label=r"$C^{iso}$")
     line = c_iso[8] * (q / q[8]) ** -3.6
     axes[2].loglog(q, line, "--", color="black", lw=1.0, label="$q^{-2-2H}$, $H$ = 0.8")
     axes[2].set(xlabel=r"$|q|$ [rad/m]", ylabel=r"$C^{iso}$ [m$^4$]")
     axes[2].legend(fontsize="small")
-    letter(list(axes))
+    style.letter(list(axes))
     return figure
 
 
-def deformed(x: Array, y: Array, inside: NDArray[np.bool_], fields: Mapping[str, Array]) -> Figure:
+def deformed(x: Array, y: Array, inside: Mask, fields: Mapping[str, Array]) -> Figure:
     """Draw roughness fields on one scale, their height distributions and centre lines (Fig. 6).
 
     At places (nx,), (ny,) [a], where `inside` (nx, ny); heights (nx, ny) [m] by name, the
     undeformed ones first, then the simulation.
     """
-    figure = new_figure(13.0, 6.6)
+    figure = style.new_figure(13.0, 6.6)
     grid = figure.add_gridspec(2, len(fields))
     maps = [figure.add_subplot(grid[0, k]) for k in range(len(fields))]
     top = 1e9 * max(float(np.abs(f[inside]).max()) for n, f in fields.items() if n != "undeformed")
     for ax, (name, field) in zip(maps, fields.items(), strict=True):
         image = ax.imshow(
-            np.where(inside, field * 1e9, np.nan).T, origin="lower", extent=extent_of(x, y),
-            cmap=DIVERGING, vmin=-top, vmax=top, interpolation="nearest",
+            np.where(inside, field * 1e9, np.nan).T, origin="lower", extent=style.extent_of(x, y),
+            cmap=style.DIVERGING, vmin=-top, vmax=top, interpolation="nearest",
         )  # fmt: skip
         rms = 1e9 * float(np.std(field[inside]))
         ax.set_title(f"{name}: rms {rms:.3g} nm", fontsize="medium", loc="left")
         ax.set_xlabel("$X$")
-        hertz_ticks(ax)
+        style.hertz_ticks(ax)
     maps[0].set_ylabel("$Y$")
     figure.colorbar(image, ax=maps, shrink=0.8, label="height [nm]", extend="both")
     half = len(fields) // 2
@@ -125,18 +107,16 @@ def deformed(x: Array, y: Array, inside: NDArray[np.bool_], fields: Mapping[str,
     return figure
 
 
-def by_seed(
-    seeds: NDArray[np.int_], simulated: Array, predicted: Sequence[tuple[str, Array]]
-) -> Figure:
+def by_seed(seeds: Indices, simulated: Array, predicted: Sequence[tuple[str, Array]]) -> Figure:
     """Draw mu_r/mu_s by seed, simulated and predicted (Fig. 7)."""
-    figure = new_figure(8.0, 4.2)
+    figure = style.new_figure(8.0, 4.2)
     ax = figure.subplots()
     ax.plot(seeds, simulated, "o", color="black", ms=6, label="simulation")
     for (label, values), marker, colour in zip(
-        predicted, "sD^", (BLUE, VERMILLION, GREEN), strict=False
+        predicted, "sD^", (style.BLUE, style.VERMILLION, style.GREEN), strict=False
     ):
         ax.plot(seeds, values, marker, color=colour, mfc="none", ms=6, label=label)
-    ax.axhline(1.0, color=GREY, lw=0.8, ls=":")
+    ax.axhline(1.0, color=style.GREY, lw=0.8, ls=":")
     ax.set_xticks(seeds)
     ax.set(xlabel="seed of the surface", ylabel=r"$\mu_r/\mu_s$")
     ax.legend(fontsize="small")

@@ -1,30 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figures of a prediction: its surfaces, deformed, and the friction of their passage."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from pyehl.plots import surface
 from pyehl.plots.panels import headline, no_second_label, panels
 from pyehl.surfaces import Topography, wavenumbers
 from pyehl.theory.ellipse import ellipse
 from pyehl.theory.transport import stiffness
-
-__all__ = ["prediction_figures"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 
 def prediction_figures(
-    about: Mapping[str, Any],
-    arrays: Mapping[str, Array],
-    tables: Mapping[str, Mapping[str, Array]],
+    about: Mapping[str, Any], arrays: Mapping[str, Array], tables: Mapping[str, Mapping[str, Array]]
 ) -> dict[str, Figure]:
     """All figures of a prediction, by the names of their files.
 

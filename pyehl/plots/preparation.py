@@ -4,30 +4,15 @@
 Arrays have their first index along x.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
-from pyehl.plots.style import (
-    BLUE,
-    DIVERGING,
-    GREY,
-    VERMILLION,
-    height_unit,
-    letter,
-    new_figure,
-    y_label,
-)
+from pyehl.plots import style
 from pyehl.surfaces import Preparation, Topography, psd_isotropic
 from pyehl.surfaces.holes import nearest
 from pyehl.theory.amplitude import component_amplitude_ratio
-
-__all__ = ["before_and_after"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 SHOWN = 0.005
 """Share of the heights that may lie beyond either end of the colours, against spikes."""
@@ -42,21 +27,21 @@ def before_and_after(
     A_d/A_i is drawn over the spectrum, for waves along x.
     """
     made = surface.preparation
-    figure = new_figure(10.2 if made else 7.0, 2.9)
+    figure = style.new_figure(10.2 if made else 7.0, 2.9)
     axes = list(figure.subplots(1, 3 if made else 2))
     lengths = (surface.length_x, surface.length_y)
-    curves = [("prepared" if made else "surface", BLUE, surface)]
+    curves = [("prepared" if made else "surface", style.BLUE, surface)]
     if made:
         raw = _as_measured(made)
         _map(axes[0], made.scan.heights - np.nanmean(made.scan.heights), _size(made), "as measured")
         nx, ny = made.prepared.shape
         lengths = (nx * made.pixel[0], ny * made.pixel[1])
         _map(axes[1], made.prepared, lengths, "prepared")
-        curves.insert(0, ("as measured", GREY, raw))
+        curves.insert(0, ("as measured", style.GREY, raw))
     else:
         _map(axes[0], surface.heights, lengths, "surface")
     _spectra(axes[-1], curves, conditions)
-    letter(axes)
+    style.letter(axes)
     return figure
 
 
@@ -74,10 +59,10 @@ def _map(ax: Axes, heights: Array, size: tuple[float, float], title: str) -> Non
     """Heights in colours; a hole is white."""
     low, high = np.nanquantile(heights, [SHOWN, 1.0 - SHOWN])
     top = float(max(abs(low), abs(high))) or 1.0
-    unit, name = height_unit(top)
+    unit, name = style.height_unit(top)
     image = ax.imshow(
         heights.T * unit, origin="lower", extent=(0.0, size[0] * 1e3, 0.0, size[1] * 1e3),
-        cmap=DIVERGING, vmin=-top * unit, vmax=top * unit, interpolation="nearest",
+        cmap=style.DIVERGING, vmin=-top * unit, vmax=top * unit, interpolation="nearest",
     )  # fmt: skip
     bar = ax.figure.colorbar(image, ax=ax, fraction=0.046, extend="both")
     bar.set_label(f"height [{name}]")
@@ -106,6 +91,6 @@ def _spectra(
     twin = ax.twinx()
     line = np.geomspace(min(ends), max(ends), 200)
     ratio = component_amplitude_ratio(line, 0.0, radius, moes_m, moes_l, convention=convention)
-    twin.plot(line, ratio, color=VERMILLION, lw=1.4)
+    twin.plot(line, ratio, color=style.VERMILLION, lw=1.4)
     twin.set_ylim(0.0, 1.02)
-    y_label(twin, r"$A_d/A_i$", VERMILLION)
+    style.y_label(twin, r"$A_d/A_i$", style.VERMILLION)

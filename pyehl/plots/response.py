@@ -1,29 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The measured response of a contact to waves of roughness: amplitude and lag over wavelength."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
-from numpy.typing import NDArray
 
 from pyehl.plots.style import GREY, SEQUENTIAL, letter, new_figure
 from pyehl.theory.amplitude import amplitude_ratio, wavelength_parameter
-
-__all__ = ["response_figure"]
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from pyehl.types import Array, Complex
 
 
 def response_figure(
-    waves: Mapping[str, Array],
-    lines: Mapping[float, tuple[Array, Complex]],
-    label: str,
+    waves: Mapping[str, Array], lines: Mapping[float, tuple[Array, Complex]], label: str
 ) -> Figure:
     """Draw |T| and the phase of T at X = 0 over nabla_2.
 

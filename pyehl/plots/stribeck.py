@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The picture of Stribeck curves: friction over Hersey number, Lambda and theta_2 side by side."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from textwrap import wrap
@@ -11,30 +9,18 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from pyehl.plots import style
 from pyehl.plots.stribeck_contact import draw_contact
-from pyehl.plots.style import (
-    BLUE,
-    GREEN,
-    GREY,
-    VERMILLION,
-    label_log_ticks,
-    letter,
-    new_figure,
-)
 from pyehl.theory import stribeck
-
-__all__ = ["ABSCISSAE", "COLOURS", "Curve", "Points", "draw_stribeck"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 ABSCISSAE = {
     "hersey": r"Hersey number $\eta_0 \bar u R/w$",
     "lambda_ratio": r"$\Lambda = h_\mathrm{min}/\sigma$",
     "theta_2": r"$\theta_2$",
 }
-COLOURS = (BLUE, VERMILLION, GREEN, "#CC79A7", "#E69F00", "#56B4E9")
+COLOURS = (style.BLUE, style.VERMILLION, style.GREEN, "#CC79A7", "#E69F00", "#56B4E9")
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,17 +33,8 @@ class Points:
 
     def draw(self, ax: Axes, abscissa: str) -> None:
         """Draw them as measured ones, with bars where an error is known."""
-        ax.errorbar(
-            self.places[abscissa],
-            self.friction,
-            _bars(self.error),
-            fmt="k^",
-            ms=4,
-            mfc="none",
-            capsize=2,
-            lw=0.8,
-            label="measured",
-        )
+        how = {"fmt": "k^", "ms": 4, "mfc": "none", "capsize": 2, "lw": 0.8, "label": "measured"}
+        style.points(ax, self.places[abscissa], self.friction, self.error, **how)
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,7 +79,7 @@ def draw_stribeck(
         if any(np.isfinite(curve.column(name)).any() for curve in curves)
     }
     touching = [c for c in curves if "contact_load_share" in c.rows[0]]
-    figure = new_figure(11.5 if len(shown) > 1 else 7.0, 7.4 if touching else 4.4)
+    figure = style.new_figure(11.5 if len(shown) > 1 else 7.0, 7.4 if touching else 4.4)
     panels = figure.subplots(
         3 if touching else 1, len(shown), sharex="col", sharey="row", squeeze=False
     )
@@ -118,12 +95,12 @@ def draw_stribeck(
         if name == "theta_2" and not absolute:
             _draw_eq_16(ax)
         ax.set_xscale("log")
-        label_log_ticks(ax)
+        style.label_log_ticks(ax)
         panels[-1, list(axes).index(ax)].set_xlabel(label)
         ax.grid(visible=True, which="major", color="0.92", lw=0.6)
         ax.set_axisbelow(True)
     axes[0].set_ylabel(r"$\mu$" if absolute else r"$\mu_r/\mu_s$")
-    letter(axes)
+    style.letter(axes)
     # the last panel has all that the others have
     handles, labels = axes[-1].get_legend_handles_labels()
     unique = dict(zip(labels, handles, strict=True))
@@ -135,12 +112,6 @@ def draw_stribeck(
     return figure
 
 
-def _bars(error: Array) -> Array | None:
-    """Give error bars, none where all are zero or unknown."""
-    known = np.nan_to_num(error)
-    return known if known.any() else None
-
-
 def _draw_curve(ax: Axes, curve: Curve, name: str, colour: str) -> None:
     x, y = curve.column(name), curve.friction()
     known = np.isfinite(x) & np.isfinite(y)
@@ -150,28 +121,16 @@ def _draw_curve(ax: Axes, curve: Curve, name: str, colour: str) -> None:
         (curve.friction("mu_ratio_spread"), 0.15, "spread over the surfaces"),
         (curve.friction("mu_ratio_model_error"), 0.35, "error of the model"),
     ):
-        wide = known & np.isfinite(width)
-        if wide.any():
-            low, high = y[wide] - width[wide], y[wide] + width[wide]
-            ax.fill_between(x[wide], low, high, color=colour, alpha=alpha, lw=0, label=label)
+        style.band(ax, x, y, width, color=colour, alpha=alpha, label=label)
     if curve.absolute and "mu_empirical" in curve.rows[0]:
         empirical = curve.column("mu_empirical")
         there = np.isfinite(x) & np.isfinite(empirical)
         ax.plot(x[there], empirical[there], "--", lw=1.2, color=colour, label=f"empirical{tail}")
     full = curve.friction("mu_ratio_ehl")
-    there = np.isfinite(full)
-    if there.any():
-        ax.errorbar(
-            x[there],
-            full[there],
-            _bars(curve.friction("mu_ratio_ehl_error")[there]),
-            fmt="s",
-            ms=5,
-            mfc="white",
-            color=colour,
-            capsize=3,
-            label=f"full simulation{tail}",
-        )
+    if np.isfinite(full).any():
+        how = {"fmt": "s", "ms": 5, "mfc": "white", "color": colour, "capsize": 3}
+        error = curve.friction("mu_ratio_ehl_error")
+        style.points(ax, x, full, error, label=f"full simulation{tail}", **how)
 
 
 def _shade(ax: Axes, curves: Sequence[Curve], name: str) -> None:
@@ -189,7 +148,7 @@ def _shade(ax: Axes, curves: Sequence[Curve], name: str) -> None:
             high = float(np.sqrt(high * above.min()))
         below = others[others < low]
         low = float(np.sqrt(low * below.max())) if below.size else min(low, ax.get_xlim()[0])
-        ax.axvspan(low, high, color=GREY, alpha=0.2, lw=0, label="no full film")
+        ax.axvspan(low, high, color=style.GREY, alpha=0.2, lw=0, label="no full film")
 
 
 def _draw_eq_16(ax: Axes) -> None:

@@ -1,18 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Contact at a boundary film and the least film, below the friction of Stribeck curves."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any, Protocol
 
-import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-__all__ = ["draw_contact"]
-
-Array = NDArray[np.float64]
+from pyehl.plots import style
+from pyehl.types import Array
 
 
 class HasColumns(Protocol):
@@ -54,10 +50,7 @@ def _band(
     """Draw a column with its error."""
     y, error = factor * curve.column(name), factor * curve.column(_error(name))
     ax.plot(x, y, "o-", ms=3, lw=1.2, color=colour)
-    known = np.isfinite(y) & np.isfinite(error)
-    if known.any():
-        low, high = y[known] - error[known], y[known] + error[known]
-        ax.fill_between(x[known], low, high, color=colour, alpha=0.35, lw=0)
+    style.band(ax, x, y, error, color=colour, alpha=0.35)
 
 
 def _points(
@@ -72,13 +65,7 @@ def _points(
     """Draw a column of the full simulation; a load share with its error."""
     y = factor * curve.column(name)
     error = curve.column(_error(name)) if name.startswith("contact_load") else 0.0 * y
-    known = np.isfinite(y)
-    if known.any():
-        bars = np.nan_to_num(error[known])
-        wide = bars if bars.any() else None
-        ax.errorbar(
-            x[known], y[known], wide, fmt=marker, ms=5, mfc="white", color=colour, capsize=3
-        )
+    style.points(ax, x, y, error, fmt=marker, ms=5, mfc="white", color=colour, capsize=3)
 
 
 def _error(name: str) -> str:

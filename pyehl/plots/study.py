@@ -1,20 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The picture of a study: results over what was varied first, a line for each other value."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
-from pyehl.plots.style import BLUE, GREEN, GREY, VERMILLION, letter, new_figure
-
-__all__ = ["Line", "study_figure"]
-
-Array = NDArray[np.float64]
+from pyehl.plots.style import BLUE, GREEN, GREY, VERMILLION, letter, new_figure, points
+from pyehl.types import Array
 
 COLOURS = (BLUE, VERMILLION, GREEN, "#CC79A7", "#E69F00", "#56B4E9", GREY)
 MARKERS = "os^Dv<>"
@@ -37,12 +31,11 @@ def study_figure(panels: Sequence[tuple[str, Sequence[Line]]], abscissa: str, ti
     axes = figure.subplots(1, len(panels), squeeze=False)[0]
     for ax, (label, lines) in zip(axes, panels, strict=True):
         for k, line in enumerate(lines):
-            known = np.isfinite(line.places) & np.isfinite(line.values)
-            errors = np.nan_to_num(line.errors[known])
-            ax.errorbar(
-                line.places[known],
-                line.values[known],
-                errors if errors.any() else None,
+            points(
+                ax,
+                line.places,
+                line.values,
+                line.errors,
                 fmt=f"{MARKERS[k % len(MARKERS)]}-",
                 ms=4,
                 lw=1.2,

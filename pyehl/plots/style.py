@@ -6,8 +6,6 @@ else in Hertz units. Labels are plain text where it says the same: to set mathem
 as the rest of a panel.
 """
 
-from __future__ import annotations
-
 import io
 import math
 import re
@@ -31,40 +29,7 @@ from numpy.typing import NDArray
 
 from pyehl.destination import mark, new_file
 from pyehl.plots.outline import CIRCLE, Outline
-
-__all__ = [
-    "BLUE",
-    "DIVERGING",
-    "DPI",
-    "GREEN",
-    "GREY",
-    "PAGE_WIDTH",
-    "SEQUENTIAL",
-    "VERMILLION",
-    "Scales",
-    "axes_or_new",
-    "axis_unit",
-    "colour_bar",
-    "contact_heights",
-    "edges",
-    "extent_of",
-    "film_unit",
-    "height_unit",
-    "hertz_ticks",
-    "label_decades",
-    "label_log_ticks",
-    "letter",
-    "nearest",
-    "new_figure",
-    "page_width",
-    "png",
-    "pressure_unit",
-    "save",
-    "wrapped",
-    "y_label",
-]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 DPI = 150
 INCH = 0.0254
@@ -136,12 +101,7 @@ def axes_or_new(ax: Axes | None, width: float, height: float) -> Axes:
 
 
 def colour_bar(
-    image: ScalarMappable,
-    ax: Axes,
-    label: str,
-    *,
-    shrink: float = 1.0,
-    slender: float = 1.0,
+    image: ScalarMappable, ax: Axes, label: str, *, shrink: float = 1.0, slender: float = 1.0
 ) -> None:
     """Put a colour bar beside axes, so much shorter than they are.
 
@@ -286,6 +246,21 @@ def _short(value: float) -> str:
     digits, _, power = f"{value:.0e}".partition("e")
     factor = "" if digits == "1" else rf"{digits}\cdot"
     return f"${factor}10^{{{int(power)}}}$"
+
+
+def points(ax: Axes, x: Array, y: Array, error: Array, **how: Any) -> None:  # noqa: ANN401
+    """Draw points (n,), those that are numbers, with bars where one of their errors is known."""
+    known = np.isfinite(x) & np.isfinite(y)
+    bars = np.nan_to_num(error[known])
+    ax.errorbar(x[known], y[known], bars if bars.any() else None, **how)
+
+
+def band(ax: Axes, x: Array, y: Array, error: Array, **how: Any) -> None:  # noqa: ANN401
+    """Shade around a line (n,) where its error is known."""
+    known = np.isfinite(x) & np.isfinite(y) & np.isfinite(error)
+    if known.any():
+        low, high = y[known] - error[known], y[known] + error[known]
+        ax.fill_between(x[known], low, high, lw=0, **how)
 
 
 def height_unit(largest: float) -> tuple[float, str]:

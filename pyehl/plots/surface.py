@@ -5,38 +5,17 @@ Each function draws on `ax`, or on a new figure, and returns the axes; arrays ha
 index along x, the direction of motion.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
-from numpy.typing import NDArray
 
+from pyehl.plots import style
 from pyehl.plots.outline import Outline
-from pyehl.plots.style import (
-    BLUE,
-    DIVERGING,
-    GREEN,
-    GREY,
-    SEQUENTIAL,
-    VERMILLION,
-    axes_or_new,
-    colour_bar,
-    contact_heights,
-    extent_of,
-    height_unit,
-    hertz_ticks,
-    label_decades,
-    y_label,
-)
 from pyehl.surfaces import Topography, interpolated, psd_2d, psd_isotropic
-
-__all__ = ["heights", "octaves", "passage", "roughness", "spectrum_line", "spectrum_map"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 # Least spectral density that is drawn, as a share of the largest
 FLOOR = 1e-10
@@ -46,30 +25,30 @@ SHORT = (-3, 4)
 
 def heights(topography: Topography, *, ax: Axes | None = None) -> Axes:
     """Heights of a tile as a map with a colour bar; peaks positive."""
-    ax = axes_or_new(ax, 3.6, 3.0)
+    ax = style.axes_or_new(ax, 3.6, 3.0)
     z = topography.heights
-    unit, name = height_unit(float(np.abs(z).max()))
+    unit, name = style.height_unit(float(np.abs(z).max()))
     top = float(np.abs(z).max()) * unit
     extent = (0.0, topography.length_x * 1e3, 0.0, topography.length_y * 1e3)
     image = ax.imshow(
-        z.T * unit, origin="lower", extent=extent, cmap=DIVERGING, vmin=-top, vmax=top
+        z.T * unit, origin="lower", extent=extent, cmap=style.DIVERGING, vmin=-top, vmax=top
     )
-    colour_bar(image, ax, f"height [{name}]")
+    style.colour_bar(image, ax, f"height [{name}]")
     ax.set(xlabel="x [mm]", ylabel="y [mm]")
     return ax
 
 
 def spectrum_map(topography: Topography, *, ax: Axes | None = None) -> Axes:
     """Two-dimensional spectrum C2D [m^4] of a tile over both wavenumbers."""
-    ax = axes_or_new(ax, 3.6, 3.0)
+    ax = style.axes_or_new(ax, 3.6, 3.0)
     qx, qy, c2d = psd_2d(topography)
     most = float(c2d.max())
-    extent = extent_of(qx, qy, 1e-6)
+    extent = style.extent_of(qx, qy, 1e-6)
     image = ax.imshow(
-        np.maximum(c2d, FLOOR * most).T, origin="lower", extent=extent, cmap=SEQUENTIAL,
+        np.maximum(c2d, FLOOR * most).T, origin="lower", extent=extent, cmap=style.SEQUENTIAL,
         norm=LogNorm(vmin=FLOOR * most, vmax=most),
     )  # fmt: skip
-    colour_bar(image, ax, "spectrum [m⁴]")
+    style.colour_bar(image, ax, "spectrum [m⁴]")
     ax.set(xlabel="q along x [rad/µm]", ylabel="q along y [rad/µm]")
     return ax
 
@@ -89,19 +68,19 @@ def spectrum_line(
     deformed, flattened
         Deformed roughness and what is flattened of it [m], as the tile.
     """
-    ax = axes_or_new(ax, 3.8, 3.0)
+    ax = style.axes_or_new(ax, 3.8, 3.0)
     q, c_iso = psd_isotropic(topography)
     shown = c_iso > FLOOR * float(psd_2d(topography)[2].max())
-    ax.loglog(q[shown], c_iso[shown], "o", ms=2.5, color=BLUE, label="isotropic spectrum")
+    ax.loglog(q[shown], c_iso[shown], "o", ms=2.5, color=style.BLUE, label="isotropic spectrum")
     ax.set_xlabel("|q| [rad/m]")
-    y_label(ax, "isotropic spectrum [m⁴]", BLUE)
-    label_decades(ax.xaxis, ax.yaxis)
+    style.y_label(ax, "isotropic spectrum [m⁴]", style.BLUE)
+    style.label_decades(ax.xaxis, ax.yaxis)
     twin = ax.twinx()
-    for values, style, label in ((deformed, "-", "|T|"), (flattened, "--", "|1 − T|")):
+    for values, line, label in ((deformed, "-", "|T|"), (flattened, "--", "|1 − T|")):
         part = Topography(values, topography.size)
         share = np.sqrt(psd_isotropic(part)[1][shown] / c_iso[shown])
-        twin.plot(q[shown], share, style, color=VERMILLION, lw=1.4, label=label)
-    y_label(twin, "response at the centre (rms)", VERMILLION)
+        twin.plot(q[shown], share, line, color=style.VERMILLION, lw=1.4, label=label)
+    style.y_label(twin, "response at the centre (rms)", style.VERMILLION)
     # the spectrum falls and the response rises: below both there is room
     twin.legend(loc="lower center", fontsize="small")
     return ax
@@ -134,7 +113,7 @@ def roughness(
     ellipticity
         The other semi-axis over a [-].
     """
-    ax = axes_or_new(ax, 3.8, 3.1)
+    ax = style.axes_or_new(ax, 3.8, 3.1)
     nx, ny = topography.shape
     px, py = topography.pixel
     a, b = hertz_radius, ellipticity * hertz_radius
@@ -143,15 +122,15 @@ def roughness(
     inside = (i * px / a)[:, None] ** 2 + (j * py / b)[None, :] ** 2 <= 1.0
     at = np.ix_(i % nx, j % ny)
     top = float(np.abs(topography.heights[at][inside]).max())
-    unit, label = height_unit(top)
-    extent = extent_of(i * (px / a), j * (py / a))
+    unit, label = style.height_unit(top)
+    extent = style.extent_of(i * (px / a), j * (py / a))
     shown = np.where(inside, values[at], np.nan) * unit
     outline = Outline(ellipticity)
-    contact_heights(
+    style.contact_heights(
         shown, extent, 1.0, top * unit, label, name=name, bar=bar, ax=ax, outline=outline
     )
     ax.set(xlabel="x/a", ylabel="y/a")
-    hertz_ticks(ax, outline)
+    style.hertz_ticks(ax, outline)
     return ax
 
 
@@ -175,16 +154,16 @@ def passage(
         (n,) displacement of the tile of a second surface [m]. Where it goes back, the positions are
         not those of a common period but all that two tiles may have, in no order of time.
     """
-    ax = axes_or_new(ax, 3.8, 2.9)
+    ax = style.axes_or_new(ax, 3.8, 2.9)
     mean = float(ratio.mean())
     if second is None or bool(np.all(np.diff(second) >= 0.0)):
         fine = interpolated(ratio, 16)
         length *= round(float(shift[-1]) * (1.0 + 1.0 / max(1, shift.size - 1)) / length) or 1
         at = np.arange(fine.size + 1) * length / fine.size
-        ax.plot(at * 1e3, np.append(fine, fine[0]), color=BLUE, lw=1.4)
-    ax.plot(shift * 1e3, ratio, "o", ms=3.0, color=BLUE)
-    ax.axhline(mean, color=VERMILLION, lw=1.0, ls="--", label=f"mean {mean:.3f}")
-    ax.axhline(1.0, color=GREY, lw=0.8, ls=":", label="smooth")
+        ax.plot(at * 1e3, np.append(fine, fine[0]), color=style.BLUE, lw=1.4)
+    ax.plot(shift * 1e3, ratio, "o", ms=3.0, color=style.BLUE)
+    ax.axhline(mean, color=style.VERMILLION, lw=1.0, ls="--", label=f"mean {mean:.3f}")
+    ax.axhline(1.0, color=style.GREY, lw=0.8, ls=":", label="smooth")
     ax.set(xlim=(0.0, length * 1e3), xlabel="displacement of the surface [mm]")
     ax.set(ylabel="relative friction")
     ax.ticklabel_format(axis="y", scilimits=SHORT)
@@ -200,19 +179,19 @@ def octaves(bands: Sequence[tuple[float, float, float]], *, ax: Axes | None = No
     bands
         Longest and shortest wavelength [m] and rise [-] of each octave.
     """
-    ax = axes_or_new(ax, 3.8, 2.9)
+    ax = style.axes_or_new(ax, 3.8, 2.9)
     for longest, shortest, rise in bands:
         if math.isfinite(rise):
             ax.fill_between(
-                [shortest * 1e6, longest * 1e6], 0.0, [rise, rise], color=GREEN, alpha=0.75,
+                [shortest * 1e6, longest * 1e6], 0.0, [rise, rise], color=style.GREEN, alpha=0.75,
                 lw=0.8, ec="white",
             )  # fmt: skip
     known = sorted((band for band in bands if math.isfinite(band[2])), reverse=True)
     cut, total = [band[1] * 1e6 for band in known], np.cumsum([band[2] for band in known])
-    ax.plot(cut, total, "o-", ms=3, lw=1.2, color=BLUE, label="with all longer ones")
-    ax.axhline(0.0, color=GREY, lw=0.8)
+    ax.plot(cut, total, "o-", ms=3, lw=1.2, color=style.BLUE, label="with all longer ones")
+    ax.axhline(0.0, color=style.GREY, lw=0.8)
     ax.set_xscale("log")
-    label_decades(ax.xaxis)
+    style.label_decades(ax.xaxis)
     ax.set(xlabel="wavelength of the component [μm]", ylabel="contribution to relative friction")
     # a power of ten above the panel would lie on its letter: for large contributions alone
     ax.ticklabel_format(axis="y", scilimits=(-9, SHORT[1]))

@@ -1,21 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The picture of traction curves: friction and temperature over the slide-to-roll ratio."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from textwrap import wrap
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 from pyehl.plots.stribeck import COLOURS, Curve, Points
 from pyehl.plots.style import letter, new_figure
-
-__all__ = ["draw_traction"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 
 def draw_traction(

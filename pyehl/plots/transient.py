@@ -5,47 +5,20 @@ Each function draws on `ax`, or on a new figure, and returns the axes; arrays ha
 index along x, the direction of motion. Units as in `pyehl.plots.style`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from pyehl.plots import style
 from pyehl.plots.outline import CIRCLE, Outline
-from pyehl.plots.style import (
-    BLUE,
-    GREEN,
-    GREY,
-    VERMILLION,
-    Scales,
-    axes_or_new,
-    axis_unit,
-    contact_heights,
-    extent_of,
-    film_unit,
-    height_unit,
-    hertz_ticks,
-    pressure_unit,
-    y_label,
-)
 from pyehl.theory import stribeck
-
-__all__ = [
-    "eq_16",
-    "extremes_history",
-    "friction_history",
-    "profiles",
-    "roughness",
-    "roughness_top",
-]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array, Mask, Settings
 
 
-def eq_16(summary: Mapping[str, Any], settings: Mapping[str, Mapping[str, Any]]) -> float | None:
+def eq_16(summary: Mapping[str, Any], settings: Settings) -> float | None:
     """mu_r/mu_s by eq. 16 of Zhang et al. 2019 for the waviness of a run, with its own H_c.
 
     Parameters
@@ -100,17 +73,17 @@ def friction_history(
     seconds
         a/u [s] for a second axis in SI units; 0: none.
     """
-    ax = axes_or_new(ax, 5.4, 3.4)
+    ax = style.axes_or_new(ax, 5.4, 3.4)
     end = float(time[-1])
     if mean is not None and period > 0.0:
-        ax.axvspan(end - period, end, color=VERMILLION, alpha=0.13, lw=0.0)
-    ax.axhline(1.0, color=GREY, lw=0.8, ls=":", label="smooth")
-    ax.plot(time, ratio, color=BLUE, lw=1.4, label="rough")
+        ax.axvspan(end - period, end, color=style.VERMILLION, alpha=0.13, lw=0.0)
+    ax.axhline(1.0, color=style.GREY, lw=0.8, ls=":", label="smooth")
+    ax.plot(time, ratio, color=style.BLUE, lw=1.4, label="rough")
     if formula is not None:
-        ax.axhline(formula, color=GREEN, lw=1.0, ls="--", label=f"eq. 16: {formula:.3f}")
+        ax.axhline(formula, color=style.GREEN, lw=1.0, ls="--", label=f"eq. 16: {formula:.3f}")
     if mean is not None:
         label = f"mean {mean:.3f}"
-        ax.plot([end - period, end], [mean, mean], color=VERMILLION, lw=2.0, label=label)
+        ax.plot([end - period, end], [mean, mean], color=style.VERMILLION, lw=2.0, label=label)
     ax.set_xlim(float(time[0]), end)
     low, high = min(1.0, float(ratio.min())), max(float(ratio.max()), formula or 1.0)
     ax.set(ylim=(low - 0.05 * (high - low), high + 0.05 * (high - low)), xlabel="T = t u/a")
@@ -134,7 +107,7 @@ def extremes_history(
     time: Array,
     pressure: Array,
     films: Mapping[str, Array],
-    scales: Scales | None = None,
+    scales: style.Scales | None = None,
     *,
     ax: Axes | None = None,
 ) -> Axes:
@@ -151,18 +124,18 @@ def extremes_history(
     scales
         For SI units of pressure and film; None for Hertz units.
     """
-    ax = axes_or_new(ax, 5.4, 3.4)
-    factor, label = pressure_unit(scales)
-    ax.plot(time, pressure * factor, color=BLUE, lw=1.4, label="largest pressure")
+    ax = style.axes_or_new(ax, 5.4, 3.4)
+    factor, label = style.pressure_unit(scales)
+    ax.plot(time, pressure * factor, color=style.BLUE, lw=1.4, label="largest pressure")
     ax.set_xlabel("T = t u/a")
-    y_label(ax, label, BLUE)
+    style.y_label(ax, label, style.BLUE)
     ax.set_xlim(float(time[0]), float(time[-1]))
     twin = ax.twinx()
-    factor, label = film_unit(scales)
-    for (name, values), style in zip(films.items(), ("-", "--", ":"), strict=False):
-        twin.plot(time, values * factor, style, color=VERMILLION, lw=1.4, label=name)
+    factor, label = style.film_unit(scales)
+    for (name, values), line in zip(films.items(), ("-", "--", ":"), strict=False):
+        twin.plot(time, values * factor, line, color=style.VERMILLION, lw=1.4, label=name)
     twin.set_ylim(0.0, 1.1 * max(float(v.max()) for v in films.values()) * factor)
-    y_label(twin, label, VERMILLION)
+    style.y_label(twin, label, style.VERMILLION)
     ax.legend(
         handles=[*ax.get_lines(), *twin.get_lines()], loc="lower center", ncols=3,
         bbox_to_anchor=(0.5, 1.0), fontsize="small", frameon=False,
@@ -170,13 +143,13 @@ def extremes_history(
     return ax
 
 
-def _around(x: Array, y: Array, outline: Outline) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+def _around(x: Array, y: Array, outline: Outline) -> tuple[Mask, Mask]:
     """Which columns and rows the contact has."""
     along, across = outline.reach
     return np.abs(x) <= along, np.abs(y) <= across
 
 
-def _inside(x: Array, y: Array, outline: Outline) -> tuple[tuple[Any, ...], NDArray[np.bool_]]:
+def _inside(x: Array, y: Array, outline: Outline) -> tuple[tuple[Any, ...], Mask]:
     """Index of the box around the contact, and which of its nodes are in it."""
     inner_x, inner_y = _around(x, y, outline)
     return np.ix_(inner_x, inner_y), outline.inside(x[inner_x], y[inner_y])
@@ -192,7 +165,7 @@ def roughness(
     x: Array,
     y: Array,
     heights: Array,
-    scales: Scales | None = None,
+    scales: style.Scales | None = None,
     *,
     top: float = 0.0,
     name: str = "",
@@ -217,26 +190,26 @@ def roughness(
     outline
         Of the dry contact.
     """
-    ax = axes_or_new(ax, 4.0, 3.4)
+    ax = style.axes_or_new(ax, 4.0, 3.4)
     at, circle = _inside(x, y, outline)
     top = top or roughness_top(x, y, heights, outline=outline)
     if scales is None:
         unit, label = 1e3, "10⁻³ a²/R"
     else:
-        unit, label = height_unit(top * scales.film)
+        unit, label = style.height_unit(top * scales.film)
         unit *= scales.film
-    unit_x, label_x = axis_unit(scales, "x")
-    _, label_y = axis_unit(scales, "y")
+    unit_x, label_x = style.axis_unit(scales, "x")
+    _, label_y = style.axis_unit(scales, "y")
     columns, rows = _around(x, y, outline)
     within_x, within_y = x[columns], y[rows]
-    extent = extent_of(within_x, within_y, unit_x)
+    extent = style.extent_of(within_x, within_y, unit_x)
     shown = np.where(circle, heights[at], np.nan) * unit
-    contact_heights(
+    style.contact_heights(
         shown, extent, unit_x, top * unit, label, name=name, bar=bar, ax=ax, outline=outline
     )
     ax.set(xlabel=label_x, ylabel=label_y)
     if scales is None:
-        hertz_ticks(ax, outline)
+        style.hertz_ticks(ax, outline)
     return ax
 
 
@@ -244,10 +217,10 @@ def profiles(
     x: Array,
     rough: Array,
     smooth: Array,
-    scales: Scales | None = None,
+    scales: style.Scales | None = None,
     *,
     unit: tuple[float, str] = (1.0, ""),
-    colour: str = BLUE,
+    colour: str = style.BLUE,
     ax: Axes | None = None,
 ) -> Axes:
     """Rough over smooth values on the line y = 0.
@@ -265,8 +238,8 @@ def profiles(
     colour
         Of the rough line.
     """
-    ax = axes_or_new(ax, 3.8, 3.2)
-    unit_x, label_x = axis_unit(scales, "x")
+    ax = style.axes_or_new(ax, 3.8, 3.2)
+    unit_x, label_x = style.axis_unit(scales, "x")
     ax.plot(x * unit_x, rough * unit[0], color=colour, lw=1.3, label="rough")
     ax.plot(x * unit_x, smooth * unit[0], "--", color="black", lw=0.9, label="smooth")
     ax.set(xlabel=label_x, ylabel=unit[1], xlim=(-1.5 * unit_x, 1.5 * unit_x))

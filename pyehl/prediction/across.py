@@ -9,17 +9,10 @@ there is no film: the edge takes it off (:class:`pyehl.prediction.edge.Edge`). N
 fitted.
 """
 
-from __future__ import annotations
-
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.theory.transport import free_stiffness
-
-__all__ = ["LINES", "harmonics", "pressed"]
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from pyehl.types import Array, Complex
 
 LINES = np.array([-0.95, -0.8, -0.6, -0.3, 0.0, 0.3, 0.6, 0.8, 0.95])
 """Lines along the motion on which the free wave is made [semi-axis], symmetric about the centre

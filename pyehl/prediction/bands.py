@@ -1,20 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Which wavelengths the friction comes from."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["BAND_COLUMNS", "Band", "joining", "octaves", "records"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array, Mask
 
 # A wave at the end of an octave begins the next one, whatever its last digits
 ROUNDING = 1e-9
@@ -47,9 +41,7 @@ class Band:
     rise: float
 
 
-def octaves(
-    q: Array, power: Array, *, only: int = 0
-) -> Iterator[tuple[float, NDArray[np.bool_], bool]]:
+def octaves(q: Array, power: Array, *, only: int = 0) -> Iterator[tuple[float, Mask, bool]]:
     """Octaves of wavelengths that hold roughness, longest first; `only` the last so many, 0: all.
 
     `q` is |q| of the components, of any shape and unit, `power` what each adds to the mean square

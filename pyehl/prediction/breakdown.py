@@ -6,29 +6,17 @@ and its share of the contact, and the film is never clipped. What the film bears
 carry are given as functions, so that nothing here depends on the model.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.prediction.carrying import Carries, carrying_outliers, carrying_wavelength
 from pyehl.surfaces.cutting import cropped
 from pyehl.surfaces.prepare import Preparation
 from pyehl.surfaces.spikes import prominence
 from pyehl.surfaces.tile import Topography
-
-__all__ = [
-    "Advice",
-    "BelowZero",
-    "Borne",
-    "advise",
-    "below_zero",
-]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 DeformedOf = Callable[[Topography], Array]
 """Deformed roughness of a tile on its pixels [m], (nx, ny)."""
@@ -174,8 +162,7 @@ def advise(
 
     below = film(tile)
     made = tile.preparation
-    i, j = below.pixel
-    x, y = made.place(i, j) if made else (i * tile.pixel[0], j * tile.pixel[1])
+    x, y = place_of(tile, *below.pixel)
     spikes: tuple[float, int] | None = None
     if made is not None and without_spikes is not None and not made.options.outliers > 0.0:
         spikes = _spikes(made, without_spikes, carries)
@@ -188,6 +175,12 @@ def advise(
         ),
         *(spikes or (None, None)),
     )  # fmt: skip
+
+
+def place_of(tile: Topography, i: int, j: int) -> tuple[float, float]:
+    """Place of a pixel on the surface [m]; of a prepared map on the map."""
+    made = tile.preparation
+    return made.place(i, j) if made else (i * tile.pixel[0], j * tile.pixel[1])
 
 
 def _spikes(

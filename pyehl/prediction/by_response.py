@@ -9,13 +9,10 @@ the real ratio of the paper takes the place of the response: it moves with the r
 ``smooth="hertz"`` too, the contact is that of the paper, a semi-ellipse and a uniform film.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.prediction.bands import Band, joining
 from pyehl.prediction.carrying import confirmed, within_range
@@ -42,10 +39,8 @@ from pyehl.surfaces import Topography, filtered
 from pyehl.theory.amplitude import component_amplitude_ratio
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
+from pyehl.types import Array, Indices
 
-__all__ = ["LARGEST_RATIO", "STIFFER", "Parts", "RoughPassage"]
-
-Array = NDArray[np.float64]
 Parts = tuple[Topography, Spectrum, Transfer, Edge]
 
 # Points per shorter semi-axis at which the shear stress is taken: the tile is finer, and its other
@@ -216,7 +211,7 @@ class RoughPassage:
         contact: RoughContact | HertzContact,
         grid: Topography,
         parts: tuple[Spectrum, Transfer, Edge],
-        passage: tuple[NDArray[np.int_], Array, float],
+        passage: tuple[Indices, Array, float],
         brief: bool,
     ) -> RoughFriction:
         ratios = passage[1]

@@ -1,20 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What would carry where a film ends: a cut-off or a threshold of spikes, found by bisection."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.prediction.errors import KNOWN_RATIO
 from pyehl.surfaces.tile import Topography
-
-__all__ = ["Carries", "carrying_outliers", "carrying_wavelength", "confirmed", "within_range"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 Carries = Callable[[Topography], bool]
 """Whether a tile is good enough: its film is full."""

@@ -4,22 +4,15 @@
 Pressures by p_h, films by a^2/R.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import shear_stress
-
-__all__ = ["INNER", "NEAR", "HertzContact", "Response", "ShearedContact"]
-
-Array = NDArray[np.float64]
-Single = NDArray[np.float32]
+from pyehl.types import Array, Indices, Mask, Single
 
 INNER = 0.8
 """Pressures are told within this distance from the centre: at the rim the roughness moves the edge
@@ -70,8 +63,8 @@ class ShearedContact:
         rise: Array | Single,
         pressure: Array,
         film: Array,
-        inner: NDArray[np.bool_],
-        near: NDArray[np.bool_],
+        inner: Mask,
+        near: Mask,
     ) -> None:
         """Note what a position has: rise of pressure, pressure and film at points within."""
         squares = np.square(rise, dtype=np.float64)
@@ -179,7 +172,7 @@ class HertzContact(ShearedContact):
             return float(self.stress(pressure, film).sum()) / self.smooth
 
 
-def _lattice(radius: float, pixels: int) -> tuple[NDArray[np.int_], int]:
+def _lattice(radius: float, pixels: int) -> tuple[Indices, int]:
     """Pixels of a diameter at which the stress is taken, and their stride.
 
     All of them unless the tile is much shorter than the contact and finely sampled. Then a stride

@@ -14,15 +14,6 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from pyehl.prediction.friction import RoughFriction
 
-__all__ = [
-    "FILM",
-    "deformed_surface",
-    "deformed_surfaces",
-    "error_name",
-    "film_levels",
-    "film_share",
-]
-
 Array = NDArray[np.float64]
 
 # Errors against the full simulation, measured in docs/evidence/thinning: relative, and of a film

@@ -10,18 +10,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.prediction.across import harmonics
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.theory.disc import LARGEST, RADIUS, disc_correction, disc_rim, monomials
 from pyehl.theory.ellipse import Ellipse
 from pyehl.theory.ellipse_edge import ellipse_edge
-
-__all__ = ["ANGLES", "Edge"]
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from pyehl.types import Array, Complex
 
 ANGLES = 96
 """Places along the edge at which it is known how far it is moved."""

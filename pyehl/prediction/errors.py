@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How far a prediction can be trusted."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 
@@ -10,14 +8,6 @@ from pyehl.prediction.bands import Band
 from pyehl.prediction.options import Options
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import fitted_range
-
-__all__ = [
-    "KNOWN_RATIO",
-    "cutoff_error",
-    "model_error",
-    "outside_range",
-    "why_no_error",
-]
 
 # Error of mu_r/mu_s against the full simulation: a part that small waves and tracks make at any
 # ratio, and a part that grows with the rise. Measured in docs/evidence/prediction.

@@ -1,21 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What closed formulas say about the film of a case."""
 
-from __future__ import annotations
-
 import math
-from collections.abc import Mapping
 from typing import Any
 
 from pyehl import surfaces
 from pyehl.theory import film, stribeck
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
+from pyehl.types import Settings
 
-__all__ = ["sheet"]
 
-
-def sheet(settings: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+def sheet(settings: Settings) -> dict[str, Any]:
     """All that ``pyehl film`` says of a resolved case, as plain numbers in SI units.
 
     Inputs, Moes and Hertz numbers, one record per formula, and for a rough surface the Lambda

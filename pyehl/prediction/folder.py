@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The result folder of a prediction."""
 
-from __future__ import annotations
-
 import gc
 import os
 from collections.abc import Iterable, Iterator
@@ -15,8 +13,6 @@ from pyehl.arrays import write_csv
 from pyehl.destination import Destination, write_json
 from pyehl.prediction.result import Prediction
 from pyehl.prediction.sides import SECOND
-
-__all__ = ["destination", "write"]
 
 TABLES = ("passage", "spectrum", "bands")
 ARRAYS = ("x", "y", "surface", "deformed", "delta_p")

@@ -1,29 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a passage of a tile is in the end: mu_r/mu_s with all that was met."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.prediction.contact import Response, ShearedContact
 from pyehl.surfaces import interpolated
-
-__all__ = [
-    "BEYOND",
-    "LARGEST_RATIO",
-    "TRACKS",
-    "RoughFriction",
-    "SecondPassage",
-    "broken",
-    "outcome",
-    "passed",
-]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 BEYOND = "beyond linear response"
 """Status where the ratio is larger than the model can tell."""

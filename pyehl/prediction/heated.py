@@ -1,28 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The heat of sliding in the smooth contact under a prediction."""
 
-from __future__ import annotations
-
-from collections.abc import Mapping
-from typing import Any
-
 import numpy as np
 
 from pyehl import namelist
 from pyehl.errors import check
-from pyehl.library import functions, returned
+from pyehl.extension import functions
+from pyehl.library import returned
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.theory.heat import Heat
 from pyehl.theory.lubricant import Lubricant
-
-__all__ = ["heat_of"]
+from pyehl.types import Settings
 
 NOT_SOLVED = "the temperature is not converged"
 
 
-def heat_of(
-    settings: Mapping[str, Mapping[str, Any]], contact: SmoothContact, lubricant: Lubricant
-) -> Heat:
+def heat_of(settings: Settings, contact: SmoothContact, lubricant: Lubricant) -> Heat:
     """Give what the heat of sliding makes of friction in the smooth contact of a resolved case.
 
     The same as in a run (``fortran/reynolds/heated_friction.f90``), on the pressure and the film of

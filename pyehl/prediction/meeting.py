@@ -7,8 +7,6 @@ lattice of points over these takes the mean: positions k/n of the one and m k/n 
 k = 0 ... n - 1, with n = m^2 - 1. As m^2 is 1 modulo n, it is the same for either order of the two.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -16,14 +14,11 @@ from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.prediction.options import MAX_POSITIONS
 from pyehl.prediction.passage import POSITION_TOLERANCE
+from pyehl.types import Array
 
-__all__ = ["SAME", "Meeting", "common_passages"]
-
-Array = NDArray[np.float64]
 Friction = Callable[[tuple[float, float]], float]
 """mu_r/mu_s where two tiles have moved by so much [a]."""
 

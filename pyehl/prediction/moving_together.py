@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Two rough tiles that move together as one."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import replace
@@ -12,8 +10,6 @@ import numpy as np
 
 from pyehl.prediction.meeting import SAME
 from pyehl.surfaces import MAX_PIXELS, Topography, resampled, shifted
-
-__all__ = ["as_one"]
 
 MOST = 12
 """Tiles beside each other, along one way, that are added to those of the other surface."""

@@ -9,18 +9,13 @@ conjugate gradients on the nodes with p > 0, which are found on the way (Polonsk
 231, 206); s is a lift of all nodes that is there only where p would carry more than there is.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
-__all__ = ["Compliance", "Lifted", "lifted"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array, Mask
 
 ENOUGH, DEEPEST = 2e-3, 1e-2
 """Error of the film at touching nodes (rms), and depth below the layer elsewhere, over the scale
@@ -75,7 +70,7 @@ def lifted(
 
 def _solved(
     gap: Array,
-    allowed: NDArray[np.bool_],
+    allowed: Mask,
     compliance: Compliance,
     scale: float,
     pressure: Array,

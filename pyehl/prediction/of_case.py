@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The prediction of a resolved case."""
 
-from __future__ import annotations
-
 import math
 import os
 import time
@@ -10,9 +8,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
-
-import numpy as np
-from numpy.typing import NDArray
 
 from pyehl import surfaces
 from pyehl.errors import InputError
@@ -23,12 +18,7 @@ from pyehl.prediction.friction import TRACKS, RoughFriction, SecondPassage, brok
 from pyehl.prediction.heated import heat_of
 from pyehl.prediction.options import Options, unpredictable
 from pyehl.prediction.pair import RoughPair
-from pyehl.prediction.pair_breakdown import (
-    PairAdvice,
-    PairBelowZero,
-    advise_pair,
-    pair_below_zero,
-)
+from pyehl.prediction.pair_breakdown import PairAdvice, PairBelowZero, advise_pair, pair_below_zero
 from pyehl.prediction.partial import Partial, partial_film, without
 from pyehl.prediction.result import Prediction
 from pyehl.prediction.second_order import FILM_ENDS
@@ -38,10 +28,7 @@ from pyehl.prediction.touching import touching
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["predict"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 MAX_TRACKS = 10_000
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What is predicted for a run: what it begins with, and what its grid does not resolve."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Any
@@ -12,8 +10,6 @@ from pyehl.errors import EhlError
 from pyehl.handle import SolverHandle
 from pyehl.prediction.resolution import Resolution, resolution
 from pyehl.surfaces import Topography
-
-__all__ = ["Predictions"]
 
 
 class Predictions:

@@ -3,20 +3,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from typing import Any
 
 from pyehl.surfaces import FEATURES, rough_groups
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["MAX_POSITIONS", "Options", "turned", "unpredictable"]
+from pyehl.types import Settings
 
 MAX_POSITIONS = 4096
 """Most positions of a passage, as the schema of cases has it."""
 
 
-def unpredictable(settings: Mapping[str, Mapping[str, Any]]) -> str:
+def unpredictable(settings: Settings) -> str:
     """Tell why nothing is predicted of a resolved case; '' where something is."""
     if turned(settings):
         return turned(settings)
@@ -34,7 +31,7 @@ def unpredictable(settings: Mapping[str, Mapping[str, Any]]) -> str:
     return ""
 
 
-def turned(settings: Mapping[str, Mapping[str, Any]]) -> str:
+def turned(settings: Settings) -> str:
     """Tell why an elliptical contact has no response; '' where an axis lies along the motion."""
     contact = settings["contact"]
     angle = float(contact.get("angle", 0.0))
@@ -78,7 +75,7 @@ class Options:
         return self.reduction == "response" and self.smooth == "solved"
 
     @classmethod
-    def from_settings(cls, settings: Mapping[str, Mapping[str, Any]]) -> Options:
+    def from_settings(cls, settings: Settings) -> Options:
         """From the group ``psd`` of a resolved case."""
         group = settings["psd"]
         return cls(**{field.name: group[field.name] for field in fields(cls)})

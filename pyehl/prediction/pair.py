@@ -15,7 +15,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.prediction.bands import Band, joining
 from pyehl.prediction.by_response import RoughPassage
@@ -40,10 +39,8 @@ from pyehl.prediction.smooth import circle_of, zone_of
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.surfaces import Topography, filtered, track_offsets
+from pyehl.types import Array
 
-__all__ = ["RoughPair"]
-
-Array = NDArray[np.float64]
 PairParts = list[tuple[Spectrum, Transfer, Edge]]
 
 

@@ -5,23 +5,18 @@ Each point of the one meets points of the other on its line. Where the two have 
 period, it meets all of them in the course of time.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from pyehl.prediction.breakdown import STATIONS, Borne
+from pyehl.prediction.breakdown import STATIONS, Borne, place_of
 from pyehl.prediction.carrying import carrying_wavelength
 from pyehl.prediction.pair import RoughPair
-from pyehl.surfaces import GROUPS, Topography
+from pyehl.surfaces import GROUPS
+from pyehl.types import Array
 
-__all__ = ["PairAdvice", "PairBelowZero", "advise_pair", "pair_below_zero"]
-
-Array = NDArray[np.float64]
 Pixels = tuple[tuple[int, int], tuple[int, int]]
 
 
@@ -133,9 +128,7 @@ class PairAdvice:
         ]
         for name, length in zip((*GROUPS, "both"), self.wavelengths, strict=True):
             if length is not None:
-                key = (
-                    "both shortest_wavelength" if name == "both" else f"{name}.shortest_wavelength"
-                )
+                key = f"{name}{' ' if name == 'both' else '.'}shortest_wavelength"
                 lines.append(
                     f"full film  with {key} = {length:.4g}: without waves shorter than "
                     f"{length * 1e6:.3g} um"
@@ -162,9 +155,7 @@ def advise_pair(pair: RoughPair, below: PairBelowZero, film: Borne) -> PairAdvic
     first, second, both = (
         _carrying(pair, numbers, carries(numbers)) for numbers in ((0,), (1,), (0, 1))
     )
-    places = [
-        _place(one.topography, *pixel) for one, pixel in zip(pair.of, below.pixels, strict=True)
-    ]
+    places = [place_of(one.topography, *at) for one, at in zip(pair.of, below.pixels, strict=True)]
     return PairAdvice(below, (places[0], places[1]), (first, second, both))
 
 
@@ -176,9 +167,3 @@ def _carrying(
     shortest = min(min(tile.pixel) for tile in tiles)
     longest = max(max(tile.size) for tile in tiles)
     return carrying_wavelength(2.0 * shortest, longest, good)
-
-
-def _place(tile: Topography, i: int, j: int) -> tuple[float, float]:
-    """Place of a pixel on the surface [m]; of a prepared map on the map."""
-    made = tile.preparation
-    return made.place(i, j) if made else (i * tile.pixel[0], j * tile.pixel[1])

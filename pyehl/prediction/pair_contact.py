@@ -21,11 +21,7 @@ from pyehl.prediction.waves import REFINEMENT, Waves
 from pyehl.prediction.wavy_contact import REACH, WavyContact, add_waves, slipped
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["PairContact", "TileOnPoints"]
-
-Array = NDArray[np.float64]
-Single = NDArray[np.float32]
+from pyehl.types import Array, Single
 
 POINTS = 60.5
 """Points per semi-axis; half a one more, so that the next semi-axis has other ones."""

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Which cut-off of two surfaces brings their ratio into the range of the model."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 
@@ -11,8 +9,6 @@ from pyehl.prediction.errors import KNOWN_RATIO
 from pyehl.prediction.friction import RoughFriction
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import GROUPS
-
-__all__ = ["known_by_cut_off"]
 
 Below = Callable[[tuple[float, float]], float]
 Predicted = Callable[[Sequence[int], float], RoughFriction]

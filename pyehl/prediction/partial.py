@@ -19,14 +19,11 @@ one after the other, and all films are thicker by the mean s of that:
 Compared with the full simulation in docs/evidence/partial.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 from pyehl.prediction.by_response import Parts, RoughPassage
 from pyehl.prediction.obstacle import Compliance, lifted
@@ -37,10 +34,7 @@ from pyehl.prediction.transfer import Transfer
 from pyehl.prediction.wavy_contact import missing, slipped
 from pyehl.surfaces import Topography
 from pyehl.theory.transport import stiffness
-
-__all__ = ["Partial", "partial_film", "without"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array, Indices, Mask
 
 HOLD = 0.01
 """Bodies touch where the film exceeds the layer by less than this share, as in the solver."""
@@ -181,7 +175,7 @@ class _Contact:
         self.whole_load = o.load / (o.hertz_pressure * self.rough.area)
         self._bend(self._around(grid))
 
-    def _way(self) -> NDArray[np.int_]:
+    def _way(self) -> Indices:
         """Points by which peaks have slipped past a column since the inlet (m, n)."""
         rough = self.rough
         ratio = self.passage.velocity_ratio
@@ -267,10 +261,10 @@ class _Contact:
             level.least = min(level.least, float(film.min(where=rough.inside, initial=math.inf)))
         return True
 
-    def _touching(self, pressure: Array, film: Array, floor: Array) -> NDArray[np.bool_]:
+    def _touching(self, pressure: Array, film: Array, floor: Array) -> Mask:
         return self.rough.inside & (film <= (1.0 + HOLD) * floor) & (pressure > 0.0)
 
-    def _stress(self, pressure: Array, film: Array, touching: NDArray[np.bool_]) -> float:
+    def _stress(self, pressure: Array, film: Array, touching: Mask) -> float:
         """Sum of the shear stress; NaN where that of the layer is not known.
 
         The layer rubs by its share of the load, whatever the points of friction carry.

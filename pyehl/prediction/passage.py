@@ -1,32 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The positions of a passage: their grid, their number, and what they leave undecided."""
 
-from __future__ import annotations
-
 import math
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 from pyehl.prediction.options import MAX_POSITIONS
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import MAX_PIXELS, Topography, interpolated, resampled, track_offsets
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = [
-    "POSITION_TOLERANCE",
-    "friction_along",
-    "longer_waves",
-    "meet_more",
-    "short_mean",
-    "tracks_of",
-    "working_grid",
-]
-
-Array = NDArray[np.float64]
-Indices = NDArray[np.int_]
+from pyehl.types import Array, Indices
 
 # Fewest positions of an automatic passage
 FIRST_POSITIONS = 8
@@ -114,7 +99,7 @@ def short_mean(contact: HasFriction, pixels: int, track: int = 0) -> float:
 
 def friction_along(
     contact: HasFriction, pixels: int, positions: int, largest: float = math.inf
-) -> tuple[NDArray[np.int_], Array, float]:
+) -> tuple[Indices, Array, float]:
     """Positions [pixels], ratios there and what they leave undecided at most (relative).
 
     No positions are added to a passage with a mean above `largest`.

@@ -1,12 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the grid of a transient run does not resolve, by the prediction."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from pyehl import surfaces
 from pyehl.case import Case
@@ -20,8 +17,7 @@ from pyehl.surfaces import Topography
 from pyehl.theory.film import central_film as formula_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["Resolution", "resolution"]
+from pyehl.types import Settings
 
 NODES = 8
 """Nodes that a wave needs to be resolved."""
@@ -130,7 +126,7 @@ def resolution(case: Case, tiles: Mapping[str, Topography] | None = None) -> Res
 
 
 def _tile(
-    settings: Mapping[str, Mapping[str, Any]],
+    settings: Settings,
     group: str,
     tile: Topography | None,
     operating: OperatingPoint,

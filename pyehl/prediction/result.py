@@ -4,24 +4,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl import display, library, namelist, surfaces
 from pyehl.destination import finite
 from pyehl.prediction.bands import BAND_COLUMNS, Band, records
 from pyehl.prediction.breakdown import Advice, BelowZero
 from pyehl.prediction.deformed import deformed_surface
-from pyehl.prediction.errors import (
-    cutoff_error,
-    model_error,
-    outside_range,
-    why_no_error,
-)
+from pyehl.prediction.errors import cutoff_error, model_error, outside_range, why_no_error
 from pyehl.prediction.friction import TRACKS, RoughFriction
 from pyehl.prediction.options import Options
 from pyehl.prediction.pair_breakdown import PairAdvice, PairBelowZero
@@ -33,14 +27,12 @@ from pyehl.theory.friction import absolute_friction
 from pyehl.theory.heat import Heat
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
+from pyehl.types import Array, Settings
 
 if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
 
-__all__ = ["Prediction"]
-
-Array = NDArray[np.float64]
 
 NEWTONIAN_NOTE = (
     "Newtonian: a ratio at this slip, no absolute coefficient; shear thinning brings it close to "
@@ -110,7 +102,7 @@ class Prediction:
     (256, 256)
     """
 
-    settings: Mapping[str, Mapping[str, Any]]
+    settings: Settings
     operating: OperatingPoint
     lubricant: Lubricant
     options: Options

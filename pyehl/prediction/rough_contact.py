@@ -4,23 +4,16 @@
 Units: lengths along the surface by a, films by a^2/R, pressures by p_h.
 """
 
-from __future__ import annotations
-
 import numpy as np
-from numpy.typing import NDArray
 
-from pyehl import library
+from pyehl import extension
 from pyehl.prediction.edge import Edge
 from pyehl.prediction.smooth import SmoothContact
 from pyehl.prediction.waves import REFINEMENT, Waves
 from pyehl.prediction.wavy_contact import REACH, WavyContact, pairs, slipped
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["RoughContact"]
-
-Array = NDArray[np.float64]
-Single = NDArray[np.float32]
+from pyehl.types import Array, Single
 
 
 class RoughContact(WavyContact):
@@ -72,7 +65,7 @@ class RoughContact(WavyContact):
         columns = columns.astype(np.int32)
         self.moved[:] = 0.0
         total = np.zeros((*self.film.shape, 2), dtype=np.float32)
-        library.surface_functions.driven_waves(
+        extension.surface_functions.driven_waves(
             pairs(waves.driven), self.rows, columns, self.weights.T, shift, pairs(total)
         )
         self.add_free(waves, (self.free_rows, self.between), columns, shift * REFINEMENT, total)

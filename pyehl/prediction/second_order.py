@@ -31,20 +31,13 @@ each, too: they meet in all positions, so that no product of two has a mean.
 Lengths along the surface are scaled by a, heights by a^2/R, pressures by p_h.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.prediction.wave_table import WaveTable, coarsened
 from pyehl.theory.transport import Zone, stiffness
-
-__all__ = ["FILM_ENDS", "INLET_FILM", "SecondOrder", "film_left", "loss_at"]
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from pyehl.types import Array, Complex
 
 INLET_PRESSURE = 0.5
 """Pressure of second order that the inlet makes, over the square of that of first order [1/p_h]."""

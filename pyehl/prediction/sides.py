@@ -1,23 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a result holds of each rough surface of a prediction."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.prediction.contact import Response
 from pyehl.prediction.friction import SecondPassage
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.surfaces import Topography
+from pyehl.types import Array
 
-__all__ = ["SECOND", "SecondSurface", "arrays", "statistics"]
-
-Array = NDArray[np.float64]
 SECOND = "second_"
 """Before the names of what belongs to the second surface."""
 

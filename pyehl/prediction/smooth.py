@@ -5,11 +5,9 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,20 +23,7 @@ from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import ShearLaw
 from pyehl.theory.thinning import FlowFactors, flow_factors
 from pyehl.theory.transport import Zone
-
-__all__ = [
-    "SmoothContact",
-    "circle_of",
-    "forget",
-    "hertz_contact",
-    "read_contact",
-    "smooth_case",
-    "solve_contact",
-    "zone_of",
-    "zone_on",
-]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array, Settings
 
 POINTS = 257
 """Nodes per side of the solution. Its film is scaled to the extrapolated central film, so that the
@@ -107,27 +92,20 @@ def _linear(places: Array, axis: Array) -> tuple[NDArray[np.intp], Array]:
 OF_SLIP = ("slide_to_roll", "rough_surface")
 OF_SOLIDS = (
     "hardness",
-    "thermal_conductivity",
-    "thermal_diffusivity",
-    "thermal_conductivity_2",
-    "thermal_diffusivity_2",
+    *("thermal_conductivity", "thermal_diffusivity"),
+    *("thermal_conductivity_2", "thermal_diffusivity_2"),
 )
 # (a temperature is refused without something that it changes)
 OF_OIL = ("thermal_conductivity",)
 OF_SHEAR = (
-    "shear_law",
-    "flow",
-    "eyring_stress",
-    "limiting_stress",
-    "limiting_coefficient",
-    "carreau_stress",
-    "carreau_exponent",
+    *("shear_law", "flow", "eyring_stress", "limiting_stress", "limiting_coefficient"),
+    *("carreau_stress", "carreau_exponent"),
 )
 # The prediction is that of a full film
 OF_CONTACT = ("boundary_film", "boundary_friction")
 
 
-def smooth_case(settings: Mapping[str, Mapping[str, Any]]) -> str:
+def smooth_case(settings: Settings) -> str:
     """Text of the case whose solution is the smooth contact under a resolved case.
 
     Cases that differ in their surface or the heat of friction alone have the same; where the flow
@@ -145,7 +123,7 @@ def smooth_case(settings: Mapping[str, Mapping[str, Any]]) -> str:
     return namelist.text_of({"contact": contact, "lubricant": lubricant, "grid": domain})
 
 
-def solve_contact(settings: Mapping[str, Mapping[str, Any]]) -> SmoothContact:
+def solve_contact(settings: Settings) -> SmoothContact:
     """Solve the smooth contact of a resolved case on POINTS x POINTS nodes, or on a finer grid.
 
     The last few are kept, see `smooth_case`. EhlError if it does not converge on any grid up to
@@ -209,24 +187,15 @@ def _on_grid(text: str, points: int) -> tuple[SmoothContact | None, str]:
         values.flags.writeable = False
     source = f"solved on {points} x {points} nodes, {how}"
     errors = [math.nan if summary[k] is None else summary[k] for k in ("H_c_error", "H_min_error")]
-    film = film * scale
     contact = SmoothContact(
-        x,
-        y,
-        pressure,
-        film,
-        central,
-        errors[0],
-        source,
-        least,
-        limit is not None,
+        *(x, y, pressure, film * scale, central, errors[0], source, least, limit is not None),
         minimum_film_error=errors[1],
     )
     return contact, "converged"
 
 
 def read_contact(
-    folder: str | Path, operating: OperatingPoint, settings: Mapping[str, Mapping[str, Any]]
+    folder: str | Path, operating: OperatingPoint, settings: Settings
 ) -> SmoothContact:
     """Pressure and film from a result folder, of a smooth contact or under a transient run.
 
@@ -264,7 +233,7 @@ def read_contact(
     return SmoothContact(x, y, pressure, film, central, math.nan, source, least)
 
 
-def _flow(settings: Mapping[str, Mapping[str, Any]]) -> str:
+def _flow(settings: Settings) -> str:
     """Law of the flow in words, with all that it depends on."""
     law = ShearLaw.from_settings(settings)
     if not law.in_flow:

@@ -12,11 +12,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Spectrum"]
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
-Indices = NDArray[np.int_]
+from pyehl.types import Array, Complex, Indices
 
 
 @dataclass(frozen=True, slots=True)

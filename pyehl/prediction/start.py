@@ -11,11 +11,9 @@ import logging
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 from pyehl import surfaces
 from pyehl.errors import EhlError, InputError
@@ -28,23 +26,15 @@ from pyehl.prediction.pair import RoughPair
 from pyehl.prediction.smooth import SmoothContact, solve_contact
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
-from pyehl.prediction.wavy_contact import (
-    REACH,
-    line_weights,
-    slipped,
-    station_weights,
-)
+from pyehl.prediction.wavy_contact import REACH, line_weights, slipped, station_weights
 from pyehl.surfaces import Topography
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.transport import free_stiffness, stiffness
-
-__all__ = ["hand_over", "starting_pressure"]
+from pyehl.types import Array, Complex, Settings
 
 LOG = logging.getLogger(__name__)
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 # Points per half of the shortest wave along the motion, between which a cubic spline is used
 REFINEMENT = 2
@@ -55,7 +45,7 @@ EDGE_WIDTH = 0.1
 
 
 def starting_pressure(
-    settings: Mapping[str, Mapping[str, Any]],
+    settings: Settings,
     tiles: Mapping[str, Topography],
     x: Array,
     y: Array,
@@ -131,7 +121,7 @@ def _pressure(waves: Sequence[_Waves], error: float, x: Array, y: Array, fronts:
 
 def hand_over(
     solver: SolverHandle,
-    settings: Mapping[str, Mapping[str, Any]],
+    settings: Settings,
     tiles: Mapping[str, Topography],
     *,
     whole: bool,
@@ -154,9 +144,7 @@ def hand_over(
         solver.take_start(found)
 
 
-def _passages(
-    settings: Mapping[str, Mapping[str, Any]], tiles: Mapping[str, Topography]
-) -> list[RoughPassage]:
+def _passages(settings: Settings, tiles: Mapping[str, Topography]) -> list[RoughPassage]:
     """Each rough surface alone, in the order of their groups."""
     if turned(settings):
         raise InputError(turned(settings))

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a prediction says of contact at a boundary film."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Any
@@ -10,8 +8,6 @@ from typing import Any
 from pyehl.prediction.friction import RoughFriction
 from pyehl.prediction.partial import Partial
 from pyehl.surfaces import interpolated
-
-__all__ = ["NO_FRICTION", "contact_numbers", "touching"]
 
 NO_FRICTION = (
     "the bodies touch, and the friction there is not known: lubricant.boundary_friction and "

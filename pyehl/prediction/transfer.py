@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.prediction.across import LINES, pressed
 from pyehl.prediction.second_order import SecondOrder
@@ -18,12 +17,7 @@ from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.wave_table import WaveTable, coarsened
 from pyehl.theory.response import edge_gain, inlet_transfer
 from pyehl.theory.transport import Zone, free_stiffness, transport, wave_pressure
-
-__all__ = ["LINES", "MIDDLE", "STATIONS", "Transfer"]
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
-Indices = NDArray[np.int_]
+from pyehl.types import Array, Complex, Indices
 
 STATIONS = np.array([-0.5, 0.0, 0.5])
 """Where the waves are made, along the motion [a]; between them they are interpolated."""

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A table over wavenumber and direction, and the way between it and the components of a tile."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 
@@ -10,11 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pyehl.prediction.spectrum import Spectrum
-
-__all__ = ["WaveTable", "coarsened"]
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from pyehl.types import Array, Complex
 
 # Wavenumbers and directions: the interpolated T is right to 1e-3. Both are odd, and so are those of
 # the coarse tables, which every second one makes

@@ -19,13 +19,9 @@ from numpy.typing import NDArray
 from pyehl.prediction.spectrum import Spectrum
 from pyehl.prediction.transfer import Transfer
 from pyehl.theory.transport import free_stiffness, stiffness
+from pyehl.types import Array, Complex, Single
 
-__all__ = ["REFINEMENT", "Waves"]
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 Narrow = NDArray[np.complexfloating[Any, Any]]
-Single = NDArray[np.float32]
 
 REFINEMENT = 4
 """Points per pixel along the motion at which the free wave is tabulated."""

@@ -8,15 +8,13 @@ from :mod:`pyehl.prediction.waves`, the pressure of second order is that of
 of the contact, which it moves (:mod:`pyehl.prediction.edge`).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pyehl import library
+from pyehl import extension
 from pyehl.prediction.contact import INNER, NEAR, ShearedContact
 from pyehl.prediction.edge import ANGLES, Edge
 from pyehl.prediction.second_order import FILM_ENDS, film_left
@@ -25,20 +23,7 @@ from pyehl.prediction.transfer import AXIS, LINES, STATIONS
 from pyehl.prediction.waves import Waves
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = [
-    "REACH",
-    "WavyContact",
-    "add_waves",
-    "line_weights",
-    "missing",
-    "pairs",
-    "slipped",
-    "station_weights",
-]
-
-Array = NDArray[np.float64]
-Single = NDArray[np.float32]
+from pyehl.types import Array, Single
 
 REACH = 1.0
 """Friction is taken within this distance from the centre [semi-axes]."""
@@ -254,11 +239,11 @@ def add_waves(
     rows, between = places
     if parts is None:
         parts = np.ones(columns.size, dtype=np.float32)
-    library.surface_functions.free_waves(
+    extension.surface_functions.free_waves(
         pairs(tiles), rows.T, columns, between.T, weights.T, parts, shift, pairs(total)
     )
 
 
-def pairs(values: NDArray[np.float32]) -> NDArray[np.complex64]:
+def pairs(values: Single) -> NDArray[np.complex64]:
     """Film and pressure of the last dimension as one number, the dimensions reversed."""
     return values.view(np.complex64)[..., 0].T

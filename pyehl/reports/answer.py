@@ -1,17 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The answer of a result in rows with errors, and a judgement of it."""
 
-from __future__ import annotations
-
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from pyehl import library
 from pyehl.display import with_error
-
-__all__ = ["WELL_KNOWN", "Judgement", "answer", "judge"]
-
-Summary = Mapping[str, Any]
+from pyehl.types import Values
 
 # A result whose error is a larger share of it is to be taken with care
 WELL_KNOWN = 0.05
@@ -40,7 +34,7 @@ class Judgement(NamedTuple):
     kind: str
 
 
-def answer(summary: Summary) -> dict[str, str]:
+def answer(summary: Values) -> dict[str, str]:
     """Give names and values of what was found; nothing where there is no answer."""
     told = library.conclude(summary)
     if told.worth == "no answer":
@@ -62,7 +56,7 @@ def _signs(text: str) -> str:
     return text
 
 
-def _solved(s: Summary) -> dict[str, str]:
+def _solved(s: Values) -> dict[str, str]:
     limits = [
         f"{name} = {with_error(s[f'{name}_extrapolated'])}"
         for name in ("H_c", "H_min")
@@ -73,7 +67,7 @@ def _solved(s: Summary) -> dict[str, str]:
     return found | {"grid": grid}
 
 
-def _predicted(s: Summary) -> dict[str, str]:
+def _predicted(s: Values) -> dict[str, str]:
     tracks = with_error(s["mu_ratio_tracks"], s["mu_ratio_tracks_spread"])
     heights = f"{s['rms_height_m'] * NM:.4g} nm, in the contact {s['rms_deformed_m'] * NM:.4g} nm"
     return {
@@ -83,7 +77,7 @@ def _predicted(s: Summary) -> dict[str, str]:
     }
 
 
-def judge(summary: Summary) -> Judgement:
+def judge(summary: Values) -> Judgement:
     """Judge a result as its last lines do."""
     told = library.conclude(summary)
     word, _, why = _signs(told.judgement).partition(": ")

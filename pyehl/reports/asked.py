@@ -1,18 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What was asked: the conditions of a case in SI units and in the numbers of Moes and Hertz."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 
 from pyehl.surfaces import rough_groups
 from pyehl.theory.oils import oil
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["conditions", "numbers", "surface_words"]
-
-Settings = Mapping[str, Mapping[str, Any]]
+from pyehl.types import Settings
 
 
 def conditions(settings: Settings) -> dict[str, str]:

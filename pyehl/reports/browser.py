@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A page as PDF, printed by an installed browser."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess
@@ -12,31 +10,21 @@ from pathlib import Path
 from pyehl.destination import mark, new_file
 from pyehl.errors import EhlError, InputError
 
-__all__ = ["BROWSERS", "browser", "write_pdf"]
-
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 OPTIONS = (
-    "--headless",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--no-pdf-header-footer",
-)
+    "--headless --disable-gpu --disable-quic --no-first-run --disable-background-networking "
+    "--disable-component-update --disable-sync --no-pdf-header-footer"
+).split()
 PATIENCE = 120.0
 
 
 def browser() -> str:
     """Give the path of a browser that prints; InputError if none is installed."""
-    for name in BROWSERS:
-        found = shutil.which(name)
-        if found:
-            return found
-    raise InputError(
-        f"--pdf: no browser is installed that prints pages\nexpected: one of {', '.join(BROWSERS)}"
-    )
+    found = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if found is None:
+        expected = f"expected: one of {', '.join(BROWSERS)}"
+        raise InputError(f"--pdf: no browser is installed that prints pages\n{expected}")
+    return found
 
 
 def write_pdf(page: Path, path: Path) -> Path:

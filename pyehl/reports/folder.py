@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The report of a result folder."""
 
-from __future__ import annotations
-
 import json
 import os
 import platform
@@ -26,8 +24,6 @@ from pyehl.reports.study import study_parts
 from pyehl.results import load, settings_of
 from pyehl.schema import QUANTITIES
 from pyehl.studies.journal import NAME, read_header
-
-__all__ = ["report"]
 
 # A page is to stay below this many bytes: its pictures are drawn with fewer dots where need be
 LARGEST = 2_000_000
@@ -106,17 +102,13 @@ def report(
     if pdf:
         browser.browser()
     title, judgement, parts = _content(source)
-    parts = [page.verdict(*_spoken(judgement)), *parts, *_versions()]
+    parts = [page.verdict(*judgement), *parts, *_versions()]
     files = _files(source)
     parts = [_nameless(text, files) for text in parts]
     page.write_page(path, title, parts, "report")
     if pdf:
         browser.write_pdf(path, printed)
     return path
-
-
-def _spoken(judgement: Judgement) -> tuple[str, str, str]:
-    return judgement.word, judgement.why, judgement.kind
 
 
 def _content(folder: Path) -> tuple[str, Judgement, list[str]]:
@@ -143,7 +135,6 @@ def _content(folder: Path) -> tuple[str, Judgement, list[str]]:
 
 
 def _single(folder: Path, summary: Mapping[str, Any]) -> tuple[str, Judgement, list[str]]:
-    """Parts of the page of a solution or a prediction."""
     data = load(folder)
     settings, case = settings_of(data), str(data.attrs["case"])
     told = judge(summary)
@@ -165,16 +156,15 @@ def _single(folder: Path, summary: Mapping[str, Any]) -> tuple[str, Judgement, l
     behind += [page.heading("Limits that apply"), page.bullets(limits(settings, summary))]
     behind += _case_parts(case)
     behind.append(page.folded("All numbers", _all_numbers(summary)))
-    title = "Prediction of a rough contact" if summary["kind"] == "prediction" else _title(summary)
+    rough = "mu_ratio_min" in summary or "H_c_rough" in summary
+    title = "Rough contact" if rough else "Contact"
+    if summary["kind"] == "prediction":
+        title = "Prediction of a rough contact"
     for dpi in DOTS:
         pictures = _pictures(data, summary, dpi)
         if sum(map(len, [*parts, *pictures, *behind])) < LARGEST:
             break
     return title, told, [*parts, *pictures, *behind]
-
-
-def _title(summary: Mapping[str, Any]) -> str:
-    return "Rough contact" if "mu_ratio_min" in summary or "H_c_rough" in summary else "Contact"
 
 
 def _files(folder: Path) -> set[str]:
@@ -202,7 +192,6 @@ def _nameless(text: str, files: set[str]) -> str:
 
 
 def _text(path: Path) -> str:
-    """Read a text of a result folder."""
     with file_errors(path, "cannot be read"):
         return path.read_text(encoding="utf-8")
 
@@ -221,11 +210,8 @@ def _pictures(data: Any, summary: Mapping[str, Any], dpi: int) -> list[str]:  # 
 
 def _case_parts(case: str) -> list[str]:
     short = namelist.given(case) or "! every value is the default\n"
-    return [
-        page.heading("The case"),
-        page.preformatted(short),
-        page.folded("Every value of it", page.preformatted(case)),
-    ]
+    whole = page.folded("Every value of it", page.preformatted(case))
+    return [page.heading("The case"), page.preformatted(short), whole]
 
 
 def _value(value: object) -> str:
@@ -244,7 +230,6 @@ def _all_numbers(summary: Mapping[str, Any]) -> str:
 
 
 def _response(folder: Path, summary: Mapping[str, Any]) -> tuple[str, Judgement, list[str]]:
-    """Parts of the page of a measured response."""
     case = _text(folder / "case.nml")
     settings = namelist.values(case)
     words = "Amplitude and lag of small waves over their length, beside the shipped response"

@@ -1,18 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Which of the limits of the model apply to a result, and what it warns of itself."""
 
-from __future__ import annotations
-
-from collections.abc import Mapping
-from typing import Any
-
 from pyehl.surfaces import FEATURES, rough_groups
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["limits", "unheated", "warnings"]
-
-Settings = Mapping[str, Mapping[str, Any]]
-Summary = Mapping[str, Any]
+from pyehl.types import Settings, Values
 
 # Rise of the temperature [K] above which an oil is thinner than computed: by a third at 0.04 1/K,
 # the usual fall of its viscosity
@@ -30,7 +21,7 @@ NOTES = {
 }
 
 
-def limits(settings: Settings, summary: Summary) -> list[str]:
+def limits(settings: Settings, summary: Values) -> list[str]:
     """Say which limits of the model apply to a result, a sentence or two each."""
     point = OperatingPoint.from_settings(settings)
     law, flow = settings["lubricant"]["shear_law"], settings["lubricant"].get("flow", "newtonian")
@@ -83,14 +74,14 @@ def limits(settings: Settings, summary: Summary) -> list[str]:
     return found
 
 
-def unheated(summary: Summary) -> float | None:
+def unheated(summary: Values) -> float | None:
     """Give a high flash temperature [K] that the friction does not have; None if there is none."""
     heat = summary.get("flash_temperature_K")
     known = summary.get("temperature_rise_max_K") is not None
     return None if heat is None or heat <= HOT or known else float(heat)
 
 
-def warnings(summary: Summary) -> list[str]:
+def warnings(summary: Values) -> list[str]:
     """Give what a summary says of what is not known or to be taken with care."""
     found = [
         f"{words}: {summary[name]}."

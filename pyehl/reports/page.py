@@ -5,28 +5,12 @@ Functions take plain text and escape it; what they return is HTML. A page may no
 tells the browser so, too.
 """
 
-from __future__ import annotations
-
 import base64
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from pathlib import Path
 
 from pyehl.destination import mark, new_file
-
-__all__ = [
-    "bullets",
-    "facts",
-    "folded",
-    "heading",
-    "page",
-    "paragraph",
-    "picture",
-    "preformatted",
-    "table",
-    "verdict",
-    "write_page",
-]
 
 STYLE = """
 body{font-family:system-ui,sans-serif;max-width:62em;margin:2em auto;padding:0 1em;

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The parts of the page of a sweep or a Stribeck curve, from its journal, table and picture."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -21,8 +19,6 @@ from pyehl.reports.asked import conditions, numbers
 from pyehl.reports.limits import limits
 from pyehl.studies.journal import read_header
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["STUDY_DPI", "study_parts"]
 
 STUDY_DPI = 110
 TABLES = {"stribeck": "stribeck.csv"}

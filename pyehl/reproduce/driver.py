@@ -4,8 +4,6 @@
 A piece is run before the numbers of the paper are read for it: nothing that computes sees them.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -34,8 +32,6 @@ from pyehl.reproduce.report import write_report
 from pyehl.reproduce.runs import RunFailed, Runs
 from pyehl.studies.gather import Watcher
 from pyehl.studies.plan import Plan
-
-__all__ = ["PIECES", "reproduce"]
 
 DPI = 130
 # In the order of the report; the order of the work is the same

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figure 1: the flow of the prediction, with the fields of one surface at each step."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,8 +17,6 @@ from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Runs
 from pyehl.reproduce.surface_runs import CASE, MODELS, SEED
 from pyehl.theory.amplitude import component_amplitude_ratio
-
-__all__ = ["NAME", "TITLE", "Flow", "run", "show"]
 
 Array = paper_surfaces.Array
 
@@ -116,7 +112,7 @@ def show(data: Flow, references: References, level: Level) -> Result:
         f"surface back, as the check shows; as printed it would come back {factor:g}/(NxNy) = "
         f"{factor / np.prod(tile.shape):.2g} times as high. Eq. 10 prints |rr_q|: without its "
         f"phase this surface is one symmetric peak, {data.without_phase:.0f} times as high as its "
-        f"rms height; it is {np.abs(tile.heights).max() / tile.rms_height:.1f} times that with it.",
+        f"rms height; it is {np.abs(tile.heights).max() / tile.rms_height:.1f} times that with it."
     ]
     return Result(
         checks,

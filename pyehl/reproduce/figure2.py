@@ -1,13 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figure 2: mu_r/mu_s of a moving wave over time."""
 
-from __future__ import annotations
-
 import csv
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.plots import paper
 from pyehl.reproduce.level import Level
@@ -16,10 +13,7 @@ from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Made, Runs
 from pyehl.reproduce.waves import SCHEMES
 from pyehl.studies.reference_table import read_reference
-
-__all__ = ["NAME", "TITLE", "Wave", "run", "show"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 NAME = "figure 2"
 TITLE = "Relative friction of a moving wave over time"

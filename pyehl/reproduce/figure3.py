@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figure 3: mu_r/mu_s of moving waves over H_c/A_i, a curve for each operating condition."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from pyehl.plots import paper
@@ -11,8 +9,6 @@ from pyehl.reproduce.piece import Result
 from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Runs
 from pyehl.reproduce.waves import SCHEMES, WaveSet, smooth_films, waves
-
-__all__ = ["NAME", "TITLE", "run", "series", "show", "without_result"]
 
 NAME = "figure 3"
 TITLE = "Relative friction of moving waves over H_c/A_i"

@@ -1,13 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figure 4: mu_r/mu_s of moving waves over theta_2 with eq. 16, our own fit, a better parameter."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.plots import paper
 from pyehl.reproduce.figure3 import series, without_result
@@ -19,10 +16,7 @@ from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Runs
 from pyehl.reproduce.waves import SCHEMES, VELOCITY_RATIO, WaveSet, waves
 from pyehl.theory.stribeck import theta_2
-
-__all__ = ["NAME", "TITLE", "Collapsed", "run", "show"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array, Mask
 
 NAME = "figure 4"
 TITLE = "Relative friction of moving waves over theta_2, eq. 16, and over a better parameter"
@@ -176,7 +170,7 @@ def _below(c: Collapsed) -> Finding:
     known = c.found.known
     above, below = (known & (c.theta_2 > ONE_CURVE)), (known & (c.theta_2 <= ONE_CURVE))
 
-    def rms(chosen: NDArray[np.bool_], ours: Fit) -> float:
+    def rms(chosen: Mask, ours: Fit) -> float:
         return 100.0 * scatter(c.found.friction[chosen], ours.at(c.theta_2[chosen]))
 
     text = (

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figure 5: a fractal surface, its spectrum, and the radial mean of it."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
@@ -15,8 +13,6 @@ from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Runs
 from pyehl.reproduce.surface_runs import SEED, tile
 from pyehl.surfaces import Topography, psd_2d, psd_isotropic
-
-__all__ = ["NAME", "TITLE", "Spectrum", "run", "show"]
 
 NAME = "figure 5"
 TITLE = "An artificial fractal surface and its spectrum"

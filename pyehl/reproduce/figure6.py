@@ -1,12 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figure 6: the roughness deformed in the contact, by simulation and by two predictions."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl import results
 from pyehl.plots import paper_surfaces
@@ -21,11 +18,7 @@ from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import inlet_base, inlet_fit
 from pyehl.theory.transport import INLET, Zone, transport
-
-__all__ = ["NAME", "TITLE", "Deformed", "run", "show"]
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from pyehl.types import Array, Complex, Mask
 
 NAME = "figure 6"
 TITLE = "Deformed roughness by simulation and by prediction"
@@ -53,7 +46,7 @@ class Deformed:
     made: Made
 
     @property
-    def inside(self) -> NDArray[np.bool_]:
+    def inside(self) -> Mask:
         """Nodes of the zone of high pressure."""
         return np.asarray(np.hypot(self.x[:, None], self.y[None, :]) <= RADIUS)
 

@@ -1,12 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figure 7: mu_r/mu_s of random surfaces by simulation and by two predictions."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.plots import paper_surfaces
 from pyehl.prediction.by_response import STIFFER
@@ -14,18 +11,9 @@ from pyehl.reproduce.level import Level
 from pyehl.reproduce.piece import Check, Finding, Result
 from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Made, Runs, friction_of
-from pyehl.reproduce.surface_runs import (
-    MODELS,
-    SEED,
-    carried,
-    predictions,
-    simulations,
-)
+from pyehl.reproduce.surface_runs import MODELS, SEED, carried, predictions, simulations
 from pyehl.reproduce.table1 import CASE
-
-__all__ = ["NAME", "TITLE", "Surfaces", "run", "show"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 NAME = "figure 7"
 TITLE = "Relative friction of random surfaces by simulation and by prediction"

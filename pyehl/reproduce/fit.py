@@ -6,17 +6,12 @@ leave the fit to the two or three largest. Points of one curve (one M, L and wav
 independent of one another, so that the confidence interval is that of a bootstrap over the curves.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import nnls
 
-__all__ = ["CONFIDENCE", "Fit", "evaluate", "fit", "scatter"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array, Indices
 
 CONFIDENCE = 0.95
 SAMPLES = 2000
@@ -58,7 +53,7 @@ def scatter(friction: Array, curve: Array) -> float:
     return float(np.sqrt(np.mean(np.log(friction / curve) ** 2)))
 
 
-def fit(theta: Array, friction: Array, curve: NDArray[np.int_]) -> Fit:
+def fit(theta: Array, friction: Array, curve: Indices) -> Fit:
     """Fit the form of eq. 16 to parameter and mu_r/mu_s of waves (n,), finite.
 
     `curve` (n,) is the number of the curve that a wave belongs to; ValueError for fewer than

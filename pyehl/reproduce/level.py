@@ -1,11 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How much is computed: ``--quick`` or ``--full``."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-
-__all__ = ["FULL", "LEVELS", "QUICK", "Level"]
 
 
 @dataclass(frozen=True, slots=True)

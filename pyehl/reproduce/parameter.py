@@ -15,10 +15,7 @@ from a Gaussian of variance 1/b around the centre, where that mean is (1 + exp(-
 gives mu_r/mu_s = 1 + theta_r^-2/4 for small waves, with nothing fitted to friction.
 """
 
-from __future__ import annotations
-
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.case import Case
 from pyehl.prediction.smooth import solve_contact, zone_of
@@ -26,10 +23,7 @@ from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.response import edge_gain, inlet_transfer
 from pyehl.theory.transport import transport, wave_pressure
-
-__all__ = ["SMALL_WAVES", "response_parameter"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 SMALL_WAVES = 0.25
 """Coefficient of theta_r^-2 for small waves."""

@@ -1,20 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a piece of the paper is, and what becomes of it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Protocol, Self
 
 from pyehl.plots.style import Figure
 from pyehl.reproduce.level import Level
 from pyehl.reproduce.references import Reference, References
 from pyehl.reproduce.runs import Made, Runs
-
-__all__ = ["Check", "Finding", "Piece", "Result"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +27,7 @@ class Check:
     finding: str = ""
 
     @classmethod
-    def of(cls, name: str, found: float, reference: Reference, *, finding: str = "") -> Check:
+    def of(cls, name: str, found: float, reference: Reference, *, finding: str = "") -> Self:
         """Compare with a number of the paper."""
         r = reference
         unit = "" if r.unit == "-" else f" [{r.unit}]"

@@ -4,8 +4,6 @@
 Read by the driver alone, and handed to the pieces when their cases have run.
 """
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -13,8 +11,6 @@ from importlib import resources
 from typing import Any
 
 from pyehl.errors import InternalError
-
-__all__ = ["Reference", "References", "read_references"]
 
 FILE = "zhang2019.csv"
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One page of all pieces, ``report.html``, with the pictures in it."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 from html import escape
@@ -11,8 +9,6 @@ from pathlib import Path
 from pyehl.reports import page
 from pyehl.reproduce.level import Level
 from pyehl.reproduce.piece import Result
-
-__all__ = ["write_report"]
 
 PAPER = (
     "Zhang, Biboulet, Venner & Lubrecht 2019, Prediction of the Stribeck curve under full-film "
@@ -48,7 +44,6 @@ def _kind(result: Result) -> str:
 
 
 def _piece(folder: Path, r: Result) -> list[str]:
-    """Give the section of a piece."""
     out = [
         page.heading(f"{r.name.capitalize()}: {r.title}", r.folder.name),
         page.paragraph(r.line(), _kind(r)),

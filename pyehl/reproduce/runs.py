@@ -4,15 +4,12 @@
 Each study is a folder with its journal and its table; their rows are where the figures come from.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.case import Case
 from pyehl.errors import EhlError
@@ -22,10 +19,7 @@ from pyehl.studies.study import make
 from pyehl.studies.sweep import CASES, perform
 from pyehl.studies.tasks import why_none
 from pyehl.studies.vary import axis
-
-__all__ = ["Made", "RunFailed", "Runs", "friction_of"]
-
-Row = dict[str, Any]
+from pyehl.types import Array, Row
 
 
 class RunFailed(EhlError):  # noqa: N818 (what happened)
@@ -100,6 +94,6 @@ class Runs:
         return self.made[name]
 
 
-def friction_of(rows: Sequence[Row]) -> NDArray[np.float64]:
+def friction_of(rows: Sequence[Row]) -> Array:
     """mu_r/mu_s of rows (n,); NaN where a run has none."""
     return np.array([np.nan if r.get("mu_ratio") is None else r["mu_ratio"] for r in rows])

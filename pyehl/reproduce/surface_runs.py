@@ -1,10 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Table 1 surfaces under Figs 5 to 7 and Table 2: simulations, and predictions by three models."""
 
-from __future__ import annotations
-
 from pathlib import Path
-from typing import Any
 
 from pyehl import surfaces
 from pyehl.case import Case
@@ -13,10 +10,7 @@ from pyehl.reproduce.runs import Made, Runs
 from pyehl.reproduce.table1 import CASE
 from pyehl.surfaces import Topography
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["MODELS", "SEED", "carried", "deformed_run", "predictions", "simulations", "tile"]
-
-Row = dict[str, Any]
+from pyehl.types import Row
 
 SEED = 1
 """Seed of the surface of Figs 1, 5, 6 and of Table 2."""

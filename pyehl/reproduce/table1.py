@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Table 1: the operating conditions, and what follows from them."""
 
-from __future__ import annotations
-
 from pyehl import surfaces
 from pyehl.case import Case
 from pyehl.reproduce.level import Level
@@ -11,8 +9,6 @@ from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Runs
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["CASE", "NAME", "TITLE", "run", "show"]
 
 NAME = "table 1"
 TITLE = "Operating conditions and what follows from them"
@@ -28,6 +24,8 @@ CASE = """&contact
 /
 """
 """The case of Table 1, as all pieces with its surface take it."""
+GIVEN = "load mean_velocity radius reduced_modulus pressure_viscosity viscosity".split()
+FOLLOWING = "moes_m moes_l hertz_pressure hertz_radius speed_parameter".split()
 
 
 def run(runs: Runs, level: Level) -> dict[str, float]:
@@ -35,25 +33,15 @@ def run(runs: Runs, level: Level) -> dict[str, float]:
     settings = Case.from_text(CASE, origin="table 1").resolve()
     point = OperatingPoint.from_settings(settings)
     tile = surfaces.from_settings(settings, point, 1e-7)
-    a = point.hertz_radius
     return {
-        "load": point.load,
-        "mean_velocity": point.mean_velocity,
-        "radius": point.radius,
-        "reduced_modulus": point.reduced_modulus,
-        "pressure_viscosity": point.pressure_viscosity,
-        "viscosity": point.viscosity,
+        **{name: getattr(point, name) for name in GIVEN},
         "rms_height": tile.rms_height,
         "length": tile.length_x,
         "pixels": float(tile.shape[0]),
         "hurst": float(settings["surface"]["hurst"]),
-        "moes_m": point.moes_m,
-        "moes_l": point.moes_l,
-        "hertz_pressure": point.hertz_pressure,
-        "hertz_radius": a,
-        "speed_parameter": point.speed_parameter,
+        **{name: getattr(point, name) for name in FOLLOWING},
         "roelands_z": Lubricant.from_settings(settings).roelands_z or 0.0,
-        "length_over_radius": tile.length_x / a,
+        "length_over_radius": tile.length_x / point.hertz_radius,
     }
 
 
@@ -67,6 +55,6 @@ def show(data: dict[str, float], references: References, level: Level) -> Result
     notes = [
         "The rms height is measured on the surface that the generator makes. The tile is as wide "
         "as the contact and is repeated; its pixels are those of the grid of 513 x 513 nodes to "
-        "0.2 %.",
+        "0.2 %."
     ]
     return Result(checks, (("name", "ours", "paper", "unit", "deviation"), rows), notes=notes)

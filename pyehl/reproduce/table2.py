@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Table 2: mu_r/mu_s of one surface on three meshes, by simulation and by prediction."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
@@ -10,17 +8,8 @@ from pyehl.reproduce.level import Level
 from pyehl.reproduce.piece import Check, Finding, Result
 from pyehl.reproduce.references import References
 from pyehl.reproduce.runs import Made, Runs, friction_of
-from pyehl.reproduce.surface_runs import (
-    CASE,
-    MODELS,
-    SEED,
-    WIDTH,
-    deformed_run,
-    tile,
-)
+from pyehl.reproduce.surface_runs import CASE, MODELS, SEED, WIDTH, deformed_run, tile
 from pyehl.reproduce.waves import SCHEMES
-
-__all__ = ["NAME", "TITLE", "Meshes", "run", "show"]
 
 NAME = "table 2"
 TITLE = "Relative friction of one surface on three meshes"

@@ -1,19 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The moving waves under Figs 2 to 4: cases, and friction over what they are plotted against."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.reproduce.level import Level
 from pyehl.reproduce.runs import Made, Runs, friction_of
-
-__all__ = ["CURVES", "RATIOS", "SCHEMES", "VELOCITY_RATIO", "WaveSet", "smooth_films", "waves"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array, Mask
 
 SCHEMES = ("paper", "narrow")
 VELOCITY_RATIO = 1.01
@@ -76,7 +70,7 @@ class WaveSet:
     made: Made
 
     @property
-    def known(self) -> NDArray[np.bool_]:
+    def known(self) -> Mask:
         """Where there is a result."""
         return np.isfinite(self.friction)
 

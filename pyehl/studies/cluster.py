@@ -5,25 +5,19 @@ A task whose worker is lost goes to another one: dask does that, and gives a tas
 workers were lost with it (``distributed.scheduler.allowed-failures``).
 """
 
-from __future__ import annotations
-
 import uuid
 from collections.abc import Generator, Sequence
 from typing import Any
 
 from pyehl.errors import EhlError, InputError
 from pyehl.studies.tasks import FAILED, Task, execute
-
-__all__ = ["rows"]
-
-Row = dict[str, Any]
+from pyehl.types import Row
 
 # Seconds to wait for the scheduler
 PATIENCE = 20
 
 
 def _execute(message: dict[str, Any]) -> Row:
-    """Do a task on a worker."""
     return execute(Task(**message))
 
 

@@ -1,12 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Results against a table of references: deviations, pass or fail."""
 
-from __future__ import annotations
-
 import json
 import math
 import os
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from io import StringIO
@@ -20,10 +17,7 @@ from pyehl.errors import InputError, did_you_mean
 from pyehl.given import option, text_file
 from pyehl.studies.journal import read_header
 from pyehl.studies.reference_table import Expected, Key, ReferenceRow, ReferenceTable
-
-__all__ = ["Comparison", "Deviation", "Results", "compare", "read_results"]
-
-Row = Mapping[str, Any]
+from pyehl.types import Values
 
 TABLES = ("results.csv", "stribeck.csv")
 # Numbers of keys are the same when they are written with so many digits
@@ -82,14 +76,14 @@ class Results:
     """Results to compare: one folder, or the rows of a table."""
 
     name: str  # folder or file
-    rows: tuple[Row, ...]  # results by name; keys of the case that were varied are among them
+    rows: tuple[Values, ...]  # results by name; keys of the case that were varied are among them
     many: bool  # whether it is a table
     case: str  # text of the case that all rows are of; '' where it is not known
     # Texts ``group.key=value`` that hold for all rows, and keys that are varied
     options: tuple[str, ...] = ()
     vary: tuple[str, ...] = ()
 
-    def key(self, row: Row, name: str) -> object:
+    def key(self, row: Values, name: str) -> object:
         """Give the value of a key for a row; None where the case does not have it.
 
         InputError if nothing is known of the key.
@@ -132,7 +126,7 @@ def read_results(path: str | os.PathLike[str]) -> Results:
     )
 
 
-def _rows(path: Path) -> tuple[Row, ...]:
+def _rows(path: Path) -> tuple[Values, ...]:
     lines = [line for line in text_file(path).splitlines() if line.strip() and line[0] != "#"]
     if len(lines) < 2:
         raise InputError(f"{path}: there are no rows")
@@ -180,7 +174,7 @@ def compare(results: Results, table: ReferenceTable) -> Comparison:
     return Comparison(tuple(deviations), tuple(missing))
 
 
-def _deviations(reference: ReferenceRow, row: Row) -> list[Deviation]:
+def _deviations(reference: ReferenceRow, row: Values) -> list[Deviation]:
     told = (f"{k}={v:g}" if isinstance(v, float) else f"{k}={v}" for k, v in reference.keys.items())
     case, found = ", ".join(told), []
     for name, expected in reference.expected.items():

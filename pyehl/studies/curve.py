@@ -1,21 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A Stribeck curve from the rows of its tasks: its columns, and where full film ends."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl import library
 from pyehl.prediction.deformed import deformed_surfaces
 from pyehl.prediction.errors import KNOWN_RATIO
+from pyehl.results import unit_of
 from pyehl.studies.curve_contact import contact_columns, touches
 from pyehl.studies.curve_pattern import SMOOTH, Pattern, kept_pattern
-from pyehl.studies.curve_plan import CurvePlan, CurvePoint, Settings
+from pyehl.studies.curve_plan import CurvePlan, CurvePoint
 from pyehl.studies.tasks import FAILED, why_none
 from pyehl.theory import stribeck
 from pyehl.theory.film import central_film
@@ -23,74 +21,27 @@ from pyehl.theory.friction import absolute_friction
 from pyehl.theory.load_share import LoadShare
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = [
-    "BREAKDOWN",
-    "EMPIRICAL",
-    "FULL_FILM",
-    "MIXED",
-    "OUTSIDE",
-    "STATUSES",
-    "UNITS",
-    "UNSOLVED",
-    "WORDS",
-    "conclude",
-    "curve_rows",
-    "full_film_ends",
-    "no_coefficient",
-]
-
-Row = Mapping[str, Any]
+from pyehl.types import Array, Settings, Values
 
 STATUSES = ("full film", "mixed film", "film breakdown", "outside the range", "not solved")
 """What a point of a curve can be."""
 FULL_FILM, MIXED, BREAKDOWN, OUTSIDE, UNSOLVED = STATUSES
-UNITS = {
-    "h_c_m": "m",
-    "h_c_error_m": "m",
-    "h_min_m": "m",
-    "h_min_error_m": "m",
-    "lambda_ratio": "1",
-    "lambda_ratio_central": "1",
-    "lambda_ratio_deformed": "1",
-    "lambda_ratio_deformed_error": "1",
-    "rms_deformed_m": "m",
-    "rms_deformed_error_m": "m",
-    "p_rise_rms_Pa": "Pa",
-    "p_rise_rms_error_Pa": "Pa",
-    "p_rise_max_Pa": "Pa",
-    "p_rise_max_error_Pa": "Pa",
-    "h_min_rough_m": "m",
-    "h_min_rough_error_m": "m",
-    "film_below_limit_share": "1",
-    "film_below_limit_error": "1",
-    "theta_2": "1",
-    "theta_2_wavelength_m": "m",
-    "hersey": "1",
-    "mu_smooth": "1",
-    "mu": "1",
-    "mu_isothermal": "1",
-    "temperature_rise_max_K": "K",
-    "flash_temperature_K": "K",
-    "p_max_Pa": "Pa",
-    "p_max_rough_Pa": "Pa",
-    "mu_spread": "1",
-    "mu_ratio": "1",
-    "mu_ratio_spread": "1",
-    "mu_ratio_model_error": "1",
-    "mu_ratio_ehl": "1",
-    "mu_ratio_ehl_error": "1",
-    "moes_m": "1",
-    "moes_l": "1",
-    "surfaces": "1",
-}
+_NUMBERS = """
+h_c_m h_c_error_m h_min_m h_min_error_m lambda_ratio lambda_ratio_central lambda_ratio_deformed
+lambda_ratio_deformed_error rms_deformed_m rms_deformed_error_m p_rise_rms_Pa p_rise_rms_error_Pa
+p_rise_max_Pa p_rise_max_error_Pa h_min_rough_m h_min_rough_error_m film_below_limit_share
+film_below_limit_error theta_2 theta_2_wavelength_m hersey mu_smooth mu mu_isothermal
+temperature_rise_max_K flash_temperature_K p_max_Pa p_max_rough_Pa mu_spread mu_ratio
+mu_ratio_spread mu_ratio_model_error mu_ratio_ehl mu_ratio_ehl_error moes_m moes_l surfaces
+"""
+UNITS = {name: unit_of(name) for name in _NUMBERS.split()}
 """Columns that are numbers, and their units; behind them come `WORDS`."""
 WORDS = ("status", "message", "judgement")
 EMPIRICAL = {"asperity_load_share_empirical": "1", "mu_empirical": "1"}
 """More of them where an empirical law of a thin film is asked for."""
 
 
-def curve_rows(plan: CurvePlan, rows: Mapping[int, Row]) -> list[dict[str, Any]]:
+def curve_rows(plan: CurvePlan, rows: Mapping[int, Values]) -> list[dict[str, Any]]:
     """Give the columns of a curve at all points, in the order of the table.
 
     Names and units are those of `UNITS` and, where the plan has an empirical law, `EMPIRICAL`; None
@@ -100,7 +51,7 @@ def curve_rows(plan: CurvePlan, rows: Mapping[int, Row]) -> list[dict[str, Any]]
     return [_at(point, rows, kept, plan.load_share) for point in plan.points]
 
 
-def _empirical(values: Row, smooth: float | None, law: LoadShare) -> dict[str, Any]:
+def _empirical(values: Values, smooth: float | None, law: LoadShare) -> dict[str, Any]:
     """Give what the law says; the film has the friction of the smooth contact where it ends."""
     ratio = values["lambda_ratio_central"]
     film = smooth if values["mu"] is None else values["mu"]
@@ -111,7 +62,7 @@ def _empirical(values: Row, smooth: float | None, law: LoadShare) -> dict[str, A
 
 
 def _at(
-    point: CurvePoint, rows: Mapping[int, Row], kept: dict[str, Pattern], law: LoadShare | None
+    point: CurvePoint, rows: Mapping[int, Values], kept: dict[str, Pattern], law: LoadShare | None
 ) -> dict[str, Any]:
     operating = OperatingPoint.from_settings(point.settings)
     nothing = {"status": FAILED, "message": "not done"}
@@ -167,7 +118,7 @@ def _at(
     return values
 
 
-def conclude(point: CurvePoint, row: Row) -> library.Conclusion:
+def conclude(point: CurvePoint, row: Values) -> library.Conclusion:
     """Judge a point of a curve by its columns, and give its last lines."""
     status = "predicted" if row["status"] in (FULL_FILM, MIXED, OUTSIDE) else row["status"]
     message = str(row["message"]).removeprefix(f"{status}: ")
@@ -179,7 +130,7 @@ def conclude(point: CurvePoint, row: Row) -> library.Conclusion:
     return library.conclude({**known, **more})
 
 
-def _film(smooth: Row, operating: OperatingPoint) -> dict[str, Any]:
+def _film(smooth: Values, operating: OperatingPoint) -> dict[str, Any]:
     """Film of the smooth contact, extrapolated where it could be, with its error."""
     if smooth["status"] != "converged":
         return {}
@@ -193,7 +144,7 @@ def _film(smooth: Row, operating: OperatingPoint) -> dict[str, Any]:
     return values
 
 
-def _smooth_friction(smooth: Row) -> dict[str, Any]:
+def _smooth_friction(smooth: Values) -> dict[str, Any]:
     """Friction of smooth surfaces: their ratio is 1 by definition."""
     if smooth["status"] != "converged":
         return {"status": UNSOLVED, "message": ""}
@@ -209,7 +160,7 @@ def _smooth_friction(smooth: Row) -> dict[str, Any]:
     }
 
 
-def _friction(found: Sequence[Row], smooth: Row) -> dict[str, Any]:
+def _friction(found: Sequence[Values], smooth: Values) -> dict[str, Any]:
     """Mean and spread over the surfaces; no mean where one of them has no ratio.
 
     The coefficient of the smooth contact is that of its solution, which has the inlet too. Where
@@ -227,7 +178,7 @@ def _friction(found: Sequence[Row], smooth: Row) -> dict[str, Any]:
     if any((row["mu_ratio"] or 0.0) > KNOWN_RATIO for row in found):
         outside.append(f"mu_ratio above {KNOWN_RATIO:g}")
     coefficient, isothermal = smooth.get("mu_smooth"), smooth.get("mu_smooth_isothermal")
-    absolute: list[Row] = [
+    absolute: list[Values] = [
         {
             name: row[name]
             if touches([row]) or None in (row.get("mu"), number)
@@ -249,7 +200,7 @@ def _friction(found: Sequence[Row], smooth: Row) -> dict[str, Any]:
     }
 
 
-def _mean(found: Sequence[Row], name: str) -> dict[str, float | None]:
+def _mean(found: Sequence[Values], name: str) -> dict[str, float | None]:
     numbers = [row.get(name) for row in found]
     if any(number is None for number in numbers):
         return {name: None, f"{name}_spread": None}
@@ -258,7 +209,7 @@ def _mean(found: Sequence[Row], name: str) -> dict[str, float | None]:
     return {name: float(values.mean()), f"{name}_spread": spread}
 
 
-def _largest(found: Sequence[Row], name: str) -> float | None:
+def _largest(found: Sequence[Values], name: str) -> float | None:
     numbers = [row.get(name) for row in found]
     return max(numbers) if all(number is not None for number in numbers) else None  # type: ignore[type-var]
 
@@ -271,12 +222,12 @@ def no_coefficient(settings: Settings) -> str:
     return "" if math.isfinite(found["mu"]) else str(found["mu_note"])
 
 
-def _joined(values: Row, text: str) -> str:
+def _joined(values: Values, text: str) -> str:
     return f"{values['message']}; {text}" if values.get("message") else text
 
 
 def full_film_ends(
-    key: str, places: Sequence[float] | NDArray[np.float64], rows: Sequence[Row]
+    key: str, places: Sequence[float] | Array, rows: Sequence[Values]
 ) -> tuple[str, tuple[int, ...]]:
     """Say where full film ends along a curve over `key`, and give the points without it.
 

@@ -1,22 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Contact at a boundary film along a Stribeck curve, and the speed at which it ends."""
 
-from __future__ import annotations
-
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from statistics import fmean
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-__all__ = ["CONTACT", "LIFT_OFF", "LiftOff", "contact_columns", "lift_off", "touches"]
-
-Row = Mapping[str, Any]
-Array = NDArray[np.float64]
+from pyehl.types import Array, Values
 
 LIFT_OFF = 0.01
 """Share of the load at the boundary film to which it falls at the transition speed."""
@@ -34,12 +27,12 @@ CONTACT = {
 """Columns of a curve of a case with a boundary film, and their units."""
 
 
-def touches(found: Sequence[Row]) -> bool:
+def touches(found: Sequence[Values]) -> bool:
     """Whether bodies touch, by the summaries of the predictions of a point."""
     return any((row.get("contact_load_share") or 0.0) > 0.0 for row in found)
 
 
-def contact_columns(found: Sequence[Row], full: Row) -> dict[str, float | None]:
+def contact_columns(found: Sequence[Values], full: Values) -> dict[str, float | None]:
     """Give means and largest errors over surfaces, and what the full simulation has."""
     values: dict[str, float | None] = dict.fromkeys(CONTACT)
     for name, of_all in (
@@ -85,7 +78,7 @@ class LiftOff:
         )
 
 
-def lift_off(key: str, places: Array, rows: Sequence[Row]) -> LiftOff | None:
+def lift_off(key: str, places: Array, rows: Sequence[Values]) -> LiftOff | None:
     """Find the transition speed of a curve over `key`; None where it is not on the curve."""
     if key != SPEED or "contact_load_share" not in rows[0]:
         return None

@@ -7,8 +7,6 @@ height (A_i = 2 sigma) and the same mean wavenumber, which is 2 sqrt(2) pi/wavel
 surfaces for one with the power of both.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
@@ -16,10 +14,8 @@ import numpy as np
 import scipy
 
 from pyehl import surfaces
-from pyehl.studies.curve_plan import Settings
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["SMOOTH", "Pattern", "kept_pattern", "pattern"]
+from pyehl.types import Settings
 
 
 @dataclass(frozen=True, slots=True)

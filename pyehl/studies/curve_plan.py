@@ -6,10 +6,8 @@ and at some points the passage of the surface is solved in full. All of these ar
 study, so that a curve that was interrupted goes on.
 """
 
-from __future__ import annotations
-
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -23,10 +21,7 @@ from pyehl.studies.study import MAX_CASES, Point, Study, make
 from pyehl.studies.tasks import Task
 from pyehl.studies.vary import Axis
 from pyehl.theory.load_share import LoadShare
-
-__all__ = ["KEYS", "CurvePlan", "CurvePoint", "plan_curve"]
-
-Settings = Mapping[str, Mapping[str, Any]]
+from pyehl.types import Settings
 
 KEYS = {
     "speed": "contact.mean_velocity",

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Run the tasks of a Stribeck curve and write its table."""
 
-from __future__ import annotations
-
 import os
 import tempfile
 from collections.abc import Iterable, Mapping, Sequence
@@ -25,8 +23,6 @@ from pyehl.studies.gather import Outcome, Watcher, gather
 from pyehl.studies.journal import NAME
 from pyehl.studies.vary import Axis, axis
 from pyehl.theory.load_share import AIHARA, LoadShare
-
-__all__ = ["CSV", "NETCDF", "PICTURE", "axes_of", "perform", "stribeck"]
 
 CSV, NETCDF, PICTURE = "stribeck.csv", "stribeck.nc", "stribeck.png"
 FILES = (CSV, NETCDF, PICTURE)

@@ -1,30 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What ``pyehl stribeck`` prints: the table, the deviation of measured friction, the last lines."""
 
-from __future__ import annotations
-
 from collections import Counter
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.studies.curve import FULL_FILM, MIXED, OUTSIDE, conclude, full_film_ends
 from pyehl.studies.curve_contact import lift_off
 from pyehl.studies.curve_plan import CurvePlan
 from pyehl.studies.measured_friction import Measured
-
-__all__ = ["absolute_friction", "curves_of", "deviation", "last_lines", "report"]
-
-Row = Mapping[str, Any]
-Array = NDArray[np.float64]
+from pyehl.types import Array, Values
 
 
-def curves_of(plan: CurvePlan, rows: Sequence[Row]) -> list[tuple[str, Array, Sequence[Row]]]:
+def curves_of(plan: CurvePlan, rows: Sequence[Values]) -> list[tuple[str, Array, Sequence[Values]]]:
     """Split a table into curves: name, values of the first key, rows."""
     keys = plan.study.keys
-    found: dict[str, tuple[list[float], list[Row]]] = {}
+    found: dict[str, tuple[list[float], list[Values]]] = {}
     for point, row in zip(plan.points, rows, strict=True):
         name = ", ".join(f"{key} = {point.point.values[key]}" for key in keys[1:])
         places, those = found.setdefault(name, ([], []))
@@ -33,7 +25,7 @@ def curves_of(plan: CurvePlan, rows: Sequence[Row]) -> list[tuple[str, Array, Se
     return [(name, np.array(places), those) for name, (places, those) in found.items()]
 
 
-def absolute_friction(plan: CurvePlan, rows: Sequence[Row]) -> bool:
+def absolute_friction(plan: CurvePlan, rows: Sequence[Values]) -> bool:
     """Whether all answers are coefficients of friction, where there is sliding.
 
     A point whose smooth contact has no solution has a ratio, and is left out.
@@ -47,7 +39,7 @@ def absolute_friction(plan: CurvePlan, rows: Sequence[Row]) -> bool:
     return bool(answers) and all(row["mu"] is not None for row in answers)
 
 
-def report(plan: CurvePlan, rows: Sequence[Row]) -> str:
+def report(plan: CurvePlan, rows: Sequence[Values]) -> str:
     """Return the table that is printed."""
     keys = plan.study.keys
     columns = {
@@ -84,7 +76,7 @@ def report(plan: CurvePlan, rows: Sequence[Row]) -> str:
     return "\n".join(lines)
 
 
-def last_lines(plan: CurvePlan, rows: Sequence[Row]) -> str:
+def last_lines(plan: CurvePlan, rows: Sequence[Values]) -> str:
     """Tell all of the point with the thinnest film, and what the points are worth."""
     known = [k for k, row in enumerate(rows) if row["h_min_m"] is not None]
     if not known:
@@ -107,7 +99,7 @@ def last_lines(plan: CurvePlan, rows: Sequence[Row]) -> str:
     )
 
 
-def deviation(plan: CurvePlan, rows: Sequence[Row], measured: Measured) -> list[str]:
+def deviation(plan: CurvePlan, rows: Sequence[Values], measured: Measured) -> list[str]:
     """Say how far the curve is from measured friction."""
     key = plan.study.keys[0]
     places = np.array([float(p.point.values[key]) for p in plan.points])

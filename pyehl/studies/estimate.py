@@ -6,8 +6,6 @@ so: what matters is that long cases begin first, and that the order of magnitude
 study runs.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 
@@ -16,10 +14,7 @@ from pyehl.prediction.smooth import POINTS, smooth_case
 from pyehl.studies.tasks import Task
 from pyehl.surfaces import FEATURES, rough_groups
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["TaskList", "seconds_of", "smooth_seconds"]
-
-Settings = Mapping[str, Mapping[str, Any]]
+from pyehl.types import Settings
 
 PREDICTION, PREDICTION_PIXEL = 0.1, 1.4e-6
 """Seconds of a prediction, and per pixel of its tile, without the smooth contact under it."""
@@ -46,8 +41,8 @@ def seconds_of(settings: Settings, run: str, *, shared: bool = False, full: bool
     """
     if run == "film":
         return FILM
+    rough = [settings[group] for group in rough_groups(settings)]
     if run == "predict":
-        rough = [settings[group] for group in rough_groups(settings)]
         sides = [int(s["pixels"]) if s["kind"] == "fractal" else 256 for s in rough]
         alone = sum(PREDICTION + PREDICTION_PIXEL * side**2 for side in sides)
         alone *= (FULL if full else 1.0) * (PAIR if len(rough) > 1 else 1.0)
@@ -56,7 +51,6 @@ def seconds_of(settings: Settings, run: str, *, shared: bool = False, full: bool
     grid = settings["grid"]
     points = int(grid["points"])
     smooth = smooth_seconds(points)
-    rough = [settings[group] for group in rough_groups(settings)]
     moving = [surface for surface in rough if float(surface["velocity_ratio"]) > 0.0]
     if not moving:
         return smooth

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A shear law fitted to a measured traction curve, and its result folder."""
 
-from __future__ import annotations
-
 import os
 
 from pyehl.arrays import write_csv
@@ -13,8 +11,6 @@ from pyehl.given import Option, check_kind, path_of
 from pyehl.studies.measured_friction import read_measured
 from pyehl.studies.shear_fit import PARAMETERS, Fit, fit_law
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["fit_lubricant"]
 
 KEY = "contact.slide_to_roll"
 FILES = ("fit.csv", "parameters.csv", "lubricant.nml", "fit.png", "summary.json")

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Do what is missing of some tasks, and keep what is finished."""
 
-from __future__ import annotations
-
 import os
 import time
+from collections import Counter
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import dataclass
@@ -16,10 +15,7 @@ from pyehl.run import signals_to
 from pyehl.studies import cluster, pool
 from pyehl.studies.journal import Journal
 from pyehl.studies.tasks import FAILED, Task
-
-__all__ = ["Outcome", "Watcher", "gather"]
-
-Row = dict[str, Any]
+from pyehl.types import Row
 
 # Seconds between tables that are written while a study runs
 TABLE_INTERVAL = 30.0
@@ -47,11 +43,7 @@ class Outcome:
 
     def statuses(self) -> dict[str, int]:
         """How many rows have each status."""
-        counts: dict[str, int] = {}
-        for row in self.rows.values():
-            status = str(row.get("status"))
-            counts[status] = counts.get(status, 0) + 1
-        return counts
+        return dict(Counter(str(row.get("status")) for row in self.rows.values()))
 
 
 class _Stop:

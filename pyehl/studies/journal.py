@@ -7,8 +7,6 @@ disk when `Journal.append` returns. What a kill leaves of the last line is cut o
 line it is written again.
 """
 
-from __future__ import annotations
-
 import fcntl
 import json
 import os
@@ -21,13 +19,10 @@ from typing import Any, BinaryIO, Self
 
 from pyehl.destination import Destination
 from pyehl.errors import FileError, InputError
-
-__all__ = ["NAME", "Journal", "difference", "read_header"]
+from pyehl.types import Row
 
 NAME = "journal.jsonl"
 VERSION = 1
-
-Row = dict[str, Any]
 
 
 def _line(value: Mapping[str, Any]) -> bytes:

@@ -1,25 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Measured friction, to lay over a Stribeck curve."""
 
-from __future__ import annotations
-
 import csv
 import io
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 from pyehl.given import text_file
-
-__all__ = ["Measured", "read_measured"]
-
-Array = NDArray[np.float64]
-Row = Mapping[str, Any]
+from pyehl.types import Array, Values
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +25,7 @@ class Measured:
     friction: Array
     error: Array
 
-    def outside(self, key: str, places: Array, rows: Sequence[Row]) -> int:
+    def outside(self, key: str, places: Array, rows: Sequence[Values]) -> int:
         """Give the number of its places that the curve does not reach."""
         column = _column(self.abscissa, key, places, rows)
         known = column[np.isfinite(column)]
@@ -41,20 +33,15 @@ class Measured:
         inside = (self.places >= low) & (self.places <= high)
         return int(np.count_nonzero(~inside))
 
-    def deviation(self, name: str, key: str, places: Array, rows: Sequence[Row]) -> Array:
+    def deviation(self, name: str, key: str, places: Array, rows: Sequence[Values]) -> Array:
         """Give a column of the curve over the measured friction less 1 (n,); NaN outside of it.
 
         Interpolated along the curve, between places that have the column.
         """
         source, target = (_column(n, key, places, rows) for n in (self.abscissa, name))
-        known = np.isfinite(source) & np.isfinite(target)
-        if np.count_nonzero(known) < 2:
-            return np.full(self.places.shape, np.nan)
-        order = np.argsort(source[known])
-        x, y = source[known][order], target[known][order]
-        return np.interp(self.places, x, y, left=np.nan, right=np.nan) / self.friction - 1.0
+        return _along(self.places, source, target) / self.friction - 1.0
 
-    def over(self, name: str, key: str, places: Array, rows: Sequence[Row]) -> Array:
+    def over(self, name: str, key: str, places: Array, rows: Sequence[Values]) -> Array:
         """Give the places in another column of the curve, (n,); NaN outside of the curve.
 
         Interpolated along the curve, in logarithms. `key` and `places` are what the curve goes
@@ -62,19 +49,22 @@ class Measured:
         """
         if name == self.abscissa:
             return self.places
-        source = _column(self.abscissa, key, places, rows)
-        target = _column(name, key, places, rows)
-        known = np.isfinite(source) & np.isfinite(target)
-        known[known] = (source[known] > 0.0) & (target[known] > 0.0)
-        if np.count_nonzero(known) < 2:
-            return np.full(self.places.shape, np.nan)
-        order = np.argsort(source[known])
-        x, y = np.log(source[known][order]), np.log(target[known][order])
-        found = np.interp(np.log(self.places), x, y, left=np.nan, right=np.nan)
-        return np.asarray(np.exp(found))
+        columns = (_column(n, key, places, rows) for n in (self.abscissa, name))
+        source, target = (np.log(np.where(v > 0.0, v, np.nan)) for v in columns)
+        return np.asarray(np.exp(_along(np.log(self.places), source, target)))
 
 
-def _column(name: str, key: str, places: Array, rows: Sequence[Row]) -> Array:
+def _along(at: Array, source: Array, target: Array) -> Array:
+    """Interpolate one column of a curve over another; NaN outside of it."""
+    known = np.isfinite(source) & np.isfinite(target)
+    if np.count_nonzero(known) < 2:
+        return np.full(at.shape, np.nan)
+    order = np.argsort(source[known])
+    x, y = source[known][order], target[known][order]
+    return np.interp(at, x, y, left=np.nan, right=np.nan)
+
+
+def _column(name: str, key: str, places: Array, rows: Sequence[Values]) -> Array:
     if name == key:
         return places
     return np.array([np.nan if row[name] is None else row[name] for row in rows], dtype=float)

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The oils that the package knows, and their pictures."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 
@@ -10,8 +8,6 @@ from pyehl.destination import check_files
 from pyehl.errors import InputError
 from pyehl.given import path_of
 from pyehl.theory.oils import Oil, known_oils, oil
-
-__all__ = ["lubricants"]
 
 
 def lubricants(
@@ -67,11 +63,7 @@ def lubricants(
     paths = {name: place / f"{name}.png" for name in chosen}
     check_files(paths.values(), "lubricants")
     for name, those in chosen.items():
-        figure = draw_oil(
-            f"{name}: {those.title}",
-            at[name],
-            those.measured,
-            those.constant("limiting_coefficient"),
-        )
+        limit = those.constant("limiting_coefficient")
+        figure = draw_oil(f"{name}: {those.title}", at[name], those.measured, limit)
         save(figure, paths[name], command="lubricants")
     return chosen

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Names of the results in the table of a study: which there are, and what they cost."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from pyehl import schema
@@ -10,8 +8,6 @@ from pyehl.errors import InputError, did_you_mean
 from pyehl.theory.film import estimates
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["LAST", "NOT_IN_A_TABLE", "TRACKS", "checked", "film_columns", "known"]
 
 LAST = ("status", "seconds", "message")
 """Columns that every table has, behind all others."""

@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The plan of a study: its cases resolved and checked, how long, and what is shared."""
 
-from __future__ import annotations
-
 import json
 import os
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -22,10 +20,7 @@ from pyehl.studies.tasks import Task
 from pyehl.theory.film import central_film
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["Plan", "check_memory", "duration", "formula_film", "plan"]
-
-Settings = Mapping[str, Mapping[str, Any]]
+from pyehl.types import Settings
 
 THREADS = "solver.threads"
 MOST, PATIENCE = 5000, 5.0
@@ -133,13 +128,7 @@ def plan(study: Study, keep: str | os.PathLike[str] | None = None, *, brief: boo
         folder = "" if keep is None else str(Path(keep) / f"{point.number + 1:0{digits}d}")
         points.append(point)
         tasks.add(number, case, study.run, folder=folder, tracks=study.tracks)
-    return Plan(
-        study,
-        tuple(points),
-        tuple(tasks.tasks),
-        tuple(files),
-        time.monotonic() - began,
-    )
+    return Plan(study, tuple(points), tuple(tasks.tasks), tuple(files), time.monotonic() - began)
 
 
 def _check(study: Study, case: Case, settings: Settings, checked: set[str]) -> None:

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Worker processes on this machine: tasks to rows, in the order in which they are finished."""
 
-from __future__ import annotations
-
 import json
 import os
 import selectors
@@ -11,14 +9,10 @@ import subprocess
 import sys
 from collections import deque
 from collections.abc import Generator, Sequence
-from typing import Any
 
 from pyehl.errors import InternalError
 from pyehl.studies.tasks import FAILED, Task
-
-__all__ = ["Queue", "processors", "rows"]
-
-Row = dict[str, Any]
+from pyehl.types import Row
 
 # A worker has the next task waiting where tasks are shorter than this [s]
 SHORT = 0.5

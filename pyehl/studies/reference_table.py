@@ -8,8 +8,6 @@ tolerance, rtol times the value plus atol, and ``note`` is a remark. An empty ce
 compared.
 """
 
-from __future__ import annotations
-
 import csv
 import math
 import os
@@ -22,8 +20,6 @@ from pyehl import library
 from pyehl.errors import InputError, did_you_mean
 from pyehl.given import text_file
 from pyehl.studies.vary import LOGICAL
-
-__all__ = ["SHIPPED", "Expected", "ReferenceRow", "ReferenceTable", "read_reference"]
 
 SHIPPED = ("smooth", "waviness")
 """Tables that come with the package."""

@@ -7,12 +7,11 @@ ratio. The search begins where the law over film and pressure of the Newtonian c
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl import library, namelist
 from pyehl.errors import EhlError, InputError
@@ -22,14 +21,11 @@ from pyehl.studies.measured_friction import Measured
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import ShearLaw, shear_stress
+from pyehl.types import Array, Settings
 
 if TYPE_CHECKING:
     from scipy.optimize import OptimizeResult
 
-__all__ = ["PARAMETERS", "Fit", "Parameter", "fit_law"]
-
-Array = NDArray[np.float64]
-Settings = Mapping[str, Mapping[str, Any]]
 
 # Parameters of each law that is fitted, keys of &lubricant
 PARAMETERS = {
@@ -216,11 +212,7 @@ def _base(settings: Settings, points: int) -> dict[str, dict[str, Any]]:
 
 
 def _friction(
-    base: Mapping[str, Mapping[str, Any]],
-    law: str,
-    keys: tuple[str, ...],
-    values: Array,
-    slide_to_roll: float,
+    base: Settings, law: str, keys: tuple[str, ...], values: Array, slide_to_roll: float
 ) -> float:
     """Coefficient of friction of a solved smooth contact."""
     groups = {name: dict(group) for name, group in base.items()}

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A study: a case, what is varied in it, and what each case is for."""
 
-from __future__ import annotations
-
 import hashlib
 import itertools
+import math
 import os
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -19,8 +18,6 @@ from pyehl.errors import EhlError, InputError, did_you_mean
 from pyehl.given import Value, option
 from pyehl.studies.outputs import TRACKS, checked
 from pyehl.studies.vary import Axis
-
-__all__ = ["MAX_CASES", "RUNS", "Point", "Study", "make"]
 
 RUNS = ("solve", "predict", "film")
 """What may be done with each case."""
@@ -60,10 +57,7 @@ class Study:
     @property
     def size(self) -> int:
         """Number of cases."""
-        size = 1
-        for n in self.shape:
-            size *= n
-        return size
+        return math.prod(self.shape)
 
     @property
     def tracks(self) -> bool:

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Study files (TOML): a case, what is set and varied in it, and what each case is for."""
 
-from __future__ import annotations
-
 import os
 import tomllib
 from collections.abc import Mapping
@@ -11,8 +9,6 @@ from typing import Any
 from pyehl.errors import InputError, did_you_mean
 from pyehl.given import option, text_file
 from pyehl.studies.vary import axis
-
-__all__ = ["read_study"]
 
 # Keys, their types, and these in words
 KEYS: dict[str, tuple[Any, str]] = {

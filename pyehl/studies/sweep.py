@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Run a study: many cases, one table, and nothing lost."""
 
-from __future__ import annotations
-
 import os
 import tempfile
 from collections.abc import Mapping, Sequence
@@ -22,10 +20,7 @@ from pyehl.studies.journal import NAME
 from pyehl.studies.plan import Plan, plan
 from pyehl.studies.study import make
 from pyehl.studies.vary import axis
-
-__all__ = ["CASES", "CSV", "NETCDF", "perform", "sweep"]
-
-Row = dict[str, Any]
+from pyehl.types import Row
 
 CSV, NETCDF, CASES = "results.csv", "results.nc", "cases"
 

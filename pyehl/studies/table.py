@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The table of a study: CSV, and an xarray Dataset whose dimensions are what was varied."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -14,16 +12,13 @@ from pyehl import arrays, library
 from pyehl.results import unit_of
 from pyehl.studies.outputs import LAST
 from pyehl.studies.study import Point, Study
-
-__all__ = ["columns", "dataset", "over", "write_csv"]
-
-Row = Mapping[str, Any]
+from pyehl.types import Values
 
 # Words that are always in the table; other words only where they are asked for
 WORDS = ("flags", "outside_range", "judgement")
 
 
-def columns(study: Study, rows: Mapping[int, Row]) -> list[str]:
+def columns(study: Study, rows: Mapping[int, Values]) -> list[str]:
     """Names of the results in the table, behind what was varied."""
     if study.outputs:
         found: Iterable[str] = study.outputs
@@ -42,7 +37,7 @@ def write_csv(
     path: Path,
     study: Study,
     points: Iterable[Point],
-    rows: Mapping[int, Row],
+    rows: Mapping[int, Values],
     names: Sequence[str] = (),
 ) -> None:
     """Write the table of all finished cases, whole or not at all; `names`: of these columns.
@@ -61,7 +56,7 @@ def write_csv(
     )
 
 
-def dataset(study: Study, points: Sequence[Point], rows: Mapping[int, Row]) -> xr.Dataset:
+def dataset(study: Study, points: Sequence[Point], rows: Mapping[int, Values]) -> xr.Dataset:
     """Give the results over what was varied."""
     found = {
         name: [rows.get(point.number, {}).get(name) for point in points]

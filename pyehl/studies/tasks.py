@@ -4,8 +4,6 @@
 Nothing that a case does ends a worker: whatever goes wrong is the status and the message of a row.
 """
 
-from __future__ import annotations
-
 import json
 import math
 import time
@@ -21,16 +19,13 @@ from pyehl.prediction import film_sheet, folder, of_case
 from pyehl.run import run
 from pyehl.solver import Solver
 from pyehl.studies.outputs import NOT_IN_A_TABLE, TRACKS, film_columns
-
-__all__ = ["FAILED", "Task", "execute", "why_none"]
+from pyehl.types import Row
 
 FAILED = "failed"
 """Status of a case that ended with an exception."""
 INSIDE, OUTSIDE = "inside all ranges", "outside the range of a formula"
 RESULTS = frozenset({"converged", "predicted", INSIDE, OUTSIDE})
 """Statuses of cases that have a result."""
-
-Row = dict[str, Any]
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a study varies: a key of a case file and the values it takes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import islice
@@ -12,8 +10,6 @@ import numpy as np
 
 from pyehl.errors import InputError
 from pyehl.given import Value, plain
-
-__all__ = ["Axis", "Value", "axis", "parse_axis"]
 
 FORMS = (
     "start:stop:count, start:stop:countlog (geometric spacing), start:stop (whole numbers), "

@@ -5,8 +5,6 @@
 nobody is left who would take the row.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import queue
@@ -15,8 +13,6 @@ import threading
 from typing import TextIO
 
 from pyehl.studies.tasks import Task, execute
-
-__all__ = ["main"]
 
 
 def _read(source: TextIO, tasks: queue.Queue[Task]) -> None:

@@ -6,6 +6,7 @@ direction); peaks are positive and thin the film. Pixel [i, j] lies at x = i len
 y = j length_y/ny. Spectra are those of Jacobs, Junge & Pastewka 2017, in m^4.
 """
 
+# ruff: noqa: F401 (names for the rest of the package)
 from pyehl.surfaces.filters import filtered
 from pyehl.surfaces.generators import FEATURES, fractal, harmonic
 from pyehl.surfaces.in_memory import Surface, as_map, given, in_memory, keep_beside, part_of
@@ -29,44 +30,3 @@ from pyehl.surfaces.solver_surface import SolverSurface, SolverSurfaces, for_sol
 from pyehl.surfaces.spectra import psd_2d, psd_isotropic, wavenumbers
 from pyehl.surfaces.tile import MAX_PIXELS, Topography
 from pyehl.surfaces.working_map import Record
-
-__all__ = [
-    "FEATURES",
-    "GROUPS",
-    "MAX_PIXELS",
-    "Options",
-    "Preparation",
-    "Record",
-    "Scan",
-    "SolverSurface",
-    "SolverSurfaces",
-    "Surface",
-    "Topography",
-    "as_map",
-    "filtered",
-    "finished",
-    "for_solver",
-    "fractal",
-    "from_settings",
-    "gather",
-    "given",
-    "harmonic",
-    "harmonic_amplitude",
-    "in_memory",
-    "interpolated",
-    "keep_beside",
-    "moved",
-    "one_rough",
-    "part_of",
-    "prepare",
-    "psd_2d",
-    "psd_isotropic",
-    "read_scan",
-    "resampled",
-    "rough_groups",
-    "shifted",
-    "tile_of",
-    "track_offsets",
-    "wavenumbers",
-    "without_spikes",
-]

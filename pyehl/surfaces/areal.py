@@ -1,18 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Numbers of a height map by their ISO 25178-2 names."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
-__all__ = ["AREAL_NAMES", "Extent", "areal_numbers", "extent", "texture_aspect_ratio"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 AREAL_NAMES = {
     "Sq": ("m", "root mean square height"),

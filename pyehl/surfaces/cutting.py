@@ -1,19 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Parts of maps, and maps turned: the lay against the motion."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
-
-__all__ = ["cropped", "rotated"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 LEAST_PIXELS = 4
 
@@ -25,9 +19,7 @@ MARGIN = 12
 
 
 def cropped(
-    heights: Array,
-    pixel: tuple[float, float],
-    bounds: tuple[float, float, float, float],
+    heights: Array, pixel: tuple[float, float], bounds: tuple[float, float, float, float]
 ) -> Array:
     """Part of a map (nx, ny) with a pixel size along x and y [m].
 

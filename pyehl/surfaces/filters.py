@@ -1,18 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The cut of the spectrum of a tile, by the compiled library: what the solver does, too."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
 import numpy as np
 
 from pyehl.errors import InputError, check
-from pyehl.library import surface_functions
+from pyehl.extension import surface_functions
 from pyehl.surfaces.tile import Topography
-
-__all__ = ["filtered"]
 
 
 def filtered(

@@ -7,18 +7,14 @@ because the seed must give the same surface for as long as the package lives, an
 modulus of each Fourier component must be selectable, exactly on the power law or random.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 
 from pyehl.errors import InputError, check
+from pyehl.extension import surface_functions
 from pyehl.given import positive
-from pyehl.library import surface_functions
 from pyehl.surfaces.tile import MAX_PIXELS, Topography
-
-__all__ = ["FEATURES", "fractal", "harmonic"]
 
 FEATURES = ("dent", "bump", "ridge", "groove")
 """Kinds of surfaces that pass the contact once; the solver alone makes them."""

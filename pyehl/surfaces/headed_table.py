@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Height maps as tables of numbers under header lines of words, as spreadsheets export them."""
 
-from __future__ import annotations
-
 import re
 from itertools import islice, pairwise
 from pathlib import Path
@@ -12,8 +10,6 @@ import numpy as np
 from pyehl.errors import InputError
 from pyehl.surfaces.instruments import Foreign, Sizes
 from pyehl.surfaces.text_map import count_numbers, read_text
-
-__all__ = ["UNITS", "read_headed"]
 
 UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9}
 """Metres in the units of `surface.height_unit`."""

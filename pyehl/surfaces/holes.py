@@ -1,17 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Missing points of a map, filled by the smoothest surface that meets their rims."""
 
-from __future__ import annotations
-
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
-
-__all__ = ["MAX_MISSING", "filled", "nearest"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 MAX_MISSING = 0.1
 """Largest share of a map that may be filled: beyond it the friction is that of the filling."""

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A surface in memory: that of a caller, and part of a large one where its statistics do."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from dataclasses import replace
@@ -10,14 +8,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pyehl.errors import InputError
 from pyehl.given import heights_of
 from pyehl.surfaces.seams import mirrored
 from pyehl.surfaces.tile import Topography
-
-__all__ = ["READY", "Surface", "as_map", "given", "in_memory", "keep_beside", "part_of"]
+from pyehl.types import Array
 
 Surface = Topography | ArrayLike
 """A tile, or heights [m] of shape (nx, ny) that have the size that the case says."""
@@ -94,7 +91,7 @@ def keep_beside(tile: Topography, case: Path, group: str = "surface") -> str:
 
 
 def part_of(
-    heights: NDArray[np.float64], pixel: tuple[float, float], origin: str, *, images: bool = False
+    heights: Array, pixel: tuple[float, float], origin: str, *, images: bool = False
 ) -> Topography | None:
     """Middle of a large surface, with its mirror images; None for one that is not large.
 
@@ -115,7 +112,7 @@ def part_of(
     return Topography(tile, (2 * nx * pixel[0], 2 * ny * pixel[1]), name)
 
 
-def given(heights: NDArray[np.float64], surface: Mapping[str, Any]) -> Topography:
+def given(heights: Array, surface: Mapping[str, Any]) -> Topography:
     """Tile of heights [m] that stand in for the surface of a case; of a large one a part.
 
     Its size is that of the tile in the group ``surface``, or that of the map.

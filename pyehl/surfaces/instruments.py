@@ -1,24 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Files of instruments, by the package SurfaceTopography (extra ``surfaces``)."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.errors import EhlError, InputError
 from pyehl.surfaces.memory import check_pixels
-
-__all__ = ["Foreign", "Sizes", "UnknownFormatError", "read_instrument"]
+from pyehl.types import Array
 
 INSTALL = "pip install 'pyehl[surfaces]', or pip install SurfaceTopography"
 
 Sizes = tuple[float | None, float | None]
 # Heights, size, whether it is periodic, name of the channel, note
-Foreign = tuple[NDArray[np.float64], Sizes, bool, str, str]
+Foreign = tuple[Array, Sizes, bool, str, str]
 
 
 class UnknownFormatError(InputError):
@@ -81,7 +77,6 @@ def read_instrument(path: Path, channel: str = "") -> Foreign:
 
 
 def _pick(path: Path, channels: list[Any], default: Any, wanted: str) -> Any:  # noqa: ANN401
-    """Return the channel of a name or number."""
     listing = ", ".join(f"{n} '{c.name}'" for n, c in enumerate(channels, 1))
     if not wanted:
         # the library's default is mostly, not always, the first that can serve

@@ -1,32 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tiles and periodic sequences moved, or on a finer grid, by their Fourier interpolant."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import cast
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 from pyehl.surfaces.spectra import wavenumbers
 from pyehl.surfaces.tile import Topography
-
-__all__ = ["interpolated", "resampled", "shift_across", "shifted"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array, Complex
 
 LINES = 64
 """Lines of a tile that are moved together."""
 
 
-def _shift_factor(q: Array, distance: float, nyquist: int | None) -> NDArray[np.complex128]:
+def _shift_factor(q: Array, distance: float, nyquist: int | None) -> Complex:
     factor = np.exp(-1j * q * distance)
     if nyquist is not None:
         # half of this component travels with +q and half with -q
         factor[nyquist] = np.cos(q[nyquist] * distance)
-    return cast("NDArray[np.complex128]", factor)
+    return cast("Complex", factor)
 
 
 def shifted(topography: Topography, distance_x: float, distance_y: float = 0.0) -> Topography:

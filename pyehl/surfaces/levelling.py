@@ -1,16 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Form taken off a map: its mean, its plane, its curvature, by least squares."""
 
-from __future__ import annotations
-
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
-
-__all__ = ["level"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array, Mask
 
 DEGREES = {"centre": 0, "tilt": 1, "curvature": 2}
 """Total degree of the polynomial in x and y that each word takes off."""
@@ -19,9 +13,7 @@ LINES = 64
 """Lines of a map that are levelled together."""
 
 
-def _factors(
-    heights: Array, degree: int, valid: NDArray[np.bool_] | None
-) -> tuple[Array, Array, Array]:
+def _factors(heights: Array, degree: int, valid: Mask | None) -> tuple[Array, Array, Array]:
     """Give the polynomial nearest to a map as a product: powers of x, coefficients, powers of y."""
     nx, ny = heights.shape
     good = valid
@@ -53,7 +45,7 @@ def _factors(
     return x[:, : degree + 1], coefficient, y[:, : degree + 1]
 
 
-def level(heights: Array, what: str, valid: NDArray[np.bool_] | None = None) -> None:
+def level(heights: Array, what: str, valid: Mask | None = None) -> None:
     """Take the mean (`centre`), plane (`tilt`) or `curvature` off a map in place.
 
     A least-squares polynomial over the points that count (`valid`; default: all that are numbers);

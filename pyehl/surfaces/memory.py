@@ -1,14 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Whether a surface fits into the memory, before it is read or made."""
 
-from __future__ import annotations
-
 import logging
 
 from pyehl import library
 from pyehl.errors import NoMemoryError
-
-__all__ = ["PREDICTION_COPIES", "check_pixels"]
 
 WORKING_COPIES, PREDICTION_COPIES = 12, 28
 """Arrays of the size of the map that its preparation holds at once, and of the size of a made tile

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The surface that a resolved case asks for."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import replace
@@ -20,21 +18,7 @@ from pyehl.surfaces.prepare import prepare
 from pyehl.surfaces.reading import Scan, read_scan
 from pyehl.surfaces.tile import Topography
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = [
-    "GROUPS",
-    "finished",
-    "from_settings",
-    "harmonic_amplitude",
-    "moved",
-    "one_rough",
-    "rough_groups",
-    "scan_of",
-    "tile_of",
-    "track_offsets",
-    "whole",
-    "without_spikes",
-]
+from pyehl.types import Settings
 
 GROUPS = ("surface", "second_surface")
 """Groups of a case that describe a surface each."""
@@ -47,19 +31,10 @@ RADIUS_PIXELS = 64
 KEPT_PIXELS = 2**20
 # What a map is read by, and what a fractal tile follows from
 SCAN = ("file", "length_x", "length_y", "channel", "height_unit")
-FRACTAL = (
-    "pixels",
-    "length_x",
-    "length_y",
-    "rms_height",
-    "hurst",
-    "rolloff_wavenumber",
-    "seed",
-    "modulus",
-)
+FRACTAL = "pixels length_x length_y rms_height hurst rolloff_wavenumber seed modulus".split()
 
 
-def rough_groups(settings: Mapping[str, Mapping[str, Any]]) -> list[str]:
+def rough_groups(settings: Settings) -> list[str]:
     """Name the groups of a resolved case that describe a rough surface.
 
     A wave or feature of no height beside another surface is none, as for the solver.
@@ -75,7 +50,7 @@ def rough_groups(settings: Mapping[str, Mapping[str, Any]]) -> list[str]:
     return high or rough
 
 
-def one_rough(settings: Mapping[str, Mapping[str, Any]]) -> Mapping[str, Mapping[str, Any]]:
+def one_rough(settings: Settings) -> Settings:
     """Give a resolved case whose only rough surface is that of the group ``surface``."""
     if rough_groups(settings) != ["second_surface"]:
         return settings
@@ -86,9 +61,7 @@ def one_rough(settings: Mapping[str, Mapping[str, Any]]) -> Mapping[str, Mapping
     }
 
 
-def harmonic_amplitude(
-    settings: Mapping[str, Mapping[str, Any]], operating: OperatingPoint, film: float
-) -> float:
+def harmonic_amplitude(settings: Settings, operating: OperatingPoint, film: float) -> float:
     """Amplitude A_i [m] of the harmonic surface of a resolved case with a smooth film h_c [m]."""
     surface = settings["surface"]
     amplitude = surface.get("amplitude")
@@ -97,9 +70,7 @@ def harmonic_amplitude(
     return float(surface["amplitude_over_film"]) * film
 
 
-def from_settings(
-    settings: Mapping[str, Mapping[str, Any]], operating: OperatingPoint, film: float
-) -> Topography:
+def from_settings(settings: Settings, operating: OperatingPoint, film: float) -> Topography:
     """Make or read the surface of a resolved case.
 
     `film` is the central film h_c [m], of which the amplitude of a harmonic pattern may be a
@@ -109,9 +80,7 @@ def from_settings(
     return finished(whole(settings, operating, film), settings["surface"])
 
 
-def whole(
-    settings: Mapping[str, Mapping[str, Any]], operating: OperatingPoint, film: float
-) -> Topography:
+def whole(settings: Settings, operating: OperatingPoint, film: float) -> Topography:
     """Give the surface on its first track, with all of its waves; else as :func:`from_settings`."""
     surface = settings["surface"]
     kind = str(surface["kind"])
@@ -176,17 +145,10 @@ def _fractal(surface: Mapping[str, Any]) -> Topography:
     check_pixels(
         f"surface.pixels = {pixels}", (pixels, pixels), copies=PREDICTION_COPIES, way=FEWER
     )
-    made = fractal(
-        pixels,
-        float(surface["length_x"]),
-        float(surface["length_y"]),
-        rms_height=float(surface["rms_height"]),
-        hurst=float(surface["hurst"]),
-        rolloff_wavenumber=float(surface["rolloff_wavenumber"]),
-        seed=int(surface["seed"]),
-        modulus=str(surface["modulus"]),
-    )
-    return _read_only(made)
+    # all but the whole number and the words at both ends
+    numbers = {name: float(surface[name]) for name in FRACTAL[1:-2]}
+    seed, modulus = int(surface["seed"]), str(surface["modulus"])
+    return _read_only(fractal(pixels, **numbers, seed=seed, modulus=modulus))
 
 
 def scan_of(surface: Mapping[str, Any]) -> Scan:

@@ -1,15 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What to do with a map, and what 'auto' means."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Self
 
 from pyehl.surfaces.reading import Scan
-
-__all__ = ["NEUTRAL", "Options", "defaults"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +23,7 @@ class Options:
     sign: int = 1  # 1, or -1 for a map whose valleys are positive
 
     @classmethod
-    def from_settings(cls, surface: Mapping[str, Any]) -> Options:
+    def from_settings(cls, surface: Mapping[str, Any]) -> Self:
         """Options of the group ``surface`` of a resolved case; absent keys have their defaults."""
         bounds = ("crop_x_min", "crop_x_max", "crop_y_min", "crop_y_max")
         return cls(

@@ -1,19 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Height maps as lists of the x, y and z of their points."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 from pyehl.surfaces.memory import check_pixels
-
-__all__ = ["grid_of", "is_list"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 # Of a mesh size: how far points may be from the grid
 OFF = 0.02

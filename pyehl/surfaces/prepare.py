@@ -6,13 +6,10 @@ is fitted, which they would tilt, and holes before the map is turned; the edges 
 What 'auto' means depends on what the file is, see :func:`pyehl.surfaces.options.defaults`.
 """
 
-from __future__ import annotations
-
 import logging
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 from pyehl.surfaces import cutting, holes, levelling, seams, spikes
@@ -20,10 +17,7 @@ from pyehl.surfaces.memory import check_pixels
 from pyehl.surfaces.options import NEUTRAL, Options, defaults
 from pyehl.surfaces.reading import Scan
 from pyehl.surfaces.working_map import Record, Step, WorkingMap
-
-__all__ = ["Preparation", "consume", "prepare"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array, Mask
 
 LOG = logging.getLogger(__name__)
 
@@ -158,7 +152,7 @@ def _join(work: WorkingMap, options: Options, why: dict[str, str]) -> None:
         work.do("edges", "periodic", prepared, why["edges"], note=note)
 
 
-def _fill(work: WorkingMap, options: Options, valid: NDArray[np.bool_]) -> None:
+def _fill(work: WorkingMap, options: Options, valid: Mask) -> None:
     """Fill what is missing, spikes included, or refuse to."""
     missing = int(valid.size - np.count_nonzero(valid))
     if missing == 0:

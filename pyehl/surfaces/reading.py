@@ -6,14 +6,11 @@ An instrument file is taken as SurfaceTopography gives it: x along the lines of 
 width), y across them. A map whose lay or motion is another way is turned by `surface.rotate`.
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.errors import EhlError, FileError, InputError
 from pyehl.library import check_memory
@@ -22,10 +19,7 @@ from pyehl.surfaces.instruments import Foreign, UnknownFormatError, read_instrum
 from pyehl.surfaces.memory import check_pixels
 from pyehl.surfaces.point_list import grid_of, is_list
 from pyehl.surfaces.text_map import read_text
-
-__all__ = ["Scan", "is_array_file", "plain_array", "read_scan"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 PIXEL_BAND = (1e-10, 1e-3)
 """Pixels outside of it [m] are mistakes of units."""
@@ -131,7 +125,6 @@ def read_scan(
 def _read(
     path: Path, length_x: float | None, length_y: float | None, channel: str, height_unit: str
 ) -> Scan:
-    """Read a file of any kind."""
     length = path.stat().st_size
     if length == 0:
         raise InputError(f"{path}: the file is empty")

@@ -5,14 +5,9 @@ A tile is repeated over and over. Where opposite edges do not meet, the heights 
 infinite slope that the surface does not have, and that holds the film up or breaks it.
 """
 
-from __future__ import annotations
-
 import numpy as np
-from numpy.typing import NDArray
 
-__all__ = ["RIM", "jump", "mirrored", "rim", "unmirrored", "windowed"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 LINES = 64
 """Lines of a map that are looked at together."""

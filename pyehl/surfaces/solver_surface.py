@@ -1,18 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The surface of a case for the solver: what it cannot make or read itself."""
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from pyehl import library
 from pyehl.errors import InputError
+from pyehl.extension import surface_functions
+from pyehl.library import returned
 from pyehl.surfaces.in_memory import given, part_of
 from pyehl.surfaces.interpolation import shift_across
 from pyehl.surfaces.of_case import GROUPS, moved, scan_of, whole
@@ -23,8 +20,7 @@ from pyehl.surfaces.seams import mirrored
 from pyehl.surfaces.tile import Topography
 from pyehl.surfaces.working_map import Record
 from pyehl.theory.operating import OperatingPoint
-
-__all__ = ["SolverSurface", "SolverSurfaces", "for_solver", "gather"]
+from pyehl.types import Array, Settings
 
 LOG = logging.getLogger(__name__)
 
@@ -34,7 +30,7 @@ class SolverSurface:
     """What the solver needs from Python for the surface of a case."""
 
     # (nx, ny) [m], Fortran order; None where the solver makes or reads the surface itself
-    heights: NDArray[np.float64] | None = None
+    heights: Array | None = None
     # Texts ``group.key=value`` to set in its case: the size of a prepared tile, and whether it is
     # the heights with their mirror images
     options: tuple[str, ...] = ()
@@ -49,7 +45,7 @@ class SolverSurfaces:
     """What the solver needs from Python for both surfaces of a case."""
 
     # (nx, ny) [m]; None where the solver makes or reads the surface itself
-    heights: tuple[NDArray[np.float64] | None, ...]
+    heights: tuple[Array | None, ...]
     options: tuple[str, ...]  # as those of `SolverSurface`
     preparations: dict[str, Record]  # how maps became tiles, by group
     # What a prediction is made with by group, where it is not the surface of the case
@@ -57,9 +53,7 @@ class SolverSurfaces:
 
 
 def gather(
-    settings: Mapping[str, Mapping[str, Any]],
-    heights: Mapping[str, NDArray[np.float64]],
-    tiles: Mapping[str, Topography],
+    settings: Settings, heights: Mapping[str, Array], tiles: Mapping[str, Topography]
 ) -> SolverSurfaces:
     """Make what the solver needs from Python for both surfaces of a resolved case.
 
@@ -87,7 +81,7 @@ def gather(
     )
 
 
-def for_solver(settings: Mapping[str, Mapping[str, Any]], group: str = "surface") -> SolverSurface:
+def for_solver(settings: Settings, group: str = "surface") -> SolverSurface:
     """Make what the solver needs from Python for the surface of a group of a resolved case.
 
     The solver makes harmonic patterns and fractal surfaces, reads arrays that need no preparation,
@@ -105,7 +99,7 @@ def for_solver(settings: Mapping[str, Mapping[str, Any]], group: str = "surface"
         )
         return SolverSurface(np.asfortranarray(moved(made, surface).heights))
     if surface["kind"] == "fractal":
-        need = library.returned(library.surface_functions.making(int(surface["pixels"])))
+        need = returned(surface_functions.making(int(surface["pixels"])))
         if need:
             LOG.info(need)
     if surface["kind"] != "map":

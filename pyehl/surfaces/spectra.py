@@ -6,16 +6,10 @@ C2D(q) = |dx dy sum z exp(-i q x)|^2/(Lx Ly) [m^4], so that h_rms^2 = sum C2D/(L
 its mean over annuli of |q|.
 """
 
-from __future__ import annotations
-
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.surfaces.tile import Topography
-
-__all__ = ["psd_2d", "psd_isotropic", "wavenumbers"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 
 def wavenumbers(topography: Topography) -> tuple[Array, Array]:

@@ -5,19 +5,13 @@ Optical instruments give single pixels or small groups of them that lie micromet
 slopes and specks of dirt. Their heights are not those of the surface, and one of them ends a film.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 from pyehl.surfaces.holes import nearest
 from pyehl.surfaces.levelling import level
-
-__all__ = ["WINDOW", "prominence"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 WINDOW = 5
 """Pixels per side of the median that a point is compared with."""

@@ -1,20 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Height maps as text: one x per line, y along the line."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 from pyehl.surfaces.memory import check_pixels
-
-__all__ = ["count_numbers", "read_text"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 # What stands between separators
 WORD = re.compile(r"[^\s,;]+")

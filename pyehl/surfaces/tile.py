@@ -1,20 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A periodic tile of heights."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 from pyehl.surfaces.prepare import Preparation
-
-__all__ = ["MAX_PIXELS", "Topography"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 MAX_PIXELS = 2**26
 """Most pixels a map may have (512 MB of heights)."""

@@ -1,23 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A map while it is prepared: its heights, and the record of what each step did to them."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyehl.errors import InputError
 from pyehl.surfaces import areal
 from pyehl.surfaces.options import Options
 from pyehl.surfaces.reading import Scan
-
-__all__ = ["Record", "Step", "WorkingMap"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 LARGEST = 1e6
 """Largest height [m] that is not taken for damage."""

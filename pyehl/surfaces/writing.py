@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tiles as files: `.npy`, text and netCDF, with their size."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -11,8 +9,6 @@ import scipy
 from pyehl.destination import new_file
 from pyehl.errors import InputError
 from pyehl.surfaces.tile import Topography
-
-__all__ = ["SUFFIXES", "write_map"]
 
 SUFFIXES = (".npy", ".txt", ".nc")
 """What a tile can be written as."""

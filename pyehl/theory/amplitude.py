@@ -23,25 +23,13 @@ component of a rough surface is a plane wave, and three ways to give it a wavele
     Agrees with the formula for such patterns.
 """
 
-from __future__ import annotations
-
 from typing import cast
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pyehl.errors import InputError
-
-__all__ = [
-    "CONVENTIONS",
-    "amplitude_ratio",
-    "anisotropy_factor",
-    "component_amplitude_ratio",
-    "component_wavelength",
-    "wavelength_parameter",
-]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 CONVENTIONS = ("components", "wavevector", "pattern")
 """Names of the ways to give a Fourier component a wavelength, the default first."""

@@ -14,29 +14,14 @@ carries load and is left out. All lengths are scaled by the Hertz radius a, heig
 pressures by p_h.
 """
 
-from __future__ import annotations
-
 import math
 from functools import lru_cache
 from typing import cast
 
 import numpy as np
 from numpy.polynomial import legendre
-from numpy.typing import NDArray
 
-__all__ = [
-    "DEGREE",
-    "LARGEST",
-    "RADIUS",
-    "RIM",
-    "disc_correction",
-    "disc_rim",
-    "monomials",
-    "spherical_bessel",
-]
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from pyehl.types import Array, Complex
 
 DEGREE = 6
 """Degree of the polynomials in x, y that carry the correction."""

@@ -1,15 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Hertz ellipse of a ratio of radii."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import lru_cache
 
 from pyehl.given import positive
-
-__all__ = ["Ellipse", "ellipse"]
 
 
 @dataclass(frozen=True, slots=True)

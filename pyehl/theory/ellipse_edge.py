@@ -9,22 +9,15 @@ there is one small set of equations, with the harmonics of g. The wavevector ent
 kappa q_Y). Lengths by a, heights by a^2/R_x, pressures by p_h.
 """
 
-from __future__ import annotations
-
 import math
 from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
 
 from pyehl.theory.disc import DEGREE, LARGEST, RADIUS, RIM, spherical_bessel
 from pyehl.theory.ellipse import Ellipse
-
-__all__ = ["EllipseEdge", "ellipse_edge"]
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from pyehl.types import Array, Complex
 
 # Places along the short axis at which the polynomials are fitted, and angles of the integrals
 PLACES = 13

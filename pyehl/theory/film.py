@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Film thickness formulas."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

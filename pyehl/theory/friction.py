@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Absolute friction: where it means something, and the heat of it."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 
@@ -10,8 +8,6 @@ from pyehl.theory.heat import Heat, flash_temperature
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.operating import OperatingPoint
 from pyehl.theory.shear import shear_stress
-
-__all__ = ["absolute_friction"]
 
 
 def absolute_friction(

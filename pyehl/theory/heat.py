@@ -5,12 +5,8 @@ The same formulas as in ``fortran/physics/heat.f90``, which the solver uses. The
 film is computed there alone.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
-
-__all__ = ["Heat", "flash_temperature", "thermal_loading", "thermal_reduction"]
 
 # Power of the potential of a narrow contact, as in ``fortran/physics/heat.f90``
 NARROW = 0.38

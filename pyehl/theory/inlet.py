@@ -23,8 +23,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from pyehl.theory.transport import INLET, Flow, Zone, stiffness, upstream
 
-__all__ = ["at_inlet", "passed"]
-
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 

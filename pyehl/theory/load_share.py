@@ -7,14 +7,10 @@ of their own; the film has its friction on the rest of the load. B and C belong 
 surfaces.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
 from pyehl.errors import InputError
-
-__all__ = ["AIHARA", "LoadShare"]
 
 AIHARA = 1.8, 1.2
 """B and C of Aihara 1987, J. Tribol. 109, 471, eq. 13 [-]."""

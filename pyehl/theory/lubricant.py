@@ -1,25 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Viscosity and density of a lubricant under pressure."""
 
-from __future__ import annotations
-
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Self
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pyehl.errors import InputError, check
+from pyehl.extension import lubricants
 from pyehl.given import positive
-from pyehl.library import lubricants, resolve
+from pyehl.library import resolve
 from pyehl.namelist import text_of, values
 from pyehl.theory.shear import ShearLaw
-
-__all__ = ["Lubricant", "default_roelands_z"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array, Settings
 
 # Dowson & Higginson 1966, density under pressure
 DENSITY_PRESSURE = 5.9e8
@@ -139,9 +134,7 @@ class Lubricant:
             positive("roelands_z", self.roelands_z, "-")
 
     @classmethod
-    def from_settings(
-        cls, settings: Mapping[str, Mapping[str, Any]], viscosity_law: str = ""
-    ) -> Lubricant:
+    def from_settings(cls, settings: Settings, viscosity_law: str = "") -> Self:
         """From the group ``lubricant`` of a resolved case; `viscosity_law` overrides the law."""
         group = settings["lubricant"]
         given = {name: group[name] for name in cls.__dataclass_fields__ if name in group}
@@ -154,7 +147,7 @@ class Lubricant:
         return cls(shear=ShearLaw.from_settings(settings), **given)
 
     @classmethod
-    def from_name(cls, name: str, temperature: float = 40.0) -> Lubricant:
+    def from_name(cls, name: str, temperature: float = 40.0) -> Self:
         """Return an oil of :func:`pyehl.lubricants` at a temperature of the inlet [degC].
 
         InputError for a name that is not there, with the nearest one.
@@ -206,14 +199,11 @@ class Lubricant:
 
     def beyond(self, pressure: float) -> str:
         """Say what is beyond the range of the constants at a pressure [Pa]; '' if nothing is."""
-        low, high, most = (
-            self.range_temperature_min,
-            self.range_temperature_max,
-            self.range_pressure_max,
-        )
+        low, high = self.range_temperature_min, self.range_temperature_max
         words = ""
         if low < high and not low <= self.temperature <= high:
             words = f"; the lubricant was measured from {low:g} to {high:g} degC"
+        most = self.range_pressure_max
         if 0.0 < most < pressure and self.constants:
             words += f"; the lubricant was measured up to {most:.3g} Pa"
         return words
@@ -222,9 +212,6 @@ class Lubricant:
         """ln(eta/eta0) and rho/rho0 by the laws of the solver."""
         p, warmer = (np.array(a) for a in np.broadcast_arrays(pressure, rise))
         log_viscosity, density = np.empty(p.size), np.empty(p.size)
-        check(
-            *lubricants.properties(
-                self.constants.encode(), p.ravel(), warmer.ravel(), log_viscosity, density
-            )
-        )
+        places = p.ravel(), warmer.ravel()
+        check(*lubricants.properties(self.constants.encode(), *places, log_viscosity, density))
         return log_viscosity.reshape(p.shape), density.reshape(p.shape)

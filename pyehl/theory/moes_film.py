@@ -1,15 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Central film of a point contact in Moes numbers, and the viscosity that a film belongs to."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 
 from pyehl.errors import InputError
 from pyehl.theory.ellipse import Ellipse, ellipse
-
-__all__ = ["inlet_viscosity_ratio", "nijenbanning_venner_moes", "regime"]
 
 CIRCLE = ellipse(1.0)
 # Asymptotes whose ratio is less are passed from one to the other

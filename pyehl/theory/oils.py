@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Oils by name, and pressure-viscosity coefficients of any lubricant."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import cache

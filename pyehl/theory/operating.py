@@ -5,20 +5,16 @@ The reduced modulus E' follows 2/E' = sum over the bodies of (1 - nu^2)/E, as ev
 package. Codes that use 1/E* = sum of (1 - nu^2)/E have E* = E'/2: a factor of two.
 """
 
-from __future__ import annotations
-
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Self
 
 from pyehl.errors import InputError
 from pyehl.given import positive
 from pyehl.theory.ellipse import Ellipse, ellipse
 from pyehl.theory.heat import thermal_loading, thermal_reduction
 from pyehl.theory.moes_film import inlet_viscosity_ratio
-
-__all__ = ["OperatingPoint"]
+from pyehl.types import Settings
 
 # Contact body of the reference conditions (Zhang et al. 2019, table 1). A case given by M and L
 # alone has no length; these two fix one when a quantity in SI units is asked for.
@@ -115,7 +111,7 @@ class OperatingPoint:
         radius: float = REFERENCE_RADIUS,
         slide_to_roll: float = 0.02,
         radius_ratio: float = 1.0,
-    ) -> OperatingPoint:
+    ) -> Self:
         """Return the contact that has the given M and L, for a lubricant and a radius [m].
 
         Two numbers leave two lengths and a stress free: the radius, eta0 and alpha are given, E'
@@ -144,7 +140,7 @@ class OperatingPoint:
         )
 
     @classmethod
-    def from_settings(cls, settings: Mapping[str, Mapping[str, Any]]) -> OperatingPoint:
+    def from_settings(cls, settings: Settings) -> Self:
         """From the groups ``contact`` and ``lubricant`` of a resolved case (either kind).
 
         With ``lubricant.thermal_reduction`` the viscosity is that of the warmer inlet.
@@ -162,10 +158,7 @@ class OperatingPoint:
                 slide_to_roll=slide_to_roll,
                 radius_ratio=float(contact.get("radius_ratio", 1.0)),
             )
-        radii = (
-            float(contact.get("radius_x", contact.get("radius", 0.0))),
-            float(contact.get("radius_y", contact.get("radius", 0.0))),
-        )
+        radii = [float(contact.get(f"radius_{k}", contact.get("radius", 0.0))) for k in "xy"]
         point = cls(
             load=float(contact["load"]),
             mean_velocity=float(contact["mean_velocity"]),

@@ -27,8 +27,6 @@ lubricant at the nearest velocity ratio of the fit, times the ratio of what the 
 equation makes of both (:mod:`pyehl.theory.inlet`). Nothing of that is fitted.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Sequence
@@ -37,15 +35,11 @@ from importlib import resources
 from typing import Any, cast
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pyehl.theory.inlet import passed
 from pyehl.theory.transport import Zone, upstream
-
-__all__ = ["edge_gain", "fitted_range", "inlet_base", "inlet_fit", "inlet_transfer"]
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from pyehl.types import Array, Complex
 
 GAIN = (0.0674, 0.3085, 2.414, 28.44)
 """Constants of `edge_gain`, fitted by docs/evidence/response/gain.py."""
@@ -58,10 +52,7 @@ LEAST_WEIGHT = 1e-4
 
 
 def edge_gain(
-    qx: ArrayLike,
-    qy: ArrayLike,
-    central_film: ArrayLike,
-    constants: Sequence[float] | Array = GAIN,
+    qx: ArrayLike, qy: ArrayLike, central_film: ArrayLike, constants: Sequence[float] | Array = GAIN
 ) -> Array:
     """Pressure of a wave in the contact over that of the half-space, K (1 - T), at its centre [-].
 

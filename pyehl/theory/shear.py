@@ -4,22 +4,16 @@
 The same laws as in ``fortran/physics/shear.f90``, for the prediction.
 """
 
-from __future__ import annotations
-
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Self
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pyehl.errors import InputError
 from pyehl.theory.thinning import CODES, sliding_stress
-
-__all__ = ["LAWS", "ShearLaw", "shear_stress"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array, Settings
 
 LAWS = ("newtonian", "eyring", "limiting", "carreau")
 
@@ -64,7 +58,7 @@ class ShearLaw:
             )
 
     @classmethod
-    def from_settings(cls, settings: Mapping[str, Mapping[str, Any]]) -> ShearLaw:
+    def from_settings(cls, settings: Settings) -> Self:
         """From the group ``lubricant`` of a resolved case."""
         group = settings["lubricant"]
         names = cls.__dataclass_fields__.keys() - {"law", "in_flow"}

@@ -6,17 +6,12 @@ Zhang, Biboulet, Venner & Lubrecht 2019, doi 10.1016/j.triboint.2019.01.028, eq.
 vanishing slide-to-roll ratio; shear thinning at real sliding speeds brings it close to one.
 """
 
-from __future__ import annotations
-
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pyehl.errors import InputError
 from pyehl.theory.film import outside
-
-__all__ = ["RANGE", "in_range", "relative_friction", "theta_2"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 RANGE: dict[str, tuple[float, float]] = {
     "moes_m": (500.0, 2000.0),

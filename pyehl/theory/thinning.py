@@ -6,19 +6,14 @@ times as much along Y as in a Newtonian lubricant. The factors are those of
 ``fortran/physics/flow_factors.f90``, exact through the film.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from pyehl import library
+from pyehl import extension
 from pyehl.errors import EhlError
-
-__all__ = ["CODES", "FlowFactors", "flow_factors", "sliding_stress"]
-
-Array = NDArray[np.float64]
+from pyehl.types import Array
 
 CODES = {"eyring": 1, "carreau": 2}
 """Laws that thin a flow, by the numbers that the library has for them."""
@@ -59,7 +54,7 @@ def flow_factors(
     for i, part in enumerate(gradient):
         s[i] = np.broadcast_to(part, b.shape).ravel()
     found = np.empty((5, b.size), order="F")
-    library.lubricants.flow_factors(CODES[law], exponent, b.ravel().copy(), s, found)
+    extension.lubricants.flow_factors(CODES[law], exponent, b.ravel().copy(), s, found)
     if not np.all(np.isfinite(found)):
         raise EhlError(f"no flow factors of a film that obeys {law} at a stress beyond all bounds")
     return FlowFactors(*(row.reshape(b.shape) for row in found))
@@ -72,5 +67,5 @@ def sliding_stress(law: str, exponent: float, sliding: ArrayLike) -> Array:
     """
     b = np.asarray(sliding, dtype=float)
     stress = np.empty(b.size)
-    library.lubricants.sliding_stresses(CODES[law], exponent, b.ravel().copy(), stress)
+    extension.lubricants.sliding_stresses(CODES[law], exponent, b.ravel().copy(), stress)
     return stress.reshape(b.shape)

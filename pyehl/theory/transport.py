@@ -35,23 +35,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from pyehl.theory.thinning import FlowFactors
-
-__all__ = [
-    "INLET",
-    "Flow",
-    "Zone",
-    "free_stiffness",
-    "stiffness",
-    "transport",
-    "upstream",
-    "wave_pressure",
-]
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from pyehl.types import Array, Complex
 
 INLET = -0.8
 """Where the zone of high pressure is taken to begin, on the centre line [a]."""
@@ -222,12 +209,7 @@ def _grown(turn: Complex) -> tuple[Complex, Complex]:
 
 
 def transport(
-    zone: Zone,
-    qx: Array,
-    qy: Array,
-    velocity_ratio: float,
-    stations: Array,
-    spacing: float = 0.0,
+    zone: Zone, qx: Array, qy: Array, velocity_ratio: float, stations: Array, spacing: float = 0.0
 ) -> list[tuple[Complex, Complex]]:
     """Integrate the transport equation from the inlet to the stations, ascending X (n,) [a].
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The page served in this process, and a browser that opens it."""
 
-from __future__ import annotations
-
 import asyncio
 import shutil
 import tempfile

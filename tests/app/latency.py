@@ -8,8 +8,6 @@ the film of that position on 129 x 129 nodes, and on 257 x 257, with the time fo
 to rest in it. Prints the median and the largest of each; exit status 1 if a median is too long.
 """
 
-from __future__ import annotations
-
 import statistics
 import sys
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the page does, without a browser: knobs, cases, the worker, words, uploads."""
 
-from __future__ import annotations
-
 import resource
 import threading
 import time

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The page in a real browser, headless: what a person sees and does."""
 
-from __future__ import annotations
-
 import ctypes
 import gc
 import http.client

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs of the program that several tests look at: each is made once."""
 
-from __future__ import annotations
-
 import csv
 import json
 import os

@@ -5,13 +5,9 @@ Over H = r^2/2 it is lambda_bar g(angle)/r^3, the angle counted from the inlet, 
 g'' - 9 g = -8 cos(angle) and g = g' = 0 where the film ruptures.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
-
-__all__ = ["around", "far_field", "load_beyond"]
 
 Array = NDArray[np.float64]
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl`` with a limit of the system."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path

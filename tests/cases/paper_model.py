@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The model of Zhang et al. 2019, section 3, of a tile: as it is asked for in tests."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from pyehl.prediction import Band, Options, Response, RoughFriction

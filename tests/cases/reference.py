@@ -5,8 +5,6 @@ A leaf: it imports nothing of this package, and nothing that computes results im
 a test against it can fail.
 """
 
-from __future__ import annotations
-
 import csv
 from dataclasses import dataclass
 from importlib import resources
@@ -14,19 +12,6 @@ from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-
-__all__ = [
-    "FIG_2",
-    "PSD_TABLE_2",
-    "SMOOTH",
-    "TABLE_1",
-    "TABLE_2",
-    "WAVINESS",
-    "SmoothRow",
-    "WavinessRow",
-    "hertz_deflection",
-    "hertz_pressure",
-]
 
 Array = NDArray[np.float64]
 

@@ -6,8 +6,6 @@ relaxation. Each time step is solved by Newton's method with the cavitated nodes
 the linear systems by GMRES, with the LU factors of an earlier, full matrix as preconditioner.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -18,8 +16,6 @@ from far_field import far_field
 from numpy.typing import NDArray
 from scipy import linalg, sparse
 from scipy.sparse.linalg import LinearOperator, gmres
-
-__all__ = ["START", "VELOCITY", "X_MATTERS", "NotSolvedError", "SecondSolver", "Wave", "Z"]
 
 Array = NDArray[np.float64]
 

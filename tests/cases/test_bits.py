@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What must not change a result: threads, the driver, and use of symmetry."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 from pathlib import Path

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Multigrid convergence of the smooth contact, and the truth of the status where it fails."""
 
-from __future__ import annotations
-
 import pytest
 
 # The algebraic error asked for makes the finest grid take many cycles

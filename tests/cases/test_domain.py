@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The domain that an operating point gets, and what it costs."""
 
-from __future__ import annotations
-
 import csv
 import re
 from pathlib import Path

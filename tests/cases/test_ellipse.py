@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Elliptical contacts: reference values, order, the circle as a limit, symmetry, waves on them."""
 
-from __future__ import annotations
-
 import json
 import math
 import re

@@ -6,8 +6,6 @@ over a cell and scipy's FFT, viscosity, density, conductances, both time schemes
 calls film, residual, load and friction must come out to rounding.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

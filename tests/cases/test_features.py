@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Single features that pass the contact once: closed forms, limits, symmetry, extremes, the end."""
 
-from __future__ import annotations
-
 import subprocess
 from pathlib import Path
 from typing import Any
@@ -115,10 +113,7 @@ def test_small_features_are_linear(solve: Any):
         keys = DENT | TIGHT | stop | {"surface.kind": kind, "surface.amplitude": amplitude}
         done = solve(POINT, 65, keys, fields=True)
         assert done["steps"] == 45
-        return (
-            done.field("P") - done.field("P_smooth"),
-            done.field("H") - done.field("H_smooth"),
-        )
+        return (done.field("P") - done.field("P_smooth"), done.field("H") - done.field("H_smooth"))
 
     small, twice, bump = change("dent", 1e-3), change("dent", 2e-3), change("bump", 1e-3)
     for one, two, other in zip(small, twice, bump, strict=True):

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Friction with the temperature of the film."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A second solver of the same discrete equations comes to the same friction and the same end."""
 
-from __future__ import annotations
-
 from itertools import islice
 
 import numpy as np
@@ -43,12 +41,7 @@ def test_second_solver_deflects_by_the_kernel():
     ],
 )
 def test_same_friction(
-    solve,
-    point: tuple[float, float],
-    points: int,
-    amplitude: float,
-    wavelength: float,
-    scheme: str,
+    solve, point: tuple[float, float], points: int, amplitude: float, wavelength: float, scheme: str
 ):
     wave = options(wavelength, scheme, amplitude=amplitude)
     done = solve(point, points, wave | {"solver.deflection": "fft", "solver.accuracy": 0.0005})
@@ -103,10 +96,7 @@ def test_same_friction_by_default_settings(
 
 @pytest.mark.parametrize(
     ("point", "over_film", "wavelength"),
-    [
-        ((500.0, 5.0), 1.0, 0.5),
-        pytest.param((500.0, 15.0), 0.667, 0.25, marks=pytest.mark.long),
-    ],
+    [((500.0, 5.0), 1.0, 0.5), pytest.param((500.0, 15.0), 0.667, 0.25, marks=pytest.mark.long)],
 )
 def test_negative_film_is_that_of_the_equations(
     solve, point: tuple[float, float], over_film: float, wavelength: float

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Slide-to-roll ratio, and shear laws in whole runs."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -15,11 +13,7 @@ from pyehl.theory.shear import ShearLaw, shear_stress
 # M = 200 in SI units: 65 x 65 nodes carry the contact
 SI = {"contact.load": 120.0, "lubricant.density_law": "incompressible"}
 OPERATING = OperatingPoint(load=120.0)
-WAVE = {
-    "surface.kind": "harmonic",
-    "surface.amplitude_over_film": 0.3,
-    "time.steps": 60,
-}
+WAVE = {"surface.kind": "harmonic", "surface.amplitude_over_film": 0.3, "time.steps": 60}
 LAWS = {
     "eyring": ShearLaw("eyring"),
     "limiting": ShearLaw("limiting"),

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Contacts of machine elements: the cases of the how-tos, and what these say of them."""
 
-from __future__ import annotations
-
 import json
 import math
 import re

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Height maps at the nodes: heights, cut spectra, waves that a grid does not carry, memory."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

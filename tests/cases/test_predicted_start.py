@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A rough run that starts where the prediction ends: the same mean in fewer steps."""
 
-from __future__ import annotations
-
 import json
 import math
 import subprocess
@@ -145,10 +143,7 @@ def test_heights_in_memory_start_there_too(tile: dict[str, Any]):
             POINT | {"surface.kind": "dent", "surface.amplitude": 1e-3},
             "a single feature passes once",
         ),
-        (
-            WAVE | SECOND | {"contact.slide_to_roll": 2.0},
-            "one of the surfaces is at rest",
-        ),
+        (WAVE | SECOND | {"contact.slide_to_roll": 2.0}, "one of the surfaces is at rest"),
         (WAVE | WIDE | {"contact.angle": 20.0}, "contact.angle = 20"),
         (WAVE | {"grid.target_error": 0.1}, "the grid of grid.target_error is not known before"),
         (WAVE | {"surface.amplitude": 0.1}, "the pressures are beyond a linear response"),

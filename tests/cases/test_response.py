@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`pyehl response`: measured waves against the shipped response and a second solver."""
 
-from __future__ import annotations
-
 import csv
 import json
 from itertools import islice
@@ -23,10 +21,7 @@ from pyehl.measured_response.folder import destination
 from pyehl.measured_response.superposition import SLOPE, WaveSet, superpose
 
 # Long waves and short ones in a thick film, where a coarse grid does
-TINY = (
-    tiers.Tier("long", 2.0, 65, 2.0, 0.5),
-    tiers.Tier("middle", 1.0, 257, 0.5, 0.25),
-)
+TINY = (tiers.Tier("long", 2.0, 65, 2.0, 0.5), tiers.Tier("middle", 1.0, 257, 0.5, 0.25))
 CASE = "&contact moes_m = 200.0 moes_l = 10.0 /\n&surface velocity_ratio = 1.05 /\n"
 
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Rough surfaces at rest, slow ones and fast ones."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The smooth contact against reference values, limits, other engines and its own error estimate."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from typing import Any
@@ -90,8 +88,7 @@ def test_friction(solve, table):
 
 
 @pytest.mark.parametrize(
-    "point",
-    [(200.0, 10.0), pytest.param((500.0, 15.0), marks=pytest.mark.long), (1000.0, 10.0)],
+    "point", [(200.0, 10.0), pytest.param((500.0, 15.0), marks=pytest.mark.long), (1000.0, 10.0)]
 )
 def test_order_is_two(solve, point: tuple[float, float]):
     runs = [solve(point, points, TIGHT) for points in (257, 513, 1025)]

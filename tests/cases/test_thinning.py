@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Oils that thin by shear, in the flow that makes the film (lubricant.flow)."""
 
-from __future__ import annotations
-
 import subprocess
 from pathlib import Path
 
@@ -11,12 +9,7 @@ import pytest
 
 import pyehl
 
-PAPER = {
-    "grid.x_inlet": -2.5,
-    "grid.x_outlet": 1.5,
-    "grid.y_extent": 2.0,
-    "grid.border": "zero",
-}
+PAPER = {"grid.x_inlet": -2.5, "grid.x_outlet": 1.5, "grid.y_extent": 2.0, "grid.border": "zero"}
 # Table 1 of Zhang et al. 2019 with an Eyring stress of 5 MPa
 TABLE1 = PAPER | {
     "contact.load": 600.0,

@@ -5,8 +5,6 @@ In the contact the viscosity leaves nothing of the Reynolds equation but this. A
 X = -1 is stepped through by the differences of both time schemes, with a time step of h.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

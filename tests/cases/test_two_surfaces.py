@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Rough surfaces on both bodies: exact special cases, sums of waves, means, features."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np
@@ -127,12 +125,7 @@ def test_one_at_rest(solve):
     assert moving["mu_ratio_max"] - moving["mu_ratio_min"] < 1e-5
     # solved further both come as near to each other: nothing but what is left unsolved is between
     exact = {"solver.accuracy": 1e-6}
-    moving = solve(
-        POINT,
-        POINTS,
-        scene(faint, OTHER, slide_to_roll=2) | exact,
-        fields=True,
-    )
+    moving = solve(POINT, POINTS, scene(faint, OTHER, slide_to_roll=2) | exact, fields=True)
     further = solve(POINT, POINTS, scene({}, OTHER, slide_to_roll=2) | exact, fields=True)
     # 1.3e-9, 1.6e-9, where 2.6e-6 and 3.1e-8 are left with an accuracy of 1e-2 and 1e-4
     assert moving["mu_ratio"] == pytest.approx(further["mu_ratio"], abs=5e-9)
@@ -172,11 +165,9 @@ def test_rises_of_small_waves_add(solve):
     for amplitude in (2e-3, 1e-3):
         wave, other = WAVE | {"amplitude": amplitude}, OTHER | {"amplitude": amplitude}
         rise = [
-            solve(
-                POINT,
-                POINTS,
-                scene(*pair, slide_to_roll=0.5) | {"solver.accuracy": 0.01},
-            )["mu_ratio"]
+            solve(POINT, POINTS, scene(*pair, slide_to_roll=0.5) | {"solver.accuracy": 0.01})[
+                "mu_ratio"
+            ]
             - 1.0
             for pair in ((wave, other), (wave, {}), ({}, other))
         ]

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Moving waviness: reference values, the start, symmetry, sign, and maps."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
@@ -264,11 +262,7 @@ def test_film_is_thinner_under_a_peak(solve, scheme: str):
     # leaves a film under every peak
     row = small(scheme)
     amplitude = 0.25 * row.amplitude
-    wave = settings(row) | {
-        "surface.amplitude": amplitude,
-        "surface.x_start": 3.0,
-        "time.steps": 1,
-    }
+    wave = settings(row) | {"surface.amplitude": amplitude, "surface.x_start": 3.0, "time.steps": 1}
     smooth = solve(POINT, row.points, {"lubricant.roelands_z": row.roelands_z}, fields=True)
     rough = solve(POINT, row.points, wave, fields=True)
     x, y = rough.field("X")[:, None], rough.field("Y")

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What stands in a document: its fenced blocks, their commands, and the output they show."""
 
-from __future__ import annotations
-
 import math
 import re
 import shlex

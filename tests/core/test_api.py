@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What people type in Python: cases, subcommands as functions, results."""
 
-from __future__ import annotations
-
 import doctest
 import itertools
 import json

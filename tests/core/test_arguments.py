@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Arguments of the wrong type or value: InputError with what was expected, never a bare error."""
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Callable
@@ -39,10 +37,7 @@ CALLS: dict[str, tuple[Callable[[str], Any], str]] = {
     "origin": (lambda q: pyehl.Case.from_text("", [], 3), "expected a path"),
     "read None": (lambda q: pyehl.Case.read(None), "expected a path, not NoneType"),
     "read zero byte": (lambda q: pyehl.Case.read("a\0b"), "zero byte"),
-    "read number": (
-        lambda q: pyehl.Case.read(q, 65),
-        "or a dict of values by group.key, not int",
-    ),
+    "read number": (lambda q: pyehl.Case.read(q, 65), "or a dict of values by group.key, not int"),
     "read dict": (lambda q: pyehl.Case.read(q, {"grid.pionts": 65}), "'points'"),
     "read nested": (
         lambda q: pyehl.Case.read(q, {"grid": {"points": 65}}),

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The boundary to Fortran: no copies, errors as exceptions, handles that end."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import sys
@@ -13,7 +11,7 @@ import numpy as np
 import pytest
 
 from pyehl import Case, Solver, errors, library
-from pyehl.library import ehl
+from pyehl.extension import solvers as ehl
 
 SMALL = (
     "&contact moes_m = 100.0 moes_l = 5.0 /\n"

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Cases in Python: what Fortran resolves is what Python reads; the documents say the same."""
 
-from __future__ import annotations
-
 import math
 import re
 import subprocess

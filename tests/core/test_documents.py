@@ -8,8 +8,6 @@ and what EXEMPT lists. For these the files and options they name are looked up i
 document of SHOWN shows of the output is compared with what is printed.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import shlex

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Both drivers: the same bits, the same files, whole folders, clean interrupts."""
 
-from __future__ import annotations
-
 import json
 import os
 import re
@@ -21,16 +19,7 @@ from pyehl.netcdf import export
 
 SMALL = "&contact moes_m = 100.0 moes_l = 5.0 /\n&grid points = 65 /\n"
 SMALL_SI = "&contact load = 20.0 /\n&grid points = 65 /\n"
-FILES = {
-    "case.nml",
-    "plan.txt",
-    "summary.json",
-    "history.csv",
-    "X.npy",
-    "Y.npy",
-    "P.npy",
-    "H.npy",
-}
+FILES = {"case.nml", "plan.txt", "summary.json", "history.csv", "X.npy", "Y.npy", "P.npy", "H.npy"}
 SUMMARY = {
     "status",
     "H_c",

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Devices, pipes, files of terabytes: refused by name, at once, nothing written."""
 
-from __future__ import annotations
-
 import os
 import resource
 import shutil

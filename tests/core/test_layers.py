@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The order of the Fortran layers, and who may do what."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

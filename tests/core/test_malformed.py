@@ -4,8 +4,6 @@
 In the table a section sign marks the character under which the first caret must stand.
 """
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 

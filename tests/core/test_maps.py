@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Height maps in the subcommands and the program: prepared, refused, written, resumed."""
 
-from __future__ import annotations
-
 import json
 import sys
 from pathlib import Path

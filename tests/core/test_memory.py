@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The need of memory and time is told and checked before anything is taken."""
 
-from __future__ import annotations
-
 import json
 import re
 import resource

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A run without an answer says why, where it ended and what to do, in one line."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One number has one value: by every driver, in every command, whenever it is read."""
 
-from __future__ import annotations
-
 import json
 import threading
 from pathlib import Path

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """No command touches what it did not write, and every result is whole at every instant."""
 
-from __future__ import annotations
-
 import json
 import os
 import random
@@ -316,8 +314,7 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize(
-    "name",
-    [pytest.param(n, marks=[pytest.mark.long] if n == "plot as pdf" else []) for n in FILES],
+    "name", [pytest.param(n, marks=[pytest.mark.long] if n == "plot as pdf" else []) for n in FILES]
 )
 def test_single_files(
     call: Call, results: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figures in the width of a column, and movies that state their pace."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Prediction of contact at a boundary film."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

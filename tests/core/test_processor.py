@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Which build of the compiled parts is taken. Both builds of a wheel are run by `.ci/wheel`."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

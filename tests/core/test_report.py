@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl report``: one page about any result, which needs nothing but itself."""
 
-from __future__ import annotations
-
 import base64
 import io
 import json

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A transient run that is stopped, killed or damaged is resumed to the same bits."""
 
-from __future__ import annotations
-
 import contextlib
 import json
 import os

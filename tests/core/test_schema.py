@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The table of quantities and what writes summaries say the same."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The second surface of a case: its motion, both drivers, heights in memory, states, messages."""
 
-from __future__ import annotations
-
 import csv
 import json
 import shutil

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Transient runs from Python: fields, frames, what was not done, pictures, the step benchmark."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

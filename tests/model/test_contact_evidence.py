@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Load shares of a boundary film: docs/evidence/contact says what its table has."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Error of the multi-integration: theory and evidence show the tables of docs/evidence."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from types import ModuleType
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Pages on stated errors, time steps and fields say what their tables hold."""
 
-from __future__ import annotations
-
 import csv
 import re
 import sys

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The prediction against simulated cases: docs/evidence/prediction says what it says."""
 
-from __future__ import annotations
-
 import csv
 import math
 import re

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Viscosity by Doolittle's free volume, density by Tait: the formulas, and one law everywhere."""
 
-from __future__ import annotations
-
 import json
 import math
 import subprocess

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The generator of fractal surfaces and the cut of spectra, against numpy and closed forms."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

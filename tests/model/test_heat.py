@@ -17,11 +17,7 @@ from pyehl.surfaces import Topography
 from pyehl.theory.ellipse import ellipse
 from pyehl.theory.film import central_film
 from pyehl.theory.friction import absolute_friction
-from pyehl.theory.heat import (
-    flash_temperature,
-    thermal_loading,
-    thermal_reduction,
-)
+from pyehl.theory.heat import flash_temperature, thermal_loading, thermal_reduction
 from pyehl.theory.lubricant import Lubricant
 from pyehl.theory.moes_film import inlet_viscosity_ratio, nijenbanning_venner_moes
 from pyehl.theory.operating import OperatingPoint

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Waves in the inlet by the linearised Reynolds equation, and what goes by them."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

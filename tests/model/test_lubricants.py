@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Oils by name, laws with constants of an oil, tables of measured values, alpha* and alpha_film."""
 
-from __future__ import annotations
-
 import json
 import math
 import subprocess

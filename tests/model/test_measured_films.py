@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Measured films of docs/validation.md: pages, tables and profiles agree, and this build."""
 
-from __future__ import annotations
-
 import csv
 import runpy
 from pathlib import Path

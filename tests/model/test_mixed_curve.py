@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The curve from boundary to full film: its page shows its table, and both ways agree."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The prediction for two rough surfaces: exact special cases, sums of waves, positions, films."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 

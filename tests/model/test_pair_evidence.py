@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Predicted and simulated pairs of rough surfaces: docs/evidence/pairs says what it says."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

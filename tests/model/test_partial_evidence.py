@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Predicted and simulated contact at a boundary film: docs/evidence/partial says what it says."""
 
-from __future__ import annotations
-
 import csv
 from pathlib import Path
 

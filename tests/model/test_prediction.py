@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The prediction by the response of the contact: its parts and its limits."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The prediction on elliptical contacts: stiffness, edge, the circle as a limit, measured waves."""
 
-from __future__ import annotations
-
 import csv
 import math
 import re

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Limits of the response of a contact to one wave, and the pressure of a wave on a disc."""
 
-from __future__ import annotations
-
 import csv
 import json
 from collections.abc import Callable

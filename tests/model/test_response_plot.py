@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The figure of ``pyehl response``: measured lags lie on the lines, whatever turns lie between."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from pyehl.plots.response import response_figure

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What docs/robustness.md says of random cases and of faults is in their records."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

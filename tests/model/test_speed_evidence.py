@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Times in docs/speed.md and docs/robustness.md are those of docs/evidence/speed."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What docs/robustness.md says of random cases with a shear law is in docs/evidence/stress."""
 
-from __future__ import annotations
-
 import csv
 from collections import Counter
 from pathlib import Path

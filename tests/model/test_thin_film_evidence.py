@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Films as thin as the roughness: docs/evidence/thin_film says what its tables say."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The prediction for lubricants that thin in the flow, and the deformed surface in numbers."""
 
-from __future__ import annotations
-
 import csv
 import math
 import re

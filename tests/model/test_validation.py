@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """docs/validation.md against its stored tables, and some of their rows against this build."""
 
-from __future__ import annotations
-
 import csv
 import re
 import runpy

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl bench``: what is skipped, stress, faults, work and precision, on tiny campaigns."""
 
-from __future__ import annotations
-
 import csv
 import json
 import math
@@ -16,16 +14,7 @@ import pytest
 from matplotlib.image import imread
 
 import pyehl
-from pyehl.bench import (
-    faults_inputs,
-    precision,
-    skips,
-    smooth,
-    step,
-    stress,
-    stress_cases,
-    sweep,
-)
+from pyehl.bench import faults_inputs, precision, skips, smooth, step, stress, stress_cases, sweep
 from pyehl.bench.faults import CASE, run, same
 from pyehl.bench.faults_states import damage
 from pyehl.bench.stress_contact import broken, judge_share
@@ -57,7 +46,7 @@ def test_skips_change_nothing(tmp_path: Path, capsys, monkeypatch):
 def test_skips_that_change_something_are_told(monkeypatch, capsys):
     row = dict.fromkeys((name for name, _ in skips.COLUMNS), 0.0)
     row |= {"scene": "s", "skipped": "w", "quantity": "q", "same": False}
-    monkeypatch.setattr(skips, "SCENES", {"predict": lambda points, repeats: [row]})
+    monkeypatch.setattr(skips, "SCENES", {"predict": lambda points: [row]})
     assert main(["bench", "skips", "--scenes", "predict"]) == 1
     assert main(["bench", "skips", "--scenes", "perdict"]) == 2
     assert "perdict" in capsys.readouterr().err
@@ -72,7 +61,7 @@ def test_each_benchmark_has_its_own_options(capsys):
 
 
 def test_skips_of_smooth_contacts():
-    rows = skips.skip_rows(["smooth"], 257, repeats=1)
+    rows = skips.skip_rows(["smooth"], 257)
     assert len(rows) >= 2
     assert all(row["same"] for row in rows)
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A study on the workers of a dask scheduler: a worker that is killed takes nothing with it."""
 
-from __future__ import annotations
-
 import csv
 import json
 import subprocess

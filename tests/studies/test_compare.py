@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl compare``: results against tables of references; a wrong value fails."""
 
-from __future__ import annotations
-
 import json
 import math
 from pathlib import Path

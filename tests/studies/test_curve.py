@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl stribeck``: columns, what theta_2 is taken for, where full film ends, measured data."""
 
-from __future__ import annotations
-
 import csv
 import io
 from contextlib import redirect_stderr, redirect_stdout

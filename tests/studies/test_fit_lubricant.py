@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl fit-lubricant``: laws that made a traction curve are found again; refusals."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A study is resumed by the same version, with the same case and maps; else it is refused."""
 
-from __future__ import annotations
-
 import io
 from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path

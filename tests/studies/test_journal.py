@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The journal of a study: what is in it stays in it, whatever happens to process or file."""
 
-from __future__ import annotations
-
 import shutil
 import threading
 from concurrent.futures import ThreadPoolExecutor

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Workers and studies that are stopped or killed: no finished case is ever lost."""
 
-from __future__ import annotations
-
 import csv
 import json
 import os

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The stored record of ``pyehl reproduce`` and the pages that show its numbers."""
 
-from __future__ import annotations
-
 import re
 import runpy
 from pathlib import Path

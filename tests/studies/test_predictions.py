@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Many predictions: the numbers of single ones, and what they share."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl reproduce``: the paper beside our runs, and a wrong number of it fails."""
 
-from __future__ import annotations
-
 import ast
 import html
 import re

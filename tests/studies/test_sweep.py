@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """``pyehl sweep``: the table is that of single runs; plans, outputs, the benchmark."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json

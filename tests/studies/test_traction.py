@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Traction curves, and what an empirical law says where the film is thin."""
 
-from __future__ import annotations
-
 import csv
 import io
 import math
@@ -132,10 +130,7 @@ def test_roughness_of_the_second_surface_has_a_left_end():
 
 @pytest.mark.parametrize(
     ("option", "words"),
-    [
-        ("surface.kind=smooth", "has no Lambda"),
-        ("surface.kind=fractal", "ratio of friction alone"),
-    ],
+    [("surface.kind=smooth", "has no Lambda"), ("surface.kind=fractal", "ratio of friction alone")],
 )
 def test_no_empirical_number(tmp_path: Path, option: str, words: str):
     case = pyehl.Case.from_text(BALL.replace("eyring", "newtonian"), [option])

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a study varies: texts behind --vary, study files, cases in the order of the table."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
