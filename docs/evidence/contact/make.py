@@ -77,8 +77,8 @@ CONTACTS: dict[str, tuple[Row, tuple[float, ...], tuple[int, ...]]] = {
             "surface.pixels": 128,
             "surface.shortest_wavelength": 2.286e-4 / 4.0,
         },
-        (4e-8,),
-        (129, 257, 513),
+        (4e-8, 8e-8),
+        (129, 257, 513, 1025),
     ),
 }
 KEYS = ("contact", "boundary_film", "points")
