@@ -42,7 +42,8 @@ module ehl_key_finder
       other_name_t("|wear|wear_rate|wear_coefficient|", "", &
          "wear is not modelled: surfaces keep their heights"), &
       other_name_t("|plasticity|plastic|hardness|yield_stress|yield_strength|", "", &
-         "plasticity is not modelled: the solids stay elastic, and the judgement of a result names pressures above 4.2 GPa")]
+         "contact.hardness [Pa] limits the pressure of the solids, with lubricant.boundary_film; without it they stay elastic, "// &
+         "and the judgement of a result names pressures above 4.2 GPa")]
 
 contains
 

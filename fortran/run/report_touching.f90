@@ -8,7 +8,7 @@ module ehl_report_touching
    use ehl_plan, only: plan_t
    use ehl_record, only: record_t
    use ehl_resolution, only: has_solution
-   use ehl_touching, only: at_depth, known_names, touching_names
+   use ehl_touching, only: at_depth, known_names, mostly_touching, much_supplied, touching_names
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none (type, external)
    private
@@ -65,6 +65,9 @@ contains
             note = why
          else if (.not. (is_dry(plan) .or. has_solution(plan%contact, plan%point, run%grid%coarser()))) then
             note = "the next coarser grid does not resolve the inlet, and bodies touch on it for that"
+            error = not_known
+         else if (numbers(1) > mostly_touching .and. numbers(3) > much_supplied .and. .not. is_dry(plan)) then
+            note = "most of the load is at a layer that would have to give much of the flow: the share may change on any grid"
             error = not_known
          end if
          call record%set("boundary_film", plan%lubricant%boundary_film)

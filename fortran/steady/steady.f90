@@ -13,15 +13,13 @@ module ehl_steady
    use ehl_outcome, only: outcome_converged, outcome_cycle_limit, outcome_running, outcome_target_missed
    use ehl_status, only: status_t
    use ehl_steady_options, only: end_rule_t, rule_of_circles, rule_of_others, steady_options_t
-   use ehl_touching, only: much_supplied
+   use ehl_touching, only: mostly_touching, much_supplied
    implicit none (type, external)
    private
    public :: steady_t, largest_error, residual_tolerance
 
    !> Relative discretisation errors below this are not believed, as two levels may agree by chance
    real(dp), parameter :: least_error = 2.0e-5_dp
-   !> Share of the load on a boundary film from which on the films are its: those of the coarser grid say nothing of an error
-   real(dp), parameter :: mostly_touching = 0.5_dp
    !> Algebraic error of that share, which then ends a level where the films have ended moving
    real(dp), parameter :: share_tolerance = 1.0e-3_dp
    !> Largest residual (rms, as far as it concerns the film; the wedge term is of order 1 in the inlet) of a converged

@@ -188,7 +188,15 @@ def _on_grid(text: str, points: int) -> tuple[SmoothContact | None, str]:
     source = f"solved on {points} x {points} nodes, {how}"
     errors = [math.nan if summary[k] is None else summary[k] for k in ("H_c_error", "H_min_error")]
     contact = SmoothContact(
-        *(x, y, pressure, film * scale, central, errors[0], source, least, limit is not None),
+        x,
+        y,
+        pressure,
+        film * scale,
+        central,
+        errors[0],
+        source,
+        least,
+        limit is not None,
         minimum_film_error=errors[1],
     )
     return contact, "converged"

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Missing points of a map, filled by the smoothest surface that meets their rims."""
 
+from __future__ import annotations
+
 import numpy as np
 import scipy
 

@@ -274,7 +274,7 @@ FAULTS: list[tuple[str, str, list[str], list[str]]] = [
     ("wear", "&contact §wear = 1e-8 /", [], ["wear is not modelled"]),
     ("group of wear", "§&wear k = 1e-8 /", [], ["unknown group &wear", "wear is not modelled"]),
     ("its option, of wear", "", ["wear.k=1e-8"], ["unknown group 'wear'", "wear is not modelled"]),
-    ("group of plasticity", "§&plasticity hardness = 7e9 /", [], ["the solids stay elastic", "4.2 GPa"]),
+    ("group of plasticity", "§&plasticity hardness = 7e9 /", [], ["contact.hardness [Pa]", "4.2 GPa"]),
     ("unit that is none", "&surface height_unit = §'Å' /", [], ["\nexpected: 'm', 'mm', 'um', or 'nm'\n"]),
     ("modulus far too low", "&contact load=5e4 reduced_modulus=§1e8/", [], ["contact.reduced_modulus"]),
     ("another value replaced", "&grid points=66/ &contact load=§-1 /", ["grid.points=65"], ["load = -1"]),
