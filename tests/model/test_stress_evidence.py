@@ -87,15 +87,7 @@ def test_contacts(root: Path):
         numbers += [len(found), len(wrong[name])]
     text = (root / "docs" / "robustness.md").read_text(encoding="utf-8")
     assert f"| {' | '.join(map(str, numbers))} |" in text
-    (worst,) = wrong["share_finer"]
-    assert [row for row in rows if row["wrong"] == "True"] == [worst]
-    words = (
-        f"({worst['moes_m']}, {worst['moes_l']}) on {worst['points']} × {worst['points']} nodes, "
-        f"whose bodies touch nearly everywhere: a load share of "
-        f"{float(worst['contact_load_share']):.3f} with a stated error of "
-        f"{float(worst['contact_load_share_error']):.3f} and {float(worst['share_finer']):.3f} on"
-    )
-    assert words in text
+    assert not any(row["wrong"] == "True" for row in rows)
 
 
 def off(row: dict[str, str], name: str) -> bool:
