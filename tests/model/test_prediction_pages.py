@@ -177,7 +177,7 @@ def mixed(read: Read) -> Iterator[str]:
     }
     falls = {
         points: [
-            100.0 * (1.0 - share / shares[(*key[:2], points // 2 + 1)])
+            100.0 * abs(1.0 - share / shares[(*key[:2], points // 2 + 1)])
             for key, share in shares.items()
             if key[2] == points
         ]
