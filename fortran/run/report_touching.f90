@@ -66,7 +66,7 @@ contains
          else if (.not. (is_dry(plan) .or. has_solution(plan%contact, plan%point, run%grid%coarser()))) then
             note = "the next coarser grid does not resolve the inlet, and bodies touch on it for that"
             error = not_known
-         else if (numbers(1) > mostly_touching .and. numbers(3) > much_supplied .and. .not. is_dry(plan)) then
+         else if (.not. is_dry(plan) .and. numbers(1) > mostly_touching .and. numbers(3) > much_supplied) then
             note = "most of the load is at a layer that would have to give much of the flow: the share may change on any grid"
             error = not_known
          end if
