@@ -19,7 +19,7 @@ module ehl_contact
       real(dp) :: load = 2.0_dp*pi/3.0_dp, kernel_factor = circle_factor, dry_separation = -1.0_dp
       !> Of the contact with the same curvatures along the motion and across it, and its axes there: radius along the motion
       !> over R_x, ratio of the radii, kappa k_b over that of a circle
-      real(dp) :: radius = 1.0_dp, ratio = 1.0_dp, load_share = 1.0_dp
+      real(dp) :: radius = 1.0_dp, ratio = 1.0_dp, kernel_ratio = 1.0_dp
    contains
       procedure :: is_round
       procedure :: is_even
@@ -73,8 +73,8 @@ contains
       real(dp), intent(in) :: moes_m, moes_l
       real(dp) :: length
 
-      length = (self%radius*self%ellipticity*self%kernel_factor/circle_factor/self%load_share)**(1.0_dp/3.0_dp)
+      length = (self%radius*self%ellipticity*self%kernel_factor/circle_factor/self%kernel_ratio)**(1.0_dp/3.0_dp)
       film_formula = film_central_formula(moes_m*self%radius**(-1.25_dp), moes_l*self%radius**(-0.25_dp), self%ratio, &
-                                          self%load_share)*length**2/self%radius
+                                          self%kernel_ratio)*length**2/self%radius
    end function film_formula
 end module ehl_contact

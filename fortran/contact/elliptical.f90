@@ -48,7 +48,7 @@ contains
       contact%radius = 1.0_dp/(contact%along**2 + radius_ratio*contact%across**2)
       contact%ratio = (contact%across**2 + radius_ratio*contact%along**2)*contact%radius
       associate (k => ellipticity_of(contact%ratio))
-         contact%load_share = 1.5_dp/(pi*complete_rd(k**2, 1.0_dp))/circle_factor
+         contact%kernel_ratio = 1.5_dp/(pi*complete_rd(k**2, 1.0_dp))/circle_factor
       end associate
    end function new_elliptical
 

@@ -11,10 +11,10 @@ contains
    !> Central film scaled by a^2/R_x, for an incompressible lubricant. Blends the rigid/elastic,
    !> isoviscous/piezoviscous asymptotes, all in the Moes film H^M = (h/R_x)(2U)^(-1/2). Shown accurate for
    !> radius_ratio <= 1.
-   pure real(dp) function film_central_formula(moes_m, moes_l, radius_ratio, load_share) result(film)
+   pure real(dp) function film_central_formula(moes_m, moes_l, radius_ratio, kernel_ratio) result(film)
       real(dp), intent(in) :: moes_m, moes_l
-      !> D = R_x/R_y; kappa k_b over that of a circle, so that a = (1.5 M/load_share)^(1/3) (2U)^(1/4) R_x
-      real(dp), intent(in) :: radius_ratio, load_share
+      !> D = R_x/R_y; kappa k_b over that of a circle, so that a = (1.5 M/kernel_ratio)^(1/3) (2U)^(1/4) R_x
+      real(dp), intent(in) :: radius_ratio, kernel_ratio
       real(dp) :: rigid_isoviscous, elastic_isoviscous, rigid_piezoviscous, elastic_piezoviscous, &
                   rigid_limit, s, isoviscous, elastic
 
@@ -33,6 +33,6 @@ contains
                    + (elastic_isoviscous**(-4) + rigid_limit**(-4))**(-3.0_dp/8.0_dp)
       film = isoviscous**(2.0_dp*s/3.0_dp)
       if (moes_l > 0.0_dp) film = film + (rigid_piezoviscous**(-8) + elastic_piezoviscous**(-8))**(-s/8.0_dp)
-      film = film**(1.0_dp/s)*(1.5_dp*moes_m/load_share)**(-2.0_dp/3.0_dp)
+      film = film**(1.0_dp/s)*(1.5_dp*moes_m/kernel_ratio)**(-2.0_dp/3.0_dp)
    end function film_central_formula
 end module ehl_film_formula
