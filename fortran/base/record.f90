@@ -82,11 +82,7 @@ contains
       character(len=*), intent(in) :: name
       logical, intent(in) :: value
 
-      if (value) then
-         call self%put(name, "true")
-      else
-         call self%put(name, "false")
-      end if
+      call self%put(name, trim(merge("true ", "false", value)))
    end subroutine set_logical
 
    !> Set a text; trailing blanks are dropped

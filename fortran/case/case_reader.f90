@@ -4,12 +4,10 @@ module ehl_case_reader
    use ehl_case, only: case_t
    use ehl_case_check, only: check_case, complete_case
    use ehl_case_value, only: set_value
-   use ehl_group_reader, only: read_groups
-   use ehl_key_finder, only: find_key, known_groups
-   use ehl_scanner, only: scan_token, token_atom, token_string, token_t
+   use ehl_group_reader, only: find_key, known_groups, read_groups
    use ehl_keys, only: bind_keys
    use ehl_schema, only: schema_t
-   use ehl_source, only: source_t
+   use ehl_source, only: scan_token, source_t, token_atom, token_string, token_t
    use ehl_status, only: ehl_bad_input, status_t
    use ehl_text, only: lower_case, newline
    use ehl_whole_file, only: read_text
@@ -52,34 +50,34 @@ contains
       type(source_t), allocatable :: sources(:)
       type(token_t) :: name
       type(status_t) :: later
-      integer :: start, last, k, key
+      integer :: start, last, k, n, key
 
       call bind_keys(schema, input)
-      ! part by part: array constructors of texts leave copies of them behind
-      allocate (sources(1 + options_in(options)))
+      ! part by part: array constructors of texts leave copies of them behind; empty lines leave places at the end
+      allocate (sources(2 + count([(options(k:k) == newline, k=1, len(options))])))
       sources(1)%name = origin
       sources(1)%text = text//newline
       start = 1
-      k = 1
+      n = 1
       do while (start <= len(options))
          last = start + index(options(start:)//newline, newline) - 2
          if (last >= start) then
-            k = k + 1
-            sources(k)%name = "--set "//options(start:last)
-            sources(k)%text = options(start:last)//newline
-            sources(k)%has_lines = .false.
+            n = n + 1
+            sources(n)%name = "--set "//options(start:last)
+            sources(n)%text = options(start:last)//newline
+            sources(n)%has_lines = .false.
          end if
          start = last + 2
       end do
       ! faults of options are told when they are read
-      do k = 2, size(sources)
+      do k = 2, n
          later = status_t()
          call find_option(sources(k), schema, key, name, later)
          if (.not. later%failed()) schema%keys(key)%replaced = .true.
       end do
       call read_groups(sources(1), schema, status)
       if (.not. status%failed()) call settle_marks(schema, sources(:1))
-      do k = 2, size(sources)
+      do k = 2, n
          if (.not. status%failed()) call read_option(sources(k), k, schema, status)
       end do
       if (status%failed()) return
@@ -87,20 +85,6 @@ contains
       call move_alloc(sources, schema%sources)
       call check_case(schema, input, status)
    end subroutine read_case
-
-   !> How many lines are not empty
-   pure integer function options_in(options)
-      character(len=*), intent(in) :: options
-      character(len=1) :: before
-      integer :: i
-
-      options_in = 0
-      before = newline
-      do i = 1, len(options)
-         if (before == newline .and. options(i:i) /= newline) options_in = options_in + 1
-         before = options(i:i)
-      end do
-   end function options_in
 
    !> Key of an option group.key=value
    subroutine find_option(source, schema, key, name, status)
