@@ -13,8 +13,8 @@ import numpy as np
 
 from pyehl.prediction.carrying import Carries, carrying_outliers, carrying_wavelength
 from pyehl.surfaces.cutting import cropped
+from pyehl.surfaces.holes import prominence
 from pyehl.surfaces.prepare import Preparation
-from pyehl.surfaces.spikes import prominence
 from pyehl.surfaces.tile import Topography
 from pyehl.types import Array
 

@@ -55,7 +55,7 @@ def carrying_outliers(
 ) -> tuple[float, int] | None:
     """Find the threshold of spikes at which the film is full, if a few points are what breaks it.
 
-    `prominence` is (nx, ny), see :func:`pyehl.surfaces.spikes.prominence`; `without_spikes` takes
+    `prominence` is (nx, ny), see :func:`pyehl.surfaces.holes.prominence`; `without_spikes` takes
     a threshold. Threshold and number of points beyond it; None if more than a few have to go.
     """
     allowed = float(np.quantile(prominence, 1.0 - FEW))

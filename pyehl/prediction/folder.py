@@ -67,8 +67,8 @@ def write(
 
 def _draw(prediction: Prediction, folder: Path) -> None:
     # matplotlib takes longer to import than the prediction takes to compute
+    from pyehl.plots.figures import prediction_figures  # noqa: PLC0415
     from pyehl.plots.folder import save_all  # noqa: PLC0415
-    from pyehl.plots.predicted import prediction_figures  # noqa: PLC0415
 
     made = prediction_figures(prediction.summary, prediction.arrays, prediction.tables)
     save_all(made, folder)

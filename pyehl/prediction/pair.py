@@ -30,8 +30,7 @@ from pyehl.prediction.friction import (
     outcome,
     passed,
 )
-from pyehl.prediction.meeting import Meeting
-from pyehl.prediction.moving_together import as_one
+from pyehl.prediction.meeting import Meeting, as_one
 from pyehl.prediction.pair_contact import PairContact, TileOnPoints
 from pyehl.prediction.pair_cut_off import known_by_cut_off
 from pyehl.prediction.passage import longer_waves, working_grid

@@ -4,9 +4,7 @@
 import numpy as np
 
 from pyehl.plots import paper
-from pyehl.reproduce.level import Level
-from pyehl.reproduce.piece import Result
-from pyehl.reproduce.references import References
+from pyehl.reproduce.piece import Level, References, Result
 from pyehl.reproduce.runs import Runs
 from pyehl.reproduce.waves import SCHEMES, WaveSet, smooth_films, waves
 

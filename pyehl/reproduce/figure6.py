@@ -6,11 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyehl import results
-from pyehl.plots import paper_surfaces
+from pyehl.plots import paper
 from pyehl.prediction.smooth import solve_contact, zone_of
-from pyehl.reproduce.level import Level
-from pyehl.reproduce.piece import Check, Finding, Result
-from pyehl.reproduce.references import References
+from pyehl.reproduce.piece import Check, Finding, Level, References, Result
 from pyehl.reproduce.runs import Made, Runs
 from pyehl.reproduce.surface_runs import SEED, deformed_run, tile
 from pyehl.theory.amplitude import component_amplitude_ratio
@@ -186,7 +184,7 @@ def show(data: Deformed, references: References, level: Level) -> Result:
     return Result(
         checks,
         (("X", "Y", "undeformed_m", "simulated_m", "response_m", "paper_m"), rows),
-        paper_surfaces.deformed(data.x, data.y, inside, centred),
+        paper.deformed(data.x, data.y, inside, centred),
         caption,
         *_told(data, ours, theirs),
         [data.made],

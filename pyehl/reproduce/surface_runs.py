@@ -5,7 +5,7 @@ from pathlib import Path
 
 from pyehl import surfaces
 from pyehl.case import Case
-from pyehl.reproduce.level import Level
+from pyehl.reproduce.piece import Level
 from pyehl.reproduce.runs import Made, Runs
 from pyehl.reproduce.table1 import CASE
 from pyehl.surfaces import Topography

@@ -4,9 +4,7 @@
 import math
 from dataclasses import dataclass
 
-from pyehl.reproduce.level import Level
-from pyehl.reproduce.piece import Check, Finding, Result
-from pyehl.reproduce.references import References
+from pyehl.reproduce.piece import Check, Finding, Level, References, Result
 from pyehl.reproduce.runs import Made, Runs, friction_of
 from pyehl.reproduce.surface_runs import CASE, MODELS, SEED, WIDTH, deformed_run, tile
 from pyehl.reproduce.waves import SCHEMES

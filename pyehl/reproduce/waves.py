@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pyehl.reproduce.level import Level
+from pyehl.reproduce.piece import Level
 from pyehl.reproduce.runs import Made, Runs, friction_of
 from pyehl.types import Array, Mask
 

@@ -15,13 +15,10 @@ from pyehl.case import Case
 from pyehl.cli import main
 from pyehl.reproduce import figure2, surface_runs
 from pyehl.reproduce import waves as wave_module
-from pyehl.reproduce.driver import PIECES, reproduce
+from pyehl.reproduce.driver import PIECES, reproduce, write_report
 from pyehl.reproduce.fit import evaluate, fit, scatter
-from pyehl.reproduce.level import FULL, QUICK, Level
 from pyehl.reproduce.parameter import SMALL_WAVES, response_parameter
-from pyehl.reproduce.piece import Check, Result
-from pyehl.reproduce.references import read_references
-from pyehl.reproduce.report import write_report
+from pyehl.reproduce.piece import FULL, QUICK, Check, Level, Result, read_references
 from pyehl.studies.journal import NAME
 
 SMALL = Level("small", (257,), 97, 129, 129, (97, 129), 2, "most of it")
@@ -126,10 +123,10 @@ def test_nothing_that_computes_reads_the_numbers_of_the_paper(root: Path):
         home = path.relative_to(root / "pyehl").as_posix()
         if any(name.startswith("pyehl.reproduce") for name in names):
             assert home.startswith("reproduce/") or home == "commands/reproduce.py", home
-        if "pyehl.reproduce.references.read_references" in names:
+        if "pyehl.reproduce.piece.read_references" in names:
             assert home == "reproduce/driver.py"
         if "zhang2019.csv" in path.read_text():
-            assert home == "reproduce/references.py"
+            assert home == "reproduce/piece.py"
         if home.startswith("reproduce/"):
             for node in ast.walk(tree):
                 if isinstance(node, ast.FunctionDef) and node.name == "run":
